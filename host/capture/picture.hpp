@@ -1,0 +1,88 @@
+// Rasters: the shape of a capture's pictures, how its codes are stored, and a picture that was made.
+//
+// All rasters are row-major from the top left, channels interleaved (grey, or red green blue), native
+// byte order, no padding.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "capture/noise_model.hpp"
+#include "capture/transfer.hpp"
+
+namespace nutik {
+
+struct Shape {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t channels = 0;  // 1 or 3
+
+  [[nodiscard]] std::uint64_t pixel_count() const { return std::uint64_t{width} * height; }
+  [[nodiscard]] std::uint64_t value_count() const { return pixel_count() * channels; }
+  friend bool operator==(const Shape&, const Shape&) = default;
+};
+
+// What the codes of a capture are.
+struct CaptureFormat {
+  Shape shape;
+  std::uint32_t code_bytes = 1;    // 1 or 2
+  std::uint32_t white_code = 255;  // the code that stands for light 1; no code is larger
+  Transfer transfer = Transfer::srgb();
+  NoiseModel noise;
+
+  [[nodiscard]] std::uint64_t sample_bytes() const { return shape.value_count() * code_bytes; }
+  friend bool operator==(const CaptureFormat&, const CaptureFormat&) = default;
+};
+
+enum class ValueType { code8, code16, light32, light64 };
+
+[[nodiscard]] constexpr std::size_t value_bytes(ValueType type) {
+  switch (type) {
+    case ValueType::code8: return 1;
+    case ValueType::code16: return 2;
+    case ValueType::light32: return 4;
+    case ValueType::light64: return 8;
+  }
+  return 0;
+}
+
+[[nodiscard]] constexpr bool holds_codes(ValueType type) {
+  return type == ValueType::code8 || type == ValueType::code16;
+}
+
+// A finished picture: codes 0 … white_code, or light as floating point (neither clipped nor encoded).
+struct Picture {
+  Shape shape;
+  ValueType type = ValueType::code8;
+  std::uint32_t white_code = 255;  // meaningful for codes
+  std::vector<std::byte> bytes;
+
+  Picture() = default;
+  Picture(Shape picture_shape, ValueType value_type, std::uint32_t white)
+      : shape(picture_shape),
+        type(value_type),
+        white_code(white),
+        bytes(picture_shape.value_count() * value_bytes(value_type)) {}
+
+  // The values as T, whose size must be that of the picture's type.
+  template <typename T>
+  [[nodiscard]] std::span<T> values() {
+    check_size(sizeof(T));
+    return {reinterpret_cast<T*>(bytes.data()), shape.value_count()};
+  }
+  template <typename T>
+  [[nodiscard]] std::span<const T> values() const {
+    check_size(sizeof(T));
+    return {reinterpret_cast<const T*>(bytes.data()), shape.value_count()};
+  }
+
+ private:
+  void check_size(std::size_t size) const {
+    if (size != value_bytes(type)) throw std::logic_error("a picture was read as another value type");
+  }
+};
+
+}  // namespace nutik

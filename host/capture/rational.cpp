@@ -1,0 +1,82 @@
+#include "capture/rational.hpp"
+
+#include <numeric>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::int64_t kLargest = 999'999'999'999'999;  // 15 digits: products of two fit 128 bits
+
+// Digits, with at most one point when `allow_point`. Returns false where the text is anything else.
+bool read_decimal(std::string_view text, bool allow_point, std::int64_t& digits, std::int64_t& scale) {
+  digits = 0;
+  scale = 1;
+  bool any = false;
+  bool point = false;
+  for (const char c : text) {
+    if (c == '.' && allow_point && !point) {
+      point = true;
+      continue;
+    }
+    if (c < '0' || c > '9') return false;
+    if (digits > (kLargest - 9) / 10 || (point && scale > kLargest / 10)) return false;
+    digits = digits * 10 + (c - '0');
+    if (point) scale *= 10;
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace
+
+Rational Rational::of(std::int64_t numerator, std::int64_t denominator) {
+  if (denominator == 0) throw UsageError("a fraction's denominator cannot be 0");
+  if (denominator < 0) {
+    numerator = -numerator;
+    denominator = -denominator;
+  }
+  const std::int64_t divisor = std::gcd(numerator, denominator);
+  return {numerator / divisor, denominator / divisor};
+}
+
+Rational Rational::parse(std::string_view text, std::string_view what) {
+  const std::string_view original = text;
+  const bool negative = !text.empty() && text.front() == '-';
+  if (negative) text.remove_prefix(1);
+  std::int64_t top = 0, top_scale = 1, bottom = 1, bottom_scale = 1;
+  const auto slash = text.find('/');
+  bool good = read_decimal(text.substr(0, slash), slash == std::string_view::npos, top, top_scale);
+  if (good && slash != std::string_view::npos) {
+    good = read_decimal(text.substr(slash + 1), false, bottom, bottom_scale) && bottom != 0;
+  }
+  if (!good) {
+    throw UsageError(format(
+        "{} '{}' is not a number; write 120, 29.97 or 30000/1001 (15 digits at most)", what, original));
+  }
+  return of(negative ? -top : top, slash == std::string_view::npos ? top_scale : bottom);
+}
+
+std::string Rational::text() const {
+  if (denominator == 1) return format("{}", numerator);
+  std::int64_t scale = 1;
+  for (int places = 1; places <= 6; ++places) {
+    scale *= 10;
+    if (scale % denominator != 0) continue;
+    const int128 scaled = static_cast<int128>(numerator) * (scale / denominator);
+    const auto magnitude = static_cast<std::int64_t>(scaled < 0 ? -scaled : scaled);
+    return format("{}{}.{:0{}}", numerator < 0 ? "-" : "", magnitude / scale, magnitude % scale, places);
+  }
+  return format("{}/{}", numerator, denominator);
+}
+
+std::int64_t round_half_up(int128 numerator, int128 denominator) {
+  const int128 doubled = 2 * numerator + denominator;
+  int128 quotient = doubled / (2 * denominator);
+  if (doubled % (2 * denominator) < 0) --quotient;  // C++ truncates toward zero; this is a floor
+  return static_cast<std::int64_t>(quotient);
+}
+
+}  // namespace nutik

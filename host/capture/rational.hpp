@@ -1,0 +1,38 @@
+// Exact fractions for rates, shutter angles and times as people write them, so that a time is rounded
+// once, from the exact value, and never drifts.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace nutik {
+
+__extension__ typedef __int128 int128;
+
+// A fraction in lowest terms. denominator > 0.
+struct Rational {
+  std::int64_t numerator = 0;
+  std::int64_t denominator = 1;
+
+  // `numerator / denominator` in lowest terms. Throws UsageError where the denominator is 0.
+  static Rational of(std::int64_t numerator, std::int64_t denominator);
+
+  // Reads `30000/1001`, `29.97` (exactly 2997/100) or `120`; a leading minus is allowed. Throws
+  // UsageError naming `what` ("frame rate") where the text is none of these or needs more than 15 digits.
+  static Rational parse(std::string_view text, std::string_view what);
+
+  [[nodiscard]] double value() const {
+    return static_cast<double>(numerator) / static_cast<double>(denominator);
+  }
+
+  // `30000/1001`, `120`, or the decimal form where that is exact within six places: `29.97`.
+  [[nodiscard]] std::string text() const;
+
+  friend bool operator==(const Rational&, const Rational&) = default;
+};
+
+// numerator / denominator rounded to the nearest whole number, halves upward. denominator > 0.
+std::int64_t round_half_up(int128 numerator, int128 denominator);
+
+}  // namespace nutik

@@ -1,0 +1,170 @@
+#include "capture/timeline.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::int64_t kSecondNs = 1'000'000'000;
+constexpr double kLongestNs = 4.6e18;             // 2^62
+constexpr std::int64_t kLargestTerm = 1'000'000'000;  // keeps every product below 2^126
+
+void check_angle(Rational angle) {
+  if (angle.numerator <= 0 || angle.numerator > 360 * angle.denominator) {
+    throw UsageError(format("shutter angle {} is outside 0 < angle <= 360 degrees", angle.text()));
+  }
+  if (angle.denominator > 1'000'000) {
+    throw UsageError(format("shutter angle {} has more than six decimals", angle.text()));
+  }
+}
+
+// sample_index periods and `angle` degrees, in nanoseconds, rounded half up from the exact value.
+std::int64_t constant_time_ns(Rational rate, Rational angle, std::uint64_t sample_index) {
+  const int128 degrees =
+      static_cast<int128>(sample_index) * 360 * angle.denominator + angle.numerator;
+  return round_half_up(degrees * rate.denominator * kSecondNs,
+                       static_cast<int128>(360) * angle.denominator * rate.numerator);
+}
+
+constexpr Rational kNoDegrees{0, 1};
+
+// Samples a second to a thousandth: a mean, for people to read.
+Rational mean_rate(std::uint64_t sample_count, std::int64_t duration_ns) {
+  return Rational::of(
+      round_half_up(static_cast<int128>(sample_count) * kSecondNs * 1000, duration_ns), 1000);
+}
+
+}  // namespace
+
+Timeline Timeline::constant(Rational rate, Rational shutter_angle, std::uint64_t sample_count) {
+  if (rate.numerator <= 0) {
+    throw UsageError(format("frame rate {} is not positive", rate.text()));
+  }
+  if (rate.numerator > kLargestTerm || rate.denominator > kLargestTerm) {
+    throw UsageError(format("frame rate {} has more digits than a capture can use (limit: nine on each "
+                            "side of the fraction)",
+                            rate.text()));
+  }
+  check_angle(shutter_angle);
+  const double duration =
+      static_cast<double>(sample_count) / rate.value() * static_cast<double>(kSecondNs);
+  if (duration > kLongestNs) {
+    throw UsageError(format("{} samples at {} a second last longer than 146 years", sample_count,
+                            rate.text()));
+  }
+  if (static_cast<int128>(shutter_angle.numerator) * rate.denominator * kSecondNs <
+      static_cast<int128>(360) * shutter_angle.denominator * rate.numerator) {
+    throw UsageError(format("a shutter angle of {} degrees at {} samples a second exposes for less than "
+                            "1 ns, the shortest time a capture knows",
+                            shutter_angle.text(), rate.text()));
+  }
+  Timeline timeline;
+  timeline.rate_ = rate;
+  timeline.shutter_angle_ = shutter_angle;
+  timeline.sample_count_ = sample_count;
+  timeline.duration_ns_ = constant_time_ns(rate, kNoDegrees, sample_count);
+  return timeline;
+}
+
+Timeline Timeline::irregular(std::vector<std::int64_t> starts_ns, Rational shutter_angle) {
+  check_angle(shutter_angle);
+  if (starts_ns.size() < 2) {
+    throw InputError("one timestamp gives no sample period; state the rate with --fps");
+  }
+  const std::size_t count = starts_ns.size();
+  std::vector<Exposure> exposures(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (k > 0 && starts_ns[k] <= starts_ns[k - 1]) {
+      throw InputError(format("sample {} starts at {} ns, not after sample {} at {} ns", k, starts_ns[k],
+                              k - 1, starts_ns[k - 1]));
+    }
+    const std::int64_t period =
+        k + 1 < count ? starts_ns[k + 1] - starts_ns[k] : starts_ns[k] - starts_ns[k - 1];
+    const std::int64_t exposed =
+        round_half_up(static_cast<int128>(period) * shutter_angle.numerator,
+                      static_cast<int128>(360) * shutter_angle.denominator);
+    exposures[k].start_ns = starts_ns[k] - starts_ns[0];
+    exposures[k].end_ns = exposures[k].start_ns + std::max<std::int64_t>(exposed, 1);
+  }
+  const std::int64_t last_period = starts_ns[count - 1] - starts_ns[count - 2];
+  Timeline timeline = explicit_exposures(std::move(exposures));
+  timeline.duration_ns_ = timeline.exposures_.back().start_ns + std::max<std::int64_t>(last_period, 1);
+  timeline.rate_ = mean_rate(count, timeline.duration_ns_);
+  timeline.shutter_angle_ = shutter_angle;
+  return timeline;
+}
+
+Timeline Timeline::explicit_exposures(std::vector<Exposure> exposures) {
+  if (exposures.empty()) throw InputError("a capture needs at least one sample");
+  const std::int64_t origin = exposures.front().start_ns;
+  std::int64_t exposed_ns = 0;
+  for (std::size_t k = 0; k < exposures.size(); ++k) {
+    Exposure& exposure = exposures[k];
+    if (exposure.end_ns <= exposure.start_ns) {
+      throw InputError(format("sample {} ends at {} ns, not after its start at {} ns", k, exposure.end_ns,
+                              exposure.start_ns));
+    }
+    exposure.start_ns -= origin;
+    exposure.end_ns -= origin;
+    exposed_ns += exposure.end_ns - exposure.start_ns;
+    if (k > 0 && exposure.start_ns < exposures[k - 1].end_ns) {
+      throw InputError(format("sample {} starts at {} ns, before sample {} ends at {} ns (times from the "
+                              "first sample)",
+                              k, exposure.start_ns, k - 1, exposures[k - 1].end_ns));
+    }
+  }
+  Timeline timeline;
+  timeline.sample_count_ = exposures.size();
+  timeline.duration_ns_ = exposures.back().end_ns;
+  timeline.rate_ = mean_rate(exposures.size(), timeline.duration_ns_);
+  timeline.shutter_angle_ =
+      Rational::of(round_half_up(static_cast<int128>(exposed_ns) * 360'000, timeline.duration_ns_), 1000);
+  timeline.exposures_ = std::move(exposures);
+  return timeline;
+}
+
+std::int64_t Timeline::start_ns(std::uint64_t k) const {
+  return is_constant() ? constant_time_ns(rate_, kNoDegrees, k) : exposures_[k].start_ns;
+}
+
+std::int64_t Timeline::end_ns(std::uint64_t k) const {
+  return is_constant() ? constant_time_ns(rate_, shutter_angle_, k) : exposures_[k].end_ns;
+}
+
+std::vector<SampleTimes> Timeline::times(SampleRange samples) const {
+  std::vector<SampleTimes> times;
+  times.reserve(samples.size());
+  for (std::uint64_t k = samples.first; k < samples.last; ++k) times.push_back(this->times(k));
+  return times;
+}
+
+SampleRange Timeline::samples_reaching(std::int64_t begin_ns, std::int64_t end_ns) const {
+  if (begin_ns >= end_ns || begin_ns >= duration_ns_ || end_ns <= 0) return {};
+  // Both ends of a sample's reach grow with k, so both borders are found by bisection.
+  const auto first_where = [this](auto holds) {
+    std::uint64_t low = 0, high = sample_count_;
+    while (low < high) {
+      const std::uint64_t middle = low + (high - low) / 2;
+      if (holds(middle)) {
+        high = middle;
+      } else {
+        low = middle + 1;
+      }
+    }
+    return low;
+  };
+  const std::uint64_t first = first_where([&](std::uint64_t k) { return reach_end_ns(k) > begin_ns; });
+  const std::uint64_t last = first_where([&](std::uint64_t k) { return reach_begin_ns(k) >= end_ns; });
+  return first < last ? SampleRange{first, last} : SampleRange{};
+}
+
+Timeline Timeline::with_sample_count(std::uint64_t sample_count) const {
+  if (!is_constant()) throw std::logic_error("only a constant timeline can change its length");
+  return constant(rate_, shutter_angle_, sample_count);
+}
+
+}  // namespace nutik

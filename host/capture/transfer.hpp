@@ -1,0 +1,50 @@
+// The transfer function: how a stored code stands for light.
+//
+// Both sides are fractions in [0, 1]: a code divided by its white code, and light relative to white.
+// Integration is always done in light.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nutik {
+
+class Transfer {
+ public:
+  enum class Kind { srgb, bt709, linear, gamma };
+
+  static Transfer srgb() { return Transfer(Kind::srgb, 1.0); }      // IEC 61966-2-1
+  static Transfer bt709() { return Transfer(Kind::bt709, 1.0); }    // ITU-R BT.709, BT.2020's constants
+  static Transfer linear() { return Transfer(Kind::linear, 1.0); }  // light = code / white code
+  static Transfer gamma(double exponent);                           // light = fraction ^ exponent
+
+  // `srgb`, `bt709`, `linear` or `gamma:2.2` (0.1 … 10). Throws UsageError listing these.
+  static Transfer parse(std::string_view text);
+  [[nodiscard]] std::string text() const;
+
+  [[nodiscard]] Kind kind() const { return kind_; }
+  [[nodiscard]] bool is_linear() const { return kind_ == Kind::linear; }
+
+  // Light of a code fraction, and back. Inverse of each other to a few ulp; increasing.
+  [[nodiscard]] double light_of(double fraction) const;
+  [[nodiscard]] double fraction_of(double light) const;
+
+  // Light of every code 0 … white_code.
+  [[nodiscard]] std::vector<double> light_of_codes(std::uint32_t white_code) const;
+
+  // Element c is the least light that rounds to code c, half up in code: light_of((c - 1/2) / white).
+  // Element 0 is 0.
+  [[nodiscard]] std::vector<double> code_thresholds(std::uint32_t white_code) const;
+
+  friend bool operator==(const Transfer&, const Transfer&) = default;
+
+ private:
+  Transfer(Kind kind, double exponent) : kind_(kind), exponent_(exponent) {}
+
+  Kind kind_;
+  double exponent_;
+};
+
+}  // namespace nutik

@@ -1,0 +1,127 @@
+#include "exposure/gain_function.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "exposure/compensated_sum.hpp"
+
+namespace nutik {
+
+double GainPiece::at(std::int64_t time_ns) const {
+  if (begin_gain == end_gain) return begin_gain;
+  const auto length = static_cast<double>(end_ns - begin_ns);
+  const auto before = static_cast<double>(time_ns - begin_ns);
+  const auto after = static_cast<double>(end_ns - time_ns);
+  return begin_gain * (after / length) + end_gain * (before / length);
+}
+
+GainFunction::GainFunction(std::vector<ControlPoint> points) : points_(std::move(points)) {
+  if (points_.empty()) throw std::logic_error("a gain function needs a control point");
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (!std::isfinite(points_[i].gain)) throw std::logic_error("a gain is not finite");
+    if (std::abs(points_[i].time_ns) > kLargestTimeNs) throw std::logic_error("a time is too large");
+    if (i >= 1 && points_[i].time_ns < points_[i - 1].time_ns) {
+      throw std::logic_error("control points are not in time order");
+    }
+    if (i >= 2 && points_[i].time_ns == points_[i - 2].time_ns) {
+      throw std::logic_error("more than two control points share a time");
+    }
+  }
+}
+
+GainFunction GainFunction::boxcar(std::int64_t begin_ns, std::int64_t end_ns, double gain) {
+  return GainFunction({{begin_ns, 0.0}, {begin_ns, gain}, {end_ns, gain}, {end_ns, 0.0}});
+}
+
+std::vector<GainPiece> GainFunction::pieces(std::int64_t duration_ns) const {
+  std::vector<GainPiece> pieces;
+  pieces.reserve(points_.size() + 1);
+  const auto append = [&](const GainPiece& whole) {
+    GainPiece clipped = whole;
+    clipped.begin_ns = std::max<std::int64_t>(whole.begin_ns, 0);
+    clipped.end_ns = std::min(whole.end_ns, duration_ns);
+    if (clipped.begin_ns >= clipped.end_ns) return;
+    if (clipped.begin_ns != whole.begin_ns) clipped.begin_gain = whole.at(clipped.begin_ns);
+    if (clipped.end_ns != whole.end_ns) clipped.end_gain = whole.at(clipped.end_ns);
+    pieces.push_back(clipped);
+  };
+  append({0, points_.front().time_ns, first_gain(), first_gain()});
+  for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+    append({points_[i].time_ns, points_[i + 1].time_ns, points_[i].gain, points_[i + 1].gain});
+  }
+  append({points_.back().time_ns, duration_ns, last_gain(), last_gain()});
+  return pieces;
+}
+
+namespace {
+
+// ∫|g| over a piece, of scaled gains.
+double absolute_integral(const GainPiece& piece, double begin_gain, double end_gain) {
+  const auto length = static_cast<double>(piece.end_ns - piece.begin_ns);
+  const double begin = std::fabs(begin_gain);
+  const double end = std::fabs(end_gain);
+  if ((begin_gain < 0) == (end_gain < 0) || begin == 0 || end == 0) return length * (begin + end) / 2;
+  return length * (begin * begin + end * end) / (2 * (begin + end));  // two triangles
+}
+
+Interval live_interval(const GainFunction& function, std::int64_t duration_ns) {
+  const auto points = function.points();
+  const auto is_live = [](const ControlPoint& point) { return point.gain != 0.0; };
+  const auto first = std::find_if(points.begin(), points.end(), is_live);
+  if (first == points.end()) return {};
+  const auto last = std::find_if(points.rbegin(), points.rend(), is_live).base() - 1;
+  Interval live;
+  live.begin_ns = first == points.begin() ? 0 : (first - 1)->time_ns;
+  live.end_ns = last + 1 == points.end() ? duration_ns : (last + 1)->time_ns;
+  live.begin_ns = std::clamp<std::int64_t>(live.begin_ns, 0, duration_ns);
+  live.end_ns = std::clamp<std::int64_t>(live.end_ns, 0, duration_ns);
+  return live.empty() ? Interval{} : live;
+}
+
+}  // namespace
+
+GainSummary summarize(const GainFunction& function, std::int64_t duration_ns) {
+  GainSummary summary;
+  const std::vector<GainPiece> pieces = function.pieces(duration_ns);
+  double largest = 0.0;
+  for (const GainPiece& piece : pieces) {
+    largest = std::max({largest, std::fabs(piece.begin_gain), std::fabs(piece.end_gain)});
+  }
+  summary.exponent = largest > 0.0 ? std::ilogb(largest) : 0;
+  CompensatedSum integral, absolute;
+  for (const GainPiece& piece : pieces) {
+    if (piece.is_zero()) continue;
+    const double begin = std::scalbn(piece.begin_gain, -summary.exponent);
+    const double end = std::scalbn(piece.end_gain, -summary.exponent);
+    const std::int64_t length_ns = piece.end_ns - piece.begin_ns;
+    integral.add(static_cast<double>(length_ns) * (begin + end) / 2);
+    absolute.add(absolute_integral(piece, begin, end));
+    summary.support_ns += length_ns;
+  }
+  summary.integral_ns = integral.value();
+  summary.absolute_integral_ns = absolute.value();
+  summary.live = live_interval(function, duration_ns);
+  const auto points = function.points();
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const bool is_zero = points[i].gain == 0.0 && points[i + 1].gain == 0.0;
+    if (is_zero || points[i].time_ns == points[i + 1].time_ns) continue;
+    summary.reaches_before_capture |= points[i].time_ns < 0;
+    summary.reaches_after_capture |= points[i + 1].time_ns > duration_ns;
+  }
+  summary.exposes_to_the_end =
+      function.last_gain() != 0.0 && points.back().time_ns < duration_ns;
+  return summary;
+}
+
+double GainSummary::still_gain() const {
+  return support_ns == 0 ? 0.0
+                         : std::scalbn(integral_ns / static_cast<double>(support_ns), exponent);
+}
+
+double GainSummary::error_scale() const {
+  return support_ns == 0 ? 0.0
+                         : std::scalbn(absolute_integral_ns / static_cast<double>(support_ns), exponent);
+}
+
+}  // namespace nutik

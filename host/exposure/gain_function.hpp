@@ -1,0 +1,91 @@
+// A gain function of time: piecewise linear, held constant before its first control point and after its
+// last, possibly negative.
+//
+//   units:   time in whole nanoseconds from the start of the capture, gain dimensionless
+//   always:  at least one control point; times do not decrease; at most two share a time: there the
+//            function jumps from the first's gain to the second's
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nutik {
+
+// No time lies further from the start of a capture (127 years), so that differences of times fit.
+inline constexpr std::int64_t kLargestTimeNs = 4'000'000'000'000'000'000;
+
+struct ControlPoint {
+  std::int64_t time_ns = 0;
+  double gain = 0.0;
+  friend bool operator==(const ControlPoint&, const ControlPoint&) = default;
+};
+
+// A stretch on which the function is a straight line. begin_ns < end_ns.
+struct GainPiece {
+  std::int64_t begin_ns = 0;
+  std::int64_t end_ns = 0;
+  double begin_gain = 0.0;
+  double end_gain = 0.0;
+
+  [[nodiscard]] bool is_zero() const { return begin_gain == 0.0 && end_gain == 0.0; }
+  // The gain at a time within the piece.
+  [[nodiscard]] double at(std::int64_t time_ns) const;
+};
+
+// [begin_ns, end_ns]; empty where they are equal.
+struct Interval {
+  std::int64_t begin_ns = 0;
+  std::int64_t end_ns = 0;
+  [[nodiscard]] bool empty() const { return begin_ns >= end_ns; }
+  friend bool operator==(const Interval&, const Interval&) = default;
+};
+
+class GainFunction {
+ public:
+  // Throws std::logic_error where the invariant above does not hold or a gain is not finite.
+  explicit GainFunction(std::vector<ControlPoint> points);
+
+  // `gain` on [begin_ns, end_ns], 0 elsewhere, with jumps at both ends.
+  static GainFunction boxcar(std::int64_t begin_ns, std::int64_t end_ns, double gain = 1.0);
+
+  [[nodiscard]] std::span<const ControlPoint> points() const { return points_; }
+  [[nodiscard]] double first_gain() const { return points_.front().gain; }  // held before the first point
+  [[nodiscard]] double last_gain() const { return points_.back().gain; }    // held after the last
+
+  // The function on [0, duration_ns], piece by piece, without gaps.
+  [[nodiscard]] std::vector<GainPiece> pieces(std::int64_t duration_ns) const;
+
+  friend bool operator==(const GainFunction&, const GainFunction&) = default;
+
+ private:
+  std::vector<ControlPoint> points_;
+};
+
+// What a function amounts to over the domain [0, duration_ns] of a capture.
+struct GainSummary {
+  // Gains are divided by 2^exponent before anything is summed, so that no sum overflows or loses digits
+  // to subnormal numbers; 1 <= largest |gain| / 2^exponent < 2 (all 0 where the function is 0).
+  int exponent = 0;
+  double integral_ns = 0.0;           // ∫g, of scaled gains
+  double absolute_integral_ns = 0.0;  // ∫|g|, of scaled gains
+  std::int64_t support_ns = 0;        // D: length of { t in the domain : g(t) ≠ 0 }, exact
+
+  // From the control point before the first non-zero one to the one after the last; to the domain's ends
+  // where a held end is not zero. Clipped to the domain.
+  Interval live;
+
+  // Parts between control points that are not zero and lie outside the domain, where they do not count.
+  bool reaches_before_capture = false;
+  bool reaches_after_capture = false;
+  bool exposes_to_the_end = false;  // held at a gain that is not zero up to the end of the capture
+
+  // What a still scene is multiplied by: ∫g / D; 0 where D is 0.
+  [[nodiscard]] double still_gain() const;
+  // S = ∫|g| / D, the scale of errors; 0 where D is 0.
+  [[nodiscard]] double error_scale() const;
+};
+
+[[nodiscard]] GainSummary summarize(const GainFunction& function, std::int64_t duration_ns);
+
+}  // namespace nutik

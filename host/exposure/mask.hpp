@@ -1,0 +1,31 @@
+// Masks: which gain function each pixel is exposed with.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace nutik {
+
+inline constexpr std::uint32_t kMaskValues = 256;
+
+// One tag (mask value) per pixel, row by row.
+struct Mask {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<std::uint8_t> tags;
+
+  // A mask of one tag.
+  static Mask uniform(std::uint32_t width, std::uint32_t height, std::uint8_t tag) {
+    return {width, height, std::vector<std::uint8_t>(std::size_t{width} * height, tag)};
+  }
+
+  // How many pixels have each tag.
+  [[nodiscard]] std::array<std::uint64_t, kMaskValues> pixels_per_tag() const {
+    std::array<std::uint64_t, kMaskValues> counts{};
+    for (const std::uint8_t tag : tags) ++counts[tag];
+    return counts;
+  }
+};
+
+}  // namespace nutik

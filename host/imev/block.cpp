@@ -1,0 +1,117 @@
+#include "imev/block.hpp"
+
+#include <algorithm>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
+namespace nutik {
+namespace {
+
+std::uint32_t read_unsigned(const std::byte* at, std::uint32_t bytes) {
+  if (bytes == 1) return static_cast<std::uint32_t>(*at);
+  std::uint16_t value;
+  std::memcpy(&value, at, sizeof value);
+  return value;
+}
+
+}  // namespace
+
+BlockView::BlockView(const CaptureFormat& capture, BlockExtent extent, std::span<const std::byte> payload)
+    : shape_(capture.shape),
+      extent_(extent),
+      geometry_(capture, extent.sample_count),
+      payload_(payload) {
+  const auto fail = [&](const std::string& why) {
+    throw InputError(format("the block of samples {} to {} is damaged: {}", extent_.first_sample,
+                                   extent_.range().last - 1, why));
+  };
+  if (extent.sample_count == 0) fail("it holds no sample");
+  if (payload.size() < geometry_.directory_bytes()) {
+    fail(format("its {} bytes end within the tile directory of {}", payload.size(),
+                geometry_.directory_bytes()));
+  }
+  for (std::uint64_t tile = 0; tile < geometry_.tile_count; ++tile) {
+    const TileEntry at = entry(tile);
+    const bool counted = at.is_records() ? at.slots() < extent.sample_count
+                                         : at.rows() >= 1 && at.rows() <= extent.sample_count;
+    if (!counted) fail(format("tile {} claims more change records than the block has samples", tile));
+    const std::uint64_t end = at.offset * kBlockAlignment + geometry_.body_bytes(at);
+    if (at.offset * kBlockAlignment < geometry_.directory_bytes() || end > payload.size()) {
+      fail(format("tile {} lies outside its {} bytes", tile, payload.size()));
+    }
+  }
+}
+
+TileEntry BlockView::entry(std::uint64_t tile) const {
+  TileEntry at;
+  std::memcpy(&at, payload_.data() + tile * sizeof at, sizeof at);
+  return at;
+}
+
+std::span<const std::byte> BlockView::body(std::uint64_t tile) const {
+  const TileEntry at = entry(tile);
+  return payload_.subspan(at.offset * kBlockAlignment, geometry_.body_bytes(at));
+}
+
+// Clamped, as the kernels clamp it: a crafted file must not make anything read outside its tables.
+std::uint32_t BlockView::index_at(const std::byte* list, std::uint64_t position) const {
+  const std::uint32_t bytes = geometry_.index_bytes();
+  return std::min(read_unsigned(list + position * bytes, bytes), geometry_.sample_count);
+}
+
+ChangeRecord BlockView::record_at(std::uint32_t sample, const std::byte* codes, std::uint32_t lane) const {
+  ChangeRecord record;
+  record.sample = sample;
+  for (std::uint32_t channel = 0; channel < geometry_.channels; ++channel) {
+    record.codes[channel] = static_cast<std::uint16_t>(
+        read_unsigned(codes + (channel * kTilePixels + lane) * geometry_.code_bytes,
+                      geometry_.code_bytes));
+  }
+  return record;
+}
+
+void BlockView::read_history(std::uint64_t tile, std::uint32_t lane,
+                             std::vector<ChangeRecord>& history) const {
+  history.clear();
+  const TileEntry at = entry(tile);
+  const std::byte* bytes = body(tile).data();
+  if (at.is_records()) {
+    history.push_back(record_at(0, bytes, lane));
+    for (std::uint32_t slot = 0; slot < at.slots(); ++slot) {
+      const std::byte* index = bytes + geometry_.row_bytes() + slot * geometry_.slot_bytes();
+      const std::uint32_t sample = index_at(index, lane);
+      if (sample >= geometry_.sample_count) break;
+      history.push_back(record_at(sample, index + kTilePixels * geometry_.index_bytes(), lane));
+    }
+    return;
+  }
+  const std::uint64_t index_bytes = geometry_.row_index_bytes(at.rows());
+  for (std::uint32_t row = 0; row < at.rows(); ++row) {
+    const std::uint32_t sample = index_bytes == 0 ? row : index_at(bytes, row);
+    const ChangeRecord record =
+        record_at(sample, bytes + index_bytes + row * geometry_.row_bytes(), lane);
+    if (history.empty() || history.back().codes != record.codes) history.push_back(record);
+  }
+}
+
+void BlockView::read_sample(std::uint32_t sample, std::span<std::byte> raster) const {
+  const TileGrid grid(shape_);
+  std::vector<ChangeRecord> history;
+  for (std::uint64_t tile = 0; tile < geometry_.tile_count; ++tile) {
+    grid.for_each_lane(tile, [&](std::uint32_t lane, std::uint64_t pixel) {
+      read_history(tile, lane, history);
+      const auto after = std::upper_bound(
+          history.begin(), history.end(), sample,
+          [](std::uint32_t at, const ChangeRecord& record) { return at < record.sample; });
+      const ChangeRecord& held = *(after - 1);
+      for (std::uint32_t channel = 0; channel < geometry_.channels; ++channel) {
+        std::byte* to =
+            raster.data() + (pixel * geometry_.channels + channel) * geometry_.code_bytes;
+        std::memcpy(to, &held.codes[channel], geometry_.code_bytes);  // little-endian hosts
+      }
+    });
+  }
+}
+
+}  // namespace nutik

@@ -1,0 +1,149 @@
+// A block: a run of consecutive samples, stored tile by tile exactly as the kernels read it.
+//
+// Payload (little-endian; every part starts at a multiple of 64 bytes; C channels of b bytes a code):
+//
+//   directory      one TileEntry per tile
+//   tile bodies    in tile order, each of one of two kinds:
+//
+//   rows           the tile at each sample at which anything in it changed
+//     index        [rows] sample numbers within the block, increasing, the first 0
+//                  (absent where rows is 1 or the block's sample count: both are plain)
+//     row 0 …      codes [C][64]
+//
+//   records        for each pixel its own change records, slot-major so that neighbours read neighbours
+//     start        codes [C][64], held at the block's first sample
+//     slot 0 …     index [64] sample numbers within the block, then codes [C][64];
+//                  pixels with fewer records than slots repeat their last codes at index = sample count
+//
+// An index takes one byte where the block has at most 255 samples, else two. A tile with one row is
+// *still*, one with a row for every sample *dense*.
+//
+// A block starts from the codes held at its first sample: it can be read without the one before. That
+// start is no change record. Between records the last codes hold.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "capture/picture.hpp"
+#include "capture/timeline.hpp"
+#include "imev/tile.hpp"
+
+namespace nutik {
+
+inline constexpr std::uint64_t kBlockAlignment = 64;
+
+[[nodiscard]] constexpr std::uint64_t align_up(std::uint64_t bytes, std::uint64_t alignment) {
+  return (bytes + alignment - 1) / alignment * alignment;
+}
+
+struct TileEntry {
+  static constexpr std::uint32_t kRecordsFlag = 0x8000'0000;
+
+  std::uint32_t offset;  // of the body from the payload's start, in units of 64 bytes
+  std::uint32_t count;   // rows, or slots with kRecordsFlag set
+
+  [[nodiscard]] bool is_records() const { return (count & kRecordsFlag) != 0; }
+  [[nodiscard]] std::uint32_t rows() const { return count; }
+  [[nodiscard]] std::uint32_t slots() const { return count & ~kRecordsFlag; }
+};
+static_assert(sizeof(TileEntry) == 8 && offsetof(TileEntry, count) == 4);
+
+enum class TileKind { still, rows, dense, records };
+
+// Which samples a block holds.
+struct BlockExtent {
+  std::uint64_t first_sample = 0;
+  std::uint32_t sample_count = 0;
+
+  [[nodiscard]] SampleRange range() const { return {first_sample, first_sample + sample_count}; }
+  friend bool operator==(const BlockExtent&, const BlockExtent&) = default;
+};
+
+// The sizes that follow from a capture's format and a block's length.
+struct BlockGeometry {
+  std::uint64_t tile_count;
+  std::uint32_t sample_count;
+  std::uint32_t channels;
+  std::uint32_t code_bytes;
+
+  BlockGeometry(const CaptureFormat& capture, std::uint32_t samples)
+      : tile_count(TileGrid(capture.shape).tile_count()),
+        sample_count(samples),
+        channels(capture.shape.channels),
+        code_bytes(capture.code_bytes) {}
+
+  [[nodiscard]] std::uint32_t index_bytes() const { return sample_count <= 255 ? 1 : 2; }
+  [[nodiscard]] std::uint64_t row_bytes() const {
+    return std::uint64_t{channels} * kTilePixels * code_bytes;
+  }
+  [[nodiscard]] std::uint64_t slot_bytes() const { return kTilePixels * index_bytes() + row_bytes(); }
+  [[nodiscard]] std::uint64_t directory_bytes() const {
+    return align_up(tile_count * sizeof(TileEntry), kBlockAlignment);
+  }
+  // Bytes of the index list before a tile's rows.
+  [[nodiscard]] std::uint64_t row_index_bytes(std::uint32_t rows) const {
+    return rows == 1 || rows == sample_count
+               ? 0
+               : align_up(std::uint64_t{rows} * index_bytes(), kBlockAlignment);
+  }
+  [[nodiscard]] std::uint64_t rows_bytes(std::uint32_t rows) const {
+    return row_index_bytes(rows) + rows * row_bytes();
+  }
+  [[nodiscard]] std::uint64_t records_bytes(std::uint32_t slots) const {
+    return row_bytes() + slots * slot_bytes();
+  }
+  [[nodiscard]] std::uint64_t body_bytes(const TileEntry& entry) const {
+    return entry.is_records() ? records_bytes(entry.slots()) : rows_bytes(entry.rows());
+  }
+  [[nodiscard]] TileKind kind_of(const TileEntry& entry) const {
+    if (entry.is_records()) return TileKind::records;
+    if (entry.rows() == 1) return TileKind::still;
+    return entry.rows() == sample_count ? TileKind::dense : TileKind::rows;
+  }
+};
+
+// One change record: from `sample` on (a number within the block) the pixel holds `codes`.
+struct ChangeRecord {
+  std::uint32_t sample = 0;
+  std::array<std::uint16_t, 3> codes{};  // as many as there are channels
+
+  friend bool operator==(const ChangeRecord&, const ChangeRecord&) = default;
+};
+
+// Reads a block's payload, which must outlive it.
+class BlockView {
+ public:
+  // Throws InputError where the payload's directory does not fit its size.
+  BlockView(const CaptureFormat& capture, BlockExtent extent, std::span<const std::byte> payload);
+
+  [[nodiscard]] const BlockExtent& extent() const { return extent_; }
+  [[nodiscard]] const BlockGeometry& geometry() const { return geometry_; }
+  [[nodiscard]] std::span<const std::byte> payload() const { return payload_; }
+
+  [[nodiscard]] TileEntry entry(std::uint64_t tile) const;
+  [[nodiscard]] std::span<const std::byte> body(std::uint64_t tile) const;
+
+  // What one pixel holds: its start (sample 0) followed by its change records in time order. Rows of a
+  // tile that leave the pixel's codes as they were are skipped. `history` is replaced.
+  void read_history(std::uint64_t tile, std::uint32_t lane, std::vector<ChangeRecord>& history) const;
+
+  // The codes held at a sample of the block, as an interleaved raster of CaptureFormat::sample_bytes().
+  void read_sample(std::uint32_t sample, std::span<std::byte> raster) const;
+
+ private:
+  [[nodiscard]] std::uint32_t index_at(const std::byte* list, std::uint64_t position) const;
+  [[nodiscard]] ChangeRecord record_at(std::uint32_t sample, const std::byte* codes,
+                                       std::uint32_t lane) const;
+
+  Shape shape_;
+  BlockExtent extent_;
+  BlockGeometry geometry_;
+  std::span<const std::byte> payload_;
+};
+
+}  // namespace nutik

@@ -1,0 +1,60 @@
+// Builds blocks from samples, one after another.
+//
+//   in:      samples as interleaved rasters, in time order
+//   out:     a block's payload each time it is full or the capture ends (layout: imev/block.hpp)
+//   always:  memory for one block, whatever the capture's length; the codes held at a block's end go
+//            over into the next, so that blocks change nothing about what is a change
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "capture/picture.hpp"
+#include "imev/block.hpp"
+#include "imev/page_buffer.hpp"
+#include "imev/tile_cost.hpp"
+
+namespace nutik {
+
+inline constexpr std::uint32_t kDefaultBlockSamples = 64;
+inline constexpr std::uint32_t kLargestBlockSamples = 65'535;  // an index has two bytes at most
+inline constexpr std::uint64_t kDefaultBlockBytes = 256ull << 20;
+
+// The samples a block holds where nothing else is asked for: 64, or fewer so that the samples' raw bytes
+// stay within kDefaultBlockBytes (43 of 1080p in colour), never less than one.
+[[nodiscard]] std::uint32_t default_block_samples(const CaptureFormat& capture);
+
+class BlockBuilder {
+ public:
+  BlockBuilder(const CaptureFormat& capture, std::uint32_t block_samples, TilePolicy policy);
+  ~BlockBuilder();
+  BlockBuilder(BlockBuilder&&) noexcept;
+  BlockBuilder& operator=(BlockBuilder&&) noexcept;
+
+  // Adds the next sample: CaptureFormat::sample_bytes() bytes, codes of native byte order. Throws
+  // InputError where a code is above the white code, std::logic_error where the block is full.
+  void add(std::span<const std::byte> raster);
+
+  [[nodiscard]] bool is_full() const;
+  [[nodiscard]] bool is_empty() const;
+
+  // Which samples the current block holds so far.
+  [[nodiscard]] BlockExtent extent() const;
+
+  // Change records in the current block so far, summed over pixels; starts are not counted.
+  [[nodiscard]] std::uint64_t record_count() const;
+
+  // Closes the current block (which must hold a sample) and begins the next. The payload is written to
+  // the front of `into`, which grows as needed; returns its bytes.
+  std::uint64_t finish(PageBuffer& into);
+
+  // Forgets the current block's samples but the codes they left held, and begins the next.
+  void skip();
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace nutik

@@ -1,0 +1,72 @@
+// Where a renderer gets a capture from: its format, its timeline and its blocks, one after another.
+//
+// A source may be a .tik file, a capture in memory, or a clip that is decoded while it is rendered; the
+// last can only go forward, so blocks are asked for in increasing order.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "capture/picture.hpp"
+#include "capture/timeline.hpp"
+#include "imev/block.hpp"
+#include "imev/block_builder.hpp"
+#include "imev/page_buffer.hpp"
+
+namespace nutik {
+
+class CaptureSource {
+ public:
+  virtual ~CaptureSource() = default;
+
+  [[nodiscard]] virtual const CaptureFormat& format() const = 0;
+  [[nodiscard]] virtual const Timeline& timeline() const = 0;
+  [[nodiscard]] virtual std::uint64_t block_count() const = 0;
+  [[nodiscard]] virtual BlockExtent block_extent(std::uint64_t block) const = 0;
+
+  // Makes a block ready and returns its payload's bytes. Throws InputError where it is damaged.
+  virtual std::uint64_t prepare(std::uint64_t block) = 0;
+
+  // Copies the payload of the block prepared last to the front of `into`.
+  virtual void read(std::uint64_t block, std::span<std::byte> into) = 0;
+
+  // Where every payload already lies in memory, ready to be used in place: that memory, which starts on
+  // a page border, and the payload's offset in it. Otherwise the region is empty.
+  [[nodiscard]] virtual std::span<const std::byte> region() const { return {}; }
+  [[nodiscard]] virtual std::uint64_t region_offset(std::uint64_t /*block*/) const { return 0; }
+};
+
+// A capture held in memory, block by block.
+class MemoryCapture final : public CaptureSource {
+ public:
+  // `rasters` are the samples in order, as many as the timeline has.
+  MemoryCapture(const CaptureFormat& capture, Timeline timeline,
+                std::span<const std::vector<std::byte>> rasters, std::uint32_t block_samples,
+                TilePolicy policy = TilePolicy::automatic);
+
+  [[nodiscard]] const CaptureFormat& format() const override { return capture_; }
+  [[nodiscard]] const Timeline& timeline() const override { return timeline_; }
+  [[nodiscard]] std::uint64_t block_count() const override { return blocks_.size(); }
+  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
+    return blocks_[block].extent;
+  }
+  std::uint64_t prepare(std::uint64_t block) override { return blocks_[block].bytes; }
+  void read(std::uint64_t block, std::span<std::byte> into) override;
+
+  [[nodiscard]] BlockView view(std::uint64_t block) const;
+
+ private:
+  struct Block {
+    BlockExtent extent;
+    PageBuffer payload;
+    std::uint64_t bytes;
+  };
+
+  CaptureFormat capture_;
+  Timeline timeline_;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace nutik

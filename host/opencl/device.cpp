@@ -1,0 +1,149 @@
+#include "opencl/device.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "opencl/opencl_api.hpp"
+
+namespace nutik {
+namespace {
+
+DeviceKind kind_of(cl_device_type type) {
+  if ((type & CL_DEVICE_TYPE_GPU) != 0) return DeviceKind::gpu;
+  if ((type & CL_DEVICE_TYPE_ACCELERATOR) != 0) return DeviceKind::accelerator;
+  if ((type & CL_DEVICE_TYPE_CPU) != 0) return DeviceKind::cpu;
+  return DeviceKind::other;
+}
+
+// Some drivers pad names with blanks and end them with a zero.
+std::string trimmed(std::string text) {
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
+  const auto start = text.find_first_not_of(' ');
+  return start == std::string::npos ? std::string() : text.substr(start);
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return result;
+}
+
+std::string list_text(std::span<const DeviceInfo> devices) {
+  std::string text;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    text += format("\n  {}  {} ({}, {})", i, devices[i].name, to_text(devices[i].kind),
+                   devices[i].platform);
+  }
+  return text;
+}
+
+// Clang's and the Khronos headers' names for the codes that people meet.
+std::string error_name(cl_int code) {
+  switch (code) {
+    case CL_DEVICE_NOT_FOUND: return "CL_DEVICE_NOT_FOUND";
+    case CL_DEVICE_NOT_AVAILABLE: return "CL_DEVICE_NOT_AVAILABLE";
+    case CL_COMPILER_NOT_AVAILABLE: return "CL_COMPILER_NOT_AVAILABLE";
+    case CL_MEM_OBJECT_ALLOCATION_FAILURE: return "CL_MEM_OBJECT_ALLOCATION_FAILURE";
+    case CL_OUT_OF_RESOURCES: return "CL_OUT_OF_RESOURCES";
+    case CL_OUT_OF_HOST_MEMORY: return "CL_OUT_OF_HOST_MEMORY";
+    case CL_BUILD_PROGRAM_FAILURE: return "CL_BUILD_PROGRAM_FAILURE";
+    case CL_INVALID_VALUE: return "CL_INVALID_VALUE";
+    case CL_INVALID_BUFFER_SIZE: return "CL_INVALID_BUFFER_SIZE";
+    case CL_INVALID_BINARY: return "CL_INVALID_BINARY";
+    case CL_INVALID_KERNEL_ARGS: return "CL_INVALID_KERNEL_ARGS";
+    case CL_INVALID_WORK_GROUP_SIZE: return "CL_INVALID_WORK_GROUP_SIZE";
+    case -1001: return "CL_PLATFORM_NOT_FOUND_KHR";
+    default: return format("OpenCL error {}", code);
+  }
+}
+
+}  // namespace
+
+std::string to_text(DeviceKind kind) {
+  switch (kind) {
+    case DeviceKind::gpu: return "GPU";
+    case DeviceKind::accelerator: return "accelerator";
+    case DeviceKind::cpu: return "CPU";
+    case DeviceKind::other: return "other";
+  }
+  return {};
+}
+
+std::string describe(const cl::Error& error, const std::string& doing) {
+  return format("{}: {} in {}", doing, error_name(error.err()), error.what());
+}
+
+std::vector<cl::Device> all_devices() {
+  std::vector<cl::Platform> platforms;
+  try {
+    cl::Platform::get(&platforms);
+  } catch (const cl::Error&) {
+    platforms.clear();
+  }
+  std::vector<cl::Device> devices;
+  for (const cl::Platform& platform : platforms) {
+    std::vector<cl::Device> found;
+    try {
+      platform.getDevices(CL_DEVICE_TYPE_ALL, &found);
+    } catch (const cl::Error&) {
+      continue;  // a platform without devices reports an error
+    }
+    devices.insert(devices.end(), found.begin(), found.end());
+  }
+  if (devices.empty()) {
+    throw DeviceError(
+        "no OpenCL device was found; install a driver (on Debian: apt install pocl-opencl-icd for the "
+        "processor, or the graphics card's OpenCL package), or use --renderer reference");
+  }
+  std::stable_sort(devices.begin(), devices.end(), [](const cl::Device& a, const cl::Device& b) {
+    return kind_of(a.getInfo<CL_DEVICE_TYPE>()) < kind_of(b.getInfo<CL_DEVICE_TYPE>());
+  });
+  return devices;
+}
+
+DeviceInfo describe_device(const cl::Device& device) {
+  DeviceInfo info;
+  info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
+  info.platform = trimmed(cl::Platform(device.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>());
+  info.driver_version = trimmed(device.getInfo<CL_DRIVER_VERSION>());
+  info.opencl_version = trimmed(device.getInfo<CL_DEVICE_VERSION>());
+  info.kind = kind_of(device.getInfo<CL_DEVICE_TYPE>());
+  info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+  info.memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  info.largest_allocation_bytes = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  info.has_double = device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() != 0;
+  cl_bool unified = CL_FALSE;
+  device.getInfo(CL_DEVICE_HOST_UNIFIED_MEMORY, &unified);
+  info.shares_host_memory = info.kind == DeviceKind::cpu && unified == CL_TRUE;
+  return info;
+}
+
+std::vector<DeviceInfo> list_devices() {
+  std::vector<DeviceInfo> infos;
+  for (const cl::Device& device : all_devices()) infos.push_back(describe_device(device));
+  return infos;
+}
+
+std::size_t choose_device(std::span<const DeviceInfo> devices, std::string_view wanted) {
+  if (wanted.empty()) return 0;
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+  if (error == std::errc() && end == wanted.data() + wanted.size()) {
+    if (index < devices.size()) return index;
+    throw DeviceError(format("there is no OpenCL device {}; these were found:{}", wanted,
+                             list_text(devices)));
+  }
+  std::vector<std::size_t> matches;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const std::string text = lower(devices[i].name) + '\n' + lower(devices[i].platform);
+    if (text.find(lower(wanted)) != std::string::npos) matches.push_back(i);
+  }
+  if (matches.size() == 1) return matches.front();
+  throw DeviceError(format("{} OpenCL device's name contains '{}'; these were found:{}",
+                           matches.empty() ? "no" : "more than one", wanted, list_text(devices)));
+}
+
+}  // namespace nutik

@@ -1,0 +1,36 @@
+// The OpenCL devices of this machine, and the choice of one.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nutik {
+
+enum class DeviceKind { gpu, accelerator, cpu, other };
+std::string to_text(DeviceKind kind);
+
+struct DeviceInfo {
+  std::string name;
+  std::string platform;
+  std::string driver_version;
+  std::string opencl_version;
+  DeviceKind kind = DeviceKind::other;
+  std::uint32_t compute_units = 0;
+  std::uint64_t memory_bytes = 0;
+  std::uint64_t largest_allocation_bytes = 0;
+  bool has_double = false;
+  bool shares_host_memory = false;
+};
+
+// Every device of every platform, the ones to prefer first: GPUs, accelerators, CPUs; the position is the
+// index that --device takes. Throws DeviceError where there is no OpenCL platform at all.
+[[nodiscard]] std::vector<DeviceInfo> list_devices();
+
+// The index of the device that a person means: a number, or part of a name or platform in any case; empty
+// means the first. Throws DeviceError listing the devices where none or several match.
+[[nodiscard]] std::size_t choose_device(std::span<const DeviceInfo> devices, std::string_view wanted);
+
+}  // namespace nutik

@@ -1,0 +1,34 @@
+// The host's side of kernels/layout.clh and of the structures that develop.cl reads.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "imev/block.hpp"
+#include "render/render_plan.hpp"
+
+namespace nutik {
+
+// A block within a chunk. Mirrors BlockEntry in kernels/layout.clh.
+struct BlockEntry {
+  std::uint64_t payload_offset;  // bytes from the chunk's start
+  std::uint64_t table_row;       // of its first sample in the tables
+  std::uint64_t span_row;        // in the spans
+  std::uint32_t sample_count;
+  std::uint32_t unused;
+};
+static_assert(sizeof(BlockEntry) == 32 && offsetof(BlockEntry, sample_count) == 24);
+static_assert(sizeof(TileEntry) == 8 && sizeof(SampleSpan) == 4);
+static_assert(kBlockAlignment == 64 && kTilePixels == 64);
+
+// In function_of_tile: the tile's pixels have several functions.
+inline constexpr std::uint16_t kMixedFunctions = 0xFFFF;
+
+// What turns the sums of one function into light. Mirrors LightScale in kernels/develop.cl.
+template <typename Real>
+struct LightScale {
+  Real first;
+  Real second;
+};
+
+}  // namespace nutik

@@ -1,0 +1,397 @@
+#include "opencl/opencl_renderer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "imev/page_buffer.hpp"
+#include "opencl/kernel_layout.hpp"
+#include "opencl/kernel_sources.hpp"
+#include "opencl/opencl_api.hpp"
+#include "opencl/program_store.hpp"
+
+namespace nutik {
+
+Precision parse_precision(std::string_view text) {
+  if (text == "single") return Precision::single_;
+  if (text == "double") return Precision::double_;
+  throw UsageError(format("precision '{}' is not known; choose single or double", text));
+}
+
+std::string to_text(Precision precision) {
+  return precision == Precision::single_ ? "single" : "double";
+}
+
+namespace {
+
+constexpr std::uint64_t kDefaultChunkBytes = 1ull << 30;
+constexpr std::uint64_t kPageBytes = 4096;
+constexpr std::uint32_t kGuessesPerCode = 4;
+constexpr std::uint32_t kMostGuesses = 65'536;
+
+using ExposeKernel =
+    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint,
+                      cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong, cl_uint>;
+using DevelopLightKernel =
+    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl::Buffer>;
+using DevelopCodesKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint,
+                                             cl::Buffer, cl_uint, cl::Buffer, cl_uint, cl::Buffer>;
+
+// How work is cut for a device; see the table in docs/performance.md.
+struct WorkShape {
+  std::uint32_t item_pixels;
+  std::uint32_t lanes;
+  std::uint32_t group_items;
+};
+
+WorkShape work_shape(const OpenClOptions& options, const DeviceInfo& device) {
+  WorkShape shape{1, 1, 64};
+  if (device.kind == DeviceKind::cpu) {
+    shape = {kTilePixels, options.precision == Precision::single_ ? 16u : 8u, 4};
+  }
+  if (options.item_pixels != 0) shape.item_pixels = options.item_pixels;
+  if (options.lanes != 0) shape.lanes = options.lanes;
+  if (options.group_items != 0) shape.group_items = options.group_items;
+  const bool lanes_fit = shape.lanes == 1 || shape.lanes == 4 || shape.lanes == 8 || shape.lanes == 16;
+  if (shape.item_pixels == 0 || kTilePixels % shape.item_pixels != 0 || !lanes_fit ||
+      shape.item_pixels % shape.lanes != 0) {
+    throw UsageError(format("{} pixels an item in {} lanes do not divide a tile of {}", shape.item_pixels,
+                            shape.lanes, kTilePixels));
+  }
+  return shape;
+}
+
+// Each tile's pixels with the index of their functions: tile-major, and the tile's own where all agree.
+struct FunctionMap {
+  std::vector<std::uint8_t> of_lane;
+  std::vector<std::uint16_t> of_tile;
+};
+
+FunctionMap map_functions(const RenderPlan& plan) {
+  const TileGrid grid(plan.capture.shape);
+  FunctionMap map;
+  map.of_lane.resize(grid.tile_count() * kTilePixels);
+  map.of_tile.resize(grid.tile_count());
+  for (std::uint64_t tile = 0; tile < grid.tile_count(); ++tile) {
+    std::uint8_t* lanes = map.of_lane.data() + tile * kTilePixels;
+    grid.for_each_lane(tile, [&](std::uint32_t lane, std::uint64_t pixel) {
+      lanes[lane] = plan.function_of_pixel[pixel];
+    });
+    const bool same = std::all_of(lanes, lanes + kTilePixels,
+                                  [&](std::uint8_t function) { return function == lanes[0]; });
+    map.of_tile[tile] = same ? lanes[0] : kMixedFunctions;
+  }
+  return map;
+}
+
+template <typename Real>
+std::vector<Real> converted(const std::vector<double>& values) {
+  return {values.begin(), values.end()};
+}
+
+// light = sum · 2^exponent / white (the last for linear codes only), as two factors that are finite.
+template <typename Real>
+std::vector<LightScale<Real>> light_scales(const RenderPlan& plan) {
+  const double code_light = plan.capture.transfer.is_linear() ? 1.0 / plan.capture.white_code : 1.0;
+  std::vector<LightScale<Real>> scales;
+  for (const PlannedFunction& function : plan.functions) {
+    const int half = function.summary.exponent / 2;
+    scales.push_back({static_cast<Real>(std::scalbn(code_light, half)),
+                      static_cast<Real>(std::scalbn(1.0, function.summary.exponent - half))});
+  }
+  return scales;
+}
+
+// A code near the right one for each of `count` equal steps of the square root of light.
+std::vector<std::uint16_t> code_guesses(const std::vector<double>& thresholds, std::uint32_t count) {
+  std::vector<std::uint16_t> guesses(count);
+  std::size_t code = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double root = (i + 0.5) / count;
+    while (code + 1 < thresholds.size() && thresholds[code + 1] <= root * root) ++code;
+    guesses[i] = static_cast<std::uint16_t>(code);
+  }
+  return guesses;
+}
+
+}  // namespace
+
+class OpenClRenderer::Implementation {
+ public:
+  explicit Implementation(const OpenClOptions& options)
+      : options_(options),
+        device_(pick_device(options)),
+        info_(describe_device(device_)),
+        shape_(work_shape(options, info_)) {
+    if (options.precision == Precision::double_ && !info_.has_double) {
+      throw DeviceError(format("{} has no double precision; use --precision single", info_.name));
+    }
+    context_ = cl::Context(device_);
+    queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
+    programs_ = std::make_unique<ProgramStore>(context_, device_, options.cache_folder, [this](auto&) {
+      if (announced_ || !options_.announce) return;
+      announced_ = true;
+      options_.announce(format("building the kernels for {}: once on this machine", info_.name));
+    });
+  }
+
+  [[nodiscard]] const std::string& name() const { return info_.name; }
+  [[nodiscard]] const RenderStatistics& statistics() const { return statistics_; }
+
+  Picture render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
+    try {
+      return options_.precision == Precision::single_ ? render_as<float>(plan, source, output)
+                                                      : render_as<double>(plan, source, output);
+    } catch (const cl::Error& error) {
+      throw DeviceError(describe(error, format("{} failed", info_.name)));
+    }
+  }
+
+ private:
+  static cl::Device pick_device(const OpenClOptions& options) {
+    const std::vector<cl::Device> devices = all_devices();
+    if (options.device >= devices.size()) {
+      throw DeviceError(format("there is no OpenCL device {}", options.device));
+    }
+    return devices[options.device];
+  }
+
+  template <typename Real>
+  Picture render_as(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
+    statistics_ = {};
+    held_bytes_ = 0;
+    const FunctionMap map = map_functions(plan);
+    const cl::Buffer function_of_lane = upload(map.of_lane);
+    const cl::Buffer sums = expose<Real>(plan, source, map, function_of_lane);
+    Picture picture = develop<Real>(plan, output, sums, function_of_lane);
+    programs_->save_new_binaries();
+    return picture;
+  }
+
+  // A read-only buffer with these values. Never of no bytes: OpenCL has no such thing.
+  template <typename T>
+  cl::Buffer upload(const std::vector<T>& values) {
+    const std::uint64_t bytes = std::max<std::uint64_t>(values.size() * sizeof(T), sizeof(T));
+    cl::Buffer buffer = allocate(bytes, CL_MEM_READ_ONLY);
+    if (!values.empty()) {
+      queue_.enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(T), values.data());
+    }
+    return buffer;
+  }
+
+  cl::Buffer allocate(std::uint64_t bytes, cl_mem_flags flags) {
+    if (bytes > info_.largest_allocation_bytes) {
+      throw DeviceError(format("{} allocates at most {} MB at a time and {} MB are needed; use a device "
+                               "with more memory, or --renderer reference",
+                               info_.name, info_.largest_allocation_bytes >> 20, bytes >> 20));
+    }
+    count_device_bytes(bytes);
+    return {context_, flags, bytes};
+  }
+
+  void count_device_bytes(std::uint64_t bytes) {
+    held_bytes_ += bytes;
+    statistics_.device_bytes = std::max(statistics_.device_bytes, held_bytes_);
+  }
+
+  [[nodiscard]] std::string common_options(const RenderPlan& plan) const {
+    return format("-cl-std=CL1.2 -DNUTIK_PRECISION={} -DNUTIK_CHANNELS={}",
+                  options_.precision == Precision::single_ ? "NUTIK_SINGLE" : "NUTIK_DOUBLE",
+                  plan.capture.shape.channels);
+  }
+
+  [[nodiscard]] cl::EnqueueArgs items(std::uint64_t count) {
+    const std::uint64_t group = shape_.group_items;
+    return {queue_, cl::NDRange((count + group - 1) / group * group), cl::NDRange(group)};
+  }
+
+  static double milliseconds(const cl::Event& event) {
+    return static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
+                               event.getProfilingInfo<CL_PROFILING_COMMAND_START>()) *
+           1e-6;
+  }
+
+  // Σ_k v_k w_k of every pixel, tile-major.
+  template <typename Real>
+  cl::Buffer expose(const RenderPlan& plan, CaptureSource& source, const FunctionMap& map,
+                    const cl::Buffer& function_of_lane) {
+    const TileGrid grid(plan.capture.shape);
+    const std::uint64_t sum_bytes =
+        grid.tile_count() * plan.capture.shape.channels * kTilePixels * sizeof(Real);
+    cl::Buffer sums = allocate(sum_bytes, CL_MEM_READ_WRITE);
+    if (plan.blocks.empty()) {
+      queue_.enqueueFillBuffer(sums, Real{0}, 0, sum_bytes);
+      return sums;
+    }
+    const bool linear = plan.capture.transfer.is_linear();
+    const cl::Program program = programs_->get(
+        "expose", k_expose_source,
+        format("{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_LANES={}",
+               common_options(plan), plan.capture.code_bytes,
+               linear ? "NUTIK_LIGHT_LINEAR" : "NUTIK_LIGHT_TABLE", shape_.item_pixels, shape_.lanes));
+    ExposeKernel kernel(program, "expose");
+
+    const cl::Buffer weights = upload(converted<Real>(plan.weights));
+    const cl::Buffer boundaries = upload(converted<Real>(plan.boundaries));
+    const cl::Buffer spans = upload(plan.spans);
+    const cl::Buffer function_of_tile = upload(map.of_tile);
+    const cl::Buffer light_of_code =
+        upload(linear ? std::vector<Real>()
+                      : converted<Real>(plan.capture.transfer.light_of_codes(plan.capture.white_code)));
+
+    const std::uint64_t item_count = grid.tile_count() * (kTilePixels / shape_.item_pixels);
+    bool first = true;
+    for (std::size_t b = 0; b < plan.blocks.size();) {
+      const Chunk chunk = next_chunk(plan, source, b);
+      const cl::Buffer entries = upload(chunk.entries);
+      const cl::Event event =
+          kernel(items(item_count), chunk.payload, entries, static_cast<cl_uint>(chunk.entries.size()),
+                 spans, weights, boundaries, static_cast<cl_uint>(plan.function_count()),
+                 function_of_tile, function_of_lane, light_of_code, sums, item_count, first ? 1u : 0u);
+      event.wait();
+      statistics_.expose_ms += milliseconds(event);
+      statistics_.blocks += chunk.entries.size();
+      ++statistics_.launches;
+      held_bytes_ -= chunk.bytes;
+      first = false;
+      b += chunk.entries.size();
+    }
+    return sums;
+  }
+
+  // Consecutive planned blocks that one launch reads.
+  struct Chunk {
+    cl::Buffer payload;
+    std::uint64_t bytes = 0;
+    std::vector<BlockEntry> entries;
+  };
+
+  [[nodiscard]] std::uint64_t chunk_limit() const {
+    const std::uint64_t wanted = options_.chunk_bytes != 0 ? options_.chunk_bytes : kDefaultChunkBytes;
+    return std::min(wanted, info_.largest_allocation_bytes);
+  }
+
+  Chunk next_chunk(const RenderPlan& plan, CaptureSource& source, std::size_t first) {
+    Chunk chunk;
+    const std::span<const std::byte> region = source.region();
+    const bool in_place = !region.empty() && info_.shares_host_memory;
+    std::uint64_t begin = 0;  // of the chunk, within the region
+    for (std::size_t b = first; b < plan.blocks.size(); ++b) {
+      const PlannedBlock& planned = plan.blocks[b];
+      const std::uint64_t payload_bytes = pending_bytes_ != 0 ? pending_bytes_ : source.prepare(planned.block);
+      pending_bytes_ = 0;
+      std::uint64_t offset = chunk.bytes;
+      if (in_place) {
+        const std::uint64_t in_region = source.region_offset(planned.block);
+        if (b == first) begin = in_region / kPageBytes * kPageBytes;
+        offset = in_region - begin;
+      }
+      const std::uint64_t end = align_up(offset + payload_bytes, kBlockAlignment);
+      if (b > first && end > chunk_limit()) {
+        pending_bytes_ = payload_bytes;
+        break;
+      }
+      if (end > info_.largest_allocation_bytes) {
+        throw DeviceError(format("a block of {} samples takes {} MB and {} allocates at most {} MB at a "
+                                 "time; encode with fewer samples a block (--block-samples)",
+                                 planned.extent.sample_count, end >> 20, info_.name,
+                                 info_.largest_allocation_bytes >> 20));
+      }
+      if (!in_place) {
+        // Address space for a whole chunk at once, for growing would lose what was read into it.
+        if (b == first) chunk_memory_.reserve(std::max(end, chunk_limit()));
+        source.read(planned.block, {chunk_memory_.data() + offset, payload_bytes});
+      }
+      chunk.entries.push_back({offset, planned.table_row, b, planned.extent.sample_count, 0});
+      chunk.bytes = end;
+      statistics_.payload_bytes += payload_bytes;
+    }
+    count_device_bytes(chunk.bytes);
+    if (info_.shares_host_memory) {
+      auto* host = in_place ? const_cast<std::byte*>(region.data()) + begin : chunk_memory_.data();
+      const std::uint64_t bytes = in_place ? std::min(chunk.bytes, region.size() - begin) : chunk.bytes;
+      chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, bytes, host);
+    } else {
+      chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY, chunk.bytes);
+      queue_.enqueueWriteBuffer(chunk.payload, CL_TRUE, 0, chunk.bytes, chunk_memory_.data());
+    }
+    return chunk;
+  }
+
+  template <typename Real>
+  Picture develop(const RenderPlan& plan, const OutputFormat& output, const cl::Buffer& sums,
+                  const cl::Buffer& function_of_lane) {
+    const Shape& shape = plan.capture.shape;
+    const bool codes = holds_codes(output.type);
+    const std::size_t raster_bytes = codes ? value_bytes(output.type) : 1;
+    const cl::Program program =
+        programs_->get("develop", k_develop_source,
+                       format("{} -DNUTIK_RASTER_BYTES={}", common_options(plan), raster_bytes));
+    const cl::Buffer scales = upload(light_scales<Real>(plan));
+    const std::uint64_t pixel_items = TileGrid(shape).tile_count() * kTilePixels;
+    Picture picture(shape, output.type, output.white_code);
+    if (!codes) {
+      const cl::Buffer raster = allocate(shape.value_count() * sizeof(Real), CL_MEM_WRITE_ONLY);
+      DevelopLightKernel kernel(program, "develop_light");
+      const cl::Event event = kernel(items(pixel_items), sums, scales, function_of_lane, shape.width,
+                                     shape.height, raster);
+      std::vector<Real> light(shape.value_count());
+      queue_.enqueueReadBuffer(raster, CL_TRUE, 0, light.size() * sizeof(Real), light.data());
+      statistics_.develop_ms = milliseconds(event);
+      if (output.type == ValueType::light32) {
+        std::transform(light.begin(), light.end(), picture.values<float>().begin(),
+                       [](Real value) { return static_cast<float>(value); });
+      } else {
+        std::copy(light.begin(), light.end(), picture.values<double>().begin());
+      }
+      return picture;
+    }
+    const std::vector<double> thresholds = plan.capture.transfer.code_thresholds(output.white_code);
+    const std::uint32_t guess_count =
+        std::min(kMostGuesses, static_cast<std::uint32_t>(thresholds.size()) * kGuessesPerCode);
+    const cl::Buffer raster = allocate(picture.bytes.size(), CL_MEM_WRITE_ONLY);
+    DevelopCodesKernel kernel(program, "develop_codes");
+    const cl::Event event =
+        kernel(items(pixel_items), sums, scales, function_of_lane, shape.width, shape.height,
+               upload(converted<Real>(thresholds)), output.white_code,
+               upload(code_guesses(thresholds, guess_count)), guess_count, raster);
+    queue_.enqueueReadBuffer(raster, CL_TRUE, 0, picture.bytes.size(), picture.bytes.data());
+    statistics_.develop_ms = milliseconds(event);
+    return picture;
+  }
+
+  OpenClOptions options_;
+  cl::Device device_;
+  DeviceInfo info_;
+  WorkShape shape_;
+  cl::Context context_;
+  cl::CommandQueue queue_;
+  std::unique_ptr<ProgramStore> programs_;
+  bool announced_ = false;
+  PageBuffer chunk_memory_;
+  std::uint64_t pending_bytes_ = 0;  // of a block that was prepared and did not fit the chunk before
+  std::uint64_t held_bytes_ = 0;
+  RenderStatistics statistics_;
+};
+
+OpenClRenderer::OpenClRenderer(const OpenClOptions& options) {
+  try {
+    implementation_ = std::make_unique<Implementation>(options);
+  } catch (const cl::Error& error) {
+    throw DeviceError(describe(error, "the OpenCL device cannot be started"));
+  }
+}
+
+OpenClRenderer::~OpenClRenderer() = default;
+
+Picture OpenClRenderer::render(const RenderPlan& plan, CaptureSource& source,
+                               const OutputFormat& output) {
+  return implementation_->render(plan, source, output);
+}
+
+std::string OpenClRenderer::name() const { return implementation_->name(); }
+
+const RenderStatistics& OpenClRenderer::statistics() const { return implementation_->statistics(); }
+
+}  // namespace nutik

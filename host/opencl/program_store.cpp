@@ -1,0 +1,154 @@
+#include "opencl/program_store.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::string_view kMagic = "nutik-cl program 1\n";
+
+std::uint64_t fnv1a(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char byte : bytes) {
+    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
+  }
+  return hash;
+}
+
+void append_number(std::string& to, std::uint64_t number) {
+  to.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+bool take_number(std::string_view& from, std::uint64_t& number) {
+  if (from.size() < sizeof number) return false;
+  std::memcpy(&number, from.data(), sizeof number);
+  from.remove_prefix(sizeof number);
+  return true;
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+std::filesystem::path default_cache_folder() {
+  if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder != nullptr && *folder != '\0') {
+    return std::filesystem::path(folder) / "nutik-cl";
+  }
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
+    return std::filesystem::path(home) / ".cache" / "nutik-cl";
+  }
+  return {};
+}
+
+ProgramStore::ProgramStore(cl::Context context, cl::Device device, std::filesystem::path cache_folder,
+                           Announce announce)
+    : context_(std::move(context)),
+      device_(std::move(device)),
+      cache_folder_(std::move(cache_folder)),
+      announce_(std::move(announce)) {
+  const cl::Platform platform(device_.getInfo<CL_DEVICE_PLATFORM>());
+  for (const std::string& part :
+       {device_.getInfo<CL_DEVICE_NAME>(), device_.getInfo<CL_DEVICE_VENDOR>(),
+        device_.getInfo<CL_DEVICE_VERSION>(), device_.getInfo<CL_DRIVER_VERSION>(),
+        platform.getInfo<CL_PLATFORM_VERSION>()}) {
+    device_key_ += part + '\n';
+  }
+}
+
+std::filesystem::path ProgramStore::file_for(const std::string& name, const std::string& key) const {
+  return cache_folder_ / format("{}-{:016x}.bin", name, fnv1a(key));
+}
+
+// magic, key length, key, binary length, hash of the binary, binary
+bool ProgramStore::load(const std::string& name, const std::string& key, const std::string& options,
+                        cl::Program& program) const {
+  if (cache_folder_.empty()) return false;
+  const std::string bytes = read_file(file_for(name, key));
+  std::string_view rest = bytes;
+  std::uint64_t key_bytes = 0, binary_bytes = 0, hash = 0;
+  if (!rest.starts_with(kMagic)) return false;
+  rest.remove_prefix(kMagic.size());
+  if (!take_number(rest, key_bytes) || rest.substr(0, key_bytes) != key) return false;
+  rest.remove_prefix(key.size());
+  if (!take_number(rest, binary_bytes) || !take_number(rest, hash)) return false;
+  if (rest.size() != binary_bytes || fnv1a(rest) != hash) return false;
+  try {
+    const std::vector<unsigned char> binary(rest.begin(), rest.end());
+    program = cl::Program(context_, {device_}, {binary});
+    program.build({device_}, options.c_str());
+    return true;
+  } catch (const cl::Error&) {
+    return false;  // the driver no longer takes it
+  }
+}
+
+cl::Program ProgramStore::get(const std::string& name, const std::string& source,
+                              const std::string& options) {
+  const std::string key = format("{}\n{}\n{}{}", name, options, device_key_, source);
+  if (const auto found = entries_.find(key); found != entries_.end()) return found->second.program;
+
+  cl::Program program;
+  bool is_new = false;
+  if (!load(name, key, options, program)) {
+    is_new = true;
+    if (announce_) announce_(name);
+    try {
+      program = cl::Program(context_, source);
+      program.build({device_}, options.c_str());
+    } catch (const cl::Error& error) {
+      std::string log;
+      if (program() != nullptr) log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_);
+      throw DeviceError(format("{}\n  options: {}\n  device: {}\n{}",
+                               describe(error, format("kernels/{}.cl does not build", name)), options,
+                               device_.getInfo<CL_DEVICE_NAME>(), log));
+    }
+  }
+  entries_.emplace(key, Entry{program, name, is_new});
+  return program;
+}
+
+void ProgramStore::save_new_binaries() {
+  if (cache_folder_.empty()) return;
+  for (auto& [key, entry] : entries_) {
+    if (!entry.is_new) continue;
+    entry.is_new = false;
+    // A cache that cannot be written costs a second next time; the picture is unharmed.
+    try {
+      const auto binaries = entry.program.getInfo<CL_PROGRAM_BINARIES>();
+      if (binaries.empty() || binaries.front().empty()) continue;
+      const std::string_view binary(reinterpret_cast<const char*>(binaries.front().data()),
+                                    binaries.front().size());
+      std::string bytes(kMagic);
+      append_number(bytes, key.size());
+      bytes += key;
+      append_number(bytes, binary.size());
+      append_number(bytes, fnv1a(binary));
+      bytes += binary;
+      std::filesystem::create_directories(cache_folder_);
+      const std::filesystem::path path = file_for(entry.name, key);
+      const std::filesystem::path unfinished = path.string() + format(".{}", getpid());
+      std::ofstream out(unfinished, std::ios::binary);
+      out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+      out.close();
+      if (out) {
+        std::filesystem::rename(unfinished, path);
+      } else {
+        std::filesystem::remove(unfinished);
+      }
+    } catch (const std::exception&) {
+      continue;
+    }
+  }
+}
+
+}  // namespace nutik

@@ -1,0 +1,39 @@
+// Work shared among the processor's cores.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace nutik {
+
+// Calls work(i) for every i in [0, count), each once, on as many threads as there are cores. The first
+// exception is thrown again when all have stopped.
+template <typename Work>
+void parallel_for(std::uint64_t count, Work work) {
+  std::atomic<std::uint64_t> next{0};
+  std::exception_ptr failure;
+  std::mutex failure_mutex;
+  const auto run = [&] {
+    try {
+      for (std::uint64_t i = next++; i < count; i = next++) work(i);
+    } catch (...) {
+      next = count;
+      const std::scoped_lock lock(failure_mutex);
+      if (!failure) failure = std::current_exception();
+    }
+  };
+  {
+    const std::uint64_t workers = std::min<std::uint64_t>(count, std::thread::hardware_concurrency());
+    std::vector<std::jthread> helpers;
+    for (std::uint64_t i = 1; i < workers; ++i) helpers.emplace_back(run);
+    run();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace nutik

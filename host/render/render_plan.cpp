@@ -1,0 +1,150 @@
+#include "render/render_plan.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/boundary_table.hpp"
+
+namespace nutik {
+namespace {
+
+void check_mask(const Shape& shape, const Mask& mask) {
+  if (mask.width == shape.width && mask.height == shape.height) return;
+  const bool turned = mask.width == shape.height && mask.height == shape.width;
+  throw InputError(format("the mask is {} x {} pixels, the capture {} x {}; {}", mask.width, mask.height,
+                          shape.width, shape.height,
+                          turned ? "turn it by 90 degrees" : "both must have the same size"));
+}
+
+void check_mapped(const FunctionSet& functions, const std::array<std::uint64_t, kMaskValues>& pixels) {
+  std::string unmapped;
+  for (std::uint32_t tag = 0; tag < kMaskValues; ++tag) {
+    if (pixels[tag] == 0 || functions.contains(static_cast<std::uint8_t>(tag))) continue;
+    unmapped += format("{}{} ({} pixels)", unmapped.empty() ? "" : ", ", tag, pixels[tag]);
+  }
+  if (unmapped.empty()) return;
+  throw InputError(format("mask values without a function: {}; add a line M<value> for each, or expose "
+                          "them to black with --unmapped zero",
+                          unmapped));
+}
+
+void warn(RenderPlan& plan, const PlannedFunction& function, bool was_unmapped) {
+  const GainSummary& summary = function.summary;
+  const auto say = [&](const std::string& text) {
+    plan.warnings.push_back(format("M{}: {}", function.tag, text));
+  };
+  const double seconds = static_cast<double>(plan.duration_ns) * 1e-9;
+  if (summary.support_ns == 0 && !was_unmapped) {
+    say(format("the function is zero everywhere in the capture (0 … {:.6g} s); its {} pixels are 0",
+               seconds, function.pixel_count));
+  }
+  if (summary.reaches_before_capture) {
+    say("parts that are not zero lie before the capture's start and do not count");
+  }
+  if (summary.reaches_after_capture) {
+    say(format("parts that are not zero lie after the capture's end at {:.6g} s and do not count",
+               seconds));
+  }
+  if (summary.exposes_to_the_end) {
+    say(format("the last gain, {}, holds to the end of the capture at {:.6g} s; end the function with a "
+               "gain of 0 if it should stop",
+               function.function.last_gain(), seconds));
+  }
+}
+
+bool is_live(const RenderPlan& plan, const SampleRange& samples) {
+  return std::any_of(plan.functions.begin(), plan.functions.end(), [&](const PlannedFunction& function) {
+    return function.live.first < samples.last && samples.first < function.live.last;
+  });
+}
+
+void plan_blocks(RenderPlan& plan, const CaptureSource& source) {
+  std::uint64_t row = 0;
+  for (std::uint64_t block = 0; block < source.block_count(); ++block) {
+    const BlockExtent extent = source.block_extent(block);
+    if (!is_live(plan, extent.range())) continue;
+    plan.blocks.push_back({block, extent, row});
+    row += extent.sample_count + 1;
+  }
+  plan.weights.assign(row * plan.function_count(), 0.0);
+  plan.boundaries.assign(row * plan.function_count(), 0.0);
+  plan.spans.assign(plan.blocks.size() * plan.function_count(), {});
+}
+
+void pack_tables(RenderPlan& plan, const Timeline& timeline) {
+  const std::uint64_t count = plan.function_count();
+  std::vector<WeightSweep> sweeps;
+  sweeps.reserve(count);
+  for (const PlannedFunction& function : plan.functions) {
+    sweeps.emplace_back(function.function, function.summary, plan.duration_ns);
+  }
+  std::vector<double> weights, boundaries;
+  for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
+    const PlannedBlock& block = plan.blocks[b];
+    const SampleRange samples = block.extent.range();
+    const std::vector<SampleTimes> times = timeline.times(samples);
+    for (std::uint64_t f = 0; f < count; ++f) {
+      const SampleRange& live = plan.functions[f].live;
+      const std::uint64_t first = std::clamp(live.first, samples.first, samples.last);
+      const std::uint64_t last = std::clamp(live.last, samples.first, samples.last);
+      if (first >= last) continue;
+      plan.spans[b * count + f] = {static_cast<std::uint16_t>(first - samples.first),
+                                   static_cast<std::uint16_t>(last - samples.first)};
+      weights.resize(last - first);
+      boundaries.resize(last - first + 1);
+      sweeps[f].pack(std::span(times).subspan(first - samples.first, last - first), weights, boundaries);
+      // Outside the live samples weights are 0 and boundaries flat.
+      for (std::uint64_t k = samples.first; k <= samples.last; ++k) {
+        const std::uint64_t at = (block.table_row + k - samples.first) * count + f;
+        plan.boundaries[at] = boundaries[std::clamp(k, first, last) - first];
+        if (k >= first && k < last) plan.weights[at] = weights[k - first];
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::uint64_t RenderPlan::sample_count() const {
+  std::uint64_t samples = 0;
+  for (const PlannedBlock& block : blocks) samples += block.extent.sample_count;
+  return samples;
+}
+
+RenderPlan make_plan(const CaptureSource& source, const FunctionSet& functions, const Mask& mask,
+                     const PlanOptions& options) {
+  RenderPlan plan;
+  plan.capture = source.format();
+  const Timeline& timeline = source.timeline();
+  plan.duration_ns = timeline.duration_ns();
+  check_mask(plan.capture.shape, mask);
+  const auto pixels = mask.pixels_per_tag();
+  if (!options.unmapped_is_zero) check_mapped(functions, pixels);
+
+  const GainFunction zero({{0, 0.0}});
+  std::array<std::uint8_t, kMaskValues> index_of_tag{};
+  for (std::uint32_t value = 0; value < kMaskValues; ++value) {
+    if (pixels[value] == 0) continue;
+    const auto tag = static_cast<std::uint8_t>(value);
+    const auto found = functions.find(tag);
+    const bool unmapped = found == functions.end();
+    PlannedFunction function{tag, unmapped ? zero : found->second, {}, {}, pixels[value]};
+    function.summary = summarize(function.function, plan.duration_ns);
+    const Interval& live = function.summary.live;
+    function.live = options.live_all ? SampleRange{0, timeline.sample_count()}
+                                     : timeline.samples_reaching(live.begin_ns, live.end_ns);
+    warn(plan, function, unmapped);
+    index_of_tag[value] = static_cast<std::uint8_t>(plan.functions.size());
+    plan.functions.push_back(std::move(function));
+  }
+  plan.function_of_pixel.resize(mask.tags.size());
+  std::transform(mask.tags.begin(), mask.tags.end(), plan.function_of_pixel.begin(),
+                 [&](std::uint8_t tag) { return index_of_tag[tag]; });
+  plan_blocks(plan, source);
+  pack_tables(plan, timeline);
+  return plan;
+}
+
+}  // namespace nutik

@@ -1,0 +1,37 @@
+# nutik_room(<name> SOURCES … [USES …] [LINKS …] [PRIVATE_LINKS …])
+#
+# A room of the house: the library nutik::<name> from host/<name>/. USES names the rooms it knows of;
+# LINKS and PRIVATE_LINKS what else it needs, in its headers or only inside.
+
+add_library(nutik_warnings INTERFACE)
+target_compile_options(nutik_warnings INTERFACE -Wall -Wextra -Wconversion -Wshadow -Wpedantic)
+if(NUTIK_WARNINGS_AS_ERRORS)
+  target_compile_options(nutik_warnings INTERFACE -Werror)
+endif()
+
+# <format> where the standard library has it, else fmt (host/capture/format.hpp).
+include(CheckCXXSourceCompiles)
+set(CMAKE_REQUIRED_FLAGS -std=c++20)
+check_cxx_source_compiles("#include <format>\n#ifndef __cpp_lib_format\n#error\n#endif\nint main() {}"
+                          NUTIK_HAS_STD_FORMAT)
+unset(CMAKE_REQUIRED_FLAGS)
+if(NOT NUTIK_HAS_STD_FORMAT)
+  find_package(fmt REQUIRED)
+endif()
+
+function(nutik_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(nutik_${name} STATIC ${ROOM_SOURCES})
+  add_library(nutik::${name} ALIAS nutik_${name})
+  set_target_properties(nutik_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(
+    nutik_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/host>
+                         $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/nutik>)
+  target_compile_features(nutik_${name} PUBLIC cxx_std_20)
+  list(TRANSFORM ROOM_USES PREPEND nutik::)
+  target_link_libraries(nutik_${name} PUBLIC ${ROOM_USES} ${ROOM_LINKS}
+                                      PRIVATE ${ROOM_PRIVATE_LINKS} $<BUILD_INTERFACE:nutik_warnings>)
+  install(TARGETS nutik_${name} EXPORT nutik-targets)
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nutik/${name}
+          FILES_MATCHING PATTERN "*.hpp")
+endfunction()
