@@ -91,9 +91,19 @@ Timeline Timeline::irregular(std::vector<std::int64_t> starts_ns, Rational shutt
     exposures[k].end_ns = exposures[k].start_ns + std::max<std::int64_t>(exposed, 1);
   }
   const std::int64_t last_period = starts_ns[count - 1] - starts_ns[count - 2];
+  const std::int64_t duration_ns = exposures.back().start_ns + last_period;
+  return stored(std::move(exposures), duration_ns, shutter_angle);
+}
+
+Timeline Timeline::stored(std::vector<Exposure> exposures, std::int64_t duration_ns,
+                          Rational shutter_angle) {
   Timeline timeline = explicit_exposures(std::move(exposures));
-  timeline.duration_ns_ = timeline.exposures_.back().start_ns + std::max<std::int64_t>(last_period, 1);
-  timeline.rate_ = mean_rate(count, timeline.duration_ns_);
+  if (duration_ns < timeline.duration_ns_) {
+    throw InputError(format("the capture ends at {} ns, before its last exposure at {} ns", duration_ns,
+                            timeline.duration_ns_));
+  }
+  timeline.duration_ns_ = duration_ns;
+  timeline.rate_ = mean_rate(timeline.sample_count_, duration_ns);
   timeline.shutter_angle_ = shutter_angle;
   return timeline;
 }

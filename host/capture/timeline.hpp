@@ -60,6 +60,11 @@ class Timeline {
   // Throws InputError naming the first sample that ends before it starts or overlaps the one before.
   static Timeline explicit_exposures(std::vector<Exposure> exposures);
 
+  // Exposures that start at 0, and a domain that may go on after the last one: a timeline that was
+  // stored. Throws InputError as above, or where the domain ends before the last exposure.
+  static Timeline stored(std::vector<Exposure> exposures, std::int64_t duration_ns,
+                         Rational shutter_angle);
+
   [[nodiscard]] std::uint64_t sample_count() const { return sample_count_; }
   [[nodiscard]] std::int64_t duration_ns() const { return duration_ns_; }
   [[nodiscard]] std::int64_t start_ns(std::uint64_t k) const;

@@ -34,6 +34,28 @@ GainFunction GainFunction::boxcar(std::int64_t begin_ns, std::int64_t end_ns, do
   return GainFunction({{begin_ns, 0.0}, {begin_ns, gain}, {end_ns, gain}, {end_ns, 0.0}});
 }
 
+namespace {
+
+// The gain at a time within a piece, to the last place: the numerator gain·time + gain·time is summed
+// from exact products of factors that fit a double.
+double interpolate_exactly(const GainPiece& piece, std::int64_t time_ns) {
+  CompensatedSum numerator;
+  const auto add_product = [&](double gain, std::int64_t factor_ns) {
+    const std::int64_t low = factor_ns & 0xFFFF'FFFF;
+    for (const std::int64_t part : {factor_ns - low, low}) {
+      const auto factor = static_cast<double>(part);
+      const double product = gain * factor;
+      numerator.add(product);
+      numerator.add(std::fma(gain, factor, -product));
+    }
+  };
+  add_product(piece.begin_gain, piece.end_ns - time_ns);
+  add_product(piece.end_gain, time_ns - piece.begin_ns);
+  return numerator.value() / static_cast<double>(piece.end_ns - piece.begin_ns);
+}
+
+}  // namespace
+
 std::vector<GainPiece> GainFunction::pieces(std::int64_t duration_ns) const {
   std::vector<GainPiece> pieces;
   pieces.reserve(points_.size() + 1);
@@ -42,8 +64,10 @@ std::vector<GainPiece> GainFunction::pieces(std::int64_t duration_ns) const {
     clipped.begin_ns = std::max<std::int64_t>(whole.begin_ns, 0);
     clipped.end_ns = std::min(whole.end_ns, duration_ns);
     if (clipped.begin_ns >= clipped.end_ns) return;
-    if (clipped.begin_ns != whole.begin_ns) clipped.begin_gain = whole.at(clipped.begin_ns);
-    if (clipped.end_ns != whole.end_ns) clipped.end_gain = whole.at(clipped.end_ns);
+    if (clipped.begin_ns != whole.begin_ns) {
+      clipped.begin_gain = interpolate_exactly(whole, clipped.begin_ns);
+    }
+    if (clipped.end_ns != whole.end_ns) clipped.end_gain = interpolate_exactly(whole, clipped.end_ns);
     pieces.push_back(clipped);
   };
   append({0, points_.front().time_ns, first_gain(), first_gain()});

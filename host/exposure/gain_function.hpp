@@ -53,7 +53,9 @@ class GainFunction {
   [[nodiscard]] double first_gain() const { return points_.front().gain; }  // held before the first point
   [[nodiscard]] double last_gain() const { return points_.back().gain; }    // held after the last
 
-  // The function on [0, duration_ns], piece by piece, without gaps.
+  // The function on [0, duration_ns], piece by piece, without gaps. Gains at cut ends are exact to the
+  // last place, however far outside the control points lie that they are interpolated from: everything
+  // that is computed from pieces can then err in proportion to the gains within the capture.
   [[nodiscard]] std::vector<GainPiece> pieces(std::int64_t duration_ns) const;
 
   friend bool operator==(const GainFunction&, const GainFunction&) = default;

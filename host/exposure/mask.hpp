@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "capture/picture.hpp"
+
 namespace nutik {
 
 inline constexpr std::uint32_t kMaskValues = 256;
@@ -18,6 +20,12 @@ struct Mask {
   // A mask of one tag.
   static Mask uniform(std::uint32_t width, std::uint32_t height, std::uint8_t tag) {
     return {width, height, std::vector<std::uint8_t>(std::size_t{width} * height, tag)};
+  }
+
+  // The codes of an 8-bit picture with one channel, taken literally.
+  static Mask from_picture(const Picture& picture) {
+    const auto codes = picture.values<std::uint8_t>();
+    return {picture.shape.width, picture.shape.height, {codes.begin(), codes.end()}};
   }
 
   // How many pixels have each tag.

@@ -180,11 +180,23 @@ class BlockBuilder::Implementation {
         write_rows(geometry, tile, entries[tile].rows(), body);
       }
     }
-    skip();
+    begin_next();
     return offset;
   }
 
-  void skip() {
+  void pass(std::span<const std::byte> raster) {
+    if (!is_empty()) throw std::logic_error("a sample was passed over within a block");
+    // A lossless block starts from its first sample, whatever was held before.
+    if (capture_.noise.is_lossless()) {
+      ++first_sample_;
+      return;
+    }
+    add(raster);
+    begin_next();
+  }
+
+ private:
+  void begin_next() {
     first_sample_ += samples_;
     samples_ = 0;
     records_ = 0;
@@ -192,7 +204,6 @@ class BlockBuilder::Implementation {
     std::fill(lane_records_.begin(), lane_records_.end(), 0);
   }
 
- private:
   void check_white(std::span<const std::byte> raster) const {
     const std::uint32_t largest_possible = capture_.code_bytes == 1 ? 255 : 65'535;
     if (capture_.white_code >= largest_possible) return;
@@ -362,6 +373,6 @@ bool BlockBuilder::is_empty() const { return implementation_->is_empty(); }
 BlockExtent BlockBuilder::extent() const { return implementation_->extent(); }
 std::uint64_t BlockBuilder::record_count() const { return implementation_->record_count(); }
 std::uint64_t BlockBuilder::finish(PageBuffer& into) { return implementation_->finish(into); }
-void BlockBuilder::skip() { implementation_->skip(); }
+void BlockBuilder::pass(std::span<const std::byte> raster) { implementation_->pass(raster); }
 
 }  // namespace nutik

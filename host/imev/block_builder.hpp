@@ -12,7 +12,7 @@
 
 #include "capture/picture.hpp"
 #include "imev/block.hpp"
-#include "imev/page_buffer.hpp"
+#include "system/page_buffer.hpp"
 #include "imev/tile_cost.hpp"
 
 namespace nutik {
@@ -49,8 +49,9 @@ class BlockBuilder {
   // the front of `into`, which grows as needed; returns its bytes.
   std::uint64_t finish(PageBuffer& into);
 
-  // Forgets the current block's samples but the codes they left held, and begins the next.
-  void skip();
+  // Takes a sample between blocks (the current one is empty) that will not be kept: only what it leaves
+  // held counts.
+  void pass(std::span<const std::byte> raster);
 
  private:
   class Implementation;

@@ -1,5 +1,6 @@
 #include "imev/capture_source.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -32,6 +33,59 @@ void MemoryCapture::read(std::uint64_t block, std::span<std::byte> into) {
 BlockView MemoryCapture::view(std::uint64_t block) const {
   const Block& at = blocks_[block];
   return {capture_, at.extent, {at.payload.data(), at.bytes}};
+}
+
+StreamingCapture::StreamingCapture(const CaptureFormat& capture, Timeline timeline, SampleRange needed,
+                                   std::uint32_t block_samples, TilePolicy policy,
+                                   ReadSample read_sample)
+    : capture_(capture),
+      timeline_(std::move(timeline)),
+      needed_(needed),
+      block_samples_(block_samples),
+      read_sample_(std::move(read_sample)),
+      builder_(capture, block_samples, policy),
+      raster_(capture.sample_bytes()) {}
+
+std::uint64_t StreamingCapture::block_count() const {
+  return (needed_.last + block_samples_ - 1) / block_samples_;
+}
+
+BlockExtent StreamingCapture::block_extent(std::uint64_t block) const {
+  const std::uint64_t first = block * block_samples_;
+  const std::uint64_t count = std::min<std::uint64_t>(block_samples_, needed_.last - first);
+  return {first, static_cast<std::uint32_t>(count)};
+}
+
+void StreamingCapture::read_samples(std::uint64_t until, bool keep) {
+  while (samples_read_ < until) {
+    if (!read_sample_(raster_)) throw SampleCountMismatch{samples_read_};
+    ++samples_read_;
+    if (keep) {
+      builder_.add(raster_);
+    } else {
+      builder_.pass(raster_);
+    }
+  }
+}
+
+std::uint64_t StreamingCapture::prepare(std::uint64_t block) {
+  const BlockExtent extent = block_extent(block);
+  if (samples_read_ > extent.first_sample) {
+    throw std::logic_error("blocks of a stream must be asked for in increasing order");
+  }
+  read_samples(extent.first_sample, false);
+  read_samples(extent.range().last, true);
+  payload_bytes_ = builder_.finish(payload_);
+  if (samples_read_ == timeline_.sample_count()) {
+    std::uint64_t more = 0;
+    while (read_sample_(raster_)) ++more;
+    if (more > 0) throw SampleCountMismatch{samples_read_ + more};
+  }
+  return payload_bytes_;
+}
+
+void StreamingCapture::read(std::uint64_t /*block*/, std::span<std::byte> into) {
+  std::memcpy(into.data(), payload_.data(), payload_bytes_);
 }
 
 }  // namespace nutik

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -13,7 +14,7 @@
 #include "capture/timeline.hpp"
 #include "imev/block.hpp"
 #include "imev/block_builder.hpp"
-#include "imev/page_buffer.hpp"
+#include "system/page_buffer.hpp"
 
 namespace nutik {
 
@@ -67,6 +68,46 @@ class MemoryCapture final : public CaptureSource {
   CaptureFormat capture_;
   Timeline timeline_;
   std::vector<Block> blocks_;
+};
+
+// Thrown where a stream turns out to have another number of samples than its timeline.
+struct SampleCountMismatch {
+  std::uint64_t sample_count;  // that there really are
+};
+
+// A capture that is built while it is read, from a stream of samples. Nothing outside `needed` is kept,
+// nothing after it is read.
+class StreamingCapture final : public CaptureSource {
+ public:
+  // Writes the next sample as an interleaved raster and returns true, or returns false at the end.
+  using ReadSample = std::function<bool(std::span<std::byte> raster)>;
+
+  StreamingCapture(const CaptureFormat& capture, Timeline timeline, SampleRange needed,
+                   std::uint32_t block_samples, TilePolicy policy, ReadSample read_sample);
+
+  [[nodiscard]] const CaptureFormat& format() const override { return capture_; }
+  [[nodiscard]] const Timeline& timeline() const override { return timeline_; }
+  // Blocks lie where they would in a file of the whole capture; the last one ends with `needed`.
+  [[nodiscard]] std::uint64_t block_count() const override;
+  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override;
+
+  // Throws SampleCountMismatch where the stream ends too early, or goes on after the timeline's end.
+  std::uint64_t prepare(std::uint64_t block) override;
+  void read(std::uint64_t block, std::span<std::byte> into) override;
+
+ private:
+  void read_samples(std::uint64_t until, bool keep);
+
+  CaptureFormat capture_;
+  Timeline timeline_;
+  SampleRange needed_;
+  std::uint32_t block_samples_;
+  ReadSample read_sample_;
+  BlockBuilder builder_;
+  std::vector<std::byte> raster_;
+  std::uint64_t samples_read_ = 0;
+  PageBuffer payload_;
+  std::uint64_t payload_bytes_ = 0;
 };
 
 }  // namespace nutik

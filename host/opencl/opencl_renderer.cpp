@@ -5,7 +5,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "imev/page_buffer.hpp"
+#include "system/page_buffer.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "opencl/kernel_sources.hpp"
 #include "opencl/opencl_api.hpp"

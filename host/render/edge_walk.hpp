@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <span>
+#include <utility>
+#include <vector>
 
 #include "exposure/compensated_sum.hpp"
 #include "exposure/gain_function.hpp"
@@ -26,60 +27,58 @@ struct LightStretch {
   }
 };
 
-// A gain function as the reference reads it: straight from its control points.
+// A gain function as the reference walks along it.
 class GainWalk {
  public:
   // Gains are divided by 2^exponent() so that the sums neither overflow nor lose digits; the caller
   // multiplies the result by it.
-  GainWalk(std::span<const ControlPoint> points, std::int64_t duration_ns) : points_(points) {
+  explicit GainWalk(std::vector<GainPiece> pieces) : pieces_(std::move(pieces)) {
     double largest = 0.0;
-    for (std::size_t next = 0; next <= points.size(); ++next) {
-      const std::int64_t begin = std::max<std::int64_t>(next == 0 ? 0 : points[next - 1].time_ns, 0);
-      const std::int64_t end = std::min(next == points.size() ? duration_ns : points[next].time_ns,
-                                        duration_ns);
-      const double before = next == 0 ? points[0].gain : points[next - 1].gain;
-      const double after = next == points.size() ? before : points[next].gain;
-      if (begin >= end || (before == 0.0 && after == 0.0)) continue;
-      support_ns_ += end - begin;
-      largest = std::max({largest, std::fabs(before), std::fabs(after)});
+    for (const GainPiece& piece : pieces_) {
+      if (piece.begin_gain == 0.0 && piece.end_gain == 0.0) continue;
+      support_ns_ += piece.end_ns - piece.begin_ns;
+      largest = std::max({largest, std::fabs(piece.begin_gain), std::fabs(piece.end_gain)});
     }
     exponent_ = largest > 0.0 ? std::ilogb(largest) : 0;
+    for (GainPiece& piece : pieces_) {
+      piece.begin_gain = std::scalbn(piece.begin_gain, -exponent_);
+      piece.end_gain = std::scalbn(piece.end_gain, -exponent_);
+    }
   }
 
   [[nodiscard]] int exponent() const { return exponent_; }
   [[nodiscard]] std::int64_t support_ns() const { return support_ns_; }  // D
 
+  // The piece that holds `time_ns`, as a place to start a walk from.
+  [[nodiscard]] std::size_t piece_at(std::int64_t time_ns) const {
+    std::size_t piece = 0;
+    while (piece + 1 < pieces_.size() && pieces_[piece].end_ns <= time_ns) ++piece;
+    return piece;
+  }
+
   // Calls visit(begin_ns, end_ns, gain at begin, gain at end) for every interval of [begin_ns, end_ns]
-  // between two control points. `next` is the walk's place: the first control point after begin_ns or
-  // one before that.
+  // between two control points. `piece` is the walk's place and moves on with it.
   template <typename Visit>
-  void for_each_interval(std::int64_t begin_ns, std::int64_t end_ns, std::size_t& next,
+  void for_each_interval(std::int64_t begin_ns, std::int64_t end_ns, std::size_t& piece,
                          Visit visit) const {
     std::int64_t time_ns = begin_ns;
     while (time_ns < end_ns) {
-      while (next < points_.size() && points_[next].time_ns <= time_ns) ++next;
-      const std::int64_t until_ns =
-          next < points_.size() ? std::min(points_[next].time_ns, end_ns) : end_ns;
-      visit(time_ns, until_ns, gain_at(next, time_ns), gain_at(next, until_ns));
+      while (pieces_[piece].end_ns <= time_ns) ++piece;
+      const std::int64_t until_ns = std::min(pieces_[piece].end_ns, end_ns);
+      visit(time_ns, until_ns, gain_at(pieces_[piece], time_ns), gain_at(pieces_[piece], until_ns));
       time_ns = until_ns;
     }
   }
 
  private:
-  // The scaled gain at a time between control points next - 1 and next.
-  [[nodiscard]] double gain_at(std::size_t next, std::int64_t time_ns) const {
-    if (next == 0) return std::scalbn(points_.front().gain, -exponent_);
-    const ControlPoint& left = points_[next - 1];
-    const double from = std::scalbn(left.gain, -exponent_);
-    if (next == points_.size()) return from;
-    const ControlPoint& right = points_[next];
-    const double to = std::scalbn(right.gain, -exponent_);
-    if (time_ns == right.time_ns) return to;
-    return from + (to - from) * (static_cast<double>(time_ns - left.time_ns) /
-                                 static_cast<double>(right.time_ns - left.time_ns));
+  [[nodiscard]] static double gain_at(const GainPiece& piece, std::int64_t time_ns) {
+    if (time_ns == piece.end_ns) return piece.end_gain;
+    return piece.begin_gain + (piece.end_gain - piece.begin_gain) *
+                                  (static_cast<double>(time_ns - piece.begin_ns) /
+                                   static_cast<double>(piece.end_ns - piece.begin_ns));
   }
 
-  std::span<const ControlPoint> points_;
+  std::vector<GainPiece> pieces_;
   int exponent_ = 0;
   std::int64_t support_ns_ = 0;
 };

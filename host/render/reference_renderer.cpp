@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "imev/block.hpp"
-#include "imev/page_buffer.hpp"
+#include "system/page_buffer.hpp"
 #include "render/edge_walk.hpp"
-#include "render/parallel.hpp"
+#include "system/parallel.hpp"
 
 namespace nutik {
 namespace {
@@ -24,21 +24,14 @@ class Reference {
   Reference(const RenderPlan& plan, const Timeline& timeline)
       : plan_(plan), timeline_(timeline), grid_(plan.capture.shape), walks_(plan.capture.shape.value_count()) {
     for (const PlannedFunction& planned : plan.functions) {
-      gains_.emplace_back(planned.function.points(), plan.duration_ns);
+      gains_.emplace_back(planned.function.pieces(plan.duration_ns));
     }
   }
 
   void add_block(const PlannedBlock& planned, const BlockView& block, bool follows_the_one_before) {
     const std::vector<SampleTimes> times = timeline_.times(planned.extent.range());
-    // Where each function's walk starts within its control points.
-    std::vector<std::size_t> first_points;
-    for (const PlannedFunction& function : plan_.functions) {
-      const auto points = function.function.points();
-      const auto after = std::upper_bound(
-          points.begin(), points.end(), times.front().before_ns,
-          [](std::int64_t time_ns, const ControlPoint& point) { return time_ns < point.time_ns; });
-      first_points.push_back(static_cast<std::size_t>(after - points.begin()));
-    }
+    std::vector<std::size_t> first_pieces;  // where each function's walk starts
+    for (const GainWalk& gain : gains_) first_pieces.push_back(gain.piece_at(times.front().before_ns));
     parallel_for(grid_.rows(), [&](std::uint64_t tile_row) {
       std::vector<ChangeRecord> history;
       for (std::uint32_t column = 0; column < grid_.columns(); ++column) {
@@ -49,7 +42,7 @@ class Reference {
             return;  // padding
           }
           block.read_history(tile, lane, history);
-          walk_pixel(pixel, history, times, first_points[plan_.function_of_pixel[pixel]],
+          walk_pixel(pixel, history, times, first_pieces[plan_.function_of_pixel[pixel]],
                      follows_the_one_before);
         });
       }
@@ -66,16 +59,16 @@ class Reference {
 
  private:
   void walk_pixel(std::uint64_t pixel, const std::vector<ChangeRecord>& history,
-                  const std::vector<SampleTimes>& times, std::size_t first_point,
+                  const std::vector<SampleTimes>& times, std::size_t first_piece,
                   bool follows_the_one_before) {
     const std::uint32_t channels = plan_.capture.shape.channels;
     const GainWalk& gain = gains_[plan_.function_of_pixel[pixel]];
     for (std::uint32_t channel = 0; channel < channels; ++channel) {
       Walk& walk = walks_[pixel * channels + channel];
-      std::size_t next = first_point;
+      std::size_t piece = first_piece;
       const auto expose = [&](const LightStretch& light) {
         gain.for_each_interval(
-            light.begin_ns, light.end_ns, next,
+            light.begin_ns, light.end_ns, piece,
             [&](std::int64_t begin_ns, std::int64_t end_ns, double gain0, double gain1) {
               walk.sum.add(integrate_interval(static_cast<double>(end_ns - begin_ns), light.at(begin_ns),
                                               light.at(end_ns), gain0, gain1));

@@ -54,6 +54,12 @@ void warn(RenderPlan& plan, const PlannedFunction& function, bool was_unmapped) 
   }
 }
 
+SampleRange live_samples(const GainSummary& summary, const Timeline& timeline,
+                         const PlanOptions& options) {
+  if (options.live_all) return {0, timeline.sample_count()};
+  return timeline.samples_reaching(summary.live.begin_ns, summary.live.end_ns);
+}
+
 bool is_live(const RenderPlan& plan, const SampleRange& samples) {
   return std::any_of(plan.functions.begin(), plan.functions.end(), [&](const PlannedFunction& function) {
     return function.live.first < samples.last && samples.first < function.live.last;
@@ -113,10 +119,26 @@ std::uint64_t RenderPlan::sample_count() const {
   return samples;
 }
 
+SampleRange needed_samples(const Timeline& timeline, const FunctionSet& functions, const Mask& mask,
+                           const PlanOptions& options) {
+  const auto pixels = mask.pixels_per_tag();
+  SampleRange needed;
+  for (const auto& [tag, function] : functions) {
+    if (pixels[tag] == 0) continue;
+    const GainSummary summary = summarize(function, timeline.duration_ns());
+    const SampleRange live = live_samples(summary, timeline, options);
+    if (live.empty()) continue;
+    needed.first = needed.empty() ? live.first : std::min(needed.first, live.first);
+    needed.last = std::max(needed.last, live.last);
+  }
+  return needed;
+}
+
 RenderPlan make_plan(const CaptureSource& source, const FunctionSet& functions, const Mask& mask,
                      const PlanOptions& options) {
   RenderPlan plan;
   plan.capture = source.format();
+  if (options.transfer) plan.capture.transfer = *options.transfer;
   const Timeline& timeline = source.timeline();
   plan.duration_ns = timeline.duration_ns();
   check_mask(plan.capture.shape, mask);
@@ -132,9 +154,7 @@ RenderPlan make_plan(const CaptureSource& source, const FunctionSet& functions, 
     const bool unmapped = found == functions.end();
     PlannedFunction function{tag, unmapped ? zero : found->second, {}, {}, pixels[value]};
     function.summary = summarize(function.function, plan.duration_ns);
-    const Interval& live = function.summary.live;
-    function.live = options.live_all ? SampleRange{0, timeline.sample_count()}
-                                     : timeline.samples_reaching(live.begin_ns, live.end_ns);
+    function.live = live_samples(function.summary, timeline, options);
     warn(plan, function, unmapped);
     index_of_tag[value] = static_cast<std::uint8_t>(plan.functions.size());
     plan.functions.push_back(std::move(function));

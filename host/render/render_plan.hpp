@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ using FunctionSet = std::map<std::uint8_t, GainFunction>;  // by mask value
 struct PlanOptions {
   bool unmapped_is_zero = false;  // mask values without a function expose to 0 instead of being an error
   bool live_all = false;          // visit every sample, also where all gains are 0
+  std::optional<Transfer> transfer;  // instead of the capture's own
 };
 
 struct PlannedFunction {
@@ -70,6 +72,11 @@ struct RenderPlan {
   // The samples that are visited.
   [[nodiscard]] std::uint64_t sample_count() const;
 };
+
+// The samples that an exposure of these functions through this mask needs, as one range: what has to be
+// read of a capture that can only be read from its start.
+[[nodiscard]] SampleRange needed_samples(const Timeline& timeline, const FunctionSet& functions,
+                                         const Mask& mask, const PlanOptions& options);
 
 // Throws InputError where the mask has another size than the capture, or mask values have no function
 // (listing the values and how many pixels each has).

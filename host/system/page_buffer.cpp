@@ -1,4 +1,4 @@
-#include "imev/page_buffer.hpp"
+#include "system/page_buffer.hpp"
 
 #include <sys/mman.h>
 
@@ -8,18 +8,23 @@
 namespace nutik {
 namespace {
 
+constexpr std::uint64_t kPageBytes = 4096;
 constexpr std::uint64_t kHugePageBytes = 2 << 20;
+// Smaller buffers would spend longer on clearing huge pages than on their own work.
+constexpr std::uint64_t kHugeFromBytes = 4 * kHugePageBytes;
 
 }  // namespace
 
 PageBuffer::PageBuffer(std::uint64_t bytes) {
   if (bytes == 0) return;
-  bytes_ = (bytes + kHugePageBytes - 1) / kHugePageBytes * kHugePageBytes;
+  const bool huge = bytes >= kHugeFromBytes;
+  const std::uint64_t unit = huge ? kHugePageBytes : kPageBytes;
+  bytes_ = (bytes + unit - 1) / unit * unit;
   void* mapped = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE,
                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (mapped == MAP_FAILED) throw std::bad_alloc();
   data_ = static_cast<std::byte*>(mapped);
-  madvise(data_, bytes_, MADV_HUGEPAGE);  // a hint: without it pages are small, nothing else
+  if (huge) madvise(data_, bytes_, MADV_HUGEPAGE);  // a hint: without it pages are small, nothing else
 }
 
 PageBuffer::~PageBuffer() {

@@ -1,0 +1,20 @@
+#include "app/console.hpp"
+
+#include <cstdio>
+
+namespace nutik::app {
+namespace {
+
+void write_line(std::FILE* stream, const char* before, const std::string& text) {
+  std::fprintf(stream, "%s%s\n", before, text.c_str());
+  std::fflush(stream);
+}
+
+}  // namespace
+
+void print_line(const std::string& text) { write_line(stdout, "", text); }
+void print_warning(const std::string& text) { write_line(stderr, "warning: ", text); }
+void print_error(const std::string& text) { write_line(stderr, "nutik-cl: ", text); }
+void print_note(const std::string& text) { write_line(stderr, "", text); }
+
+}  // namespace nutik::app

@@ -1,0 +1,13 @@
+// The only place that prints.
+#pragma once
+
+#include <string>
+
+namespace nutik::app {
+
+void print_line(const std::string& text);     // result, to stdout
+void print_warning(const std::string& text);  // to stderr, behind "warning: "
+void print_error(const std::string& text);    // to stderr, behind "nutik-cl: "
+void print_note(const std::string& text);     // to stderr
+
+}  // namespace nutik::app

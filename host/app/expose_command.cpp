@@ -1,0 +1,157 @@
+#include <filesystem>
+
+#include "app/capture_input.hpp"
+#include "app/commands.hpp"
+#include "app/console.hpp"
+#include "app/exposure_request.hpp"
+#include "app/output_name.hpp"
+#include "app/renderer_choice.hpp"
+#include "app/size_text.hpp"
+#include "app/stopwatch.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/picture_writer.hpp"
+#include "render/render_plan.hpp"
+
+namespace nutik::app {
+namespace {
+
+constexpr std::size_t kFunctionsInSummary = 6;
+
+// What one exposure came to.
+struct Exposed {
+  RenderPlan plan;
+  Picture picture;
+  Timeline timeline;
+};
+
+OutputFormat output_format(const Options& options, const std::filesystem::path& output,
+                           const CaptureFormat& capture) {
+  const std::optional<Depth> wish =
+      options.depth ? std::optional(parse_depth(*options.depth)) : std::nullopt;
+  const ValueType usual = capture.code_bytes == 1 ? ValueType::code8 : ValueType::code16;
+  OutputFormat format;
+  format.type = value_type_for(output, wish, usual, capture.shape.channels);
+  // A picture of the capture's own depth has the capture's codes; another depth its full range.
+  format.white_code = format.type == usual                ? capture.white_code
+                      : format.type == ValueType::code16 ? 65'535
+                                                         : 255;
+  return format;
+}
+
+class Exposing {
+ public:
+  Exposing(const Options& options, const std::filesystem::path& output)
+      : options_(options), output_(output), request_(ExposureRequest::from(options)) {}
+
+  Exposed from_tik(const std::string& input) {
+    refuse_source_options(options_, input);
+    tik::Reader reader(input);
+    return expose(reader, request_.functions(reader.timeline()));
+  }
+
+  // The timeline is known for sure only when the clip has been read to its end, which an exposure of its
+  // beginning never does. So the clip's word is taken, and where decoding proves it wrong, it is read
+  // once more with the right number of pictures.
+  Exposed from_clip(const std::string& input, const SourceOptions& source_options) {
+    std::optional<std::uint64_t> sample_count;
+    for (;;) {
+      SourceClip source = open_source(input, source_options);
+      const Timeline timeline =
+          timeline_of(source.clip->info(), source_options.clip, source_options.shutter_angle,
+                      sample_count.value_or(source.clip->info().sample_count));
+      const FunctionSet functions = request_.functions(timeline);
+      PlanOptions plan_options = request_.plan_options();
+      plan_options.transfer.reset();  // it went into the capture's format
+      const SampleRange needed =
+          needed_samples(timeline, functions, request_.mask(source.capture.shape), plan_options);
+      StreamingCapture stream(
+          source.capture, timeline, needed, source.block_samples, source_options.tiles,
+          [&](std::span<std::byte> raster) { return source.clip->read(raster); });
+      try {
+        return expose(stream, functions);
+      } catch (const SampleCountMismatch& mismatch) {
+        if (sample_count == mismatch.sample_count || mismatch.sample_count == 0) {
+          throw InputError(format("{}: only {} pictures can be decoded", input, mismatch.sample_count));
+        }
+        sample_count = mismatch.sample_count;
+      }
+    }
+  }
+
+  // What makes the picture, for the summary.
+  [[nodiscard]] std::string renderer_name() const { return renderer_->name(); }
+  [[nodiscard]] const std::string& label() const { return request_.label(); }
+  void set_output(const std::filesystem::path& output) { output_ = output; }
+
+ private:
+  Exposed expose(CaptureSource& source, const FunctionSet& functions) {
+    RenderPlan plan =
+        make_plan(source, functions, request_.mask(source.format().shape), request_.plan_options());
+    const OutputFormat format = output_format(options_, output_, plan.capture);
+    if (!renderer_) renderer_ = choose_renderer(options_);
+    Picture picture = renderer_->render(plan, source, format);
+    return {std::move(plan), std::move(picture), source.timeline()};
+  }
+
+  const Options& options_;
+  std::filesystem::path output_;
+  ExposureRequest request_;
+  std::unique_ptr<Renderer> renderer_;
+};
+
+std::vector<std::string> input_names(const Options& options) {
+  std::vector<std::string> inputs{options.operands.front()};
+  if (options.mask) inputs.push_back(*options.mask);
+  if (options.functions) inputs.push_back(*options.functions);
+  return inputs;
+}
+
+std::string still_gains_text(const RenderPlan& plan) {
+  std::string text;
+  for (std::size_t f = 0; f < std::min(plan.functions.size(), kFunctionsInSummary); ++f) {
+    const PlannedFunction& function = plan.functions[f];
+    text += format("{}M{} {:.6g}", f == 0 ? "" : ", ", function.tag, function.summary.still_gain());
+  }
+  if (plan.functions.size() > kFunctionsInSummary) {
+    text += format(" and {} more", plan.functions.size() - kFunctionsInSummary);
+  }
+  return text;
+}
+
+}  // namespace
+
+int run_expose(const Options& options) {
+  const Stopwatch stopwatch;
+  const auto stated = stated_output(options.output, options.operands, "expose");
+  const std::string& input = options.operands.front();
+  std::filesystem::path output = stated.value_or("");
+  Exposing exposing(options, output);
+  if (!stated) {
+    output = std::filesystem::path(input).stem().string() + "-" + exposing.label() + ".png";
+    exposing.set_output(output);
+  }
+  check_output(output, OutputKind::picture, input_names(options));
+
+  const bool captured = is_tik(input);
+  const SourceOptions source_options = SourceOptions::from(options);
+  const Exposed exposed =
+      captured ? exposing.from_tik(input) : exposing.from_clip(input, source_options);
+  for (const std::string& warning : exposed.plan.warnings) print_warning(warning);
+  write_picture(output, exposed.picture);
+  if (options.quiet) return 0;
+
+  const RenderPlan& plan = exposed.plan;
+  print_line(format("{}: {}, {} of {} samples, still gain {}, {:.2f} s on {}", output.string(),
+                    shape_text(plan.capture.shape), plan.sample_count(), exposed.timeline.sample_count(),
+                    still_gains_text(plan), stopwatch.seconds(), exposing.renderer_name()));
+  if (!captured) {
+    print_line(format("source: {}", timing_text(exposed.timeline, source_options)));
+    if (const std::string note = slow_motion_note(exposed.timeline, source_options); !note.empty()) {
+      print_note(format("note: {}", note));
+    }
+  }
+  return 0;
+}
+
+}  // namespace nutik::app

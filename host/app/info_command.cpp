@@ -1,0 +1,80 @@
+#include "app/capture_input.hpp"
+#include "app/commands.hpp"
+#include "app/console.hpp"
+#include "app/size_text.hpp"
+#include "app/time_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "tik/reader.hpp"
+
+namespace nutik::app {
+namespace {
+
+struct TileTally {
+  std::uint64_t still = 0;
+  std::uint64_t rows = 0;
+  std::uint64_t dense = 0;
+  std::uint64_t records = 0;
+
+  void count(TileKind kind) {
+    switch (kind) {
+      case TileKind::still: ++still; break;
+      case TileKind::rows: ++rows; break;
+      case TileKind::dense: ++dense; break;
+      case TileKind::records: ++records; break;
+    }
+  }
+};
+
+}  // namespace
+
+int run_info(const Options& options) {
+  if (options.operands.size() != 1) throw UsageError("info takes one capture: nutik-cl info clip.tik");
+  const std::string& name = options.operands.front();
+  tik::Reader reader(name);
+  const CaptureFormat& capture = reader.format();
+  const Timeline& timeline = reader.timeline();
+
+  TileTally tally;
+  std::uint64_t payload_bytes = 0, record_count = 0;
+  PageBuffer payload;
+  for (std::uint64_t block = 0; block < reader.block_count(); ++block) {
+    const std::uint64_t bytes = reader.prepare(block);
+    payload.reserve(bytes);
+    reader.read(block, payload.first(bytes));
+    const BlockView view(capture, reader.block_extent(block), payload.first(bytes));
+    for (std::uint64_t tile = 0; tile < view.geometry().tile_count; ++tile) {
+      tally.count(view.geometry().kind_of(view.entry(tile)));
+    }
+    payload_bytes += bytes;
+    record_count += reader.index()[block].record_count;
+  }
+  const std::uint64_t raw_bytes = capture.sample_bytes() * timeline.sample_count();
+  const auto share = [](std::uint64_t part, std::uint64_t whole) {
+    return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+  };
+  const std::uint64_t tiles = tally.still + tally.rows + tally.dense + tally.records;
+
+  print_line(format("{}: a .tik capture, version {}", name, tik::kVersion));
+  print_line(format("  pictures    {}, {} bits, white code {}, transfer {}", shape_text(capture.shape),
+                    capture.code_bytes * 8, capture.white_code, capture.transfer.text()));
+  print_line(format("  samples     {} in {} blocks", timeline.sample_count(), reader.block_count()));
+  print_line(format("  time        {}, {} samples a second{}, shutter {} degrees",
+                    duration_text(timeline.duration_ns()), timeline.rate().text(),
+                    timeline.is_constant() ? "" : " on average (irregular)",
+                    timeline.shutter_angle().text()));
+  print_line(format("  changes     {:.2f} records a pixel, tolerance {}{}",
+                    static_cast<double>(record_count) / static_cast<double>(capture.shape.pixel_count()),
+                    capture.noise.tolerance, capture.noise.is_lossless() ? " (lossless)" : ""));
+  print_line(format("  tiles       {:.1f} % still, {:.1f} % rows, {:.1f} % dense, {:.1f} % records",
+                    share(tally.still, tiles), share(tally.rows, tiles), share(tally.dense, tiles),
+                    share(tally.records, tiles)));
+  print_line(format("  size        {} ({:.1f} % of {} raw), {} in memory, codec {}",
+                    bytes_text(reader.file_bytes()), share(reader.file_bytes(), raw_bytes),
+                    bytes_text(raw_bytes), bytes_text(payload_bytes), reader.header().codec));
+  const std::int64_t middle = timeline.start_ns(timeline.sample_count() / 2) / 1'000'000;
+  print_line(format("try: nutik-cl --start {}ms --exposure 1f {} picture.png", middle, name));
+  return 0;
+}
+
+}  // namespace nutik::app

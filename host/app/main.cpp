@@ -1,0 +1,41 @@
+// nutik-cl: the one place that turns errors into messages and exit statuses.
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "app/command_line.hpp"
+#include "app/console.hpp"
+#include "capture/error.hpp"
+
+namespace {
+
+enum ExitStatus { kOk = 0, kOther = 1, kUsage = 2, kInput = 3, kDevice = 4, kOutput = 5 };
+
+int fail(const std::exception& error, ExitStatus status) {
+  nutik::app::print_error(error.what());
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    const nutik::app::ParsedCommandLine parsed = nutik::app::parse_command_line(words);
+    return parsed.command == nullptr ? kOk : parsed.command->run(parsed.options);
+  } catch (const nutik::UsageError& error) {
+    return fail(error, kUsage);
+  } catch (const nutik::InputError& error) {
+    return fail(error, kInput);
+  } catch (const nutik::DeviceError& error) {
+    return fail(error, kDevice);
+  } catch (const nutik::OutputError& error) {
+    return fail(error, kOutput);
+  } catch (const std::bad_alloc&) {
+    nutik::app::print_error("out of memory");
+    return kOther;
+  } catch (const std::exception& error) {
+    return fail(error, kOther);
+  }
+}

@@ -1,0 +1,24 @@
+// Where a command writes, and what it must not replace.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace nutik::app {
+
+enum class OutputKind { tik, picture };
+
+// The output that was asked for: -o or the second operand. Throws UsageError where both were given, or
+// there are more operands than `command` takes.
+[[nodiscard]] std::optional<std::filesystem::path> stated_output(const std::optional<std::string>& option,
+                                                                 std::span<const std::string> operands,
+                                                                 const std::string& command);
+
+// Throws UsageError where `output` names one of the inputs, has a name of another kind, or would replace
+// a file of another kind.
+void check_output(const std::filesystem::path& output, OutputKind kind,
+                  std::span<const std::string> inputs);
+
+}  // namespace nutik::app

@@ -1,0 +1,13 @@
+// What somebody may have meant by a word that is not known.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace nutik::app {
+
+// `; did you mean --exposure?` for the nearest of the known words where it is near enough, else nothing.
+[[nodiscard]] std::string did_you_mean(std::string_view word, std::span<const std::string> known);
+
+}  // namespace nutik::app

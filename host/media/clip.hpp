@@ -1,0 +1,58 @@
+// Clips: what a capture is made from. A clip hands out its samples one after another as rasters of codes
+// (layout: capture/picture.hpp) and knows what can be known of their times before they are decoded.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "capture/picture.hpp"
+#include "capture/timeline.hpp"
+
+namespace nutik {
+
+// When a clip's samples were taken, as far as its files tell: a constant rate, or a start for each.
+struct ClipTiming {
+  std::optional<Rational> rate;         // samples a second
+  std::vector<std::int64_t> starts_ns;  // where the rate is not constant
+};
+
+struct ClipInfo {
+  CaptureFormat format;  // the noise model is left at lossless
+  ClipTiming timing;
+  // As the files announce it. Decoding may end earlier or later; the clip is right then.
+  std::uint64_t sample_count = 0;
+  std::vector<std::string> notes;  // what a person should know, whole sentences
+};
+
+// What a person states about a clip; it goes before what the files say.
+struct ClipOptions {
+  std::optional<Rational> rate;
+  std::optional<std::uint32_t> white_code;
+  std::optional<Transfer> transfer;
+};
+
+class Clip {
+ public:
+  virtual ~Clip() = default;
+
+  [[nodiscard]] virtual const ClipInfo& info() const = 0;
+
+  // Reads the next sample into `raster`, of info().format.sample_bytes(). Returns false at the end.
+  // Throws InputError where a sample is damaged or of another size than the first.
+  virtual bool read(std::span<std::byte> raster) = 0;
+};
+
+// Opens a video. Throws InputError where there is none, or none that can be read.
+[[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path,
+                                              const ClipOptions& options);
+
+// The timeline of a clip with `sample_count` samples.
+[[nodiscard]] Timeline timeline_of(const ClipInfo& info, const ClipOptions& options,
+                                   Rational shutter_angle, std::uint64_t sample_count);
+
+}  // namespace nutik

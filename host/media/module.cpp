@@ -1,0 +1,55 @@
+#include "media/module.hpp"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
+#ifndef NUTIK_INSTALLED_MODULES
+#error "NUTIK_INSTALLED_MODULES is not set: the folder of installed modules, relative to the program's"
+#endif
+
+namespace nutik {
+namespace {
+
+std::vector<std::filesystem::path> module_folders() {
+  std::vector<std::filesystem::path> folders;
+  if (const char* folder = std::getenv("NUTIK_MODULES"); folder != nullptr) folders.emplace_back(folder);
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    folders.push_back(program.parent_path());
+    folders.push_back(program.parent_path() / NUTIK_INSTALLED_MODULES);
+  }
+  return folders;
+}
+
+}  // namespace
+
+OpenVideo load_video_module() {
+  std::string tried;
+  for (const std::filesystem::path& folder : module_folders()) {
+    const std::filesystem::path file = folder / "nutik-video.so";
+    if (!std::filesystem::exists(file)) {
+      tried += format("\n  {}: no such file", file.string());
+      continue;
+    }
+    // Never closed: OpenCV's and FFmpeg's threads may outlive any place where that would be safe.
+    void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (library == nullptr) {
+      tried += format("\n  {}", dlerror());
+      continue;
+    }
+    if (void* entry = dlsym(library, "nutik_open_video")) return reinterpret_cast<OpenVideo>(entry);
+    tried += format("\n  {}: not a module of this program", file.string());
+  }
+  throw InputError(format("videos cannot be read: the module for them was not found; install it beside "
+                          "the program, or set NUTIK_MODULES to its folder. Looked for:{}",
+                          tried));
+}
+
+}  // namespace nutik

@@ -1,0 +1,19 @@
+// Netpbm pictures: PGM and PPM, plain (P2, P3) and raw (P5, P6), and PFM.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "capture/picture.hpp"
+
+namespace nutik {
+
+// Reads a PGM or PPM. Codes are taken as they stand and never scaled; the picture's white code is the
+// file's maxval. Throws InputError naming `name` where the file is damaged, cut off, or of another kind.
+[[nodiscard]] Picture read_netpbm(std::span<const std::byte> file, const std::string& name);
+
+// A picture as a raw PGM or PPM (codes), or as a PFM (light32: floats in light, bottom row first).
+[[nodiscard]] std::string netpbm_text(const Picture& picture);
+
+}  // namespace nutik

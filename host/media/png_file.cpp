@@ -1,0 +1,124 @@
+#include "media/png_file.hpp"
+
+#include <png.h>
+
+#include <cstring>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
+namespace nutik {
+namespace {
+
+// libpng reports errors through a callback that must not return. Throwing through its C frames is what
+// it leaves to C++ programs; it holds no resources there that its own structures do not own.
+[[noreturn]] void throw_input(png_structp png, png_const_charp message) {
+  throw InputError(format("{} cannot be read: {}", *static_cast<std::string*>(png_get_error_ptr(png)),
+                          message));
+}
+[[noreturn]] void throw_output(png_structp, png_const_charp message) {
+  throw OutputError(format("the PNG cannot be written: {}", message));
+}
+void ignore_warning(png_structp, png_const_charp) {}
+
+struct ByteReader {
+  std::span<const std::byte> rest;
+};
+
+void read_bytes(png_structp png, png_bytep to, png_size_t bytes) {
+  auto* reader = static_cast<ByteReader*>(png_get_io_ptr(png));
+  if (bytes > reader->rest.size()) png_error(png, "it was cut off");
+  std::memcpy(to, reader->rest.data(), bytes);
+  reader->rest = reader->rest.subspan(bytes);
+}
+
+struct ReadStructure {
+  png_structp png;
+  png_infop info;
+  explicit ReadStructure(std::string& name)
+      : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &name, throw_input, ignore_warning)),
+        info(png_create_info_struct(png)) {}
+  ~ReadStructure() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+struct WriteStructure {
+  png_structp png;
+  png_infop info;
+  WriteStructure()
+      : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, throw_output, ignore_warning)),
+        info(png_create_info_struct(png)) {}
+  ~WriteStructure() { png_destroy_write_struct(&png, &info); }
+};
+
+const char* colour_name(int colour_type) {
+  switch (colour_type) {
+    case PNG_COLOR_TYPE_GRAY: return "grey";
+    case PNG_COLOR_TYPE_GRAY_ALPHA: return "grey with transparency";
+    case PNG_COLOR_TYPE_PALETTE: return "palette";
+    case PNG_COLOR_TYPE_RGB: return "RGB";
+    default: return "RGB with transparency";
+  }
+}
+
+// Fast rather than small: a picture is written and looked at many times while a function is adjusted.
+constexpr int kCompressionLevel = 2;
+
+}  // namespace
+
+bool is_png(std::span<const std::byte> file) {
+  return file.size() >= 8 && png_sig_cmp(reinterpret_cast<png_const_bytep>(file.data()), 0, 8) == 0;
+}
+
+Picture read_grey_png(std::span<const std::byte> file, const std::string& name) {
+  std::string error_name = name;
+  ReadStructure read(error_name);
+  ByteReader reader{file};
+  png_set_read_fn(read.png, &reader, read_bytes);
+  png_read_info(read.png, read.info);
+  const int colour = png_get_color_type(read.png, read.info);
+  const int bits = png_get_bit_depth(read.png, read.info);
+  if (colour != PNG_COLOR_TYPE_GRAY || bits != 8) {
+    throw InputError(format("{} is a PNG of {} bits, {}; it must be 8 bits, grey", name, bits,
+                            colour_name(colour)));
+  }
+  png_set_interlace_handling(read.png);
+  png_read_update_info(read.png, read.info);
+  Picture picture({png_get_image_width(read.png, read.info), png_get_image_height(read.png, read.info), 1},
+                  ValueType::code8, 255);
+  std::vector<png_bytep> rows(picture.shape.height);
+  for (std::uint32_t y = 0; y < picture.shape.height; ++y) {
+    rows[y] = reinterpret_cast<png_bytep>(picture.bytes.data()) + std::size_t{y} * picture.shape.width;
+  }
+  png_read_image(read.png, rows.data());
+  png_read_end(read.png, nullptr);
+  return picture;
+}
+
+void write_png(OutputFile& file, const Picture& picture) {
+  const Shape& shape = picture.shape;
+  const std::size_t bytes = value_bytes(picture.type);
+  WriteStructure write;
+  png_set_write_fn(
+      write.png, &file,
+      [](png_structp png, png_bytep from, png_size_t count) {
+        static_cast<OutputFile*>(png_get_io_ptr(png))
+            ->write({reinterpret_cast<const std::byte*>(from), count});
+      },
+      nullptr);
+  png_set_IHDR(write.png, write.info, shape.width, shape.height, static_cast<int>(bytes * 8),
+               shape.channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_compression_level(write.png, kCompressionLevel);
+  png_set_filter(write.png, 0, PNG_FILTER_SUB);
+  png_set_compression_buffer_size(write.png, 1 << 16);
+  png_write_info(write.png, write.info);
+  if (bytes == 2) png_set_swap(write.png);  // PNG has the high byte first
+  const std::size_t row_bytes = std::size_t{shape.width} * shape.channels * bytes;
+  for (std::uint32_t y = 0; y < shape.height; ++y) {
+    png_write_row(write.png, reinterpret_cast<png_const_bytep>(picture.bytes.data() + y * row_bytes));
+  }
+  png_write_end(write.png, nullptr);
+}
+
+}  // namespace nutik

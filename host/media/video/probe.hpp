@@ -1,0 +1,28 @@
+// What a video file says of itself, read through libavformat without decoding a picture.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "capture/picture.hpp"
+#include "capture/rational.hpp"
+#include "media/clip.hpp"
+
+namespace nutik::video {
+
+struct Probe {
+  int stream = 0;                // index of the picture stream
+  Shape shape;                   // as coded
+  std::uint32_t bits = 8;        // of a component
+  bool is_grey = false;
+  ClipTiming timing;
+  std::uint64_t sample_count = 0;
+  std::optional<Transfer> transfer;  // where the file names one that is known here
+};
+
+// Reads every packet's time. Throws InputError where the file cannot be opened or has no picture stream.
+[[nodiscard]] Probe probe(const std::filesystem::path& path);
+
+}  // namespace nutik::video

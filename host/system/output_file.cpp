@@ -1,0 +1,67 @@
+#include "system/output_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
+namespace nutik {
+
+OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
+  std::error_code ignored;
+  if (std::filesystem::is_symlink(path_, ignored)) {
+    path_ = std::filesystem::weakly_canonical(path_, ignored);  // what it points to is replaced, not it
+  }
+  if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored)) {
+    throw OutputError(format("{} exists and is no regular file; choose another name", path_.string()));
+  }
+  temporary_path_ =
+      path_.parent_path() / format(".{}.{}.part", path_.filename().string(), getpid());
+  descriptor_ = open(temporary_path_.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail("cannot be created");
+}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ < 0) return;
+  close(descriptor_);
+  unlink(temporary_path_.c_str());
+}
+
+void OutputFile::fail(const char* what) const {
+  throw OutputError(format("{} {}: {}", path_.string(), what, std::strerror(errno)));
+}
+
+void OutputFile::write(std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      fail("cannot be written");
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+    size_ += static_cast<std::uint64_t>(written);
+  }
+}
+
+void OutputFile::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+
+void OutputFile::commit() {
+  // A temporary file has the process's own permissions; what it replaces keeps its mode.
+  struct stat before{};
+  if (stat(path_.c_str(), &before) == 0) fchmod(descriptor_, before.st_mode & 07777);
+  const int descriptor = descriptor_;
+  descriptor_ = -1;
+  if (close(descriptor) != 0 || rename(temporary_path_.c_str(), path_.c_str()) != 0) {
+    const int reason = errno;
+    unlink(temporary_path_.c_str());
+    errno = reason;
+    fail("cannot be written");
+  }
+}
+
+}  // namespace nutik

@@ -1,0 +1,44 @@
+// An output file that appears whole or not at all: written under a temporary name beside its own, which
+// replaces what was there once everything has been written.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace nutik {
+
+class OutputFile {
+ public:
+  // Creates the temporary file, `.<name>.<process>.part`. Throws OutputError where the folder is absent
+  // or not writable.
+  explicit OutputFile(std::filesystem::path path);
+  // Removes the temporary file unless commit() was called.
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  // Where to write for a library that opens files itself.
+  [[nodiscard]] const std::filesystem::path& temporary_path() const { return temporary_path_; }
+
+  // Appends; throws OutputError with the system's reason (disk full, …).
+  void write(std::span<const std::byte> bytes);
+  void write(std::string_view text);
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
+  // Gives the file its name.
+  void commit();
+
+ private:
+  [[noreturn]] void fail(const char* what) const;
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_path_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace nutik

@@ -1,0 +1,216 @@
+#include "tik/codec.hpp"
+
+#include <lz4.h>
+#include <zstd.h>
+
+#include <atomic>
+#include <charconv>
+#include <cstring>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "system/parallel.hpp"
+#include "tik/prediction.hpp"
+
+namespace nutik::tik {
+namespace {
+
+// Large enough for the compressor to learn a group, small enough for its plain stream to stay in cache.
+constexpr std::uint64_t kGroupBytes = 512 << 10;
+constexpr int kUsualZstdLevel = 1;
+
+std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> plain) {
+  std::vector<std::byte> packed;
+  if (codec.id == CodecId::lz4) {
+    packed.resize(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(plain.size()))));
+    const int bytes = LZ4_compress_default(reinterpret_cast<const char*>(plain.data()),
+                                           reinterpret_cast<char*>(packed.data()),
+                                           static_cast<int>(plain.size()),
+                                           static_cast<int>(packed.size()));
+    packed.resize(static_cast<std::size_t>(bytes));
+  } else {
+    packed.resize(ZSTD_compressBound(plain.size()));
+    const std::size_t bytes =
+        ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(),
+                      codec.level == 0 ? kUsualZstdLevel : codec.level);
+    if (ZSTD_isError(bytes)) throw OutputError(format("zstd failed: {}", ZSTD_getErrorName(bytes)));
+    packed.resize(bytes);
+  }
+  return packed;
+}
+
+bool decompress(CodecId codec, std::span<const std::byte> packed, std::span<std::byte> plain) {
+  if (codec == CodecId::lz4) {
+    return LZ4_decompress_safe(reinterpret_cast<const char*>(packed.data()),
+                               reinterpret_cast<char*>(plain.data()), static_cast<int>(packed.size()),
+                               static_cast<int>(plain.size())) == static_cast<int>(plain.size());
+  }
+  return ZSTD_decompress(plain.data(), plain.size(), packed.data(), packed.size()) == plain.size();
+}
+
+struct StoredGroup {
+  std::uint32_t tile_count;
+  std::uint32_t packed_bytes;
+};
+
+// Cuts tiles into groups of about kGroupBytes.
+std::vector<std::uint32_t> group_sizes(std::span<const TileEntry> entries, const BlockGeometry& geometry) {
+  std::vector<std::uint32_t> sizes;
+  std::uint64_t bytes = kGroupBytes;
+  for (const TileEntry& entry : entries) {
+    const std::uint64_t body = geometry.body_bytes(entry);
+    if (bytes + body > kGroupBytes) {
+      sizes.push_back(0);
+      bytes = 0;
+    }
+    bytes += body;
+    ++sizes.back();
+  }
+  return sizes;
+}
+
+void append(std::vector<std::byte>& to, const void* from, std::size_t bytes) {
+  const auto* first = static_cast<const std::byte*>(from);
+  to.insert(to.end(), first, first + bytes);
+}
+
+[[noreturn]] void fail_damaged() { throw InputError("its packed payload is damaged"); }
+
+// Reads numbers from the front of a stored payload.
+class StoredReader {
+ public:
+  explicit StoredReader(std::span<const std::byte> stored) : rest_(stored) {}
+
+  template <typename T>
+  T take() {
+    T value;
+    std::memcpy(&value, take(sizeof value).data(), sizeof value);
+    return value;
+  }
+  std::span<const std::byte> take(std::uint64_t bytes) {
+    if (bytes > rest_.size()) fail_damaged();
+    const auto taken = rest_.first(bytes);
+    rest_ = rest_.subspan(bytes);
+    return taken;
+  }
+
+ private:
+  std::span<const std::byte> rest_;
+};
+
+}  // namespace
+
+Codec Codec::parse(std::string_view text) {
+  if (text == "none") return {CodecId::none, 0};
+  if (text == "lz4") return {CodecId::lz4, 0};
+  if (text == "zstd") return {CodecId::zstd, 0};
+  constexpr std::string_view kZstd = "zstd:";
+  if (text.starts_with(kZstd)) {
+    const std::string_view number = text.substr(kZstd.size());
+    int level = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), level);
+    if (error == std::errc() && end == number.data() + number.size() && level >= 1 && level <= 19) {
+      return {CodecId::zstd, level};
+    }
+  }
+  throw UsageError(format("codec '{}' is not known; choose none, lz4, zstd or zstd:1 … zstd:19", text));
+}
+
+std::string Codec::text() const {
+  switch (id) {
+    case CodecId::none: return "none";
+    case CodecId::lz4: return "lz4";
+    case CodecId::zstd: return level == 0 ? "zstd" : format("zstd:{}", level);
+  }
+  return {};
+}
+
+std::vector<std::byte> pack(const Codec& codec, const BlockGeometry& geometry,
+                            std::span<const std::byte> payload) {
+  if (codec.id == CodecId::none) return {payload.begin(), payload.end()};
+  std::vector<TileEntry> entries(geometry.tile_count);
+  std::memcpy(entries.data(), payload.data(), entries.size() * sizeof(TileEntry));
+  std::vector<std::uint32_t> counts;
+  counts.reserve(entries.size());
+  for (const TileEntry& entry : entries) counts.push_back(entry.count);
+
+  const std::vector<std::uint32_t> sizes = group_sizes(entries, geometry);
+  std::vector<std::size_t> firsts(sizes.size(), 0);
+  for (std::size_t g = 1; g < sizes.size(); ++g) firsts[g] = firsts[g - 1] + sizes[g - 1];
+  std::vector<std::vector<std::byte>> packed(sizes.size());
+  parallel_for(sizes.size(), [&](std::uint64_t g) {
+    const TileGroup group{std::span(entries).subspan(firsts[g], sizes[g]), geometry};
+    std::vector<std::byte> plain(group.plain_bytes());
+    predict(group, payload, plain);
+    packed[g] = compress(codec, plain);
+  });
+
+  std::vector<std::byte> stored;
+  const std::array<std::uint32_t, 2> head{static_cast<std::uint32_t>(sizes.size()), 0};
+  append(stored, head.data(), sizeof head);
+  for (std::size_t g = 0; g < sizes.size(); ++g) {
+    const StoredGroup group{sizes[g], static_cast<std::uint32_t>(packed[g].size())};
+    append(stored, &group, sizeof group);
+  }
+  const std::vector<std::byte> packed_counts = compress(codec, std::as_bytes(std::span(counts)));
+  const std::array<std::uint32_t, 2> counts_head{static_cast<std::uint32_t>(packed_counts.size()), 0};
+  append(stored, counts_head.data(), sizeof counts_head);
+  append(stored, packed_counts.data(), packed_counts.size());
+  for (const std::vector<std::byte>& group : packed) append(stored, group.data(), group.size());
+  return stored;
+}
+
+void unpack(CodecId codec, const BlockGeometry& geometry, std::span<const std::byte> stored,
+            std::span<std::byte> payload) {
+  if (codec == CodecId::none) {
+    if (stored.size() != payload.size()) fail_damaged();
+    std::memcpy(payload.data(), stored.data(), stored.size());
+    return;
+  }
+  StoredReader reader(stored);
+  const auto group_count = reader.take<std::uint32_t>();
+  reader.take<std::uint32_t>();
+  const auto group_table = reader.take(std::uint64_t{group_count} * sizeof(StoredGroup));
+  std::vector<StoredGroup> groups(group_count);
+  std::memcpy(groups.data(), group_table.data(), group_table.size());
+  const auto counts_bytes = reader.take<std::uint32_t>();
+  reader.take<std::uint32_t>();
+  std::vector<std::uint32_t> counts(geometry.tile_count);
+  if (!decompress(codec, reader.take(counts_bytes), std::as_writable_bytes(std::span(counts)))) {
+    fail_damaged();
+  }
+
+  // The directory again: bodies lie one behind the other.
+  std::vector<TileEntry> entries(geometry.tile_count);
+  std::uint64_t offset = geometry.directory_bytes();
+  for (std::size_t tile = 0; tile < entries.size(); ++tile) {
+    entries[tile] = {static_cast<std::uint32_t>(offset / kBlockAlignment), counts[tile]};
+    const TileEntry& entry = entries[tile];
+    const bool plausible = entry.is_records() ? entry.slots() < geometry.sample_count
+                                              : entry.rows() >= 1 && entry.rows() <= geometry.sample_count;
+    if (!plausible) fail_damaged();
+    offset += geometry.body_bytes(entry);
+  }
+  if (offset != payload.size()) fail_damaged();
+  std::memset(payload.data(), 0, geometry.directory_bytes());
+  std::memcpy(payload.data(), entries.data(), entries.size() * sizeof(TileEntry));
+
+  std::vector<std::span<const std::byte>> packed;
+  std::vector<std::size_t> firsts;
+  std::size_t next = 0;
+  for (const StoredGroup& group : groups) {
+    firsts.push_back(next);
+    next += group.tile_count;
+    packed.push_back(reader.take(group.packed_bytes));
+  }
+  if (next != entries.size()) fail_damaged();
+  std::atomic<bool> good{true};
+  parallel_for(groups.size(), [&](std::uint64_t g) {
+    const TileGroup group{std::span(entries).subspan(firsts[g], groups[g].tile_count), geometry};
+    std::vector<std::byte> plain(group.plain_bytes());
+    if (!decompress(codec, packed[g], plain) || !reconstruct(group, plain, payload)) good = false;
+  });
+  if (!good) fail_damaged();
+}
+
+}  // namespace nutik::tik

@@ -1,0 +1,46 @@
+// Packs a block's payload for the file and unpacks it again, bit for bit.
+//
+// With codec `none` the payload is stored as it is and can be used straight from a mapped file. With
+// `lz4` and `zstd` it is stored as
+//
+//   u32 group count, u32 0
+//   {u32 tile count, u32 packed bytes} for each group
+//   u32 packed bytes of the tile counts, u32 0
+//   the packed tile counts: TileEntry.count of every tile
+//   the packed groups: consecutive tiles each, their plain streams as tik/prediction.hpp writes them
+//
+// Offsets in the tile directory are not stored: bodies lie one behind the other. Groups are packed and
+// unpacked side by side on all cores.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "imev/block.hpp"
+#include "tik/format.hpp"
+
+namespace nutik::tik {
+
+struct Codec {
+  CodecId id = CodecId::none;
+  int level = 0;  // zstd: 1 … 19; 0: the codec's usual one
+
+  // `none`, `lz4`, `zstd` or `zstd:9`; throws UsageError listing these.
+  static Codec parse(std::string_view text);
+  [[nodiscard]] std::string text() const;
+};
+
+// The stored form of a payload; `geometry` is its block's.
+[[nodiscard]] std::vector<std::byte> pack(const Codec& codec, const BlockGeometry& geometry,
+                                          std::span<const std::byte> payload);
+
+// Writes the payload, whose size the block's header tells. Throws InputError where the stored form is
+// damaged.
+void unpack(CodecId codec, const BlockGeometry& geometry, std::span<const std::byte> stored,
+            std::span<std::byte> payload);
+
+}  // namespace nutik::tik

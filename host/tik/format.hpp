@@ -1,0 +1,78 @@
+// The .tik container, version 0: what docs/tik-format.md specifies.
+//
+//   ┌───────────────────────────────┐ 0
+//   │ PGM or PPM of sample 0, with  │   opens in any image viewer; comments describe the capture
+//   │ "# TIK" comments              │
+//   ├───────────────────────────────┤ next multiple of 64, padded with zeros
+//   │ block 0: BlockHeader          │
+//   │          exposures (maybe)    │   each part at a multiple of 64
+//   │          payload              │   imev/block.hpp, or packed by tik/codec.hpp
+//   ├───────────────────────────────┤
+//   │ block 1 …                     │
+//   ├───────────────────────────────┤
+//   │ index: IndexEntry per block   │
+//   ├───────────────────────────────┤
+//   │ exposures of all samples      │   irregular timelines only
+//   ├───────────────────────────────┤
+//   │ Footer                        │   the last 128 bytes
+//   └───────────────────────────────┘
+//
+// Written from front to end without going back. All numbers little-endian; checksums are XXH3-64.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace nutik::tik {
+
+inline constexpr std::uint32_t kVersion = 0;
+inline constexpr std::uint64_t kAlignment = 64;
+
+inline constexpr char kBlockMagic[8] = {'T', 'I', 'K', 'b', 'l', 'o', 'c', 'k'};
+inline constexpr char kFooterMagic[8] = {'T', 'I', 'K', 'e', 'n', 'd', ' ', '0'};
+
+enum class CodecId : std::uint32_t { none = 0, lz4 = 1, zstd = 2 };
+
+struct BlockHeader {
+  char magic[8];
+  std::uint64_t block;            // number, from 0
+  std::uint64_t first_sample;
+  std::uint32_t sample_count;
+  std::uint32_t codec;            // CodecId
+  std::uint64_t exposure_bytes;   // sample_count × {start_ns, end_ns}; 0 with a constant rate
+  std::uint64_t stored_bytes;     // of the payload in the file
+  std::uint64_t payload_bytes;    // of the payload as the kernels read it
+  std::uint64_t record_count;     // change records in the block, starts not counted
+  std::uint64_t payload_checksum;     // of the stored payload
+  std::uint64_t exposures_checksum;   // 0 with a constant rate
+  std::uint8_t reserved[40];          // zeros
+  std::uint64_t header_checksum;  // of the bytes before it
+};
+static_assert(sizeof(BlockHeader) == 128 && offsetof(BlockHeader, header_checksum) == 120);
+
+struct IndexEntry {
+  std::uint64_t offset;  // of the BlockHeader from the file's start
+  std::uint64_t first_sample;
+  std::uint32_t sample_count;
+  std::uint32_t codec;
+  std::uint64_t stored_bytes;
+  std::uint64_t payload_bytes;
+  std::uint64_t record_count;
+};
+static_assert(sizeof(IndexEntry) == 48);
+
+struct Footer {
+  std::uint64_t sample_count;
+  std::uint64_t block_count;
+  std::uint64_t index_offset;
+  std::uint64_t exposures_offset;  // 0 with a constant rate
+  std::int64_t duration_ns;
+  std::uint64_t index_checksum;
+  std::uint64_t exposures_checksum;
+  std::uint8_t reserved[56];   // zeros
+  std::uint64_t checksum;      // of the bytes before it
+  char magic[8];
+};
+static_assert(sizeof(Footer) == 128 && offsetof(Footer, checksum) == 112);
+
+}  // namespace nutik::tik

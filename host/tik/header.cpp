@@ -1,0 +1,179 @@
+#include "tik/header.hpp"
+
+#include <charconv>
+#include <map>
+#include <string_view>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "tik/format.hpp"
+
+namespace nutik::tik {
+namespace {
+
+constexpr std::string_view kComment = "# TIK ";
+constexpr std::string_view kPurpose =
+    " - an image evolution model; the picture is the first sample, change records follow it.";
+constexpr std::size_t kLongestHeader = 65'536;
+
+bool is_netpbm(std::string_view text) {
+  return text.size() > 2 && text[0] == 'P' && text[1] >= '1' && text[1] <= '7' &&
+         (text[2] == '\n' || text[2] == '\r' || text[2] == ' ' || text[2] == '\t');
+}
+
+class HeaderParser {
+ public:
+  HeaderParser(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+
+  ParsedHeader parse() {
+    check_kind();
+    const bool colour = text_[1] == '6';
+    std::map<std::string, std::string, std::less<>> words = take_comments();
+    ParsedHeader parsed;
+    CaptureFormat& capture = parsed.header.capture;
+    capture.shape.width = take_number();
+    capture.shape.height = take_number();
+    capture.shape.channels = colour ? 3 : 1;
+    const std::uint32_t maximum = take_number();
+    if (at_ >= text_.size() || text_[at_] != '\n') fail("the line before the picture does not end");
+    parsed.raster_offset = at_ + 1;
+
+    const std::uint32_t depth = number_of(words, "depth");
+    capture.code_bytes = depth / 8;
+    capture.white_code = number_of(words, "white code");
+    if ((depth != 8 && depth != 16) || (depth == 8 && maximum > 255) || maximum > 65'535 ||
+        capture.shape.width == 0 || capture.shape.height == 0 || capture.white_code != maximum ||
+        maximum == 0) {
+      fail("its comments contradict its picture");
+    }
+    try {
+      capture.transfer = Transfer::parse(words["transfer"]);
+      capture.noise.tolerance = number_of(words, "tolerance");
+      parsed.header.shutter_angle = Rational::parse(first_word(words["shutter angle"]), "shutter angle");
+      const std::string_view rate = first_word(words["rate"]);
+      if (rate != "irregular") parsed.header.rate = Rational::parse(rate, "rate");
+    } catch (const UsageError& error) {
+      fail(error.what());
+    }
+    parsed.header.codec = words["codec"];
+    return parsed;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const {
+    throw InputError(format("{}: the header is damaged: {}", name_, why));
+  }
+
+  void check_kind() {
+    if (!is_netpbm(text_)) {
+      throw InputError(format("{} is no .tik file: it does not start with a Netpbm picture", name_));
+    }
+    at_ = 3;
+    const auto line_end = text_.find('\n', at_);
+    const std::string_view line = text_.substr(at_, line_end - at_);
+    if (!line.starts_with(kComment)) {
+      const bool mentions = text_.substr(0, 512).find("TIK") != std::string_view::npos;
+      throw InputError(
+          mentions ? format("{} is a TIK file of another program, whose records have another layout; "
+                            "encode its source clip again with nutik-cl",
+                            name_)
+                   : format("{} is a Netpbm picture, not a .tik file; to use it as a sample, encode it: "
+                            "nutik-cl {} -o capture.tik",
+                            name_, name_));
+    }
+    std::uint32_t version = 0;
+    const std::string_view rest = line.substr(kComment.size());
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), version);
+    if (error != std::errc() || (end != rest.data() + rest.size() && *end != ' ')) {
+      throw InputError(format("{} is a TIK file of another program, whose records have another layout; "
+                              "encode its source clip again with nutik-cl",
+                              name_));
+    }
+    if (version != kVersion) {
+      throw InputError(format("{} is a .tik of version {}; this program reads version {}", name_, version,
+                              kVersion));
+    }
+    if (text_[1] != '5' && text_[1] != '6') fail("its picture is neither P5 nor P6");
+  }
+
+  // `# TIK key: value` lines; others are skipped.
+  std::map<std::string, std::string, std::less<>> take_comments() {
+    std::map<std::string, std::string, std::less<>> words;
+    while (at_ < text_.size() && text_[at_] == '#') {
+      const auto line_end = text_.find('\n', at_);
+      if (line_end == std::string_view::npos) fail("it ends within a comment");
+      const std::string_view line = text_.substr(at_, line_end - at_);
+      const auto colon = line.find(": ");
+      if (line.starts_with(kComment) && colon != std::string_view::npos) {
+        words.emplace(line.substr(kComment.size(), colon - kComment.size()), line.substr(colon + 2));
+      }
+      at_ = line_end + 1;
+    }
+    return words;
+  }
+
+  std::uint32_t take_number() {
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n')) ++at_;
+    std::uint32_t number = 0;
+    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), number);
+    if (error != std::errc()) fail("a number is missing before the picture");
+    at_ = static_cast<std::size_t>(end - text_.data());
+    return number;
+  }
+
+  static std::string_view first_word(std::string_view text) { return text.substr(0, text.find_first_of(" ,")); }
+
+  [[nodiscard]] std::uint32_t number_of(const std::map<std::string, std::string, std::less<>>& words,
+                                        std::string_view key) const {
+    const auto found = words.find(key);
+    if (found == words.end()) fail(format("it does not say its {}", key));
+    const std::string_view text = first_word(found->second);
+    std::uint32_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) {
+      fail(format("its {} is '{}'", key, found->second));
+    }
+    return number;
+  }
+
+  std::string_view text_;
+  const std::string& name_;
+  std::size_t at_ = 0;
+};
+
+std::string_view front_text(std::span<const std::byte> file) {
+  return {reinterpret_cast<const char*>(file.data()), std::min(file.size(), kLongestHeader)};
+}
+
+}  // namespace
+
+std::string Header::text() const {
+  const Shape& shape = capture.shape;
+  std::string text = shape.channels == 3 ? "P6\n" : "P5\n";
+  const auto line = [&](std::string_view key, const std::string& value) {
+    text += format("{}{}: {}\n", kComment, key, value);
+  };
+  text += format("{}{}{}\n", kComment, kVersion, kPurpose);
+  line("size", format("{} x {}", shape.width, shape.height));
+  line("channels", format("{}", shape.channels));
+  line("depth", format("{} bits", capture.code_bytes * 8));
+  line("white code", format("{}", capture.white_code));
+  line("rate", rate ? format("{} samples a second", rate->text()) : "irregular, every exposure is listed");
+  line("shutter angle", format("{} degrees", shutter_angle.text()));
+  line("transfer", capture.transfer.text());
+  line("tolerance", format("{} codes", capture.noise.tolerance));
+  line("codec", codec);
+  text += format("{} {}\n{}\n", shape.width, shape.height, capture.white_code);
+  return text;
+}
+
+bool looks_like_tik(std::span<const std::byte> file) {
+  const std::string_view text = front_text(file);
+  return is_netpbm(text) && text.substr(3).starts_with(kComment);
+}
+
+ParsedHeader parse_header(std::span<const std::byte> file, const std::string& name) {
+  return HeaderParser(front_text(file), name).parse();
+}
+
+}  // namespace nutik::tik

@@ -1,0 +1,53 @@
+// The text at the front of a .tik: a Netpbm header whose comments say, in words a person can read, what
+// the capture is.
+//
+//   P6
+//   # TIK 0 - an image evolution model; the picture is the first sample, change records follow it.
+//   # TIK size: 640 x 480
+//   # TIK channels: 3
+//   # TIK depth: 8 bits
+//   # TIK white code: 255
+//   # TIK rate: 300 samples a second
+//   # TIK shutter angle: 360 degrees
+//   # TIK transfer: srgb
+//   # TIK tolerance: 0 codes
+//   # TIK codec: zstd
+//   640 480
+//   255
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "capture/picture.hpp"
+#include "capture/timeline.hpp"
+
+namespace nutik::tik {
+
+struct Header {
+  CaptureFormat capture;
+  // Samples a second where the rate is constant; absent where every exposure is listed.
+  std::optional<Rational> rate;
+  Rational shutter_angle = Timeline::kFullShutter;
+  std::string codec;  // a word for people; each block says what it really uses
+
+  // The header as text, up to and including the line end before the raster.
+  [[nodiscard]] std::string text() const;
+};
+
+struct ParsedHeader {
+  Header header;
+  std::uint64_t raster_offset = 0;  // bytes from the file's start
+};
+
+// Whether a file starts as a .tik of any version does.
+[[nodiscard]] bool looks_like_tik(std::span<const std::byte> file);
+
+// Throws InputError, beginning with `name`, where the file is no .tik, of another version, or its header
+// is damaged; a Netpbm picture without TIK comments and a .tik of the original program are told apart
+// from garbage.
+[[nodiscard]] ParsedHeader parse_header(std::span<const std::byte> file, const std::string& name);
+
+}  // namespace nutik::tik

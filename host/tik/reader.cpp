@@ -1,0 +1,208 @@
+#include "tik/reader.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "system/output_file.hpp"
+#include "tik/checksum.hpp"
+#include "tik/codec.hpp"
+#include "tik/writer.hpp"
+
+namespace nutik::tik {
+namespace {
+
+template <typename T>
+T load(std::span<const std::byte> bytes, std::uint64_t offset) {
+  T value;
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return value;
+}
+
+// Whether [offset, offset + bytes) lies within a file of `size` bytes, without overflow.
+bool fits(std::uint64_t offset, std::uint64_t bytes, std::uint64_t size) {
+  return offset <= size && bytes <= size - offset;
+}
+
+bool is_whole(const BlockHeader& header) {
+  return std::memcmp(header.magic, kBlockMagic, sizeof header.magic) == 0 &&
+         header.header_checksum == checksum_of(header, offsetof(BlockHeader, header_checksum));
+}
+
+std::uint64_t exposures_offset(std::uint64_t block_offset) { return block_offset + sizeof(BlockHeader); }
+
+std::uint64_t payload_offset(std::uint64_t block_offset, const BlockHeader& header) {
+  return align_up(exposures_offset(block_offset) + header.exposure_bytes, kAlignment);
+}
+
+std::uint64_t raster_bytes(const CaptureFormat& capture) {
+  return capture.shape.value_count() * (capture.white_code > 255 ? 2 : 1);
+}
+
+std::uint64_t first_block_offset(const ParsedHeader& parsed) {
+  return align_up(parsed.raster_offset + raster_bytes(parsed.header.capture) + 1, kAlignment);
+}
+
+std::vector<Exposure> load_exposures(std::span<const std::byte> bytes) {
+  std::vector<Exposure> exposures(bytes.size() / sizeof(Exposure));
+  std::memcpy(exposures.data(), bytes.data(), exposures.size() * sizeof(Exposure));
+  return exposures;
+}
+
+}  // namespace
+
+Reader::Reader(const std::filesystem::path& path) : name_(path.string()), file_(path) {
+  header_ = parse_header(file_.bytes(), name_).header;
+  read_footer();
+}
+
+void Reader::fail(const std::string& why) const { throw InputError(nutik::format("{}: {}", name_, why)); }
+
+void Reader::read_footer() {
+  const std::span<const std::byte> file = file_.bytes();
+  const auto fail_cut_off = [&] {
+    fail(nutik::format("the file was cut off before its end; save what is whole with: nutik-cl recover "
+                       "{} -o recovered.tik",
+                       name_));
+  };
+  if (file.size() < sizeof(Footer)) fail_cut_off();
+  const auto footer = load<Footer>(file, file.size() - sizeof(Footer));
+  if (std::memcmp(footer.magic, kFooterMagic, sizeof footer.magic) != 0) fail_cut_off();
+  const bool intact =
+      footer.checksum == checksum_of(footer, offsetof(Footer, checksum)) &&
+      footer.block_count <= file.size() / sizeof(IndexEntry) &&
+      fits(footer.index_offset, footer.block_count * sizeof(IndexEntry), file.size());
+  if (!intact) fail("its footer is damaged");
+  const auto index_bytes = file.subspan(footer.index_offset, footer.block_count * sizeof(IndexEntry));
+  if (footer.index_checksum != checksum(index_bytes)) fail("its index is damaged");
+  index_.resize(footer.block_count);
+  std::memcpy(index_.data(), index_bytes.data(), index_bytes.size());
+
+  std::uint64_t samples = 0;
+  for (const IndexEntry& entry : index_) {
+    if (entry.first_sample != samples || entry.sample_count == 0 ||
+        entry.sample_count > kLargestBlockSamples || !fits(entry.offset, sizeof(BlockHeader), file.size())) {
+      fail("its index contradicts itself");
+    }
+    samples += entry.sample_count;
+  }
+  if (samples != footer.sample_count || samples == 0) fail("its index contradicts its sample count");
+
+  if (header_.rate) {
+    timeline_ = Timeline::constant(*header_.rate, header_.shutter_angle, samples);
+    return;
+  }
+  if (samples > file.size() / sizeof(Exposure) ||
+      !fits(footer.exposures_offset, samples * sizeof(Exposure), file.size())) {
+    fail("its list of exposures is damaged");
+  }
+  const auto exposure_bytes = file.subspan(footer.exposures_offset, samples * sizeof(Exposure));
+  if (footer.exposures_checksum != checksum(exposure_bytes)) fail("its list of exposures is damaged");
+  timeline_ = Timeline::stored(load_exposures(exposure_bytes), footer.duration_ns, header_.shutter_angle);
+}
+
+BlockHeader Reader::block_header(std::uint64_t block) const {
+  const std::span<const std::byte> file = file_.bytes();
+  const IndexEntry& entry = index_[block];
+  const auto header = load<BlockHeader>(file, entry.offset);
+  if (!is_whole(header)) fail_block(block, "its header is damaged");
+  if (header.block != block || header.first_sample != entry.first_sample ||
+      header.sample_count != entry.sample_count || header.stored_bytes != entry.stored_bytes ||
+      header.payload_bytes != entry.payload_bytes || header.codec != entry.codec ||
+      !fits(payload_offset(entry.offset, header), header.stored_bytes, file.size())) {
+    fail_block(block, "its header contradicts the index");
+  }
+  if (header.codec > static_cast<std::uint32_t>(CodecId::zstd)) {
+    fail_block(block, nutik::format("its codec {} is not known", header.codec));
+  }
+  return header;
+}
+
+std::span<const std::byte> Reader::stored_payload(std::uint64_t block) const {
+  const BlockHeader header = block_header(block);
+  return file_.bytes().subspan(payload_offset(index_[block].offset, header), header.stored_bytes);
+}
+
+void Reader::fail_block(std::uint64_t block, const std::string& why) const {
+  const SampleRange samples = block_extent(block).range();
+  throw InputError(nutik::format(
+      "{}: the block of samples {} to {} ({:.6g} s to {:.6g} s) is damaged: {}; other times of the "
+      "capture can still be exposed",
+      name_, samples.first, samples.last - 1, static_cast<double>(timeline_.start_ns(samples.first)) * 1e-9,
+      static_cast<double>(timeline_.reach_end_ns(samples.last - 1)) * 1e-9, why));
+}
+
+std::uint64_t Reader::prepare(std::uint64_t block) {
+  const BlockHeader header = block_header(block);
+  const std::span<const std::byte> stored = stored_payload(block);
+  if (checksum(stored) != header.payload_checksum) fail_block(block, "its checksum does not match");
+  if (header.codec == static_cast<std::uint32_t>(CodecId::none)) {
+    BlockView(header_.capture, block_extent(block), stored);  // checks the directory
+  }
+  return header.payload_bytes;
+}
+
+void Reader::read(std::uint64_t block, std::span<std::byte> into) {
+  const BlockGeometry geometry(header_.capture, index_[block].sample_count);
+  try {
+    unpack(static_cast<CodecId>(index_[block].codec), geometry, stored_payload(block), into);
+  } catch (const InputError& error) {
+    fail_block(block, error.what());
+  }
+}
+
+std::span<const std::byte> Reader::region() const {
+  const bool all_plain = std::all_of(index_.begin(), index_.end(), [](const IndexEntry& entry) {
+    return entry.codec == static_cast<std::uint32_t>(CodecId::none);
+  });
+  return all_plain ? file_.bytes() : std::span<const std::byte>{};
+}
+
+std::uint64_t Reader::region_offset(std::uint64_t block) const {
+  return payload_offset(index_[block].offset, block_header(block));
+}
+
+Recovery recover(const std::filesystem::path& damaged, const std::filesystem::path& whole) {
+  const std::string name = damaged.string();
+  const MappedFile mapped(damaged);
+  const std::span<const std::byte> file = mapped.bytes();
+  const ParsedHeader parsed = parse_header(file, name);
+  Recovery recovery;
+  std::vector<IndexEntry> index;
+  std::vector<Exposure> exposures;
+  std::uint64_t offset = first_block_offset(parsed);
+  while (fits(offset, sizeof(BlockHeader), file.size())) {
+    const auto header = load<BlockHeader>(file, offset);
+    if (!is_whole(header) || header.first_sample != recovery.sample_count) break;
+    if (!fits(exposures_offset(offset), header.exposure_bytes, file.size())) break;
+    const auto exposure_bytes = file.subspan(exposures_offset(offset), header.exposure_bytes);
+    const std::uint64_t payload = payload_offset(offset, header);
+    if (!fits(payload, header.stored_bytes, file.size())) break;
+    if (checksum(file.subspan(payload, header.stored_bytes)) != header.payload_checksum) break;
+    if (header.exposure_bytes != 0 && checksum(exposure_bytes) != header.exposures_checksum) break;
+    const std::vector<Exposure> block_exposures = load_exposures(exposure_bytes);
+    exposures.insert(exposures.end(), block_exposures.begin(), block_exposures.end());
+    index.push_back({offset, header.first_sample, header.sample_count, header.codec, header.stored_bytes,
+                     header.payload_bytes, header.record_count});
+    recovery.sample_count += header.sample_count;
+    ++recovery.block_count;
+    offset = align_up(payload + header.stored_bytes, kAlignment);
+  }
+  if (index.empty()) {
+    throw InputError(nutik::format("{}: no whole block is left; encode the clip again", name));
+  }
+  const std::uint64_t kept = std::min<std::uint64_t>(offset, file.size());
+  recovery.lost_bytes = file.size() - kept;
+
+  const Header& header = parsed.header;
+  const Timeline timeline =
+      header.rate ? Timeline::constant(*header.rate, header.shutter_angle, recovery.sample_count)
+                  : Timeline::explicit_exposures(exposures);
+  OutputFile out(whole);
+  out.write(file.first(kept));
+  finish_file(out, index, timeline);
+  return recovery;
+}
+
+}  // namespace nutik::tik

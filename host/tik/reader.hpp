@@ -1,0 +1,66 @@
+// Reads a .tik file: maps it, checks what it says of itself, and hands out its blocks.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "imev/capture_source.hpp"
+#include "system/mapped_file.hpp"
+#include "tik/format.hpp"
+#include "tik/header.hpp"
+
+namespace nutik::tik {
+
+class Reader final : public CaptureSource {
+ public:
+  // Throws InputError where the file is no .tik, of another version, damaged at front or end, or cut
+  // off; the message names the command that recovers a cut-off file.
+  explicit Reader(const std::filesystem::path& path);
+
+  [[nodiscard]] const CaptureFormat& format() const override { return header_.capture; }
+  [[nodiscard]] const Timeline& timeline() const override { return timeline_; }
+  [[nodiscard]] std::uint64_t block_count() const override { return index_.size(); }
+  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
+    return {index_[block].first_sample, index_[block].sample_count};
+  }
+
+  // Checks the block's checksums; throws InputError naming its samples and times where it is damaged.
+  std::uint64_t prepare(std::uint64_t block) override;
+  void read(std::uint64_t block, std::span<std::byte> into) override;
+
+  // The mapped file where no block is packed.
+  [[nodiscard]] std::span<const std::byte> region() const override;
+  [[nodiscard]] std::uint64_t region_offset(std::uint64_t block) const override;
+
+  [[nodiscard]] const Header& header() const { return header_; }
+  [[nodiscard]] std::span<const IndexEntry> index() const { return index_; }
+  [[nodiscard]] std::uint64_t file_bytes() const { return file_.bytes().size(); }
+
+ private:
+  void read_footer();
+  [[nodiscard]] BlockHeader block_header(std::uint64_t block) const;
+  [[nodiscard]] std::span<const std::byte> stored_payload(std::uint64_t block) const;
+  [[noreturn]] void fail(const std::string& why) const;
+  [[noreturn]] void fail_block(std::uint64_t block, const std::string& why) const;
+
+  std::string name_;
+  MappedFile file_;
+  Header header_;
+  std::vector<IndexEntry> index_;
+  Timeline timeline_ = Timeline::constant({1, 1}, Timeline::kFullShutter, 0);
+};
+
+// What could be saved of a file that was cut off.
+struct Recovery {
+  std::uint64_t block_count = 0;
+  std::uint64_t sample_count = 0;
+  std::uint64_t lost_bytes = 0;  // after the last whole block
+};
+
+// Copies the whole blocks at the front of a cut-off .tik into a new, complete one. Throws InputError
+// where there is none, OutputError where it cannot be written.
+Recovery recover(const std::filesystem::path& damaged, const std::filesystem::path& whole);
+
+}  // namespace nutik::tik

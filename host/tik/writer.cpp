@@ -1,0 +1,114 @@
+#include "tik/writer.hpp"
+
+#include <array>
+#include <cstring>
+#include <stdexcept>
+
+#include "capture/error.hpp"
+#include "tik/checksum.hpp"
+
+namespace nutik::tik {
+namespace {
+
+template <typename T>
+std::span<const std::byte> bytes_of(const T& value) {
+  return std::as_bytes(std::span(&value, 1));
+}
+
+// Netpbm has one byte a value up to a maximum of 255, above that two, the high one first.
+std::vector<std::byte> netpbm_raster(const CaptureFormat& capture, std::span<const std::byte> sample) {
+  const bool wide = capture.white_code > 255;
+  if (capture.code_bytes == 1) return {sample.begin(), sample.end()};
+  std::vector<std::byte> raster;
+  raster.reserve(capture.shape.value_count() * (wide ? 2 : 1));
+  for (std::size_t i = 0; i < sample.size(); i += 2) {
+    if (wide) raster.push_back(sample[i + 1]);
+    raster.push_back(sample[i]);
+  }
+  return raster;
+}
+
+void pad(OutputFile& file) {
+  constexpr std::array<std::byte, kAlignment> kZeros{};
+  file.write(std::span(kZeros).first(align_up(file.size(), kAlignment) - file.size()));
+}
+
+}  // namespace
+
+Writer::Writer(const std::filesystem::path& path, const Header& header, const Codec& codec,
+               std::span<const std::byte> first_sample)
+    : file_(path), header_(header), codec_(codec) {
+  header_.codec = codec.text();
+  file_.write(header_.text());
+  file_.write(netpbm_raster(header_.capture, first_sample));
+  // Never 'P', after which a reader would look for a second picture.
+  file_.write(std::string_view("\n"));
+  pad(file_);
+}
+
+void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures) {
+  if (exposures.size() != (header_.rate ? 0 : block.extent.sample_count) ||
+      block.extent.first_sample != sample_count_) {
+    throw std::logic_error("a block does not continue its .tik file");
+  }
+  const BlockGeometry geometry(header_.capture, block.extent.sample_count);
+  std::vector<std::byte> stored;
+  std::span<const std::byte> payload = block.payload;
+  if (codec_.id != CodecId::none) {
+    stored = pack(codec_, geometry, block.payload);
+    payload = stored;
+  }
+  BlockHeader header{};
+  std::memcpy(header.magic, kBlockMagic, sizeof header.magic);
+  header.block = index_.size();
+  header.first_sample = block.extent.first_sample;
+  header.sample_count = block.extent.sample_count;
+  header.codec = static_cast<std::uint32_t>(codec_.id);
+  header.exposure_bytes = exposures.size_bytes();
+  header.stored_bytes = payload.size();
+  header.payload_bytes = block.payload.size();
+  header.record_count = block.record_count;
+  header.payload_checksum = checksum(payload);
+  if (!exposures.empty()) header.exposures_checksum = checksum(std::as_bytes(exposures));
+  header.header_checksum = checksum_of(header, offsetof(BlockHeader, header_checksum));
+
+  index_.push_back({file_.size(), header.first_sample, header.sample_count, header.codec,
+                    header.stored_bytes, header.payload_bytes, header.record_count});
+  file_.write(bytes_of(header));
+  file_.write(std::as_bytes(exposures));
+  pad(file_);
+  file_.write(payload);
+  pad(file_);
+  sample_count_ += block.extent.sample_count;
+}
+
+void Writer::finish(const Timeline& timeline) {
+  if (timeline.sample_count() != sample_count_ || timeline.is_constant() != header_.rate.has_value()) {
+    throw std::logic_error("a .tik file was finished with another timeline");
+  }
+  finish_file(file_, index_, timeline);
+}
+
+void finish_file(OutputFile& file, std::span<const IndexEntry> index, const Timeline& timeline) {
+  pad(file);  // a file that was cut off right behind a payload lacks its padding
+  Footer footer{};
+  footer.sample_count = timeline.sample_count();
+  footer.block_count = index.size();
+  footer.duration_ns = timeline.duration_ns();
+  footer.index_offset = file.size();
+  footer.index_checksum = checksum(std::as_bytes(index));
+  file.write(std::as_bytes(index));
+  pad(file);
+  if (!timeline.is_constant()) {
+    footer.exposures_offset = file.size();
+    footer.exposures_checksum = checksum(std::as_bytes(timeline.table()));
+    file.write(std::as_bytes(timeline.table()));
+    pad(file);
+  }
+  footer.checksum = checksum_of(footer, offsetof(Footer, checksum));
+  std::memcpy(footer.magic, kFooterMagic, sizeof footer.magic);
+  file.write(bytes_of(footer));
+  file.commit();
+}
+
+}  // namespace nutik::tik

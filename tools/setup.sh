@@ -1,0 +1,64 @@
+# Sourced by tools/demo and tools/test: installs what is missing, configures and builds.
+#
+#   set_up demo|test      packages from apt (Debian 12; as root, else through sudo)
+#   build_program PRESET [CMAKE OPTIONS]
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+# What the program is built with and needs to run.
+program_packages=(
+  g++ cmake ninja-build pkg-config
+  ocl-icd-opencl-dev opencl-headers opencl-clhpp-headers pocl-opencl-icd
+  libopencv-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
+  libpng-dev libtiff-dev libzstd-dev liblz4-dev libxxhash-dev
+  libcli11-dev libfmt-dev nlohmann-json3-dev
+)
+# The scene generator and the plotter.
+script_packages=(python3 python3-numpy python3-opencv python3-matplotlib)
+# What only tests and benchmarks use. clang checks the kernels while building.
+test_packages=(clang libgtest-dev libgmock-dev libbenchmark-dev libboost-dev netpbm ffmpeg oclgrind)
+
+# Debian's own Python, which the packages above belong to, even where another one comes first in PATH.
+python=/usr/bin/python3
+
+missing_packages() {
+  local package
+  for package in "$@"; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || echo "$package"
+  done
+}
+
+set_up() {
+  local packages=("${program_packages[@]}" "${script_packages[@]}")
+  [ "$1" = test ] && packages+=("${test_packages[@]}")
+  if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    echo "This system has no apt (tested: Debian 12). Install what these packages hold, then go on with" >&2
+    echo "  cmake --preset release && cmake --build --preset release" >&2
+    printf '  %s\n' "${packages[@]}" >&2
+    exit 1
+  fi
+  local missing
+  mapfile -t missing < <(missing_packages "${packages[@]}")
+  [ ${#missing[@]} -eq 0 ] && return
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "These packages are missing, and there is neither root nor sudo to install them with:" >&2
+      printf '  %s\n' "${missing[@]}" >&2
+      exit 1
+    fi
+    as_root=(sudo)
+  fi
+  echo "Installing with apt: ${missing[*]}"
+  "${as_root[@]}" apt-get update -q
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
+}
+
+build_program() {
+  local preset=$1
+  shift
+  local folder=$root/build
+  [ "$preset" = release ] || folder=$root/build-$preset
+  cmake --preset "$preset" -S "$root" -B "$folder" -DPython3_EXECUTABLE="$python" "$@"
+  cmake --build "$folder"
+}
