@@ -5,6 +5,8 @@
 
 add_library(nutik_warnings INTERFACE)
 target_compile_options(nutik_warnings INTERFACE -Wall -Wextra -Wconversion -Wshadow -Wpedantic)
+# GCC 12 warns of std::string's own code (its bug 105651).
+target_compile_options(nutik_warnings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 if(NUTIK_WARNINGS_AS_ERRORS)
   target_compile_options(nutik_warnings INTERFACE -Werror)
 endif()

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 
 #include "app/console.hpp"
 #include "app/help.hpp"
@@ -107,7 +108,7 @@ const Command& shorthand(const Scan& scan, std::span<const std::string> words) {
                               "--exposure 10ms {} picture.png",
                               first, first));
     }
-    const std::string stem = first.substr(0, first.rfind('.'));
+    const std::string stem = std::filesystem::path(first).stem().string();
     throw UsageError(format("the output is missing: nutik-cl {} {}.tik", first, stem));
   }
   return command(CommandId::encode);
@@ -172,8 +173,7 @@ ParsedCommandLine parse_command_line(std::span<const std::string> words) {
     return {};
   }
   if (words.empty()) {
-    print_help();
-    throw UsageError("say what to do");
+    throw UsageError("say what to do: nutik-cl clip.mp4 clip.tik encodes a clip; nutik-cl --help says more");
   }
   const Command& chosen = named != nullptr ? *named : shorthand(found, words);
   check_options(found, chosen);

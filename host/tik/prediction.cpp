@@ -19,26 +19,28 @@ constexpr int kNeighbourPenaltyDen = 4;
 // The rows of a body: codes of a rows tile; start and slots of a records tile.
 struct RowLayout {
   std::uint32_t rows;
-  std::uint64_t first;  // offset of row 0 in the body
-  std::uint64_t stride;
-  std::uint32_t index_rows;      // rows with an index before them (records tiles)
-  std::uint64_t index_count;     // entries of the tile's index
+  std::uint64_t index_bytes;  // of the list before the rows of a rows tile
+  std::uint64_t index_count;  // entries of the tile's index
 };
 
 RowLayout layout_of(const TileEntry& entry, const BlockGeometry& geometry) {
   if (entry.is_records()) {
-    return {entry.slots() + 1, 0, geometry.slot_bytes(), entry.slots(),
-            std::uint64_t{entry.slots()} * kTilePixels};
+    return {entry.slots() + 1, 0, std::uint64_t{entry.slots()} * kTilePixels};
   }
   const std::uint64_t list = geometry.row_index_bytes(entry.rows());
-  return {entry.rows(), list, geometry.row_bytes(), 0, list == 0 ? 0u : entry.rows()};
+  return {entry.rows(), list, list == 0 ? 0u : entry.rows()};
 }
 
-// Offset of row r within a body. In records tiles slots follow the start, each index first.
-std::uint64_t row_offset(const RowLayout& layout, const BlockGeometry& geometry, std::uint32_t row) {
-  if (layout.index_rows == 0) return layout.first + row * layout.stride;
+// Offset of a slot within a records tile's body.
+std::uint64_t slot_offset(const BlockGeometry& geometry, std::uint32_t slot) {
+  return geometry.row_bytes() + slot * geometry.slot_bytes();
+}
+
+// Offset of row r within a body. In records tiles slots follow the start, each with its index first.
+std::uint64_t row_offset(const TileEntry& entry, const BlockGeometry& geometry, std::uint32_t row) {
+  if (!entry.is_records()) return geometry.row_index_bytes(entry.rows()) + row * geometry.row_bytes();
   if (row == 0) return 0;
-  return geometry.row_bytes() + (row - 1) * layout.stride + kTilePixels * geometry.index_bytes();
+  return slot_offset(geometry, row - 1) + kTilePixels * geometry.index_bytes();
 }
 
 // Where the parts of a plain stream start.
@@ -104,7 +106,7 @@ class Predictor {
       Planes before{};
       for (std::uint32_t row = 0; row < layout.rows; ++row) {
         Planes now;
-        std::memcpy(now.data(), body + row_offset(layout, group_.geometry, row), sizeof now);
+        std::memcpy(now.data(), body + row_offset(entry, group_.geometry, row), sizeof now);
         decorrelate(now);
         Planes from_before, from_neighbours;
         for (std::size_t i = 0; i < now.size(); ++i) {
@@ -155,7 +157,7 @@ class Predictor {
         }
         before = now;
         correlate(now);
-        std::memcpy(body + row_offset(layout, group_.geometry, row), now.data(), sizeof now);
+        std::memcpy(body + row_offset(entry, group_.geometry, row), now.data(), sizeof now);
       }
     }
     return true;
@@ -268,13 +270,13 @@ class Predictor {
   void for_each_index_row(const TileEntry& entry, Visit visit) const {
     const RowLayout layout = layout_of(entry, group_.geometry);
     if (layout.index_count == 0) return;
-    if (layout.index_rows == 0) {
-      for (std::uint32_t row = 0; row < entry.rows(); ++row) visit(row * sizeof(Index), 1u);
+    if (entry.is_records()) {
+      for (std::uint32_t slot = 0; slot < entry.slots(); ++slot) {
+        visit(slot_offset(group_.geometry, slot), kTilePixels);
+      }
       return;
     }
-    for (std::uint32_t slot = 0; slot < layout.index_rows; ++slot) {
-      visit(group_.geometry.row_bytes() + slot * layout.stride, kTilePixels);
-    }
+    for (std::uint32_t row = 0; row < entry.rows(); ++row) visit(row * sizeof(Index), 1u);
   }
 
   template <typename Index>
@@ -295,10 +297,7 @@ class Predictor {
 
   template <typename Index>
   const std::byte* read_index(const TileEntry& entry, const std::byte* from, std::byte* body) const {
-    const std::uint64_t list = layout_of(entry, group_.geometry).index_rows == 0
-                                   ? group_.geometry.row_index_bytes(entry.rows())
-                                   : 0;
-    std::memset(body, 0, list);  // padding behind a rows tile's list
+    std::memset(body, 0, layout_of(entry, group_.geometry).index_bytes);  // padding behind a list
     std::array<Index, kTilePixels> before{};
     for_each_index_row<Index>(entry, [&](std::uint64_t offset, std::uint32_t count) {
       for (std::uint32_t i = 0; i < count; ++i) {

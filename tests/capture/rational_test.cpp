@@ -1,0 +1,49 @@
+#include "capture/rational.hpp"
+
+#include <gtest/gtest.h>
+
+#include "capture/error.hpp"
+
+namespace nutik {
+namespace {
+
+TEST(Rational, ReadsWhatPeopleWriteExactly) {
+  EXPECT_EQ(Rational::parse("120", "rate"), (Rational{120, 1}));
+  EXPECT_EQ(Rational::parse("29.97", "rate"), (Rational{2997, 100}));
+  EXPECT_EQ(Rational::parse("30000/1001", "rate"), (Rational{30000, 1001}));
+  EXPECT_EQ(Rational::parse(".5", "rate"), (Rational{1, 2}));
+  EXPECT_EQ(Rational::parse("-0.25", "rate"), (Rational{-1, 4}));
+}
+
+TEST(Rational, RefusesEverythingElseByName) {
+  for (const char* text : {"", "fast", "1e3", "1/0", "1.5/2", "1/2/3", "--1", "1.2.3", ".", "-",
+                           "12345678901234567890"}) {
+    try {
+      static_cast<void>(Rational::parse(text, "frame rate"));
+      FAIL() << "'" << text << "' was accepted";
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find("frame rate '" + std::string(text) + "'"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST(Rational, WritesTheShortestExactForm) {
+  EXPECT_EQ((Rational{120, 1}).text(), "120");
+  EXPECT_EQ((Rational{2997, 100}).text(), "29.97");
+  EXPECT_EQ((Rational{30000, 1001}).text(), "30000/1001");
+  EXPECT_EQ((Rational{-1, 4}).text(), "-0.25");
+  EXPECT_EQ((Rational{179, 6}).text(), "179/6");
+}
+
+TEST(Rational, RoundsHalvesUpward) {
+  EXPECT_EQ(round_half_up(1, 2), 1);
+  EXPECT_EQ(round_half_up(-1, 2), 0);
+  EXPECT_EQ(round_half_up(3, 2), 2);
+  EXPECT_EQ(round_half_up(-3, 2), -1);
+  EXPECT_EQ(round_half_up(-5, 3), -2);
+  EXPECT_EQ(round_half_up(1, 3), 0);
+}
+
+}  // namespace
+}  // namespace nutik

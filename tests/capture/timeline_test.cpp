@@ -1,0 +1,119 @@
+#include "capture/timeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include "capture/error.hpp"
+#include "support/random_case.hpp"
+
+namespace nutik {
+namespace {
+
+using boost::multiprecision::cpp_int;
+using boost::multiprecision::cpp_rational;
+
+// round(x), halves upward.
+std::int64_t rounded(const cpp_rational& x) {
+  const cpp_rational shifted = x + cpp_rational(1, 2);
+  cpp_int quotient = numerator(shifted) / denominator(shifted);
+  if (quotient * denominator(shifted) > numerator(shifted)) --quotient;
+  return static_cast<std::int64_t>(quotient);
+}
+
+TEST(Timeline, AConstantRateRoundsEachTimeFromItsOwnExactValue) {
+  for (const Rational rate : {Rational{30, 1}, Rational{30000, 1001}, Rational{2997, 100}, Rational{960, 1},
+                              Rational{999'999'937, 1'000'003}}) {
+    for (const Rational angle : {Rational{360, 1}, Rational{180, 1}, Rational{1728, 10}}) {
+      const std::uint64_t count = 1'000'000'000;
+      const Timeline timeline = Timeline::constant(rate, angle, count);
+      for (const std::uint64_t k : {0ull, 1ull, 2ull, 29ull, 1000ull, 86'399'999ull, 999'999'999ull}) {
+        const cpp_rational period(cpp_int(rate.denominator) * 1'000'000'000, rate.numerator);
+        const cpp_rational open(angle.numerator, angle.denominator * 360);
+        EXPECT_EQ(timeline.start_ns(k), rounded(k * period)) << rate.text() << " " << k;
+        EXPECT_EQ(timeline.end_ns(k), rounded((k + open) * period)) << rate.text() << " " << k;
+      }
+      EXPECT_EQ(timeline.duration_ns(),
+                rounded(count * cpp_rational(cpp_int(rate.denominator) * 1'000'000'000, rate.numerator)));
+    }
+  }
+}
+
+TEST(Timeline, NeverDriftsOverADay) {
+  const Timeline timeline = Timeline::constant({30000, 1001}, Timeline::kFullShutter, 30000ull * 86'400);
+  // 30000 samples take 1001 s exactly.
+  EXPECT_EQ(timeline.start_ns(30000ull * 86), 1001ll * 86 * 1'000'000'000);
+  EXPECT_EQ(timeline.end_ns(0), 33'366'667);
+}
+
+TEST(Timeline, WithoutAShutterAngleThereAreNoGaps) {
+  const Timeline timeline = Timeline::constant({30000, 1001}, Timeline::kFullShutter, 100);
+  for (std::uint64_t k = 0; k + 1 < 100; ++k) EXPECT_EQ(timeline.end_ns(k), timeline.start_ns(k + 1));
+  EXPECT_EQ(timeline.end_ns(99), timeline.duration_ns());
+}
+
+TEST(Timeline, IrregularStartsRepeatTheLastPeriod) {
+  const Timeline timeline = Timeline::irregular({500, 1500, 1800}, {180, 1});
+  EXPECT_EQ(timeline.start_ns(0), 0);
+  EXPECT_EQ(timeline.end_ns(0), 500);
+  EXPECT_EQ(timeline.start_ns(1), 1000);
+  EXPECT_EQ(timeline.end_ns(1), 1150);
+  EXPECT_EQ(timeline.start_ns(2), 1300);
+  EXPECT_EQ(timeline.end_ns(2), 1450);
+  EXPECT_EQ(timeline.duration_ns(), 1600);
+}
+
+TEST(Timeline, ExplicitExposuresEndWithTheLast) {
+  const Timeline timeline = Timeline::explicit_exposures({{100, 200}, {250, 300}});
+  EXPECT_EQ(timeline.start_ns(1), 150);
+  EXPECT_EQ(timeline.end_ns(1), 200);
+  EXPECT_EQ(timeline.duration_ns(), 200);
+}
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST(Timeline, SaysWhatIsWrongWithTimes) {
+  const auto contains = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  contains(message_of([] { Timeline::irregular({0, 10, 10}, {360, 1}); }),
+           "sample 2 starts at 10 ns, not after sample 1 at 10 ns");
+  contains(message_of([] { Timeline::explicit_exposures({{0, 10}, {5, 20}}); }),
+           "sample 1 starts at 5 ns, before sample 0 ends at 10 ns");
+  contains(message_of([] { Timeline::explicit_exposures({{0, 0}}); }), "sample 0 ends at 0 ns");
+  contains(message_of([] { Timeline::irregular({7}, {360, 1}); }), "--fps");
+  contains(message_of([] { Timeline::constant({0, 1}, {360, 1}, 1); }), "frame rate 0 is not positive");
+  contains(message_of([] { Timeline::constant({30, 1}, {0, 1}, 1); }), "0 < angle <= 360");
+  contains(message_of([] { Timeline::constant({30, 1}, {3601, 10}, 1); }), "360.1 is outside");
+  contains(message_of([] { Timeline::constant({1'000'000'000, 1}, {1, 1}, 1); }), "less than 1 ns");
+  contains(message_of([] { Timeline::constant({1, 1}, {360, 1}, 1ull << 62); }), "146 years");
+}
+
+// The samples found by bisection are those that a look at every sample finds.
+TEST(Timeline, FindsTheSamplesThatReachAnInterval) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    test::Random random(seed);
+    const Timeline timeline =
+        test::random_timeline(random, static_cast<std::uint64_t>(random.whole(1, 40)));
+    const std::int64_t duration = timeline.duration_ns();
+    const std::int64_t begin = random.whole(-duration / 3, duration + duration / 3);
+    const std::int64_t end = begin + random.whole(0, duration);
+    const SampleRange found = timeline.samples_reaching(begin, end);
+    for (std::uint64_t k = 0; k < timeline.sample_count(); ++k) {
+      const SampleTimes times = timeline.times(k);
+      const bool meets = std::max(times.before_ns, begin) < std::min(times.after_ns, end);
+      EXPECT_EQ(meets, k >= found.first && k < found.last)
+          << "seed " << seed << ", sample " << k << ", [" << begin << ", " << end << "]";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nutik

@@ -1,0 +1,71 @@
+#include "capture/transfer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "capture/error.hpp"
+
+namespace nutik {
+namespace {
+
+const Transfer kAll[] = {Transfer::srgb(), Transfer::bt709(), Transfer::linear(), Transfer::gamma(2.2),
+                         Transfer::gamma(0.5)};
+
+// Values of the standards, from their own formulas worked out by hand.
+TEST(Transfer, HasTheStandardsValues) {
+  EXPECT_NEAR(Transfer::srgb().light_of(128 / 255.0), 0.21586050011389926, 1e-15);
+  EXPECT_NEAR(Transfer::srgb().light_of(10 / 255.0), 0.0030352698354883752, 1e-17);
+  EXPECT_NEAR(Transfer::bt709().light_of(0.5), 0.2597194371011774, 1e-15);
+  EXPECT_DOUBLE_EQ(Transfer::bt709().light_of(0.045), 0.01);
+  EXPECT_DOUBLE_EQ(Transfer::gamma(2.0).light_of(0.5), 0.25);
+  EXPECT_EQ(Transfer::linear().light_of(0.3), 0.3);
+  for (const Transfer& transfer : kAll) {
+    EXPECT_EQ(transfer.light_of(0.0), 0.0) << transfer.text();
+    EXPECT_DOUBLE_EQ(transfer.light_of(1.0), 1.0) << transfer.text();
+  }
+}
+
+TEST(Transfer, GivesEveryCodeBack) {
+  for (const Transfer& transfer : kAll) {
+    for (const std::uint32_t white : {255u, 1023u, 4095u, 65'535u}) {
+      for (std::uint32_t code = 0; code <= white; ++code) {
+        const double light = transfer.light_of(static_cast<double>(code) / white);
+        const double back = std::floor(transfer.fraction_of(light) * white + 0.5);
+        ASSERT_EQ(back, code) << transfer.text() << ", white " << white;
+      }
+    }
+  }
+}
+
+// A code's threshold separates it from the one below: light on either side rounds to either code.
+TEST(Transfer, ThresholdsLieBetweenCodes) {
+  for (const Transfer& transfer : kAll) {
+    const auto light = transfer.light_of_codes(255);
+    const auto thresholds = transfer.code_thresholds(255);
+    ASSERT_EQ(thresholds.size(), 256u);
+    EXPECT_EQ(thresholds[0], 0.0);
+    for (std::size_t code = 1; code < 256; ++code) {
+      EXPECT_LT(light[code - 1], thresholds[code]) << transfer.text();
+      EXPECT_GT(light[code], thresholds[code]) << transfer.text();
+    }
+  }
+}
+
+TEST(Transfer, ReadsItsOwnText) {
+  for (const Transfer& transfer : kAll) EXPECT_EQ(Transfer::parse(transfer.text()), transfer);
+}
+
+TEST(Transfer, RefusesOthersByName) {
+  for (const char* text : {"", "sRGB", "gamma", "gamma:", "gamma:2.2x", "gamma:0", "gamma:11", "gamma:nan"}) {
+    try {
+      static_cast<void>(Transfer::parse(text));
+      FAIL() << "'" << text << "' was accepted";
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find("gamma:"), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nutik

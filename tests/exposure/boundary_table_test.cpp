@@ -1,0 +1,89 @@
+#include "exposure/boundary_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/bounds.hpp"
+#include "support/exact.hpp"
+#include "support/random_case.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Exact;
+
+double units(const Exact& error, const Exact& scale) {
+  return scale == 0 ? (error == 0 ? 0.0 : INFINITY)
+                    : std::fabs((error / scale).convert_to<double>()) / test::kRoundoff64;
+}
+
+// ∫ |g φ_k|, an upper bound good enough for a scale: |g| of each stretch's ends times the hat.
+Exact magnitude_ns(const std::vector<test::ExactStretch>& gain, const Timeline& timeline, std::uint64_t k) {
+  std::vector<test::ExactStretch> magnitude = gain;
+  for (test::ExactStretch& stretch : magnitude) {
+    if (stretch.begin < 0) stretch.begin = -stretch.begin;
+    if (stretch.end < 0) stretch.end = -stretch.end;
+  }
+  return test::exact_weight_ns(magnitude, timeline, k);
+}
+
+TEST(WeightSweep, PacksWhatExactArithmeticSays) {
+  double worst = 0.0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    test::Random random(seed);
+    const auto count = static_cast<std::uint64_t>(random.whole(1, 30));
+    const Timeline timeline = test::random_timeline(random, count);
+    const GainFunction function = test::random_function(random, timeline);
+    const GainSummary summary = summarize(function, timeline.duration_ns());
+    if (summary.support_ns == 0) continue;
+    const auto gain = test::exact_gain(function, timeline.duration_ns());
+
+    WeightSweep sweep(function, summary, timeline.duration_ns());
+    const std::vector<SampleTimes> times = timeline.times({0, count});
+    std::vector<double> weights(count), boundaries(count + 1);
+    sweep.pack(times, weights, boundaries);
+
+    Exact boundary = 0, magnitude = 0;
+    for (std::uint64_t k = 0; k < count; ++k) {
+      const Exact exact = test::exact_weight_ns(gain, timeline, k);
+      const Exact scale = magnitude_ns(gain, timeline, k);
+      const double error =
+          units(Exact(std::scalbn(weights[k], summary.exponent)) - exact / summary.support_ns,
+                scale / summary.support_ns);
+      EXPECT_LE(error, test::kWeightRoundings) << "seed " << seed << ", sample " << k;
+      worst = std::max(worst, error);
+      boundary += exact;
+      magnitude += scale;
+      EXPECT_LE(units(Exact(std::scalbn(boundaries[k + 1], summary.exponent)) -
+                          boundary / summary.support_ns,
+                      magnitude / summary.support_ns),
+                test::kWeightRoundings + 1)
+          << "seed " << seed << ", boundary " << k + 1;
+    }
+    EXPECT_EQ(boundaries[0], 0.0);
+  }
+  std::printf("worst error of a weight: %.2f u of its own ∫|g φ|\n", worst);
+}
+
+// Blocks may be packed in any order, and weights do not depend on where a block starts.
+TEST(WeightSweep, DoesNotDependOnTheOrderOfBlocks) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    test::Random random(seed);
+    const std::uint64_t count = 60;
+    const Timeline timeline = test::random_timeline(random, count);
+    const GainFunction function = test::random_function(random, timeline);
+    const GainSummary summary = summarize(function, timeline.duration_ns());
+    std::vector<double> whole(count), boundaries(count + 1), part(20), part_boundaries(21);
+    WeightSweep(function, summary, timeline.duration_ns()).pack(timeline.times({0, count}), whole, boundaries);
+    WeightSweep sweep(function, summary, timeline.duration_ns());
+    for (const std::uint64_t first : {40ull, 0ull, 20ull}) {
+      sweep.pack(timeline.times({first, first + 20}), part, part_boundaries);
+      for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(part[i], whole[first + i]) << "seed " << seed;
+      EXPECT_EQ(part_boundaries[0], 0.0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nutik

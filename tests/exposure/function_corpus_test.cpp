@@ -1,0 +1,126 @@
+// The shared corpus of function files, tests/corpus/functions: what expected.json says of each file is
+// what the program reads from it. FnPlotter.py's own parser is held to the same corpus.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "exposure/function_file.hpp"
+
+#ifndef NUTIK_TEST_CORPUS
+#error "NUTIK_TEST_CORPUS is not set; it is the folder tests/corpus/functions"
+#endif
+
+namespace nutik {
+namespace {
+
+const std::filesystem::path kCorpus = NUTIK_TEST_CORPUS;
+
+using Place = std::pair<std::size_t, std::size_t>;  // line, column
+using Functions = std::map<std::uint8_t, std::vector<std::pair<std::int64_t, double>>>;
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot open " + path.string());
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+nlohmann::json expectations() { return nlohmann::json::parse(read(kCorpus / "expected.json")); }
+
+Functions expected_functions(const nlohmann::json& expected) {
+  Functions functions;
+  for (const auto& [tag, points] : expected.at("functions").items()) {
+    functions.emplace(static_cast<std::uint8_t>(std::stoi(tag)), points.get<Functions::mapped_type>());
+  }
+  return functions;
+}
+
+Functions functions_of(const FunctionFile& file) {
+  Functions functions;
+  for (const auto& [tag, parsed] : file.functions) {
+    for (const ControlPoint& point : parsed.function.points()) {
+      functions[tag].emplace_back(point.time_ns, point.gain);
+    }
+  }
+  return functions;
+}
+
+std::vector<Place> places(const FunctionFile& file, Diagnostic::Severity severity) {
+  std::vector<Place> places;
+  for (const Diagnostic& diagnostic : file.diagnostics) {
+    if (diagnostic.severity == severity) {
+      places.emplace_back(diagnostic.place.line, diagnostic.place.column);
+    }
+  }
+  return places;
+}
+
+std::vector<std::size_t> lines(const std::vector<Place>& places) {
+  std::vector<std::size_t> lines;
+  for (const Place& place : places) lines.push_back(place.first);
+  return lines;
+}
+
+using Check = std::function<void(const nlohmann::json& expected, const FunctionFile& file)>;
+
+// Runs `check` on every corpus file whose `valid` is as asked for, with what is expected of it and what
+// the program reads from it.
+void for_each_file(bool valid, const Check& check) {
+  const nlohmann::json all = expectations();
+  std::size_t count = 0;
+  for (const auto& [name, expected] : all.items()) {
+    if (expected.at("valid").get<bool>() != valid) continue;
+    ++count;
+    SCOPED_TRACE(name + ": " + expected.at("shows").get<std::string>());
+    FunctionFile file;
+    EXPECT_NO_THROW(file = parse_functions(read(kCorpus / name)));
+    SCOPED_TRACE(file.report(Diagnostic::Severity::error, name));
+    check(expected, file);
+  }
+  EXPECT_GT(count, 0U);
+}
+
+TEST(FunctionCorpus, EveryFileHasItsExpectations) {
+  std::set<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(kCorpus)) {
+    if (entry.path().extension() == ".fn") files.insert(entry.path().filename().string());
+  }
+  std::set<std::string> expected;
+  const nlohmann::json all = expectations();
+  for (const auto& item : all.items()) expected.insert(item.key());
+  EXPECT_EQ(files, expected);
+}
+
+TEST(FunctionCorpus, ValidFilesGiveTheirFunctions) {
+  for_each_file(true, [](const nlohmann::json& expected, const FunctionFile& file) {
+    EXPECT_FALSE(file.has_errors());
+    EXPECT_EQ(functions_of(file), expected_functions(expected));
+  });
+}
+
+TEST(FunctionCorpus, ValidFilesWarnOnTheExpectedLines) {
+  for_each_file(true, [](const nlohmann::json& expected, const FunctionFile& file) {
+    EXPECT_EQ(lines(places(file, Diagnostic::Severity::warning)),
+              expected.at("warnings").get<std::vector<std::size_t>>());
+  });
+}
+
+TEST(FunctionCorpus, InvalidFilesReportEveryErrorAtItsPlace) {
+  for_each_file(false, [](const nlohmann::json& expected, const FunctionFile& file) {
+    EXPECT_TRUE(file.has_errors());
+    EXPECT_EQ(places(file, Diagnostic::Severity::error), expected.at("errors").get<std::vector<Place>>());
+  });
+}
+
+}  // namespace
+}  // namespace nutik

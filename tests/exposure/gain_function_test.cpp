@@ -1,0 +1,122 @@
+#include "exposure/gain_function.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "exposure/function_file.hpp"
+#include "support/bounds.hpp"
+#include "support/exact.hpp"
+#include "support/random_case.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Exact;
+
+constexpr std::int64_t kThreeSeconds = 3'000'000'000;
+
+GainFunction parse(const std::string& line) {
+  const FunctionFile file = parse_functions(line);
+  EXPECT_FALSE(file.has_errors()) << file.report(Diagnostic::Severity::error, "test");
+  return file.functions.begin()->second.function;
+}
+
+// The numbers at the end of docs/model.md: figures of the paper, over 3 s.
+TEST(GainSummary, KnowsThePapersFigures) {
+  const GainSummary difference = summarize(
+      parse("M0{[0:0.0] , [1500000000:0.0] , [1500000001:-0.5] , [1516666000:-0.5] , [1533332000:1] ,"
+            " [1566665000:1] , [1566665001:-0.5] , [1583331000:-0.5] , [1583331001:0.0] , [3000000000:0.0]}"),
+      kThreeSeconds);
+  EXPECT_EQ(difference.support_ns, 83'331'001);
+  EXPECT_NEAR(std::scalbn(difference.integral_ns, difference.exponent), 20'833'500.75, 1e-8);
+  EXPECT_NEAR(difference.still_gain(), 0.250009006, 5e-10);
+
+  const GainSummary multiple = summarize(
+      parse("M128{[0:1] , [10000000:1] , [10000001:0] , [399999999:0] , [400000000:1] , [410000000:1] ,"
+            " [410000001:0] , [799999999:0] , [800000000:1] , [810000000:1] , [810000001:0] ,"
+            " [999999999:0] , [1000000000:1] , [1010000000:1] , [1010000001:0]}"),
+      kThreeSeconds);
+  EXPECT_EQ(multiple.support_ns, 40'000'007);
+  EXPECT_NEAR(multiple.integral_ns, 40'000'003.5, 1e-8);
+
+  const GainSummary printed = summarize(
+      parse("M0{[0:0], [1:1], [100000000:1], [1000000002:-25], [1010000000:-25], [1010000001:0]}"),
+      kThreeSeconds);
+  EXPECT_NEAR(printed.still_gain(), -10.84, 0.005);
+  const GainSummary restored = summarize(
+      parse("M0{[0:0], [1:1], [1000000000:1], [1000000002:-25], [1010000000:-25], [1010000001:0]}"),
+      kThreeSeconds);
+  EXPECT_EQ(restored.support_ns, 1'010'000'001);
+  EXPECT_NEAR(std::scalbn(restored.integral_ns, restored.exponent), 750'000'013, 1e-6);
+  EXPECT_NEAR(restored.still_gain(), 0.742574, 5e-7);
+
+  const GainSummary blur =
+      summarize(parse("M0{[0:0], [600000000:0], [800000000:2], [800000001:0], [1000000000:0]}"),
+                kThreeSeconds);
+  EXPECT_EQ(blur.support_ns, 200'000'001);
+  EXPECT_EQ(std::scalbn(blur.integral_ns, blur.exponent), 200'000'001.0);
+}
+
+TEST(GainSummary, AgreesWithExactArithmetic) {
+  double worst = 0.0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    test::Random random(seed);
+    const Timeline timeline =
+        test::random_timeline(random, static_cast<std::uint64_t>(random.whole(1, 40)));
+    const GainFunction function = test::random_function(random, timeline);
+    const GainSummary summary = summarize(function, timeline.duration_ns());
+    const test::ExactSummary exact = test::exact_summary(test::exact_gain(function, timeline.duration_ns()));
+    ASSERT_EQ(summary.support_ns, exact.support_ns) << "seed " << seed;
+    if (exact.support_ns == 0) continue;
+    const Exact scale = exact.absolute_integral_ns;
+    const Exact error = Exact(std::scalbn(summary.integral_ns, summary.exponent)) - exact.integral_ns;
+    worst = std::max(worst, std::fabs((error / scale).convert_to<double>()) / test::kRoundoff64);
+  }
+  // A piece's integral costs three roundings, its two gains half a place each, the sum two more.
+  EXPECT_LE(worst, 6.0);
+  std::printf("worst error of an integral: %.2f u of its scale\n", worst);
+}
+
+TEST(GainSummary, FindsTheLiveInterval) {
+  const auto live = [](const std::string& line) { return summarize(parse(line), 1000).live; };
+  EXPECT_EQ(live("M0 [100:0], [200:1], [300:0], [400:0]"), (Interval{100, 300}));
+  EXPECT_EQ(live("M0 [100:0], [150:0], [200:-1], [300:0]"), (Interval{150, 300}));
+  EXPECT_EQ(live("M0 [100:1], [200:0]"), (Interval{0, 200}));
+  EXPECT_EQ(live("M0 [100:0], [200:1]"), (Interval{100, 1000}));
+  EXPECT_EQ(live("M0 [100:0], [200:0]"), (Interval{0, 0}));
+  EXPECT_EQ(live("M0 [2000:0], [3000:1], [4000:0]"), (Interval{0, 0}));
+  EXPECT_EQ(live("M0 [-50:0], [-10:1], [50:0]"), (Interval{0, 50}));
+}
+
+TEST(GainSummary, TellsWhatLiesOutsideTheCapture) {
+  const auto summary = [](const std::string& line) { return summarize(parse(line), 1000); };
+  EXPECT_TRUE(summary("M0 [-10:0], [-5:1], [5:0]").reaches_before_capture);
+  EXPECT_TRUE(summary("M0 [500:0], [900:1], [1100:1], [1101:0]").reaches_after_capture);
+  EXPECT_FALSE(summary("M0 [500:0], [900:1], [1000:1]").reaches_after_capture);
+  EXPECT_FALSE(summary("M0 [-10:0], [5:0], [6:1], [7:0], [2000:0]").reaches_before_capture);
+  EXPECT_FALSE(summary("M0 [-10:0], [5:0], [6:1], [7:0], [2000:0]").reaches_after_capture);
+  EXPECT_TRUE(summary("M0 [400:1],[410:1]").exposes_to_the_end);
+  EXPECT_FALSE(summary("M0 [400:1],[410:0]").exposes_to_the_end);
+}
+
+// Far outside control points make large gains that almost cancel inside: still exact to the last place.
+TEST(GainFunction, CutsPiecesExactly) {
+  const GainFunction function({{-4'000'000'000'000'000'000, -3.7}, {4'000'000'000'000'000'000, 3.7}});
+  const auto pieces = function.pieces(1'000'003);
+  ASSERT_EQ(pieces.size(), 1u);
+  EXPECT_EQ(pieces[0].begin_gain, 0.0);
+  const auto exact = test::exact_gain(function, 1'000'003);
+  EXPECT_EQ(pieces[0].end_gain, exact.front().end.convert_to<double>());
+}
+
+TEST(GainFunction, JumpsWhereTwoPointsShareATime) {
+  const GainFunction box = GainFunction::boxcar(100, 200, 2.0);
+  const GainSummary summary = summarize(box, 1000);
+  EXPECT_EQ(summary.support_ns, 100);
+  EXPECT_EQ(summary.still_gain(), 2.0);
+  EXPECT_EQ(summary.live, (Interval{100, 200}));
+}
+
+}  // namespace
+}  // namespace nutik

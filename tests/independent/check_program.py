@@ -1,0 +1,69 @@
+"""An independent check of the whole program: it is run as a user runs it, and its pictures are
+compared with expose.py, which was written from the mathematics alone, and with numbers by hand.
+
+    check_program.py --program PATH [--media DIR] --work DIR [--only SECTION]
+
+Exit status 0 where everything agrees, 1 otherwise.
+"""
+
+import argparse
+import shutil
+import sys
+import time
+from pathlib import Path
+
+import cases_by_hand
+import cases_intervals
+import cases_paper
+import cases_small
+from harness import TOLERANCE, Checks
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", required=True, type=Path, help="nutik-cl")
+    parser.add_argument("--media", type=Path, help="folder of the sample clips")
+    parser.add_argument("--work", required=True, type=Path, help="folder for files, made if need be")
+    parser.add_argument("--only", default="", help="sections whose name contains this: numbers, "
+                        "by-hand, small, interval, paper")
+    return parser.parse_args()
+
+
+def generated(checks, wanted):
+    """The sections that generate their own clips."""
+    sections = [("by-hand", cases_by_hand.run), ("small", cases_small.run),
+                ("interval", cases_intervals.run)]
+    if wanted in "numbers":
+        cases_by_hand.numbers(checks)
+    if shutil.which("ffmpeg") is None:
+        print("SKIPPED: by-hand, small and interval: making lossless clips needs the ffmpeg command")
+        return
+    for name, run in sections:
+        if wanted in name:
+            run(checks)
+
+
+def recorded(checks, media, wanted):
+    """The section that needs the recorded clips."""
+    if not wanted.startswith("paper") and wanted not in "paper":
+        return
+    if media is None or not media.is_dir():
+        print("SKIPPED: the paper's commands: needs the clips (--media DIR)")
+        return
+    cases_paper.run(checks, media.resolve(), wanted)
+
+
+def main():
+    given = arguments()
+    started = time.monotonic()
+    given.work.mkdir(parents=True, exist_ok=True)
+    checks = Checks(given.program.resolve(), given.work.resolve(), " ".join(sys.argv))
+    generated(checks, given.only)
+    recorded(checks, given.media, given.only)
+    print(f"\n{checks.cases} checks, {checks.failures} failed, {time.monotonic() - started:.0f} s; "
+          f"worst error {checks.worst[0]:.1e} S of {TOLERANCE:g} S allowed ({checks.worst[1]})")
+    return 1 if checks.failures or not checks.cases else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

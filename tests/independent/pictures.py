@@ -1,0 +1,118 @@
+"""Files that go in and out: float pictures (PFM), masks (PGM), PNG pictures and video clips.
+
+Arrays are H x W x C, row 0 at the top, channels in the order red, green, blue (or one grey).
+"""
+
+import subprocess
+
+import cv2
+import numpy as np
+
+
+def read_pfm(path):
+    """A PFM picture, float64 H x W x C. The file's first row is the bottom one."""
+    with open(path, "rb") as file:
+        data = file.read()
+    kind, size, scale, rest = _pfm_header(data)
+    channels = {b"PF": 3, b"Pf": 1}[kind]
+    width, height = (int(text) for text in size.split())
+    order = "<" if float(scale) < 0 else ">"
+    if len(rest) != 4 * width * height * channels:
+        raise ValueError(f"{path}: {len(rest)} bytes for {width} x {height} x {channels} floats")
+    rows = np.frombuffer(rest, dtype=order + "f4").reshape(height, width, channels)
+    return rows[::-1].astype(np.float64)
+
+
+def _pfm_header(data):
+    """Kind, size, scale and the bytes after the third line's end."""
+    kind, rest = data.split(b"\n", 1)
+    size, rest = rest.split(b"\n", 1)
+    scale, rest = rest.split(b"\n", 1)
+    return kind.strip(), size, scale, rest
+
+
+def write_pfm(path, picture):
+    """Write light, H x W x C, as a little-endian PFM."""
+    height, width, channels = picture.shape
+    with open(path, "wb") as file:
+        file.write(f"{'PF' if channels == 3 else 'Pf'}\n{width} {height}\n-1.0\n".encode())
+        file.write(picture[::-1].astype("<f4").tobytes())
+
+
+def read_codes(path):
+    """A PNG picture's codes as stored, integers H x W x C."""
+    codes = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
+    if codes is None:
+        raise ValueError(f"{path}: no picture that can be read")
+    return codes[:, :, None] if codes.ndim == 2 else codes[:, :, ::-1]
+
+
+def read_mask(path):
+    """A mask, uint8 H x W."""
+    return read_codes(path)[:, :, 0]
+
+
+def write_pgm(path, mask):
+    """Write a mask, uint8 H x W, as a binary PGM."""
+    height, width = mask.shape
+    with open(path, "wb") as file:
+        file.write(f"P5\n{width} {height}\n255\n".encode() + mask.tobytes())
+
+
+class Clip:
+    """A video file's samples, decoded as far as they are asked for and kept.
+
+    `clip[k]` is sample k, uint8 H x W x 3; `len(clip)` decodes the whole file once to count, since
+    what containers say about their length is not always so.
+    """
+
+    def __init__(self, path):
+        self.path = str(path)
+        self._video = self._open()
+        self._samples = []
+        self._count = None
+
+    def _open(self):
+        video = cv2.VideoCapture(self.path)
+        if not video.isOpened():
+            raise ValueError(f"{self.path}: no video that can be read")
+        return video
+
+    def rate(self):
+        """The rate that the file states, samples a second."""
+        return self._video.get(cv2.CAP_PROP_FPS)
+
+    def __len__(self):
+        if self._count is None:
+            video = self._open()
+            self._count = 0
+            while video.grab():
+                self._count += 1
+        return self._count
+
+    def __getitem__(self, k):
+        while len(self._samples) <= k:
+            read, codes = self._video.read()
+            if not read:
+                raise IndexError(k)
+            self._samples.append(np.ascontiguousarray(codes[:, :, ::-1]))
+        return self._samples[k]
+
+
+def write_lossless(path, samples, rate="25"):
+    """Write samples, N x H x W x C of uint8 or one-channel uint16, as FFV1 in Matroska.
+
+    Nothing is lost and no colour is converted, so that the array is what the file holds. Needs
+    the ffmpeg command.
+    """
+    count, height, width, channels = samples.shape
+    if samples.dtype == np.uint16:
+        raw, stored, data = "gray16le", "gray16le", samples.astype("<u2")
+    elif channels == 1:
+        raw, stored, data = "gray", "gray", samples
+    else:
+        blank = np.zeros((count, height, width, 1), np.uint8)
+        raw, stored, data = "bgr0", "bgr0", np.concatenate([samples[..., ::-1], blank], axis=3)
+    subprocess.run(["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", raw,
+                    "-s", f"{width}x{height}", "-r", rate, "-i", "-", "-c:v", "ffv1",
+                    "-pix_fmt", stored, str(path)], input=data.tobytes(), check=True)

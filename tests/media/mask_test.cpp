@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "capture/error.hpp"
+#include "media/mask_reader.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Scratch;
+
+std::vector<int> tags_of(const Picture& mask) {
+  const auto values = mask.values<std::uint8_t>();
+  return {values.begin(), values.end()};
+}
+
+TEST(Mask, TagsAreLiteralWhateverTheMaximum) {
+  const Scratch scratch;
+  EXPECT_EQ(tags_of(read_mask(scratch.write("a.pgm", "P2\n# a comment\n3 1\n4\n0 1 4\n"))),
+            (std::vector<int>{0, 1, 4}));
+  EXPECT_EQ(tags_of(read_mask(scratch.write("b.pgm", std::string("P5 3 1 4\n\0\1\4", 12)))),
+            (std::vector<int>{0, 1, 4}));
+  EXPECT_EQ(tags_of(read_mask(scratch.write("c.pgm", "P2 3 1 255 0 128 255"))), (std::vector<int>{0, 128, 255}));
+}
+
+TEST(Mask, ReadsGreyPng) {
+  const Scratch scratch;
+  cv::Mat picture(5, 7, CV_8UC1);
+  for (int i = 0; i < 35; ++i) picture.data[i] = static_cast<std::uint8_t>(i * 7);
+  cv::imwrite((scratch / "mask.png").string(), picture);
+  const Picture mask = read_mask(scratch / "mask.png");
+  EXPECT_EQ(mask.shape, (Shape{7, 5, 1}));
+  for (std::size_t i = 0; i < 35; ++i) EXPECT_EQ(mask.values<std::uint8_t>()[i], i * 7);
+}
+
+std::string message_of(const std::filesystem::path& path) {
+  try {
+    static_cast<void>(read_mask(path));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "it was read";
+}
+
+TEST(Mask, SaysWhatIsWrong) {
+  const Scratch scratch;
+  cv::imwrite((scratch / "deep.png").string(), cv::Mat(2, 2, CV_16UC1, cv::Scalar(9)));
+  cv::imwrite((scratch / "colour.png").string(), cv::Mat(2, 2, CV_8UC3, cv::Scalar(9)));
+  cv::imwrite((scratch / "mask.jpg").string(), cv::Mat(2, 2, CV_8UC1, cv::Scalar(9)));
+  const auto expect = [](const std::string& message, const char* part) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  expect(message_of(scratch / "deep.png"), "is a PNG of 16 bits, grey; it must be 8 bits, grey");
+  expect(message_of(scratch / "colour.png"), "is a PNG of 8 bits, RGB; it must be 8 bits, grey");
+  expect(message_of(scratch / "mask.jpg"), "neither a PGM nor a PNG");
+  expect(message_of(scratch / "absent.pgm"), "cannot be read: No such file");
+  expect(message_of(scratch.write("rgb.ppm", "P3 1 1 255 1 2 3")), "is a picture of 3 channels; a mask has 1");
+  expect(message_of(scratch.write("deep.pgm", "P2 1 1 65535 300")), "is a picture of 16 bits (maximum 65535)");
+  expect(message_of(scratch.write("cut.pgm", "P5 100 100 255\nabc")), "it was cut off: 100 x 100 pixels need 10000");
+  expect(message_of(scratch.write("cut2.pgm", "P2 2 2 255 1 2 3")), "it was cut off: 2 x 2 pixels need 8 bytes, 6 are left");
+  expect(message_of(scratch.write("over.pgm", "P2 1 1 10 11")), "value 11 is above its maximum of 10");
+  expect(message_of(scratch.write("huge.pgm", "P5 4000000000 2 255\n")), "its width is above");
+  expect(message_of(scratch.write("word.pgm", "P2 two 2 255")), "a width is missing at byte 3");
+}
+
+}  // namespace
+}  // namespace nutik

@@ -1,0 +1,89 @@
+#include "opencl/program_store.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "capture/error.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr const char* kSource =
+    "kernel void fill(global int* to) { to[get_global_id(0)] = NUMBER; }";
+
+class ProgramStoreTest : public testing::Test {
+ protected:
+  // Builds or loads the program, runs it, saves; returns what the kernel wrote.
+  int run(const std::string& number) {
+    ProgramStore store(context_, device_, scratch_.folder() / "cache", [this](auto&) { ++builds_; });
+    const cl::Program program = store.get("fill", kSource, "-DNUMBER=" + number);
+    cl::CommandQueue queue(context_, device_);
+    const cl::Buffer buffer(context_, CL_MEM_READ_WRITE, sizeof(cl_int));
+    cl::KernelFunctor<cl::Buffer> fill(program, "fill");
+    fill(cl::EnqueueArgs(queue, cl::NDRange(1)), buffer);
+    cl_int value = 0;
+    queue.enqueueReadBuffer(buffer, CL_TRUE, 0, sizeof value, &value);
+    store.save_new_binaries();
+    return value;
+  }
+
+  [[nodiscard]] std::vector<std::filesystem::path> cached() const {
+    std::vector<std::filesystem::path> files;
+    for (const auto& file : std::filesystem::directory_iterator(scratch_.folder() / "cache")) {
+      files.push_back(file.path());
+    }
+    return files;
+  }
+
+  cl::Device device_ = all_devices().front();
+  cl::Context context_{device_};
+  test::Scratch scratch_;
+  int builds_ = 0;
+};
+
+TEST_F(ProgramStoreTest, BuildsOnceAndThenLoads) {
+  EXPECT_EQ(run("7"), 7);
+  EXPECT_EQ(run("7"), 7);
+  EXPECT_EQ(builds_, 1);
+  EXPECT_EQ(run("8"), 8);  // other options: another program
+  EXPECT_EQ(builds_, 2);
+  EXPECT_EQ(cached().size(), 2u);
+}
+
+TEST_F(ProgramStoreTest, RebuildsADamagedEntry) {
+  EXPECT_EQ(run("7"), 7);
+  const auto file = cached().front();
+  const std::string whole = test::read_file(file);
+  for (const std::string& damaged :
+       {std::string(), whole.substr(0, whole.size() / 2), whole.substr(0, whole.size() - 1) + "x",
+        "other " + whole}) {
+    std::ofstream(file, std::ios::binary) << damaged;
+    const int before = builds_;
+    EXPECT_EQ(run("7"), 7);
+    EXPECT_EQ(builds_, before + 1);
+    EXPECT_EQ(test::read_file(file).size(), whole.size()) << "the entry was not written again";
+  }
+}
+
+TEST_F(ProgramStoreTest, WorksWithoutAPlaceToWrite) {
+  std::ofstream(scratch_.folder() / "cache") << "a file where the folder should be";
+  EXPECT_EQ(run("7"), 7);
+}
+
+TEST_F(ProgramStoreTest, AFailureCarriesProgramOptionsAndLog) {
+  ProgramStore store(context_, device_, {}, {});
+  try {
+    static_cast<void>(store.get("broken", "kernel void broken() { undeclared = 1; }", "-DX=1"));
+    FAIL() << "it was built";
+  } catch (const DeviceError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("kernels/broken.cl"), std::string::npos) << message;
+    EXPECT_NE(message.find("-DX=1"), std::string::npos) << message;
+    EXPECT_NE(message.find("undeclared"), std::string::npos) << message;
+  }
+}
+
+}  // namespace
+}  // namespace nutik

@@ -1,0 +1,117 @@
+// The reference against exact rational arithmetic.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/reference_renderer.hpp"
+#include "support/bounds.hpp"
+#include "support/exact.hpp"
+#include "support/random_case.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Exact;
+using test::RandomCase;
+
+// Exact light of one value: Σ_k v_k ∫ g φ_k / D over the held codes.
+Exact exact_light(const RandomCase& random, const std::vector<Exact>& weights, std::int64_t support_ns,
+                  const std::vector<double>& held_light) {
+  if (support_ns == 0) return 0;
+  Exact sum = 0;
+  for (std::size_t k = 0; k < weights.size(); ++k) sum += weights[k] * Exact(held_light[k]);
+  static_cast<void>(random);
+  return sum / support_ns;
+}
+
+TEST(Reference, StaysWithinAFewUlpOfExactArithmetic) {
+  double worst = 0.0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    RandomCase random(seed);
+    random.capture.noise.tolerance = 0;  // held codes are the source's
+    MemoryCapture capture = random.encode();
+    const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+    const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
+    std::vector<std::vector<Exact>> weights;
+    std::vector<test::ExactSummary> summaries;
+    for (const PlannedFunction& planned : plan.functions) {
+      const auto gain = test::exact_gain(planned.function, plan.duration_ns);
+      summaries.push_back(test::exact_summary(gain));
+      weights.emplace_back();
+      for (std::uint64_t k = 0; k < random.rasters.size(); ++k) {
+        weights.back().push_back(test::exact_weight_ns(gain, random.timeline, k));
+      }
+    }
+    test::Random draw(seed);
+    for (int i = 0; i < 12; ++i) {
+      const auto value = static_cast<std::uint64_t>(
+          draw.whole(0, static_cast<std::int64_t>(picture.shape.value_count()) - 1));
+      const std::size_t f = plan.function_of_pixel[value / picture.shape.channels];
+      std::vector<double> light;
+      for (const auto& raster : random.rasters) {
+        light.push_back(random.capture.transfer.light_of(
+            static_cast<double>(test::code_at(random.capture, raster, value)) / random.capture.white_code));
+      }
+      const Exact exact = exact_light(random, weights[f], summaries[f].support_ns, light);
+      const double rendered = picture.values<double>()[value];
+      if (summaries[f].support_ns == 0) {
+        EXPECT_EQ(rendered, 0.0);
+        continue;
+      }
+      const Exact error = Exact(rendered) - exact;
+      const double units =
+          std::fabs((error / summaries[f].scale()).convert_to<double>()) / test::kRoundoff64;
+      EXPECT_LE(units, test::kReferenceRoundings) << random.text() << ", value " << value;
+      worst = std::max(worst, units);
+    }
+  }
+  std::printf("worst error of the reference: %.2f u of ∫|g|/D\n", worst);
+}
+
+// By hand: 8 samples at 100 a second, shutter 180 degrees, codes 10 k of 255, linear.
+class ByHand : public testing::Test {
+ protected:
+  static double light(const GainFunction& function) {
+    CaptureFormat capture;
+    capture.shape = {1, 1, 1};
+    capture.transfer = Transfer::linear();
+    test::Rasters rasters;
+    for (int k = 0; k < 8; ++k) rasters.push_back({static_cast<std::byte>(10 * k)});
+    MemoryCapture source(capture, Timeline::constant({100, 1}, {180, 1}, 8), rasters, 3);
+    const RenderPlan plan = make_plan(source, {{0, function}}, Mask::uniform(1, 1, 0), {});
+    return ReferenceRenderer().render(plan, source, {ValueType::light64, 0}).values<double>()[0] * 255.0;
+  }
+};
+
+TEST_F(ByHand, ABoxcarOverOneSampleGivesItsCode) {
+  EXPECT_NEAR(light(GainFunction::boxcar(30'000'000, 35'000'000)), 30.0, 1e-13);
+  EXPECT_NEAR(light(GainFunction::boxcar(32'000'000, 32'001'000)), 30.0, 1e-13);  // 1 µs inside it
+}
+
+TEST_F(ByHand, ABoxcarInAGapGivesTheLinesMean) {
+  EXPECT_NEAR(light(GainFunction::boxcar(35'000'000, 40'000'000)), 35.0, 1e-13);
+  EXPECT_NEAR(light(GainFunction::boxcar(36'000'000, 37'000'000)), 33.0, 1e-13);  // 30 + 10 · 1.5/5
+}
+
+TEST_F(ByHand, ABoxcarOverAPeriodGivesExposureAndRamp) {
+  EXPECT_NEAR(light(GainFunction::boxcar(30'000'000, 40'000'000)), 32.5, 1e-13);
+}
+
+TEST_F(ByHand, TheLastSampleHoldsToTheEnd) {
+  EXPECT_NEAR(light(GainFunction::boxcar(75'000'000, 80'000'000)), 70.0, 1e-13);
+}
+
+TEST_F(ByHand, ARampOfGainAcrossARampOfLight) {
+  // g from 0 to 1 and v from 30 to 40 over the gap: ∫ = 5 ms (0·30/3 + (0·40 + 1·30)/6 + 1·40/3).
+  const GainFunction ramp({{35'000'000, 0.0}, {40'000'000, 1.0}, {40'000'000, 0.0}});
+  EXPECT_NEAR(light(ramp), 30.0 / 6 + 40.0 / 3, 1e-13);
+}
+
+TEST_F(ByHand, NegativeGainsSubtract) {
+  const GainFunction difference({{10'000'000, 0.0}, {10'000'000, -1.0}, {15'000'000, -1.0}, {15'000'000, 0.0},
+                                 {60'000'000, 0.0}, {60'000'000, 1.0}, {65'000'000, 1.0}, {65'000'000, 0.0}});
+  EXPECT_NEAR(light(difference), (60.0 - 10.0) / 2, 1e-13);
+}
+
+}  // namespace
+}  // namespace nutik

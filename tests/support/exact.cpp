@@ -1,0 +1,84 @@
+#include "support/exact.hpp"
+
+#include <algorithm>
+
+namespace nutik::test {
+namespace {
+
+Exact magnitude(const Exact& value) { return value < 0 ? Exact(-value) : value; }
+
+}  // namespace
+
+std::vector<ExactStretch> exact_gain(const GainFunction& function, std::int64_t duration_ns) {
+  std::vector<ExactStretch> stretches;
+  const auto add = [&](std::int64_t begin, std::int64_t end, double from, double to) {
+    const std::int64_t inside_begin = std::max<std::int64_t>(begin, 0);
+    const std::int64_t inside_end = std::min(end, duration_ns);
+    if (inside_begin >= inside_end) return;
+    const ExactStretch whole{begin, end, Exact(from), Exact(to)};
+    stretches.push_back({inside_begin, inside_end, whole.at(inside_begin), whole.at(inside_end)});
+  };
+  const auto points = function.points();
+  add(std::min<std::int64_t>(points.front().time_ns, 0) - 1, points.front().time_ns, function.first_gain(),
+      function.first_gain());
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    if (points[i].time_ns == points[i + 1].time_ns) continue;
+    add(points[i].time_ns, points[i + 1].time_ns, points[i].gain, points[i + 1].gain);
+  }
+  add(points.back().time_ns, std::max(points.back().time_ns, duration_ns) + 1, function.last_gain(),
+      function.last_gain());
+  return stretches;
+}
+
+Exact integrate_product(const std::vector<ExactStretch>& a, const std::vector<ExactStretch>& b) {
+  Exact sum = 0;
+  auto first = b.begin();
+  for (const ExactStretch& left : a) {
+    while (first != b.end() && first->end_ns <= left.begin_ns) ++first;
+    for (auto right = first; right != b.end() && right->begin_ns < left.end_ns; ++right) {
+      const std::int64_t from = std::max(left.begin_ns, right->begin_ns);
+      const std::int64_t to = std::min(left.end_ns, right->end_ns);
+      if (from >= to || left.is_zero() || right->is_zero()) continue;
+      const Exact start = left.at(from) * right->at(from);
+      const Exact end = left.at(to) * right->at(to);
+      const Exact middle = (left.at(from) + left.at(to)) * (right->at(from) + right->at(to));
+      sum += Exact(to - from) * (start + middle + end) / 6;  // middle: 4 · half · half
+    }
+  }
+  return sum;
+}
+
+ExactSummary exact_summary(const std::vector<ExactStretch>& gain) {
+  ExactSummary summary;
+  for (const ExactStretch& stretch : gain) {
+    if (stretch.is_zero()) continue;
+    const std::int64_t length = stretch.end_ns - stretch.begin_ns;
+    summary.support_ns += length;
+    summary.integral_ns += Exact(length) * (stretch.begin + stretch.end) / 2;
+    const Exact begin = magnitude(stretch.begin);
+    const Exact end = magnitude(stretch.end);
+    const bool crosses = stretch.begin * stretch.end < 0;
+    summary.absolute_integral_ns +=
+        crosses ? Exact(Exact(length) * (begin * begin + end * end) / (2 * (begin + end)))
+                : Exact(Exact(length) * (begin + end) / 2);
+  }
+  return summary;
+}
+
+std::vector<ExactStretch> exact_hat(const Timeline& timeline, std::uint64_t k) {
+  std::vector<ExactStretch> hat;
+  const bool is_last = k + 1 == timeline.sample_count();
+  const auto add = [&](std::int64_t begin, std::int64_t end, int from, int to) {
+    if (begin < end) hat.push_back({begin, end, Exact(from), Exact(to)});
+  };
+  if (k > 0) add(timeline.end_ns(k - 1), timeline.start_ns(k), 0, 1);
+  add(timeline.start_ns(k), timeline.end_ns(k), 1, 1);
+  add(timeline.end_ns(k), is_last ? timeline.duration_ns() : timeline.start_ns(k + 1), 1, is_last ? 1 : 0);
+  return hat;
+}
+
+Exact exact_weight_ns(const std::vector<ExactStretch>& gain, const Timeline& timeline, std::uint64_t k) {
+  return integrate_product(exact_hat(timeline, k), gain);
+}
+
+}  // namespace nutik::test

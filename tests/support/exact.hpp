@@ -1,0 +1,53 @@
+// Exact rational arithmetic: what weights, tables and light really are, to measure errors against.
+//
+// Written from docs/model.md with another formula than either renderer: Simpson's rule, which is exact
+// for the product of two straight lines.
+#pragma once
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cstdint>
+#include <vector>
+
+#include "capture/timeline.hpp"
+#include "exposure/gain_function.hpp"
+
+namespace nutik::test {
+
+using Exact = boost::multiprecision::cpp_rational;
+
+// A straight stretch of a function of time.
+struct ExactStretch {
+  std::int64_t begin_ns;
+  std::int64_t end_ns;
+  Exact begin;
+  Exact end;
+
+  [[nodiscard]] Exact at(std::int64_t time_ns) const {
+    return begin + (end - begin) * Exact(time_ns - begin_ns) / Exact(end_ns - begin_ns);
+  }
+  [[nodiscard]] bool is_zero() const { return begin == 0 && end == 0; }
+};
+
+// The gain function on the domain [0, duration_ns].
+[[nodiscard]] std::vector<ExactStretch> exact_gain(const GainFunction& function, std::int64_t duration_ns);
+
+// ∫ of the product of two functions that are straight on each of their stretches.
+[[nodiscard]] Exact integrate_product(const std::vector<ExactStretch>& a,
+                                      const std::vector<ExactStretch>& b);
+
+struct ExactSummary {
+  Exact integral_ns;           // ∫g
+  Exact absolute_integral_ns;  // ∫|g|
+  std::int64_t support_ns = 0;  // D
+  [[nodiscard]] Exact scale() const { return absolute_integral_ns / support_ns; }  // S
+};
+[[nodiscard]] ExactSummary exact_summary(const std::vector<ExactStretch>& gain);
+
+// Sample k's own hat on the timeline.
+[[nodiscard]] std::vector<ExactStretch> exact_hat(const Timeline& timeline, std::uint64_t k);
+
+// ∫ g φ_k, in nanoseconds.
+[[nodiscard]] Exact exact_weight_ns(const std::vector<ExactStretch>& gain, const Timeline& timeline,
+                                    std::uint64_t k);
+
+}  // namespace nutik::test

@@ -1,0 +1,24 @@
+// Runs the program as a user does.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace nutik::test {
+
+struct ProgramResult {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+// Runs nutik-cl with these words in `folder`; `environment` are NAME=value settings in front.
+[[nodiscard]] ProgramResult run_program(const std::vector<std::string>& words,
+                                        const std::filesystem::path& folder,
+                                        const std::vector<std::string>& environment = {});
+
+// Any command line of a shell, for second programs that read what ours wrote.
+[[nodiscard]] ProgramResult run_shell(const std::string& command, const std::filesystem::path& folder);
+
+}  // namespace nutik::test

@@ -1,0 +1,225 @@
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "support/program.hpp"
+#include "support/random_case.hpp"
+#include "support/scratch.hpp"
+#include "tik/reader.hpp"
+#include "tik/writer.hpp"
+
+namespace nutik::tik {
+namespace {
+
+using test::RandomCase;
+using test::Scratch;
+
+std::filesystem::path write(const RandomCase& random, const Codec& codec, const Scratch& scratch) {
+  const std::filesystem::path path = scratch / "capture.tik";
+  Header header;
+  header.capture = random.capture;
+  if (random.timeline.is_constant()) header.rate = random.timeline.rate();
+  header.shutter_angle = random.timeline.shutter_angle();
+  Writer writer(path, header, codec, random.rasters.front());
+  const MemoryCapture capture = random.encode();
+  for (std::uint64_t b = 0; b < capture.block_count(); ++b) {
+    const BlockView view = capture.view(b);
+    std::span<const Exposure> exposures;
+    if (!random.timeline.is_constant()) {
+      exposures = random.timeline.table().subspan(view.extent().first_sample, view.extent().sample_count);
+    }
+    writer.append({view.extent(), view.payload(), 0}, exposures);
+  }
+  writer.finish(random.timeline);
+  return path;
+}
+
+std::vector<std::byte> payload_of(Reader& reader, std::uint64_t block) {
+  std::vector<std::byte> payload(reader.prepare(block));
+  reader.read(block, payload);
+  return payload;
+}
+
+void expect_same_capture(const RandomCase& random, Reader& reader) {
+  const MemoryCapture capture = random.encode();
+  EXPECT_EQ(reader.format(), random.capture);
+  ASSERT_EQ(reader.block_count(), capture.block_count());
+  ASSERT_EQ(reader.timeline().sample_count(), random.timeline.sample_count());
+  EXPECT_EQ(reader.timeline().duration_ns(), random.timeline.duration_ns());
+  for (std::uint64_t k = 0; k < random.timeline.sample_count(); ++k) {
+    ASSERT_EQ(reader.timeline().start_ns(k), random.timeline.start_ns(k));
+    ASSERT_EQ(reader.timeline().end_ns(k), random.timeline.end_ns(k));
+  }
+  for (std::uint64_t b = 0; b < reader.block_count(); ++b) {
+    const auto payload = payload_of(reader, b);
+    const auto expected = capture.view(b).payload();
+    ASSERT_TRUE(std::equal(payload.begin(), payload.end(), expected.begin(), expected.end()));
+    if (!reader.region().empty()) {
+      const auto mapped = reader.region().subspan(reader.region_offset(b), payload.size());
+      ASSERT_TRUE(std::equal(payload.begin(), payload.end(), mapped.begin()));
+      EXPECT_EQ(reader.region_offset(b) % kBlockAlignment, 0u);
+    }
+  }
+}
+
+TEST(TikFile, GivesBackWhatWasWritten) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const RandomCase random(seed);
+    SCOPED_TRACE(random.text());
+    for (const CodecId codec : {CodecId::none, CodecId::zstd}) {
+      const Scratch scratch;
+      Reader reader(write(random, {codec, 0}, scratch));
+      expect_same_capture(random, reader);
+    }
+  }
+}
+
+// Any Netpbm reader shows the first sample: OpenCV and Netpbm itself.
+TEST(TikFile, OpensAsAPictureOfTheFirstSample) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const RandomCase random(seed);
+    SCOPED_TRACE(random.text());
+    const Scratch scratch;
+    const auto path = write(random, {CodecId::zstd, 0}, scratch);
+    const auto netpbm = test::run_shell("pamfile capture.tik", scratch.folder());
+    EXPECT_EQ(netpbm.status, 0) << netpbm.err;
+    EXPECT_NE(netpbm.out.find(format("{} by {}", random.capture.shape.width, random.capture.shape.height)),
+              std::string::npos)
+        << netpbm.out;
+    EXPECT_EQ(netpbm.out.find("Image 1"), std::string::npos) << "a second picture: " << netpbm.out;
+
+    std::filesystem::copy_file(path, scratch / "capture.ppm");  // OpenCV goes by the name
+    const cv::Mat picture = cv::imread((scratch / "capture.ppm").string(), cv::IMREAD_UNCHANGED);
+    ASSERT_FALSE(picture.empty());
+    const Shape& shape = random.capture.shape;
+    ASSERT_EQ(picture.channels(), static_cast<int>(shape.channels));
+    for (std::uint64_t value = 0; value < shape.value_count(); ++value) {
+      const std::uint64_t pixel = value / shape.channels;
+      const std::uint64_t channel = shape.channels == 3 ? 2 - value % 3 : 0;  // BGR
+      const std::uint64_t at = pixel * shape.channels + channel;
+      const std::uint32_t code = picture.depth() == CV_8U ? picture.ptr<std::uint8_t>()[at]
+                                                          : picture.ptr<std::uint16_t>()[at];
+      ASSERT_EQ(code, test::code_at(random.capture, random.rasters[0], value)) << "value " << value;
+    }
+  }
+}
+
+TEST(TikFile, SaysWhatItIsInWords) {
+  const RandomCase random(5);
+  const Scratch scratch;
+  const std::string text = test::read_file(write(random, {CodecId::lz4, 0}, scratch)).substr(0, 600);
+  for (const std::string& line :
+       {std::string("# TIK 0 - an image evolution model"), format("# TIK channels: {}", random.capture.shape.channels),
+        format("# TIK transfer: {}", random.capture.transfer.text()),
+        format("# TIK tolerance: {} codes", random.capture.noise.tolerance), std::string("# TIK codec: lz4")}) {
+    EXPECT_NE(text.find(line), std::string::npos) << "no '" << line << "' in\n" << text;
+  }
+}
+
+RandomCase case_with_blocks(std::uint64_t at_least) {
+  for (std::uint64_t seed = 0;; ++seed) {
+    RandomCase random(seed);
+    if (random.encode().block_count() >= at_least && random.capture.shape.pixel_count() > 64) return random;
+  }
+}
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST(TikFile, ADamagedBlockCostsThatBlockOnly) {
+  const RandomCase random = case_with_blocks(3);
+  const Scratch scratch;
+  const auto path = write(random, {CodecId::none, 0}, scratch);
+  std::string bytes = test::read_file(path);
+  std::uint64_t offset = 0;
+  {
+    Reader reader(path);
+    offset = reader.region_offset(1);
+  }
+  bytes[offset + 200] = static_cast<char>(bytes[offset + 200] ^ 1);
+  scratch.write("damaged.tik", bytes);
+  Reader reader(scratch / "damaged.tik");
+  const SampleRange samples = reader.block_extent(1).range();
+  EXPECT_NO_THROW(payload_of(reader, 0));
+  EXPECT_NO_THROW(payload_of(reader, 2));
+  const std::string message = message_of([&] { payload_of(reader, 1); });
+  EXPECT_NE(message.find(format("the block of samples {} to {}", samples.first, samples.last - 1)),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("damaged: its checksum does not match"), std::string::npos) << message;
+}
+
+TEST(TikFile, IsRecoveredUpToItsLastWholeBlock) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const RandomCase random(seed);
+    SCOPED_TRACE(random.text());
+    const Scratch scratch;
+    const auto path = write(random, {CodecId::zstd, 0}, scratch);
+    const std::string bytes = test::read_file(path);
+    std::vector<std::uint64_t> block_ends;
+    const MemoryCapture capture = random.encode();
+    {
+      const Reader reader(path);
+      for (const IndexEntry& entry : reader.index()) {
+        std::uint64_t end = entry.offset + sizeof(BlockHeader) + entry.stored_bytes;
+        if (!random.timeline.is_constant()) end += align_up(entry.sample_count * sizeof(Exposure), 64);
+        block_ends.push_back(end);
+      }
+    }
+    test::Random draw(seed);
+    for (int i = 0; i < 6; ++i) {
+      std::filesystem::remove(scratch / "new.tik");
+      const auto cut = static_cast<std::uint64_t>(draw.whole(1, static_cast<std::int64_t>(bytes.size()) - 1));
+      scratch.write("cut.tik", std::string_view(bytes).substr(0, cut));
+      const auto whole = static_cast<std::uint64_t>(
+          std::count_if(block_ends.begin(), block_ends.end(), [&](std::uint64_t end) { return end <= cut; }));
+      const std::string message = message_of([&] { Reader(scratch / "cut.tik"); });
+      EXPECT_NE(message, "nothing was thrown");
+      if (whole == 0) {
+        EXPECT_NE(message_of([&] { recover(scratch / "cut.tik", scratch / "new.tik"); }), "nothing was thrown");
+        EXPECT_FALSE(std::filesystem::exists(scratch / "new.tik"));
+        continue;
+      }
+      EXPECT_NE(message.find("nutik-cl recover"), std::string::npos) << message;
+      const Recovery recovery = recover(scratch / "cut.tik", scratch / "new.tik");
+      EXPECT_EQ(recovery.block_count, whole);
+      Reader reader(scratch / "new.tik");
+      ASSERT_EQ(reader.block_count(), whole);
+      for (std::uint64_t b = 0; b < whole; ++b) {
+        const auto payload = payload_of(reader, b);
+        const auto expected = capture.view(b).payload();
+        ASSERT_TRUE(std::equal(payload.begin(), payload.end(), expected.begin(), expected.end()));
+        const BlockExtent extent = reader.block_extent(b);
+        EXPECT_EQ(reader.timeline().start_ns(extent.first_sample),
+                  random.timeline.start_ns(extent.first_sample));
+      }
+    }
+  }
+}
+
+TEST(TikFile, TellsOtherFilesApart) {
+  const Scratch scratch;
+  const auto refusal = [&](std::string_view content) {
+    const auto path = scratch.write("x.tik", content);
+    return message_of([&] { Reader reader(path); });
+  };
+  EXPECT_NE(refusal("").find("no .tik file"), std::string::npos);
+  EXPECT_NE(refusal("hello").find("no .tik file"), std::string::npos);
+  EXPECT_NE(refusal("P6\n2 2\n255\n123456789012").find("is a Netpbm picture, not a .tik file"), std::string::npos);
+  EXPECT_NE(refusal("P6\n# TIK FPS=120\n2 2\n255\n...").find("TIK file of another program"), std::string::npos);
+  EXPECT_NE(refusal("P6\n#TIK v1\n2 2\n255\n...").find("TIK file of another program"), std::string::npos);
+  EXPECT_NE(refusal("P6\n# TIK 7 - something newer\n").find("version 7; this program reads version 0"),
+            std::string::npos);
+  EXPECT_NE(refusal("P6\n# TIK 0 - cut\n# TIK size: 2 x").find("header is damaged"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nutik::tik

@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+"""Draws the gain functions of a function file: the debugging aid for them. docs/functions.md has the format."""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from fnplot.errors import InputError, OutputError, PlotterError, UsageError
+from fnplot.function_file import parse_functions
+from fnplot.mask import ranges_text, read_mask
+from fnplot.times import parse_time
+
+FORMATS = (".png", ".svg", ".pdf")
+PNG_DOTS_PER_INCH = 120
+FILE_PAGE_HEIGHT, WINDOW_PAGE_HEIGHT = 10.0, 8.5  # inches
+BACKENDS_WITHOUT_WINDOWS = {"agg", "cairo", "pdf", "pgf", "ps", "svg", "template"}
+
+DESCRIPTION = """\
+Draws every function of a function file, one below the other on a common time axis: areas that add
+light in blue, areas that take it away in orange, held ends dashed, and in each graph's corner what the
+function comes to: D (how long it is not zero), its integral, and its still gain (what a still scene is
+multiplied by). Mistakes in the file are all reported, as file:line:column: message."""
+
+EXAMPLES = """\
+examples:
+  FnPlotter.py ball.fn                          open a window
+  FnPlotter.py ball.fn --duration 3s            count what counts in a capture of 3 s
+  FnPlotter.py ball.fn -o ball.png              write a picture (ball-1.png, ball-2.png ... where
+                                                there are more than 8 functions)
+  FnPlotter.py ball.fn -o ball.pdf              write a document, 8 functions to a page
+  FnPlotter.py ball.fn --mask ball.pgm          only the functions that the mask uses
+  FnPlotter.py ball.fn --zoom 399ms..411ms      look at 12 ms of it
+
+exit status: 0 drawn, 2 wrong usage, 3 mistakes in a file or no such file, 5 the plot cannot be drawn
+or written (Matplotlib is missing, there is no display, the folder does not exist)"""
+
+
+def command_line():
+    parser = argparse.ArgumentParser(
+        prog="FnPlotter.py",
+        description=DESCRIPTION,
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("file", metavar="FILE.fn", help="the function file")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write a .png, .svg or .pdf instead of a window")
+    parser.add_argument("--duration", metavar="TIME", help="the capture's duration: 3s, 250ms, 1/100s")
+    parser.add_argument("--mask", metavar="MASK", help="a mask (PGM or PNG): draw only the functions it uses")
+    parser.add_argument("--zoom", metavar="FROM..TO", help="the time to draw (--zoom=-1ms..5ms starts before 0)")
+    return parser
+
+
+def parse_duration(text):
+    duration_ns = parse_time(text, "duration")
+    if duration_ns <= 0:
+        raise UsageError(f"duration '{text}' is not longer than nothing")
+    return duration_ns
+
+
+def parse_zoom(text):
+    begin, dots, end = text.partition("..")
+    if not dots:
+        raise UsageError(f"zoom '{text}' is no stretch of time; write two times: 399ms..411ms")
+    zoom_ns = parse_time(begin, "zoom"), parse_time(end, "zoom")
+    if zoom_ns[0] >= zoom_ns[1]:
+        raise UsageError(f"zoom '{text}' ends before it starts")
+    return zoom_ns
+
+
+def check_output(output, inputs):
+    if output.suffix.lower() not in FORMATS:
+        raise UsageError(f"'{output}' is no .png, .svg or .pdf; these can be written")
+    for name in inputs:
+        if name and output.exists() and Path(name).exists() and output.samefile(name):
+            raise UsageError(f"'{output}' is the input; write the plot to another file")
+
+
+def read_functions(name):
+    """The functions of a file by mask value; prints its warnings, or all its mistakes as the error."""
+    try:
+        data = Path(name).read_bytes()
+    except OSError as error:
+        raise InputError(f"{name}: {error.strerror}") from None
+    file = parse_functions(data)
+    if file.errors:
+        raise InputError("\n".join(diagnostic.text(name) for diagnostic in file.diagnostics))
+    for diagnostic in file.warnings:
+        print(diagnostic.text(name), file=sys.stderr)
+    return file.functions
+
+
+def functions_in_use(functions, pixels, file_name, mask_name):
+    """The functions that a mask (pixels by mask value) uses; says what is without its counterpart."""
+    used = {tag: function for tag, function in functions.items() if tag in pixels}
+    unmapped = [tag for tag in pixels if tag not in functions]
+    unused = [tag for tag in functions if tag not in pixels]
+    if unmapped:
+        count = sum(pixels[tag] for tag in unmapped)
+        print(f"{mask_name}: mask values without a function: {ranges_text(unmapped)} ({count} pixels)", file=sys.stderr)
+    if not used:
+        raise InputError(
+            f"{mask_name} uses no function of {file_name}, which has functions for {ranges_text(functions)}"
+        )
+    if unused:
+        print(f"{mask_name}: functions that it does not use: {ranges_text(unused)}", file=sys.stderr)
+    return used
+
+
+def page_names(output, count):
+    """plot.png, or plot-1.png, plot-2.png … where there are several pages."""
+    if count == 1:
+        return [output]
+    return [output.with_name(f"{output.stem}-{page}{output.suffix}") for page in range(1, count + 1)]
+
+
+def write_pages(pages, draw, output):
+    """One file for each page, or one PDF of them all."""
+    from matplotlib.backends.backend_pdf import PdfPages
+    from matplotlib.figure import Figure
+
+    def drawn(page):
+        figure = Figure()
+        draw(figure, page)
+        return figure
+
+    try:
+        if output.suffix.lower() == ".pdf":
+            with PdfPages(output) as document:
+                for page in pages:
+                    document.savefig(drawn(page))
+            return
+        for page, name in zip(pages, page_names(output, len(pages))):
+            drawn(page).savefig(name, dpi=PNG_DOTS_PER_INCH)
+    except OSError as error:
+        raise OutputError(f"{error.filename or output}: {error.strerror or error}") from None
+
+
+def show_pages(pages, draw):
+    """One window for each page, until all are closed."""
+    import matplotlib
+    from matplotlib import pyplot
+
+    matplotlib.rcParams["figure.max_open_warning"] = 0
+    for page in pages:
+        draw(pyplot.figure(), page)
+    if matplotlib.get_backend().lower() in BACKENDS_WITHOUT_WINDOWS:
+        raise OutputError("there is no display to open a window on; write a file: -o plot.png")
+    pyplot.show()
+
+
+def plot(options):
+    duration_ns = parse_duration(options.duration) if options.duration else None
+    zoom_ns = parse_zoom(options.zoom) if options.zoom else None
+    output = Path(options.output) if options.output else None
+    if output:
+        check_output(output, (options.file, options.mask))
+    functions = read_functions(options.file)
+    pixels = read_mask(options.mask) if options.mask else None
+    used = functions_in_use(functions, pixels, options.file, options.mask) if pixels else functions
+    try:
+        from fnplot import pages
+    except ImportError as error:
+        raise OutputError(f"Matplotlib cannot be loaded ({error}); on Debian: apt install python3-matplotlib") from None
+
+    view = pages.make_view(functions.values(), duration_ns, zoom_ns)
+    share = {tag: count / sum(pixels.values()) for tag, count in pixels.items()} if pixels else {}
+    sheets = pages.paginate([pages.Graph(tag, used[tag], share.get(tag)) for tag in sorted(used)])
+    page_height = FILE_PAGE_HEIGHT if output else WINDOW_PAGE_HEIGHT
+    graph_height = pages.graph_height(len(sheets[0]), page_height)
+    name = os.fsencode(Path(options.file).name).decode("utf-8", errors="replace")
+
+    def draw(figure, sheet):
+        number = f", page {sheets.index(sheet) + 1} of {len(sheets)}" if len(sheets) > 1 else ""
+        pages.draw_page(figure, sheet, graph_height, view, name + number, [pages.outside_capture])
+
+    if output:
+        write_pages(sheets, draw, output)
+    else:
+        show_pages(sheets, draw)
+
+
+def main():
+    options = command_line().parse_args()
+    try:
+        plot(options)
+    except PlotterError as error:
+        print(error, file=sys.stderr)
+        return error.status
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

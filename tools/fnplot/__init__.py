@@ -1,0 +1,1 @@
+"""Draws the gain functions of a function file. FnPlotter.py is its command line."""

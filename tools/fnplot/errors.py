@@ -1,0 +1,25 @@
+"""Errors that end the program with a message and an exit status."""
+
+
+class PlotterError(Exception):
+    """A message for people; `status` is the exit status it ends the program with."""
+
+    status = 1
+
+
+class UsageError(PlotterError):
+    """The command line asks for something that cannot be done."""
+
+    status = 2
+
+
+class InputError(PlotterError):
+    """A file cannot be read or has mistakes."""
+
+    status = 3
+
+
+class OutputError(PlotterError):
+    """The plot cannot be drawn or written."""
+
+    status = 5

@@ -1,0 +1,70 @@
+"""Times as people write and read them. All times are in nanoseconds."""
+
+import math
+import re
+from fractions import Fraction
+
+from fnplot.errors import UsageError
+
+UNITS = (("s", 1_000_000_000), ("ms", 1_000_000), ("us", 1_000), ("ns", 1))
+NS_PER_UNIT = dict(UNITS) | {"µs": 1_000, "min": 60_000_000_000, "h": 3_600_000_000_000}
+TIME_TEXT = re.compile(r"(-?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:/[0-9]+)?)([a-zµ]+)")
+
+
+def parse_time(text, what):
+    """`3s`, `0.4s`, `10ms`, `1/100s` in whole nanoseconds, rounded half up; `what` names it in messages."""
+    match = TIME_TEXT.fullmatch(text)
+    if not match or match[2] not in NS_PER_UNIT or ("." in match[1] and "/" in match[1]):
+        raise UsageError(f"{what} '{text}' is no time; write a number and a unit: 3s, 0.4s, 10ms, 250us, 1/100s")
+    try:
+        return math.floor(Fraction(match[1]) * NS_PER_UNIT[match[2]] + Fraction(1, 2))
+    except ZeroDivisionError:
+        raise UsageError(f"{what} '{text}' divides by 0") from None
+
+
+def unit_for(length_ns):
+    """The largest unit (name, ns) that a length, positive or negative, has at least 1 of; ns below that."""
+    return next((unit for unit in UNITS if abs(length_ns) >= unit[1]), UNITS[-1])
+
+
+def number_text(number, digits):
+    """A fraction in decimals, also where it is too large for a double."""
+    try:
+        return f"{float(number):.{digits}g}"
+    except OverflowError:
+        return "-inf" if number < 0 else "inf"
+
+
+def length_text(length_ns):
+    """`83.331001 ms`, `1.01 s`, `0 s`: a length in the unit that fits, to ten digits."""
+    if length_ns == 0:
+        return "0 s"
+    name, unit_ns = unit_for(length_ns)
+    return f"{number_text(Fraction(length_ns) / unit_ns, 10)} {name}"
+
+
+class TimeAxis:
+    """Turns nanoseconds into coordinates: a unit that fits the window, counted from an origin.
+
+    The origin is 0, except for windows that are narrow against their distance from it: there the
+    nanoseconds would drown in digits, so time is counted from a round time near the window.
+    """
+
+    def __init__(self, begin_ns, end_ns):
+        width_ns = end_ns - begin_ns
+        # Twice the unit before it is used: 1.5 s are easier to read as 1500 ms.
+        self.unit, self.unit_ns = unit_for(width_ns // 2)
+        self.origin_ns = 0
+        if min(abs(begin_ns), abs(end_ns)) > 1000 * width_ns:
+            step_ns = 10 ** len(str(width_ns))
+            self.origin_ns = begin_ns // step_ns * step_ns
+
+    def coordinate(self, time_ns):
+        """The coordinate of a time (whole or a fraction)."""
+        return float(Fraction(time_ns - self.origin_ns) / self.unit_ns)
+
+    @property
+    def label(self):
+        if self.origin_ns == 0:
+            return f"time ({self.unit})"
+        return f"time from {self.origin_ns} ns on ({self.unit})"
