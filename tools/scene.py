@@ -27,9 +27,12 @@ def parse_arguments():
 
 def parse_size(text):
     """'640x360' -> (640, 360)."""
-    width, height = (int(part) for part in text.lower().split("x"))
+    try:
+        width, height = (int(part) for part in text.lower().split("x"))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is not WIDTHxHEIGHT, such as 640x360") from None
     if not (160 <= width <= 4096 and width // 2 <= height <= width):
-        raise ValueError("too small, too large, or not a landscape picture")
+        raise argparse.ArgumentTypeError(f"{text}: 160 to 4096 pixels wide, and half as high to as high as wide")
     return width, height
 
 

@@ -13,7 +13,9 @@ import time
 from pathlib import Path
 
 import cases_by_hand
+import cases_decoding
 import cases_intervals
+import cases_options
 import cases_paper
 import cases_small
 from harness import TOLERANCE, Checks
@@ -25,18 +27,19 @@ def arguments():
     parser.add_argument("--media", type=Path, help="folder of the sample clips")
     parser.add_argument("--work", required=True, type=Path, help="folder for files, made if need be")
     parser.add_argument("--only", default="", help="sections whose name contains this: numbers, "
-                        "by-hand, small, interval, paper")
+                        "by-hand, small, interval, options, decoding, paper")
     return parser.parse_args()
 
 
 def generated(checks, wanted):
     """The sections that generate their own clips."""
     sections = [("by-hand", cases_by_hand.run), ("small", cases_small.run),
-                ("interval", cases_intervals.run)]
+                ("interval", cases_intervals.run), ("options", cases_options.run)]
     if wanted in "numbers":
         cases_by_hand.numbers(checks)
     if shutil.which("ffmpeg") is None:
-        print("SKIPPED: by-hand, small and interval: making lossless clips needs the ffmpeg command")
+        print("SKIPPED: by-hand, small, interval, options: needs the ffmpeg command, to make clips "
+              "that lose nothing")
         return
     for name, run in sections:
         if wanted in name:
@@ -44,12 +47,12 @@ def generated(checks, wanted):
 
 
 def recorded(checks, media, wanted):
-    """The section that needs the recorded clips."""
-    if not wanted.startswith("paper") and wanted not in "paper":
-        return
+    """The sections that need the recorded clips."""
     if media is None or not media.is_dir():
-        print("SKIPPED: the paper's commands: needs the clips (--media DIR)")
+        print("SKIPPED: decoding, paper: needs the clips (--media DIR)")
         return
+    if wanted in "decoding":
+        cases_decoding.run(checks, media.resolve())
     cases_paper.run(checks, media.resolve(), wanted)
 
 

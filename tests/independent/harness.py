@@ -37,8 +37,11 @@ class Checks:
         self.section = section
         print(f"\n{title}", flush=True)
 
-    def run(self, folder, *arguments):
-        """Run the program in a folder. Returns (its CompletedProcess, the command for a shell)."""
+    def run(self, folder, *arguments, wanted=0):
+        """Run the program in a folder. Returns (its CompletedProcess, the command for a shell).
+
+        An exit status other than `wanted` is a failure; None wants any.
+        """
         arguments = [str(argument) for argument in arguments]
         shown = " ".join(shlex.quote(argument) for argument in ["nutik-cl"] + arguments)
         command = f"cd {shlex.quote(str(folder))} && {shlex.quote(self.program)} " + " ".join(
@@ -48,7 +51,7 @@ class Checks:
                                   text=True, timeout=SECONDS, stdin=subprocess.DEVNULL)
         except subprocess.TimeoutExpired:
             done = subprocess.CompletedProcess(arguments, -1, "", f"still running after {SECONDS} s")
-        if done.returncode:
+        if wanted is not None and done.returncode != wanted:
             self.failed(shown, f"exit status {done.returncode}: {done.stderr.strip()}", command)
         return done, command
 
@@ -148,6 +151,15 @@ class Checks:
                 f"{at[2]}: program {codes[at]}, by hand {np.broadcast_to(want, codes.shape)[at]}",
                 command)
         return self.passed(name, f"all {codes.size} codes right, {codes.min()} … {codes.max()}")
+
+    def refused(self, name, folder, arguments, said):
+        """Run a command that must fail, saying `said` on stderr and writing no picture."""
+        path = folder / "refused.pfm"
+        path.unlink(missing_ok=True)
+        done, command = self.run(folder, *arguments, "-o", path.name, wanted=None)
+        right = done.returncode > 0 and said in done.stderr and not path.exists()
+        self.holds(f"refused: {name}", right,
+                   f"exit status {done.returncode}, {done.stderr.strip()!r}", command)
 
     def new_picture(self, name, folder, before, command):
         """The one PNG in the folder that wasn't among `before`: the program chose its name."""

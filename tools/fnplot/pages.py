@@ -22,13 +22,15 @@ LINE_COLOURS = {1: "#0060a8", -1: "#c85000", 0: "#505050"}
 AREA_COLOURS = {1: "#9ecae9", -1: "#fdc086"}
 OUTSIDE_COLOUR = "#ebebeb"
 GRID_COLOUR = "#d4d4d4"
+ZERO_COLOUR = "#b4b4b4"
 NOTE_COLOUR = "#505050"
 
 # All in inches.
 PAGE_WIDTH = 11.0
 LEFT, RIGHT = 1.0, 0.3
-TOP, BOTTOM = 0.5, 0.65
+TOP, BOTTOM = 0.42, 0.52
 HEADING = 0.34  # above each graph
+GAIN_LABEL = 0.7  # left of each graph
 LEAST_GRAPH, LARGEST_GRAPH = 0.6, 3.2
 
 LARGEST_POINT_COUNT_WITH_DOTS = 100
@@ -196,14 +198,15 @@ def draw_graph(axes, graph, view, backdrops):
     axes.set_ylim(*gain_axis.limits)
     axes.set_ylabel(gain_axis.label, fontsize=8)
     axes.tick_params(labelsize=8)
-    axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.12g}"))
+    axes.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10]))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.12g}"))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.6g}"))
+    axes.yaxis.set_label_coords(-GAIN_LABEL / (PAGE_WIDTH - LEFT - RIGHT), 0.5)
     axes.grid(axis="x", color=GRID_COLOUR, lw=0.6)
     axes.set_axisbelow(True)
     for backdrop in backdrops:
         backdrop(axes, view)
-    axes.axhline(0, color=LINE_COLOURS[0], lw=0.7, zorder=3)
+    axes.axhline(0, color=ZERO_COLOUR, lw=0.8, zorder=3)
     draw_areas(axes, graph.function, view, gain_axis)
     draw_line(axes, graph.function, view, gain_axis)
     draw_dots(axes, graph.function, view, gain_axis)
@@ -237,4 +240,3 @@ def draw_page(figure, graphs, height, view, title, backdrops):
         draw_graph(axes, graph, view, backdrops)
         axes.tick_params(labelbottom=graph is graphs[-1])
     axes.set_xlabel(view.axis.label, fontsize=9)
-    figure.align_ylabels()

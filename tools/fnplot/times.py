@@ -43,11 +43,27 @@ def length_text(length_ns):
     return f"{number_text(Fraction(length_ns) / unit_ns, 10)} {name}"
 
 
+def exact_text(time_ns):
+    """A time with all its digits, in the unit that fits: `1.000000001 s`."""
+    name, unit_ns = unit_for(time_ns)
+    whole, rest = divmod(abs(time_ns), unit_ns)
+    decimals = str(rest).zfill(len(str(unit_ns)) - 1).rstrip("0") if rest else ""
+    return f"{'-' if time_ns < 0 else ''}{whole}{'.' if decimals else ''}{decimals} {name}"
+
+
+def roundest_time(begin_ns, end_ns):
+    """The time within [begin_ns, end_ns] that ends in the most zeros."""
+    step_ns = 10 ** len(str(max(abs(begin_ns), abs(end_ns))))
+    while -(-begin_ns // step_ns) * step_ns > end_ns:
+        step_ns //= 10
+    return -(-begin_ns // step_ns) * step_ns
+
+
 class TimeAxis:
     """Turns nanoseconds into coordinates: a unit that fits the window, counted from an origin.
 
     The origin is 0, except for windows that are narrow against their distance from it: there the
-    nanoseconds would drown in digits, so time is counted from a round time near the window.
+    nanoseconds would drown in digits, so time is counted from a round time in the window.
     """
 
     def __init__(self, begin_ns, end_ns):
@@ -56,8 +72,7 @@ class TimeAxis:
         self.unit, self.unit_ns = unit_for(width_ns // 2)
         self.origin_ns = 0
         if min(abs(begin_ns), abs(end_ns)) > 1000 * width_ns:
-            step_ns = 10 ** len(str(width_ns))
-            self.origin_ns = begin_ns // step_ns * step_ns
+            self.origin_ns = roundest_time(begin_ns, end_ns)
 
     def coordinate(self, time_ns):
         """The coordinate of a time (whole or a fraction)."""
@@ -67,4 +82,4 @@ class TimeAxis:
     def label(self):
         if self.origin_ns == 0:
             return f"time ({self.unit})"
-        return f"time from {self.origin_ns} ns on ({self.unit})"
+        return f"time from {exact_text(self.origin_ns)} ({self.unit})"

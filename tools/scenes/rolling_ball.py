@@ -22,7 +22,7 @@ REGIONS = {64: 0.0, 128: 0.4, 196: 0.8, 255: 1.0}  # mask value: start of the ba
 GRID = 4               # sampling points a pixel, in each direction
 BACKGROUND_GRID = 3
 
-ORANGE = np.array([0.86, 0.33, 0.05], np.float32)
+ORANGE = np.array([0.92, 0.36, 0.05], np.float32)
 CREAM = np.array([0.90, 0.80, 0.58], np.float32)
 DARK = np.array([0.030, 0.020, 0.018], np.float32)
 LAMP = np.array([-0.45, -0.60, 0.66], np.float32)  # direction to the lamp; z towards the camera
@@ -81,7 +81,7 @@ class RollingBall:
         turn = self.distance(seconds) / self.radius  # clockwise as seen, for y points down
         cosine, sine = np.cos(turn).astype(np.float32), np.sin(turn).astype(np.float32)
         colour = skin(cosine * x + sine * y, cosine * y - sine * x, z)
-        shade = 0.30 + 0.70 * np.maximum(0, LAMP[0] * x + LAMP[1] * y + LAMP[2] * z)
+        shade = 0.38 + 0.62 * np.maximum(0, LAMP[0] * x + LAMP[1] * y + LAMP[2] * z)
         covered = squared <= 1
         return colour * (shade * covered)[..., None], covered
 
@@ -111,7 +111,7 @@ class RollingBall:
         """Grey-green paper with a grid of lines, lit from the upper left."""
         unit = self.width / 32
         uneven = np.sin(0.31 * x / unit + 1) * np.sin(0.53 * y / unit) + 0.6 * np.sin(0.83 * x / unit - 0.61 * y / unit)
-        level = 0.125 * np.exp(-0.32 * (x / self.width) - 0.25 * (y / self.height)) * (1 + 0.07 * uneven) + 0.012
+        level = 0.125 * np.exp(-0.45 * (x / self.width) - 0.25 * (y / self.height)) * (1 + 0.07 * uneven) + 0.012
         near = [np.abs(value / unit - np.rint(value / unit)) * unit for value in (x, y)]
         level *= 1 - 0.28 * (np.minimum(*near) < 0.5)
         return level[..., None] * np.array([0.92, 1.0, 0.97], np.float32)
@@ -120,10 +120,10 @@ class RollingBall:
         """Steps of grey, a few colours and a star, on which gains and sharpness can be judged."""
         unit = self.width / 32
         board = (np.abs(x - 24.5 * unit) < 4.75 * unit) & (np.abs(y - 3.75 * unit) < 2.25 * unit)
-        light[board] = 0.012
+        light[board] = 0.025
         for step in range(6):
             inside = (np.abs(x - (20.75 + 1.5 * step) * unit) < 0.7 * unit) & (np.abs(y - 2.75 * unit) < 0.9 * unit)
-            light[inside] = 0.02 * 2.0 ** (0.8 * step)
+            light[inside] = 0.04 * 2.0 ** (0.65 * step)
         for step, colour in enumerate(((0.25, 0.04, 0.04), (0.05, 0.18, 0.05), (0.04, 0.06, 0.25))):
             inside = (np.abs(x - (25.25 + 1.5 * step) * unit) < 0.7 * unit) & (np.abs(y - 4.75 * unit) < 0.9 * unit)
             light[inside] = colour

@@ -1,0 +1,226 @@
+// How fast the kernels read a capture, against the limit of the memory they read it from.
+//
+//   bench_kernels [--width N] [--height N] [--samples N] [--runs N] [--device I] [--csv FILE] [--quick]
+//
+// Needs only OpenCL and a compiler. Kernel times are the device's own (profiling events), medians of
+// several runs; the limit is measured in the same run: memory read by all cores where the device shares
+// the host's memory, else a copy within the device (bytes read and written).
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "capture/format.hpp"
+#include "memory_bandwidth.hpp"
+#include "opencl/device.hpp"
+#include "opencl/device_bandwidth.hpp"
+#include "opencl/opencl_renderer.hpp"
+#include "render/reference_renderer.hpp"
+#include "synthetic_capture.hpp"
+
+namespace nutik::bench {
+namespace {
+
+struct Settings {
+  std::uint32_t width = 1920;
+  std::uint32_t height = 1080;
+  std::uint64_t samples = 240;
+  int runs = 7;
+  std::size_t device = 0;
+  std::string csv;
+  bool quick = false;
+};
+
+Settings parse(int argc, char** argv) {
+  Settings settings;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const auto number = [&] { return i + 1 < argc ? std::strtoul(argv[++i], nullptr, 10) : 0; };
+    if (word == "--width") settings.width = static_cast<std::uint32_t>(number());
+    else if (word == "--height") settings.height = static_cast<std::uint32_t>(number());
+    else if (word == "--samples") settings.samples = number();
+    else if (word == "--runs") settings.runs = static_cast<int>(number());
+    else if (word == "--device") settings.device = number();
+    else if (word == "--csv" && i + 1 < argc) settings.csv = argv[++i];
+    else if (word == "--quick") settings.quick = true;
+    else {
+      std::fprintf(stderr, "unknown option %s; see the head of tools/bench/kernels.cpp\n", argv[i]);
+      std::exit(2);
+    }
+  }
+  return settings;
+}
+
+enum class Regions { uniform, aligned, random };
+
+const char* name_of(Regions regions) {
+  return regions == Regions::uniform ? "uniform" : regions == Regions::aligned ? "aligned" : "random 256";
+}
+const char* name_of(Content content) {
+  switch (content) {
+    case Content::dense: return "dense";
+    case Content::rows: return "rows";
+    case Content::records: return "records";
+    case Content::still: return "still";
+  }
+  return "";
+}
+
+Mask mask_for(const Shape& shape, Regions regions) {
+  Mask mask = Mask::uniform(shape.width, shape.height, 0);
+  std::uint64_t state = 12345;
+  for (std::size_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
+    const std::size_t x = pixel % shape.width, y = pixel / shape.width;
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    if (regions == Regions::aligned) mask.tags[pixel] = static_cast<std::uint8_t>((x / 64 + y / 64) % 4);
+    if (regions == Regions::random) mask.tags[pixel] = static_cast<std::uint8_t>(state >> 56);
+  }
+  return mask;
+}
+
+// Every function live over the whole capture, each its own ramp.
+FunctionSet functions_for(Regions regions, std::int64_t duration_ns, std::uint32_t points) {
+  const int count = regions == Regions::uniform ? 1 : regions == Regions::aligned ? 4 : 256;
+  FunctionSet functions;
+  for (int tag = 0; tag < count; ++tag) {
+    std::vector<ControlPoint> control;
+    for (std::uint32_t i = 0; i < points; ++i) {
+      control.push_back({duration_ns * i / points, 0.5 + 0.5 * ((i * 7 + static_cast<std::uint32_t>(tag)) % 11) / 11.0});
+    }
+    functions.emplace(static_cast<std::uint8_t>(tag), GainFunction(std::move(control)));
+  }
+  return functions;
+}
+
+struct Case {
+  Content content;
+  Precision precision;
+  Transfer transfer;
+  std::uint32_t code_bytes;
+  Regions regions;
+};
+
+struct Measurement {
+  double expose_ms;
+  double develop_ms;
+  std::uint64_t bytes;
+};
+
+Measurement measure(OpenClRenderer& renderer, const RenderPlan& plan, SyntheticCapture& capture, int runs) {
+  std::vector<double> expose, develop;
+  for (int run = -1; run < runs; ++run) {  // the first warms up
+    static_cast<void>(renderer.render(plan, capture, {ValueType::code8, 255}));
+    if (run < 0) continue;
+    expose.push_back(renderer.statistics().expose_ms);
+    develop.push_back(renderer.statistics().develop_ms);
+  }
+  const auto median = [](std::vector<double>& values) {
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    return values[values.size() / 2];
+  };
+  return {median(expose), median(develop), renderer.statistics().payload_bytes};
+}
+
+// The worst difference from the reference on a small capture of the same kind, in S.
+double check(OpenClRenderer& renderer, const Case& one) {
+  CaptureFormat format;
+  format.shape = {72, 40, 3};
+  format.code_bytes = one.code_bytes;
+  format.white_code = one.code_bytes == 1 ? 255 : 4095;
+  format.transfer = one.transfer;
+  SyntheticCapture capture(format, 130, 64, one.content);
+  const RenderPlan plan = make_plan(capture, functions_for(one.regions, capture.timeline().duration_ns(), 5),
+                                    mask_for(format.shape, one.regions), {true, false, {}});
+  const Picture a = renderer.render(plan, capture, {ValueType::light64, 0});
+  const Picture b = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
+  double worst = 0.0;
+  for (std::uint64_t i = 0; i < a.shape.value_count(); ++i) {
+    const double scale = plan.functions[plan.function_of_pixel[i / 3]].summary.error_scale();
+    const double difference = std::abs(a.values<double>()[i] - b.values<double>()[i]) / scale;
+    worst = difference > worst || difference != difference ? difference : worst;
+  }
+  return worst;
+}
+
+int run(const Settings& settings) {
+  const std::vector<DeviceInfo> devices = list_devices();
+  const DeviceInfo& device = devices.at(settings.device);
+  std::printf("%s, %u compute units, %s; %u x %u x 3, %llu samples, medians of %d\n", device.name.c_str(),
+              device.compute_units, device.driver_version.c_str(), settings.width, settings.height,
+              static_cast<unsigned long long>(settings.samples), settings.runs);
+
+  std::vector<Case> cases;
+  const std::vector<Precision> precisions =
+      device.has_double ? std::vector{Precision::single_, Precision::double_} : std::vector{Precision::single_};
+  for (const Precision precision : precisions) {
+    for (const Transfer transfer : {Transfer::linear(), Transfer::srgb()}) {
+      for (const Content content : {Content::dense, Content::rows, Content::records, Content::still}) {
+        cases.push_back({content, precision, transfer, 1, Regions::uniform});
+      }
+      for (const Regions regions : {Regions::aligned, Regions::random}) {
+        cases.push_back({Content::dense, precision, transfer, 1, regions});
+      }
+      cases.push_back({Content::dense, precision, transfer, 2, Regions::uniform});
+    }
+  }
+  if (settings.quick) {
+    std::erase_if(cases, [](const Case& one) { return one.content != Content::dense || one.regions != Regions::uniform; });
+  }
+
+  double limit = 0.0;
+  {
+    CaptureFormat format;
+    format.shape = {settings.width, settings.height, 3};
+    const SyntheticCapture memory(format, settings.samples, 64, Content::dense);
+    limit = device.shares_host_memory ? read_bandwidth(memory.region())
+                                      : device_copy_bandwidth(settings.device, memory.region().size() / 2);
+    std::printf("limit: %.1f GB/s (%s)\n\n", limit * 1e-9,
+                device.shares_host_memory ? "memory read by all cores" : "copy within the device, read and write");
+  }
+  std::printf("%-8s %-7s %-7s %-5s %-11s %9s %8s %7s %9s %10s\n", "tiles", "prec.", "light", "bits", "regions",
+              "expose ms", "GB/s", "share", "dev. ms", "worst / S");
+  std::ofstream csv(settings.csv);
+  csv << "device,tiles,precision,light,bits,regions,expose_ms,bytes,gb_per_s,limit_gb_per_s,develop_ms,worst\n";
+  for (const Case& one : cases) {
+    CaptureFormat format;
+    format.shape = {settings.width, settings.height, 3};
+    format.code_bytes = one.code_bytes;
+    format.white_code = one.code_bytes == 1 ? 255 : 4095;
+    format.transfer = one.transfer;
+    SyntheticCapture capture(format, settings.samples, 64, one.content);
+    const RenderPlan plan = make_plan(capture, functions_for(one.regions, capture.timeline().duration_ns(), 5),
+                                      mask_for(format.shape, one.regions), {});
+    OpenClOptions options;
+    options.device = settings.device;
+    options.precision = one.precision;
+    options.chunk_bytes = 4ull << 30;
+    OpenClRenderer renderer(options);
+    const double worst = check(renderer, one);
+    const Measurement measured = measure(renderer, plan, capture, settings.runs);
+    const double rate = static_cast<double>(measured.bytes) / measured.expose_ms * 1e3;
+    std::printf("%-8s %-7s %-7s %-5u %-11s %9.2f %8.2f %7.2f %9.2f %10.2g\n", name_of(one.content),
+                to_text(one.precision).c_str(), one.transfer.text().c_str(), one.code_bytes * 8,
+                name_of(one.regions), measured.expose_ms, rate * 1e-9, rate / limit, measured.develop_ms, worst);
+    std::fflush(stdout);
+    csv << device.name << ',' << name_of(one.content) << ',' << to_text(one.precision) << ','
+        << one.transfer.text() << ',' << one.code_bytes * 8 << ',' << name_of(one.regions) << ','
+        << measured.expose_ms << ',' << measured.bytes << ',' << rate * 1e-9 << ',' << limit * 1e-9 << ','
+        << measured.develop_ms << ',' << worst << '\n';
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace nutik::bench
+
+int main(int argc, char** argv) {
+  try {
+    return nutik::bench::run(nutik::bench::parse(argc, argv));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_kernels: %s\n", error.what());
+    return 1;
+  }
+}
