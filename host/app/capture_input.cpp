@@ -23,6 +23,20 @@ std::uint32_t parse_count(const std::string& text, std::string_view what, std::u
   return value;
 }
 
+RawVideo parse_raw_video(const std::string& text) {
+  const auto cross = text.find('x');
+  const auto colon = text.find(':');
+  if (cross == std::string::npos || colon == std::string::npos || colon < cross) {
+    throw UsageError(format("raw video '{}' is not described; write its size and pixel format, as in "
+                            "480x270:yuv420p10le",
+                            text));
+  }
+  constexpr std::uint32_t kLargestSide = 65'536;
+  return {parse_count(text.substr(0, cross), "width", 1, kLargestSide),
+          parse_count(text.substr(cross + 1, colon - cross - 1), "height", 1, kLargestSide),
+          text.substr(colon + 1)};
+}
+
 }  // namespace
 
 bool is_tik(const std::filesystem::path& path) {
@@ -43,6 +57,7 @@ SourceOptions SourceOptions::from(const Options& options) {
     source.angle_was_stated = true;
   }
   if (options.white) source.clip.white_code = parse_count(*options.white, "white code", 1, 65'535);
+  if (options.raw) source.clip.raw = parse_raw_video(*options.raw);
   if (options.transfer) source.clip.transfer = Transfer::parse(*options.transfer);
   if (options.tolerance) source.noise.tolerance = parse_count(*options.tolerance, "tolerance", 0, 65'535);
   if (options.tiles) source.tiles = parse_tile_policy(*options.tiles);
@@ -99,6 +114,7 @@ void refuse_source_options(const Options& options, const std::string& capture) {
   refuse(options.fps.has_value(), "--fps");
   refuse(options.shutter_angle.has_value(), "--shutter-angle");
   refuse(options.white.has_value(), "--white");
+  refuse(options.raw.has_value(), "--raw");
   refuse(options.tolerance.has_value(), "--tolerance");
   refuse(options.tiles.has_value(), "--tiles");
   refuse(options.block_samples.has_value(), "--block-samples");

@@ -72,8 +72,8 @@ int run_info(const Options& options) {
   print_line(format("  size        {} ({:.1f} % of {} raw), {} in memory, codec {}",
                     bytes_text(reader.file_bytes()), share(reader.file_bytes(), raw_bytes),
                     bytes_text(raw_bytes), bytes_text(payload_bytes), reader.header().codec));
-  const std::int64_t middle = timeline.start_ns(timeline.sample_count() / 2) / 1'000'000;
-  print_line(format("try: nutik-cl --start {}ms --exposure 1f {} picture.png", middle, name));
+  print_line(format("try: nutik-cl --start {}f --exposure 1f {} picture.png", timeline.sample_count() / 2,
+                    name));
   return 0;
 }
 

@@ -42,10 +42,13 @@ std::string Option::display_name() const {
 std::span<const Command> commands() {
   static const std::vector<Command> table{
       {Id::encode, "encode", "CLIP [CAPTURE.tik]",
-       "Turn a video into a .tik capture: for every pixel, a record of each change of its value.",
+       "Turn a video or a sequence of stills into a .tik capture: for every pixel, a record of each change "
+       "of its value.",
        "nutik-cl clip.mp4 clip.tik\n"
        "nutik-cl -f 960 -a 180 slowmotion.mp4 clip.tik\n"
-       "nutik-cl encode --tolerance 4 -o small.tik clip.mp4",
+       "nutik-cl encode --tolerance 4 -o small.tik clip.mp4\n"
+       "nutik-cl -f 30000 --white 4095 'frames/*.png' capture.tik\n"
+       "nutik-cl -f 500 frame%04d.tif capture.tik",
        run_encode},
       {Id::expose, "expose", "CAPTURE.tik|CLIP [PICTURE]",
        "Expose a picture: each pixel is the integral of its light times a gain function of time.",
@@ -91,6 +94,9 @@ std::span<const Option> options() {
       valued(0, "transfer", "NAME", kSource,
              "how codes stand for light: srgb, bt709, linear or gamma:G (default: srgb; a .tik's own)",
              kEncode | kExpose, &Options::transfer),
+      valued(0, "raw", "WxH:FORMAT", kSource,
+             "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le",
+             kEncode | kExpose, &Options::raw),
       valued(0, "tolerance", "CODES", kSource,
              "differences up to this many codes are no change; 0 keeps every one (default: 0)",
              kEncode | kExpose, &Options::tolerance),

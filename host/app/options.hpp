@@ -16,6 +16,7 @@ struct Options {
   std::optional<std::string> shutter_angle;
   std::optional<std::string> white;
   std::optional<std::string> transfer;
+  std::optional<std::string> raw;
 
   // The exposure.
   std::optional<std::string> mask;

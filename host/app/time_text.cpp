@@ -25,14 +25,14 @@ constexpr std::array<Unit, 8> kUnits{{{"s", 1'000'000'000},
 
 constexpr std::int64_t kLongestNs = 4'000'000'000'000'000'000;
 
-// Start of a picture counted from the first; the end of the capture behind the last.
-std::int64_t sample_start_ns(std::int64_t sample, const Timeline& timeline) {
+// The number of a picture that the timeline has.
+std::uint64_t existing_sample(std::int64_t sample, const Timeline& timeline) {
   const auto count = static_cast<std::int64_t>(timeline.sample_count());
-  if (sample < 0 || sample > count) {
+  if (sample < 0 || sample >= count) {
     throw UsageError(format("picture {} is outside the capture, which has {} (0f … {}f)", sample, count,
                             count - 1));
   }
-  return sample == count ? timeline.duration_ns() : timeline.start_ns(static_cast<std::uint64_t>(sample));
+  return static_cast<std::uint64_t>(sample);
 }
 
 std::int64_t whole_samples(const TimeText& time, std::string_view what) {
@@ -40,6 +40,15 @@ std::int64_t whole_samples(const TimeText& time, std::string_view what) {
     throw UsageError(format("{} {}f is not a whole number of pictures", what, time.number.text()));
   }
   return time.number.numerator;
+}
+
+// How long `count` periods from the picture at a time are.
+std::int64_t periods_ns(std::int64_t time_ns, std::int64_t count, const Timeline& timeline) {
+  const std::int64_t inside_ns = std::clamp<std::int64_t>(time_ns, 0, timeline.duration_ns() - 1);
+  const std::uint64_t first = timeline.samples_reaching(inside_ns, inside_ns + 1).first;
+  const std::uint64_t last = existing_sample(static_cast<std::int64_t>(first) + count - 1, timeline);
+  const bool at_end = last + 1 == timeline.sample_count();
+  return (at_end ? timeline.duration_ns() : timeline.start_ns(last + 1)) - timeline.start_ns(first);
 }
 
 }  // namespace
@@ -72,23 +81,17 @@ Exposure plain_interval(std::string_view start, std::string_view exposure, const
   if (length.number.numerator <= 0) {
     throw UsageError(format("exposure '{}' is not longer than nothing", exposure));
   }
+  const std::int64_t count = length.counts_samples() ? whole_samples(length, "exposure") : 0;
   Exposure interval;
-  std::int64_t first_sample = 0;
   if (from.counts_samples()) {
-    first_sample = whole_samples(from, "start");
-    interval.start_ns = sample_start_ns(first_sample, timeline);
+    const std::int64_t first = whole_samples(from, "start");
+    interval.start_ns = timeline.start_ns(existing_sample(first, timeline));
+    interval.end_ns = count > 0 ? timeline.end_ns(existing_sample(first + count - 1, timeline))
+                                : interval.start_ns + length.nanoseconds();
   } else {
     interval.start_ns = from.nanoseconds();
-    const SampleRange reaching =
-        timeline.samples_reaching(interval.start_ns, std::max(interval.start_ns, std::int64_t{0}) + 1);
-    first_sample = static_cast<std::int64_t>(reaching.first);
-  }
-  if (length.counts_samples()) {
-    const std::int64_t end = first_sample + whole_samples(length, "exposure");
-    interval.end_ns = interval.start_ns + sample_start_ns(end, timeline) -
-                      sample_start_ns(first_sample, timeline);
-  } else {
-    interval.end_ns = interval.start_ns + length.nanoseconds();
+    interval.end_ns = interval.start_ns + (count > 0 ? periods_ns(interval.start_ns, count, timeline)
+                                                     : length.nanoseconds());
   }
   if (interval.end_ns <= interval.start_ns) {
     throw UsageError(format("exposure '{}' is shorter than a nanosecond", exposure));

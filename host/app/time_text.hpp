@@ -23,8 +23,9 @@ struct TimeText {
   [[nodiscard]] std::int64_t nanoseconds() const;
 };
 
-// When the plain interval that --start and --exposure describe begins and ends on a timeline. Pictures
-// count from the timeline's first; `3f` after a start at 0.4s is three periods from the sample there.
+// When the plain interval that --start and --exposure describe begins and ends on a timeline. From `37f`
+// for `3f` is from the start of picture 37's exposure to the end of picture 39's, so that one picture is
+// exactly what the camera exposed; `3f` after a start at 0.4s is as long as three periods there.
 Exposure plain_interval(std::string_view start, std::string_view exposure, const Timeline& timeline);
 
 // `12.5 ms`, `1.25 s`: a length for people, with up to four digits.

@@ -5,24 +5,27 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/module.hpp"
+#include "media/still_sequence.hpp"
 
 namespace nutik {
 
 std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options) {
+  if (!options.raw) {
+    if (const auto stills = list_stills(path)) return load_clip_module().open_stills(*stills, options);
+  }
   std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
+  if (!std::filesystem::exists(path, error)) {
     throw InputError(format("{} cannot be read: no such file", path.string()));
   }
-  if (std::filesystem::is_directory(status)) {
-    throw InputError(format("{} is a folder, not a clip", path.string()));
-  }
-  return load_video_module()(path, options);
+  return load_clip_module().open_video(path, options);
 }
 
 Timeline timeline_of(const ClipInfo& info, const ClipOptions& options, Rational shutter_angle,
                      std::uint64_t sample_count) {
   if (options.rate) return Timeline::constant(*options.rate, shutter_angle, sample_count);
+  if (!info.timing.rate && info.timing.starts_ns.empty()) {
+    throw InputError("the files do not say how fast they were taken; state the rate with --fps");
+  }
   if (info.timing.rate) return Timeline::constant(*info.timing.rate, shutter_angle, sample_count);
   if (info.timing.starts_ns.size() < sample_count) {
     throw InputError(format("the clip has {} pictures but only {} times; state its rate with --fps",

@@ -29,11 +29,19 @@ struct ClipInfo {
   std::vector<std::string> notes;  // what a person should know, whole sentences
 };
 
+// A video without a header: what its bytes are.
+struct RawVideo {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::string pixel_format;  // as FFmpeg names it: yuv420p10le, gray16le
+};
+
 // What a person states about a clip; it goes before what the files say.
 struct ClipOptions {
   std::optional<Rational> rate;
   std::optional<std::uint32_t> white_code;
   std::optional<Transfer> transfer;
+  std::optional<RawVideo> raw;
 };
 
 class Clip {
@@ -47,7 +55,8 @@ class Clip {
   virtual bool read(std::span<std::byte> raster) = 0;
 };
 
-// Opens a video. Throws InputError where there is none, or none that can be read.
+// Opens a video, or a sequence of stills (media/still_sequence.hpp). Throws InputError where there is
+// none, or none that can be read.
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path,
                                               const ClipOptions& options);
 

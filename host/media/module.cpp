@@ -30,10 +30,10 @@ std::vector<std::filesystem::path> module_folders() {
 
 }  // namespace
 
-OpenVideo load_video_module() {
+const ClipModule& load_clip_module() {
   std::string tried;
   for (const std::filesystem::path& folder : module_folders()) {
-    const std::filesystem::path file = folder / "nutik-video.so";
+    const std::filesystem::path file = folder / "nutik-clips.so";
     if (!std::filesystem::exists(file)) {
       tried += format("\n  {}: no such file", file.string());
       continue;
@@ -44,10 +44,12 @@ OpenVideo load_video_module() {
       tried += format("\n  {}", dlerror());
       continue;
     }
-    if (void* entry = dlsym(library, "nutik_open_video")) return reinterpret_cast<OpenVideo>(entry);
+    if (const void* module = dlsym(library, kClipModuleSymbol)) {
+      return *static_cast<const ClipModule*>(module);
+    }
     tried += format("\n  {}: not a module of this program", file.string());
   }
-  throw InputError(format("videos cannot be read: the module for them was not found; install it beside "
+  throw InputError(format("clips cannot be read: the module that decodes them was not found; install it beside "
                           "the program, or set NUTIK_MODULES to its folder. Looked for:{}",
                           tried));
 }

@@ -1,18 +1,27 @@
-// The video libraries are loaded when the first clip is opened, not when the program starts: OpenCV's
-// video part and what it needs take 125 ms to load, more than rendering a small capture.
+// The libraries that decode clips are loaded when the first clip is opened, not when the program starts:
+// OpenCV's video part and what it needs take 125 ms to load, more than rendering a small capture.
 #pragma once
 
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "media/clip.hpp"
 
 namespace nutik {
 
-using OpenVideo = std::unique_ptr<Clip> (*)(const std::filesystem::path&, const ClipOptions&);
+// The entry points of nutik-clips.so.
+struct ClipModule {
+  std::unique_ptr<Clip> (*open_video)(const std::filesystem::path& path, const ClipOptions& options);
+  std::unique_ptr<Clip> (*open_stills)(std::span<const std::filesystem::path> files,
+                                       const ClipOptions& options);
+};
 
-// The entry point of nutik-video.so. Looked for in the folder that NUTIK_MODULES names, beside the
-// program, and in the installed place. Throws InputError naming where it was looked for.
-[[nodiscard]] OpenVideo load_video_module();
+// Looks for the module in the folder that NUTIK_MODULES names, beside the program, and in the installed
+// place. Throws InputError naming where it was looked for.
+[[nodiscard]] const ClipModule& load_clip_module();
+
+// The symbol that gives a module's entry points.
+inline constexpr const char* kClipModuleSymbol = "nutik_clip_module";
 
 }  // namespace nutik

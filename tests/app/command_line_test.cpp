@@ -91,8 +91,8 @@ TEST_F(CommandLine, ShowsInfoForACaptureAlone) {
   EXPECT_NE(result.out.find("6 in 1 blocks"), std::string::npos) << result.out;
   const auto suggestion = result.out.find("try: nutik-cl ");
   ASSERT_NE(suggestion, std::string::npos);
-  EXPECT_NE(result.out.find("--exposure 1f clip.tik picture.png", suggestion), std::string::npos);
-  EXPECT_EQ(run({"--start", "120ms", "--exposure", "1f", "clip.tik", "picture.png"}).status, 0);
+  EXPECT_NE(result.out.find("--start 3f --exposure 1f clip.tik picture.png", suggestion), std::string::npos);
+  EXPECT_EQ(run({"--start", "3f", "--exposure", "1f", "clip.tik", "picture.png"}).status, 0);
 }
 
 TEST_F(CommandLine, RefusesWhatMakesNoSense) {

@@ -8,6 +8,7 @@ import numpy as np
 import figures
 import functions as gain_functions
 import pictures
+import timeline as timelines
 from expose import Exposure
 from light import light_table
 
@@ -173,6 +174,7 @@ def numbers(checks):
         checks.holds(f"{name} M{mask_value}", (got.integral, got.duration) == (integral, duration),
                      f"integral {float(got.integral)} ns, D {float(got.duration)} ns, "
                      f"still gain {float(got.integral / got.duration):.9f}")
+    irregular(checks)
     gains = [("Figure 4", figures.FIGURE_4, "0.250009006"), ("Figure 14", figures.FIGURE_14, "-10.84"),
              ("Figure 14 restored", figures.FIGURE_14_RESTORED, "0.742574")]
     for name, text, gain in gains:
@@ -180,3 +182,20 @@ def numbers(checks):
         decimals = len(gain.split(".")[1])
         still = f"{float(got.integral / got.duration):.{decimals}f}"
         checks.holds(f"{name} still gain", still == gain, f"{still}, the paper's file gives {gain}")
+
+
+def irregular(checks):
+    """Timelines and weights of irregular samples, in ns, and |g| across a change of sign."""
+    ones = gain_functions.GainFunction([(0, 1)])
+    # Exposed [0, 10], [20, 30], [60, 64]: gaps of 10 and 30 ns, half of each to either side.
+    given = timelines.from_exposures([(100, 110), (120, 130), (160, 164)])
+    checks.holds("weights of exposures [0, 10], [20, 30], [60, 64]",
+                 timelines.weights(given, ones) == {0: 15, 1: 30, 2: 19}, "10 + 5, 5 + 10 + 15, 15 + 4")
+    # Starts 0, 10, 30 with 180 degrees: exposed [0, 5], [10, 20], [30, 40], end 50.
+    starts = timelines.from_starts([7, 17, 37], "180")
+    checks.holds("weights of starts 0, 10, 30 with 180 degrees",
+                 timelines.weights(starts, ones) == {0: 7.5, 1: 17.5, 2: 25},
+                 "5 + 2.5, 2.5 + 10 + 5, 5 + 10 + 10")
+    ramp = gain_functions.measure(gain_functions.GainFunction([(0, -1), (4, 3), (5, 0)]), 100)
+    checks.holds("from -1 to 3 over 4 ns, then to 0", ramp == (5, Fraction(11, 2), Fraction(13, 2)),
+                 "D 5, integral -0.5 + 4.5 + 1.5, of |g| 0.5 + 4.5 + 1.5")

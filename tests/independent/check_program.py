@@ -7,9 +7,11 @@ Exit status 0 where everything agrees, 1 otherwise.
 """
 
 import argparse
+import shlex
 import shutil
 import sys
 import time
+import traceback
 from pathlib import Path
 
 import cases_by_hand
@@ -31,19 +33,27 @@ def arguments():
     return parser.parse_args()
 
 
+def attempt(checks, name, run, *given):
+    """Run a section. What it throws is a failure of it, and mustn't hide the others' results."""
+    try:
+        run(checks, *given)
+    except Exception as error:  # of any kind, for the reason above
+        checks.failed(name, f"broke off: {error!r}\n{traceback.format_exc()}")
+
+
 def generated(checks, wanted):
     """The sections that generate their own clips."""
     sections = [("by-hand", cases_by_hand.run), ("small", cases_small.run),
                 ("interval", cases_intervals.run), ("options", cases_options.run)]
     if wanted in "numbers":
-        cases_by_hand.numbers(checks)
+        attempt(checks, "numbers", cases_by_hand.numbers)
     if shutil.which("ffmpeg") is None:
         print("SKIPPED: by-hand, small, interval, options: needs the ffmpeg command, to make clips "
               "that lose nothing")
         return
     for name, run in sections:
         if wanted in name:
-            run(checks)
+            attempt(checks, name, run)
 
 
 def recorded(checks, media, wanted):
@@ -52,15 +62,17 @@ def recorded(checks, media, wanted):
         print("SKIPPED: decoding, paper: needs the clips (--media DIR)")
         return
     if wanted in "decoding":
-        cases_decoding.run(checks, media.resolve())
-    cases_paper.run(checks, media.resolve(), wanted)
+        attempt(checks, "decoding", cases_decoding.run, media.resolve())
+    attempt(checks, "paper", cases_paper.run, media.resolve(), wanted)
 
 
 def main():
     given = arguments()
     started = time.monotonic()
     given.work.mkdir(parents=True, exist_ok=True)
-    checks = Checks(given.program.resolve(), given.work.resolve(), " ".join(sys.argv))
+    again = [sys.executable, sys.argv[0], "--program", given.program, "--work", given.work]
+    again += ["--media", given.media] if given.media else []
+    checks = Checks(given.program.resolve(), given.work.resolve(), shlex.join(map(str, again)))
     generated(checks, given.only)
     recorded(checks, given.media, given.only)
     print(f"\n{checks.cases} checks, {checks.failures} failed, {time.monotonic() - started:.0f} s; "

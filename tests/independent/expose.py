@@ -102,7 +102,7 @@ def _arguments():
 def main():
     arguments = _arguments()
     clip = pictures.Clip(arguments.clip)
-    rate = arguments.rate or Fraction(clip.rate()).limit_denominator(1001)
+    rate = arguments.rate or Fraction(clip.rate()).limit_denominator(10_000)
     timeline = timelines.constant_rate(len(clip), rate, arguments.angle)
     mask = pictures.read_mask(arguments.mask) if arguments.mask else None
     exposure = expose(clip, timeline, gain_functions.read_functions(arguments.functions), mask,

@@ -21,8 +21,9 @@ SECONDS = 120  # longest that one run of the program may take
 class Checks:
     """Runs the program, compares, prints each case with its worst error and counts failures."""
 
-    def __init__(self, program, work, script):
-        self.program, self.work, self.script = str(program), Path(work), script
+    def __init__(self, program, work, again):
+        """again: the shell command that ran this script, for what a failure prints."""
+        self.program, self.work, self.again = str(program), Path(work), again
         self.cases = self.failures = 0
         self.worst = (0.0, "")  # largest error / S of all float pictures, and its case
         self.section = ""
@@ -65,7 +66,7 @@ class Checks:
         print(f"  FAIL {name}: {said}", flush=True)
         if command:
             print(f"       again: {command}")
-        print(f"       or the section: {self.script}, --only {self.section}", flush=True)
+        print(f"       or the section: {self.again} --only {self.section}", flush=True)
 
     def holds(self, name, true, said, command=""):
         """A plain yes or no."""

@@ -28,8 +28,8 @@ MASKS = {"figure4": None, "figure7": "whole", "figure14": "regions", "figure16":
 # A picture's 10 ms and a region's differ by its 1 ns ramp, 5e-8 of the light, and by single precision, 1e-6: together
 # less than this many codes. A value that close to a half may be rounded either way.
 TIE_CODES = 1e-3
-# Codes of 8 bits by which still pixels may be off: their median, and each of them: half for rounding the picture, 0.3 for
-# rounding the clip, which noise evens out only in part, and 5.5 standard deviations of 0.13 in the darks of Figure 4.
+# Codes of 8 bits by which still pixels may be off: their median, and each of them. Half is for rounding the picture, 0.8
+# for 5.5 standard deviations of noise in the darks of Figure 4, 0.2 for rounding the clip, which noise evens out.
 MEDIAN_CODES = 1.0
 PIXEL_CODES = 1.5
 SPEED_SHARE = 0.10

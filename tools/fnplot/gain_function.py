@@ -34,6 +34,8 @@ class Piece:
 
     def clipped(self, begin_ns, end_ns):
         """The part of the piece within [begin_ns, end_ns]; None where there is none."""
+        if begin_ns <= self.begin_ns and self.end_ns <= end_ns:
+            return self
         begin = max(self.begin_ns, begin_ns)
         end = min(self.end_ns, end_ns)
         return Piece(begin, end, self.at(begin), self.at(end)) if begin < end else None

@@ -8,7 +8,9 @@ grid, how much of the scene changes) can join that list without a change to the 
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from fnplot.gain_function import GainFunction
@@ -24,13 +26,14 @@ OUTSIDE_COLOUR = "#ebebeb"
 GRID_COLOUR = "#d4d4d4"
 ZERO_COLOUR = "#b4b4b4"
 NOTE_COLOUR = "#505050"
+HELD_DASHES = (0, (4, 2.5))
 
 # All in inches.
 PAGE_WIDTH = 11.0
 LEFT, RIGHT = 1.0, 0.3
 TOP, BOTTOM = 0.42, 0.52
 HEADING = 0.34  # above each graph
-GAIN_LABEL = 0.7  # left of each graph
+GAIN_LABEL = 0.66  # left of each graph
 LEAST_GRAPH, LARGEST_GRAPH = 0.6, 3.2
 
 LARGEST_POINT_COUNT_WITH_DOTS = 100
@@ -46,7 +49,7 @@ class View:
     counted_end_ns: int
     duration_ns: int | None  # of the capture, where it is known
 
-    @property
+    @cached_property
     def axis(self):
         return TimeAxis(self.begin_ns, self.end_ns)
 
@@ -107,7 +110,7 @@ class GainAxis:
             self.highest = 1.0
 
     def coordinate(self, gain):
-        return float(Fraction(gain) / Fraction(10) ** self.exponent)
+        return float(Fraction(gain) / Fraction(10) ** self.exponent if self.exponent else gain)
 
     @property
     def limits(self):
@@ -119,32 +122,37 @@ class GainAxis:
         return f"gain (1e{self.exponent})" if self.exponent else "gain"
 
 
-def vertices_on_axes(run, view, gain_axis):
-    return [(view.axis.coordinate(time_ns), gain_axis.coordinate(gain)) for time_ns, gain in run.vertices]
+def lines_by_sign(function, begin_ns, end_ns, view, gain_axis):
+    """The function on a stretch of time, in coordinates: lists of lines by sign, in {sign: [line, …]}."""
+    lines = {}
+    for run in sign_runs(function.pieces(begin_ns, end_ns)):
+        line = [(view.axis.coordinate(time_ns), gain_axis.coordinate(gain)) for time_ns, gain in run.vertices]
+        lines.setdefault(run.sign, []).append(line)
+    return lines
 
 
 def draw_areas(axes, function, view, gain_axis):
     """Tints what counts: the area between function and zero, by its sign."""
     begin_ns = max(view.begin_ns, view.counted_begin_ns)
     end_ns = min(view.end_ns, view.counted_end_ns)
-    for run in sign_runs(function.pieces(begin_ns, end_ns)):
-        if run.sign != 0:
-            times, gains = zip(*vertices_on_axes(run, view, gain_axis))
-            axes.fill_between(times, gains, color=AREA_COLOURS[run.sign], lw=0, zorder=2)
+    for sign, lines in lines_by_sign(function, begin_ns, end_ns, view, gain_axis).items():
+        if sign != 0:
+            areas = [[(line[0][0], 0), *line, (line[-1][0], 0)] for line in lines]
+            axes.add_collection(PolyCollection(areas, color=AREA_COLOURS[sign], lw=0, zorder=2))
 
 
 def draw_line(axes, function, view, gain_axis):
     """The function: solid between its control points, dashed where it is held."""
     stretches = (
-        (view.begin_ns, min(function.first_ns, view.end_ns), (0, (5, 3))),
-        (max(function.first_ns, view.begin_ns), min(function.last_ns, view.end_ns), "-"),
-        (max(function.last_ns, view.begin_ns), view.end_ns, (0, (5, 3))),
+        (view.begin_ns, min(function.first_ns, view.end_ns), HELD_DASHES),
+        (max(function.first_ns, view.begin_ns), min(function.last_ns, view.end_ns), "solid"),
+        (max(function.last_ns, view.begin_ns), view.end_ns, HELD_DASHES),
     )
     for begin_ns, end_ns, style in stretches:
-        for run in sign_runs(function.pieces(begin_ns, end_ns)):
-            times, gains = zip(*vertices_on_axes(run, view, gain_axis))
-            colour = LINE_COLOURS[run.sign]
-            axes.plot(times, gains, linestyle=style, color=colour, lw=1.3, zorder=4, solid_joinstyle="miter")
+        for sign, lines in lines_by_sign(function, begin_ns, end_ns, view, gain_axis).items():
+            drawn = LineCollection(lines, colors=LINE_COLOURS[sign], linestyles=[style], lw=1.3, zorder=4)
+            drawn.set_joinstyle("miter")
+            axes.add_collection(drawn)
 
 
 def draw_dots(axes, function, view, gain_axis):

@@ -5,9 +5,9 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/video/clips.hpp"
+#include "media/clips/clips.hpp"
 
-namespace nutik::video {
+namespace nutik::clips {
 namespace {
 
 class OpenCvClip final : public Clip {
@@ -56,4 +56,4 @@ std::unique_ptr<Clip> open_with_opencv(const std::filesystem::path& path, const 
   return std::make_unique<OpenCvClip>(path, probe);
 }
 
-}  // namespace nutik::video
+}  // namespace nutik::clips

@@ -1,10 +1,10 @@
-#include "media/video/probe.hpp"
+#include "media/clips/probe.hpp"
 
 #include <algorithm>
 
-#include "media/video/libav.hpp"
+#include "media/clips/libav.hpp"
 
-namespace nutik::video {
+namespace nutik::clips {
 namespace {
 
 constexpr std::int64_t kSecondNs = 1'000'000'000;
@@ -65,8 +65,8 @@ ClipTiming timing_of(const AVStream& stream, std::vector<std::int64_t> times) {
 
 }  // namespace
 
-Probe probe(const std::filesystem::path& path) {
-  const OpenedVideo opened = open_video(path);
+Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& raw) {
+  const OpenedVideo opened = open_video(path, raw);
   const AVStream& stream = *opened.format->streams[opened.stream];
   const AVCodecParameters& codec = *stream.codecpar;
   Probe result;
@@ -88,8 +88,8 @@ Probe probe(const std::filesystem::path& path) {
     av_packet_unref(packet.get());
   }
   result.sample_count = times.size();
-  result.timing = timing_of(stream, std::move(times));
+  if (!raw) result.timing = timing_of(stream, std::move(times));
   return result;
 }
 
-}  // namespace nutik::video
+}  // namespace nutik::clips

@@ -14,12 +14,14 @@ extern "C" {
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/clip.hpp"
 
-namespace nutik::video {
+namespace nutik::clips {
 
 struct FreeFormat {
   void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
@@ -55,9 +57,22 @@ struct OpenedVideo {
   int stream = 0;
 };
 
-inline OpenedVideo open_video(const std::filesystem::path& path) {
+inline OpenedVideo open_video(const std::filesystem::path& path, const std::optional<RawVideo>& raw) {
   AVFormatContext* context = nullptr;
-  int code = avformat_open_input(&context, path.c_str(), nullptr, nullptr);
+  AVDictionary* settings = nullptr;
+  const AVInputFormat* kind = nullptr;
+  if (raw) {
+    if (av_get_pix_fmt(raw->pixel_format.c_str()) == AV_PIX_FMT_NONE) {
+      throw UsageError(format("raw video: '{}' is no pixel format that FFmpeg knows; examples are "
+                              "yuv420p10le and gray16le",
+                              raw->pixel_format));
+    }
+    kind = av_find_input_format("rawvideo");
+    av_dict_set(&settings, "video_size", format("{}x{}", raw->width, raw->height).c_str(), 0);
+    av_dict_set(&settings, "pixel_format", raw->pixel_format.c_str(), 0);
+  }
+  int code = avformat_open_input(&context, path.c_str(), kind, &settings);
+  av_dict_free(&settings);
   if (code < 0) {
     throw InputError(format("{} is no video that can be read: {}", path.string(), error_text(code)));
   }
@@ -69,4 +84,4 @@ inline OpenedVideo open_video(const std::filesystem::path& path) {
   return opened;
 }
 
-}  // namespace nutik::video
+}  // namespace nutik::clips

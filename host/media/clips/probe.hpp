@@ -10,7 +10,7 @@
 #include "capture/rational.hpp"
 #include "media/clip.hpp"
 
-namespace nutik::video {
+namespace nutik::clips {
 
 struct Probe {
   int stream = 0;                // index of the picture stream
@@ -23,6 +23,6 @@ struct Probe {
 };
 
 // Reads every packet's time. Throws InputError where the file cannot be opened or has no picture stream.
-[[nodiscard]] Probe probe(const std::filesystem::path& path);
+[[nodiscard]] Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& raw);
 
-}  // namespace nutik::video
+}  // namespace nutik::clips

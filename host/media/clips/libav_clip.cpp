@@ -1,16 +1,16 @@
 // Grey and deeper video through libavcodec, code for code: grey as it is, colour as 16-bit RGB.
 #include <cstring>
 
-#include "media/video/clips.hpp"
-#include "media/video/libav.hpp"
+#include "media/clips/clips.hpp"
+#include "media/clips/libav.hpp"
 
-namespace nutik::video {
+namespace nutik::clips {
 namespace {
 
 class LibavClip final : public Clip {
  public:
   LibavClip(const std::filesystem::path& path, const Probe& probe, const ClipOptions& options)
-      : name_(path.string()), opened_(open_video(path)), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
+      : name_(path.string()), opened_(open_video(path, options.raw)), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
     const AVCodecParameters* parameters = stream().codecpar;
     const AVCodec* decoder = avcodec_find_decoder(parameters->codec_id);
     if (decoder == nullptr) throw InputError(format("{}: no decoder here knows its pictures", name_));
@@ -133,4 +133,4 @@ std::unique_ptr<Clip> open_with_libav(const std::filesystem::path& path, const P
   return std::make_unique<LibavClip>(path, probe, options);
 }
 
-}  // namespace nutik::video
+}  // namespace nutik::clips

@@ -1,13 +1,14 @@
-// The two ways in which videos are decoded here.
+// The ways in which clips are decoded here.
 #pragma once
 
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "media/clip.hpp"
-#include "media/video/probe.hpp"
+#include "media/clips/probe.hpp"
 
-namespace nutik::video {
+namespace nutik::clips {
 
 // 8-bit colour.
 [[nodiscard]] std::unique_ptr<Clip> open_with_opencv(const std::filesystem::path& path,
@@ -17,4 +18,8 @@ namespace nutik::video {
 [[nodiscard]] std::unique_ptr<Clip> open_with_libav(const std::filesystem::path& path,
                                                     const Probe& probe, const ClipOptions& options);
 
-}  // namespace nutik::video
+// Stills, one sample each; a TIFF may hold several.
+[[nodiscard]] std::unique_ptr<Clip> open_still_files(std::span<const std::filesystem::path> files,
+                                                     const ClipOptions& options);
+
+}  // namespace nutik::clips

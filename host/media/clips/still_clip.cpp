@@ -1,0 +1,142 @@
+// Sequences of stills through OpenCV; Netpbm through our own reader, which keeps the maximum.
+#include <cstring>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/clips/clips.hpp"
+#include "media/netpbm.hpp"
+#include "system/mapped_file.hpp"
+
+namespace nutik::clips {
+namespace {
+
+// One picture of a file.
+struct Page {
+  std::filesystem::path file;
+  int number = 0;
+};
+
+struct Still {
+  Shape shape;
+  std::uint32_t code_bytes = 1;
+  std::optional<std::uint32_t> maximum;  // that the file states
+  std::vector<std::byte> codes;          // interleaved raster
+};
+
+bool has_extension(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+Still read_netpbm_still(const std::filesystem::path& file) {
+  const MappedFile mapped(file);
+  Picture picture = read_netpbm(mapped.bytes(), file.string());
+  return {picture.shape, static_cast<std::uint32_t>(value_bytes(picture.type)), picture.white_code,
+          std::move(picture.bytes)};
+}
+
+Still read_with_opencv(const Page& page) {
+  std::vector<cv::Mat> pages;
+  cv::Mat picture;
+  if (has_extension(page.file, {".tif", ".tiff"})) {
+    cv::imreadmulti(page.file.string(), pages, page.number, 1, cv::IMREAD_UNCHANGED);
+    if (!pages.empty()) picture = pages.front();
+  } else {
+    picture = cv::imread(page.file.string(), cv::IMREAD_UNCHANGED);
+  }
+  const std::string name = page.file.string();
+  if (picture.empty()) throw InputError(format("{} cannot be read as a picture", name));
+  if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
+    throw InputError(format("{} holds neither 8- nor 16-bit values", name));
+  }
+  if (picture.channels() != 1 && picture.channels() != 3) {
+    throw InputError(format("{} has {} channels; grey (1) and colour (3) are read, transparency is not", name,
+                            picture.channels()));
+  }
+  if (picture.channels() == 3) cv::cvtColor(picture, picture, cv::COLOR_BGR2RGB);
+  if (!picture.isContinuous()) picture = picture.clone();
+  Still still;
+  still.shape = {static_cast<std::uint32_t>(picture.cols), static_cast<std::uint32_t>(picture.rows),
+                 static_cast<std::uint32_t>(picture.channels())};
+  still.code_bytes = picture.depth() == CV_8U ? 1 : 2;
+  const auto* bytes = reinterpret_cast<const std::byte*>(picture.data);
+  still.codes.assign(bytes, bytes + picture.total() * picture.elemSize());
+  return still;
+}
+
+Still read_still(const Page& page) {
+  return has_extension(page.file, {".pgm", ".ppm", ".pnm"}) ? read_netpbm_still(page.file)
+                                                           : read_with_opencv(page);
+}
+
+class StillClip final : public Clip {
+ public:
+  StillClip(std::span<const std::filesystem::path> files, const ClipOptions& options) {
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    for (const std::filesystem::path& file : files) {
+      const std::size_t count = has_extension(file, {".tif", ".tiff"}) ? cv::imcount(file.string()) : 1;
+      for (std::size_t number = 0; number < std::max<std::size_t>(count, 1); ++number) {
+        pages_.push_back({file, static_cast<int>(number)});
+      }
+    }
+    first_ = read_still(pages_.front());
+    CaptureFormat& capture = info_.format;
+    capture.shape = first_.shape;
+    capture.code_bytes = first_.code_bytes;
+    const std::uint32_t full = first_.code_bytes == 1 ? 255 : 65'535;
+    capture.white_code = options.white_code.value_or(first_.maximum.value_or(full));
+    // Deep stills come from scientific cameras, whose codes are linear; shallow ones are made to be seen.
+    capture.transfer = first_.code_bytes == 1 ? Transfer::srgb() : Transfer::linear();
+    if (capture.code_bytes == 2 && !first_.maximum && !options.white_code) {
+      info_.notes.push_back(
+          "the files do not say how many of their 16 bits are used: white is taken to be 65535; state "
+          "another with --white (12 bits: 4095)");
+    }
+    info_.sample_count = pages_.size();
+  }
+
+  [[nodiscard]] const ClipInfo& info() const override { return info_; }
+
+  bool read(std::span<std::byte> raster) override {
+    if (next_ == pages_.size()) return false;
+    const Page& page = pages_[next_];
+    const Still still = next_ == 0 ? std::move(first_) : read_still(page);
+    check_like_first(still, page);
+    std::memcpy(raster.data(), still.codes.data(), still.codes.size());
+    ++next_;
+    return true;
+  }
+
+ private:
+  void check_like_first(const Still& still, const Page& page) const {
+    const auto text = [](const Shape& shape, std::uint32_t code_bytes) {
+      return format("{} x {} {} of {} bits", shape.width, shape.height,
+                    shape.channels == 1 ? "grey" : "colour", code_bytes * 8);
+    };
+    const CaptureFormat& capture = info_.format;
+    if (still.shape == capture.shape && still.code_bytes == capture.code_bytes) return;
+    throw InputError(format("{} is {}, the first still {}; all must be alike", page.file.string(),
+                            text(still.shape, still.code_bytes),
+                            text(capture.shape, capture.code_bytes)));
+  }
+
+  std::vector<Page> pages_;
+  Still first_;
+  std::size_t next_ = 0;
+  ClipInfo info_;
+};
+
+}  // namespace
+
+std::unique_ptr<Clip> open_still_files(std::span<const std::filesystem::path> files,
+                                       const ClipOptions& options) {
+  return std::make_unique<StillClip>(files, options);
+}
+
+}  // namespace nutik::clips
