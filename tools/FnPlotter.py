@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Draws the gain functions of a function file: the debugging aid for them. docs/functions.md has the format."""
+"""Draws the gain functions of a function file, to see what they do. docs/functions.md has the format."""
 
 import argparse
 import os
 import sys
+from functools import partial
 from pathlib import Path
 
 from fnplot.errors import InputError, OutputError, PlotterError, UsageError
@@ -13,6 +14,7 @@ from fnplot.times import parse_time
 
 FORMATS = (".png", ".svg", ".pdf")
 PNG_DOTS_PER_INCH = 120
+LONGEST_TITLE = 50  # characters
 FILE_PAGE_HEIGHT, WINDOW_PAGE_HEIGHT = 10.0, 8.5  # inches
 BACKENDS_WITHOUT_WINDOWS = {"agg", "cairo", "pdf", "pgf", "ps", "svg", "template"}
 
@@ -45,10 +47,10 @@ def command_line():
         allow_abbrev=False,
     )
     parser.add_argument("file", metavar="FILE.fn", help="the function file")
-    parser.add_argument("-o", "--output", metavar="FILE", help="write a .png, .svg or .pdf instead of a window")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write a .png, .svg or .pdf, open no window")
     parser.add_argument("--duration", metavar="TIME", help="the capture's duration: 3s, 250ms, 1/100s")
     parser.add_argument("--mask", metavar="MASK", help="a mask (PGM or PNG): draw only the functions it uses")
-    parser.add_argument("--zoom", metavar="FROM..TO", help="the time to draw (--zoom=-1ms..5ms starts before 0)")
+    parser.add_argument("--zoom", metavar="FROM..TO", help="the time to draw; before 0: --zoom=-1ms..5ms")
     return parser
 
 
@@ -98,7 +100,8 @@ def functions_in_use(functions, pixels, file_name, mask_name):
     unused = [tag for tag in functions if tag not in pixels]
     if unmapped:
         count = sum(pixels[tag] for tag in unmapped)
-        print(f"{mask_name}: mask values without a function: {ranges_text(unmapped)} ({count} pixels)", file=sys.stderr)
+        values = ranges_text(unmapped)
+        print(f"{mask_name}: mask values without a function: {values} ({count} pixels)", file=sys.stderr)
     if not used:
         raise InputError(
             f"{mask_name} uses no function of {file_name}, which has functions for {ranges_text(functions)}"
@@ -115,70 +118,84 @@ def page_names(output, count):
     return [output.with_name(f"{output.stem}-{page}{output.suffix}") for page in range(1, count + 1)]
 
 
-def write_pages(pages, draw, output):
-    """One file for each page, or one PDF of them all."""
+def write_pages(drawings, output):
+    """One file for each page, or one PDF of them all. A drawing is called with the figure to draw on."""
     from matplotlib.backends.backend_pdf import PdfPages
     from matplotlib.figure import Figure
 
-    def drawn(page):
+    def drawn(drawing):
         figure = Figure()
-        draw(figure, page)
+        drawing(figure)
         return figure
 
     try:
         if output.suffix.lower() == ".pdf":
             with PdfPages(output) as document:
-                for page in pages:
-                    document.savefig(drawn(page))
+                for drawing in drawings:
+                    document.savefig(drawn(drawing))
             return
-        for page, name in zip(pages, page_names(output, len(pages))):
-            drawn(page).savefig(name, dpi=PNG_DOTS_PER_INCH)
+        for drawing, name in zip(drawings, page_names(output, len(drawings))):
+            drawn(drawing).savefig(name, dpi=PNG_DOTS_PER_INCH)
     except OSError as error:
         raise OutputError(f"{error.filename or output}: {error.strerror or error}") from None
 
 
-def show_pages(pages, draw):
+def show_pages(drawings):
     """One window for each page, until all are closed."""
     import matplotlib
     from matplotlib import pyplot
 
     matplotlib.rcParams["figure.max_open_warning"] = 0
-    for page in pages:
-        draw(pyplot.figure(), page)
+    for drawing in drawings:
+        drawing(pyplot.figure())
     if matplotlib.get_backend().lower() in BACKENDS_WITHOUT_WINDOWS:
         raise OutputError("there is no display to open a window on; write a file: -o plot.png")
     pyplot.show()
 
 
-def plot(options):
-    duration_ns = parse_duration(options.duration) if options.duration else None
-    zoom_ns = parse_zoom(options.zoom) if options.zoom else None
-    output = Path(options.output) if options.output else None
-    if output:
-        check_output(output, (options.file, options.mask))
-    functions = read_functions(options.file)
-    pixels = read_mask(options.mask) if options.mask else None
-    used = functions_in_use(functions, pixels, options.file, options.mask) if pixels else functions
+def title_of(file_name):
+    """The file's own name, shortened in its middle where it is too long for a page."""
+    name = os.fsencode(Path(file_name).name).decode("utf-8", errors="replace")
+    half = LONGEST_TITLE // 2
+    return name if len(name) <= LONGEST_TITLE else f"{name[:half]}…{name[-half:]}"
+
+
+def page_drawings(functions, pixels, options):
+    """What draws each page, called with the figure to draw on."""
     try:
         from fnplot import pages
     except ImportError as error:
-        raise OutputError(f"Matplotlib cannot be loaded ({error}); on Debian: apt install python3-matplotlib") from None
+        way_out = "on Debian: apt install python3-matplotlib"
+        raise OutputError(f"Matplotlib cannot be loaded ({error}); {way_out}") from None
 
-    view = pages.make_view(functions.values(), duration_ns, zoom_ns)
+    used = functions_in_use(functions, pixels, options.file, options.mask) if pixels else functions
     share = {tag: count / sum(pixels.values()) for tag, count in pixels.items()} if pixels else {}
     sheets = pages.paginate([pages.Graph(tag, used[tag], share.get(tag)) for tag in sorted(used)])
-    page_height = FILE_PAGE_HEIGHT if output else WINDOW_PAGE_HEIGHT
-    graph_height = pages.graph_height(len(sheets[0]), page_height)
-    name = os.fsencode(Path(options.file).name).decode("utf-8", errors="replace")
+    view = pages.make_view(functions.values(), options.duration, options.zoom)
+    height = pages.graph_height(len(sheets[0]), FILE_PAGE_HEIGHT if options.output else WINDOW_PAGE_HEIGHT)
+    name = title_of(options.file)
+    backdrops = [pages.outside_capture]
+    drawings = []
+    for number, sheet in enumerate(sheets, start=1):
+        title = f"{name}, page {number} of {len(sheets)}" if len(sheets) > 1 else name
+        page = {"graphs": sheet, "height": height, "view": view, "title": title, "backdrops": backdrops}
+        drawings.append(partial(pages.draw_page, **page))
+    return drawings
 
-    def draw(figure, sheet):
-        number = f", page {sheets.index(sheet) + 1} of {len(sheets)}" if len(sheets) > 1 else ""
-        pages.draw_page(figure, sheet, graph_height, view, name + number, [pages.outside_capture])
 
-    if output:
-        write_pages(sheets, draw, output)
+def plot(options):
+    options.duration = parse_duration(options.duration) if options.duration else None
+    options.zoom = parse_zoom(options.zoom) if options.zoom else None
+    options.output = Path(options.output) if options.output else None
+    if options.output:
+        check_output(options.output, (options.file, options.mask))
+    functions = read_functions(options.file)
+    pixels = read_mask(options.mask) if options.mask else None
+    drawings = page_drawings(functions, pixels, options)
+    if options.output:
+        write_pages(drawings, options.output)
     else:
-        show_pages(sheets, draw)
+        show_pages(drawings)
 
 
 def main():

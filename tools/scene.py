@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Films a scene whose every value is known, with masks and gain functions for it: material for the demo and the tests."""
+"""Films a scene whose every value is known, with masks and gain functions for it: for the demo and the tests."""
 
 import argparse
 import json
@@ -19,7 +19,8 @@ def parse_arguments():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="where to write; made if it is missing")
     parser.add_argument("--scene", choices=SCENES, default=next(iter(SCENES)))
-    parser.add_argument("--size", metavar="WxH", type=parse_size, default=(640, 360), help="in pixels (default: 640x360)")
+    parser.add_argument("--size", metavar="WxH", type=parse_size, default=(640, 360),
+                        help="in pixels (default: 640x360)")
     parser.add_argument("--seed", type=int, default=1, help="of the sensor's noise (default: 1)")
     parser.add_argument("--preview", action="store_true", help="write only preview.png: the scene at four times")
     return parser.parse_args()

@@ -59,6 +59,6 @@ build_program() {
   shift
   local folder=$root/build
   [ "$preset" = release ] || folder=$root/build-$preset
-  cmake --preset "$preset" -S "$root" -B "$folder" -DPython3_EXECUTABLE="$python" "$@"
+  cmake --preset "$preset" -S "$root" -B "$folder" "$@"
   cmake --build "$folder"
 }

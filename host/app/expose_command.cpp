@@ -107,16 +107,30 @@ std::vector<std::string> input_names(const Options& options) {
   return inputs;
 }
 
-std::string still_gains_text(const RenderPlan& plan) {
-  std::string text;
+// `, still gain M0 1, M128 0.25`; nothing for a plain interval, whose gain is 1.
+std::string still_gains_text(const RenderPlan& plan, bool plain) {
+  if (plain) return {};
+  std::string text = ", still gain";
   for (std::size_t f = 0; f < std::min(plan.functions.size(), kFunctionsInSummary); ++f) {
     const PlannedFunction& function = plan.functions[f];
-    text += format("{}M{} {:.6g}", f == 0 ? "" : ", ", function.tag, function.summary.still_gain());
+    text += format("{} M{} {:.6g}", f == 0 ? "" : ",", function.tag, function.summary.still_gain());
   }
   if (plan.functions.size() > kFunctionsInSummary) {
     text += format(" and {} more", plan.functions.size() - kFunctionsInSummary);
   }
   return text;
+}
+
+// Light below 0 is black in a picture of codes: a still scene under a negative still gain disappears.
+void warn_of_negative_gains(const Exposed& exposed) {
+  if (!holds_codes(exposed.picture.type)) return;
+  for (const PlannedFunction& function : exposed.plan.functions) {
+    const double still_gain = function.summary.still_gain();
+    if (still_gain >= 0.0) continue;
+    print_warning(format("M{}: the still gain is {:.6g}: whatever does not move comes out black; write a .pfm "
+                         "or a .tif with --depth float to keep light below 0",
+                         function.tag, still_gain));
+  }
 }
 
 }  // namespace
@@ -138,13 +152,15 @@ int run_expose(const Options& options) {
   const Exposed exposed =
       captured ? exposing.from_tik(input) : exposing.from_clip(input, source_options);
   for (const std::string& warning : exposed.plan.warnings) print_warning(warning);
+  warn_of_negative_gains(exposed);
   write_picture(output, exposed.picture);
   if (options.quiet) return 0;
 
   const RenderPlan& plan = exposed.plan;
-  print_line(format("{}: {}, {} of {} samples, still gain {}, {:.2f} s on {}", output.string(),
-                    shape_text(plan.capture.shape), plan.sample_count(), exposed.timeline.sample_count(),
-                    still_gains_text(plan), stopwatch.seconds(), exposing.renderer_name()));
+  print_line(format("{}: {}, {} of {} samples{}, {:.2f} s on {}", output.string(),
+                    shape_text(plan.capture.shape), plan.live_sample_count(),
+                    exposed.timeline.sample_count(), still_gains_text(plan, !options.functions), stopwatch.seconds(),
+                    exposing.renderer_name()));
   if (!captured) {
     print_line(format("source: {}", timing_text(exposed.timeline, source_options)));
     if (const std::string note = slow_motion_note(exposed.timeline, source_options); !note.empty()) {

@@ -63,6 +63,7 @@ ExposureRequest ExposureRequest::from(const Options& options) {
   TimeText::parse(request.exposure_, "exposure");
   request.label_ = format("{}-{}", request.start_, request.exposure_);
   std::replace(request.label_.begin(), request.label_.end(), '/', '_');
+  request.plan_options_.function_name = "the exposure";
   return request;
 }
 

@@ -101,7 +101,7 @@ std::span<const Option> options() {
              "differences up to this many codes are no change; 0 keeps every one (default: 0)",
              kEncode | kExpose, &Options::tolerance),
 
-      valued('k', "functions", "FILE.fn", kExposure, "the gain functions, one for each mask value",
+      valued('k', "functions", "FILE.fn", kExposure, "the gain functions, one for each mask value; a file with a single one needs no mask",
              kExpose, &Options::functions),
       valued('m', "mask", "FILE.pgm", kExposure,
              "which function each pixel is exposed with: an 8-bit grey PGM or PNG", kExpose,

@@ -30,10 +30,12 @@ void check_mapped(const FunctionSet& functions, const std::array<std::uint64_t, 
                           unmapped));
 }
 
-void warn(RenderPlan& plan, const PlannedFunction& function, bool was_unmapped) {
+void warn(RenderPlan& plan, const PlannedFunction& function, bool was_unmapped,
+          const std::string& function_name) {
   const GainSummary& summary = function.summary;
+  const std::string name = function_name.empty() ? format("M{}", function.tag) : function_name;
   const auto say = [&](const std::string& text) {
-    plan.warnings.push_back(format("M{}: {}", function.tag, text));
+    plan.warnings.push_back(format("{}: {}", name, text));
   };
   const double seconds = static_cast<double>(plan.duration_ns) * 1e-9;
   if (summary.support_ns == 0 && !was_unmapped) {
@@ -113,9 +115,15 @@ void pack_tables(RenderPlan& plan, const Timeline& timeline) {
 
 }  // namespace
 
-std::uint64_t RenderPlan::sample_count() const {
+std::uint64_t RenderPlan::live_sample_count() const {
   std::uint64_t samples = 0;
-  for (const PlannedBlock& block : blocks) samples += block.extent.sample_count;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    for (std::uint32_t k = 0; k < blocks[b].extent.sample_count; ++k) {
+      const auto first = spans.begin() + static_cast<std::ptrdiff_t>(b * function_count());
+      samples += std::any_of(first, first + static_cast<std::ptrdiff_t>(function_count()),
+                             [&](const SampleSpan& span) { return span.first <= k && k < span.last; });
+    }
+  }
   return samples;
 }
 
@@ -155,7 +163,7 @@ RenderPlan make_plan(const CaptureSource& source, const FunctionSet& functions, 
     PlannedFunction function{tag, unmapped ? zero : found->second, {}, {}, pixels[value]};
     function.summary = summarize(function.function, plan.duration_ns);
     function.live = live_samples(function.summary, timeline, options);
-    warn(plan, function, unmapped);
+    warn(plan, function, unmapped, options.function_name);
     index_of_tag[value] = static_cast<std::uint8_t>(plan.functions.size());
     plan.functions.push_back(std::move(function));
   }

@@ -27,6 +27,7 @@ struct PlanOptions {
   bool unmapped_is_zero = false;  // mask values without a function expose to 0 instead of being an error
   bool live_all = false;          // visit every sample, also where all gains are 0
   std::optional<Transfer> transfer;  // instead of the capture's own
+  std::string function_name;         // in warnings, where it is not a mask value's; empty: M0, M1, …
 };
 
 struct PlannedFunction {
@@ -69,8 +70,8 @@ struct RenderPlan {
   [[nodiscard]] std::uint64_t table_rows() const {
     return functions.empty() ? 0 : weights.size() / functions.size();
   }
-  // The samples that are visited.
-  [[nodiscard]] std::uint64_t sample_count() const;
+  // The samples that some function needs.
+  [[nodiscard]] std::uint64_t live_sample_count() const;
 };
 
 // The samples that an exposure of these functions through this mask needs, as one range: what has to be

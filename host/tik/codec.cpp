@@ -15,8 +15,8 @@
 namespace nutik::tik {
 namespace {
 
-// Large enough for the compressor to learn a group, small enough for its plain stream to stay in cache.
-constexpr std::uint64_t kGroupBytes = 512 << 10;
+// Large enough for the compressor to learn each part of a group, small enough to keep all cores busy.
+constexpr std::uint64_t kGroupBytes = 2 << 20;
 constexpr int kUsualZstdLevel = 1;
 
 std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> plain) {
@@ -52,6 +52,46 @@ struct StoredGroup {
   std::uint32_t tile_count;
   std::uint32_t packed_bytes;
 };
+
+// The packed sizes of a group's head and parts, in front of them.
+using GroupSizes = std::array<std::uint32_t, 1 + kPlainParts>;
+
+std::vector<std::byte> pack_group(const Codec& codec, const PlainGroup& plain) {
+  GroupSizes sizes{};
+  std::vector<std::byte> packed(sizeof sizes);
+  const auto add = [&](std::size_t at, std::span<const std::byte> part) {
+    if (part.empty()) return;
+    const std::vector<std::byte> bytes = compress(codec, part);
+    sizes[at] = static_cast<std::uint32_t>(bytes.size());
+    packed.insert(packed.end(), bytes.begin(), bytes.end());
+  };
+  add(0, plain.head);
+  for (std::size_t part = 0; part < kPlainParts; ++part) add(1 + part, plain.parts[part]);
+  std::memcpy(packed.data(), sizes.data(), sizeof sizes);
+  return packed;
+}
+
+bool unpack_group(CodecId codec, const TileGroup& group, std::span<const std::byte> packed,
+                  PlainGroup& plain) {
+  GroupSizes sizes;
+  if (packed.size() < sizeof sizes) return false;
+  std::memcpy(sizes.data(), packed.data(), sizeof sizes);
+  packed = packed.subspan(sizeof sizes);
+  const auto take = [&](std::size_t at, std::uint64_t bytes, std::vector<std::byte>& part) {
+    if (sizes[at] > packed.size() || (bytes == 0) != (sizes[at] == 0)) return false;
+    part.resize(bytes);
+    const auto from = packed.first(sizes[at]);
+    packed = packed.subspan(sizes[at]);
+    return bytes == 0 || decompress(codec, from, part);
+  };
+  if (!take(0, group.head_bytes(), plain.head)) return false;
+  const auto bytes = part_bytes(group, plain.head);
+  if (!bytes) return false;
+  for (std::size_t part = 0; part < kPlainParts; ++part) {
+    if (!take(1 + part, (*bytes)[part], plain.parts[part])) return false;
+  }
+  return packed.empty();
+}
 
 // Cuts tiles into groups of about kGroupBytes.
 std::vector<std::uint32_t> group_sizes(std::span<const TileEntry> entries, const BlockGeometry& geometry) {
@@ -140,9 +180,7 @@ std::vector<std::byte> pack(const Codec& codec, const BlockGeometry& geometry,
   std::vector<std::vector<std::byte>> packed(sizes.size());
   parallel_for(sizes.size(), [&](std::uint64_t g) {
     const TileGroup group{std::span(entries).subspan(firsts[g], sizes[g]), geometry};
-    std::vector<std::byte> plain(group.plain_bytes());
-    predict(group, payload, plain);
-    packed[g] = compress(codec, plain);
+    packed[g] = pack_group(codec, predict(group, payload));
   });
 
   std::vector<std::byte> stored;
@@ -207,8 +245,12 @@ void unpack(CodecId codec, const BlockGeometry& geometry, std::span<const std::b
   std::atomic<bool> good{true};
   parallel_for(groups.size(), [&](std::uint64_t g) {
     const TileGroup group{std::span(entries).subspan(firsts[g], groups[g].tile_count), geometry};
-    std::vector<std::byte> plain(group.plain_bytes());
-    if (!decompress(codec, packed[g], plain) || !reconstruct(group, plain, payload)) good = false;
+    PlainGroup plain;
+    if (unpack_group(codec, group, packed[g], plain)) {
+      reconstruct(group, plain, payload);
+    } else {
+      good = false;
+    }
   });
   if (!good) fail_damaged();
 }

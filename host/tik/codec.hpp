@@ -7,7 +7,8 @@
 //   {u32 tile count, u32 packed bytes} for each group
 //   u32 packed bytes of the tile counts, u32 0
 //   the packed tile counts: TileEntry.count of every tile
-//   the packed groups: consecutive tiles each, their plain streams as tik/prediction.hpp writes them
+//   the packed groups: consecutive tiles each; the packed sizes of head and parts (u32 each), then those
+//   that are not empty, in the plain form of tik/prediction.hpp, each packed on its own
 //
 // Offsets in the tile directory are not stored: bodies lie one behind the other. Groups are packed and
 // unpacked side by side on all cores.

@@ -1,34 +1,56 @@
 #include "tik/prediction.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <cstring>
 #include <type_traits>
+
+#include "tik/residual_packing.hpp"
 
 namespace nutik::tik {
 namespace {
 
-enum Mode : std::uint8_t { kFromRowBefore = 0, kFromNeighbours = 1 };
-
-// Median prediction is decoded pixel by pixel, the other mode a vector at a time: it has to save at
-// least a quarter of the residual to be chosen.
-constexpr int kNeighbourPenaltyNum = 5;
-constexpr int kNeighbourPenaltyDen = 4;
-
-// The rows of a body: codes of a rows tile; start and slots of a records tile.
-struct RowLayout {
-  std::uint32_t rows;
-  std::uint64_t index_bytes;  // of the list before the rows of a rows tile
-  std::uint64_t index_count;  // entries of the tile's index
+// How a row is predicted. The values stand in files.
+enum class Mode : std::uint8_t {
+  before,      // the row before
+  neighbours,  // the median of left, above, and left + above - left above, in the same row
+  drift        // the row before, plus that median of the differences from it
 };
+constexpr std::uint8_t kModes = 3;
 
-RowLayout layout_of(const TileEntry& entry, const BlockGeometry& geometry) {
-  if (entry.is_records()) {
-    return {entry.slots() + 1, 0, std::uint64_t{entry.slots()} * kTilePixels};
-  }
-  const std::uint64_t list = geometry.row_index_bytes(entry.rows());
-  return {entry.rows(), list, list == 0 ? 0u : entry.rows()};
+// Medians are decoded pixel by pixel, `before` a vector at a time: they have to save a tenth.
+constexpr std::uint32_t kMedianCost = 11;
+constexpr std::uint32_t kBeforeCost = 10;
+
+std::byte mark_of(Mode mode, Reach reach) {
+  return static_cast<std::byte>(static_cast<unsigned>(reach) * kModes + static_cast<unsigned>(mode));
+}
+Mode mode_of_mark(std::byte mark) { return static_cast<Mode>(static_cast<unsigned>(mark) % kModes); }
+Reach reach_of_mark(std::byte mark) { return static_cast<Reach>(static_cast<unsigned>(mark) / kModes); }
+
+std::size_t part_of(std::uint32_t channel, Reach reach) {
+  return channel * kReaches + static_cast<std::size_t>(reach);
+}
+
+// Entries of a tile's index: for a rows tile its rows, for a records tile 64 a slot.
+std::uint64_t index_count(const TileEntry& entry, const BlockGeometry& geometry) {
+  if (entry.is_records()) return std::uint64_t{entry.slots()} * kTilePixels;
+  return geometry.row_index_bytes(entry.rows()) == 0 ? 0 : entry.rows();
+}
+
+std::uint32_t row_count(const TileEntry& entry) {
+  return entry.is_records() ? entry.slots() + 1 : entry.rows();
+}
+
+std::uint64_t index_bytes(const TileGroup& group) {
+  std::uint64_t count = 0;
+  for (const TileEntry& entry : group.entries) count += index_count(entry, group.geometry);
+  return count * group.geometry.index_bytes();
+}
+
+std::uint64_t row_total(const TileGroup& group) {
+  std::uint64_t rows = 0;
+  for (const TileEntry& entry : group.entries) rows += row_count(entry);
+  return rows;
 }
 
 // Offset of a slot within a records tile's body.
@@ -43,39 +65,56 @@ std::uint64_t row_offset(const TileEntry& entry, const BlockGeometry& geometry, 
   return slot_offset(geometry, row - 1) + kTilePixels * geometry.index_bytes();
 }
 
-// Where the parts of a plain stream start.
-struct PlainLayout {
-  std::uint64_t indices = 0;
-  std::uint64_t modes = 0;
-  std::uint64_t residuals = 0;
-  std::uint64_t rows = 0;
-  std::uint64_t bytes = 0;
-
-  explicit PlainLayout(const TileGroup& group) {
-    std::uint64_t index_count = 0;
-    for (const TileEntry& entry : group.entries) {
-      const RowLayout layout = layout_of(entry, group.geometry);
-      index_count += layout.index_count;
-      rows += layout.rows;
-    }
-    modes = index_count * group.geometry.index_bytes();
-    residuals = modes + rows;
-    bytes = residuals + rows * group.geometry.row_bytes();
+// Calls visit(offset in the body, entries) for each run of index entries that are kept side by side.
+template <typename Index, typename Visit>
+void for_each_index_run(const TileEntry& entry, const BlockGeometry& geometry, Visit visit) {
+  if (entry.is_records()) {
+    for (std::uint32_t slot = 0; slot < entry.slots(); ++slot) visit(slot_offset(geometry, slot), kTilePixels);
+  } else if (index_count(entry, geometry) != 0) {
+    for (std::uint32_t row = 0; row < entry.rows(); ++row) visit(row * sizeof(Index), 1u);
   }
-};
-
-template <typename Code>
-constexpr Code kHalf = static_cast<Code>(1u << (8 * sizeof(Code) - 1));
-
-template <typename Code>
-Code fold(Code difference) {
-  const auto sign = static_cast<std::make_signed_t<Code>>(difference);
-  return static_cast<Code>((difference << 1) ^ (sign < 0 ? static_cast<Code>(~Code{0}) : Code{0}));
 }
-template <typename Code>
-Code unfold(Code folded) {
-  return static_cast<Code>((folded >> 1) ^ (folded & 1 ? static_cast<Code>(~Code{0}) : Code{0}));
+
+template <typename Index>
+void write_indices(const TileGroup& group, std::span<const std::byte> payload, std::vector<std::byte>& plain) {
+  for (const TileEntry& entry : group.entries) {
+    const std::byte* body = payload.data() + entry.offset * kBlockAlignment;
+    std::array<Index, kTilePixels> before{};
+    for_each_index_run<Index>(entry, group.geometry, [&](std::uint64_t offset, std::uint32_t count) {
+      std::array<Index, kTilePixels> now{};
+      std::memcpy(now.data(), body + offset, count * sizeof(Index));
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const auto difference = static_cast<Index>(now[i] - before[i]);
+        const auto* bytes = reinterpret_cast<const std::byte*>(&difference);
+        plain.insert(plain.end(), bytes, bytes + sizeof difference);
+      }
+      before = now;
+    });
+  }
 }
+
+template <typename Index>
+void read_indices(const TileGroup& group, const std::byte* from, std::span<std::byte> payload) {
+  for (const TileEntry& entry : group.entries) {
+    std::byte* body = payload.data() + entry.offset * kBlockAlignment;
+    // Padding behind a rows tile's list.
+    if (!entry.is_records()) std::memset(body, 0, group.geometry.row_index_bytes(entry.rows()));
+    std::array<Index, kTilePixels> now{};
+    for_each_index_run<Index>(entry, group.geometry, [&](std::uint64_t offset, std::uint32_t count) {
+      for (std::uint32_t i = 0; i < count; ++i) {
+        Index difference;
+        std::memcpy(&difference, from, sizeof difference);
+        from += sizeof difference;
+        now[i] = static_cast<Index>(now[i] + difference);
+      }
+      std::memcpy(body + offset, now.data(), count * sizeof(Index));
+    });
+  }
+}
+
+// One channel of one row.
+template <typename Code>
+using Plane = std::array<Code, kTilePixels>;
 
 template <typename Code>
 Code median(Code left, Code above, Code corner) {
@@ -86,259 +125,216 @@ Code median(Code left, Code above, Code corner) {
   return static_cast<Code>(left + above - corner);
 }
 
+// What the median says of pixel (x, y) from its neighbours; `corner_guess` for the first.
+template <typename Code>
+Code guess(const Code* plane, std::uint32_t x, std::uint32_t y, Code corner_guess) {
+  const Code* at = plane + y * kTileSide + x;
+  constexpr int kAbove = kTileSide;
+  if (y == 0) return x == 0 ? corner_guess : at[-1];
+  if (x == 0) return at[-kAbove];
+  return median(at[-1], at[-kAbove], at[-kAbove - 1]);
+}
+
+template <typename Code>
+std::int16_t as_signed(Code difference) {
+  return static_cast<std::make_signed_t<Code>>(difference);
+}
+
+template <typename Code>
+Residuals residuals_of(Mode mode, const Plane<Code>& now, const Plane<Code>& before) {
+  // Differences are taken around the middle of the range, so that small ones of either sign are
+  // neighbours for the median.
+  constexpr Code kHalf = static_cast<Code>(1u << (8 * sizeof(Code) - 1));
+  Residuals residuals;
+  Plane<Code> drift;
+  for (std::size_t i = 0; i < kTilePixels; ++i) drift[i] = static_cast<Code>(now[i] - before[i] + kHalf);
+  switch (mode) {
+    case Mode::before:
+      for (std::size_t i = 0; i < kTilePixels; ++i) residuals[i] = as_signed(static_cast<Code>(drift[i] - kHalf));
+      break;
+    case Mode::neighbours:
+    case Mode::drift: {
+      const Plane<Code>& plane = mode == Mode::drift ? drift : now;
+      const Code first = mode == Mode::drift ? kHalf : before[0];
+      for (std::uint32_t y = 0; y < kTileSide; ++y) {
+        for (std::uint32_t x = 0; x < kTileSide; ++x) {
+          const std::size_t i = y * kTileSide + x;
+          residuals[i] = as_signed(static_cast<Code>(plane[i] - guess(plane.data(), x, y, first)));
+        }
+      }
+      break;
+    }
+  }
+  return residuals;
+}
+
+template <typename Code>
+void add_residuals(Mode mode, const Residuals& residuals, const Plane<Code>& before, Plane<Code>& now) {
+  constexpr Code kHalf = static_cast<Code>(1u << (8 * sizeof(Code) - 1));
+  if (mode == Mode::before) {
+    for (std::size_t i = 0; i < kTilePixels; ++i) now[i] = static_cast<Code>(before[i] + residuals[i]);
+    return;
+  }
+  const Code first = mode == Mode::drift ? kHalf : before[0];
+  for (std::uint32_t y = 0; y < kTileSide; ++y) {
+    for (std::uint32_t x = 0; x < kTileSide; ++x) {
+      const std::size_t i = y * kTileSide + x;
+      now[i] = static_cast<Code>(guess(now.data(), x, y, first) + residuals[i]);
+    }
+  }
+  if (mode == Mode::drift) {
+    for (std::size_t i = 0; i < kTilePixels; ++i) now[i] = static_cast<Code>(now[i] + before[i] - kHalf);
+  }
+}
+
+std::uint32_t magnitude(const Residuals& residuals) {
+  std::uint32_t sum = 0;
+  for (const std::int16_t residual : residuals) {
+    sum += static_cast<std::uint32_t>(residual < 0 ? -residual : residual);
+  }
+  return sum;
+}
+
 template <typename Code, std::uint32_t Channels>
 class Predictor {
  public:
-  explicit Predictor(const TileGroup& group) : group_(group), layout_(group) {}
+  using Row = std::array<Plane<Code>, Channels>;
 
-  void predict(const std::byte* payload, std::byte* plain) {
-    std::byte* index_to = plain;
-    std::byte* mode_to = plain + layout_.modes;
-    std::uint64_t row_number = 0;
-    for (const TileEntry& entry : group_.entries) {
-      const RowLayout layout = layout_of(entry, group_.geometry);
-      const std::byte* body = payload + entry.offset * kBlockAlignment;
-      if (group_.geometry.index_bytes() == 1) {
-        index_to = write_index<std::uint8_t>(entry, body, index_to);
-      } else {
-        index_to = write_index<std::uint16_t>(entry, body, index_to);
-      }
-      Planes before{};
-      for (std::uint32_t row = 0; row < layout.rows; ++row) {
-        Planes now;
-        std::memcpy(now.data(), body + row_offset(entry, group_.geometry, row), sizeof now);
+  static PlainGroup predict(const TileGroup& group, std::span<const std::byte> payload) {
+    PlainGroup plain;
+    if (group.geometry.index_bytes() == 1) {
+      write_indices<std::uint8_t>(group, payload, plain.head);
+    } else {
+      write_indices<std::uint16_t>(group, payload, plain.head);
+    }
+    for (const TileEntry& entry : group.entries) {
+      const std::byte* body = payload.data() + entry.offset * kBlockAlignment;
+      Row before{};
+      for (std::uint32_t r = 0; r < row_count(entry); ++r) {
+        Row now;
+        std::memcpy(now.data(), body + row_offset(entry, group.geometry, r), sizeof now);
         decorrelate(now);
-        Planes from_before, from_neighbours;
-        for (std::size_t i = 0; i < now.size(); ++i) {
-          from_before[i] = static_cast<Code>(now[i] - before[i]);
-        }
-        const bool first = row == 0;
-        Mode mode = kFromNeighbours;
         for (std::uint32_t c = 0; c < Channels; ++c) {
-          neighbour_residuals(now.data() + c * kTilePixels, before[c * kTilePixels],
-                              from_neighbours.data() + c * kTilePixels);
+          Residuals residuals;
+          const Mode mode = choose(now[c], before[c], r == 0, residuals);
+          const Reach reach = reach_of(residuals);
+          plain.head.push_back(mark_of(mode, reach));
+          std::vector<std::byte>& part = plain.parts[part_of(c, reach)];
+          const std::size_t bytes = kPackedBytes[static_cast<std::size_t>(reach)];
+          part.resize(part.size() + bytes);
+          pack_residuals(residuals, reach, part.data() + part.size() - bytes);
         }
-        if (!first && magnitude(from_before) * kNeighbourPenaltyDen <=
-                          magnitude(from_neighbours) * kNeighbourPenaltyNum) {
-          mode = kFromRowBefore;
-        }
-        *mode_to++ = static_cast<std::byte>(mode);
-        write_residuals(mode == kFromRowBefore ? from_before : from_neighbours, row_number++, plain);
         before = now;
       }
     }
+    return plain;
   }
 
-  bool reconstruct(const std::byte* plain, std::byte* payload) {
-    const std::byte* index_from = plain;
-    const std::byte* mode_from = plain + layout_.modes;
-    std::uint64_t row_number = 0;
-    for (const TileEntry& entry : group_.entries) {
-      const RowLayout layout = layout_of(entry, group_.geometry);
-      std::byte* body = payload + entry.offset * kBlockAlignment;
-      if (group_.geometry.index_bytes() == 1) {
-        index_from = read_index<std::uint8_t>(entry, index_from, body);
-      } else {
-        index_from = read_index<std::uint16_t>(entry, index_from, body);
-      }
-      Planes before{};
-      for (std::uint32_t row = 0; row < layout.rows; ++row) {
-        Planes now;
-        read_residuals(row_number++, plain, now);
-        const auto mode = static_cast<Mode>(*mode_from++);
-        if (mode == kFromRowBefore) {
-          for (std::size_t i = 0; i < now.size(); ++i) now[i] = static_cast<Code>(now[i] + before[i]);
-        } else if (mode == kFromNeighbours) {
-          for (std::uint32_t c = 0; c < Channels; ++c) {
-            add_neighbours(now.data() + c * kTilePixels, before[c * kTilePixels]);
-          }
-        } else {
-          return false;
+  static void reconstruct(const TileGroup& group, const PlainGroup& plain, std::span<std::byte> payload) {
+    if (group.geometry.index_bytes() == 1) {
+      read_indices<std::uint8_t>(group, plain.head.data(), payload);
+    } else {
+      read_indices<std::uint16_t>(group, plain.head.data(), payload);
+    }
+    const std::byte* marks = plain.head.data() + index_bytes(group);
+    std::array<const std::byte*, kPlainParts> from;
+    for (std::size_t part = 0; part < kPlainParts; ++part) from[part] = plain.parts[part].data();
+    for (const TileEntry& entry : group.entries) {
+      std::byte* body = payload.data() + entry.offset * kBlockAlignment;
+      Row before{};
+      for (std::uint32_t r = 0; r < row_count(entry); ++r) {
+        Row now;
+        for (std::uint32_t c = 0; c < Channels; ++c) {
+          const std::byte mark = *marks++;
+          const Reach reach = reach_of_mark(mark);
+          Residuals residuals;
+          unpack_residuals(from[part_of(c, reach)], reach, residuals);
+          from[part_of(c, reach)] += kPackedBytes[static_cast<std::size_t>(reach)];
+          add_residuals(mode_of_mark(mark), residuals, before[c], now[c]);
         }
         before = now;
         correlate(now);
-        std::memcpy(body + row_offset(entry, group_.geometry, row), now.data(), sizeof now);
+        std::memcpy(body + row_offset(entry, group.geometry, r), now.data(), sizeof now);
       }
     }
-    return true;
   }
 
  private:
-  using Planes = std::array<Code, Channels * kTilePixels>;
+  static Mode choose(const Plane<Code>& now, const Plane<Code>& before, bool first, Residuals& chosen) {
+    chosen = residuals_of(Mode::neighbours, now, before);
+    if (first) return Mode::neighbours;  // there is nothing before
+    Mode best = Mode::neighbours;
+    std::uint32_t least = magnitude(chosen) * kMedianCost;
+    for (const auto& [mode, cost] : {std::pair{Mode::before, kBeforeCost}, {Mode::drift, kMedianCost}}) {
+      const Residuals residuals = residuals_of(mode, now, before);
+      const std::uint32_t sum = magnitude(residuals) * cost;
+      if (sum > least || (sum == least && mode == Mode::drift)) continue;
+      least = sum;
+      best = mode;
+      chosen = residuals;
+    }
+    return best;
+  }
 
-  static void decorrelate(Planes& planes) {
+  static constexpr Code kHalf = static_cast<Code>(1u << (8 * sizeof(Code) - 1));
+
+  // red green blue → green, red - green, blue - green
+  static void decorrelate(Row& row) {
     if constexpr (Channels == 3) {
-      for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
-        const Code green = planes[kTilePixels + lane];
-        const Code red = planes[lane];
-        planes[kTilePixels + lane] = static_cast<Code>(red - green + kHalf<Code>);
-        planes[lane] = green;
-        planes[2 * kTilePixels + lane] =
-            static_cast<Code>(planes[2 * kTilePixels + lane] - green + kHalf<Code>);
+      for (std::size_t i = 0; i < kTilePixels; ++i) {
+        const Code red = row[0][i], green = row[1][i], blue = row[2][i];
+        row[0][i] = green;
+        row[1][i] = static_cast<Code>(red - green + kHalf);
+        row[2][i] = static_cast<Code>(blue - green + kHalf);
       }
     }
   }
 
-  static void correlate(Planes& planes) {
+  static void correlate(Row& row) {
     if constexpr (Channels == 3) {
-      for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
-        const Code green = planes[lane];
-        planes[lane] = static_cast<Code>(planes[kTilePixels + lane] + green - kHalf<Code>);
-        planes[kTilePixels + lane] = green;
-        planes[2 * kTilePixels + lane] =
-            static_cast<Code>(planes[2 * kTilePixels + lane] + green - kHalf<Code>);
+      for (std::size_t i = 0; i < kTilePixels; ++i) {
+        const Code green = row[0][i];
+        row[0][i] = static_cast<Code>(row[1][i] + green - kHalf);
+        row[1][i] = green;
+        row[2][i] = static_cast<Code>(row[2][i] + green - kHalf);
       }
     }
   }
-
-  static void neighbour_residuals(const Code* plane, Code before, Code* residuals) {
-    for (std::uint32_t y = 0; y < kTileSide; ++y) {
-      for (std::uint32_t x = 0; x < kTileSide; ++x) {
-        residuals[y * kTileSide + x] =
-            static_cast<Code>(plane[y * kTileSide + x] - neighbour_guess(plane, before, x, y));
-      }
-    }
-  }
-
-  static void add_neighbours(Code* plane, Code before) {
-    for (std::uint32_t y = 0; y < kTileSide; ++y) {
-      for (std::uint32_t x = 0; x < kTileSide; ++x) {
-        Code& code = plane[y * kTileSide + x];
-        code = static_cast<Code>(code + neighbour_guess(plane, before, x, y));
-      }
-    }
-  }
-
-  static Code neighbour_guess(const Code* plane, Code before, std::uint32_t x, std::uint32_t y) {
-    const Code* at = plane + y * kTileSide + x;
-    if (y == 0) return x == 0 ? before : at[-1];
-    if (x == 0) return at[-static_cast<int>(kTileSide)];
-    return median(at[-1], at[-static_cast<int>(kTileSide)], at[-static_cast<int>(kTileSide) - 1]);
-  }
-
-  static std::uint32_t magnitude(const Planes& residuals) {
-    std::uint32_t sum = 0;
-    for (const Code residual : residuals) {
-      const auto value = static_cast<std::make_signed_t<Code>>(residual);
-      sum += static_cast<std::uint32_t>(value < 0 ? -value : value);
-    }
-    return sum;
-  }
-
-  // Where a row's residuals of one channel and byte start.
-  [[nodiscard]] std::uint64_t residual_offset(std::uint64_t row, std::uint32_t channel,
-                                              std::uint32_t byte) const {
-    return layout_.residuals +
-           ((channel * sizeof(Code) + byte) * layout_.rows + row) * kTilePixels;
-  }
-
-  void write_residuals(const Planes& residuals, std::uint64_t row, std::byte* plain) const {
-    for (std::uint32_t channel = 0; channel < Channels; ++channel) {
-      const Code* from = residuals.data() + channel * kTilePixels;
-      if constexpr (sizeof(Code) == 1) {
-        std::memcpy(plain + residual_offset(row, channel, 0), from, kTilePixels);
-      } else {
-        std::byte* low = plain + residual_offset(row, channel, 0);
-        std::byte* high = plain + residual_offset(row, channel, 1);
-        for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
-          const Code folded = fold(from[lane]);
-          low[lane] = static_cast<std::byte>(folded & 0xFF);
-          high[lane] = static_cast<std::byte>(folded >> 8);
-        }
-      }
-    }
-  }
-
-  void read_residuals(std::uint64_t row, const std::byte* plain, Planes& residuals) const {
-    for (std::uint32_t channel = 0; channel < Channels; ++channel) {
-      Code* to = residuals.data() + channel * kTilePixels;
-      if constexpr (sizeof(Code) == 1) {
-        std::memcpy(to, plain + residual_offset(row, channel, 0), kTilePixels);
-      } else {
-        const std::byte* low = plain + residual_offset(row, channel, 0);
-        const std::byte* high = plain + residual_offset(row, channel, 1);
-        for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
-          to[lane] = unfold(static_cast<Code>(static_cast<unsigned>(low[lane]) |
-                                              static_cast<unsigned>(high[lane]) << 8));
-        }
-      }
-    }
-  }
-
-  // The start of each run of 64 (or 1) index entries that follow each other.
-  template <typename Index, typename Visit>
-  void for_each_index_row(const TileEntry& entry, Visit visit) const {
-    const RowLayout layout = layout_of(entry, group_.geometry);
-    if (layout.index_count == 0) return;
-    if (entry.is_records()) {
-      for (std::uint32_t slot = 0; slot < entry.slots(); ++slot) {
-        visit(slot_offset(group_.geometry, slot), kTilePixels);
-      }
-      return;
-    }
-    for (std::uint32_t row = 0; row < entry.rows(); ++row) visit(row * sizeof(Index), 1u);
-  }
-
-  template <typename Index>
-  std::byte* write_index(const TileEntry& entry, const std::byte* body, std::byte* to) const {
-    std::array<Index, kTilePixels> before{};
-    for_each_index_row<Index>(entry, [&](std::uint64_t offset, std::uint32_t count) {
-      std::array<Index, kTilePixels> now;
-      std::memcpy(now.data(), body + offset, count * sizeof(Index));
-      for (std::uint32_t i = 0; i < count; ++i) {
-        const auto difference = static_cast<Index>(now[i] - before[i]);
-        std::memcpy(to, &difference, sizeof difference);
-        to += sizeof difference;
-      }
-      before = now;
-    });
-    return to;
-  }
-
-  template <typename Index>
-  const std::byte* read_index(const TileEntry& entry, const std::byte* from, std::byte* body) const {
-    std::memset(body, 0, layout_of(entry, group_.geometry).index_bytes);  // padding behind a list
-    std::array<Index, kTilePixels> before{};
-    for_each_index_row<Index>(entry, [&](std::uint64_t offset, std::uint32_t count) {
-      for (std::uint32_t i = 0; i < count; ++i) {
-        Index difference;
-        std::memcpy(&difference, from, sizeof difference);
-        from += sizeof difference;
-        before[i] = static_cast<Index>(before[i] + difference);
-      }
-      std::memcpy(body + offset, before.data(), count * sizeof(Index));
-    });
-    return from;
-  }
-
-  const TileGroup& group_;
-  PlainLayout layout_;
 };
 
-// Calls use(Predictor<Code, Channels>) for the group's kind of codes.
+// Calls use() with the predictor for a group's kind of codes.
 template <typename Use>
-auto with_predictor(const TileGroup& group, Use use) {
-  const bool colour = group.geometry.channels == 3;
-  if (group.geometry.code_bytes == 1) {
-    return colour ? use(Predictor<std::uint8_t, 3>(group)) : use(Predictor<std::uint8_t, 1>(group));
+auto with_predictor(const BlockGeometry& geometry, Use use) {
+  const bool colour = geometry.channels == 3;
+  if (geometry.code_bytes == 1) {
+    return colour ? use(Predictor<std::uint8_t, 3>()) : use(Predictor<std::uint8_t, 1>());
   }
-  return colour ? use(Predictor<std::uint16_t, 3>(group)) : use(Predictor<std::uint16_t, 1>(group));
+  return colour ? use(Predictor<std::uint16_t, 3>()) : use(Predictor<std::uint16_t, 1>());
 }
 
 }  // namespace
 
-std::uint64_t TileGroup::plain_bytes() const { return PlainLayout(*this).bytes; }
+std::uint64_t TileGroup::head_bytes() const { return index_bytes(*this) + row_total(*this) * geometry.channels; }
 
-void predict(const TileGroup& group, std::span<const std::byte> payload, std::span<std::byte> plain) {
-  with_predictor(group, [&](auto predictor) {
-    predictor.predict(payload.data(), plain.data());
-    return true;
-  });
+PlainGroup predict(const TileGroup& group, std::span<const std::byte> payload) {
+  return with_predictor(group.geometry, [&](auto predictor) { return predictor.predict(group, payload); });
 }
 
-bool reconstruct(const TileGroup& group, std::span<const std::byte> plain, std::span<std::byte> payload) {
-  return with_predictor(group,
-                        [&](auto predictor) { return predictor.reconstruct(plain.data(), payload.data()); });
+std::optional<std::array<std::uint64_t, kPlainParts>> part_bytes(const TileGroup& group,
+                                                                 std::span<const std::byte> head) {
+  std::array<std::uint64_t, kPlainParts> bytes{};
+  std::uint32_t channel = 0;
+  for (const std::byte mark : head.subspan(index_bytes(group))) {
+    if (static_cast<std::size_t>(mark) >= kModes * kReaches) return std::nullopt;
+    const Reach reach = reach_of_mark(mark);
+    bytes[part_of(channel, reach)] += kPackedBytes[static_cast<std::size_t>(reach)];
+    channel = (channel + 1) % group.geometry.channels;
+  }
+  return bytes;
+}
+
+void reconstruct(const TileGroup& group, const PlainGroup& plain, std::span<std::byte> payload) {
+  with_predictor(group.geometry, [&](auto predictor) { predictor.reconstruct(group, plain, payload); });
 }
 
 }  // namespace nutik::tik

@@ -1,29 +1,26 @@
 // Prediction: turns tile bodies into residuals that a general compressor packs well, and back. Lossless.
+// docs/tik-format.md specifies the plain form of a group of consecutive tiles; in short:
 //
-// The codes of a group of consecutive tiles become one plain stream (b = bytes of a code, n = rows or,
-// with the start, slots + 1 of a tile):
+//   head        the sample numbers of rows and records, each as the difference from the one before; then,
+//               for each row of a tile (in records tiles the start and each slot), for each channel, a mark:
+//               how it is predicted, and how far its residuals reach
+//   parts       for each channel, for each reach: the rows of that reach, 64 residuals each, several in
+//               one byte where they are small
 //
-//   indices     for each tile with an index: the list's differences from one entry to the next, rows
-//               tiles [rows], records tiles [slots][64]; index width as in the block
-//   modes       for each tile, for each of its n rows, one byte: how the row is predicted
-//                 0  from the row before (a slot: from the slot before)
-//                 1  from the neighbours left, above and left above in the same row (the median of left,
-//                    above, and left + above - left above); the first pixel from the row before
-//   residuals   for each channel, for each byte of a code (low first), for each tile, for each of its
-//               rows: [64]
-//
-// Colours are decorrelated first: green, red - green + half, blue - green + half, modulo 2^(8b).
-// Residuals are differences modulo 2^(8b); those of two bytes are folded so that small ones of either
-// sign have a high byte of 0: 0, -1, 1, -2, 2 … become 0, 1, 2, 3, 4 …
-//
-// Before the first row of a tile all codes count as 0; a first row is always of mode 1.
+// Colours are decorrelated first (green, red - green, blue - green). Sorting residuals by their reach and
+// packing small ones together takes the compressor below one bit a residual, which its own symbol by
+// symbol coding never reaches, and gives it a third of the bytes to work on.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "imev/block.hpp"
+#include "tik/residual_packing.hpp"
 
 namespace nutik::tik {
 
@@ -32,16 +29,24 @@ struct TileGroup {
   std::span<const TileEntry> entries;
   const BlockGeometry& geometry;
 
-  // Bytes of the plain stream.
-  [[nodiscard]] std::uint64_t plain_bytes() const;
+  [[nodiscard]] std::uint64_t head_bytes() const;
 };
 
-// Writes plain_bytes() bytes from the tiles' bodies in `payload`.
-void predict(const TileGroup& group, std::span<const std::byte> payload, std::span<std::byte> plain);
+inline constexpr std::size_t kPlainParts = 3 * kReaches;  // [channel][reach]; grey uses the first third
 
-// Writes the tiles' bodies into `payload` again. Returns false where the stream cannot be one that
-// predict() wrote.
-[[nodiscard]] bool reconstruct(const TileGroup& group, std::span<const std::byte> plain,
-                               std::span<std::byte> payload);
+struct PlainGroup {
+  std::vector<std::byte> head;
+  std::array<std::vector<std::byte>, kPlainParts> parts;
+};
+
+[[nodiscard]] PlainGroup predict(const TileGroup& group, std::span<const std::byte> payload);
+
+// The sizes of the parts that belong to a head; nothing where the head cannot be one.
+[[nodiscard]] std::optional<std::array<std::uint64_t, kPlainParts>> part_bytes(
+    const TileGroup& group, std::span<const std::byte> head);
+
+// Writes the tiles' bodies into `payload` again. The head's and parts' sizes must be as the functions
+// above say.
+void reconstruct(const TileGroup& group, const PlainGroup& plain, std::span<std::byte> payload);
 
 }  // namespace nutik::tik

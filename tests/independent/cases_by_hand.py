@@ -44,7 +44,8 @@ def lines_and_gaps(checks, folder):
 
     Codes 51, 153, 255, 0 are, linear, light 0.2, 0.6, 1, 0; the second pixel is 0.4 all along.
     """
-    pictures.write_lossless(folder / "gaps.mkv", grey_row([51, 102], [153, 102], [255, 102], [0, 102]))
+    samples = grey_row([51, 102], [153, 102], [255, 102], [0, 102])
+    pictures.write_lossless(folder / "gaps.mkv", samples)
     source = ["-f100", "-a180", "--transfer", "linear", "gaps.mkv"]
     cases = [
         ("a boxcar over exactly sample 1", "10ms", "5ms", 0.6),
@@ -75,8 +76,9 @@ def masks_and_ramps(checks, folder):
     checks.expose_float("sample 0 less sample 1: (10 x 0.2 - 10 x 0.6) / 20", folder,
                         ["-k", "sign.fn"] + source, by_hand([-0.2, 0.0]))
     pictures.write_pgm(folder / "two.pgm", np.array([[7, 128]], np.uint8))
-    (folder / "two.fn").write_text("M7{[0:1],\n[9999999:1], [10000000:0]}\nM128 [0:0], [20000000:0],"
-                                   " [20000001:3], [29999999:3], [30000000:0]\n")
+    (folder / "two.fn").write_text(
+        "M7{[0:1],\n[9999999:1], [10000000:0]}\n"
+        "M128 [0:0], [20000000:0], [20000001:3], [29999999:3], [30000000:0]\n")
     checks.expose_float("mask values 7 and 128 with gain 1 and 3: 0.2 and 3 x 0.4", folder,
                         ["-mtwo.pgm", "-ktwo.fn"] + source, by_hand([0.2, 1.2]))
 
@@ -125,7 +127,7 @@ def means_in_light(checks, folder):
 
 
 def codes_come_back(checks, folder):
-    """A boxcar over exactly one sample gives its codes, all 256 of each channel, to the last one."""
+    """A boxcar over exactly one sample gives its codes back, all 256 of each channel."""
     codes = np.arange(256, dtype=np.uint8).reshape(16, 16)
     samples = np.stack([np.stack([codes, codes[::-1], codes.T], axis=2) ^ change
                         for change in (0, 85, 255)]).astype(np.uint8)
@@ -142,9 +144,12 @@ def still_scenes(checks, folder):
     codes = np.arange(256, dtype=np.uint8).reshape(1, 16, 16, 1).repeat(30, axis=0)
     pictures.write_lossless(folder / "still.mkv", codes)
     light = light_table("srgb", 255).reshape(16, 16, 1)
-    # (name, file, still gain, S = integral of |g| / D). Figure 14's gain is known to two decimals.
+    # Figure 14 as printed, in ns: up 0.5, at one 99999999, down from 1 to -25 by 900000002 x -12,
+    # at -25 for 9999998, back to 0 by -12.5: -10949999987 / 1010000001 = -10.8415840. Of |g| the
+    # ramp is 1/26 x 900000002 x 0.5 + 25/26 x 900000002 x 12.5, and all 11184615370: S = 11.07.
+    # (name, file, still gain, S = integral of |g| / D, or less)
     cases = [("Figure 4", figures.FIGURE_4, 0.250009006, 1.0),
-             ("Figure 14 as printed", figures.FIGURE_14, -10.84, 500.0),
+             ("Figure 14 as printed", figures.FIGURE_14, -10.8415840, 11.07),
              ("Figure 14 restored", figures.FIGURE_14_RESTORED, 0.742574, 1.0)]
     pictures.write_pgm(folder / "still.pgm", np.zeros((16, 16), np.uint8))
     arguments = ["-f10", "-mstill.pgm", "-kstill.fn", "still.mkv"]
@@ -162,7 +167,8 @@ def numbers(checks):
     checks.begin("numbers", "The paper's figures over 3 s, from expose.py")
     ms = Fraction(10**6)
     # (figure, file, mask value, integral of g in ns, D in ns)
-    cases = [("Figure 4", figures.FIGURE_4, 0, Fraction("20.83350075") * ms, Fraction("83.331001") * ms),
+    cases = [("Figure 4", figures.FIGURE_4, 0, Fraction("20.83350075") * ms,
+              Fraction("83.331001") * ms),
              ("Figure 7", figures.FIGURE_7, 128, Fraction("40.0000035") * ms,
               Fraction("40.000007") * ms),
              ("Figure 14 restored", figures.FIGURE_14_RESTORED, 0, Fraction("750.000013") * ms,
@@ -175,7 +181,8 @@ def numbers(checks):
                      f"integral {float(got.integral)} ns, D {float(got.duration)} ns, "
                      f"still gain {float(got.integral / got.duration):.9f}")
     irregular(checks)
-    gains = [("Figure 4", figures.FIGURE_4, "0.250009006"), ("Figure 14", figures.FIGURE_14, "-10.84"),
+    gains = [("Figure 4", figures.FIGURE_4, "0.250009006"),
+             ("Figure 14", figures.FIGURE_14, "-10.84"),
              ("Figure 14 restored", figures.FIGURE_14_RESTORED, "0.742574")]
     for name, text, gain in gains:
         got = gain_functions.measure(gain_functions.parse_functions(text)[0], 3 * SECOND)
@@ -190,7 +197,8 @@ def irregular(checks):
     # Exposed [0, 10], [20, 30], [60, 64]: gaps of 10 and 30 ns, half of each to either side.
     given = timelines.from_exposures([(100, 110), (120, 130), (160, 164)])
     checks.holds("weights of exposures [0, 10], [20, 30], [60, 64]",
-                 timelines.weights(given, ones) == {0: 15, 1: 30, 2: 19}, "10 + 5, 5 + 10 + 15, 15 + 4")
+                 timelines.weights(given, ones) == {0: 15, 1: 30, 2: 19},
+                 "10 + 5, 5 + 10 + 15, 15 + 4")
     # Starts 0, 10, 30 with 180 degrees: exposed [0, 5], [10, 20], [30, 40], end 50.
     starts = timelines.from_starts([7, 17, 37], "180")
     checks.holds("weights of starts 0, 10, 30 with 180 degrees",

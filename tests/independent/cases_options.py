@@ -62,14 +62,15 @@ def another_transfer(checks, folder, expected):
 
 
 def masks(checks, folder, samples, timeline, functions, mask):
-    """A PNG mask; a PGM of a smaller maximum; mask values without a function."""
+    """A PNG mask; a plain PGM; mask values without a function."""
     expected = expose(samples, timeline, functions, mask)
     cv2.imwrite(str(folder / "mask.png"), mask)
     source = ["-f", RATE, "-a", ANGLE]
     checks.expose_float("a PNG mask", folder, [*source, "-mmask.png", "-kgains.fn", "clip.mkv"],
                         expected)
     rows = "\n".join(" ".join(str(value) for value in row) for row in mask)
-    (folder / "plain.pgm").write_text(f"P2\n# plain\n{mask.shape[1]} {mask.shape[0]}\n255\n{rows}\n")
+    size = f"{mask.shape[1]} {mask.shape[0]}"
+    (folder / "plain.pgm").write_text(f"P2\n# plain\n{size}\n255\n{rows}\n")
     checks.expose_float("a plain (P2) mask", folder,
                         [*source, "-mplain.pgm", "-kgains.fn", "clip.mkv"], expected)
 
@@ -88,9 +89,10 @@ def irregular_times(checks, samples):
     starts = [0, 40, 80, 120, 160, 200, 240, 360, 480, 600, 730, 840]  # ms
     pictures.write_lossless(folder / "even.mkv", samples)
     times = "+".join(f"eq(N,{k})*{start}" for k, start in enumerate(starts))
-    subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", "even.mkv", "-vf",
-                    f"settb=1/1000,setpts='{times}'", "-vsync", "vfr", "-enc_time_base", "1:1000", "-c:v", "ffv1",
-                    "-pix_fmt", "bgr0", "irregular.mkv"], cwd=folder, check=True)
+    subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", "even.mkv",
+                    "-vf", f"settb=1/1000,setpts='{times}'", "-vsync", "vfr",
+                    "-enc_time_base", "1:1000",  # else times are rounded to the file's 25 a second
+                    "-c:v", "ffv1", "-pix_fmt", "bgr0", "irregular.mkv"], cwd=folder, check=True)
     text = "M0 [0:0], [50000000:1], [300000000:-0.5], [800000000:2], [940000000:0]\n"
     (folder / "gains.fn").write_text(text)
     functions = gain_functions.parse_functions(text)

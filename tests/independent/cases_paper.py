@@ -97,8 +97,9 @@ def paper_commands(checks, folder, clip, masks, plan):
 
     def encoded(arguments, output):
         (folder / output).unlink(missing_ok=True)
-        _, command = checks.run(folder, *arguments)
-        checks.holds(" ".join(arguments), (folder / output).exists(), f"wrote {output}", command)
+        run = checks.run(folder, *arguments)
+        checks.holds(" ".join(arguments), (folder / output).exists(), f"wrote {output}",
+                     run.command)
 
     encoded([*plan["first"], "Clipname.mp4", "ClipName.tik"], "ClipName.tik")
     exposed(["-mMask.pgm", "-kFnFile.fn", "ClipName.tik"], plan["rate"], "360", "FnFile.fn",

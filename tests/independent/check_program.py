@@ -27,7 +27,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", required=True, type=Path, help="nutik-cl")
     parser.add_argument("--media", type=Path, help="folder of the sample clips")
-    parser.add_argument("--work", required=True, type=Path, help="folder for files, made if need be")
+    parser.add_argument("--work", required=True, type=Path, help="folder for files")
     parser.add_argument("--only", default="", help="sections whose name contains this: numbers, "
                         "by-hand, small, interval, options, decoding, paper")
     return parser.parse_args()

@@ -1,4 +1,4 @@
-"""Gain functions: the function-file format, and exact measures of a function over a capture's domain.
+"""Gain functions: the function-file format, and exact measures of a function over a domain.
 
 Everything is a fractions.Fraction: times in nanoseconds, gains without unit. A function is kept as
 what the file says, control points; `lines` turns it into straight lines over a domain [0, end].

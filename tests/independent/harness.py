@@ -7,6 +7,7 @@ within the same bound of a rounding edge either code is right, and such pixels a
 
 import shlex
 import subprocess
+from collections import namedtuple
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,10 @@ import pictures
 
 TOLERANCE = 1e-5  # of S
 SECONDS = 120  # longest that one run of the program may take
+
+
+# What came of a run. command: for a shell, to run it again.
+Run = namedtuple("Run", "status stderr command")
 
 
 class Checks:
@@ -39,22 +44,20 @@ class Checks:
         print(f"\n{title}", flush=True)
 
     def run(self, folder, *arguments, wanted=0):
-        """Run the program in a folder. Returns (its CompletedProcess, the command for a shell).
-
-        An exit status other than `wanted` is a failure; None wants any.
-        """
+        """Run the program in a folder: a Run. An exit status other than `wanted` is a failure; None
+        wants any."""
         arguments = [str(argument) for argument in arguments]
-        shown = " ".join(shlex.quote(argument) for argument in ["nutik-cl"] + arguments)
-        command = f"cd {shlex.quote(str(folder))} && {shlex.quote(self.program)} " + " ".join(
-            shlex.quote(argument) for argument in arguments)
+        command = f"cd {shlex.quote(str(folder))} && {shlex.join([self.program] + arguments)}"
         try:
             done = subprocess.run([self.program] + arguments, cwd=folder, capture_output=True,
                                   text=True, timeout=SECONDS, stdin=subprocess.DEVNULL)
+            run = Run(done.returncode, done.stderr.strip(), command)
         except subprocess.TimeoutExpired:
-            done = subprocess.CompletedProcess(arguments, -1, "", f"still running after {SECONDS} s")
-        if wanted is not None and done.returncode != wanted:
-            self.failed(shown, f"exit status {done.returncode}: {done.stderr.strip()}", command)
-        return done, command
+            run = Run(-1, f"still running after {SECONDS} s", command)
+        if wanted is not None and run.status != wanted:
+            self.failed(shlex.join(["nutik-cl"] + arguments),
+                        f"exit status {run.status}: {run.stderr}", command)
+        return run
 
     def passed(self, name, said):
         self.cases += 1
@@ -102,7 +105,7 @@ class Checks:
                                  f"{want.max():.4g}")
 
     def integer_picture(self, name, path, expected, transfer, command, white=255, bits=8):
-        """Compare an integer picture's codes, 0 … white, with the rounding of an Exposure's light."""
+        """Compare an integer picture's codes, 0 … white, with an Exposure's light, rounded."""
         try:
             codes = pictures.read_codes(path)
         except (OSError, ValueError) as error:
@@ -125,9 +128,9 @@ class Checks:
                 f"channel {at[2]}: program {codes[at]}, expected {want} "
                 f"(light {expected.light[at]!r})", command)
         near = self._near_edges(expected.light, edges, allowed)
-        return self.passed(name, f"{bits}-bit codes {codes.min()} … {codes.max()} all right; {near} of "
-                                 f"{codes.size} within the bound of an edge, {other} rounded the "
-                                 "other way")
+        return self.passed(name, f"{bits}-bit codes {codes.min()} … {codes.max()} all right; "
+                                 f"{near} of {codes.size} within the bound of an edge, {other} "
+                                 "rounded the other way")
 
     @staticmethod
     def _near_edges(light, edges, allowed):
@@ -140,27 +143,28 @@ class Checks:
         """Run a command with -o codes.png: its codes must be `want` (anything that broadcasts)."""
         path = folder / "codes.png"
         path.unlink(missing_ok=True)
-        _, command = self.run(folder, *arguments, "-o", path.name)
-        if not path.exists():
-            return self.failed(name, "no picture", command)
+        run = self.run(folder, *arguments, "-o", path.name)
+        if run.status:
+            return None
         codes = pictures.read_codes(path)
         wrong = np.argwhere(codes != want)
         if len(wrong):
             at = tuple(int(i) for i in wrong[0])
             return self.failed(
-                name, f"{len(wrong)} of {codes.size} codes differ; row {at[0]} column {at[1]} channel "
-                f"{at[2]}: program {codes[at]}, by hand {np.broadcast_to(want, codes.shape)[at]}",
-                command)
+                name, f"{len(wrong)} of {codes.size} codes differ; row {at[0]} column {at[1]} "
+                f"channel {at[2]}: program {codes[at]}, expected "
+                f"{np.broadcast_to(want, codes.shape)[at]}",
+                run.command)
         return self.passed(name, f"all {codes.size} codes right, {codes.min()} … {codes.max()}")
 
     def refused(self, name, folder, arguments, said):
         """Run a command that must fail, saying `said` on stderr and writing no picture."""
         path = folder / "refused.pfm"
         path.unlink(missing_ok=True)
-        done, command = self.run(folder, *arguments, "-o", path.name, wanted=None)
-        right = done.returncode > 0 and said in done.stderr and not path.exists()
-        self.holds(f"refused: {name}", right,
-                   f"exit status {done.returncode}, {done.stderr.strip()!r}", command)
+        run = self.run(folder, *arguments, "-o", path.name, wanted=None)
+        right = run.status > 0 and said in run.stderr and not path.exists()
+        self.holds(f"refused: {name}", right, f"exit status {run.status}, {run.stderr!r}",
+                   run.command)
 
     def new_picture(self, name, folder, before, command):
         """The one PNG in the folder that wasn't among `before`: the program chose its name."""
@@ -173,17 +177,19 @@ class Checks:
     def expose_both(self, name, folder, arguments, expected, transfer="srgb"):
         """Run a command as it stands (the program names a PNG), then with -o light.pfm."""
         before = set(folder.glob("*.png"))
-        _, command = self.run(folder, *arguments)
-        picture = self.new_picture(name, folder, before, command)
+        run = self.run(folder, *arguments)
+        picture = None if run.status else self.new_picture(name, folder, before, run.command)
         if picture:
-            self.integer_picture(f"{name} -> {picture.name}", picture, expected, transfer, command)
+            self.integer_picture(f"{name} -> {picture.name}", picture, expected, transfer,
+                                 run.command)
             picture.unlink()
         self.expose_float(name, folder, arguments, expected)
 
     def expose_float(self, name, folder, arguments, expected):
         """Run a command with -o light.pfm and compare. Returns the PFM's path."""
         path = folder / "light.pfm"
-        path.unlink(missing_ok=True)  # so that a run that writes nothing can't pass with the last one's
-        _, command = self.run(folder, *arguments, "-o", path.name)
-        self.float_picture(name, path, expected, command)
+        path.unlink(missing_ok=True)  # the last run's must not pass for this one's
+        run = self.run(folder, *arguments, "-o", path.name)
+        if run.status == 0:
+            self.float_picture(name, path, expected, run.command)
         return path

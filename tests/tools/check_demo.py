@@ -3,8 +3,8 @@
 
     check_demo.py --program nutik-cl --scene tools/scene.py --work FOLDER
 
-The scene is filmed anew, with known truth, and exposed from a lossless capture. Every measured number is printed next to
-its bound. A failure names the pixel and both values, leaves the files in FOLDER and sets the exit status to 1.
+The scene is filmed anew, with known truth, and exposed from a lossless capture. What was measured is printed, also on
+success. A failure names the pixel and both values, leaves the files in FOLDER and sets the exit status to 1.
 """
 
 import argparse
@@ -28,8 +28,8 @@ MASKS = {"figure4": None, "figure7": "whole", "figure14": "regions", "figure16":
 # A picture's 10 ms and a region's differ by its 1 ns ramp, 5e-8 of the light, and by single precision, 1e-6: together
 # less than this many codes. A value that close to a half may be rounded either way.
 TIE_CODES = 1e-3
-# Codes of 8 bits by which still pixels may be off: their median, and each of them. Half is for rounding the picture, 0.8
-# for 5.5 standard deviations of noise in the darks of Figure 4, 0.2 for rounding the clip, which noise evens out.
+# Codes of 8 bits by which still pixels may be off: their median, and each of them. Half is for rounding the picture,
+# 0.8 for 5.5 standard deviations of noise in the darks of Figure 4, 0.2 for rounding the clip, which noise evens out.
 MEDIAN_CODES = 1.0
 PIXEL_CODES = 1.5
 SPEED_SHARE = 0.10
@@ -141,12 +141,13 @@ def check_regions(demo, report):
 def check_trail(demo, report):
     """(b) The trail's contrast falls with the ball's speed as 1 / speed.
 
-    Let q be the light of the ball, summed over all pixels of a short picture. It rolls along s with speed v: in dt it
-    sweeps v dt, so over an exposure of length D a stretch of its path of length ds collects q dt / D = q ds / (v D). The
-    trail's light per pixel of the path, summed across the track, is therefore q / (v D), whatever the ball looks like:
-    what its pattern and its turning do to one pixel evens out across the track and along it. The start is left out, where v
-    changes while the ball passes, and so is the end, which it doesn't pass. What the still background shows through the
-    trail is taken away first, by the time that the ball covers each pixel.
+    A place on the ball's way sees it for the time that the ball takes to roll by, its length / speed. Let q be the
+    light of the ball, summed over all pixels of a short picture. In dt it moves by ds = v dt, so in an exposure of
+    length D each ds of its path is left q dt / D = q ds / (v D). The trail's light per pixel of the path, summed across
+    the track, is therefore q / (v D), whatever the ball looks like: what its pattern and its turning do to one pixel
+    evens out across the track and along it. The start is left out, where v changes while the ball rolls by, and so is
+    the end, which it doesn't roll by. What the still background shows through the trail is taken away first, by the
+    time that the ball covers each pixel.
     """
     length, radius = 1.0, demo.truth["radius_px"]
     near = np.abs(demo.above) <= radius + 0.5
@@ -154,8 +155,8 @@ def check_trail(demo, report):
     trail = ball_light(demo, "roll.pfm", 0, length)
     density = np.histogram(demo.along[near], edges, weights=trail[near])[0] / np.diff(edges)
     speed = np.sqrt(2 * demo.truth["acceleration_px_per_s2"] * (edges[:-1] + edges[1:]) / 2)
-    short = [ball_light(demo, f"ball{start}.pfm", start, demo.truth["exposure_s"])[near].sum() for start in SHORT_STARTS_S]
-    expected = np.mean(short) / (speed * length)
+    short = [ball_light(demo, f"ball{start}.pfm", start, demo.truth["exposure_s"]) for start in SHORT_STARTS_S]
+    expected = np.mean([light[near].sum() for light in short]) / (speed * length)
     ratio = density / expected
     worst = int(np.argmax(np.nan_to_num(np.abs(ratio - 1), nan=np.inf)))
     report.hold(np.all(np.abs(ratio - 1) <= SPEED_SHARE),
@@ -185,8 +186,8 @@ def check_background(demo, report):
         error = picture - expected
         median, pixel = np.median(error[still]), worst_pixel(error, still)
         report.hold(abs(median) <= MEDIAN_CODES and abs(error[pixel]) <= PIXEL_CODES,
-                    f"{name}.png: still background at gain {gain:.6f}: median error {median:+.3f} codes; worst {at(pixel)}: "
-                    f"{picture[pixel]:.0f} against {expected[pixel]:.3f}")
+                    f"{name}.png: still background at gain {gain:.6f}: median error {median:+.3f} codes; "
+                    f"worst {at(pixel)}: {picture[pixel]:.0f} against {expected[pixel]:.3f}")
 
 
 def check_negative_end(demo, report):
@@ -199,12 +200,13 @@ def check_negative_end(demo, report):
     everywhere = np.ones(demo.regions.shape, bool)
     pixel = worst_pixel(alone - expected, everywhere)
     report.hold(abs(alone[pixel] - expected[pixel]) <= FLOAT_LIGHT,
-                f"Figure 14, M0 alone: the roll less its end; worst {at(pixel)}: {alone[pixel]:.7f} against {expected[pixel]:.7f}")
+                f"Figure 14, M0 alone: the roll less its end; worst {at(pixel)}: {alone[pixel]:.7f} against "
+                f"{expected[pixel]:.7f}")
     ball = np.hypot(demo.along - demo.truth["path_length_px"], demo.above) < demo.truth["radius_px"] - 1
     red, lowest = alone[..., 0][ball], worst_pixel(np.minimum(alone, 0), ball)
     report.hold(np.median(red) < 0 and alone[lowest] < -0.01,
-                f"Figure 14, M0 alone, where the ball lies: red has median {np.median(red):+.4f}, mean {red.mean():+.4f}, "
-                f"{np.mean(red < 0):.1%} below 0; lowest {at(lowest)}: {alone[lowest]:+.4f}")
+                f"Figure 14, M0 alone, where the ball lies: red has median {np.median(red):+.4f}, "
+                f"mean {red.mean():+.4f}, {np.mean(red < 0):.1%} below 0; lowest {at(lowest)}: {alone[lowest]:+.4f}")
     report.hold(np.all(alone[demo.still()] > 0), "Figure 14, M0 alone: nothing still is 0 or below; "
                 f"lowest {np.min(alone[demo.still()]):+.5f}")
 
@@ -216,9 +218,10 @@ def check_difference(demo, report):
     error = codes_of(light) - codes_of(expected)
     pixel, share = worst_pixel(error, still), np.median(light[still] / demo.background[still])
     report.hold(abs(share / gain - 1) <= 2e-3 and abs(error[pixel]) <= PIXEL_CODES,
-                f"figure4.pfm: still background / truth has median {share:.6f}, still gain {gain:.6f}; worst {at(pixel)}: "
-                f"{light[pixel]:.6f} against {expected[pixel]:.6f}, {error[pixel]:+.3f} codes")
-    report.hold(light.min() < -0.01 and light.max() > 0.1, f"figure4.pfm: motion from {light.min():+.4f} to {light.max():+.4f}")
+                f"figure4.pfm: still background / truth has median {share:.6f}, still gain {gain:.6f}; "
+                f"worst {at(pixel)}: {light[pixel]:.6f} against {expected[pixel]:.6f}, {error[pixel]:+.3f} codes")
+    report.hold(light.min() < -0.01 and light.max() > 0.1,
+                f"figure4.pfm: motion from {light.min():+.4f} to {light.max():+.4f}")
 
 
 def main():

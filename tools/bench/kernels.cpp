@@ -132,8 +132,10 @@ double check(OpenClRenderer& renderer, const Case& one) {
   format.white_code = one.code_bytes == 1 ? 255 : 4095;
   format.transfer = one.transfer;
   SyntheticCapture capture(format, 130, 64, one.content);
+  PlanOptions options;
+  options.unmapped_is_zero = true;
   const RenderPlan plan = make_plan(capture, functions_for(one.regions, capture.timeline().duration_ns(), 5),
-                                    mask_for(format.shape, one.regions), {true, false, {}});
+                                    mask_for(format.shape, one.regions), options);
   const Picture a = renderer.render(plan, capture, {ValueType::light64, 0});
   const Picture b = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
   double worst = 0.0;

@@ -72,10 +72,19 @@ class Mistake(Exception):
         self.message = message
 
 
+def readable(text):
+    """The characters of a piece of the file for a message, whatever bytes it is made of."""
+    for character in text.encode("latin-1").decode("utf-8", errors="surrogateescape"):
+        if character.isprintable():
+            yield character
+        elif 0xDC80 <= ord(character) <= 0xDCFF:  # a byte that is no UTF-8
+            yield f"\\x{ord(character) - 0xDC00:02x}"
+        else:
+            yield ascii(character)[1:-1]
+
+
 def shown(text):
-    """A piece of the file for a message: readable, whatever bytes it is made of."""
-    readable = text.encode("latin-1").decode("utf-8", errors="backslashreplace")
-    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in readable)
+    return "".join(readable(text))
 
 
 def number_without_sign(word):
@@ -85,9 +94,9 @@ def number_without_sign(word):
 def parse_tag(word, at):
     """The mask value that a word (the characters behind M) stands for."""
     if not word.isascii() or not word.isdigit():
-        raise Mistake(at, f"'M{shown(word)}' is no mask value; write M and a whole number 0 … {LARGEST_TAG}")
+        raise Mistake(at, f"'M{shown(word)}' is no mask value; write M and a whole number 0 … 255")
     if len(number_without_sign(word)) > 3 or int(word) > LARGEST_TAG:
-        raise Mistake(at, f"mask value {word} is above {LARGEST_TAG}, the largest an 8-bit mask has")
+        raise Mistake(at, f"mask value {word} is above 255, the largest an 8-bit mask has")
     return int(word)
 
 
@@ -140,7 +149,8 @@ class FunctionReader:
         self.skip(BLANKS)
         self.skip(COMMENT)
         if self.at < self.end:
-            way_out = "a comment starts with #" if self.peek() != "M" else "a function starts on a line of its own"
+            next_function = "a function starts on a line of its own"
+            way_out = next_function if self.peek() == "M" else "a comment starts with #"
             raise Mistake(self.at, f"'{self.character()}' after the end of a function; {way_out}")
 
     def read_points(self):
@@ -157,7 +167,8 @@ class FunctionReader:
             if self.peek() == "[":
                 raise Mistake(self.at, "a comma is missing between two control points")
             if self.peek() != ",":
-                raise Mistake(self.at, f"'{self.character()}' after a control point; a comma or the end should follow")
+                what = f"'{self.character()}' after a control point"
+                raise Mistake(self.at, f"{what}; a comma or the end should follow")
             comma_at = self.at
             self.at += 1
             self.skip_to_mark()
@@ -231,7 +242,8 @@ class FunctionReader:
         """The next character for a message: whole, where it takes several bytes."""
         if self.peek() in ("", "\n"):
             return "end of line"
-        return shown(self.word() or self.peek())[:1]
+        word = WORD.match(self.text, self.at, self.end)[0]
+        return next(readable(word or self.peek()))
 
 
 class FileReader:

@@ -53,9 +53,10 @@ def pgm_values(path, data):
 def plain_values(path, text, count):
     """The values of a plain PGM, which are numbers in digits."""
     words = COMMENT.sub(b" ", text).split()[:count]
-    wrong = next((word for word in words if not word.isdigit() or len(word) > 9 or int(word) > LARGEST_VALUE), None)
-    if wrong is not None:
-        raise InputError(f"{path}: {wrong.decode('latin-1')!r} is no mask value; they run from 0 to {LARGEST_VALUE}")
+    for word in words:
+        if not word.isdigit() or len(word) > 9 or int(word) > LARGEST_VALUE:
+            shown = word.decode("latin-1")
+            raise InputError(f"{path}: {shown!r} is no mask value; they run from 0 to {LARGEST_VALUE}")
     return bytes(int(word) for word in words)
 
 

@@ -80,8 +80,11 @@ def make_view(functions, duration_ns=None, zoom_ns=None):
     if zoom_ns:
         return View(*zoom_ns, *counted, duration_ns)
     # A single time has no width; it is shown with the way to the capture's start, or 1 us.
-    begin_ns = min(first_ns, 0) if duration_ns is not None or first_ns == last_ns else first_ns
-    end_ns = max(last_ns, duration_ns or begin_ns + (1000 if begin_ns == last_ns else 0))
+    from_start = duration_ns is not None or first_ns == last_ns
+    begin_ns = min(first_ns, 0) if from_start else first_ns
+    end_ns = max(last_ns, duration_ns or 0)
+    if begin_ns == end_ns:
+        end_ns += 1000
     margin_ns = -(-(end_ns - begin_ns) // 25)
     return View(begin_ns - margin_ns, end_ns + margin_ns, *counted, duration_ns)
 
@@ -94,7 +97,8 @@ def outside_capture(axes, view):
     for begin_ns, end_ns in ends:
         begin_ns, end_ns = max(begin_ns, view.begin_ns), min(end_ns, view.end_ns)
         if begin_ns < end_ns:
-            axes.axvspan(view.axis.coordinate(begin_ns), view.axis.coordinate(end_ns), color=OUTSIDE_COLOUR, lw=0)
+            begin, end = view.axis.coordinate(begin_ns), view.axis.coordinate(end_ns)
+            axes.axvspan(begin, end, color=OUTSIDE_COLOUR, lw=0)
 
 
 class GainAxis:
@@ -192,10 +196,10 @@ def summary_text(function, view):
 
 def draw_heading(axes, graph, view):
     """Above the graph, where it covers nothing: tag and notes on the left, figures on the right."""
-    place = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "baseline", "annotation_clip": False}
-    axes.annotate(f"M{graph.tag}", (0, 1), (0, 5), weight="bold", fontsize=10, **place)
-    axes.annotate(heading_note(graph, view), (0, 1), (42, 5), fontsize=8, color=NOTE_COLOUR, **place)
-    axes.annotate(summary_text(graph.function, view), (1, 1), (0, 5), fontsize=8, ha="right", **place)
+    above = {"xycoords": "axes fraction", "textcoords": "offset points", "annotation_clip": False}
+    axes.annotate(f"M{graph.tag}", (0, 1), (0, 5), weight="bold", fontsize=10, **above)
+    axes.annotate(heading_note(graph, view), (0, 1), (42, 5), fontsize=8, color=NOTE_COLOUR, **above)
+    axes.annotate(summary_text(graph.function, view), (1, 1), (0, 5), fontsize=8, ha="right", **above)
 
 
 def draw_graph(axes, graph, view, backdrops):
@@ -236,13 +240,13 @@ def draw_page(figure, graphs, height, view, title, backdrops):
     """Graphs of a height (inches) one below the other, on a figure that is made to fit them."""
     page_height = TOP + BOTTOM + len(graphs) * (HEADING + height)
     figure.set_size_inches(PAGE_WIDTH, page_height)
-    figure.text(LEFT / PAGE_WIDTH, 1 - 0.3 / page_height, title, fontsize=11, parse_math=False)
-    figure.text(1 - RIGHT / PAGE_WIDTH, 1 - 0.3 / page_height, view.note, fontsize=8, ha="right", color=NOTE_COLOUR)
+    left, right, title_height = LEFT / PAGE_WIDTH, 1 - RIGHT / PAGE_WIDTH, 1 - 0.3 / page_height
+    figure.text(left, title_height, title, fontsize=11, parse_math=False)
+    figure.text(right, title_height, view.note, fontsize=8, ha="right", color=NOTE_COLOUR)
     first_axes = None
     for i, graph in enumerate(graphs):
         bottom = page_height - TOP - (i + 1) * (HEADING + height)
-        width = PAGE_WIDTH - LEFT - RIGHT
-        box = (LEFT / PAGE_WIDTH, bottom / page_height, width / PAGE_WIDTH, height / page_height)
+        box = (left, bottom / page_height, right - left, height / page_height)
         axes = figure.add_axes(box, sharex=first_axes)
         first_axes = first_axes or axes
         draw_graph(axes, graph, view, backdrops)

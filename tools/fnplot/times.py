@@ -2,6 +2,7 @@
 
 import math
 import re
+from decimal import Decimal
 from fractions import Fraction
 
 from fnplot.errors import UsageError
@@ -15,7 +16,8 @@ def parse_time(text, what):
     """`3s`, `0.4s`, `10ms`, `1/100s` in whole nanoseconds, rounded half up; `what` names it in messages."""
     match = TIME_TEXT.fullmatch(text)
     if not match or match[2] not in NS_PER_UNIT or ("." in match[1] and "/" in match[1]):
-        raise UsageError(f"{what} '{text}' is no time; write a number and a unit: 3s, 0.4s, 10ms, 250us, 1/100s")
+        way_out = "write a number and a unit: 3s, 0.4s, 10ms, 250us, 1/100s"
+        raise UsageError(f"{what} '{text}' is no time; {way_out}")
     try:
         return math.floor(Fraction(match[1]) * NS_PER_UNIT[match[2]] + Fraction(1, 2))
     except ZeroDivisionError:
@@ -32,7 +34,7 @@ def number_text(number, digits):
     try:
         return f"{float(number):.{digits}g}"
     except OverflowError:
-        return "-inf" if number < 0 else "inf"
+        return f"{Decimal(number.numerator) / number.denominator:.5e}"
 
 
 def length_text(length_ns):

@@ -1,8 +1,8 @@
 """The paper's scene: a ball starts from rest, rolls down a track and lies still against a block from 1 s on.
 
 Along the track the ball's centre is at s(t) = a t^2 / 2 until STOP_S, with a = 2 s(STOP_S) / STOP_S^2, and it has
-turned by s / radius: it rolls without slipping. With a = 5/7 g sin(slope), as for a solid ball, the default picture is
-one metre wide and the ball has a diameter of 10 cm. Lengths are in pixels, x to the right, y down; pixel (column, row)
+turned by s / radius: it rolls without slipping. With a = 5/7 g sin(slope), as for a solid ball, the picture is 0.94 m
+wide and the ball 9.4 cm in diameter. Lengths are in pixels, x to the right, y down; pixel (column, row)
 covers [column, column + 1) x [row, row + 1).
 
 Motion within a picture is integrated: each of the points that a pixel is sampled at has its own time in the picture.
@@ -20,7 +20,7 @@ SECONDS = 1.2
 EXPOSURE_S = 0.010     # the length of the figures' pictures of the ball
 REGIONS = {64: 0.0, 128: 0.4, 196: 0.8, 255: 1.0}  # mask value: start of the ball's picture in seconds
 GRID = 4               # sampling points a pixel, in each direction
-BACKGROUND_GRID = 3
+BACKGROUND_GRID = 3    # the same for what does not move
 
 ORANGE = np.array([0.92, 0.36, 0.05], np.float32)
 CREAM = np.array([0.90, 0.80, 0.58], np.float32)
@@ -112,8 +112,8 @@ class RollingBall:
         unit = self.width / 32
         uneven = np.sin(0.31 * x / unit + 1) * np.sin(0.53 * y / unit) + 0.6 * np.sin(0.83 * x / unit - 0.61 * y / unit)
         level = 0.125 * np.exp(-0.45 * (x / self.width) - 0.25 * (y / self.height)) * (1 + 0.07 * uneven) + 0.012
-        near = [np.abs(value / unit - np.rint(value / unit)) * unit for value in (x, y)]
-        level *= 1 - 0.28 * (np.minimum(*near) < 0.5)
+        line_x, line_y = (np.abs(value / unit - np.rint(value / unit)) < 0.025 for value in (x, y))
+        level *= 1 - 0.28 * (line_x | line_y)
         return level[..., None] * np.array([0.92, 1.0, 0.97], np.float32)
 
     def charts(self, x, y, light):
@@ -135,12 +135,14 @@ class RollingBall:
         """A wooden bar with a tick at every tenth of a second of the roll, and the block that the ball ends at."""
         along, above = self.along_track(x, y)
         depth = -above - self.radius
-        bar = (depth >= 0) & (depth < 0.5 * self.radius) & (along > -1.4 * self.radius) & (along < self.path_length + 1.8 * self.radius)
-        grain = 1 + 0.10 * np.sin(2.1 * depth + 1.5 * np.sin(along / 37)) + 0.06 * np.sin(along / 11 + depth)
+        bar = (along > -1.4 * self.radius) & (along < self.path_length + 1.8 * self.radius)
+        bar &= (depth >= 0) & (depth < 0.5 * self.radius)
+        u, v = along / self.radius, depth / self.radius
+        grain = 1 + 0.10 * np.sin(67 * v + 1.5 * np.sin(0.86 * u)) + 0.06 * np.sin(2.9 * u + 32 * v)
         light[bar] = (np.array([0.150, 0.105, 0.065], np.float32) * grain[..., None])[bar]
         light[bar & (depth < 0.16 * self.radius)] *= 1.5
         ticks = self.distance(np.arange(11) / 10)
-        near_tick = np.abs(along[..., None] - ticks).min(axis=-1) < 0.5 * self.width / 640
+        near_tick = np.abs(along[..., None] - ticks).min(axis=-1) < self.radius / 64
         light[bar & near_tick & (depth > 0.2 * self.radius)] = 0.03
         beyond = (along - self.path_length) / self.radius - 1
         light[(beyond > 0) & (beyond < 0.5) & (depth < 0) & (depth > -1.3 * self.radius)] = (0.16, 0.05, 0.035)
