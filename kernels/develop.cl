@@ -35,7 +35,7 @@ typedef struct {
   size_t sum;    // index of its first channel's sum; the others follow at steps of 64
 } Pixel;
 
-inline Pixel pixel_of(const size_t item, const uint width, const uint height) {
+NUTIK_INLINE Pixel pixel_of(const size_t item, const uint width, const uint height) {
   const size_t columns = (width + NUTIK_TILE_SIDE - 1) / NUTIK_TILE_SIDE;
   const size_t tile = item / NUTIK_TILE_PIXELS;
   const uint lane = (uint)(item % NUTIK_TILE_PIXELS);
@@ -48,14 +48,14 @@ inline Pixel pixel_of(const size_t item, const uint width, const uint height) {
   return pixel;
 }
 
-inline real light_at(global const real* restrict sums, const size_t at, const LightScale scale) {
+NUTIK_INLINE real light_at(global const real* restrict sums, const size_t at, const LightScale scale) {
   return sums[at] * scale.first * scale.second;
 }
 
 // The code whose interval of light holds `light`: the largest c with thresholds[c] <= light. Saturates
 // at 0 and at the white code. `guesses` holds a code near that for each of guess_count equal steps of
 // the square root of light, which spaces codes evenly enough that few steps remain.
-inline uint code_of(const real light, global const real* restrict thresholds, const uint white_code,
+NUTIK_INLINE uint code_of(const real light, global const real* restrict thresholds, const uint white_code,
                     global const ushort* restrict guesses, const uint guess_count) {
   if (!(light > 0)) return 0;
   if (light >= 1) return white_code;

@@ -34,31 +34,31 @@ typedef struct {
 
 // An element of an index list, whose width follows from the block's length. Clamped so that no file can
 // make a kernel read outside its tables.
-inline uint index_at(global const uchar* restrict list, const uint i, const uint sample_count) {
+NUTIK_INLINE uint index_at(global const uchar* restrict list, const uint i, const uint sample_count) {
   const uint index = sample_count <= 255 ? list[i] : ((global const ushort*)list)[i];
   return min(index, sample_count);
 }
 
-inline uints indices_at(global const uchar* restrict list, const uint lane, const uint sample_count) {
+NUTIK_INLINE uints indices_at(global const uchar* restrict list, const uint lane, const uint sample_count) {
   const uints index = sample_count <= 255
                           ? NUTIK_TO_UINTS(NUTIK_LOAD(list + lane))
                           : NUTIK_TO_UINTS(NUTIK_LOAD((global const ushort*)list + lane));
   return min(index, (uints)(sample_count));
 }
 
-inline uint index_list_bytes(const uint count, const uint sample_count) {
+NUTIK_INLINE uint index_list_bytes(const uint count, const uint sample_count) {
   const uint bytes = count * (sample_count <= 255 ? 1 : 2);
   return (bytes + NUTIK_BODY_UNIT - 1) / NUTIK_BODY_UNIT * NUTIK_BODY_UNIT;
 }
 
 // The weight of values held from sample `from` to sample `to`, for one function.
-inline real weight_of(const Block* block, const uint from, const uint to, const uint function) {
+NUTIK_INLINE real weight_of(const Block* block, const uint from, const uint to, const uint function) {
   const uint at = from * block->function_count + function;
   if (to == from + 1) return block->weights[at];
   return block->boundaries[to * block->function_count + function] - block->boundaries[at];
 }
 
-inline reals weights_of(const Block* block, const uint from, const uint to, const uints functions) {
+NUTIK_INLINE reals weights_of(const Block* block, const uint from, const uint to, const uints functions) {
   const uints at = from * block->function_count + functions;
   if (to == from + 1) return gather(block->weights, at);
   return gather(block->boundaries, to * block->function_count + functions) -
@@ -66,7 +66,7 @@ inline reals weights_of(const Block* block, const uint from, const uint to, cons
 }
 
 // A tile stored as rows: all of it at each sample at which anything in it changed.
-inline void expose_rows(global const uchar* restrict body, const uint rows, const uint lane,
+NUTIK_INLINE void expose_rows(global const uchar* restrict body, const uint rows, const uint lane,
                         const Block* block, const Region* region,
                         global const real* restrict light_of_code, reals* sums) {
   const bool is_indexed = rows > 1 && rows < block->sample_count;
@@ -101,7 +101,7 @@ inline void expose_rows(global const uchar* restrict body, const uint rows, cons
 }
 
 // A tile stored as records: each pixel's own changes, slot by slot.
-inline void expose_records(global const uchar* restrict body, const uint slots, const uint lane,
+NUTIK_INLINE void expose_records(global const uchar* restrict body, const uint slots, const uint lane,
                            const Block* block, const Region* region,
                            global const real* restrict light_of_code, reals* sums) {
   const size_t row_bytes = NUTIK_CHANNELS * NUTIK_TILE_PIXELS * NUTIK_CODE_BYTES;
@@ -137,7 +137,7 @@ inline void expose_records(global const uchar* restrict body, const uint slots, 
   }
 }
 
-inline void expose_tile(global const uchar* restrict payload, const size_t tile, const uint lane,
+NUTIK_INLINE void expose_tile(global const uchar* restrict payload, const size_t tile, const uint lane,
                         const Block* block, const Region* region,
                         global const real* restrict light_of_code, reals* sums) {
   const TileEntry entry = ((global const TileEntry*)payload)[tile];

@@ -17,7 +17,9 @@ FunctionFile read_functions(const std::string& name) {
   const MappedFile file(name);
   const auto bytes = file.bytes();
   FunctionFile functions = parse_functions({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  if (functions.has_errors()) throw InputError(functions.report(Diagnostic::Severity::error, name));
+  if (functions.has_errors()) {
+    throw InputError(format("{} has mistakes:\n{}", name, functions.report(Diagnostic::Severity::error, name)));
+  }
   for (const Diagnostic& diagnostic : functions.diagnostics) print_note(diagnostic.text(name));
   return functions;
 }

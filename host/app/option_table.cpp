@@ -92,7 +92,8 @@ std::span<const Option> options() {
              "the code that stands for white: 255, 4095 for 12 bits, … (default: what the file says)",
              kEncode | kExpose, &Options::white),
       valued(0, "transfer", "NAME", kSource,
-             "how codes stand for light: srgb, bt709, linear or gamma:G (default: srgb; a .tik's own)",
+             "how codes stand for light: srgb, bt709, linear or gamma:G (default: srgb, or linear for stills "
+             "and grey video of more than 8 bits; a .tik's own)",
              kEncode | kExpose, &Options::transfer),
       valued(0, "raw", "WxH:FORMAT", kSource,
              "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le",
@@ -109,7 +110,7 @@ std::span<const Option> options() {
       valued(0, "start", "TIME", kExposure,
              "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip",
              kExpose, &Options::start),
-      valued(0, "exposure", "TIME", kExposure, "length of the plain interval: 10ms, 1/100s, 250us, 3f",
+      valued(0, "exposure", "TIME", kExposure, "length of the plain interval: 10ms, 1/100s, 250us, or 3f, to the end of the third picture",
              kExpose, &Options::exposure),
       valued(0, "unmapped", "zero", kExposure,
              "expose mask values without a function to black (default: an error)", kExpose,

@@ -45,8 +45,8 @@ Timeline Timeline::constant(Rational rate, Rational shutter_angle, std::uint64_t
     throw UsageError(format("frame rate {} is not positive", rate.text()));
   }
   if (rate.numerator > kLargestTerm || rate.denominator > kLargestTerm) {
-    throw UsageError(format("frame rate {} has more digits than a capture can use (limit: nine on each "
-                            "side of the fraction)",
+    throw UsageError(format("frame rate {} is written with more than nine digits above or below the "
+                            "fraction line, the most that times stay exact with",
                             rate.text()));
   }
   check_angle(shutter_angle);

@@ -84,6 +84,7 @@ class Parser {
 
   void parse_function() {
     const std::size_t start = at_;
+    in_braces_ = brace_follows(start);  // for recover(), also where the tag has a mistake
     ++at_;
     const std::uint32_t tag = parse_tag();
     const auto [earlier, is_new] = seen_.emplace(tag, place_of(start).line);
@@ -97,6 +98,7 @@ class Parser {
     FileFunction parsed{GainFunction({{0, 0.0}}), place_of(start), {}};
     std::vector<ControlPoint> points = parse_points(braced, brace, parsed.point_places);
     if (braced) ++at_;  // the closing brace
+    in_braces_ = false;
     expect_line_end(braced);
 
     if (broken_) {
@@ -191,11 +193,9 @@ class Parser {
     bool any = false, too_large = false;
     while (is_digit(peek())) {
       any = true;
-      time_ns = time_ns * 10 + take_digit();
-      if (time_ns > kLargestTimeNs) {
-        too_large = true;
-        time_ns = kLargestTimeNs;
-      }
+      const std::int64_t digit = take_digit();
+      too_large = too_large || time_ns > (kLargestTimeNs - digit) / 10;
+      if (!too_large) time_ns = time_ns * 10 + digit;
     }
     if (!any || is_word(peek())) {
       const std::string bad = word(start);
@@ -288,7 +288,8 @@ class Parser {
     broken_ = false;
     for (;;) {
       const std::size_t line_end = text_.find('\n', at_);
-      const bool closed = in_braces_ && text_.substr(at_, line_end - at_).find('}') != std::string::npos;
+      const std::size_t brace = std::min(text_.find('}', at_), line_end);
+      const bool closed = in_braces_ && brace < std::min(text_.find('#', at_), line_end);
       at_ = line_end + 1;
       if (closed || !in_braces_ || at_ >= text_.size()) break;
       skip_blanks();
@@ -300,7 +301,6 @@ class Parser {
   // Blanks; within braces also line ends and comments. Stops at the next function, which a forgotten
   // brace would otherwise swallow.
   void skip_space(bool braced, std::size_t brace) {
-    in_braces_ = braced;
     skip_blanks();
     if (!braced) return;
     while (peek() == '\n' || peek() == '#') {
@@ -321,6 +321,14 @@ class Parser {
         throw Abandon{};
       }
     }
+  }
+
+  // Whether the function that starts at an `M` is written with braces.
+  [[nodiscard]] bool brace_follows(std::size_t start) const {
+    std::size_t at = start;
+    while (is_word(text_[at])) ++at;
+    while (is_blank(text_[at])) ++at;
+    return text_[at] == '{';
   }
 
   [[nodiscard]] bool at_list_end(bool braced) const {

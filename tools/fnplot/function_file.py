@@ -10,6 +10,7 @@ are read. So a mistake in it never reaches the lines behind it.
 
 import math
 import re
+from bisect import bisect_right
 from dataclasses import dataclass, field
 
 from fnplot.gain_function import LARGEST_TIME_NS, GainFunction
@@ -326,7 +327,7 @@ class FileReader:
         return len(self.text) if last else self.line_starts[line + 1] - 1
 
     def report(self, at, message, is_warning=False):
-        line = self.text.count("\n", 0, at)
+        line = bisect_right(self.line_starts, at) - 1
         column = at - self.line_starts[line] + 1
         self.file.diagnostics.append(Diagnostic(line + 1, column, message, is_warning))
 
