@@ -2,19 +2,19 @@
 //
 //   in:    sums [tile][channel][64] of expose.cl
 //   out:   an interleaved raster of width × height pixels
-//   items: one pixel each, in tile order; those in a tile's padding do nothing
-#include "arithmetic.clh"
-#include "layout.clh"
+//   items: NUTIK_LANES neighbouring pixels each, in tile order: one pixel, or a row of a tile; those in a
+//          tile's padding write nothing
+#include "lanes.clh"
 
 #ifndef NUTIK_CHANNELS
 #error "NUTIK_CHANNELS is not set: 1 or 3"
 #endif
-
 #ifndef NUTIK_RASTER_BYTES
 #error "NUTIK_RASTER_BYTES is not set: bytes of a code in the picture, 1 or 2"
 #endif
 
 #define NUTIK_TILE_SIDE 8
+#define NUTIK_ITEMS_PER_ROW (NUTIK_TILE_SIDE / NUTIK_LANES)
 
 #if NUTIK_RASTER_BYTES == 1
 typedef uchar raster_code;
@@ -29,67 +29,78 @@ typedef struct {
   real second;
 } LightScale;
 
+// Where an item's pixels lie.
 typedef struct {
-  bool is_inside;
-  size_t pixel;  // in the raster
-  size_t sum;    // index of its first channel's sum; the others follow at steps of 64
-} Pixel;
+  uint count;        // how many are inside the picture
+  size_t raster;     // the first one's place in the raster, in pixels
+  size_t tile;
+  uint lane;
+} Pixels;
 
-NUTIK_INLINE Pixel pixel_of(const size_t item, const uint width, const uint height) {
+NUTIK_INLINE Pixels pixels_of(const size_t item, const uint width, const uint height) {
   const size_t columns = (width + NUTIK_TILE_SIDE - 1) / NUTIK_TILE_SIDE;
-  const size_t tile = item / NUTIK_TILE_PIXELS;
-  const uint lane = (uint)(item % NUTIK_TILE_PIXELS);
-  const size_t x = tile % columns * NUTIK_TILE_SIDE + lane % NUTIK_TILE_SIDE;
-  const size_t y = tile / columns * NUTIK_TILE_SIDE + lane / NUTIK_TILE_SIDE;
-  Pixel pixel;
-  pixel.is_inside = x < width && y < height;
-  pixel.pixel = y * width + x;
-  pixel.sum = tile * NUTIK_CHANNELS * NUTIK_TILE_PIXELS + lane;
-  return pixel;
+  Pixels pixels;
+  pixels.tile = item / (NUTIK_TILE_PIXELS / NUTIK_LANES);
+  pixels.lane = (uint)(item % (NUTIK_TILE_PIXELS / NUTIK_LANES)) * NUTIK_LANES;
+  const size_t x = pixels.tile % columns * NUTIK_TILE_SIDE + pixels.lane % NUTIK_TILE_SIDE;
+  const size_t y = pixels.tile / columns * NUTIK_TILE_SIDE + pixels.lane / NUTIK_TILE_SIDE;
+  pixels.count = y >= height || x >= width ? 0 : min((uint)NUTIK_LANES, (uint)(width - x));
+  pixels.raster = y * width + x;
+  return pixels;
 }
 
-NUTIK_INLINE real light_at(global const real* restrict sums, const size_t at, const LightScale scale) {
-  return sums[at] * scale.first * scale.second;
+NUTIK_INLINE reals light_at(global const real* restrict sums, global const LightScale* restrict scales,
+                            global const uchar* restrict function_of_lane, const Pixels* pixels,
+                            const uint channel) {
+  const uints functions = NUTIK_TO_UINTS(
+      NUTIK_LOAD(function_of_lane + pixels->tile * NUTIK_TILE_PIXELS + pixels->lane));
+  const reals sum =
+      NUTIK_LOAD(sums + (pixels->tile * NUTIK_CHANNELS + channel) * NUTIK_TILE_PIXELS + pixels->lane);
+  global const real* factors = (global const real*)scales;
+  return sum * gather(factors, functions * 2) * gather(factors, functions * 2 + 1);
 }
 
-// The code whose interval of light holds `light`: the largest c with thresholds[c] <= light. Saturates
-// at 0 and at the white code. `guesses` holds a code near that for each of guess_count equal steps of
-// the square root of light, which spaces codes evenly enough that few steps remain.
-NUTIK_INLINE uint code_of(const real light, global const real* restrict thresholds, const uint white_code,
-                    global const ushort* restrict guesses, const uint guess_count) {
-  if (!(light > 0)) return 0;
-  if (light >= 1) return white_code;
-  uint c = guesses[min((uint)(sqrt(light) * guess_count), guess_count - 1)];
-  while (c < white_code && thresholds[c + 1] <= light) ++c;
-  while (c > 0 && thresholds[c] > light) --c;
-  return c;
+// The codes whose intervals of light hold `light`: the largest c with thresholds[c] <= light. Saturates at
+// 0 and at the white code. `guesses` has for each of guess_count equal steps of the square root of light
+// the right code or one below it; thresholds[white + 1] is infinite.
+NUTIK_INLINE uints codes_of(const reals light, global const real* restrict thresholds,
+                            global const uint* restrict guesses, const uint guess_count) {
+  const reals inside = clamp(light, (reals)(0), (reals)(1));  // of a NaN: undefined, but within the table
+  const uints step = min(NUTIK_JOIN(convert_, NUTIK_VECTOR(uint))(sqrt(inside) * guess_count),
+                         (uints)(guess_count - 1));
+  const uints guess = gather_uint(guesses, step);
+  return guess + NUTIK_ONE_WHERE(gather(thresholds, guess + 1) <= inside);
 }
 
 kernel void develop_light(global const real* restrict sums, global const LightScale* restrict scales,
                           global const uchar* restrict function_of_lane, const uint width,
                           const uint height, global real* restrict raster) {
-  const size_t item = get_global_id(0);
-  const Pixel pixel = pixel_of(item, width, height);
-  if (!pixel.is_inside) return;
-  const LightScale scale = scales[function_of_lane[item]];
+  const Pixels pixels = pixels_of(get_global_id(0), width, height);
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
-    raster[pixel.pixel * NUTIK_CHANNELS + channel] =
-        light_at(sums, pixel.sum + channel * NUTIK_TILE_PIXELS, scale);
+    real light[NUTIK_LANES];
+    NUTIK_STORE(light_at(sums, scales, function_of_lane, &pixels, channel), light);
+    for (uint i = 0; i < pixels.count; ++i) {
+      raster[(pixels.raster + i) * NUTIK_CHANNELS + channel] = light[i];
+    }
   }
 }
 
 kernel void develop_codes(global const real* restrict sums, global const LightScale* restrict scales,
                           global const uchar* restrict function_of_lane, const uint width,
                           const uint height, global const real* restrict thresholds,
-                          const uint white_code, global const ushort* restrict guesses,
-                          const uint guess_count, global raster_code* restrict raster) {
-  const size_t item = get_global_id(0);
-  const Pixel pixel = pixel_of(item, width, height);
-  if (!pixel.is_inside) return;
-  const LightScale scale = scales[function_of_lane[item]];
+                          global const uint* restrict guesses, const uint guess_count,
+                          global raster_code* restrict raster) {
+  const Pixels pixels = pixels_of(get_global_id(0), width, height);
+  uint codes[NUTIK_CHANNELS][NUTIK_LANES];
+#pragma unroll
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
-    const real light = light_at(sums, pixel.sum + channel * NUTIK_TILE_PIXELS, scale);
-    raster[pixel.pixel * NUTIK_CHANNELS + channel] =
-        (raster_code)code_of(light, thresholds, white_code, guesses, guess_count);
+    const reals light = light_at(sums, scales, function_of_lane, &pixels, channel);
+    NUTIK_STORE(codes_of(light, thresholds, guesses, guess_count), codes[channel]);
+  }
+  for (uint i = 0; i < pixels.count; ++i) {
+#pragma unroll
+    for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
+      raster[(pixels.raster + i) * NUTIK_CHANNELS + channel] = (raster_code)codes[channel][i];
+    }
   }
 }

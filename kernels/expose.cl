@@ -51,59 +51,74 @@ NUTIK_INLINE uint index_list_bytes(const uint count, const uint sample_count) {
   return (bytes + NUTIK_BODY_UNIT - 1) / NUTIK_BODY_UNIT * NUTIK_BODY_UNIT;
 }
 
-// The weight of values held from sample `from` to sample `to`, for one function.
+// The weight of values held from sample `from` to sample `to`: one function's, or one for each pixel.
 NUTIK_INLINE real weight_of(const Block* block, const uint from, const uint to, const uint function) {
   const uint at = from * block->function_count + function;
   if (to == from + 1) return block->weights[at];
   return block->boundaries[to * block->function_count + function] - block->boundaries[at];
 }
 
-NUTIK_INLINE reals weights_of(const Block* block, const uint from, const uint to, const uints functions) {
+NUTIK_INLINE reals weights_of(const Block* block, const uint from, const uint to,
+                              const uints functions) {
   const uints at = from * block->function_count + functions;
   if (to == from + 1) return gather(block->weights, at);
   return gather(block->boundaries, to * block->function_count + functions) -
          gather(block->boundaries, at);
 }
 
+// Adds a row that holds from sample `from` to sample `to`.
+NUTIK_INLINE void add_row(global const code* restrict codes, const uint from, const uint to,
+                          const Block* block, const Region* region,
+                          global const real* restrict transfer, reals* sums) {
+  const real weight = region->is_uniform ? weight_of(block, from, to, region->function) : 0;
+#pragma unroll
+  for (uint group = 0; group < NUTIK_GROUPS; ++group) {
+    const reals w = region->is_uniform ? (reals)(weight)
+                                       : weights_of(block, from, to, region->functions[group]);
+#pragma unroll
+    for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
+      const uint at = channel * NUTIK_GROUPS + group;
+      sums[at] = multiply_add(
+          w, light_of(codes + channel * NUTIK_TILE_PIXELS + group * NUTIK_LANES, transfer), sums[at]);
+    }
+  }
+}
+
 // A tile stored as rows: all of it at each sample at which anything in it changed.
 NUTIK_INLINE void expose_rows(global const uchar* restrict body, const uint rows, const uint lane,
-                        const Block* block, const Region* region,
-                        global const real* restrict light_of_code, reals* sums) {
-  const bool is_indexed = rows > 1 && rows < block->sample_count;
-  const bool is_dense = rows > 1 && !is_indexed;
-  global const code* codes =
-      (global const code*)(body + (is_indexed ? index_list_bytes(rows, block->sample_count) : 0)) + lane;
-  uint row = is_dense ? block->first : 0;
-  uint sample = row;
-  codes += (size_t)row * NUTIK_CHANNELS * NUTIK_TILE_PIXELS;
-  for (; row < rows && sample < block->last; ++row) {
-    uint next = block->sample_count;
-    if (row + 1 < rows) next = is_indexed ? index_at(body, row + 1, block->sample_count) : row + 1;
-    if (next > block->first) {
-      const real weight = region->is_uniform ? weight_of(block, sample, next, region->function) : 0;
-#pragma unroll
-      for (uint group = 0; group < NUTIK_GROUPS; ++group) {
-        const reals w = region->is_uniform
-                            ? (reals)(weight)
-                            : weights_of(block, sample, next, region->functions[group]);
-#pragma unroll
-        for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
-          const reals light =
-              light_of(codes + channel * NUTIK_TILE_PIXELS + group * NUTIK_LANES, light_of_code);
-          const uint at = channel * NUTIK_GROUPS + group;
-          sums[at] = multiply_add(w, light, sums[at]);
-        }
-      }
+                              const Block* block, const Region* region,
+                              global const real* restrict transfer, reals* sums) {
+  const size_t row_codes = NUTIK_CHANNELS * NUTIK_TILE_PIXELS;
+  const uint count = block->sample_count;
+  if (rows == count) {
+    global const code* codes = (global const code*)body + block->first * row_codes + lane;
+    for (uint sample = block->first; sample < block->last; ++sample) {
+      add_row(codes, sample, sample + 1, block, region, transfer, sums);
+      codes += row_codes;
     }
-    codes += NUTIK_CHANNELS * NUTIK_TILE_PIXELS;
+    return;
+  }
+  if (rows == 1) {
+    add_row((global const code*)body + lane, 0, count, block, region, transfer, sums);
+    return;
+  }
+  global const code* codes = (global const code*)(body + index_list_bytes(rows, count)) + lane;
+  uint row = 0;
+  while (row + 1 < rows && index_at(body, row + 1, count) <= block->first) ++row;
+  uint sample = index_at(body, row, count);
+  codes += row * row_codes;
+  while (row < rows && sample < block->last) {
+    const uint next = ++row < rows ? index_at(body, row, count) : count;
+    add_row(codes, sample, next, block, region, transfer, sums);
+    codes += row_codes;
     sample = next;
   }
 }
 
 // A tile stored as records: each pixel's own changes, slot by slot.
 NUTIK_INLINE void expose_records(global const uchar* restrict body, const uint slots, const uint lane,
-                           const Block* block, const Region* region,
-                           global const real* restrict light_of_code, reals* sums) {
+                                 const Block* block, const Region* region,
+                                 global const real* restrict transfer, reals* sums) {
   const size_t row_bytes = NUTIK_CHANNELS * NUTIK_TILE_PIXELS * NUTIK_CODE_BYTES;
   const size_t index_bytes = index_list_bytes(NUTIK_TILE_PIXELS, block->sample_count);
   const uint count = block->function_count;
@@ -121,7 +136,7 @@ NUTIK_INLINE void expose_records(global const uchar* restrict body, const uint s
       for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
         const uint at = channel * NUTIK_GROUPS + group;
         sums[at] = multiply_add(next_boundary - boundary,
-                                light_of(codes + channel * NUTIK_TILE_PIXELS, light_of_code), sums[at]);
+                                light_of(codes + channel * NUTIK_TILE_PIXELS, transfer), sums[at]);
       }
       boundary = next_boundary;
       codes = (global const code*)(slot + index_bytes) + pixel;
@@ -132,20 +147,24 @@ NUTIK_INLINE void expose_records(global const uchar* restrict body, const uint s
     for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
       const uint at = channel * NUTIK_GROUPS + group;
       sums[at] = multiply_add(end - boundary,
-                              light_of(codes + channel * NUTIK_TILE_PIXELS, light_of_code), sums[at]);
+                              light_of(codes + channel * NUTIK_TILE_PIXELS, transfer), sums[at]);
     }
   }
 }
 
-NUTIK_INLINE void expose_tile(global const uchar* restrict payload, const size_t tile, const uint lane,
-                        const Block* block, const Region* region,
-                        global const real* restrict light_of_code, reals* sums) {
-  const TileEntry entry = ((global const TileEntry*)payload)[tile];
+NUTIK_INLINE TileEntry tile_entry(global const uchar* restrict chunk, const BlockEntry* block,
+                                  const size_t tile) {
+  return ((global const TileEntry*)(chunk + block->payload_offset))[tile];
+}
+
+NUTIK_INLINE void expose_tile(global const uchar* restrict payload, const TileEntry entry,
+                              const uint lane, const Block* block, const Region* region,
+                              global const real* restrict transfer, reals* sums) {
   global const uchar* body = payload + (size_t)entry.offset * NUTIK_BODY_UNIT;
   if (entry.count & NUTIK_RECORDS_FLAG) {
-    expose_records(body, entry.count & ~NUTIK_RECORDS_FLAG, lane, block, region, light_of_code, sums);
+    expose_records(body, entry.count & ~NUTIK_RECORDS_FLAG, lane, block, region, transfer, sums);
   } else {
-    expose_rows(body, entry.count, lane, block, region, light_of_code, sums);
+    expose_rows(body, entry.count, lane, block, region, transfer, sums);
   }
 }
 
@@ -154,7 +173,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
                    global const real* restrict weights, global const real* restrict boundaries,
                    const uint function_count, global const ushort* restrict function_of_tile,
                    global const uchar* restrict function_of_lane,
-                   global const real* restrict light_of_code, global real* restrict sums,
+                   global const real* restrict transfer, global real* restrict sums,
                    const ulong item_count, const uint first) {
   const size_t item = get_global_id(0);
   if (item >= item_count) return;
@@ -178,8 +197,15 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
   reals totals[NUTIK_ITEM_VECTORS];
 #pragma unroll
   for (uint i = 0; i < NUTIK_ITEM_VECTORS; ++i) totals[i] = 0;
+  // Each block's directory is looked up while the one before is read: else every block would begin with
+  // waiting for memory twice.
+  BlockEntry next_block = blocks[0];
+  TileEntry next_tile = tile_entry(chunk, &next_block, tile);
   for (uint b = 0; b < block_count; ++b) {
-    const BlockEntry entry = blocks[b];
+    const BlockEntry entry = next_block;
+    const TileEntry tile_at = next_tile;
+    next_block = blocks[min(b + 1, block_count - 1)];
+    next_tile = tile_entry(chunk, &next_block, tile);
     global const SampleSpan* block_spans = spans + entry.span_row * function_count;
     Block block;
     block.sample_count = entry.sample_count;
@@ -202,10 +228,10 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
     // Written twice so that the compiler sees which one it compiles.
     if (region.is_uniform) {
       region.is_uniform = true;
-      expose_tile(chunk + entry.payload_offset, tile, lane, &block, &region, light_of_code, block_sums);
+      expose_tile(chunk + entry.payload_offset, tile_at, lane, &block, &region, transfer, block_sums);
     } else {
       region.is_uniform = false;
-      expose_tile(chunk + entry.payload_offset, tile, lane, &block, &region, light_of_code, block_sums);
+      expose_tile(chunk + entry.payload_offset, tile_at, lane, &block, &region, transfer, block_sums);
     }
 #pragma unroll
     for (uint i = 0; i < NUTIK_ITEM_VECTORS; ++i) totals[i] += block_sums[i];

@@ -7,7 +7,9 @@
 #include "capture/format.hpp"
 #include "system/page_buffer.hpp"
 #include "opencl/kernel_layout.hpp"
+#include "opencl/code_search.hpp"
 #include "opencl/kernel_sources.hpp"
+#include "opencl/light_curve.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
 
@@ -27,8 +29,6 @@ namespace {
 
 constexpr std::uint64_t kDefaultChunkBytes = 1ull << 30;
 constexpr std::uint64_t kPageBytes = 4096;
-constexpr std::uint32_t kGuessesPerCode = 4;
-constexpr std::uint32_t kMostGuesses = 65'536;
 
 using ExposeKernel =
     cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint,
@@ -36,7 +36,7 @@ using ExposeKernel =
 using DevelopLightKernel =
     cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl::Buffer>;
 using DevelopCodesKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint,
-                                             cl::Buffer, cl_uint, cl::Buffer, cl_uint, cl::Buffer>;
+                                             cl::Buffer, cl::Buffer, cl_uint, cl::Buffer>;
 
 // How work is cut for a device; see the table in docs/performance.md.
 struct WorkShape {
@@ -103,6 +103,22 @@ std::vector<LightScale<Real>> light_scales(const RenderPlan& plan) {
   return scales;
 }
 
+// How a kernel turns codes into light, and what it reads for it.
+struct LightSource {
+  const char* kind;
+  std::vector<double> values;
+};
+
+LightSource light_source(const CaptureFormat& capture, Precision precision) {
+  if (capture.transfer.is_linear()) return {"NUTIK_LIGHT_LINEAR", {}};
+  if (precision == Precision::single_) {
+    if (auto curve = light_curve(capture.transfer, capture.white_code)) {
+      return {"NUTIK_LIGHT_CURVE", std::move(*curve)};
+    }
+  }
+  return {"NUTIK_LIGHT_TABLE", capture.transfer.light_of_codes(capture.white_code)};
+}
+
 // Whether fma() is the device's own. Devices that would emulate it do not report it, and a CPU's emulation
 // is 20 times slower than rounding twice.
 bool has_fma(const cl::Device& device, bool single) {
@@ -111,17 +127,6 @@ bool has_fma(const cl::Device& device, bool single) {
   return (config & CL_FP_FMA) != 0;
 }
 
-// A code near the right one for each of `count` equal steps of the square root of light.
-std::vector<std::uint16_t> code_guesses(const std::vector<double>& thresholds, std::uint32_t count) {
-  std::vector<std::uint16_t> guesses(count);
-  std::size_t code = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const double root = (i + 0.5) / count;
-    while (code + 1 < thresholds.size() && thresholds[code + 1] <= root * root) ++code;
-    guesses[i] = static_cast<std::uint16_t>(code);
-  }
-  return guesses;
-}
 
 }  // namespace
 
@@ -233,21 +238,19 @@ class OpenClRenderer::Implementation {
       queue_.enqueueFillBuffer(sums, Real{0}, 0, sum_bytes);
       return sums;
     }
-    const bool linear = plan.capture.transfer.is_linear();
+    const LightSource light = light_source(plan.capture, options_.precision);
     const cl::Program program = programs_->get(
         "expose", k_expose_source,
         format("{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_LANES={}",
-               common_options(plan), plan.capture.code_bytes,
-               linear ? "NUTIK_LIGHT_LINEAR" : "NUTIK_LIGHT_TABLE", shape_.item_pixels, shape_.lanes));
+               common_options(plan), plan.capture.code_bytes, light.kind, shape_.item_pixels,
+               shape_.lanes));
     ExposeKernel kernel(program, "expose");
 
     const cl::Buffer weights = upload(converted<Real>(plan.weights));
     const cl::Buffer boundaries = upload(converted<Real>(plan.boundaries));
     const cl::Buffer spans = upload(plan.spans);
     const cl::Buffer function_of_tile = upload(map.of_tile);
-    const cl::Buffer light_of_code =
-        upload(linear ? std::vector<Real>()
-                      : converted<Real>(plan.capture.transfer.light_of_codes(plan.capture.white_code)));
+    const cl::Buffer transfer = upload(converted<Real>(light.values));
 
     const std::uint64_t item_count = grid.tile_count() * (kTilePixels / shape_.item_pixels);
     bool first = true;
@@ -257,7 +260,7 @@ class OpenClRenderer::Implementation {
       const cl::Event event =
           kernel(items(item_count), chunk.payload, entries, static_cast<cl_uint>(chunk.entries.size()),
                  spans, weights, boundaries, static_cast<cl_uint>(plan.function_count()),
-                 function_of_tile, function_of_lane, light_of_code, sums, item_count, first ? 1u : 0u);
+                 function_of_tile, function_of_lane, transfer, sums, item_count, first ? 1u : 0u);
       event.wait();
       statistics_.expose_ms += milliseconds(event);
       statistics_.blocks += chunk.entries.size();
@@ -328,6 +331,9 @@ class OpenClRenderer::Implementation {
     return chunk;
   }
 
+  // A row of a tile where an item should fill vector registers, else one pixel.
+  [[nodiscard]] std::uint32_t develop_lanes() const { return shape_.lanes == 1 ? 1 : 8; }
+
   template <typename Real>
   Picture develop(const RenderPlan& plan, const OutputFormat& output, const cl::Buffer& sums,
                   const cl::Buffer& function_of_lane) {
@@ -336,9 +342,11 @@ class OpenClRenderer::Implementation {
     const std::size_t raster_bytes = codes ? value_bytes(output.type) : 1;
     const cl::Program program =
         programs_->get("develop", k_develop_source,
-                       format("{} -DNUTIK_RASTER_BYTES={}", common_options(plan), raster_bytes));
+                       format("{} -DNUTIK_CODE_BYTES=1 -DNUTIK_ITEM_PIXELS={} -DNUTIK_LANES={} "
+                              "-DNUTIK_RASTER_BYTES={}",
+                              common_options(plan), develop_lanes(), develop_lanes(), raster_bytes));
     const cl::Buffer scales = upload(light_scales<Real>(plan));
-    const std::uint64_t pixel_items = TileGrid(shape).tile_count() * kTilePixels;
+    const std::uint64_t pixel_items = TileGrid(shape).tile_count() * (kTilePixels / develop_lanes());
     Picture picture(shape, output.type, output.white_code);
     if (!codes) {
       const cl::Buffer raster = allocate(shape.value_count() * sizeof(Real), CL_MEM_WRITE_ONLY);
@@ -356,15 +364,13 @@ class OpenClRenderer::Implementation {
       }
       return picture;
     }
-    const std::vector<double> thresholds = plan.capture.transfer.code_thresholds(output.white_code);
-    const std::uint32_t guess_count =
-        std::min(kMostGuesses, static_cast<std::uint32_t>(thresholds.size()) * kGuessesPerCode);
+    const CodeSearch<Real> search = code_search<Real>(plan.capture.transfer, output.white_code);
     const cl::Buffer raster = allocate(picture.bytes.size(), CL_MEM_WRITE_ONLY);
     DevelopCodesKernel kernel(program, "develop_codes");
     const cl::Event event =
         kernel(items(pixel_items), sums, scales, function_of_lane, shape.width, shape.height,
-               upload(converted<Real>(thresholds)), output.white_code,
-               upload(code_guesses(thresholds, guess_count)), guess_count, raster);
+               upload(search.thresholds), upload(search.guesses),
+               static_cast<cl_uint>(search.guesses.size()), raster);
     queue_.enqueueReadBuffer(raster, CL_TRUE, 0, picture.bytes.size(), picture.bytes.data());
     statistics_.develop_ms = milliseconds(event);
     return picture;
