@@ -114,6 +114,7 @@ DeviceInfo describe_device(const cl::Device& device) {
   info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
   info.memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   info.largest_allocation_bytes = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  info.native_float_lanes = device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
   info.has_double = device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() != 0;
   cl_bool unified = CL_FALSE;
   device.getInfo(CL_DEVICE_HOST_UNIFIED_MEMORY, &unified);

@@ -21,6 +21,7 @@ struct DeviceInfo {
   std::uint32_t compute_units = 0;
   std::uint64_t memory_bytes = 0;
   std::uint64_t largest_allocation_bytes = 0;
+  std::uint32_t native_float_lanes = 0;  // of its vector registers; 1 where work-items are lanes themselves
   bool has_double = false;
   bool shares_host_memory = false;
 };

@@ -10,6 +10,7 @@
 #include "opencl/code_search.hpp"
 #include "opencl/kernel_sources.hpp"
 #include "opencl/light_curve.hpp"
+#include "opencl/light_pieces.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
 
@@ -40,17 +41,23 @@ using DevelopCodesKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer,
 
 // How work is cut for a device; see the table in docs/performance.md.
 struct WorkShape {
-  std::uint32_t item_pixels;
+  std::uint32_t item_pixels;  // of a tile
+  std::uint32_t item_tiles;
   std::uint32_t lanes;
   std::uint32_t group_items;
+
+  [[nodiscard]] std::uint64_t items(std::uint64_t tile_count) const {
+    return (tile_count + item_tiles - 1) / item_tiles * (kTilePixels / item_pixels);
+  }
 };
 
 WorkShape work_shape(const OpenClOptions& options, const DeviceInfo& device) {
-  WorkShape shape{1, 1, 64};
+  WorkShape shape{1, 1, 1, 64};
   if (device.kind == DeviceKind::cpu) {
-    shape = {kTilePixels, options.precision == Precision::single_ ? 16u : 8u, 4};
+    shape = {kTilePixels, 16, options.precision == Precision::single_ ? 16u : 8u, 1};
   }
   if (options.item_pixels != 0) shape.item_pixels = options.item_pixels;
+  if (options.item_tiles != 0) shape.item_tiles = options.item_tiles;
   if (options.lanes != 0) shape.lanes = options.lanes;
   if (options.group_items != 0) shape.group_items = options.group_items;
   const bool lanes_fit = shape.lanes == 1 || shape.lanes == 4 || shape.lanes == 8 || shape.lanes == 16;
@@ -109,14 +116,22 @@ struct LightSource {
   std::vector<double> values;
 };
 
-LightSource light_source(const CaptureFormat& capture, Precision precision) {
+LightSource light_source(const CaptureFormat& capture, Precision precision, bool permutes_pieces) {
   if (capture.transfer.is_linear()) return {"NUTIK_LIGHT_LINEAR", {}};
   if (precision == Precision::single_) {
+    if (permutes_pieces) {
+      if (auto pieces = light_pieces(capture.transfer, capture.white_code)) {
+        return {"NUTIK_LIGHT_PIECES", std::move(*pieces)};
+      }
+    }
     if (auto curve = light_curve(capture.transfer, capture.white_code)) {
       return {"NUTIK_LIGHT_CURVE", std::move(*curve)};
     }
   }
-  return {"NUTIK_LIGHT_TABLE", capture.transfer.light_of_codes(capture.white_code)};
+  // An entry for every code that can be stored: no damaged file may make a kernel read past the table.
+  std::vector<double> light = capture.transfer.light_of_codes(capture.white_code);
+  light.resize(std::size_t{1} << (8 * capture.code_bytes), light.back());
+  return {"NUTIK_LIGHT_TABLE", std::move(light)};
 }
 
 // Whether fma() is the device's own. Devices that would emulate it do not report it, and a CPU's emulation
@@ -126,7 +141,6 @@ bool has_fma(const cl::Device& device, bool single) {
                                             : device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>();
   return (config & CL_FP_FMA) != 0;
 }
-
 
 }  // namespace
 
@@ -238,12 +252,14 @@ class OpenClRenderer::Implementation {
       queue_.enqueueFillBuffer(sums, Real{0}, 0, sum_bytes);
       return sums;
     }
-    const LightSource light = light_source(plan.capture, options_.precision);
+    const bool permutes = shape_.lanes == kLightPieces && info_.native_float_lanes >= kLightPieces;
+    const LightSource light = light_source(plan.capture, options_.precision, permutes);
     const cl::Program program = programs_->get(
         "expose", k_expose_source,
-        format("{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_LANES={}",
+        format("{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
+               "-DNUTIK_LANES={} -DNUTIK_PIECE_BITS={}",
                common_options(plan), plan.capture.code_bytes, light.kind, shape_.item_pixels,
-               shape_.lanes));
+               shape_.item_tiles, shape_.lanes, piece_bits(plan.capture.white_code)));
     ExposeKernel kernel(program, "expose");
 
     const cl::Buffer weights = upload(converted<Real>(plan.weights));
@@ -252,15 +268,14 @@ class OpenClRenderer::Implementation {
     const cl::Buffer function_of_tile = upload(map.of_tile);
     const cl::Buffer transfer = upload(converted<Real>(light.values));
 
-    const std::uint64_t item_count = grid.tile_count() * (kTilePixels / shape_.item_pixels);
     bool first = true;
     for (std::size_t b = 0; b < plan.blocks.size();) {
       const Chunk chunk = next_chunk(plan, source, b);
       const cl::Buffer entries = upload(chunk.entries);
       const cl::Event event =
-          kernel(items(item_count), chunk.payload, entries, static_cast<cl_uint>(chunk.entries.size()),
+          kernel(items(shape_.items(grid.tile_count())), chunk.payload, entries, static_cast<cl_uint>(chunk.entries.size()),
                  spans, weights, boundaries, static_cast<cl_uint>(plan.function_count()),
-                 function_of_tile, function_of_lane, transfer, sums, item_count, first ? 1u : 0u);
+                 function_of_tile, function_of_lane, transfer, sums, grid.tile_count(), first ? 1u : 0u);
       event.wait();
       statistics_.expose_ms += milliseconds(event);
       statistics_.blocks += chunk.entries.size();

@@ -24,6 +24,7 @@ struct OpenClOptions {
 
   // How the work is cut. 0 leaves it to the device; the picture does not depend on it beyond rounding.
   std::uint32_t item_pixels = 0;   // pixels of a tile that a work-item owns: 1 … 64, a power of two
+  std::uint32_t item_tiles = 0;    // tiles in a row that a work-item owns pixels of
   std::uint32_t lanes = 0;         // of them that it works on at a time: 1, 4, 8 or 16
   std::uint32_t group_items = 0;   // work-items in a work-group
   std::uint64_t chunk_bytes = 0;   // payload that is on the device at a time
