@@ -9,6 +9,7 @@ A function's extent (its line, or everything up to its closing brace) is found b
 are read. So a mistake in it never reaches the lines behind it.
 """
 
+import math
 import re
 from bisect import bisect_right
 from dataclasses import dataclass, field
@@ -224,7 +225,8 @@ class FunctionReader:
         if self.peek() != ",":
             return "; a gain is one number, without blanks or a unit"
         with_point = f"{gain_word}.{word}"
-        if not "0" <= word[0] <= "9" or not DECIMAL.fullmatch(with_point):
+        is_number = DECIMAL.fullmatch(with_point) and math.isfinite(float(with_point))
+        if not "0" <= word[0] <= "9" or not is_number:
             return ""
         return f"; the decimal mark is a point: write {shown(with_point)}"
 
