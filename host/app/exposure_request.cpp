@@ -18,9 +18,9 @@ FunctionFile read_functions(const std::string& name) {
   const auto bytes = file.bytes();
   FunctionFile functions = parse_functions({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   if (functions.has_errors()) {
-    throw InputError(format("{} has mistakes:\n{}", name, functions.report(Diagnostic::Severity::error, name)));
+    throw InputError(format("{} has mistakes:\n{}", name, functions.report(name)));
   }
-  for (const Diagnostic& diagnostic : functions.diagnostics) print_note(diagnostic.text(name));
+  if (const std::string warnings = functions.report(name); !warnings.empty()) print_note(warnings);
   return functions;
 }
 

@@ -1,19 +1,36 @@
 #include "exposure/function_file.hpp"
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
 #include <optional>
-#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "capture/format.hpp"
+#include "exposure/function_numbers.hpp"
+#include "exposure/source_text.hpp"
 
 namespace nutik {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+using Severity = Diagnostic::Severity;
+
+constexpr std::string_view kNoFunction =
+    "no function in this file; a function is a line like M0 [0:1], [10000000:1], [10000001:0]";
+constexpr std::string_view kOldLineEnds =
+    "; its lines end in carriage returns: save it with line ends of Unix or Windows";
+constexpr std::string_view kLoneCarriageReturn =
+    "a carriage return without a line feed; save the file with line ends of Unix or Windows";
+constexpr std::string_view kWriteBraces = "to go on over several lines write M0{ … }";
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c & 0x80) != 0;
+}
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+}
 
 // A stretch that reads like a number, a name or a mistyped one: up to the next mark of the grammar.
 bool is_word(char c) {
@@ -26,34 +43,21 @@ struct Abandon {};
 
 class Parser {
  public:
-  explicit Parser(std::string_view text) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    text_.reserve(text.size() + 1);
-    for (std::size_t i = 0; i < text.size(); ++i) {
-      if (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] == '\n')) continue;
-      text_.push_back(text[i]);
-    }
-    if (text_.empty() || text_.back() != '\n') text_.push_back('\n');
-    line_starts_.push_back(0);
-    for (std::size_t i = 0; i + 1 < text_.size(); ++i) {
-      if (text_[i] == '\n') line_starts_.push_back(i + 1);
-    }
-  }
+  explicit Parser(std::string_view bytes) : text_(bytes) {}
 
   FunctionFile parse() {
-    if (text_.find('\0') != std::string::npos) {
-      at_ = text_.find('\0');
-      report(Diagnostic::Severity::error, at_,
-             "a zero byte: this is no text file; functions are lines like M0 [0:1], [10000000:1]");
+    if (const auto zero = text_.view().find('\0'); zero != std::string_view::npos) {
+      report(
+          Severity::error, zero,
+          "a zero byte: this is no text file, or one in UTF-16; save it as UTF-8 or plain ASCII");
       return std::move(file_);
     }
     while (at_ < text_.size()) parse_line();
-    if (seen_.empty() && !file_.has_errors()) {
-      report(Diagnostic::Severity::error, 0,
-             "no function in this file; a function is a line like M0 [0:1], [10000000:1], [10000001:0]");
+    if (first_lines_.empty() && !file_.has_errors()) {
+      const std::string_view view = text_.view();
+      const bool is_one_line = view.find('\n') + 1 == view.size() && view.find('\r') < view.size();
+      report(Severity::error, 0, format("{}{}", kNoFunction, is_one_line ? kOldLineEnds : ""));
     }
-    std::stable_sort(file_.diagnostics.begin(), file_.diagnostics.end(),
-                     [](const Diagnostic& a, const Diagnostic& b) { return a.place.line < b.place.line; });
     return std::move(file_);
   }
 
@@ -61,8 +65,7 @@ class Parser {
   // One line outside braces, or a whole function.
   void parse_line() {
     skip_blanks();
-    const char first = peek();
-    if (first == 'M' && is_digit(peek(1))) {
+    if (is_function_start(at_)) {
       try {
         parse_function();
       } catch (const Abandon&) {
@@ -70,86 +73,74 @@ class Parser {
       }
       return;
     }
-    if (first == '[') {
-      report(Diagnostic::Severity::error, at_,
-             "a line of control points outside braces; to go on over several lines write M0{ … }");
-    } else if (first == 'M' && peek(1) != '\n') {
-      report(Diagnostic::Severity::warning, at_,
-             "taken as a comment: M is not followed by a mask value, as in M128");
-    } else if (first == 'm' && is_digit(peek(1))) {
-      report(Diagnostic::Severity::warning, at_, "taken as a comment: a function starts with a capital M");
+    if (peek() == '[') {
+      report(Severity::error, at_,
+             format("a line of control points outside braces; {}", kWriteBraces));
+    } else if (const std::string warning = comment_warning(); !warning.empty()) {
+      report(Severity::warning, at_, "taken as a comment: " + warning);
     }
-    skip_line();
+    at_ = text_.line_end(at_) + 1;
+  }
+
+  // What may be wrong with a comment line; empty where it looks like any other.
+  [[nodiscard]] std::string comment_warning() const {
+    if (peek() == 'M') return "M is not followed by a mask value, as in M128";
+    if (peek() == 'm' && is_digit(peek(1))) return "a function starts with a capital M";
+    if ((peek() == ',' || peek() == '{') && text_[behind_blanks(at_ + 1)] == '[') {
+      return format("control points outside braces; {}", kWriteBraces);
+    }
+    // No-break spaces and byte-order marks are not seen in an editor.
+    const std::size_t at = text_.behind_invisible(at_);
+    if (at > at_ && is_function_start(at)) {
+      return format("{} stands before the M of a function", quoted(text_.piece(at_, at)));
+    }
+    return {};
   }
 
   void parse_function() {
     const std::size_t start = at_;
-    in_braces_ = brace_follows(start);  // for recover(), also where the tag has a mistake
+    brace_ = brace_of(start);
     ++at_;
-    const std::uint32_t tag = parse_tag();
-    const auto [earlier, is_new] = seen_.emplace(tag, place_of(start).line);
+    const std::size_t value_at = at_;
+    const std::uint8_t tag = number_or_fail(read_mask_value(take_word()), value_at);
+    const auto [first, is_new] = first_lines_.emplace(tag, text_.place_of(start).line);
     if (!is_new) {
-      note(start, format("M{} stands a second time; the first is on line {}", tag, earlier->second));
+      note(start, format("M{} has a function already, on line {}; each mask value has one", tag,
+                         first->second));
     }
     skip_blanks();
-    const bool braced = peek() == '{';
-    const std::size_t brace = at_;
-    if (braced) ++at_;
-    FileFunction parsed{GainFunction({{0, 0.0}}), place_of(start), {}};
-    std::vector<ControlPoint> points = parse_points(braced, brace, parsed.point_places);
-    if (braced) ++at_;  // the closing brace
-    in_braces_ = false;
-    expect_line_end(braced);
-
-    if (broken_) {
-      broken_ = false;
-      return;
+    is_braced_ = peek() == '{';
+    if (is_braced_) ++at_;
+    std::vector<ControlPoint> points = parse_points();
+    if (is_braced_) ++at_;  // the closing brace
+    brace_.reset();
+    expect_line_end();
+    if (!std::exchange(is_broken_, false)) {
+      file_.functions.emplace(tag,
+                              FileFunction{GainFunction(std::move(points)), text_.place_of(start)});
     }
-    parsed.function = GainFunction(std::move(points));
-    file_.functions.emplace(static_cast<std::uint8_t>(tag), std::move(parsed));
-  }
-
-  std::uint32_t parse_tag() {
-    const std::size_t start = at_;
-    std::uint32_t tag = 0;
-    while (is_digit(peek())) tag = std::min<std::uint32_t>(tag * 10 + take_digit(), 1000);
-    if (is_word(peek())) {
-      fail(start, format("'M{}' is no mask value; write M and a whole number 0 … 255", word(start)));
-    }
-    if (tag > 255) {
-      fail(start, format("mask value {} is above 255, the largest an 8-bit mask has",
-                         std::string_view(text_).substr(start, at_ - start)));
-    }
-    return tag;
   }
 
   // The list up to (not including) the closing brace or the end of the line.
-  std::vector<ControlPoint> parse_points(bool braced, std::size_t brace, std::vector<TextPlace>& places) {
+  std::vector<ControlPoint> parse_points() {
     std::vector<ControlPoint> points;
-    skip_space(braced, brace);
-    if (peek() != '[') {
-      if (at_list_end(braced)) {
-        fail(at_, "a function without control points; write at least one, as in [0:1]");
-      }
-      fail(at_, format("'{}' where a control point [time:gain] should start", shown(at_)));
-    }
+    skip_space();
+    if (at_list_end()) fail_without_points();
     for (;;) {
-      places.push_back(place_of(at_ + 1));
-      parse_point(points);
-      skip_space(braced, brace);
-      if (at_list_end(braced)) return points;
-      if (peek() == '[') fail(at_, "a comma is missing between two control points");
-      if (peek() != ',') {
-        fail(at_, format("'{}' after a control point; a comma or the end should follow", shown(at_)));
-      }
-      const std::size_t comma = at_++;
-      skip_space(braced, brace);
-      if (at_list_end(braced)) {
-        fail(comma, braced ? "a comma with no control point after it"
-                           : "a comma at the end of a line; to go on over several lines write M0{ … }");
-      }
       if (peek() != '[') {
-        fail(at_, format("'{}' where a control point [time:gain] should start", shown(at_)));
+        fail_at_other("where a control point [time:gain] should start",
+                      is_letter(peek()) ? "; a comment starts with #" : "");
+      }
+      parse_point(points);
+      skip_space();
+      if (at_list_end()) return points;
+      if (peek() == '[') fail(at_, "a comma is missing between two control points");
+      if (peek() != ',') fail_after_point();
+      const std::size_t comma = at_++;
+      skip_space();
+      if (at_list_end()) {
+        constexpr std::string_view kWhat = "a comma with no control point after it";
+        fail(comma, is_braced_ ? std::string(kWhat) : format("{}; {}", kWhat, kWriteBraces));
       }
     }
   }
@@ -158,274 +149,204 @@ class Parser {
     const std::size_t bracket = at_++;
     skip_blanks();
     const std::size_t time_at = at_;
-    const std::int64_t time_ns = parse_time();
+    if (!is_word(peek())) fail_without_number("time", "whole nanoseconds");
+    const std::int64_t time_ns = number_or_fail(read_time(take_word()), time_at);
     skip_blanks();
     if (peek() != ':') {
-      fail(at_, format("'{}' where the ':' between time and gain should stand", shown(at_)));
+      const std::size_t rest = peek() == ',' ? behind_blanks(at_ + 1) : at_;
+      const bool is_split = word_end(rest) > rest && text_[behind_blanks(word_end(rest))] == ':';
+      fail_at_other("where the ':' between time and gain should stand",
+                    is_split ? "; a time is one run of digits, without a unit" : "");
     }
     ++at_;
     skip_blanks();
-    const double gain = parse_gain();
+    const std::size_t gain_at = at_;
+    if (!is_word(peek())) fail_without_number("gain", "a number");
+    const std::string_view gain_word = take_word();
+    const double gain = number_or_fail(read_gain(gain_word), gain_at);
     skip_blanks();
-    if (peek() != ']') {
-      fail(peek() == '\n' ? bracket : at_,
-           peek() == '\n' ? std::string("a bracket that is not closed on its line; ']' ends a control point")
-                          : format("'{}' where ']' should end the control point", shown(at_)));
-    }
+    if (peek() == '\n')
+      fail(bracket, "a bracket that is not closed on its line; ']' ends a control point");
+    if (peek() != ']')
+      fail_at_other("where ']' should end the control point", split_gain_way_out(gain_word));
     ++at_;
-    if (!points.empty() && time_ns <= points.back().time_ns) {
-      const std::int64_t before = points.back().time_ns;
-      note(time_at, time_ns == before
-                        ? format("time {} stands twice; a jump takes 1 ns: write {} for the second", time_ns,
-                                 time_ns + 1)
-                        : format("time {} is not after {}; control points must be in time order", time_ns,
-                                 before));
-    }
+    if (!points.empty() && time_ns <= points.back().time_ns)
+      note_disorder(time_at, points.back().time_ns, time_ns);
     points.push_back({time_ns, gain});
   }
 
-  std::int64_t parse_time() {
-    const std::size_t start = at_;
-    const bool signed_ = peek() == '-' || peek() == '+';
-    const bool negative = peek() == '-';
-    if (signed_) ++at_;
-    std::int64_t time_ns = 0;
-    bool any = false, too_large = false;
-    while (is_digit(peek())) {
-      any = true;
-      const std::int64_t digit = take_digit();
-      too_large = too_large || time_ns > (kLargestTimeNs - digit) / 10;
-      if (!too_large) time_ns = time_ns * 10 + digit;
+  void note_disorder(std::size_t at, std::int64_t before_ns, std::int64_t time_ns) {
+    if (time_ns < before_ns) {
+      note(at, format("time {} is not after {}; control points must be in time order", time_ns,
+                      before_ns));
+      return;
     }
-    if (!any || is_word(peek())) {
-      const std::string bad = word(start);
-      if (bad.empty()) fail(start, "a time is missing; write whole nanoseconds, as in [10000000:1]");
-      fail(start, is_decimal(bad)
-                      ? format("time {} is not a whole number of nanoseconds; 10 ms are 10000000", bad)
-                      : format("'{}' is no time; write whole nanoseconds without a unit, 10 ms as 10000000",
-                               bad));
-    }
-    if (too_large) {
-      fail(start, format("time {} is further than {} ns from the start (126 years)",
-                         std::string_view(text_).substr(start, at_ - start), kLargestTimeNs));
-    }
-    return negative ? -time_ns : time_ns;
+    const bool is_last = time_ns == kLargestTimeNs;
+    note(at, format("time {} stands twice; a jump takes 1 ns: write {} for the {}", time_ns,
+                    is_last ? time_ns - 1 : time_ns + 1, is_last ? "first" : "second"));
   }
 
-  double parse_gain() {
-    const std::size_t start = at_;
-    const std::string written = word(start);
-    if (written.empty()) fail(start, "a gain is missing; write a number, as in [10000000:1]");
-    if (!is_decimal(written)) {
-      std::string lower = written;
-      std::transform(lower.begin(), lower.end(), lower.begin(),
-                     [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-      if (lower.find("inf") != std::string::npos || lower.find("nan") != std::string::npos) {
-        fail(start, format("gain {} is not finite; gains are numbers up to 1.79e308", written));
-      }
-      fail(start, format("'{}' is no gain; write a number such as 1, -0.5 or 2e-3", written));
-    }
-    const double gain = to_double(written);
-    if (!std::isfinite(gain)) {
-      fail(start, format("gain {} is not finite; gains are numbers up to 1.79e308", written));
-    }
-    return gain;
+  // For a gain that is not followed by its bracket but by more of a number.
+  [[nodiscard]] std::string split_gain_way_out(std::string_view gain) const {
+    const bool has_comma = peek() == ',';
+    const std::size_t begin = has_comma ? behind_blanks(at_ + 1) : at_;
+    const std::size_t end = word_end(begin);
+    if (begin == end || text_[behind_blanks(end)] != ']') return {};
+    if (!has_comma) return "; a gain is one number, without blanks or a unit";
+    const std::string_view decimals = text_.piece(begin, end);
+    const std::string with_point = std::string(gain).append(".").append(decimals);
+    const bool is_number = is_digit(decimals[0]) && read_gain(with_point).mistake.empty();
+    return is_number ? format("; the decimal mark is a point: write {}", shown(with_point)) : "";
   }
 
-  // [+-] digits [. digits] [e [+-] digits], with a digit before or after the point.
-  static bool is_decimal(std::string_view text) {
-    std::size_t i = 0;
-    const auto digits = [&] {
-      const std::size_t from = i;
-      while (i < text.size() && is_digit(text[i])) ++i;
-      return i - from;
-    };
-    if (i < text.size() && (text[i] == '+' || text[i] == '-')) ++i;
-    std::size_t mantissa = digits();
-    if (i < text.size() && text[i] == '.') {
-      ++i;
-      mantissa += digits();
-    }
-    if (mantissa == 0) return false;
-    if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
-      ++i;
-      if (i < text.size() && (text[i] == '+' || text[i] == '-')) ++i;
-      if (digits() == 0) return false;
-    }
-    return i == text.size();
-  }
-
-  // The nearest double: 0 for what is too small, infinity for what is too large.
-  static double to_double(std::string_view written) {
-    if (written.starts_with('+')) written.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(written.data(), written.data() + written.size(), value);
-    if (error != std::errc::result_out_of_range) return value;
-    // from_chars does not tell the two apart. The decimal exponent of the first digit that is not 0 does.
-    const auto first = written.find_first_of("123456789");
-    const auto mark = written.find_first_of("eE");
-    const auto point = std::min({written.find('.'), mark, written.size()});
-    long exponent = 0;
-    if (mark != std::string_view::npos) {
-      exponent = std::strtol(std::string(written.substr(mark + 1)).c_str(), nullptr, 10);
-    }
-    const long place = static_cast<long>(point) - static_cast<long>(first);
-    return exponent > -place ? HUGE_VAL : 0.0;
-  }
-
-  void expect_line_end(bool braced) {
+  void expect_line_end() {
     skip_blanks();
-    if (peek() == '#') skip_to_line_end();
+    if (peek() == '#') at_ = text_.line_end(at_);
     if (peek() != '\n') {
-      fail(at_, format("'{}' after the end of a function; {}", shown(at_),
-                       braced ? "the next one starts on a line of its own" : "a comment starts with #"));
+      fail_at_other("after the end of a function",
+                    is_function_start(at_) ? "; another function starts on a line of its own"
+                                           : "; only a comment that starts with # may follow");
     }
     ++at_;
+  }
+
+  [[noreturn]] void fail_without_points() {
+    constexpr std::string_view kWhat = "a function without control points";
+    if (is_braced_ || !brace_) fail(at_, format("{}; write at least one, as in [0:1]", kWhat));
+    const std::size_t list_at = std::exchange(at_, *brace_);
+    fail(list_at, format("{}; the '{{' of line {} belongs on the line of the M, as in M0{{ … }}",
+                         kWhat, text_.place_of(*brace_).line));
+  }
+
+  [[noreturn]] void fail_after_point() {
+    if (is_function_start(at_)) {
+      fail_at_other("after a control point", "; another function starts on a line of its own");
+    }
+    if (peek() == '}') {
+      fail_at_other("after a control point", "; no brace is open before it, as in M0{ … }");
+    }
+    fail_at_other("after a control point",
+                  is_braced_
+                      ? "; a comma or '}' should follow, and a comment starts with #"
+                      : "; a comma or the line's end should follow, and a comment starts with #");
+  }
+
+  [[noreturn]] void fail_without_number(std::string_view name, std::string_view what) {
+    const std::string way_out = format("; write {}, as in [10000000:1]", what);
+    if ((peek() == ':' && name == "time") || peek() == ']' || peek() == '\n') {
+      fail(at_, format("a {} is missing{}", name, way_out));
+    }
+    fail_at_other(format("where a {} should stand", name), way_out);
+  }
+
+  // An error at a word or mark that should not stand where it does.
+  [[noreturn]] void fail_at_other(std::string_view where, std::string_view way_out) {
+    if (peek() == '\r') fail(at_, std::string(kLoneCarriageReturn));
+    const std::size_t end = is_word(peek()) ? word_end(at_) : at_ + 1;
+    fail(at_,
+         format("{} {}{}", peek() == '\n' ? "the end of the line" : quoted(text_.piece(at_, end)),
+                where, way_out));
+  }
+
+  template <typename Number>
+  Number number_or_fail(ReadNumber<Number> read, std::size_t at) {
+    if (!read.mistake.empty()) fail(at, std::move(read.mistake));
+    return read.value;
   }
 
   // After an error: on with the line after the function's end, as far as that can be told.
   void recover() {
-    broken_ = false;
+    is_broken_ = false;
     for (;;) {
-      const std::size_t line_end = text_.find('\n', at_);
-      const std::size_t brace = std::min(text_.find('}', at_), line_end);
-      const bool closed = in_braces_ && brace < std::min(text_.find('#', at_), line_end);
-      at_ = line_end + 1;
-      if (closed || !in_braces_ || at_ >= text_.size()) break;
-      skip_blanks();
-      if (peek() == 'M' && is_digit(peek(1))) break;
+      const std::string_view rest = text_.piece(at_, text_.line_end(at_));
+      at_ += rest.size() + 1;
+      if (!brace_ || rest.substr(0, rest.find('#')).find('}') != std::string_view::npos) break;
+      if (at_ >= text_.size() || is_function_start(behind_blanks(at_))) break;
     }
-    in_braces_ = false;
+    brace_.reset();
   }
 
-  // Blanks; within braces also line ends and comments. Stops at the next function, which a forgotten
-  // brace would otherwise swallow.
-  void skip_space(bool braced, std::size_t brace) {
+  // Blanks; within braces also line ends and comments. Stops at the next function, which a
+  // forgotten brace would otherwise swallow.
+  void skip_space() {
     skip_blanks();
-    if (!braced) return;
+    if (!is_braced_) return;
     while (peek() == '\n' || peek() == '#') {
-      if (peek() == '#') skip_to_line_end();
-      ++at_;
-      if (at_ >= text_.size()) {
-        at_ = text_.size() - 1;
-        in_braces_ = false;
-        fail(brace, "a brace that is never closed; '}' ends the function");
-      }
-      skip_blanks();
-      if (peek() == 'M' && is_digit(peek(1))) {
-        report(Diagnostic::Severity::error, brace,
-               format("a brace that is not closed before the function on line {}; '}}' ends it",
-                      place_of(at_).line));
-        at_ = text_.rfind('\n', at_);  // recover() goes on behind this line end, at the next function
-        in_braces_ = false;
-        throw Abandon{};
-      }
+      const std::size_t line_end = text_.line_end(at_);
+      at_ = behind_blanks(line_end + 1);
+      if (at_ < text_.size() && !is_function_start(at_)) continue;
+      const std::string what =
+          at_ < text_.size() ? format("a brace that is not closed before the function on line {}",
+                                      text_.place_of(at_).line)
+                             : "a brace that is never closed";
+      at_ = line_end;  // recover() goes on behind it
+      const std::size_t brace = *std::exchange(brace_, std::nullopt);
+      fail(brace, what + "; '}' ends the function");
     }
   }
 
-  // Whether the function that starts at an `M` is written with braces.
-  [[nodiscard]] bool brace_follows(std::size_t start) const {
-    std::size_t at = start;
-    while (is_word(text_[at])) ++at;
+  // The opening brace of the function that starts at an `M`, also one that has slipped to a later
+  // line.
+  [[nodiscard]] std::optional<std::size_t> brace_of(std::size_t start) const {
+    std::size_t at = behind_blanks(word_end(start));
+    while (at < text_.size() && (text_[at] == '\n' || text_[at] == '#')) {
+      at = behind_blanks(text_.line_end(at) + 1);
+    }
+    return text_[at] == '{' ? std::optional(at) : std::nullopt;
+  }
+
+  [[nodiscard]] bool is_function_start(std::size_t at) const {
+    return text_[at] == 'M' && is_digit(text_[at + 1]);
+  }
+  [[nodiscard]] bool at_list_end() const {
+    return is_braced_ ? peek() == '}' : peek() == '\n' || peek() == '#';
+  }
+
+  [[nodiscard]] char peek(std::size_t ahead = 0) const { return text_[at_ + ahead]; }
+  [[nodiscard]] std::size_t behind_blanks(std::size_t at) const {
     while (is_blank(text_[at])) ++at;
-    return text_[at] == '{';
+    return at;
+  }
+  [[nodiscard]] std::size_t word_end(std::size_t at) const {
+    while (is_word(text_[at])) ++at;
+    return at;
+  }
+  void skip_blanks() { at_ = behind_blanks(at_); }
+  std::string_view take_word() {
+    const std::size_t start = std::exchange(at_, word_end(at_));
+    return text_.piece(start, at_);
   }
 
-  [[nodiscard]] bool at_list_end(bool braced) const {
-    return braced ? peek() == '}' : peek() == '\n' || peek() == '#';
-  }
-
-  [[nodiscard]] char peek(std::size_t ahead = 0) const {
-    return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\n';
-  }
-  std::uint32_t take_digit() { return static_cast<std::uint32_t>(text_[at_++] - '0'); }
-
-  void skip_blanks() {
-    while (is_blank(peek())) ++at_;
-  }
-  void skip_to_line_end() { at_ = text_.find('\n', at_); }
-  void skip_line() { at_ = text_.find('\n', at_) + 1; }
-
-  // The word from `start` on; moves behind it.
-  std::string word(std::size_t start) {
-    at_ = start;
-    while (is_word(peek())) ++at_;
-    return text_.substr(start, at_ - start);
-  }
-
-  [[nodiscard]] std::string shown(std::size_t at) const {
-    return at >= text_.size() || text_[at] == '\n' ? "end of line" : std::string(1, text_[at]);
-  }
-
-  [[nodiscard]] TextPlace place_of(std::size_t at) const {
-    at = std::min(at, text_.size() - 1);
-    const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), at);
-    return {static_cast<std::size_t>(after - line_starts_.begin()), at - *(after - 1) + 1};
-  }
-
-  void report(Diagnostic::Severity severity, std::size_t at, std::string message) {
-    const TextPlace place = place_of(at);
-    const std::size_t line_start = line_starts_[place.line - 1];
-    const std::size_t line_end = text_.find('\n', line_start);
-    file_.diagnostics.push_back(
-        {severity, place, std::move(message), text_.substr(line_start, line_end - line_start)});
+  void report(Severity severity, std::size_t at, std::string message) {
+    file_.diagnostics.add(severity, text_, at, std::move(message));
   }
 
   // An error after which the function can still be read on, for more of them.
   void note(std::size_t at, std::string message) {
-    report(Diagnostic::Severity::error, at, std::move(message));
-    broken_ = true;
+    report(Severity::error, at, std::move(message));
+    is_broken_ = true;
   }
 
   [[noreturn]] void fail(std::size_t at, std::string message) {
-    report(Diagnostic::Severity::error, at, std::move(message));
+    report(Severity::error, at, std::move(message));
     throw Abandon{};
   }
 
-  std::string text_;  // line ends as \n, with one at the end
-  std::vector<std::size_t> line_starts_;
+  SourceText text_;
   std::size_t at_ = 0;
-  bool in_braces_ = false;
-  bool broken_ = false;                        // the current function has an error that was noted
-  std::map<std::uint32_t, std::size_t> seen_;  // tag → line, also of functions with errors
   FunctionFile file_;
+  std::map<std::uint8_t, std::size_t> first_lines_;  // by mask value, also of functions with errors
+
+  // Of the current function:
+  std::optional<std::size_t> brace_;  // its opening brace, until it is closed
+  bool is_braced_ = false;
+  bool is_broken_ = false;  // it has an error that was noted
 };
 
 }  // namespace
 
-std::string Diagnostic::text(std::string_view file_name) const {
-  // A long line is shown around the place only.
-  constexpr std::size_t kShown = 100;
-  std::size_t from = 0;
-  if (source_line.size() > kShown && place.column > kShown / 2) from = place.column - kShown / 2;
-  const std::string_view shown = std::string_view(source_line).substr(from, kShown);
-  std::string excerpt = from > 0 ? "… " : "";
-  std::string mark(from > 0 ? 2 : 0, ' ');
-  for (std::size_t i = from; i + 1 < place.column; ++i) {
-    mark.push_back(i < source_line.size() && source_line[i] == '\t' ? '\t' : ' ');
-  }
-  excerpt += shown;
-  if (from + shown.size() < source_line.size()) excerpt += " …";
-  return format("{}:{}:{}: {}{}\n    {}\n    {}^", file_name, place.line, place.column,
-                severity == Severity::warning ? "warning: " : "", message, excerpt, mark);
+FunctionFile parse_functions(std::string_view bytes) {
+  return Parser(bytes).parse();
 }
-
-bool FunctionFile::has_errors() const {
-  return std::any_of(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& diagnostic) {
-    return diagnostic.severity == Diagnostic::Severity::error;
-  });
-}
-
-std::string FunctionFile::report(Diagnostic::Severity severity, std::string_view file_name) const {
-  std::string text;
-  for (const Diagnostic& diagnostic : diagnostics) {
-    if (diagnostic.severity != severity) continue;
-    if (!text.empty()) text.push_back('\n');
-    text += diagnostic.text(file_name);
-  }
-  return text;
-}
-
-FunctionFile parse_functions(std::string_view text) { return Parser(text).parse(); }
 
 }  // namespace nutik

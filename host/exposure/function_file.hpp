@@ -5,51 +5,34 @@
 //        [400000000:1]}
 //
 // Every mistake in a file is found, not just the first, each with its place and the line itself.
+// The time this takes grows with the file's length and no faster, whatever is in it.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "exposure/function_diagnostics.hpp"
 #include "exposure/gain_function.hpp"
 
 namespace nutik {
 
-// A place in a text, counted from 1 as editors do; columns count bytes.
-struct TextPlace {
-  std::size_t line = 0;
-  std::size_t column = 0;
-  friend bool operator==(const TextPlace&, const TextPlace&) = default;
-};
-
-struct Diagnostic {
-  enum class Severity { error, warning };
-
-  Severity severity = Severity::error;
-  TextPlace place;
-  std::string message;
-  std::string source_line;
-
-  // `motion.fn:3:14: time 1000000 is not after 2000000; …`, the line, and a mark under the place.
-  [[nodiscard]] std::string text(std::string_view file_name) const;
-};
-
 struct FileFunction {
   GainFunction function;
-  TextPlace place;                        // of its `M`
-  std::vector<TextPlace> point_places;    // of each control point's time
+  TextPlace place;  // of its `M`
 };
 
 struct FunctionFile {
   std::map<std::uint8_t, FileFunction> functions;  // by mask value
-  std::vector<Diagnostic> diagnostics;             // in the order of the text
+  Diagnostics diagnostics;
 
-  [[nodiscard]] bool has_errors() const;
-  // All diagnostics of one severity, one below the other.
-  [[nodiscard]] std::string report(Diagnostic::Severity severity, std::string_view file_name) const;
+  [[nodiscard]] bool has_errors() const {
+    return diagnostics.count(Diagnostic::Severity::error) > 0;
+  }
+  [[nodiscard]] std::string report(std::string_view file_name) const {
+    return diagnostics.report(file_name);
+  }
 };
 
 // Reads a whole function file. Functions with errors are left out of `functions`.

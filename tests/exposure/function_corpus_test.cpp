@@ -1,5 +1,6 @@
-// The shared corpus of function files, tests/corpus/functions: what expected.json says of each file is
-// what the program reads from it. FnPlotter.py's own parser is held to the same corpus.
+// The shared corpus of function files, tests/corpus/functions: what expected.json says of each file
+// is what the program reads from it, down to the words of its messages. FnPlotter.py's own parser
+// is held to the same corpus.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -26,7 +28,7 @@ namespace {
 
 const std::filesystem::path kCorpus = NUTIK_TEST_CORPUS;
 
-using Place = std::pair<std::size_t, std::size_t>;  // line, column
+using Finding = std::tuple<std::size_t, std::size_t, std::string>;  // line, column, message
 using Functions = std::map<std::uint8_t, std::vector<std::pair<std::int64_t, double>>>;
 
 std::string read(const std::filesystem::path& path) {
@@ -35,12 +37,15 @@ std::string read(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-nlohmann::json expectations() { return nlohmann::json::parse(read(kCorpus / "expected.json")); }
+nlohmann::json expectations() {
+  return nlohmann::json::parse(read(kCorpus / "expected.json"));
+}
 
 Functions expected_functions(const nlohmann::json& expected) {
   Functions functions;
   for (const auto& [tag, points] : expected.at("functions").items()) {
-    functions.emplace(static_cast<std::uint8_t>(std::stoi(tag)), points.get<Functions::mapped_type>());
+    functions.emplace(static_cast<std::uint8_t>(std::stoi(tag)),
+                      points.get<Functions::mapped_type>());
   }
   return functions;
 }
@@ -55,26 +60,20 @@ Functions functions_of(const FunctionFile& file) {
   return functions;
 }
 
-std::vector<Place> places(const FunctionFile& file, Diagnostic::Severity severity) {
-  std::vector<Place> places;
-  for (const Diagnostic& diagnostic : file.diagnostics) {
+std::vector<Finding> findings(const FunctionFile& file, Diagnostic::Severity severity) {
+  std::vector<Finding> findings;
+  for (const Diagnostic& diagnostic : file.diagnostics.shown()) {
     if (diagnostic.severity == severity) {
-      places.emplace_back(diagnostic.place.line, diagnostic.place.column);
+      findings.emplace_back(diagnostic.place.line, diagnostic.place.column, diagnostic.message);
     }
   }
-  return places;
-}
-
-std::vector<std::size_t> lines(const std::vector<Place>& places) {
-  std::vector<std::size_t> lines;
-  for (const Place& place : places) lines.push_back(place.first);
-  return lines;
+  return findings;
 }
 
 using Check = std::function<void(const nlohmann::json& expected, const FunctionFile& file)>;
 
-// Runs `check` on every corpus file whose `valid` is as asked for, with what is expected of it and what
-// the program reads from it.
+// Runs `check` on every corpus file whose `valid` is as asked for, with what is expected of it and
+// what the program reads from it.
 void for_each_file(bool valid, const Check& check) {
   const nlohmann::json all = expectations();
   std::size_t count = 0;
@@ -84,7 +83,7 @@ void for_each_file(bool valid, const Check& check) {
     SCOPED_TRACE(name + ": " + expected.at("shows").get<std::string>());
     FunctionFile file;
     EXPECT_NO_THROW(file = parse_functions(read(kCorpus / name)));
-    SCOPED_TRACE(file.report(Diagnostic::Severity::error, name));
+    SCOPED_TRACE(file.report(name));
     check(expected, file);
   }
   EXPECT_GT(count, 0U);
@@ -108,17 +107,18 @@ TEST(FunctionCorpus, ValidFilesGiveTheirFunctions) {
   });
 }
 
-TEST(FunctionCorpus, ValidFilesWarnOnTheExpectedLines) {
+TEST(FunctionCorpus, ValidFilesGiveTheExpectedWarnings) {
   for_each_file(true, [](const nlohmann::json& expected, const FunctionFile& file) {
-    EXPECT_EQ(lines(places(file, Diagnostic::Severity::warning)),
-              expected.at("warnings").get<std::vector<std::size_t>>());
+    EXPECT_EQ(findings(file, Diagnostic::Severity::warning),
+              expected.at("warnings").get<std::vector<Finding>>());
   });
 }
 
-TEST(FunctionCorpus, InvalidFilesReportEveryErrorAtItsPlace) {
+TEST(FunctionCorpus, InvalidFilesReportEveryErrorAtItsPlaceInTheExpectedWords) {
   for_each_file(false, [](const nlohmann::json& expected, const FunctionFile& file) {
     EXPECT_TRUE(file.has_errors());
-    EXPECT_EQ(places(file, Diagnostic::Severity::error), expected.at("errors").get<std::vector<Place>>());
+    EXPECT_EQ(findings(file, Diagnostic::Severity::error),
+              expected.at("errors").get<std::vector<Finding>>());
   });
 }
 

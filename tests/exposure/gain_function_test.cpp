@@ -18,7 +18,7 @@ constexpr std::int64_t kThreeSeconds = 3'000'000'000;
 
 GainFunction parse(const std::string& line) {
   const FunctionFile file = parse_functions(line);
-  EXPECT_FALSE(file.has_errors()) << file.report(Diagnostic::Severity::error, "test");
+  EXPECT_FALSE(file.has_errors()) << file.report("test");
   return file.functions.begin()->second.function;
 }
 

@@ -76,6 +76,10 @@ def parsed(name):
     return parse_functions((CORPUS / name).read_bytes())
 
 
+def findings(diagnostics):
+    return [[diagnostic.line, diagnostic.column, diagnostic.message] for diagnostic in diagnostics]
+
+
 class Parser(unittest.TestCase):
     """The plotter's parser agrees with expected.json on every file."""
 
@@ -90,20 +94,26 @@ class Parser(unittest.TestCase):
                     points = {str(tag): list(map(list, f.points)) for tag, f in file.functions.items()}
                     self.assertEqual([diagnostic.text(name) for diagnostic in file.errors], [])
                     self.assertEqual(points, expected["functions"])
-                    self.assertEqual([diagnostic.line for diagnostic in file.warnings], expected["warnings"])
+                    self.assertEqual(findings(file.warnings), expected["warnings"])
 
-    def test_invalid_files_report_every_error_at_its_place(self):
+    def test_invalid_files_report_every_error_at_its_place_in_the_expected_words(self):
         for name, expected in expectations().items():
             if not expected["valid"]:
                 with self.subTest(name, shows=expected["shows"]):
-                    places = [[diagnostic.line, diagnostic.column] for diagnostic in parsed(name).errors]
-                    self.assertEqual(places, expected["errors"])
+                    self.assertEqual(findings(parsed(name).errors), expected["errors"])
 
     def test_messages_can_be_read_whatever_the_file_is_made_of(self):
         for name in expectations():
             with self.subTest(name):
                 for diagnostic in parsed(name).diagnostics:
                     self.assertTrue(diagnostic.message.isprintable(), diagnostic.message)
+
+    def test_long_numbers_are_read_to_their_last_digit(self):
+        from fnplot.function_file import parse_functions
+
+        zeros = "0" * 10_000
+        file = parse_functions(f"M{zeros}7 [-{zeros}5:1], [{zeros}5:0.5{zeros}]".encode())
+        self.assertEqual((file.errors, file.functions[7].points), ([], ((-5, 1.0), (5, 0.5))))
 
 
 class Figures(unittest.TestCase):
@@ -419,8 +429,8 @@ class Mistakes(unittest.TestCase):
         name = "invalid-several-functions.fn"
         path = CORPUS / name
         result = self.check([path], 3, "a comma is missing")
-        places = [line.removeprefix(f"{path}:").split(":")[:2] for line in result.stderr.splitlines()]
-        self.assertEqual([list(map(int, place)) for place in places], expectations()[name]["errors"])
+        lines = [f"{path}:{line}:{column}: {words}" for line, column, words in expectations()[name]["errors"]]
+        self.assertEqual(result.stderr.splitlines(), lines)
 
     def test_messages_name_place_limit_and_way_out(self):
         source = write("order.fn", "M0 [0:1], [2000000:1],\nM1 [2000000:0], [1000000:1]\n")

@@ -1,0 +1,187 @@
+#include "exposure/function_numbers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+#include "capture/format.hpp"
+#include "exposure/gain_function.hpp"
+#include "exposure/source_text.hpp"
+
+namespace nutik {
+namespace {
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_sign(char c) {
+  return c == '+' || c == '-';
+}
+
+std::size_t digits_at(std::string_view text, std::size_t at) {
+  const auto begin = text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size()));
+  return static_cast<std::size_t>(std::find_if_not(begin, text.end(), is_digit) - begin);
+}
+
+// [+-] digits [. digits] [e [+-] digits], with a digit before or after the point.
+struct Decimal {
+  bool is_negative = false;
+  std::string_view whole, fraction, exponent;  // digits; the exponent with its sign
+  std::size_t length = 0;
+};
+
+// The longest decimal number that a word starts with.
+std::optional<Decimal> decimal_at_start(std::string_view word) {
+  Decimal decimal;
+  std::size_t at = !word.empty() && is_sign(word[0]) ? 1 : 0;
+  decimal.is_negative = at == 1 && word[0] == '-';
+  decimal.whole = word.substr(at, digits_at(word, at));
+  at += decimal.whole.size();
+  if (at < word.size() && word[at] == '.') {
+    decimal.fraction = word.substr(at + 1, digits_at(word, at + 1));
+    at += 1 + decimal.fraction.size();
+  }
+  if (decimal.whole.empty() && decimal.fraction.empty()) return std::nullopt;
+  if (at < word.size() && (word[at] == 'e' || word[at] == 'E')) {
+    const std::size_t sign = at + 1 < word.size() && is_sign(word[at + 1]) ? 1 : 0;
+    const std::size_t digits = digits_at(word, at + 1 + sign);
+    if (digits > 0) {
+      decimal.exponent = word.substr(at + 1, sign + digits);
+      at += 1 + sign + digits;
+    }
+  }
+  decimal.length = at;
+  return decimal;
+}
+
+bool is_decimal(std::string_view word) {
+  const auto decimal = decimal_at_start(word);
+  return decimal && decimal->length == word.size();
+}
+
+long exponent_of(std::string_view digits) {
+  constexpr long kBeyondAnyWord = 1'000'000'000'000;
+  const long exponent = std::strtol(std::string(digits).c_str(), nullptr, 10);
+  return std::clamp(exponent, -kBeyondAnyWord, kBeyondAnyWord);
+}
+
+// decimal · 10^power, where that is a whole number that a time may be.
+std::optional<std::int64_t> whole_number(const Decimal& decimal, long power) {
+  std::string digits = std::string(decimal.whole).append(decimal.fraction);
+  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
+  if (digits.empty()) return 0;
+  power += exponent_of(decimal.exponent) - static_cast<long>(decimal.fraction.size());
+  for (; power < 0 && digits.back() == '0'; ++power) digits.pop_back();
+  if (power < 0 || power > 18 || digits.size() > 19) return std::nullopt;
+  digits.append(static_cast<std::size_t>(power), '0');
+  std::int64_t value = 0;
+  const auto error = std::from_chars(digits.data(), digits.data() + digits.size(), value).ec;
+  if (error != std::errc() || value > kLargestTimeNs) return std::nullopt;
+  return decimal.is_negative ? -value : value;
+}
+
+// The power of ten that a unit has, counted in nanoseconds.
+std::optional<long> power_of(std::string_view unit) {
+  using Unit = std::pair<std::string_view, long>;
+  constexpr std::array<Unit, 7> kUnits = {
+      Unit{"", 0},        Unit{"ns", 0}, Unit{"us", 3}, Unit{"\u00B5s", 3},
+      Unit{"\u03BCs", 3}, Unit{"ms", 6}, Unit{"s", 9},
+  };
+  for (const auto& [name, power] : kUnits) {
+    if (name == unit) return power;
+  }
+  return std::nullopt;
+}
+
+// What to write for a time that is written in another way, as far as it can be guessed.
+std::string time_way_out(std::string_view word) {
+  if (const auto decimal = decimal_at_start(word)) {
+    const std::string_view unit = word.substr(decimal->length);
+    const auto power = power_of(unit);
+    const auto value = power ? whole_number(*decimal, *power) : std::nullopt;
+    if (value) return format("write {}", *value);
+    // Few people think in fractions of a nanosecond.
+    const auto seconds = unit.empty() ? whole_number(*decimal, 9) : std::nullopt;
+    if (seconds) return format("{} s are {}", shown(word), *seconds);
+  }
+  return "10 ms are 10000000";
+}
+
+// The nearest double: 0 for what is too small, infinity for what is too large.
+double to_double(std::string_view written) {
+  if (written.starts_with('+')) written.remove_prefix(1);
+  double value = 0;
+  const auto error = std::from_chars(written.data(), written.data() + written.size(), value).ec;
+  if (error != std::errc::result_out_of_range) return value;
+  // from_chars does not tell the two apart. The decimal exponent of the first digit that is not 0
+  // does.
+  const auto first = written.find_first_of("123456789");
+  const auto mark = std::min(written.find_first_of("eE"), written.size());
+  const auto point = std::min(written.find('.'), mark);
+  const long exponent = mark < written.size() ? exponent_of(written.substr(mark + 1)) : 0;
+  const long place = static_cast<long>(point) - static_cast<long>(first);
+  return exponent > -place ? HUGE_VAL : 0.0;
+}
+
+// inf, infinity, nan and nan(…), in capitals or not.
+bool is_infinity_or_nan(std::string_view word) {
+  if (!word.empty() && is_sign(word[0])) word.remove_prefix(1);
+  const auto starts_like = [&](std::string_view name) {
+    return word.size() >= name.size() &&
+           std::equal(name.begin(), name.end(), word.begin(), [](char a, char b) {
+             return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b);
+           });
+  };
+  return (word.size() == 3 && (starts_like("inf") || starts_like("nan"))) ||
+         (word.size() == 8 && starts_like("infinity")) || starts_like("nan(");
+}
+
+}  // namespace
+
+ReadNumber<std::uint8_t> read_mask_value(std::string_view word) {
+  if (digits_at(word, 0) < word.size()) {
+    return {0, format("'M{}' is no mask value; write M and a whole number 0 … 255", shown(word))};
+  }
+  unsigned value = 0;
+  for (const char digit : word)
+    value = std::min(value * 10 + static_cast<unsigned>(digit - '0'), 1000u);
+  if (value > 255) {
+    return {0, format("mask value {} is above 255, the largest an 8-bit mask has", shown(word))};
+  }
+  return {static_cast<std::uint8_t>(value), {}};
+}
+
+ReadNumber<std::int64_t> read_time(std::string_view word) {
+  const std::size_t sign = !word.empty() && is_sign(word[0]) ? 1 : 0;
+  const std::size_t digits = digits_at(word, sign);
+  if (digits == 0 || sign + digits < word.size()) {
+    return {0, format("{} is no time; times are whole nanoseconds written as digits: {}",
+                      quoted(word), time_way_out(word))};
+  }
+  const auto value = whole_number(*decimal_at_start(word), 0);
+  if (!value) {
+    return {0, format("time {} is further than {} ns from the start (126 years)", shown(word),
+                      kLargestTimeNs)};
+  }
+  return {*value, {}};
+}
+
+ReadNumber<double> read_gain(std::string_view word) {
+  if (!is_decimal(word) && !is_infinity_or_nan(word)) {
+    const bool has_other_minus = word.starts_with("\u2212") || word.starts_with("\u2013");
+    return {0, format("{} is no gain; write {}", quoted(word),
+                      has_other_minus ? "the minus as the - of the keyboard"
+                                      : "a number such as 1, -0.5 or 2e-3")};
+  }
+  const double gain = is_decimal(word) ? to_double(word) : HUGE_VAL;
+  if (!std::isfinite(gain)) {
+    return {0, format("gain {} is not finite; gains are numbers up to 1.79e308", shown(word))};
+  }
+  return {gain, {}};
+}
+
+}  // namespace nutik

@@ -1,0 +1,26 @@
+// The numbers of a function file: each reads a whole word and says what is wrong with it, if
+// anything.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace nutik {
+
+template <typename Number>
+struct ReadNumber {
+  Number value{};
+  std::string mistake;  // what is wrong and what would be right; empty where `value` holds
+};
+
+// The digits behind an `M`: 0 … 255.
+[[nodiscard]] ReadNumber<std::uint8_t> read_mask_value(std::string_view word);
+
+// [+-] digits, in nanoseconds, at most kLargestTimeNs from 0.
+[[nodiscard]] ReadNumber<std::int64_t> read_time(std::string_view word);
+
+// The double nearest to a decimal number: 0 where it is too small, a mistake where it is too large.
+[[nodiscard]] ReadNumber<double> read_gain(std::string_view word);
+
+}  // namespace nutik
