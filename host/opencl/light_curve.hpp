@@ -13,8 +13,8 @@ namespace nutik {
 // light(c) = c <= toe_end ? c · toe_slope : Σ a_j t^j, t = (c - centre) · step
 //
 // centre is whole and step a power of two, so that t is exact in single precision. Light then errs
-// by less than 3.3e-7 for every white code up to 65535, and by less than 1.7e-7 where white is 255,
-// 1023, 4095, 16383 or 65535 (derivation and measurement: docs/accuracy.md).
+// by less than 3.3e-7 for every white code up to 65535, and by less than 1.7e-7 where white has
+// the form 2^b - 1, b = 8 … 16 (derivation and measurement: docs/accuracy.md).
 inline constexpr std::uint32_t kCurveDegree = 10;
 
 // The curve as the kernel reads it: centre, step, toe_end, toe_slope, a_0 … a_10. Nothing where the
