@@ -6,8 +6,9 @@
 //            boundaries   B_k = Σ_(first <= j < k) w_j: re-based, 0 at the block's first sample
 //   units:   gains are divided by 2^exponent (see GainSummary) and by D, so that |w| <= 2
 //   error:   a weight is summed from the closed form of each stretch on which both lines are straight,
-//            never as a difference of integrals from the start, so it errs by a few ulp of its own
-//            local ∫|g φ| (docs/accuracy.md). Boundaries add one rounding of their own.
+//            never as a difference of integrals from the start, so it errs by at most 13 roundings
+//            of its own local ∫ ĝ φ / D, ĝ being the line between |g| at the ends of each piece
+//            (docs/accuracy.md). Boundaries add one rounding of their own.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ double units(const Exact& error, const Exact& scale) {
                     : std::fabs((error / scale).convert_to<double>()) / test::kRoundoff64;
 }
 
-// ∫ |g φ_k|, an upper bound good enough for a scale: |g| of each stretch's ends times the hat.
+// ∫ ĝ φ_k, ĝ being the line between |g| at the ends of each piece: what errors are in proportion to.
 Exact magnitude_ns(const std::vector<test::ExactStretch>& gain, const Timeline& timeline, std::uint64_t k) {
   std::vector<test::ExactStretch> magnitude = gain;
   for (test::ExactStretch& stretch : magnitude) {
@@ -63,7 +63,7 @@ TEST(WeightSweep, PacksWhatExactArithmeticSays) {
     }
     EXPECT_EQ(boundaries[0], 0.0);
   }
-  std::printf("worst error of a weight: %.2f u of its own ∫|g φ|\n", worst);
+  std::printf("worst error of a weight: %.2f u of its own ∫ ĝ φ\n", worst);
 }
 
 // Blocks may be packed in any order, and weights do not depend on where a block starts.

@@ -110,9 +110,24 @@ GainFunction random_function(Random& random, const Timeline& timeline) {
   return GainFunction(std::move(points));
 }
 
-RandomCase::RandomCase(std::uint64_t case_seed) : RandomCase(Random(case_seed), case_seed) {}
+RandomCase::RandomCase(std::uint64_t case_seed)
+    : RandomCase(Random(case_seed), case_seed, nullptr) {}
+
+RandomCase::RandomCase(std::uint64_t case_seed, const CodeFormat& codes)
+    : RandomCase(Random(case_seed), case_seed, &codes) {}
 
 namespace {
+
+CaptureFormat random_format(Random& random, const CodeFormat* codes) {
+  CaptureFormat capture = random_format(random);
+  if (codes != nullptr) {
+    capture.shape.channels = codes->channels;
+    capture.code_bytes = codes->code_bytes;
+    capture.white_code = codes->white_code;
+    capture.transfer = codes->transfer;
+  }
+  return capture;
+}
 
 std::uint64_t random_sample_count(Random& random) {
   return static_cast<std::uint64_t>(
@@ -121,9 +136,9 @@ std::uint64_t random_sample_count(Random& random) {
 
 }  // namespace
 
-RandomCase::RandomCase(Random random, std::uint64_t case_seed)
+RandomCase::RandomCase(Random random, std::uint64_t case_seed, const CodeFormat* codes)
     : seed(case_seed),
-      capture(random_format(random)),
+      capture(random_format(random, codes)),
       timeline(random_timeline(random, random_sample_count(random))),
       rasters(random_rasters(random, capture, timeline.sample_count())),
       block_samples(random.pick(std::vector<std::uint32_t>{1, 2, 5, 64, 64, 64, 300})),

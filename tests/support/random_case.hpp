@@ -58,6 +58,14 @@ Timeline random_timeline(Random& random, std::uint64_t sample_count);
 // apart, gains of both signs.
 GainFunction random_function(Random& random, const Timeline& timeline);
 
+// What kernels are built for, one by one: where a test should not wait for all of them.
+struct CodeFormat {
+  std::uint32_t channels;
+  std::uint32_t code_bytes;
+  std::uint32_t white_code;
+  Transfer transfer;
+};
+
 struct RandomCase {
   std::uint64_t seed;
   CaptureFormat capture;
@@ -69,6 +77,7 @@ struct RandomCase {
   Mask mask;
 
   explicit RandomCase(std::uint64_t seed);
+  RandomCase(std::uint64_t seed, const CodeFormat& codes);
   [[nodiscard]] MemoryCapture encode() const { return encode(block_samples, policy); }
   [[nodiscard]] MemoryCapture encode(std::uint32_t samples, TilePolicy tiles) const {
     return {capture, timeline, rasters, samples, tiles};
@@ -76,7 +85,7 @@ struct RandomCase {
   [[nodiscard]] std::string text() const;
 
  private:
-  explicit RandomCase(Random random, std::uint64_t seed);
+  RandomCase(Random random, std::uint64_t seed, const CodeFormat* codes);
 };
 
 }  // namespace nutik::test

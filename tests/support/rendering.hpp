@@ -1,0 +1,58 @@
+// What the tests of the OpenCL renderer share: kernels built once for all of them, and how far
+// apart two pictures are.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+
+#include "opencl/opencl_renderer.hpp"
+#include "render/render_plan.hpp"
+#include "support/bounds.hpp"
+
+namespace nutik::test {
+
+inline OpenClOptions renderer_options(Precision precision) {
+  OpenClOptions options;
+  options.precision = precision;
+  options.cache_folder = std::filesystem::temp_directory_path() / "nutik-test-kernels";
+  return options;
+}
+
+// S of a value's function.
+inline double scale_of(const RenderPlan& plan, std::uint64_t value) {
+  const std::size_t function = plan.function_of_pixel[value / plan.capture.shape.channels];
+  return plan.functions[function].summary.error_scale();
+}
+
+struct Difference {
+  double worst = 0.0;  // in S; infinite where a value is not a number
+  std::uint64_t value = 0;
+};
+
+// Between two pictures of light64.
+inline Difference difference_of(const RenderPlan& plan, const Picture& a, const Picture& b) {
+  Difference difference;
+  for (std::uint64_t i = 0; i < a.shape.value_count(); ++i) {
+    const double light = std::fabs(a.values<double>()[i] - b.values<double>()[i]);
+    double units = light == 0.0 ? 0.0 : light / scale_of(plan, i);
+    if (std::isnan(units)) units = INFINITY;
+    if (units > difference.worst) difference = {units, i};
+  }
+  return difference;
+}
+
+// The derived bound of kernel_against_reference() for this plan.
+inline double bound_of(const RenderPlan& plan, Precision precision) {
+  std::uint64_t longest = 0;
+  for (const PlannedBlock& block : plan.blocks) {
+    longest = std::max<std::uint64_t>(longest, block.extent.sample_count);
+  }
+  const bool is_single = precision == Precision::single_;
+  return kernel_against_reference(is_single ? kRoundoff32 : kRoundoff64, longest,
+                                  plan.blocks.size(),
+                                  is_single ? single_light_error(plan.capture.transfer) : 0.0);
+}
+
+}  // namespace nutik::test
