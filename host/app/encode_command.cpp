@@ -3,13 +3,12 @@
 #include "app/capture_input.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
+#include "app/encoding.hpp"
 #include "app/output_name.hpp"
-#include "app/progress.hpp"
 #include "app/size_text.hpp"
 #include "app/stopwatch.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "tik/writer.hpp"
 
 namespace nutik::app {
 namespace {
@@ -19,66 +18,6 @@ std::filesystem::path output_path(const Options& options) {
   const std::filesystem::path input = options.operands.front();
   return stated ? *stated : std::filesystem::path(input.stem().string() + ".tik");
 }
-
-// Everything of one encoding that goes on from sample to sample.
-class Encoding {
- public:
-  Encoding(SourceClip source, const SourceOptions& options, const tik::Codec& codec,
-           const std::filesystem::path& output)
-      : source_(std::move(source)),
-        options_(options),
-        builder_(source_.capture, source_.block_samples, options.tiles),
-        raster_(source_.capture.sample_bytes()) {
-    if (!source_.clip->read(raster_)) throw InputError("the clip has no picture");
-    tik::Header header;
-    header.capture = source_.capture;
-    const ClipTiming& timing = source_.clip->info().timing;
-    header.rate = options.clip.rate ? options.clip.rate : timing.rate;
-    header.shutter_angle = options.shutter_angle;
-    writer_.emplace(output, header, codec, raster_);
-  }
-
-  Timeline run(Progress& progress) {
-    do {
-      builder_.add(raster_);
-      progress.show(++sample_count_);
-      if (builder_.is_full()) write_block();
-    } while (source_.clip->read(raster_));
-    if (!builder_.is_empty()) write_block();
-    Timeline timeline = timeline_for(sample_count_);
-    writer_->finish(timeline);
-    return timeline;
-  }
-
-  [[nodiscard]] std::uint64_t bytes_written() const { return writer_->bytes_written(); }
-  [[nodiscard]] const SourceClip& source() const { return source_; }
-
- private:
-  [[nodiscard]] Timeline timeline_for(std::uint64_t samples) const {
-    return timeline_of(source_.clip->info(), options_.clip, options_.shutter_angle, samples);
-  }
-
-  void write_block() {
-    tik::BuiltBlock block{builder_.extent(), {}, builder_.record_count()};
-    const std::uint64_t bytes = builder_.finish(payload_);
-    block.payload = payload_.first(bytes);
-    std::span<const Exposure> exposures;
-    if (!times_) times_ = timeline_for(std::max(source_.clip->info().sample_count, sample_count_));
-    if (!times_->is_constant()) {
-      exposures = times_->table().subspan(block.extent.first_sample, block.extent.sample_count);
-    }
-    writer_->append(block, exposures);
-  }
-
-  SourceClip source_;
-  const SourceOptions& options_;
-  BlockBuilder builder_;
-  std::vector<std::byte> raster_;
-  PageBuffer payload_;
-  std::optional<tik::Writer> writer_;
-  std::optional<Timeline> times_;  // as announced
-  std::uint64_t sample_count_ = 0;
-};
 
 }  // namespace
 

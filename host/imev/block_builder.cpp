@@ -42,6 +42,27 @@ inline __attribute__((always_inline)) void gather_tile(const Code* raster, std::
   }
 }
 
+// The same for 8-bit colour, which most clips are: a row's 24 bytes are read as two overlapping vectors and
+// each plane's 8 picked from them. Compilers make three times the work of the plain loop.
+template <>
+inline __attribute__((always_inline)) void gather_tile<std::uint8_t, 3>(const std::uint8_t* raster,
+                                                                        std::size_t row_values,
+                                                                        std::uint8_t* codes) {
+  using Bytes = std::uint8_t __attribute__((vector_size(16)));
+  for (std::uint32_t y = 0; y < kTileSide; ++y) {
+    Bytes low, high;  // bytes 0 … 15 and 8 … 23 of the row: byte k of these is k or, from 16 on, k + 8
+    std::memcpy(&low, raster + y * row_values, 16);
+    std::memcpy(&high, raster + y * row_values + 8, 16);
+    const Bytes first = __builtin_shufflevector(low, high, 0, 3, 6, 9, 12, 15, 26, 29,  //
+                                                1, 4, 7, 10, 13, 24, 27, 30);
+    const Bytes last = __builtin_shufflevector(low, high, 2, 5, 8, 11, 14, 25, 28, 31,  //
+                                               2, 5, 8, 11, 14, 25, 28, 31);
+    std::memcpy(codes + y * kTileSide, &first, 8);
+    std::memcpy(codes + kTilePixels + y * kTileSide, reinterpret_cast<const char*>(&first) + 8, 8);
+    std::memcpy(codes + 2 * kTilePixels + y * kTileSide, &last, 8);
+  }
+}
+
 // Marks the lanes in which any channel of `codes` is further than `tolerance` from `held`: 1 or 0 each.
 // Returns whether there is one.
 template <typename Code, std::uint32_t Channels>

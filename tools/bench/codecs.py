@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""What each codec costs and saves, over real clips: sizes, encoding, whole renders cold and warm.
+
+    tools/bench/codecs.py --build build --clips FOLDER [--only NAME ...] [--runs 5] [--csv FILE]
+
+Encoding is compared with decoding the same clip and doing nothing with it, in turns in the same run. A
+render is the whole process that exposes all of the clip, from .tik to a picture; cold, the file's pages
+are dropped from the system's cache before. FFV1 (level 3, bgr0 or the clip's own deep format) is the
+lossless peer, as ffmpeg makes it. Times are medians, in seconds; sizes are in bytes.
+"""
+
+import argparse
+import csv
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+CLIPS = ("bicycle-wheel.mp4", "diabolo-cm-trajectory.mp4", "BallTossOut.mp4",
+         "one-by-one-person-detection.mp4", "bottle-detection.mp4", "bulk-water.mov", "realshort.mp4",
+         "bikes.mp4")
+CODECS = ("none", "lz4", "zstd:1", "zstd:3", "zstd:9")
+
+
+def run(*command):
+    start = time.perf_counter()
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"{' '.join(map(str, command))}\n{done.stderr}")
+    return time.perf_counter() - start
+
+
+def drop_from_cache(path):
+    descriptor = os.open(path, os.O_RDONLY)
+    os.fsync(descriptor)
+    os.posix_fadvise(descriptor, 0, 0, os.POSIX_FADV_DONTNEED)
+    os.close(descriptor)
+
+
+def ffv1_bytes(clip, folder):
+    target = folder / "peer.mkv"
+    run("ffmpeg", "-v", "error", "-y", "-i", clip, "-an", "-c:v", "ffv1", "-level", "3", "-pix_fmt", "bgr0",
+        target)
+    size = target.stat().st_size
+    target.unlink()
+    return size
+
+
+def measure(clip, build, folder, runs):
+    program, decode = build / "nutik-cl", build / "bench_decode"
+    captures = {codec: folder / f"{codec.replace(':', '-')}.tik" for codec in CODECS}
+    picture = folder / "picture.png"
+    times = {"decode": []}
+    for _ in range(runs):
+        times["decode"].append(run(decode, clip))
+        for codec in CODECS:
+            times.setdefault(("encode", codec), []).append(
+                run(program, "encode", "-q", "--codec", codec, clip, captures[codec]))
+    for _ in range(runs):
+        for codec in CODECS:
+            render = (program, "expose", "-q", "--start", "0s", "--exposure", "24h", "--live", "all",
+                      captures[codec], picture)
+            drop_from_cache(captures[codec])
+            times.setdefault(("cold", codec), []).append(run(*render))
+            times.setdefault(("warm", codec), []).append(run(*render))
+    medians = {key: statistics.median(values) for key, values in times.items()}
+    rows = []
+    peer = ffv1_bytes(clip, folder)
+    for codec in CODECS:
+        rows.append({
+            "clip": clip.name, "codec": codec, "bytes": captures[codec].stat().st_size, "ffv1_bytes": peer,
+            "source_bytes": clip.stat().st_size, "decode_s": medians["decode"],
+            "encode_s": medians["encode", codec], "cold_s": medians["cold", codec],
+            "warm_s": medians["warm", codec]})
+        captures[codec].unlink()
+    return rows
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=pathlib.Path, required=True, help="folder with nutik-cl and bench_decode")
+    parser.add_argument("--clips", type=pathlib.Path, required=True)
+    parser.add_argument("--only", nargs="*", default=CLIPS)
+    parser.add_argument("--runs", type=int, default=5)
+    parser.add_argument("--csv", type=pathlib.Path)
+    arguments = parser.parse_args()
+
+    everything = []
+    print(f"{'clip':34} {'codec':7} {'MB':>7} {'/ FFV1':>6} {'/ clip':>6} {'encode':>7} {'/ dec.':>6} "
+          f"{'cold':>6} {'warm':>6}")
+    with tempfile.TemporaryDirectory() as scratch:
+        for name in arguments.only:
+            for row in measure(arguments.clips / name, arguments.build.resolve(), pathlib.Path(scratch),
+                               arguments.runs):
+                everything.append(row)
+                print(f"{row['clip']:34} {row['codec']:7} {row['bytes'] / 1e6:7.2f} "
+                      f"{row['bytes'] / row['ffv1_bytes']:6.2f} {row['bytes'] / row['source_bytes']:6.1f} "
+                      f"{row['encode_s']:7.3f} {row['encode_s'] / row['decode_s']:6.2f} "
+                      f"{row['cold_s']:6.3f} {row['warm_s']:6.3f}", flush=True)
+    if arguments.csv:
+        with arguments.csv.open("w", newline="") as file:
+            writer = csv.DictWriter(file, everything[0].keys())
+            writer.writeheader()
+            writer.writerows(everything)
+
+
+if __name__ == "__main__":
+    main()
