@@ -1,10 +1,16 @@
+#include <algorithm>
+#include <array>
+
 #include "app/capture_input.hpp"
 #include "app/commands.hpp"
 #include "app/console.hpp"
+#include "app/output_name.hpp"
 #include "app/size_text.hpp"
 #include "app/time_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "imev/activity.hpp"
+#include "media/picture_writer.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik::app {
@@ -26,6 +32,20 @@ struct TileTally {
   }
 };
 
+void write_activity(tik::Reader& reader, const std::string& path) {
+  Activity activity(reader.format());
+  PageBuffer payload;
+  for (std::uint64_t block = 0; block < reader.block_count(); ++block) {
+    const std::uint64_t bytes = reader.prepare(block);
+    payload.reserve(bytes);
+    reader.read(block, payload.first(bytes));
+    activity.add(BlockView(reader.format(), reader.block_extent(block), payload.first(bytes)));
+  }
+  write_picture(path, activity_map(reader.format().shape, activity.changes()));
+  print_line(format("  activity    {}: black never changes, white {} times", path,
+                    *std::ranges::max_element(activity.changes())));
+}
+
 }  // namespace
 
 int run_info(const Options& options) {
@@ -35,18 +55,14 @@ int run_info(const Options& options) {
   const CaptureFormat& capture = reader.format();
   const Timeline& timeline = reader.timeline();
 
+  if (options.activity) check_output(*options.activity, OutputKind::picture, std::array{name});
+
   TileTally tally;
   std::uint64_t payload_bytes = 0, record_count = 0;
-  PageBuffer payload;
   for (std::uint64_t block = 0; block < reader.block_count(); ++block) {
-    const std::uint64_t bytes = reader.prepare(block);
-    payload.reserve(bytes);
-    reader.read(block, payload.first(bytes));
-    const BlockView view(capture, reader.block_extent(block), payload.first(bytes));
-    for (std::uint64_t tile = 0; tile < view.geometry().tile_count; ++tile) {
-      tally.count(view.geometry().kind_of(view.entry(tile)));
-    }
-    payload_bytes += bytes;
+    const BlockGeometry geometry(capture, reader.block_extent(block).sample_count);
+    for (const TileEntry& entry : reader.directory(block)) tally.count(geometry.kind_of(entry));
+    payload_bytes += reader.index()[block].payload_bytes;
     record_count += reader.index()[block].record_count;
   }
   const std::uint64_t raw_bytes = capture.sample_bytes() * timeline.sample_count();
@@ -72,6 +88,7 @@ int run_info(const Options& options) {
   print_line(format("  size        {} ({:.1f} % of {} raw), {} in memory, codec {}",
                     bytes_text(reader.file_bytes()), share(reader.file_bytes(), raw_bytes),
                     bytes_text(raw_bytes), bytes_text(payload_bytes), reader.header().codec));
+  if (options.activity) write_activity(reader, *options.activity);
   print_line(format("try: nutik-cl --start {}f --exposure 1f {} picture.png", timeline.sample_count() / 2,
                     name));
   return 0;

@@ -57,7 +57,10 @@ std::span<const Command> commands() {
        "nutik-cl -m regions.pgm -k regions.fn clip.tik picture.tif --depth 16\n"
        "nutik-cl -m regions.pgm -k difference.fn clip.tik -o light.pfm",
        run_expose},
-      {Id::info, "info", "CAPTURE.tik", "Say what a capture holds.", "nutik-cl info clip.tik", run_info},
+      {Id::info, "info", "CAPTURE.tik", "Say what a capture holds.",
+       "nutik-cl info clip.tik\n"
+       "nutik-cl info --activity map.png clip.tik",
+       run_info},
       {Id::devices, "devices", "", "List the OpenCL devices that --device can choose from.",
        "nutik-cl devices", run_devices},
       {Id::recover, "recover", "DAMAGED.tik [WHOLE.tik]",
@@ -102,16 +105,16 @@ std::span<const Option> options() {
              "differences up to this many codes are no change; 0 keeps every one (default: 0)",
              kEncode | kExpose, &Options::tolerance),
 
-      valued('k', "functions", "FILE.fn", kExposure, "the gain functions, one for each mask value; a file with a single one needs no mask",
-             kExpose, &Options::functions),
+      valued('k', "functions", "FILE.fn", kExposure, 
+             "the gain functions, one for each mask value; a file with a single one needs no mask", kExpose, &Options::functions),
       valued('m', "mask", "FILE.pgm", kExposure,
              "which function each pixel is exposed with: an 8-bit grey PGM or PNG", kExpose,
              &Options::mask),
       valued(0, "start", "TIME", kExposure,
              "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip",
              kExpose, &Options::start),
-      valued(0, "exposure", "TIME", kExposure, "length of the plain interval: 10ms, 1/100s, 250us, or 3f, to the end of the third picture",
-             kExpose, &Options::exposure),
+      valued(0, "exposure", "TIME", kExposure,
+             "length of the plain interval: 10ms, 1/100s, 250us, or 3f, to the end of the third picture", kExpose, &Options::exposure),
       valued(0, "unmapped", "zero", kExposure,
              "expose mask values without a function to black (default: an error)", kExpose,
              &Options::unmapped),
@@ -142,6 +145,9 @@ std::span<const Option> options() {
              kEncode | kExpose, &Options::tiles),
       valued(0, "block-samples", "N", kOutput, "samples in a block (default: 64, fewer for large pictures)",
              kEncode | kExpose, &Options::block_samples),
+      valued(0, "activity", "MAP.png", kOutput,
+             "also write how often each pixel changes, as a grey picture: black never, white most often",
+             bit(Id::info), &Options::activity),
       flag('q', "quiet", kOutput, "no progress bar and no summary", kAll, &Options::quiet),
   };
   return table;

@@ -38,6 +38,7 @@ struct Options {
   std::optional<std::string> codec;
   std::optional<std::string> tiles;
   std::optional<std::string> block_samples;
+  std::optional<std::string> activity;
 
   bool quiet = false;
 };

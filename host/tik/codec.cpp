@@ -138,6 +138,43 @@ class StoredReader {
   std::span<const std::byte> rest_;
 };
 
+// What stands in front of a stored payload's bodies, and the directory that follows from it.
+struct StoredFront {
+  std::vector<StoredGroup> groups;
+  std::vector<TileEntry> entries;
+  StoredReader bodies;
+};
+
+StoredFront read_front(CodecId codec, const BlockGeometry& geometry, std::span<const std::byte> stored,
+                       std::uint64_t payload_bytes) {
+  StoredReader reader(stored);
+  const auto group_count = reader.take<std::uint32_t>();
+  reader.take<std::uint32_t>();
+  const auto group_table = reader.take(std::uint64_t{group_count} * sizeof(StoredGroup));
+  std::vector<StoredGroup> groups(group_count);
+  std::memcpy(groups.data(), group_table.data(), group_table.size());
+  const auto counts_bytes = reader.take<std::uint32_t>();
+  reader.take<std::uint32_t>();
+  std::vector<std::uint32_t> counts(geometry.tile_count);
+  if (!decompress(codec, reader.take(counts_bytes), std::as_writable_bytes(std::span(counts)))) {
+    fail_damaged();
+  }
+
+  // Offsets again: bodies lie one behind the other.
+  std::vector<TileEntry> entries(geometry.tile_count);
+  std::uint64_t offset = geometry.directory_bytes();
+  for (std::size_t tile = 0; tile < entries.size(); ++tile) {
+    entries[tile] = {static_cast<std::uint32_t>(offset / kBlockAlignment), counts[tile]};
+    const TileEntry& entry = entries[tile];
+    const bool plausible = entry.is_records() ? entry.slots() < geometry.sample_count
+                                              : entry.rows() >= 1 && entry.rows() <= geometry.sample_count;
+    if (!plausible) fail_damaged();
+    offset += geometry.body_bytes(entry);
+  }
+  if (offset != payload_bytes) fail_damaged();
+  return {std::move(groups), std::move(entries), reader};
+}
+
 }  // namespace
 
 Codec Codec::parse(std::string_view text) {
@@ -198,6 +235,15 @@ std::vector<std::byte> pack(const Codec& codec, const BlockGeometry& geometry,
   return stored;
 }
 
+std::vector<TileEntry> unpack_directory(CodecId codec, const BlockGeometry& geometry,
+                                        std::span<const std::byte> stored, std::uint64_t payload_bytes) {
+  if (codec != CodecId::none) return read_front(codec, geometry, stored, payload_bytes).entries;
+  std::vector<TileEntry> entries(geometry.tile_count);
+  if (stored.size() < geometry.directory_bytes()) fail_damaged();
+  std::memcpy(entries.data(), stored.data(), entries.size() * sizeof(TileEntry));
+  return entries;
+}
+
 void unpack(CodecId codec, const BlockGeometry& geometry, std::span<const std::byte> stored,
             std::span<std::byte> payload) {
   if (codec == CodecId::none) {
@@ -205,46 +251,22 @@ void unpack(CodecId codec, const BlockGeometry& geometry, std::span<const std::b
     std::memcpy(payload.data(), stored.data(), stored.size());
     return;
   }
-  StoredReader reader(stored);
-  const auto group_count = reader.take<std::uint32_t>();
-  reader.take<std::uint32_t>();
-  const auto group_table = reader.take(std::uint64_t{group_count} * sizeof(StoredGroup));
-  std::vector<StoredGroup> groups(group_count);
-  std::memcpy(groups.data(), group_table.data(), group_table.size());
-  const auto counts_bytes = reader.take<std::uint32_t>();
-  reader.take<std::uint32_t>();
-  std::vector<std::uint32_t> counts(geometry.tile_count);
-  if (!decompress(codec, reader.take(counts_bytes), std::as_writable_bytes(std::span(counts)))) {
-    fail_damaged();
-  }
-
-  // The directory again: bodies lie one behind the other.
-  std::vector<TileEntry> entries(geometry.tile_count);
-  std::uint64_t offset = geometry.directory_bytes();
-  for (std::size_t tile = 0; tile < entries.size(); ++tile) {
-    entries[tile] = {static_cast<std::uint32_t>(offset / kBlockAlignment), counts[tile]};
-    const TileEntry& entry = entries[tile];
-    const bool plausible = entry.is_records() ? entry.slots() < geometry.sample_count
-                                              : entry.rows() >= 1 && entry.rows() <= geometry.sample_count;
-    if (!plausible) fail_damaged();
-    offset += geometry.body_bytes(entry);
-  }
-  if (offset != payload.size()) fail_damaged();
+  StoredFront front = read_front(codec, geometry, stored, payload.size());
   std::memset(payload.data(), 0, geometry.directory_bytes());
-  std::memcpy(payload.data(), entries.data(), entries.size() * sizeof(TileEntry));
+  std::memcpy(payload.data(), front.entries.data(), front.entries.size() * sizeof(TileEntry));
 
   std::vector<std::span<const std::byte>> packed;
   std::vector<std::size_t> firsts;
   std::size_t next = 0;
-  for (const StoredGroup& group : groups) {
+  for (const StoredGroup& group : front.groups) {
     firsts.push_back(next);
     next += group.tile_count;
-    packed.push_back(reader.take(group.packed_bytes));
+    packed.push_back(front.bodies.take(group.packed_bytes));
   }
-  if (next != entries.size()) fail_damaged();
+  if (next != front.entries.size()) fail_damaged();
   std::atomic<bool> good{true};
-  parallel_for(groups.size(), [&](std::uint64_t g) {
-    const TileGroup group{std::span(entries).subspan(firsts[g], groups[g].tile_count), geometry};
+  parallel_for(front.groups.size(), [&](std::uint64_t g) {
+    const TileGroup group{std::span(front.entries).subspan(firsts[g], front.groups[g].tile_count), geometry};
     PlainGroup plain;
     if (unpack_group(codec, group, packed[g], plain)) {
       reconstruct(group, plain, payload);

@@ -44,4 +44,9 @@ struct Codec {
 void unpack(CodecId codec, const BlockGeometry& geometry, std::span<const std::byte> stored,
             std::span<std::byte> payload);
 
+// The payload's tile directory alone, without its bodies. Throws as unpack() does.
+[[nodiscard]] std::vector<TileEntry> unpack_directory(CodecId codec, const BlockGeometry& geometry,
+                                                      std::span<const std::byte> stored,
+                                                      std::uint64_t payload_bytes);
+
 }  // namespace nutik::tik

@@ -152,6 +152,16 @@ void Reader::read(std::uint64_t block, std::span<std::byte> into) {
   }
 }
 
+std::vector<TileEntry> Reader::directory(std::uint64_t block) const {
+  const BlockGeometry geometry(header_.capture, index_[block].sample_count);
+  try {
+    return unpack_directory(static_cast<CodecId>(index_[block].codec), geometry, stored_payload(block),
+                            index_[block].payload_bytes);
+  } catch (const InputError& error) {
+    fail_block(block, error.what());
+  }
+}
+
 std::span<const std::byte> Reader::region() const {
   const bool all_plain = std::all_of(index_.begin(), index_.end(), [](const IndexEntry& entry) {
     return entry.codec == static_cast<std::uint32_t>(CodecId::none);

@@ -30,6 +30,10 @@ class Reader final : public CaptureSource {
   std::uint64_t prepare(std::uint64_t block) override;
   void read(std::uint64_t block, std::span<std::byte> into) override;
 
+  // A block's tile directory alone: what kinds of tiles it has costs no look at their bodies. Only the
+  // header's checksum is checked.
+  [[nodiscard]] std::vector<TileEntry> directory(std::uint64_t block) const;
+
   // The mapped file where no block is packed.
   [[nodiscard]] std::span<const std::byte> region() const override;
   [[nodiscard]] std::uint64_t region_offset(std::uint64_t block) const override;

@@ -53,6 +53,21 @@ TEST_F(CommandLine, TakesThePapersForms) {
   EXPECT_TRUE(exists("b-two.png"));
 }
 
+TEST_F(CommandLine, SaysWhatACaptureHolds) {
+  const ProgramResult info = run({"info", "clip.tik", "--activity", "map.png"});
+  EXPECT_EQ(info.status, 0) << info.err;
+  for (const char* part : {"16 x 16 colour, 8 bits, white code 255, transfer srgb", "6 in 1 blocks",
+                           "25 samples a second, shutter 360 degrees", "5.00 records a pixel",
+                           "100.0 % dense", "map.png: black never changes, white 5 times",
+                           "try: nutik-cl --start 3f --exposure 1f clip.tik picture.png"}) {
+    EXPECT_NE(info.out.find(part), std::string::npos) << part << " is not in\n" << info.out;
+  }
+  EXPECT_TRUE(exists("map.png"));
+  EXPECT_EQ(run({"clip.tik"}).out, run({"info", "clip.tik"}).out);
+  expect_refused({"info", "clip.tik", "--activity", "clip.tik"}, 2, "is also an input");
+  expect_refused({"info", "clip.tik", "--activity", "map.txt"}, 2, ".png");
+}
+
 TEST_F(CommandLine, TakesOptionsAndOperandsInAnyOrder) {
   EXPECT_EQ(run({"clip.tik", "-k", "one.fn", "first.png"}).status, 0);
   EXPECT_EQ(run({"-k", "one.fn", "clip.tik", "second.png"}).status, 0);
