@@ -9,6 +9,7 @@
 #include "app/stopwatch.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/still_sequence.hpp"
 #include "tik/writer.hpp"
 
 namespace nutik::app {
@@ -16,20 +17,22 @@ namespace {
 
 std::filesystem::path output_path(const Options& options) {
   const auto stated = stated_output(options.output, options.operands, "encode");
-  const std::filesystem::path input = options.operands.front();
-  return stated ? *stated : std::filesystem::path(input.stem().string() + ".tik");
+  return stated ? *stated : std::filesystem::path(sequence_name(options.operands.front()) + ".tik");
 }
 
 // Everything of one encoding that goes on from sample to sample.
 class Encoding {
  public:
   Encoding(SourceClip source, const SourceOptions& options, const tik::Codec& codec,
-           const std::filesystem::path& output)
+           const std::string& input, const std::filesystem::path& output)
       : source_(std::move(source)),
         options_(options),
+        input_(input),
         builder_(source_.capture, source_.block_samples, options.tiles),
-        raster_(source_.capture.sample_bytes()) {
-    if (!source_.clip->read(raster_)) throw InputError("the clip has no picture");
+        raster_(source_.capture.sample_bytes()),
+        // Before anything is read, so that times that cannot be used are said at once.
+        times_(timeline_for(std::max<std::uint64_t>(source_.clip->info().sample_count, 1))) {
+    if (!source_.clip->read(raster_)) throw InputError(format("{} has no picture", input));
     tik::Header header;
     header.capture = source_.capture;
     const ClipTiming& timing = source_.clip->info().timing;
@@ -47,6 +50,7 @@ class Encoding {
     if (!builder_.is_empty()) write_block();
     Timeline timeline = timeline_for(sample_count_);
     writer_->finish(timeline);
+    warn_of_count();
     return timeline;
   }
 
@@ -55,7 +59,16 @@ class Encoding {
 
  private:
   [[nodiscard]] Timeline timeline_for(std::uint64_t samples) const {
-    return timeline_of(source_.clip->info(), options_.clip, options_.shutter_angle, samples);
+    return timeline_of(input_, source_.clip->info(), options_.clip, options_.shutter_angle, samples);
+  }
+
+  // Pictures that a decoder leaves out shift all behind them to earlier times.
+  void warn_of_count() const {
+    const std::uint64_t announced = source_.clip->info().sample_count;
+    if (announced == 0 || announced == sample_count_) return;
+    print_warning(format("{} announces {} pictures and {} could be decoded: if some within are damaged, those "
+                         "after them have the times of others",
+                         input_, announced, sample_count_));
   }
 
   void write_block() {
@@ -63,20 +76,21 @@ class Encoding {
     const std::uint64_t bytes = builder_.finish(payload_);
     block.payload = payload_.first(bytes);
     std::span<const Exposure> exposures;
-    if (!times_) times_ = timeline_for(std::max(source_.clip->info().sample_count, sample_count_));
-    if (!times_->is_constant()) {
-      exposures = times_->table().subspan(block.extent.first_sample, block.extent.sample_count);
+    if (sample_count_ > times_.sample_count()) times_ = timeline_for(sample_count_);
+    if (!times_.is_constant()) {
+      exposures = times_.table().subspan(block.extent.first_sample, block.extent.sample_count);
     }
     writer_->append(block, exposures);
   }
 
   SourceClip source_;
   const SourceOptions& options_;
+  std::string input_;
   BlockBuilder builder_;
   std::vector<std::byte> raster_;
+  Timeline times_;  // as announced
   PageBuffer payload_;
   std::optional<tik::Writer> writer_;
-  std::optional<Timeline> times_;  // as announced
   std::uint64_t sample_count_ = 0;
 };
 
@@ -97,7 +111,7 @@ int run_encode(const Options& options) {
 
   SourceClip source = open_source(input, source_options);
   const ClipInfo info = source.clip->info();
-  Encoding encoding(std::move(source), source_options, codec, output);
+  Encoding encoding(std::move(source), source_options, codec, input, output);
   Progress progress("encoding", info.sample_count, options.quiet);
   const Timeline timeline = encoding.run(progress);
   if (options.quiet) return 0;
