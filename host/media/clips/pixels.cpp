@@ -25,17 +25,108 @@ AVPixelFormat raster_format(const PixelKind& kind) {
   }
 }
 
+bool is_yuv(AVPixelFormat format) {
+  const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(format);
+  return pixels.nb_components >= 3 &&
+         (pixels.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BAYER)) == 0 &&
+         format != AV_PIX_FMT_XYZ12LE && format != AV_PIX_FMT_XYZ12BE;
+}
+
+bool has_full_range(const AVFrame& frame) {
+  return frame.color_range == AVCOL_RANGE_JPEG ||
+         std::string_view(av_get_pix_fmt_name(static_cast<AVPixelFormat>(frame.format)))
+             .starts_with("yuvj");
+}
+
 // libswscale takes every YUV picture for BT.601 with limited range unless it is told otherwise.
 void set_colours(SwsContext* scaler, const AVFrame& frame) {
-  const AVPixFmtDescriptor* pixels = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(frame.format));
-  const bool is_yuv = pixels->nb_components >= 3 &&
-                      (pixels->flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BAYER)) == 0;
-  if (!is_yuv) return;
-  const bool full_range =
-      frame.color_range == AVCOL_RANGE_JPEG || std::string_view(pixels->name).starts_with("yuvj");
   constexpr int kOne = 1 << 16;  // contrast and saturation
-  sws_setColorspaceDetails(scaler, sws_getCoefficients(frame.colorspace), full_range ? 1 : 0,
-                           sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, kOne, kOne);
+  sws_setColorspaceDetails(scaler, sws_getCoefficients(frame.colorspace),
+                           has_full_range(frame) ? 1 : 0, sws_getCoefficients(SWS_CS_DEFAULT), 1, 0,
+                           kOne, kOne);
+}
+
+// What red and blue weigh in a matrix's luma.
+struct LumaWeights {
+  double red, blue;
+};
+
+LumaWeights luma_weights(AVColorSpace space) {
+  switch (space) {
+    case AVCOL_SPC_BT709:
+      return {0.2126, 0.0722};
+    case AVCOL_SPC_FCC:
+      return {0.30, 0.11};
+    case AVCOL_SPC_SMPTE240M:
+      return {0.212, 0.087};
+    case AVCOL_SPC_BT2020_NCL:
+    case AVCOL_SPC_BT2020_CL:
+      return {0.2627, 0.0593};
+    default:
+      return {0.299, 0.114};  // BT.601
+  }
+}
+
+AVPixelFormat planar_format(std::uint32_t bits) {
+  switch (bits) {
+    case 9:
+      return AV_PIX_FMT_YUV444P9;
+    case 10:
+      return AV_PIX_FMT_YUV444P10;
+    case 12:
+      return AV_PIX_FMT_YUV444P12;
+    case 14:
+      return AV_PIX_FMT_YUV444P14;
+    default:
+      return AV_PIX_FMT_YUV444P16;
+  }
+}
+
+// Turns planes of Y, U and V of `bits` bits into RGB over 16 bits, each code the nearest there is.
+// libswscale would do it, too, but its white is 65280 for limited range and 65472 for full range of
+// 10 bits: off by up to 4 codes of the source.
+void yuv_to_rgb(const AVFrame& planes, std::uint32_t bits, AVFrame& rgb) {
+  const auto [red_weight, blue_weight] = luma_weights(planes.colorspace);
+  const bool full = has_full_range(planes);
+  const double unit = std::ldexp(1.0, static_cast<int>(bits) - 8);
+  const double black = full ? 0.0 : 16.0 * unit, grey = 128.0 * unit;
+  const double most = std::ldexp(1.0, static_cast<int>(bits)) - 1;
+  const double luma_scale = 65'535.0 / (full ? most : 219.0 * unit);
+  const double chroma_scale = 65'535.0 / (full ? most : 224.0 * unit);
+  const double red_of_v = 2.0 * (1.0 - red_weight) * chroma_scale;
+  const double blue_of_u = 2.0 * (1.0 - blue_weight) * chroma_scale;
+  const double green_weight = 1.0 - red_weight - blue_weight;
+  const double green_of_v = red_weight / green_weight * red_of_v;
+  const double green_of_u = blue_weight / green_weight * blue_of_u;
+  const auto nearest = [](double value) {
+    return static_cast<std::uint16_t>(std::clamp(value, 0.0, 65'535.0) + 0.5);
+  };
+  for (int row = 0; row < planes.height; ++row) {
+    const auto plane = [&](int index) {
+      return reinterpret_cast<const std::uint16_t*>(
+          planes.data[index] + static_cast<std::ptrdiff_t>(row) * planes.linesize[index]);
+    };
+    const std::uint16_t *y = plane(0), *u = plane(1), *v = plane(2);
+    auto* out = reinterpret_cast<std::uint16_t*>(rgb.data[0] + static_cast<std::ptrdiff_t>(row) *
+                                                                   rgb.linesize[0]);
+    for (int x = 0; x < planes.width; ++x) {
+      const double luma = (y[x] - black) * luma_scale, from_u = u[x] - grey, from_v = v[x] - grey;
+      out[3 * x] = nearest(luma + red_of_v * from_v);
+      out[3 * x + 1] = nearest(luma - green_of_v * from_v - green_of_u * from_u);
+      out[3 * x + 2] = nearest(luma + blue_of_u * from_u);
+    }
+  }
+}
+
+FramePointer new_frame(AVPixelFormat pixels, int width, int height) {
+  FramePointer frame(av_frame_alloc());
+  frame->format = pixels;
+  frame->width = width;
+  frame->height = height;
+  // Its rows have room behind them for the whole vectors that libswscale writes; a raster's have
+  // none.
+  if (av_frame_get_buffer(frame.get(), 0) < 0) throw std::bad_alloc();
+  return frame;
 }
 
 // Copies a row-major picture of `height` rows while it is turned.
@@ -113,18 +204,11 @@ int quarter_turns(const AVStream& stream) {
   return static_cast<int>((std::lround(-turned / 90.0) % 4 + 4) % 4);
 }
 
-const AVFrame& PixelConverter::converted(const AVFrame& frame, const std::string& name) {
-  const AVPixelFormat wanted = raster_format(kind_);
+const AVFrame& PixelConverter::scaled(const AVFrame& frame, AVPixelFormat wanted,
+                                      const std::string& name) {
   const auto from = static_cast<AVPixelFormat>(frame.format);
   if (from == wanted) return frame;
-  if (!target_ || target_->width != frame.width || target_->height != frame.height) {
-    // libswscale may write whole vectors beyond a row's end, for which a raster has no room.
-    target_.reset(av_frame_alloc());
-    target_->format = wanted;
-    target_->width = frame.width;
-    target_->height = frame.height;
-    if (av_frame_get_buffer(target_.get(), 0) < 0) throw std::bad_alloc();
-  }
+  if (!scaled_ || scaled_->format != wanted) scaled_ = new_frame(wanted, frame.width, frame.height);
   scaler_.reset(sws_getCachedContext(
       scaler_.release(), frame.width, frame.height, from, frame.width, frame.height, wanted,
       SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT, nullptr, nullptr, nullptr));
@@ -132,10 +216,25 @@ const AVFrame& PixelConverter::converted(const AVFrame& frame, const std::string
     throw InputError(
         format("{}: pixels of {} cannot be converted", name, av_get_pix_fmt_name(from)));
   }
-  set_colours(scaler_.get(), frame);
-  sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, target_->data,
-            target_->linesize);
-  return *target_;
+  if (is_yuv(from) && !is_yuv(wanted)) {
+    set_colours(scaler_.get(), frame);
+  }
+  sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, scaled_->data,
+            scaled_->linesize);
+  scaled_->colorspace = frame.colorspace;
+  scaled_->color_range = frame.color_range;
+  return *scaled_;
+}
+
+const AVFrame& PixelConverter::converted(const AVFrame& frame, const std::string& name) {
+  const bool deep_yuv =
+      !kind_.is_grey && kind_.bits > 8 && is_yuv(static_cast<AVPixelFormat>(frame.format));
+  if (!deep_yuv) return scaled(frame, raster_format(kind_), name);
+  // libswscale only gives every pixel its U and V.
+  const AVFrame& planes = scaled(frame, planar_format(kind_.bits), name);
+  if (!rgb_) rgb_ = new_frame(AV_PIX_FMT_RGB48, frame.width, frame.height);
+  yuv_to_rgb(planes, kind_.bits, *rgb_);
+  return *rgb_;
 }
 
 void PixelConverter::convert(const AVFrame& frame, std::span<std::byte> raster,

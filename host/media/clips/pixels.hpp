@@ -37,16 +37,19 @@ class PixelConverter {
   PixelConverter(PixelKind kind, int turns) : kind_(kind), turns_(turns) {}
 
   // Writes `frame`, turned upright, as a raster of width x height x (1 or 3) codes of 1 or 2 bytes.
-  // Throws InputError naming the file where FFmpeg cannot convert it.
+  // All frames must have one size. Throws InputError naming the file where FFmpeg cannot convert
+  // it.
   void convert(const AVFrame& frame, std::span<std::byte> raster, const std::string& name);
 
  private:
   const AVFrame& converted(const AVFrame& frame, const std::string& name);
+  const AVFrame& scaled(const AVFrame& frame, AVPixelFormat wanted, const std::string& name);
 
   PixelKind kind_;
   int turns_;
   ScalerPointer scaler_;
-  FramePointer target_;
+  FramePointer scaled_;
+  FramePointer rgb_;
 };
 
 }  // namespace nutik::clips

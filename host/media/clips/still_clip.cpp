@@ -54,10 +54,20 @@ Still read_netpbm_still(const std::filesystem::path& file) {
   return still_of(std::move(picture), maximum);
 }
 
+// Where a JPEG was cut off, its decoder fills the rest with grey and says nothing. Its end marker
+// and the start of a scan cannot occur within a scan.
+bool is_cut_off_jpeg(const std::filesystem::path& file) {
+  const MappedFile mapped(file);
+  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()),
+                               mapped.bytes().size());
+  const auto scan = bytes.rfind("\xFF\xDA"), end = bytes.rfind("\xFF\xD9");
+  return bytes.starts_with("\xFF\xD8") && (scan == bytes.npos || end == bytes.npos || end < scan);
+}
+
 Still read_with_opencv(const std::filesystem::path& file) {
   cv::Mat picture = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
   const std::string name = file.string();
-  if (picture.empty()) {
+  if (picture.empty() || is_cut_off_jpeg(file)) {
     throw InputError(format("{} cannot be read: it is damaged or no picture", name));
   }
   if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
