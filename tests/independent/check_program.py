@@ -16,6 +16,7 @@ from pathlib import Path
 
 import cases_by_hand
 import cases_decoding
+import cases_deep
 import cases_intervals
 import cases_options
 import cases_paper
@@ -29,7 +30,7 @@ def arguments():
     parser.add_argument("--media", type=Path, help="folder of the sample clips")
     parser.add_argument("--work", required=True, type=Path, help="folder for files")
     parser.add_argument("--only", default="", help="sections whose name contains this: numbers, "
-                        "by-hand, small, interval, options, decoding, paper")
+                        "by-hand, small, interval, options, vfr, decoding, deep, paper")
     return parser.parse_args()
 
 
@@ -44,11 +45,12 @@ def attempt(checks, name, run, *given):
 def generated(checks, wanted):
     """The sections that generate their own clips."""
     sections = [("by-hand", cases_by_hand.run), ("small", cases_small.run),
-                ("interval", cases_intervals.run), ("options", cases_options.run)]
+                ("interval", cases_intervals.run), ("options", cases_options.run),
+                ("vfr", cases_deep.generated)]
     if wanted in "numbers":
         attempt(checks, "numbers", cases_by_hand.numbers)
     if shutil.which("ffmpeg") is None:
-        print("SKIPPED: by-hand, small, interval, options: needs the ffmpeg command, to make clips "
+        print("SKIPPED: by-hand, small, interval, options, vfr: needs the ffmpeg command, to make clips "
               "that lose nothing")
         return
     for name, run in sections:
@@ -59,10 +61,12 @@ def generated(checks, wanted):
 def recorded(checks, media, wanted):
     """The sections that need the recorded clips."""
     if media is None or not media.is_dir():
-        print("SKIPPED: decoding, paper: needs the clips (--media DIR)")
+        print("SKIPPED: decoding, deep, paper: needs the clips (--media DIR)")
         return
     if wanted in "decoding":
         attempt(checks, "decoding", cases_decoding.run, media.resolve())
+    if wanted in "deep":
+        attempt(checks, "deep", cases_deep.recorded, media.resolve())
     attempt(checks, "paper", cases_paper.run, media.resolve(), wanted)
 
 

@@ -11,10 +11,10 @@
 namespace nutik {
 namespace {
 
-using test::open_test_clip;
-using test::read_all;
 using test::difference;
 using test::netpbm_file;
+using test::open_test_clip;
+using test::read_all;
 using test::Scratch;
 using test::tiff_file;
 using test::TiffOptions;

@@ -1,12 +1,11 @@
-// Video whose depth or times OpenCV's reader would lose: codes, white, transfer and times.
+// Video whose depth OpenCV's reader would lose: codes, white and transfer.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "capture/error.hpp"
 #include "support/clips.hpp"
-#include "support/program.hpp"
+#include "support/ffmpeg.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
@@ -14,28 +13,16 @@
 namespace nutik {
 namespace {
 
+using test::bytes_of;
 using test::difference;
+using test::expect_clip_refused;
+using test::from_raw;
+using test::make;
 using test::open_test_clip;
 using test::read_all;
 using test::Scratch;
 
 constexpr Shape kGrey{17, 9, 1}, kColour{17, 9, 3};
-
-bool has_ffmpeg() {
-  const Scratch scratch;
-  return test::run_shell("ffmpeg -version", scratch.folder()).status == 0;
-}
-
-#define NEEDS_FFMPEG() \
-  if (!has_ffmpeg()) GTEST_SKIP() << "the ffmpeg command is missing, which makes the clips"
-
-std::string bytes_of(const std::vector<Picture>& pictures) {
-  std::string bytes;
-  for (const Picture& picture : pictures) {
-    bytes.append(reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size());
-  }
-  return bytes;
-}
 
 std::string with_bytes_swapped(std::string bytes) {
   for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) std::swap(bytes[i], bytes[i + 1]);
@@ -49,17 +36,6 @@ ClipOptions raw_options(Shape shape, const std::string& pixels) {
   return options;
 }
 
-// Runs ffmpeg in the scratch folder.
-void make(const Scratch& scratch, const std::string& words) {
-  const auto made = test::run_shell("ffmpeg -v error -y " + words, scratch.folder());
-  ASSERT_EQ(made.status, 0) << words << "\n" << made.err;
-}
-
-std::string from_raw(Shape shape, const std::string& pixels) {
-  return "-f rawvideo -s " + std::to_string(shape.width) + "x" + std::to_string(shape.height) +
-         " -r 25 -pix_fmt " + pixels + " -i raw ";
-}
-
 void expect_codes(Clip& clip, const std::vector<Picture>& pictures) {
   ASSERT_EQ(clip.info().format.shape, pictures[0].shape);
   ASSERT_EQ(clip.info().format.white_code, pictures[0].white_code);
@@ -67,18 +43,6 @@ void expect_codes(Clip& clip, const std::vector<Picture>& pictures) {
   ASSERT_EQ(rasters.size(), pictures.size());
   for (std::size_t k = 0; k < pictures.size(); ++k)
     EXPECT_EQ(difference(rasters[k], pictures[k]), "") << k;
-}
-
-void expect_refused(const std::filesystem::path& path, const ClipOptions& options,
-                    const std::string& part) {
-  try {
-    const auto clip = open_test_clip(path, options);
-    const auto rasters = read_all(*clip);
-    static_cast<void>(timeline_of(path.string(), clip->info(), options, {360, 1}, rasters.size()));
-    FAIL() << path << " was read";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-  }
 }
 
 TEST(VideoClip, KeepsGreyCodeForCode) {
@@ -250,20 +214,22 @@ TEST(VideoClip, KeepsTheDepthOfSubsampledLuma) {
 TEST(VideoClip, RefusesWhatItCannotKeep) {
   const Scratch scratch;
   const auto file = scratch.write("raw", std::string(17 * 9 * 4, '\0'));
-  expect_refused(file, raw_options(kGrey, "grayf32le"), "holds floating-point pixels (grayf32le)");
-  expect_refused(
+  expect_clip_refused(file, raw_options(kGrey, "grayf32le"),
+                      "holds floating-point pixels (grayf32le)");
+  expect_clip_refused(
       file, raw_options({17, 8, 1}, "gray"),
       "612 bytes, which is no whole number of pictures of 136 bytes (17 x 8, gray); check --raw");
-  expect_refused(file, raw_options(kGrey, "grey"), "'grey' is no pixel format that FFmpeg knows");
-  expect_refused(scratch.write("empty", ""), raw_options(kGrey, "gray"), "0 bytes");
+  expect_clip_refused(file, raw_options(kGrey, "grey"),
+                      "'grey' is no pixel format that FFmpeg knows");
+  expect_clip_refused(scratch.write("empty", ""), raw_options(kGrey, "gray"), "0 bytes");
   ClipOptions without_rate = raw_options(kGrey, "gray");
   without_rate.rate.reset();
-  expect_refused(file, without_rate,
-                 "raw does not say how fast it was taken; state the rate with --fps");
+  expect_clip_refused(file, without_rate,
+                      "raw does not say how fast it was taken; state the rate with --fps");
   ClipOptions with_white = raw_options(kColour, "rgb48le");
   with_white.white_code = 1023;
-  expect_refused(scratch.write("rgb", std::string(17 * 9 * 6, '\0')), with_white,
-                 "--white 1023: colour video is converted to RGB, whose white is 65535");
+  expect_clip_refused(scratch.write("rgb", std::string(17 * 9 * 6, '\0')), with_white,
+                      "--white 1023: colour video is converted to RGB, whose white is 65535");
 }
 
 TEST(VideoClip, SaysThatATransferFunctionIsNotKnown) {
@@ -302,67 +268,6 @@ TEST(VideoClip, StandsUprightAsPlayersShowIt) {
   }
 }
 
-// Times in ms, that fit no rate.
-const std::vector<std::int64_t> kStarts{0, 40, 80, 120, 240, 250, 490};
-
-void make_irregular(const Scratch& scratch, const std::string& output, const std::string& codec) {
-  const auto pictures = test::random_stills({32, 16, 1}, 255, static_cast<int>(kStarts.size()), 2);
-  scratch.write("raw", bytes_of(pictures));
-  std::string times;
-  for (std::size_t k = 0; k < kStarts.size(); ++k) {
-    times += (k == 0 ? "eq(N," : "+eq(N,") + std::to_string(k) + ")*" + std::to_string(kStarts[k]);
-  }
-  make(scratch, from_raw({32, 16, 1}, "gray") + "-vf \"settb=1/1000,setpts='" + times +
-                    "'\" -vsync vfr -enc_time_base 1:1000 " + codec + " " + output);
-}
-
-TEST(VideoClip, TakesIrregularTimesFromTheContainer) {
-  NEEDS_FFMPEG();
-  for (const auto& [output, codec] :
-       {std::pair<std::string, std::string>{"clip.mkv", "-c:v ffv1 -pix_fmt gray"},
-        {"clip.mp4", "-c:v libx264 -bf 2 -pix_fmt yuv420p10le -video_track_timescale 1000"},
-        {"eight.mp4", "-c:v libx264 -bf 2 -pix_fmt yuv420p -video_track_timescale 90000"}}) {
-    SCOPED_TRACE(output);
-    const Scratch scratch;
-    make_irregular(scratch, output, codec);
-    const auto clip = open_test_clip(scratch / output);
-    ASSERT_FALSE(clip->info().timing.rate);
-    ASSERT_EQ(clip->info().sample_count, kStarts.size());
-    EXPECT_EQ(read_all(*clip).size(), kStarts.size());
-    const Timeline timeline = timeline_of(output, clip->info(), {}, {180, 1}, kStarts.size());
-    for (std::size_t k = 0; k < kStarts.size(); ++k) {
-      EXPECT_EQ(timeline.start_ns(k), kStarts[k] * 1'000'000);
-      const std::int64_t period = k + 1 < kStarts.size() ? kStarts[k + 1] - kStarts[k] : 240;
-      EXPECT_EQ(timeline.end_ns(k), kStarts[k] * 1'000'000 + period * 500'000);
-    }
-    EXPECT_EQ(timeline.duration_ns(), 730'000'000);
-    // A stated rate goes before them.
-    ClipOptions stated;
-    stated.rate = Rational{100, 1};
-    EXPECT_TRUE(timeline_of(output, clip->info(), stated, {360, 1}, kStarts.size()).is_constant());
-  }
-}
-
-TEST(VideoClip, RefusesTimesThatDoNotIncrease) {
-  NEEDS_FFMPEG();
-  const Scratch scratch;
-  make_irregular(scratch, "clip.mkv", "-c:v ffv1 -pix_fmt gray");
-  // A block's header: track 1, then the time after the cluster's in 16 bits.
-  std::string bytes = test::read_file(scratch / "clip.mkv");
-  const auto at = bytes.find(std::string("\x81\x00\xFA", 3));  // 250 ms
-  ASSERT_NE(at, std::string::npos);
-  bytes[at + 2] = '\xF0';  // 240 ms, as the picture before
-  const auto clip = scratch.write("same.mkv", bytes);
-  expect_refused(
-      clip, {},
-      "same.mkv: sample 5 starts at 240000000 ns, not after sample 4 at 240000000 ns; if they "
-      "were taken at a constant rate, state it with --fps");
-  ClipOptions stated;
-  stated.rate = Rational{25, 1};
-  EXPECT_TRUE(
-      timeline_of("", open_test_clip(clip, stated)->info(), stated, {360, 1}, 7).is_constant());
-}
-
 TEST(VideoClip, RefusesPicturesThatTheDecoderMarksAsDamaged) {
   NEEDS_FFMPEG();
   const Scratch scratch;
@@ -382,42 +287,6 @@ TEST(VideoClip, RefusesPicturesThatTheDecoderMarksAsDamaged) {
   }
   EXPECT_GE(refused, 5);
   std::printf("  %d of 15 damaged files refused\n", refused);
-}
-
-// Camera files, against bytes picked out of them by hand.
-TEST(VideoClip, GivesTheCodesThatCineFilesHold) {
-  const std::filesystem::path media = NUTIK_TEST_MEDIA;
-  if (!std::filesystem::exists(media / "cine_781.cine")) GTEST_SKIP() << "no clips in " << media;
-  const std::string file = test::read_file(media / "cine_781.cine");
-  const auto u32 = [&](std::size_t at) {
-    std::uint32_t value = 0;
-    std::memcpy(&value, file.data() + at, 4);
-    return value;
-  };
-  const auto clip = open_test_clip(media / "cine_781.cine");
-  EXPECT_EQ(clip->info().format.shape, (Shape{256, 256, 1}));
-  EXPECT_EQ(clip->info().format.white_code, 4095u);
-  EXPECT_EQ(clip->info().format.transfer, Transfer::linear());
-  // Every tenth picture of nominally 90 000 a second.
-  const Timeline timeline = timeline_of("", clip->info(), {}, {360, 1}, 15);
-  EXPECT_NEAR(timeline.rate().value(), 9003.21, 0.01);
-  EXPECT_NEAR(static_cast<double>(timeline.start_ns(14)), 14 * 111'071.36, 10);
-  const auto rasters = read_all(*clip);
-  ASSERT_EQ(rasters.size(), 15u);
-  for (std::size_t k = 0; k < 15; ++k) {
-    const std::size_t image = u32(u32(32) + 8 * k);
-    Picture want({256, 256, 1}, ValueType::code16, 4095);
-    for (std::size_t y = 0; y < 256; ++y) {
-      std::memcpy(want.bytes.data() + y * 512, file.data() + image + u32(image) + y * 512, 512);
-    }
-    EXPECT_EQ(difference(rasters[k], want), "") << k;
-  }
-
-  const auto packed = open_test_clip(media / "data_small_cine.cine");
-  EXPECT_EQ(packed->info().format.white_code, 1023u);
-  EXPECT_EQ(packed->info().timing.rate, (Rational{100, 1}))
-      << "its last picture is stamped 292 days late";
-  EXPECT_EQ(packed->info().notes.size(), 2u);
 }
 
 }  // namespace
