@@ -68,7 +68,9 @@ def recorded(checks, media, wanted):
         return
     if "decoding" in names:
         attempt(checks, "decoding", cases_decoding.run, media.resolve())
-    if "deep" in names:
+    if "deep" in names and shutil.which("ffmpeg") is None:
+        print("SKIPPED: deep: needs the ffmpeg command, to read video a second way")
+    elif "deep" in names:
         attempt(checks, "deep", cases_deep.recorded, media.resolve())
     if names:
         attempt(checks, "paper", cases_paper.run, media.resolve(), wanted)
