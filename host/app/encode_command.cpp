@@ -59,16 +59,18 @@ class Encoding {
 
  private:
   [[nodiscard]] Timeline timeline_for(std::uint64_t samples) const {
-    return timeline_of(input_, source_.clip->info(), options_.clip, options_.shutter_angle, samples);
+    return timeline_of(input_, source_.clip->info(), options_.clip, options_.shutter_angle,
+                       samples);
   }
 
   // Pictures that a decoder leaves out shift all behind them to earlier times.
   void warn_of_count() const {
     const std::uint64_t announced = source_.clip->info().sample_count;
     if (announced == 0 || announced == sample_count_) return;
-    print_warning(format("{} announces {} pictures and {} could be decoded: if some within are damaged, those "
-                         "after them have the times of others",
-                         input_, announced, sample_count_));
+    print_warning(format(
+        "{} announces {} pictures and {} could be decoded: if some within are damaged, those "
+        "after them have the times of others",
+        input_, announced, sample_count_));
   }
 
   void write_block() {

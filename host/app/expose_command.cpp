@@ -108,7 +108,8 @@ std::vector<std::string> input_names(const Options& options) {
   std::vector<std::string> inputs{options.operands.front()};
   if (!options.raw) {
     // Each still of a sequence is an input that the picture must not replace.
-    for (const auto& still : list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{})) {
+    for (const auto& still :
+         list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{})) {
       inputs.push_back(still.string());
     }
   }

@@ -20,11 +20,12 @@ std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOpt
   return load_clip_module().open_video(path, options);
 }
 
-Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOptions& options, Rational shutter_angle,
-                     std::uint64_t sample_count) {
+Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOptions& options,
+                     Rational shutter_angle, std::uint64_t sample_count) {
   if (options.rate) return Timeline::constant(*options.rate, shutter_angle, sample_count);
   if (!info.timing.rate && info.timing.starts_ns.empty()) {
-    throw InputError(format("{} does not say how fast it was taken; state the rate with --fps", name));
+    throw InputError(
+        format("{} does not say how fast it was taken; state the rate with --fps", name));
   }
   if (info.timing.rate) return Timeline::constant(*info.timing.rate, shutter_angle, sample_count);
   if (info.timing.starts_ns.size() < sample_count) {
