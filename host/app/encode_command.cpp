@@ -9,14 +9,14 @@
 #include "app/stopwatch.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/still_sequence.hpp"
 
 namespace nutik::app {
 namespace {
 
 std::filesystem::path output_path(const Options& options) {
   const auto stated = stated_output(options.output, options.operands, "encode");
-  const std::filesystem::path input = options.operands.front();
-  return stated ? *stated : std::filesystem::path(input.stem().string() + ".tik");
+  return stated ? *stated : std::filesystem::path(sequence_name(options.operands.front()) + ".tik");
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ int run_encode(const Options& options) {
 
   SourceClip source = open_source(input, source_options);
   const ClipInfo info = source.clip->info();
-  Encoding encoding(std::move(source), source_options, codec, output);
+  Encoding encoding(std::move(source), source_options, codec, input, output);
   Progress progress("encoding", info.sample_count, options.quiet);
   const Timeline timeline = encoding.run(progress);
   if (options.quiet) return 0;

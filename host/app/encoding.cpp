@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <future>
 
+#include "app/console.hpp"
 #include "capture/error.hpp"
+#include "capture/format.hpp"
 
 namespace nutik::app {
 namespace {
@@ -19,16 +21,19 @@ std::size_t raster_count(const CaptureFormat& capture) {
 }  // namespace
 
 Encoding::Encoding(SourceClip source, const SourceOptions& options, const tik::Codec& codec,
-                   const std::filesystem::path& output)
+                   const std::string& input, const std::filesystem::path& output)
     : source_(std::move(source)),
       options_(options),
+      input_(input),
       builder_(source_.capture, source_.block_samples, options.tiles),
+      // Before anything is read, so that times that cannot be used are said at once.
+      times_(timeline_for(std::max<std::uint64_t>(source_.clip->info().sample_count, 1))),
       rasters_(raster_count(source_.capture)),
       spare_rasters_(raster_count(source_.capture)),
       blocks_(kPayloads),
       spare_payloads_(kPayloads) {
   Raster first(source_.capture.sample_bytes());
-  if (!source_.clip->read(first)) throw InputError("the clip has no picture");
+  if (!source_.clip->read(first)) throw InputError(format("{} has no picture", input));
   tik::Header header;
   header.capture = source_.capture;
   const ClipTiming& timing = source_.clip->info().timing;
@@ -51,11 +56,21 @@ Timeline Encoding::run(Progress& progress) {
   building.get();
   Timeline timeline = timeline_for(samples);
   writer_->finish(timeline);
+  warn_of_count(samples);
   return timeline;
 }
 
 Timeline Encoding::timeline_for(std::uint64_t samples) const {
-  return timeline_of(source_.clip->info(), options_.clip, options_.shutter_angle, samples);
+  return timeline_of(input_, source_.clip->info(), options_.clip, options_.shutter_angle, samples);
+}
+
+// Pictures that a decoder leaves out shift all behind them to earlier times.
+void Encoding::warn_of_count(std::uint64_t samples) const {
+  const std::uint64_t announced = source_.clip->info().sample_count;
+  if (announced == 0 || announced == samples) return;
+  print_warning(format("{} announces {} pictures and {} could be decoded: if some within are damaged, those "
+                       "after them have the times of others",
+                       input_, announced, samples));
 }
 
 std::uint64_t Encoding::decode(Progress& progress) {
@@ -92,10 +107,10 @@ void Encoding::store() {
   const ClosedAtEnd closed(blocks_, spare_payloads_);
   while (auto block = blocks_.pop()) {
     const SampleRange range = block->extent.range();
-    if (!times_) times_ = timeline_for(std::max(source_.clip->info().sample_count, range.last));
+    if (range.last > times_.sample_count()) times_ = timeline_for(range.last);
     std::span<const Exposure> exposures;
-    if (!times_->is_constant()) {
-      exposures = times_->table().subspan(range.first, block->extent.sample_count);
+    if (!times_.is_constant()) {
+      exposures = times_.table().subspan(range.first, block->extent.sample_count);
     }
     writer_->append({block->extent, block->payload.first(block->payload_bytes), block->record_count},
                     exposures);

@@ -7,6 +7,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/capture_input.hpp"
 #include "app/progress.hpp"
@@ -17,10 +19,11 @@ namespace nutik::app {
 
 class Encoding {
  public:
-  // Reads the first sample. Throws InputError where there is none, OutputError where `output` cannot be
-  // written. `options` must outlive it.
+  // Reads the first sample. Throws InputError where there is none or where the clip's times cannot be used,
+  // OutputError where `output` cannot be written. `input` names the clip in messages; `options` must
+  // outlive the encoding.
   Encoding(SourceClip source, const SourceOptions& options, const tik::Codec& codec,
-           const std::filesystem::path& output);
+           const std::string& input, const std::filesystem::path& output);
 
   // Encodes all of the clip; the file appears under its name at the end. Returns its timeline.
   Timeline run(Progress& progress);
@@ -39,6 +42,7 @@ class Encoding {
   };
 
   [[nodiscard]] Timeline timeline_for(std::uint64_t samples) const;
+  void warn_of_count(std::uint64_t samples) const;
   std::uint64_t decode(Progress& progress);
   void build();
   bool hand_over_block();  // false where nobody stores blocks any more
@@ -46,9 +50,10 @@ class Encoding {
 
   SourceClip source_;
   const SourceOptions& options_;
+  std::string input_;
   BlockBuilder builder_;
+  Timeline times_;  // as announced
   std::optional<tik::Writer> writer_;
-  std::optional<Timeline> times_;  // as announced
 
   Channel<Raster> rasters_;         // decoded
   Channel<Raster> spare_rasters_;

@@ -11,6 +11,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
+#include "media/still_sequence.hpp"
 #include "render/render_plan.hpp"
 
 namespace nutik::app {
@@ -57,8 +58,9 @@ class Exposing {
     std::optional<std::uint64_t> sample_count;
     for (;;) {
       SourceClip source = open_source(input, source_options);
+      notes_ = source.clip->info().notes;
       const Timeline timeline =
-          timeline_of(source.clip->info(), source_options.clip, source_options.shutter_angle,
+          timeline_of(input, source.clip->info(), source_options.clip, source_options.shutter_angle,
                       sample_count.value_or(source.clip->info().sample_count));
       const FunctionSet functions = request_.functions(timeline);
       PlanOptions plan_options = request_.plan_options();
@@ -82,6 +84,7 @@ class Exposing {
   // What makes the picture, for the summary.
   [[nodiscard]] std::string renderer_name() const { return renderer_->name(); }
   [[nodiscard]] const std::string& label() const { return request_.label(); }
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   void set_output(const std::filesystem::path& output) { output_ = output; }
 
  private:
@@ -98,10 +101,18 @@ class Exposing {
   std::filesystem::path output_;
   ExposureRequest request_;
   std::unique_ptr<Renderer> renderer_;
+  std::vector<std::string> notes_;  // on the clip
 };
 
 std::vector<std::string> input_names(const Options& options) {
   std::vector<std::string> inputs{options.operands.front()};
+  if (!options.raw) {
+    // Each still of a sequence is an input that the picture must not replace.
+    for (const auto& still :
+         list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{})) {
+      inputs.push_back(still.string());
+    }
+  }
   if (options.mask) inputs.push_back(*options.mask);
   if (options.functions) inputs.push_back(*options.functions);
   return inputs;
@@ -142,7 +153,7 @@ int run_expose(const Options& options) {
   std::filesystem::path output = stated.value_or("");
   Exposing exposing(options, output);
   if (!stated) {
-    output = std::filesystem::path(input).stem().string() + "-" + exposing.label() + ".png";
+    output = sequence_name(input) + "-" + exposing.label() + ".png";
     exposing.set_output(output);
   }
   check_output(output, OutputKind::picture, input_names(options));
@@ -163,6 +174,7 @@ int run_expose(const Options& options) {
                     exposing.renderer_name()));
   if (!captured) {
     print_line(format("source: {}", timing_text(exposed.timeline, source_options)));
+    for (const std::string& note : exposing.notes()) print_note(format("note: {}", note));
     if (const std::string note = slow_motion_note(exposed.timeline, source_options); !note.empty()) {
       print_note(format("note: {}", note));
     }

@@ -95,8 +95,8 @@ std::span<const Option> options() {
              "the code that stands for white: 255, 4095 for 12 bits, … (default: what the file says)",
              kEncode | kExpose, &Options::white),
       valued(0, "transfer", "NAME", kSource,
-             "how codes stand for light: srgb, bt709, linear or gamma:G (default: srgb, or linear for stills "
-             "and grey video of more than 8 bits; a .tik's own)",
+             "how codes stand for light: srgb, bt709, linear or gamma:G (default: srgb; linear for stills "
+             "and grey video of more than 8 bits and for 16-bit colour; what deep or raw video names; a .tik's own)",
              kEncode | kExpose, &Options::transfer),
       valued(0, "raw", "WxH:FORMAT", kSource,
              "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le",

@@ -44,7 +44,10 @@ std::optional<std::filesystem::path> stated_output(const std::optional<std::stri
                                                    const std::string& command) {
   if (operands.empty()) throw UsageError(format("an input is missing; see nutik-cl {} --help", command));
   if (operands.size() > 2) {
-    throw UsageError(format("'{}' is one file too many; see nutik-cl {} --help", operands[2], command));
+    throw UsageError(
+        format("'{}' is one file too many; a sequence of stills is one operand: its folder, or a "
+               "pattern in quotes such as 'frames/*.png'. See nutik-cl {} --help",
+               operands[2], command));
   }
   if (option && operands.size() == 2) {
     throw UsageError(format("two outputs: -o {} and {}; leave one out", *option, operands[1]));

@@ -79,8 +79,10 @@ Timeline Timeline::irregular(std::vector<std::int64_t> starts_ns, Rational shutt
   std::vector<Exposure> exposures(count);
   for (std::size_t k = 0; k < count; ++k) {
     if (k > 0 && starts_ns[k] <= starts_ns[k - 1]) {
-      throw InputError(format("sample {} starts at {} ns, not after sample {} at {} ns", k, starts_ns[k],
-                              k - 1, starts_ns[k - 1]));
+      throw InputError(
+          format("sample {} starts at {} ns, not after sample {} at {} ns; if they were taken at a "
+                 "constant rate, state it with --fps",
+                 k, starts_ns[k], k - 1, starts_ns[k - 1]));
     }
     const std::int64_t period =
         k + 1 < count ? starts_ns[k + 1] - starts_ns[k] : starts_ns[k] - starts_ns[k - 1];

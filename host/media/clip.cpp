@@ -20,20 +20,26 @@ std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOpt
   return load_clip_module().open_video(path, options);
 }
 
-Timeline timeline_of(const ClipInfo& info, const ClipOptions& options, Rational shutter_angle,
-                     std::uint64_t sample_count) {
+Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOptions& options,
+                     Rational shutter_angle, std::uint64_t sample_count) {
   if (options.rate) return Timeline::constant(*options.rate, shutter_angle, sample_count);
   if (!info.timing.rate && info.timing.starts_ns.empty()) {
-    throw InputError("the files do not say how fast they were taken; state the rate with --fps");
+    throw InputError(
+        format("{} does not say how fast it was taken; state the rate with --fps", name));
   }
   if (info.timing.rate) return Timeline::constant(*info.timing.rate, shutter_angle, sample_count);
   if (info.timing.starts_ns.size() < sample_count) {
-    throw InputError(format("the clip has {} pictures but only {} times; state its rate with --fps",
+    throw InputError(format("{} has {} pictures but only {} times; state its rate with --fps", name,
                             sample_count, info.timing.starts_ns.size()));
   }
-  return Timeline::irregular({info.timing.starts_ns.begin(),
-                              info.timing.starts_ns.begin() + static_cast<std::ptrdiff_t>(sample_count)},
-                             shutter_angle);
+  try {
+    return Timeline::irregular(
+        {info.timing.starts_ns.begin(),
+         info.timing.starts_ns.begin() + static_cast<std::ptrdiff_t>(sample_count)},
+        shutter_angle);
+  } catch (const InputError& error) {
+    throw InputError(format("{}: {}", name, error.what()));
+  }
 }
 
 }  // namespace nutik

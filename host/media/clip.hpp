@@ -60,8 +60,10 @@ class Clip {
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path,
                                               const ClipOptions& options);
 
-// The timeline of a clip with `sample_count` samples.
-[[nodiscard]] Timeline timeline_of(const ClipInfo& info, const ClipOptions& options,
-                                   Rational shutter_angle, std::uint64_t sample_count);
+// The timeline of the clip `name` with `sample_count` samples. Throws InputError where nothing
+// tells how fast it was taken, or its times are not in order.
+[[nodiscard]] Timeline timeline_of(const std::string& name, const ClipInfo& info,
+                                   const ClipOptions& options, Rational shutter_angle,
+                                   std::uint64_t sample_count);
 
 }  // namespace nutik

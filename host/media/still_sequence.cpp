@@ -1,8 +1,10 @@
 #include "media/still_sequence.hpp"
 
+#include <glob.h>
+
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <cctype>
 #include <map>
 #include <string>
 #include <string_view>
@@ -15,16 +17,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 8> kExtensions{".png", ".tif",  ".tiff", ".pgm",
-                                                      ".ppm", ".pnm", ".jpg",  ".jpeg"};
+// Extensions and the kind of file that they stand for.
+constexpr std::array<std::array<std::string_view, 2>, 8> kKinds{{{".png", "PNG"},
+                                                                 {".tif", "TIFF"},
+                                                                 {".tiff", "TIFF"},
+                                                                 {".pgm", "Netpbm"},
+                                                                 {".ppm", "Netpbm"},
+                                                                 {".pnm", "Netpbm"},
+                                                                 {".jpg", "JPEG"},
+                                                                 {".jpeg", "JPEG"}}};
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
-bool is_still_name(const fs::path& path) {
+// The kind of picture that a name promises; empty where it promises none.
+std::string_view kind_of(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto found = std::find_if(kKinds.begin(), kKinds.end(),
+                                  [&](const auto& kind) { return kind[0] == extension; });
+  return found == kKinds.end() ? std::string_view() : (*found)[1];
 }
 
 // Whether a comes before b as a person counts: runs of digits compare as numbers.
@@ -47,101 +61,179 @@ bool counts_before(const std::string& a, const std::string& b) {
       ++j;
     }
   }
-  return a.size() - i < b.size() - j;
+  if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
+  return a < b;
 }
 
-// * and ? as shells have them.
-bool matches(std::string_view pattern, std::string_view name) {
-  if (pattern.empty()) return name.empty();
-  if (pattern[0] == '*') {
-    for (std::size_t skip = 0; skip <= name.size(); ++skip) {
-      if (matches(pattern.substr(1), name.substr(skip))) return true;
-    }
-    return false;
-  }
-  return !name.empty() && (pattern[0] == '?' || pattern[0] == name[0]) &&
-         matches(pattern.substr(1), name.substr(1));
+void sort_by_count(std::vector<fs::path>& files) {
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return counts_before(a.string(), b.string());
+  });
 }
 
-template <typename Accept>
-std::vector<fs::path> files_in(const fs::path& folder, Accept accept) {
+// The files of a folder that are not hidden: a `._frame1.png`, which some systems leave beside a
+// frame1.png, is no picture.
+std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder.empty() ? fs::path(".") : folder, error)) {
-    if (entry.is_regular_file(error) && accept(entry.path())) files.push_back(entry.path());
+    const bool hidden = entry.path().filename().string().starts_with('.');
+    if (!hidden && entry.is_regular_file(error)) files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return counts_before(a.filename().string(), b.filename().string());
-  });
+  sort_by_count(files);
   return files;
 }
 
-// A name around its `%d` or `%04d`.
+std::vector<fs::path> pictures_in(const fs::path& folder) {
+  std::vector<fs::path> files = files_in(folder);
+  std::erase_if(files, [](const fs::path& file) { return kind_of(file).empty(); });
+  if (files.empty()) {
+    throw InputError(
+        format("{}: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg)", folder.string()));
+  }
+  // Two kinds are two sequences, or a sequence and something else: neither may be guessed at.
+  for (const fs::path& file : files) {
+    if (kind_of(file) == kind_of(files.front())) continue;
+    throw InputError(format(
+        "{}: the folder holds {} files ({}) and {} files ({}); name one kind: '{}'",
+        folder.string(), kind_of(files.front()), files.front().filename().string(), kind_of(file),
+        file.filename().string(), (folder / ("*" + files.front().extension().string())).string()));
+  }
+  return files;
+}
+
+std::vector<fs::path> matching_files(const fs::path& pattern) {
+  glob_t found{};
+  const int status = glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found);
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (std::size_t i = 0; status == 0 && i < found.gl_pathc; ++i) {
+    if (fs::is_regular_file(found.gl_pathv[i], error)) files.emplace_back(found.gl_pathv[i]);
+  }
+  globfree(&found);
+  if (files.empty()) throw InputError(format("{}: no file matches", pattern.string()));
+  sort_by_count(files);
+  return files;
+}
+
+// A name with a number in it, `frame%04d.png`: what stands before and after, and how it is printed.
 struct NumberedName {
   std::string before;
   std::string after;
+  std::size_t width = 0;
+  char fill = ' ';
+
+  [[nodiscard]] std::string with(const std::string& digits) const {
+    return before + std::string(width > digits.size() ? width - digits.size() : 0, fill) + digits +
+           after;
+  }
 };
 
 std::optional<NumberedName> parse_numbered(const std::string& name) {
   const auto percent = name.find('%');
   if (percent == std::string::npos) return std::nullopt;
-  std::size_t end = percent + 1;
-  while (end < name.size() && is_digit(name[end])) ++end;
-  if (end >= name.size() || name[end] != 'd') return std::nullopt;
-  return NumberedName{name.substr(0, percent), name.substr(end + 1)};
+  NumberedName numbered{name.substr(0, percent), {}, 0, ' '};
+  std::size_t at = percent + 1;
+  if (at < name.size() && name[at] == '0') numbered.fill = '0';
+  for (; at < name.size() && is_digit(name[at]); ++at) {
+    numbered.width =
+        std::min<std::size_t>(numbered.width * 10 + static_cast<std::size_t>(name[at] - '0'), 100);
+  }
+  if (at >= name.size() || (name[at] != 'd' && name[at] != 'i' && name[at] != 'u'))
+    return std::nullopt;
+  numbered.after = name.substr(at + 1);
+  return numbered;
+}
+
+// The number of a file of this kind of name, however its zeros are written, as digits without them.
+std::optional<std::string> number_of(const fs::path& file, const NumberedName& name) {
+  const std::string text = file.filename().string();
+  if (text.size() <= name.before.size() + name.after.size() || !text.starts_with(name.before) ||
+      !text.ends_with(name.after)) {
+    return std::nullopt;
+  }
+  std::string digits =
+      text.substr(name.before.size(), text.size() - name.before.size() - name.after.size());
+  digits.erase(0, digits.find_first_not_of(' '));
+  if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) return std::nullopt;
+  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
+  constexpr std::size_t kMostDigits = 18;  // fit 64 bits
+  if (digits.size() > kMostDigits) return std::nullopt;
+  return digits;
 }
 
 std::vector<fs::path> numbered_files(const fs::path& path, const NumberedName& name) {
   std::map<unsigned long, fs::path> by_number;
-  for (const fs::path& file : files_in(path.parent_path(), [](const fs::path&) { return true; })) {
-    const std::string text = file.filename().string();
-    if (text.size() <= name.before.size() + name.after.size() || !text.starts_with(name.before) ||
-        !text.ends_with(name.after)) {
-      continue;
+  std::string other;  // a file whose number is written differently
+  for (const fs::path& file : files_in(path.parent_path())) {
+    const auto digits = number_of(file, name);
+    if (!digits) continue;
+    if (file.filename().string() == name.with(*digits)) {
+      by_number.emplace(std::stoul(*digits), file);
+    } else {
+      other = file.filename().string();
     }
-    const std::string digits =
-        text.substr(name.before.size(), text.size() - name.before.size() - name.after.size());
-    if (digits.size() > 18 || !std::all_of(digits.begin(), digits.end(), is_digit)) continue;
-    by_number.emplace(std::stoul(digits), file);
   }
-  if (by_number.empty()) throw InputError(format("{}: no file of that kind of name", path.string()));
+  if (by_number.empty()) {
+    throw InputError(
+        format("{}: no file has such a name, {} for one{}", path.string(), name.with("1"),
+               other.empty() ? ""
+                             : format("; {} is there: its zeros are written %0{}d", other,
+                                      other.size() - name.before.size() - name.after.size())));
+  }
   std::vector<fs::path> files;
-  unsigned long expected = by_number.begin()->first;
   for (const auto& [number, file] : by_number) {
+    const unsigned long expected = by_number.begin()->first + files.size();
     if (number != expected) {
-      throw InputError(format("{}: number {} is missing between {} and {}", path.string(), expected,
-                              by_number.begin()->first, by_number.rbegin()->first));
+      throw InputError(
+          format("{}: {} is missing between {} and {}; to take the files that are there in "
+                 "their order: '{}'",
+                 path.string(), name.with(std::to_string(expected)),
+                 files.back().filename().string(), file.filename().string(),
+                 (path.parent_path() / (name.before + "*" + name.after)).string()));
     }
     files.push_back(file);
-    ++expected;
   }
   return files;
+}
+
+bool is_glob(const std::string& path) {
+  return path.find_first_of("*?[") != std::string::npos;
 }
 
 }  // namespace
 
 std::optional<std::vector<fs::path>> list_stills(const fs::path& path) {
   std::error_code error;
-  if (fs::is_directory(path, error)) {
-    std::vector<fs::path> files = files_in(path, is_still_name);
-    if (files.empty()) {
-      throw InputError(format("{}: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg)", path.string()));
-    }
-    return files;
-  }
+  if (fs::is_directory(path, error)) return pictures_in(path);
   if (fs::exists(path, error)) {
-    if (is_still_name(path)) return std::vector<fs::path>{path};
+    if (!kind_of(path).empty()) return std::vector<fs::path>{path};
     return std::nullopt;
   }
-  const std::string name = path.filename().string();
-  if (const auto numbered = parse_numbered(name)) return numbered_files(path, *numbered);
-  if (name.find_first_of("*?") != std::string::npos) {
-    std::vector<fs::path> files = files_in(
-        path.parent_path(), [&](const fs::path& file) { return matches(name, file.filename().string()); });
-    if (files.empty()) throw InputError(format("{}: no file matches", path.string()));
-    return files;
+  if (const auto numbered = parse_numbered(path.filename().string())) {
+    return numbered_files(path, *numbered);
   }
+  if (is_glob(path.string())) return matching_files(path);
   return std::nullopt;
+}
+
+std::string sequence_name(const fs::path& path) {
+  std::error_code error;
+  // `frames/` and `.` name a folder, too.
+  fs::path whole = fs::absolute(path, error).lexically_normal();
+  if (whole.filename().empty()) whole = whole.parent_path();
+  if (fs::is_directory(path, error)) return whole.filename().string();
+  std::string name = path.stem().string();
+  if (fs::exists(path, error)) return name;
+  if (const auto numbered = parse_numbered(path.filename().string())) {
+    name = numbered->before;
+  } else if (is_glob(name)) {
+    name.erase(name.find_first_of("*?["));
+  }
+  while (!name.empty() && std::string_view("_-. ").find(name.back()) != std::string_view::npos)
+    name.pop_back();
+  if (name.empty()) name = whole.parent_path().filename().string();
+  return name.empty() || is_glob(name) ? "clip" : name;
 }
 
 }  // namespace nutik

@@ -3,18 +3,25 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace nutik {
 
 // The files that `path` stands for where it is a sequence of stills or a single still:
-//   a folder            every picture in it, in the order a person counts (2 before 10)
-//   `frames/*.png`      every file that matches (*, ? in the file name), in that order
-//   `frame%04d.png`     numbered files, from the lowest number on
-//   a picture           that file (a TIFF may hold several pictures)
-// Empty optional: `path` is none of these (a video, presumably). Throws InputError where it is one but no
-// file is there, or numbers of a numbered sequence are missing.
+//   a folder            every picture in it that is not hidden, in the order a person counts (2
+//   before
+//                       10); all must be of one kind of file
+//   `frames/*.png`      every file that matches (*, ? and [a-z], as shells have them), in that
+//   order `frame%04d.png`     numbered files as printf writes them, from the lowest number on a
+//   picture           that file (a TIFF may hold several pictures)
+// Empty optional: `path` is none of these (a video, presumably). Throws InputError where it is one
+// but no file is there, or numbers of a numbered sequence are missing.
 [[nodiscard]] std::optional<std::vector<std::filesystem::path>> list_stills(
     const std::filesystem::path& path);
+
+// What to call that which is made from a clip: `clip` for clip.mp4, `frames` for the folder frames/
+// and for frames/*.png, `shot` for shot_%04d.png.
+[[nodiscard]] std::string sequence_name(const std::filesystem::path& path);
 
 }  // namespace nutik

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import cases_by_hand
 import cases_decoding
+import cases_deep
 import cases_intervals
 import cases_options
 import cases_paper
@@ -29,7 +30,7 @@ def arguments():
     parser.add_argument("--media", type=Path, help="folder of the sample clips")
     parser.add_argument("--work", required=True, type=Path, help="folder for files")
     parser.add_argument("--only", default="", help="sections whose name contains this: numbers, "
-                        "by-hand, small, interval, options, decoding, paper")
+                        "by-hand, small, interval, options, vfr, decoding, deep, paper")
     return parser.parse_args()
 
 
@@ -43,27 +44,36 @@ def attempt(checks, name, run, *given):
 
 def generated(checks, wanted):
     """The sections that generate their own clips."""
-    sections = [("by-hand", cases_by_hand.run), ("small", cases_small.run),
-                ("interval", cases_intervals.run), ("options", cases_options.run)]
+    sections = {"by-hand": cases_by_hand.run, "small": cases_small.run,
+                "interval": cases_intervals.run, "options": cases_options.run,
+                "vfr": cases_deep.generated}
     if wanted in "numbers":
         attempt(checks, "numbers", cases_by_hand.numbers)
-    if shutil.which("ffmpeg") is None:
-        print("SKIPPED: by-hand, small, interval, options: needs the ffmpeg command, to make clips "
-              "that lose nothing")
+    sections = {name: run for name, run in sections.items() if wanted in name}
+    if sections and shutil.which("ffmpeg") is None:
+        print(f"SKIPPED: {', '.join(sections)}: needs the ffmpeg command, to make clips that lose "
+              "nothing")
         return
-    for name, run in sections:
-        if wanted in name:
-            attempt(checks, name, run)
+    for name, run in sections.items():
+        attempt(checks, name, run)
 
 
 def recorded(checks, media, wanted):
     """The sections that need the recorded clips."""
-    if media is None or not media.is_dir():
-        print("SKIPPED: decoding, paper: needs the clips (--media DIR)")
+    names = ["decoding", "deep", *map(cases_paper.section_of, cases_paper.CLIPS)]
+    names = [name for name in names if wanted in name]
+    if names and (media is None or not media.is_dir()):
+        print(f"SKIPPED: {', '.join(names)}: needs the recorded clips, and --media "
+              f"{'is not given' if media is None else f'{media} is no folder'}")
         return
-    if wanted in "decoding":
+    if "decoding" in names:
         attempt(checks, "decoding", cases_decoding.run, media.resolve())
-    attempt(checks, "paper", cases_paper.run, media.resolve(), wanted)
+    if "deep" in names and shutil.which("ffmpeg") is None:
+        print("SKIPPED: deep: needs the ffmpeg command, to read video a second way")
+    elif "deep" in names:
+        attempt(checks, "deep", cases_deep.recorded, media.resolve())
+    if names:
+        attempt(checks, "paper", cases_paper.run, media.resolve(), wanted)
 
 
 def main():

@@ -99,15 +99,16 @@ class Clip:
         return self._samples[k]
 
 
-def write_lossless(path, samples, rate="25"):
-    """Write samples, N x H x W x C of uint8 or one-channel uint16, as FFV1 in Matroska.
+def write_lossless(path, samples, rate="25", deep="gray16le"):
+    """Write samples, N x H x W x C of uint8 or one-channel uint16, as FFV1 in Matroska; uint16 as
+    pixels of the kind `deep`.
 
     Nothing is lost and no colour is converted, so that the array is what the file holds. Needs
     the ffmpeg command.
     """
     count, height, width, channels = samples.shape
     if samples.dtype == np.uint16:
-        raw, stored, data = "gray16le", "gray16le", samples.astype("<u2")
+        raw, stored, data = deep, deep, samples.astype("<u2")
     elif channels == 1:
         raw, stored, data = "gray", "gray", samples
     else:

@@ -9,7 +9,7 @@ namespace {
 std::unique_ptr<Clip> open_video_clip(const std::filesystem::path& path, const ClipOptions& options) {
   av_log_set_level(AV_LOG_FATAL);  // what matters is thrown, and said once
   const Probe found = probe(path, options.raw);
-  const bool plain = found.bits <= 8 && !found.is_grey && !options.raw;
+  const bool plain = found.pixels.bits <= 8 && !found.pixels.is_grey && !options.raw;
   return plain ? open_with_opencv(path, found) : open_with_libav(path, found, options);
 }
 

@@ -7,6 +7,8 @@
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
+#include <libavutil/display.h>
+#include <libavutil/imgutils.h>
 #include <libavutil/pixdesc.h>
 #include <libswscale/swscale.h>
 }
@@ -74,7 +76,10 @@ inline OpenedVideo open_video(const std::filesystem::path& path, const std::opti
   int code = avformat_open_input(&context, path.c_str(), kind, &settings);
   av_dict_free(&settings);
   if (code < 0) {
-    throw InputError(format("{} is no video that can be read: {}", path.string(), error_text(code)));
+    throw InputError(
+        format("{} is no video that can be read: {}. A video without a header is described "
+               "with --raw",
+               path.string(), error_text(code)));
   }
   OpenedVideo opened{FormatPointer(context), 0};
   code = avformat_find_stream_info(context, nullptr);

@@ -22,6 +22,7 @@ class OpenCvClip final : public Clip {
     info_.format.transfer = Transfer::srgb();
     info_.timing = probe.timing;
     info_.sample_count = probe.sample_count;
+    info_.notes = probe.notes;
   }
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "media/clips/cine_header.hpp"
 #include "media/clips/libav.hpp"
 
 namespace nutik::clips {
@@ -14,53 +15,144 @@ std::optional<Transfer> transfer_of(AVColorTransferCharacteristic characteristic
     case AVCOL_TRC_BT709:
     case AVCOL_TRC_SMPTE170M:
     case AVCOL_TRC_BT2020_10:
-    case AVCOL_TRC_BT2020_12: return Transfer::bt709();
-    case AVCOL_TRC_IEC61966_2_1: return Transfer::srgb();
-    case AVCOL_TRC_GAMMA22: return Transfer::gamma(2.2);
-    case AVCOL_TRC_GAMMA28: return Transfer::gamma(2.8);
-    case AVCOL_TRC_LINEAR: return Transfer::linear();
-    default: return std::nullopt;
+    case AVCOL_TRC_BT2020_12:
+      return Transfer::bt709();
+    case AVCOL_TRC_IEC61966_2_1:
+      return Transfer::srgb();
+    case AVCOL_TRC_GAMMA22:
+      return Transfer::gamma(2.2);
+    case AVCOL_TRC_GAMMA28:
+      return Transfer::gamma(2.8);
+    case AVCOL_TRC_LINEAR:
+      return Transfer::linear();
+    default:
+      return std::nullopt;
   }
 }
 
-// Whether every time is where a constant rate puts it, but for the rounding to the container's clock.
-bool fits(const std::vector<std::int64_t>& times, AVRational time_base, Rational rate) {
+// A transfer function that the file names and that is not known here; empty where it names none.
+std::string unknown_transfer(AVColorTransferCharacteristic characteristic) {
+  if (transfer_of(characteristic) || characteristic == AVCOL_TRC_UNSPECIFIED ||
+      characteristic == AVCOL_TRC_RESERVED0 || characteristic == AVCOL_TRC_RESERVED) {
+    return {};
+  }
+  const char* name = av_color_transfer_name(characteristic);
+  return name == nullptr ? std::to_string(characteristic) : name;
+}
+
+// Whether every time is where a constant rate puts it, but for the rounding to the container's
+// clock.
+bool fits(const std::vector<std::int64_t>& times, Rational time_base, Rational rate) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     // i / rate, in ticks of the time base.
-    const auto ticks = static_cast<std::int64_t>(i) * static_cast<int128>(rate.denominator) * time_base.den;
-    const std::int64_t expected = round_half_up(ticks, static_cast<int128>(rate.numerator) * time_base.num);
+    const auto ticks = static_cast<std::int64_t>(i) * static_cast<int128>(rate.denominator) *
+                       time_base.denominator;
+    const std::int64_t expected =
+        round_half_up(ticks, static_cast<int128>(rate.numerator) * time_base.numerator);
     if (std::abs(times[i] - times[0] - expected) > 1) return false;
   }
   return true;
 }
 
-ClipTiming timing_of(const AVStream& stream, std::vector<std::int64_t> times) {
-  std::vector<Rational> candidates;
-  for (const AVRational& rate : {stream.avg_frame_rate, stream.r_frame_rate}) {
-    if (rate.num > 0 && rate.den > 0) candidates.push_back(Rational::of(rate.num, rate.den));
+// The timing of pictures at `times`, in order, in units of `time_base` seconds: the first of the
+// rates that fits them, or else the times themselves. The rates are those that a file announces.
+ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base,
+                     std::vector<Rational> rates) {
+  // The rate that the first and last picture tell, for files that announce another or none.
+  if (times.back() > times.front()) {
+    const auto periods = static_cast<std::int64_t>(times.size()) - 1;
+    rates.push_back(Rational::of(periods * time_base.denominator,
+                                 (times.back() - times.front()) * time_base.numerator));
   }
+  for (const Rational& rate : rates) {
+    if (fits(times, time_base, rate)) return {rate, {}};
+  }
+  ClipTiming timing;
+  for (const std::int64_t time : times) {
+    timing.starts_ns.push_back(
+        round_half_up(static_cast<int128>(time - times[0]) * time_base.numerator * kSecondNs,
+                      time_base.denominator));
+  }
+  return timing;
+}
+
+std::vector<Rational> announced_rates(const AVStream& stream) {
+  std::vector<Rational> rates;
+  for (const AVRational& rate : {stream.avg_frame_rate, stream.r_frame_rate}) {
+    if (rate.num > 0 && rate.den > 0) rates.push_back(Rational::of(rate.num, rate.den));
+  }
+  return rates;
+}
+
+ClipTiming packet_timing(const AVStream& stream, std::vector<std::int64_t> times) {
+  const std::vector<Rational> rates = announced_rates(stream);
   const bool timed = std::find(times.begin(), times.end(), AV_NOPTS_VALUE) == times.end();
   if (timed && times.size() > 1) {
-    std::sort(times.begin(), times.end());
-    // The rate that the first and last picture tell, for files that announce another or none.
-    if (times.back() > times.front()) {
-      const auto periods = static_cast<std::int64_t>(times.size()) - 1;
-      candidates.push_back(Rational::of(periods * stream.time_base.den,
-                                        (times.back() - times.front()) * stream.time_base.num));
-    }
-    for (const Rational& rate : candidates) {
-      if (fits(times, stream.time_base, rate)) return {rate, {}};
-    }
-    ClipTiming timing;
-    for (const std::int64_t time : times) {
-      timing.starts_ns.push_back(
-          round_half_up(static_cast<int128>(time - times[0]) * stream.time_base.num * kSecondNs,
-                        stream.time_base.den));
-    }
-    return timing;
+    std::sort(times.begin(), times.end());  // packets come in the order of decoding
+    return timing_of(times, Rational::of(stream.time_base.num, stream.time_base.den), rates);
   }
-  if (!candidates.empty()) return {candidates.front(), {}};
+  if (!rates.empty()) return {rates.front(), {}};
   return {};
+}
+
+// The first picture whose time cannot be meant: not after the one before, or so long after it that
+// the clock was set in between. 0 where all can. Real files end with such a time.
+std::size_t first_senseless(const std::vector<std::int64_t>& starts_ns) {
+  constexpr std::int64_t kLongestPause = 1000;  // usual periods
+  std::vector<std::int64_t> periods;
+  for (std::size_t k = 1; k < starts_ns.size(); ++k)
+    periods.push_back(starts_ns[k] - starts_ns[k - 1]);
+  std::vector<std::int64_t> sorted = periods;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
+                   sorted.end());
+  const std::int64_t usual = sorted[sorted.size() / 2];
+  for (std::size_t k = 1; k < starts_ns.size(); ++k) {
+    if (periods[k - 1] <= 0 || periods[k - 1] / kLongestPause > usual) return k;
+  }
+  return 0;
+}
+
+// The demuxer numbers the pictures of a .cine and knows the camera's nominal rate. When they were
+// taken the camera wrote down, too: a file may hold every tenth picture only.
+void add_cine_header(const CineHeader& header, const AVStream& stream, Probe& result) {
+  const std::vector<std::int64_t>& starts = header.starts_ns;
+  if (starts.size() > 1 && starts.size() == result.sample_count) {
+    const std::size_t senseless = first_senseless(starts);
+    if (senseless == 0) {
+      result.timing = timing_of(starts, {1, kSecondNs}, announced_rates(stream));
+    } else {
+      result.notes.push_back(
+          format("the camera's times are not used: picture {} is stamped {} ns after the one "
+                 "before it. The nominal rate is taken",
+                 senseless, starts[senseless] - starts[senseless - 1]));
+    }
+  }
+  if (header.exposed_ns) {
+    result.notes.push_back(
+        format("the camera exposed each picture for {} ns: the shutter angle is 360 degrees "
+               "times that share of the time between pictures; state it with --shutter-angle",
+               *header.exposed_ns));
+  }
+  if (header.is_packed) {
+    result.notes.push_back(
+        "the codes are packed into 10 bits, for which Phantom cameras compress their range by a "
+        "curve of their own: light is then not proportional to the codes; state with --transfer "
+        "what "
+        "comes near it");
+  }
+}
+
+// A size or format that is wrong would cut the pictures at the wrong places.
+void check_raw_size(const std::filesystem::path& path, const RawVideo& raw) {
+  const int bytes =
+      av_image_get_buffer_size(av_get_pix_fmt(raw.pixel_format.c_str()),
+                               static_cast<int>(raw.width), static_cast<int>(raw.height), 1);
+  const std::uint64_t file_bytes = std::filesystem::file_size(path);
+  if (bytes > 0 && file_bytes > 0 && file_bytes % static_cast<std::uint64_t>(bytes) == 0) return;
+  throw InputError(
+      format("{} has {} bytes, which is no whole number of pictures of {} bytes ({} x {}, {}); "
+             "check --raw",
+             path.string(), file_bytes, bytes, raw.width, raw.height, raw.pixel_format));
 }
 
 }  // namespace
@@ -71,24 +163,35 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   const AVCodecParameters& codec = *stream.codecpar;
   Probe result;
   result.stream = opened.stream;
-  result.shape = {static_cast<std::uint32_t>(codec.width), static_cast<std::uint32_t>(codec.height), 3};
-  const AVPixFmtDescriptor* pixels = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(codec.format));
-  if (pixels == nullptr || codec.width <= 0 || codec.height <= 0) {
-    throw InputError(format("{}: no decoder here knows its pictures", path.string()));
-  }
-  result.bits = static_cast<std::uint32_t>(pixels->comp[0].depth);
-  result.is_grey = pixels->nb_components == 1 && (pixels->flags & AV_PIX_FMT_FLAG_PAL) == 0;
+  result.shape = {static_cast<std::uint32_t>(codec.width), static_cast<std::uint32_t>(codec.height),
+                  3};
+  result.pixels = pixel_kind(codec, path.string());
+  result.quarter_turns = quarter_turns(stream);
   result.transfer = transfer_of(codec.color_trc);
+  if (const std::string name = unknown_transfer(codec.color_trc); !name.empty()) {
+    result.notes.push_back(
+        format("the file's transfer function, {}, is not known here and another is taken; "
+               "state which with --transfer",
+               name));
+  }
+  if (raw) check_raw_size(path, *raw);
 
   std::vector<std::int64_t> times;
   const PacketPointer packet(av_packet_alloc());
-  while (av_read_frame(opened.format.get(), packet.get()) >= 0) {
-    const bool counts = packet->stream_index == opened.stream && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
+  int code = 0;
+  while ((code = av_read_frame(opened.format.get(), packet.get())) >= 0) {
+    const bool counts =
+        packet->stream_index == opened.stream && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
     if (counts) times.push_back(packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts);
     av_packet_unref(packet.get());
   }
+  if (code != AVERROR_EOF) {
+    result.notes.push_back(format("the file is damaged or was cut off behind picture {}: {}",
+                                  times.size(), error_text(code)));
+  }
   result.sample_count = times.size();
-  if (!raw) result.timing = timing_of(stream, std::move(times));
+  if (!raw) result.timing = packet_timing(stream, std::move(times));
+  if (const auto header = read_cine_header(path)) add_cine_header(*header, stream, result);
   return result;
 }
 

@@ -4,25 +4,29 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "capture/picture.hpp"
 #include "capture/rational.hpp"
 #include "media/clip.hpp"
+#include "media/clips/pixels.hpp"
 
 namespace nutik::clips {
 
 struct Probe {
-  int stream = 0;                // index of the picture stream
-  Shape shape;                   // as coded
-  std::uint32_t bits = 8;        // of a component
-  bool is_grey = false;
+  int stream = 0;  // index of the picture stream
+  Shape shape;     // of the decoded pictures, before they are turned
+  PixelKind pixels;
+  int quarter_turns = 0;  // clockwise, until they stand upright
   ClipTiming timing;
   std::uint64_t sample_count = 0;
   std::optional<Transfer> transfer;  // where the file names one that is known here
+  std::vector<std::string> notes;    // what a person should know, whole sentences
 };
 
-// Reads every packet's time. Throws InputError where the file cannot be opened or has no picture stream.
+// Reads every packet's time. Throws InputError where the file cannot be opened or has no picture
+// stream.
 [[nodiscard]] Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& raw);
 
 }  // namespace nutik::clips

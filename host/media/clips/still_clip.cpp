@@ -1,4 +1,5 @@
-// Sequences of stills through OpenCV; Netpbm through our own reader, which keeps the maximum.
+// Sequences of stills: PNG and JPEG through OpenCV; Netpbm and TIFF through our own readers, which
+// keep the maximum, and read the pages of a TIFF in one go.
 #include <cstring>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -8,6 +9,7 @@
 #include "capture/format.hpp"
 #include "media/clips/clips.hpp"
 #include "media/netpbm.hpp"
+#include "media/tiff_reader.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::clips {
@@ -16,7 +18,12 @@ namespace {
 // One picture of a file.
 struct Page {
   std::filesystem::path file;
-  int number = 0;
+  std::uint64_t number = 1;
+  std::uint64_t count = 1;  // of the file's pages
+
+  [[nodiscard]] std::string name() const {
+    return count == 1 ? file.string() : format("{}, page {},", file.string(), number);
+  }
 };
 
 struct Still {
@@ -26,7 +33,8 @@ struct Still {
   std::vector<std::byte> codes;          // interleaved raster
 };
 
-bool has_extension(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions) {
+bool has_extension(const std::filesystem::path& file,
+                   std::initializer_list<std::string_view> extensions) {
   std::string extension = file.extension().string();
   for (char& c : extension) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -34,30 +42,41 @@ bool has_extension(const std::filesystem::path& file, std::initializer_list<std:
   return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }
 
-Still read_netpbm_still(const std::filesystem::path& file) {
-  const MappedFile mapped(file);
-  Picture picture = read_netpbm(mapped.bytes(), file.string());
-  return {picture.shape, static_cast<std::uint32_t>(value_bytes(picture.type)), picture.white_code,
+Still still_of(Picture&& picture, std::optional<std::uint32_t> maximum) {
+  return {picture.shape, static_cast<std::uint32_t>(value_bytes(picture.type)), maximum,
           std::move(picture.bytes)};
 }
 
-Still read_with_opencv(const Page& page) {
-  std::vector<cv::Mat> pages;
-  cv::Mat picture;
-  if (has_extension(page.file, {".tif", ".tiff"})) {
-    cv::imreadmulti(page.file.string(), pages, page.number, 1, cv::IMREAD_UNCHANGED);
-    if (!pages.empty()) picture = pages.front();
-  } else {
-    picture = cv::imread(page.file.string(), cv::IMREAD_UNCHANGED);
+Still read_netpbm_still(const std::filesystem::path& file) {
+  const MappedFile mapped(file);
+  Picture picture = read_netpbm(mapped.bytes(), file.string());
+  const std::uint32_t maximum = picture.white_code;
+  return still_of(std::move(picture), maximum);
+}
+
+// Where a JPEG was cut off, its decoder fills the rest with grey and says nothing. Its end marker
+// and the start of a scan cannot occur within a scan.
+bool is_cut_off_jpeg(const std::filesystem::path& file) {
+  const MappedFile mapped(file);
+  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()),
+                               mapped.bytes().size());
+  const auto scan = bytes.rfind("\xFF\xDA"), end = bytes.rfind("\xFF\xD9");
+  return bytes.starts_with("\xFF\xD8") && (scan == bytes.npos || end == bytes.npos || end < scan);
+}
+
+Still read_with_opencv(const std::filesystem::path& file) {
+  cv::Mat picture = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  const std::string name = file.string();
+  if (picture.empty() || is_cut_off_jpeg(file)) {
+    throw InputError(format("{} cannot be read: it is damaged or no picture", name));
   }
-  const std::string name = page.file.string();
-  if (picture.empty()) throw InputError(format("{} cannot be read as a picture", name));
   if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
     throw InputError(format("{} holds neither 8- nor 16-bit values", name));
   }
   if (picture.channels() != 1 && picture.channels() != 3) {
-    throw InputError(format("{} has {} channels; grey (1) and colour (3) are read, transparency is not", name,
-                            picture.channels()));
+    throw InputError(
+        format("{} has {} channels; grey (1) and colour (3) are read, transparency is not", name,
+               picture.channels()));
   }
   if (picture.channels() == 3) cv::cvtColor(picture, picture, cv::COLOR_BGR2RGB);
   if (!picture.isContinuous()) picture = picture.clone();
@@ -70,32 +89,30 @@ Still read_with_opencv(const Page& page) {
   return still;
 }
 
-Still read_still(const Page& page) {
-  return has_extension(page.file, {".pgm", ".ppm", ".pnm"}) ? read_netpbm_still(page.file)
-                                                           : read_with_opencv(page);
-}
-
 class StillClip final : public Clip {
  public:
   StillClip(std::span<const std::filesystem::path> files, const ClipOptions& options) {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     for (const std::filesystem::path& file : files) {
-      const std::size_t count = has_extension(file, {".tif", ".tiff"}) ? cv::imcount(file.string()) : 1;
-      for (std::size_t number = 0; number < std::max<std::size_t>(count, 1); ++number) {
-        pages_.push_back({file, static_cast<int>(number)});
-      }
+      const std::uint64_t count = is_tiff(file) ? TiffReader::count_pages(file) : 1;
+      for (std::uint64_t number = 1; number <= count; ++number)
+        pages_.push_back({file, number, count});
     }
-    first_ = read_still(pages_.front());
+    first_ = read_page(pages_.front());
+    first_maximum_ = first_.maximum;
+    white_is_stated_ = options.white_code.has_value();
     CaptureFormat& capture = info_.format;
     capture.shape = first_.shape;
     capture.code_bytes = first_.code_bytes;
     const std::uint32_t full = first_.code_bytes == 1 ? 255 : 65'535;
     capture.white_code = options.white_code.value_or(first_.maximum.value_or(full));
-    // Deep stills come from scientific cameras, whose codes are linear; shallow ones are made to be seen.
+    // Deep stills come from scientific cameras, whose codes are linear; shallow ones are made to be
+    // seen.
     capture.transfer = first_.code_bytes == 1 ? Transfer::srgb() : Transfer::linear();
     if (capture.code_bytes == 2 && !first_.maximum && !options.white_code) {
       info_.notes.push_back(
-          "the files do not say how many of their 16 bits are used: white is taken to be 65535; state "
+          "the files do not say how many of their 16 bits are used: white is taken to be 65535; "
+          "state "
           "another with --white (12 bits: 4095)");
     }
     info_.sample_count = pages_.size();
@@ -106,7 +123,7 @@ class StillClip final : public Clip {
   bool read(std::span<std::byte> raster) override {
     if (next_ == pages_.size()) return false;
     const Page& page = pages_[next_];
-    const Still still = next_ == 0 ? std::move(first_) : read_still(page);
+    const Still still = next_ == 0 ? std::move(first_) : read_page(page);
     check_like_first(still, page);
     std::memcpy(raster.data(), still.codes.data(), still.codes.size());
     ++next_;
@@ -114,20 +131,43 @@ class StillClip final : public Clip {
   }
 
  private:
+  static bool is_tiff(const std::filesystem::path& file) {
+    return has_extension(file, {".tif", ".tiff"});
+  }
+
+  Still read_page(const Page& page) {
+    if (has_extension(page.file, {".pgm", ".ppm", ".pnm"})) return read_netpbm_still(page.file);
+    if (!is_tiff(page.file)) return read_with_opencv(page.file);
+    if (page.number == 1) tiff_.emplace(page.file);
+    std::optional<TiffPage> read = tiff_->next();
+    if (!read) throw InputError(format("{} cannot be read: the file was cut off", page.name()));
+    return still_of(std::move(read->picture), read->maximum);
+  }
+
   void check_like_first(const Still& still, const Page& page) const {
-    const auto text = [](const Shape& shape, std::uint32_t code_bytes) {
-      return format("{} x {} {} of {} bits", shape.width, shape.height,
-                    shape.channels == 1 ? "grey" : "colour", code_bytes * 8);
-    };
     const CaptureFormat& capture = info_.format;
-    if (still.shape == capture.shape && still.code_bytes == capture.code_bytes) return;
-    throw InputError(format("{} is {}, the first still {}; all must be alike", page.file.string(),
-                            text(still.shape, still.code_bytes),
-                            text(capture.shape, capture.code_bytes)));
+    const bool same_white = white_is_stated_ || still.maximum == first_maximum_;
+    if (still.shape == capture.shape && still.code_bytes == capture.code_bytes && same_white)
+      return;
+    const auto text = [](const Shape& shape, std::uint32_t code_bytes,
+                         std::optional<std::uint32_t> maximum) {
+      return format("{} x {} {} of {} bits{}", shape.width, shape.height,
+                    shape.channels == 1 ? "grey" : "colour", code_bytes * 8,
+                    maximum ? format(", white code {}", *maximum) : "");
+    };
+    throw InputError(format("{} is {}; the first still, {}, is {}. All must be alike{}",
+                            page.name(), text(still.shape, still.code_bytes, still.maximum),
+                            pages_.front().file.string(),
+                            text(capture.shape, capture.code_bytes, first_maximum_),
+                            same_white ? "; name those that are with a pattern: 'frame*.png'"
+                                       : ", or say what is white with --white"));
   }
 
   std::vector<Page> pages_;
+  std::optional<TiffReader> tiff_;  // of the page read last
   Still first_;
+  std::optional<std::uint32_t> first_maximum_;
+  bool white_is_stated_ = false;
   std::size_t next_ = 0;
   ClipInfo info_;
 };

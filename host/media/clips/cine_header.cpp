@@ -1,0 +1,83 @@
+// The parts of a .cine file that are read here, little-endian:
+//
+//      0  "CI"          file header of 44 bytes
+//     20  u32           pictures in the file
+//     24  u32           offset of the bitmap header; 16 bytes into it: u32 compression
+//     28  u32           offset of the setup; 140 bytes into it: "ST", then u16 length
+//     32  u32           offset of the pictures' offsets, behind the tagged blocks
+//
+// Tagged blocks follow the setup: u32 size (of all of it), u16 type, u16 reserved, data.
+//   1002   u64 for each picture: its time in units of 2^-32 s
+//   1003   u32 for each picture: its exposure in the same units
+#include "media/clips/cine_header.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+
+#include "capture/rational.hpp"
+#include "system/mapped_file.hpp"
+
+namespace nutik::clips {
+namespace {
+
+constexpr std::uint64_t kFileHeaderBytes = 44;
+constexpr std::uint64_t kTagHeaderBytes = 8;
+constexpr std::uint16_t kTimes = 1002, kExposures = 1003;
+constexpr std::uint32_t kPacked10 = 256;
+
+// A number at an offset; 0 beyond the end.
+template <typename T>
+T number(std::span<const std::byte> file, std::uint64_t offset) {
+  T value = 0;
+  if (offset <= file.size() && file.size() - offset >= sizeof(T)) {
+    std::memcpy(&value, file.data() + offset, sizeof(T));
+  }
+  return value;
+}
+
+std::int64_t nanoseconds(std::uint64_t fixed_point) {
+  return round_half_up(static_cast<int128>(fixed_point) * 1'000'000'000, int128{1} << 32);
+}
+
+}  // namespace
+
+std::optional<CineHeader> read_cine_header(const std::filesystem::path& path) {
+  const MappedFile mapped(path);
+  const auto file = mapped.bytes();
+  if (file.size() < kFileHeaderBytes || std::memcmp(file.data(), "CI", 2) != 0) return std::nullopt;
+  const std::uint64_t count = number<std::uint32_t>(file, 20);
+  const std::uint64_t setup = number<std::uint32_t>(file, 28);
+  const std::uint64_t tags_end =
+      std::min<std::uint64_t>(number<std::uint32_t>(file, 32), file.size());
+  CineHeader header;
+  header.is_packed =
+      number<std::uint32_t>(file, std::uint64_t{number<std::uint32_t>(file, 24)} + 16) == kPacked10;
+  if (setup + 144 > file.size() || std::memcmp(file.data() + setup + 140, "ST", 2) != 0)
+    return header;
+  std::uint64_t tag = setup + number<std::uint16_t>(file, setup + 142);
+  while (tag + kTagHeaderBytes <= tags_end) {
+    const std::uint64_t size = number<std::uint32_t>(file, tag), data = tag + kTagHeaderBytes;
+    const auto type = number<std::uint16_t>(file, tag + 4);
+    if (size < kTagHeaderBytes || size > tags_end - tag) break;
+    if (type == kTimes && count > 0 && size - kTagHeaderBytes >= count * 8) {
+      const auto first = number<std::uint64_t>(file, data);
+      for (std::uint64_t k = 0; k < count; ++k) {
+        const auto time = number<std::uint64_t>(file, data + k * 8);
+        header.starts_ns.push_back(time < first ? -nanoseconds(first - time)
+                                                : nanoseconds(time - first));
+      }
+    }
+    if (type == kExposures && count > 0 && size - kTagHeaderBytes >= count * 4) {
+      const auto exposed = number<std::uint32_t>(file, data);
+      bool alike = exposed > 0;
+      for (std::uint64_t k = 1; k < count; ++k)
+        alike &= number<std::uint32_t>(file, data + k * 4) == exposed;
+      if (alike) header.exposed_ns = nanoseconds(exposed);
+    }
+    tag += size;
+  }
+  return header;
+}
+
+}  // namespace nutik::clips

@@ -1,0 +1,55 @@
+// How FFmpeg's pictures become rasters of codes.
+//
+//   grey      as stored: 8, 9, 10, 12, 14 or 16 bits, code for code
+//   colour    8 bits as 8-bit RGB, deeper as RGB over the full 16-bit range, YUV by the matrix and
+//   range
+//             that the picture names (BT.601 and limited range where it names none)
+// Transparency is left out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "media/clips/libav.hpp"
+
+namespace nutik::clips {
+
+struct PixelKind {
+  bool is_grey = false;
+  std::uint32_t bits = 8;  // of a component, of which 1 to 8 are read as 8
+  // Empty low bits that the decoder puts below the codes of the file, to fill 16 bits.
+  std::uint32_t padding_bits = 0;
+
+  // The largest code of the rasters.
+  [[nodiscard]] std::uint32_t white_code() const;
+};
+
+// Throws InputError naming the file where its pixels are of no kind that is read.
+[[nodiscard]] PixelKind pixel_kind(const AVCodecParameters& codec, const std::string& name);
+
+// Quarter turns clockwise after which a stream's pictures stand upright, 0 … 3.
+[[nodiscard]] int quarter_turns(const AVStream& stream);
+
+class PixelConverter {
+ public:
+  PixelConverter(PixelKind kind, int turns) : kind_(kind), turns_(turns) {}
+
+  // Writes `frame`, turned upright, as a raster of width x height x (1 or 3) codes of 1 or 2 bytes.
+  // All frames must have one size. Throws InputError naming the file where FFmpeg cannot convert
+  // it.
+  void convert(const AVFrame& frame, std::span<std::byte> raster, const std::string& name);
+
+ private:
+  const AVFrame& converted(const AVFrame& frame, const std::string& name);
+  const AVFrame& scaled(const AVFrame& frame, AVPixelFormat wanted, const std::string& name);
+
+  PixelKind kind_;
+  int turns_;
+  ScalerPointer scaler_;
+  FramePointer scaled_;
+  FramePointer rgb_;
+};
+
+}  // namespace nutik::clips

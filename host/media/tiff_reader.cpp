@@ -1,0 +1,243 @@
+#include "media/tiff_reader.hpp"
+
+#include <tiffio.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::uint64_t kLargestSide = 1u << 20;
+constexpr std::uint64_t kLargestPage = std::uint64_t{16} << 30;  // bytes
+
+// One page of an open file.
+class PageReader {
+ public:
+  PageReader(TIFF* file, std::string name) : file_(file), name_(std::move(name)) {}
+
+  TiffPage read() {
+    read_layout();
+    TiffPage page;
+    if (is_plain()) {
+      check_plain();
+      page.maximum = stated_maximum();
+      page.picture =
+          Picture(shape_, bits_ > 8 ? ValueType::code16 : ValueType::code8, (1u << bits_) - 1);
+      for (std::uint16_t plane = 0; plane < (separate_ ? shape_.channels : 1); ++plane) {
+        TIFFIsTiled(file_) ? read_tiles(page.picture, plane) : read_rows(page.picture, plane);
+      }
+    } else {
+      page.picture = read_shown();
+    }
+    return page;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const {
+    throw InputError(format("{} cannot be read: {}", name_, why));
+  }
+
+  template <typename T>
+  [[nodiscard]] T field(std::uint32_t tag, T missing) const {
+    T value = missing;
+    return TIFFGetFieldDefaulted(file_, tag, &value) == 1 ? value : missing;
+  }
+
+  void read_layout() {
+    shape_.width = field<std::uint32_t>(TIFFTAG_IMAGEWIDTH, 0);
+    shape_.height = field<std::uint32_t>(TIFFTAG_IMAGELENGTH, 0);
+    shape_.channels = field<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL, 1);
+    bits_ = field<std::uint16_t>(TIFFTAG_BITSPERSAMPLE, 1);
+    photometric_ = field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+    separate_ =
+        field<std::uint16_t>(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_SEPARATE;
+    if (shape_.width == 0 || shape_.height == 0 || shape_.width > kLargestSide ||
+        shape_.height > kLargestSide || shape_.value_count() * 2 > kLargestPage) {
+      fail(format("it states {} x {} pixels", shape_.width, shape_.height));
+    }
+    if (shape_.channels != 1 && shape_.channels != 3) {
+      fail(format("it has {} channels; grey (1) and colour (3) are read, transparency is not",
+                  shape_.channels));
+    }
+    const auto orientation = field<std::uint16_t>(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+    if (orientation != ORIENTATION_TOPLEFT) {
+      fail(
+          format("its orientation is {}; only upright pictures (1) are read. Turn it upright first",
+                 orientation));
+    }
+  }
+
+  // Whether the values are codes as they stand, rather than indices of a palette, YCbCr or single
+  // bits.
+  [[nodiscard]] bool is_plain() const {
+    const bool grey =
+        photometric_ == PHOTOMETRIC_MINISBLACK || photometric_ == PHOTOMETRIC_MINISWHITE;
+    return bits_ >= 8 &&
+           (grey ? shape_.channels == 1 : photometric_ == PHOTOMETRIC_RGB && shape_.channels == 3);
+  }
+
+  void check_plain() const {
+    const auto sample_format = field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
+    if (bits_ > 16 || sample_format != SAMPLEFORMAT_UINT) {
+      fail(format("it has {}-bit {} values; whole numbers without sign of up to 16 bits are read",
+                  bits_,
+                  sample_format == SAMPLEFORMAT_INT      ? "signed"
+                  : sample_format == SAMPLEFORMAT_IEEEFP ? "floating-point"
+                                                         : "unsigned"));
+    }
+  }
+
+  [[nodiscard]] std::optional<std::uint32_t> stated_maximum() const {
+    const std::uint32_t full = (1u << bits_) - 1;
+    if (bits_ != 16) return bits_ == 8 ? std::nullopt : std::optional(full);
+    std::uint16_t stated = 0;
+    if (TIFFGetField(file_, TIFFTAG_MAXSAMPLEVALUE, &stated) != 1) return std::nullopt;
+    if (stated <= 255 || (stated & (stated + 1u)) != 0) return std::nullopt;
+    return stated;
+  }
+
+  // Value i of a row as libtiff hands it out: 8 bits, 16 in the machine's order, or packed, high
+  // bits first.
+  [[nodiscard]] std::uint32_t value(const std::vector<std::uint8_t>& row, std::size_t offset,
+                                    std::size_t i) const {
+    const std::uint8_t* bytes = row.data() + offset;
+    if (bits_ == 8) return bytes[i];
+    if (bits_ == 16) return reinterpret_cast<const std::uint16_t*>(bytes)[i];
+    const std::size_t first = i * bits_, last = first + bits_ - 1;
+    std::uint32_t window = 0;
+    for (std::size_t at = first / 8; at <= last / 8; ++at) window = window << 8 | bytes[at];
+    return window >> (7 - last % 8) & ((1u << bits_) - 1);
+  }
+
+  // Puts `count` pixels of a row where they belong.
+  void place(Picture& picture, const std::vector<std::uint8_t>& row, std::size_t offset,
+             std::uint32_t x, std::uint32_t y, std::uint32_t count, std::uint16_t plane) const {
+    const std::uint32_t together = separate_ ? 1 : shape_.channels;
+    const std::uint32_t full = (1u << bits_) - 1;
+    const bool inverted = photometric_ == PHOTOMETRIC_MINISWHITE;
+    const std::size_t to = (std::size_t{y} * shape_.width + x) * shape_.channels + plane;
+    for (std::size_t i = 0; i < std::size_t{count} * together; ++i) {
+      const std::uint32_t stored = value(row, offset, i);
+      const std::uint32_t code = inverted ? full - stored : stored;
+      const std::size_t at = to + i / together * shape_.channels + i % together;
+      if (picture.type == ValueType::code8) {
+        picture.bytes[at] = static_cast<std::byte>(code);
+      } else {
+        picture.values<std::uint16_t>()[at] = static_cast<std::uint16_t>(code);
+      }
+    }
+  }
+
+  void read_rows(Picture& picture, std::uint16_t plane) const {
+    const std::uint64_t row_bytes = TIFFScanlineSize64(file_);
+    const std::uint64_t together = separate_ ? 1 : shape_.channels;
+    if (row_bytes < (shape_.width * together * bits_ + 7) / 8 || row_bytes > kLargestPage) {
+      fail(format("it states rows of {} bytes", row_bytes));
+    }
+    std::vector<std::uint8_t> row(row_bytes);
+    for (std::uint32_t y = 0; y < shape_.height; ++y) {
+      if (TIFFReadScanline(file_, row.data(), y, plane) < 0) {
+        fail(format("it is damaged or was cut off at row {} of {}", y, shape_.height));
+      }
+      place(picture, row, 0, 0, y, shape_.width, plane);
+    }
+  }
+
+  void read_tiles(Picture& picture, std::uint16_t plane) const {
+    const auto width = field<std::uint32_t>(TIFFTAG_TILEWIDTH, 0);
+    const auto height = field<std::uint32_t>(TIFFTAG_TILELENGTH, 0);
+    const std::uint64_t row_bytes = TIFFTileRowSize64(file_), tile_bytes = TIFFTileSize64(file_);
+    const std::uint64_t together = separate_ ? 1 : shape_.channels;
+    if (width == 0 || height == 0 || width > kLargestSide || height > kLargestSide ||
+        row_bytes < (width * together * bits_ + 7) / 8 || tile_bytes < row_bytes * height ||
+        tile_bytes > kLargestPage) {
+      fail(format("it states tiles of {} x {} pixels", width, height));
+    }
+    std::vector<std::uint8_t> tile(tile_bytes);
+    for (std::uint32_t y = 0; y < shape_.height; y += height) {
+      for (std::uint32_t x = 0; x < shape_.width; x += width) {
+        if (TIFFReadTile(file_, tile.data(), x, y, 0, plane) < 0) {
+          fail(format("it is damaged or was cut off at row {} of {}", y, shape_.height));
+        }
+        for (std::uint32_t row = 0; row < std::min(height, shape_.height - y); ++row) {
+          place(picture, tile, row * row_bytes, x, y + row, std::min(width, shape_.width - x),
+                plane);
+        }
+      }
+    }
+  }
+
+  // Any other kind, as libtiff would show it: 8 bits.
+  Picture read_shown() {
+    char why[1024] = {};
+    if (bits_ > 8 || TIFFRGBAImageOK(file_, why) == 0) {
+      fail(format("it is of a kind that is not read (photometric interpretation {}, {} bits)",
+                  photometric_, bits_));
+    }
+    std::vector<std::uint32_t> pixels(shape_.pixel_count());
+    if (TIFFReadRGBAImageOriented(file_, shape_.width, shape_.height, pixels.data(),
+                                  ORIENTATION_TOPLEFT, 1) == 0) {
+      fail("it is damaged or was cut off");
+    }
+    const bool grey =
+        photometric_ == PHOTOMETRIC_MINISBLACK || photometric_ == PHOTOMETRIC_MINISWHITE;
+    shape_.channels = grey ? 1 : 3;
+    Picture picture(shape_, ValueType::code8, 255);
+    std::size_t at = 0;
+    for (const std::uint32_t pixel : pixels) {
+      picture.bytes[at++] = static_cast<std::byte>(TIFFGetR(pixel));
+      if (grey) continue;
+      picture.bytes[at++] = static_cast<std::byte>(TIFFGetG(pixel));
+      picture.bytes[at++] = static_cast<std::byte>(TIFFGetB(pixel));
+    }
+    return picture;
+  }
+
+  TIFF* file_;
+  std::string name_;
+  Shape shape_;
+  std::uint16_t bits_ = 0;
+  std::uint16_t photometric_ = 0;
+  bool separate_ = false;
+};
+
+TIFF* open(const std::filesystem::path& path) {
+  TIFFSetErrorHandler(nullptr);  // what matters is thrown
+  TIFFSetWarningHandler(nullptr);
+  TIFF* file = TIFFOpen(path.c_str(), "r");
+  if (file == nullptr) {
+    throw InputError(format("{} cannot be read: it is damaged or no TIFF", path.string()));
+  }
+  return file;
+}
+
+}  // namespace
+
+TiffReader::TiffReader(const std::filesystem::path& path)
+    : name_(path.string()), file_(open(path)) {}
+TiffReader::~TiffReader() = default;
+TiffReader::TiffReader(TiffReader&&) noexcept = default;
+TiffReader& TiffReader::operator=(TiffReader&&) noexcept = default;
+
+void TiffReader::Close::operator()(tiff* file) const {
+  TIFFClose(file);
+}
+
+std::uint64_t TiffReader::count_pages(const std::filesystem::path& path) {
+  const std::unique_ptr<tiff, Close> file(open(path));
+  return TIFFNumberOfDirectories(file.get());
+}
+
+std::optional<TiffPage> TiffReader::next() {
+  if (at_end_) return std::nullopt;
+  ++pages_read_;
+  TiffPage page = PageReader(file_.get(), format("{}, page {},", name_, pages_read_)).read();
+  at_end_ = TIFFReadDirectory(file_.get()) == 0;
+  return page;
+}
+
+}  // namespace nutik

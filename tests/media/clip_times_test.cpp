@@ -1,0 +1,119 @@
+// When a clip's pictures were taken: irregular times of containers, and a camera's own.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "support/ffmpeg.hpp"
+#include "support/stills.hpp"
+
+namespace nutik {
+namespace {
+
+using test::bytes_of;
+using test::difference;
+using test::expect_clip_refused;
+using test::from_raw;
+using test::make;
+using test::open_test_clip;
+using test::read_all;
+using test::Scratch;
+
+// Times in ms, that fit no rate.
+const std::vector<std::int64_t> kStarts{0, 40, 80, 120, 240, 250, 490};
+
+void make_irregular(const Scratch& scratch, const std::string& output, const std::string& codec) {
+  const auto pictures = test::random_stills({32, 16, 1}, 255, static_cast<int>(kStarts.size()), 2);
+  scratch.write("raw", bytes_of(pictures));
+  std::string times;
+  for (std::size_t k = 0; k < kStarts.size(); ++k) {
+    times += (k == 0 ? "eq(N," : "+eq(N,") + std::to_string(k) + ")*" + std::to_string(kStarts[k]);
+  }
+  make(scratch, from_raw({32, 16, 1}, "gray") + "-vf \"settb=1/1000,setpts='" + times +
+                    "'\" -vsync vfr -enc_time_base 1:1000 " + codec + " " + output);
+}
+
+TEST(ClipTimes, TakesIrregularTimesFromTheContainer) {
+  NEEDS_FFMPEG();
+  for (const auto& [output, codec] :
+       {std::pair<std::string, std::string>{"clip.mkv", "-c:v ffv1 -pix_fmt gray"},
+        {"clip.mp4", "-c:v libx264 -bf 2 -pix_fmt yuv420p10le -video_track_timescale 1000"},
+        {"eight.mp4", "-c:v libx264 -bf 2 -pix_fmt yuv420p -video_track_timescale 90000"}}) {
+    SCOPED_TRACE(output);
+    const Scratch scratch;
+    make_irregular(scratch, output, codec);
+    const auto clip = open_test_clip(scratch / output);
+    ASSERT_FALSE(clip->info().timing.rate);
+    ASSERT_EQ(clip->info().sample_count, kStarts.size());
+    EXPECT_EQ(read_all(*clip).size(), kStarts.size());
+    const Timeline timeline = timeline_of(output, clip->info(), {}, {180, 1}, kStarts.size());
+    for (std::size_t k = 0; k < kStarts.size(); ++k) {
+      EXPECT_EQ(timeline.start_ns(k), kStarts[k] * 1'000'000);
+      const std::int64_t period = k + 1 < kStarts.size() ? kStarts[k + 1] - kStarts[k] : 240;
+      EXPECT_EQ(timeline.end_ns(k), kStarts[k] * 1'000'000 + period * 500'000);
+    }
+    EXPECT_EQ(timeline.duration_ns(), 730'000'000);
+    // A stated rate goes before them.
+    ClipOptions stated;
+    stated.rate = Rational{100, 1};
+    EXPECT_TRUE(timeline_of(output, clip->info(), stated, {360, 1}, kStarts.size()).is_constant());
+  }
+}
+
+TEST(ClipTimes, RefusesTimesThatDoNotIncrease) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  make_irregular(scratch, "clip.mkv", "-c:v ffv1 -pix_fmt gray");
+  // A block's header: track 1, then the time after the cluster's in 16 bits.
+  std::string bytes = test::read_file(scratch / "clip.mkv");
+  const auto at = bytes.find(std::string("\x81\x00\xFA", 3));  // 250 ms
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 2] = '\xF0';  // 240 ms, as the picture before
+  const auto clip = scratch.write("same.mkv", bytes);
+  expect_clip_refused(
+      clip, {},
+      "same.mkv: sample 5 starts at 240000000 ns, not after sample 4 at 240000000 ns; if they "
+      "were taken at a constant rate, state it with --fps");
+  ClipOptions stated;
+  stated.rate = Rational{25, 1};
+  EXPECT_TRUE(
+      timeline_of("", open_test_clip(clip, stated)->info(), stated, {360, 1}, 7).is_constant());
+}
+
+// Camera files, against bytes picked out of them by hand.
+TEST(ClipTimes, GivesTheCodesThatCineFilesHold) {
+  const std::filesystem::path media = NUTIK_TEST_MEDIA;
+  if (!std::filesystem::exists(media / "cine_781.cine")) GTEST_SKIP() << "no clips in " << media;
+  const std::string file = test::read_file(media / "cine_781.cine");
+  const auto u32 = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, file.data() + at, 4);
+    return value;
+  };
+  const auto clip = open_test_clip(media / "cine_781.cine");
+  EXPECT_EQ(clip->info().format.shape, (Shape{256, 256, 1}));
+  EXPECT_EQ(clip->info().format.white_code, 4095u);
+  EXPECT_EQ(clip->info().format.transfer, Transfer::linear());
+  // Every tenth picture of nominally 90 000 a second.
+  const Timeline timeline = timeline_of("", clip->info(), {}, {360, 1}, 15);
+  EXPECT_NEAR(timeline.rate().value(), 9003.21, 0.01);
+  EXPECT_NEAR(static_cast<double>(timeline.start_ns(14)), 14 * 111'071.36, 10);
+  const auto rasters = read_all(*clip);
+  ASSERT_EQ(rasters.size(), 15u);
+  for (std::size_t k = 0; k < 15; ++k) {
+    const std::size_t image = u32(u32(32) + 8 * k);
+    Picture want({256, 256, 1}, ValueType::code16, 4095);
+    for (std::size_t y = 0; y < 256; ++y) {
+      std::memcpy(want.bytes.data() + y * 512, file.data() + image + u32(image) + y * 512, 512);
+    }
+    EXPECT_EQ(difference(rasters[k], want), "") << k;
+  }
+
+  const auto packed = open_test_clip(media / "data_small_cine.cine");
+  EXPECT_EQ(packed->info().format.white_code, 1023u);
+  EXPECT_EQ(packed->info().timing.rate, (Rational{100, 1}))
+      << "its last picture is stamped 292 days late";
+  EXPECT_EQ(packed->info().notes.size(), 2u);
+}
+
+}  // namespace
+}  // namespace nutik

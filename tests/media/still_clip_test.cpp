@@ -1,0 +1,257 @@
+// Stills of every kind give their codes back, say what is white, and are refused with a reason.
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "capture/error.hpp"
+#include "support/clips.hpp"
+#include "support/scratch.hpp"
+#include "support/stills.hpp"
+
+namespace nutik {
+namespace {
+
+using test::difference;
+using test::netpbm_file;
+using test::open_test_clip;
+using test::read_all;
+using test::Scratch;
+using test::tiff_file;
+using test::TiffOptions;
+
+constexpr Shape kGrey{17, 9, 1}, kColour{17, 9, 3};
+
+void expect_codes(Clip& clip, const std::vector<Picture>& stills) {
+  EXPECT_EQ(clip.info().format.shape, stills[0].shape);
+  EXPECT_EQ(clip.info().sample_count, stills.size());
+  const auto rasters = read_all(clip);
+  ASSERT_EQ(rasters.size(), stills.size());
+  for (std::size_t k = 0; k < stills.size(); ++k)
+    EXPECT_EQ(difference(rasters[k], stills[k]), "") << k;
+}
+
+void expect_refused(const std::filesystem::path& path, const std::vector<std::string>& parts,
+                    const ClipOptions& options = {}) {
+  try {
+    const auto clip = open_test_clip(path, options);
+    read_all(*clip);
+    FAIL() << path << " was read";
+  } catch (const InputError& error) {
+    for (const std::string& part : parts) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  }
+}
+
+void write_with_opencv(const std::filesystem::path& path, const Picture& still) {
+  const int depth = still.type == ValueType::code8 ? CV_8U : CV_16U;
+  const auto& shape = still.shape;
+  cv::Mat picture(static_cast<int>(shape.height), static_cast<int>(shape.width),
+                  CV_MAKETYPE(depth, static_cast<int>(shape.channels)));
+  const std::size_t bytes = picture.elemSize1();
+  for (std::uint64_t i = 0; i < shape.value_count(); ++i) {
+    const std::uint64_t to = shape.channels == 3 ? i / 3 * 3 + 2 - i % 3 : i;
+    std::copy_n(reinterpret_cast<const std::uint8_t*>(still.bytes.data()) + i * bytes, bytes,
+                picture.data + to * bytes);
+  }
+  ASSERT_TRUE(cv::imwrite(path.string(), picture));
+}
+
+TEST(StillClip, GivesTheCodesOfPngAndTiffBack) {
+  for (const char* extension : {".png", ".tif"}) {
+    for (const Shape shape : {kGrey, kColour, Shape{1, 1, 1}, Shape{64, 65, 3}}) {
+      for (const std::uint32_t white : {255u, 65'535u}) {
+        SCOPED_TRACE(std::string(extension) + ", white " + std::to_string(white));
+        const Scratch scratch;
+        const auto stills = test::random_stills(shape, white, 3, white + shape.width);
+        for (std::size_t k = 0; k < 3; ++k) {
+          write_with_opencv(scratch / ("f" + std::to_string(k) + extension), stills[k]);
+        }
+        const auto clip = open_test_clip(scratch.folder(), {});
+        const CaptureFormat& format = clip->info().format;
+        EXPECT_EQ(format.white_code, white);
+        EXPECT_EQ(format.transfer, white == 255 ? Transfer::srgb() : Transfer::linear());
+        // 16 bits of which the files do not say how many are used.
+        EXPECT_EQ(clip->info().notes.size(), white == 255 ? 0u : 1u);
+        expect_codes(*clip, stills);
+      }
+    }
+  }
+}
+
+TEST(StillClip, TakesTheWhiteCodeOfNetpbm) {
+  for (const Shape shape : {kGrey, kColour}) {
+    for (const std::uint32_t white : {1u, 100u, 255u, 256u, 1023u, 4095u, 65'535u}) {
+      for (const bool plain : {false, true}) {
+        SCOPED_TRACE("white " + std::to_string(white) + (plain ? ", plain" : ", raw"));
+        const Scratch scratch;
+        const auto stills = test::random_stills(shape, white, 2, white);
+        const std::string extension = shape.channels == 1 ? ".pgm" : ".ppm";
+        for (std::size_t k = 0; k < 2; ++k) {
+          scratch.write("f" + std::to_string(k) + extension, netpbm_file(stills[k], plain));
+        }
+        const auto clip = open_test_clip(scratch / ("f%d" + extension), {});
+        EXPECT_EQ(clip->info().format.white_code, white);
+        EXPECT_TRUE(clip->info().notes.empty());
+        expect_codes(*clip, stills);
+      }
+    }
+  }
+}
+
+TEST(StillClip, ReadsTiffStacksOfEveryLayout) {
+  struct Case {
+    const char* name;
+    Shape shape;
+    std::uint32_t white;
+    TiffOptions options;
+    std::uint32_t stated_white;
+  };
+  const Case cases[] = {
+      {"16 bits", kGrey, 65'535, {}, 65'535},
+      {"big-endian", kGrey, 65'535, {16, true}, 65'535},
+      {"colour, big-endian", kColour, 65'535, {16, true}, 65'535},
+      {"colour, planar", kColour, 65'535, {16, false, false, true}, 65'535},
+      {"8 bits, planar, big-endian", kColour, 255, {8, true, false, true}, 255},
+      {"12 bits packed", kGrey, 4095, {12}, 4095},
+      {"10 bits packed, colour", kColour, 1023, {10}, 1023},
+      {"14 bits packed, planar", kColour, 16'383, {14, true, false, true}, 16'383},
+      {"inverted", kGrey, 255, {8, false, true}, 255},
+      {"inverted, 12 bits", kGrey, 4095, {12, false, true}, 4095},
+      {"states 4095", kGrey, 4095, {16, false, false, false, 4095}, 4095},
+      {"states a value that occurs", kGrey, 5000, {16, false, false, false, 5000}, 65'535},
+  };
+  for (const Case& tested : cases) {
+    SCOPED_TRACE(tested.name);
+    const Scratch scratch;
+    const auto stills = test::random_stills(tested.shape, tested.white, 4, tested.white);
+    const auto path = scratch.write("stack.tif", tiff_file(stills, tested.options));
+    const auto clip = open_test_clip(path, {});
+    EXPECT_EQ(clip->info().format.white_code, tested.stated_white);
+    expect_codes(*clip, stills);
+  }
+}
+
+// A reader that walks from the first page to the one wanted takes half a minute for this.
+TEST(StillClip, ReadsLongStacksInOneGo) {
+  const Scratch scratch;
+  const auto stills = test::random_stills({4, 4, 1}, 65'535, 4000, 1);
+  expect_codes(*open_test_clip(scratch.write("long.tif", tiff_file(stills, {})), {}), stills);
+}
+
+TEST(StillClip, ReadsJpeg) {
+  for (const Shape shape : {kGrey, kColour}) {
+    const Scratch scratch;
+    const auto stills = test::random_stills(shape, 255, 1, 3);
+    write_with_opencv(scratch / "f.jpg", stills[0]);
+    const auto clip = open_test_clip(scratch / "f.jpg", {});
+    EXPECT_EQ(clip->info().format.shape, shape);
+    EXPECT_EQ(clip->info().format.code_bytes, 1u);
+    EXPECT_EQ(read_all(*clip).size(), 1u);
+  }
+}
+
+TEST(StillClip, AStatedWhiteCodeGoesBeforeTheFiles) {
+  const Scratch scratch;
+  const auto stills = test::random_stills(kGrey, 4095, 1, 3);
+  write_with_opencv(scratch / "f.png", stills[0]);
+  ClipOptions options;
+  options.white_code = 4095;
+  const auto clip = open_test_clip(scratch / "f.png", options);
+  EXPECT_EQ(clip->info().format.white_code, 4095u);
+  EXPECT_TRUE(clip->info().notes.empty());
+}
+
+TEST(StillClip, SaysWhichStillDiffersAndHow) {
+  const Scratch scratch;
+  const auto write = [&](const std::string& name, Shape shape, std::uint32_t white) {
+    std::filesystem::create_directories((scratch / name).parent_path());
+    const Picture still = test::random_stills(shape, white, 1, 5)[0];
+    if (name.ends_with(".pgm")) {
+      scratch.write(name, netpbm_file(still, false));
+    } else {
+      write_with_opencv(scratch / name, still);
+    }
+  };
+  for (const char* folder : {"size", "depth", "channels"}) {
+    write(std::string(folder) + "/f0.png", kGrey, 255);
+    write(std::string(folder) + "/f1.png", kGrey, 255);
+  }
+  write("size/f2.png", {18, 9, 1}, 255);
+  write("depth/f2.png", kGrey, 65'535);
+  write("channels/f2.png", kColour, 255);
+  expect_refused(scratch / "size",
+                 {"size/f2.png is 18 x 9 grey of 8 bits", "size/f0.png, is 17 x 9 grey of 8 bits"});
+  expect_refused(scratch / "depth",
+                 {"depth/f2.png is 17 x 9 grey of 16 bits", "17 x 9 grey of 8 bits"});
+  expect_refused(scratch / "channels", {"channels/f2.png is 17 x 9 colour", "17 x 9 grey"});
+
+  write("white/f0.pgm", kGrey, 1023);
+  write("white/f1.pgm", kGrey, 4095);
+  expect_refused(scratch / "white", {"f1.pgm is 17 x 9 grey of 16 bits, white code 4095",
+                                     "white code 1023", "say what is white with --white"});
+  ClipOptions options;
+  options.white_code = 4095;
+  EXPECT_EQ(read_all(*open_test_clip(scratch / "white", options)).size(), 2u);
+
+  auto pages = test::random_stills(kGrey, 65'535, 2, 1);
+  pages.push_back(test::random_stills({9, 17, 1}, 65'535, 1, 1)[0]);
+  expect_refused(scratch.write("stack.tif", tiff_file(pages, {})),
+                 {"stack.tif, page 3, is 9 x 17 grey"});
+}
+
+TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
+  const Scratch scratch;
+  const auto stills = test::random_stills({40, 30, 1}, 65'535, 3, 8);
+  for (const char* extension : {".png", ".tif", ".pgm", ".jpg"}) {
+    const auto path = [&](int k) { return scratch / ("f" + std::to_string(k) + extension); };
+    for (int k = 0; k < 3; ++k) {
+      const Picture& still = stills[static_cast<std::size_t>(k)];
+      if (std::string(extension) == ".pgm") {
+        scratch.write(path(k).filename().string(), netpbm_file(still, false));
+      } else if (std::string(extension) == ".jpg") {
+        write_with_opencv(path(k), test::random_stills({40, 30, 1}, 255, 1, 8)[0]);
+      } else {
+        write_with_opencv(path(k), still);
+      }
+    }
+    const std::string whole = test::read_file(path(1));
+    scratch.write(path(1).filename().string(), std::string_view(whole).substr(0, whole.size() / 2));
+    expect_refused(scratch / (std::string("f%d") + extension),
+                   {path(1).string() + " cannot be read"});
+    // Also where it is the first.
+    expect_refused(path(1), {path(1).string() + " cannot be read"});
+    scratch.write(path(1).filename().string(), "no picture at all");
+    expect_refused(scratch / (std::string("f%d") + extension),
+                   {path(1).string() + " cannot be read"});
+  }
+  cv::imwrite((scratch / "alpha.png").string(), cv::Mat::zeros(9, 9, CV_8UC4));
+  expect_refused(scratch / "alpha.png", {"alpha.png has 4 channels", "transparency is not"});
+  TiffOptions signed_values;
+  signed_values.sample_format = 2;
+  expect_refused(scratch.write("signed.tif", tiff_file(stills, signed_values)),
+                 {"signed.tif, page 1, cannot be read: it has 16-bit signed values"});
+}
+
+TEST(StillClip, AStackThatIsCutOffNamesThePage) {
+  const Scratch scratch;
+  const auto stills = test::random_stills(kGrey, 65'535, 4, 8);
+  std::string bytes = tiff_file(stills, {});
+  // The third page's pixels lie where the file says that they do no more: behind its end.
+  const std::string two = tiff_file({stills[0], stills[1]}, {});
+  const std::size_t third = two.size();
+  const auto position = bytes.find(bytes.substr(third, 16), third);
+  ASSERT_EQ(position, third);
+  for (std::size_t at = two.size(); at + 12 < bytes.size(); ++at) {
+    if (bytes.compare(at, 8, std::string("\x11\x01\x04\x00\x01\x00\x00\x00", 8)) ==
+        0) {  // StripOffsets
+      bytes.replace(at + 8, 4, std::string("\x00\x00\x00\x7F", 4));
+      break;
+    }
+  }
+  expect_refused(scratch.write("cut.tif", bytes),
+                 {"cut.tif, page 3, cannot be read: it is damaged or was cut off at row 0"});
+}
+
+}  // namespace
+}  // namespace nutik

@@ -1,0 +1,119 @@
+// Which files a folder, a pattern or a numbered name stands for, and what is said where it stands
+// for none.
+#include "media/still_sequence.hpp"
+
+#include <gtest/gtest.h>
+
+#include "capture/error.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+class StillSequence : public testing::Test {
+ protected:
+  void touch(const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      std::filesystem::create_directories((scratch_ / name).parent_path());
+      scratch_.write(name, "x");
+    }
+  }
+
+  [[nodiscard]] std::string listed(const std::string& path) const {
+    const auto files = list_stills(scratch_ / path);
+    if (!files) return "no stills";
+    std::string text;
+    for (const auto& file : *files) text += (text.empty() ? "" : " ") + file.filename().string();
+    return text;
+  }
+
+  void expect_refused(const std::string& path, const std::vector<std::string>& parts) const {
+    try {
+      const std::string files = listed(path);
+      FAIL() << path << " gave " << files;
+    } catch (const InputError& error) {
+      for (const std::string& part : parts) {
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+      }
+    }
+  }
+
+  test::Scratch scratch_;
+};
+
+TEST_F(StillSequence, AFolderHoldsItsPicturesAsAPersonCounts) {
+  touch({"a/f10.png", "a/f9.PNG", "a/f1.png", "a/f009b.png", "a/notes.txt", "a/Thumbs.db",
+         "a/._f1.png"});
+  EXPECT_EQ(listed("a"), "f1.png f9.PNG f009b.png f10.png");
+  EXPECT_EQ(listed("a/"), listed("a"));
+  std::filesystem::create_directory(scratch_ / "a/f2.png");  // a folder in spite of its name
+  EXPECT_EQ(listed("a"), "f1.png f9.PNG f009b.png f10.png");
+}
+
+TEST_F(StillSequence, TwoKindsInAFolderAreNotMixed) {
+  touch({"a/f1.tif", "a/f2.tiff", "b/f1.png", "b/f2.png", "b/preview.jpg"});
+  EXPECT_EQ(listed("a"), "f1.tif f2.tiff");
+  expect_refused(
+      "b", {"b: the folder holds PNG files (f1.png) and JPEG files (preview.jpg)", "b/*.png'"});
+  EXPECT_EQ(listed("b/*.png"), "f1.png f2.png");
+}
+
+TEST_F(StillSequence, PatternsAreThoseOfTheShell) {
+  touch(
+      {"cam1/f1.png", "cam1/f2.png", "cam1/f12.png", "cam2/f3.png", "cam1/.f4.png", "cam1/f1.txt"});
+  EXPECT_EQ(listed("cam1/*.png"), "f1.png f2.png f12.png");
+  EXPECT_EQ(listed("cam1/f?.png"), "f1.png f2.png");
+  EXPECT_EQ(listed("cam1/f[2-9].png"), "f2.png");
+  EXPECT_EQ(listed("cam*/f?.png"), "f1.png f2.png f3.png");
+  expect_refused("cam1/*.tif", {"cam1/*.tif: no file matches"});
+  expect_refused("absent/*.png", {"absent/*.png: no file matches"});
+  touch({"f[1].png", "f1.png"});
+  EXPECT_EQ(listed("f[1].png"), "f[1].png") << "a file that is there goes before a pattern";
+}
+
+TEST_F(StillSequence, NumbersAreReadAsPrintfWritesThem) {
+  touch({"f0008.png", "f0009.png", "f0010.png", "f8.png", "f9.png", "f10.png", "f0010.txt",
+         "fx.png"});
+  EXPECT_EQ(listed("f%04d.png"), "f0008.png f0009.png f0010.png");
+  EXPECT_EQ(listed("f%d.png"), "f8.png f9.png f10.png");
+  EXPECT_EQ(listed("f%i.png"), listed("f%d.png"));
+  touch({"g 9.png", "g10.png", "h99.png", "h100.png"});
+  EXPECT_EQ(listed("g%2d.png"), "g 9.png g10.png");
+  EXPECT_EQ(listed("h%02d.png"), "h99.png h100.png");
+}
+
+TEST_F(StillSequence, SaysWhichNumberIsMissing) {
+  touch({"f0001.png", "f0002.png", "f0005.png"});
+  expect_refused("f%04d.png",
+                 {"f%04d.png: f0003.png is missing between f0002.png and f0005.png", "f*.png'"});
+  expect_refused("f%d.png", {"no file has such a name, f1.png for one",
+                             "f0005.png is there: its zeros are written %04d"});
+  expect_refused("g%d.png", {"g%d.png: no file has such a name, g1.png for one"});
+  expect_refused("absent/g%d.png", {"no file has such a name"});
+}
+
+TEST_F(StillSequence, LeavesOtherFilesToOthers) {
+  touch({"clip.mp4", "still.png"});
+  std::filesystem::create_directory(scratch_ / "empty");
+  EXPECT_EQ(listed("clip.mp4"), "no stills");
+  EXPECT_EQ(listed("absent.mp4"), "no stills");
+  EXPECT_EQ(listed("still.png"), "still.png");
+  expect_refused("empty", {"empty: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg)"});
+}
+
+TEST_F(StillSequence, NamesWhatIsMadeFromIt) {
+  touch({"frames.2/f1.png", "frames.2/f2.png", "clip.mp4"});
+  const auto name = [&](const char* path) { return sequence_name(scratch_ / path); };
+  EXPECT_EQ(name("clip.mp4"), "clip");
+  EXPECT_EQ(name("frames.2"), "frames.2");
+  EXPECT_EQ(name("frames.2/"), "frames.2");
+  EXPECT_EQ(name("frames.2/."), "frames.2");
+  EXPECT_EQ(name("frames.2/*.png"), "frames.2");
+  EXPECT_EQ(name("frames.2/f%d.png"), "f");
+  EXPECT_EQ(name("frames.2/%04d.png"), "frames.2");
+  EXPECT_EQ(name("shot_%04d.png"), "shot");
+  EXPECT_EQ(name("shot_*"), "shot");
+}
+
+}  // namespace
+}  // namespace nutik

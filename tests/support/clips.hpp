@@ -1,0 +1,28 @@
+// Lets tests open clips in their own process: the module that decodes them lies beside the program,
+// not beside the tests.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "media/clip.hpp"
+
+namespace nutik::test {
+
+inline std::unique_ptr<Clip> open_test_clip(const std::filesystem::path& path,
+                                            const ClipOptions& options = {}) {
+  const auto folder = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path();
+  setenv("NUTIK_MODULES", folder.c_str(), 0);
+  return open_clip(path, options);
+}
+
+inline std::vector<std::vector<std::byte>> read_all(Clip& clip) {
+  std::vector<std::vector<std::byte>> rasters;
+  std::vector<std::byte> raster(clip.info().format.sample_bytes());
+  while (clip.read(raster)) rasters.push_back(raster);
+  return rasters;
+}
+
+}  // namespace nutik::test
