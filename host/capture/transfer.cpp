@@ -89,6 +89,16 @@ double Transfer::fraction_of(double light) const {
   return light;
 }
 
+std::optional<Transfer::Toe> Transfer::toe() const {
+  switch (kind_) {
+    case Kind::srgb: return Toe{kSrgbToeFraction, 1.0 / kSrgbToeSlope};
+    case Kind::bt709: return Toe{kBt709ToeSlope * kBt709ToeLight, 1.0 / kBt709ToeSlope};
+    case Kind::linear:
+    case Kind::gamma: return std::nullopt;
+  }
+  return std::nullopt;
+}
+
 std::vector<double> Transfer::light_of_codes(std::uint32_t white_code) const {
   std::vector<double> light(static_cast<std::size_t>(white_code) + 1);
   for (std::size_t code = 0; code < light.size(); ++code) {

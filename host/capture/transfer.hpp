@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,13 @@ class Transfer {
   // Element c is the least light that rounds to code c, half up in code: light_of((c - 1/2) / white).
   // Element 0 is 0.
   [[nodiscard]] std::vector<double> code_thresholds(std::uint32_t white_code) const;
+
+  // The straight part at the dark end, for functions that have one: light = slope · fraction up to `end`.
+  struct Toe {
+    double end;
+    double slope;
+  };
+  [[nodiscard]] std::optional<Toe> toe() const;
 
   friend bool operator==(const Transfer&, const Transfer&) = default;
 

@@ -1,8 +1,6 @@
 #include "opencl/light_pieces.hpp"
 
-#include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -35,24 +33,22 @@ Cubic interpolated(double first, double last, Function f) {
 
 }  // namespace
 
-std::uint32_t piece_bits(std::uint32_t white_code) {
-  const int bits = std::bit_width(white_code);
-  return bits > 4 ? static_cast<std::uint32_t>(bits - 4) : 0;
-}
-
 std::optional<std::vector<double>> light_pieces(const Transfer& transfer, std::uint32_t white_code) {
-  if (transfer.kind() != Transfer::Kind::srgb || white_code < 255) return std::nullopt;
+  const std::optional<Transfer::Toe> toe = transfer.toe();
+  if (!toe || white_code < 255) return std::nullopt;
   const double white = white_code;
-  const double codes = std::exp2(piece_bits(white_code));
-  const double toe_end = std::floor(0.04045 * white);
+  const double toe_end = std::floor(toe->end * white);  // its last code
+  const double scale = (kLightPieces - 1) / (white - toe_end);
   std::vector<double> pieces(2 + 4 * kLightPieces);
-  pieces[0] = toe_end;
-  pieces[1] = 1.0 / 12.92 / white;
+  pieces[0] = scale;
+  pieces[1] = 1.0 - (toe_end + 0.5) * scale;
   for (std::uint32_t p = 0; p < kLightPieces; ++p) {
-    const double start = p * codes;
-    const double first = p == 0 ? toe_end + 1 : 0.0;
-    const Cubic cubic =
-        interpolated(first, codes - 1, [&](double t) { return transfer.light_of((start + t) / white); });
+    Cubic cubic{0.0, toe->slope / white, 0.0, 0.0};
+    if (p > 0) {
+      const double first = std::ceil(toe_end + 0.5 + (p - 1) / scale);
+      const double last = std::floor(toe_end + 0.5 + p / scale);
+      cubic = interpolated(first, last, [&](double code) { return transfer.light_of(code / white); });
+    }
     for (std::uint32_t j = 0; j < 4; ++j) pieces[2 + j * kLightPieces + p] = cubic[j];
   }
   return pieces;

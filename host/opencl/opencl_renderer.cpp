@@ -106,6 +106,11 @@ std::vector<LightScale<Real>> light_scales(const RenderPlan& plan) {
     const int half = function.summary.exponent / 2;
     scales.push_back({static_cast<Real>(std::scalbn(code_light, half)),
                       static_cast<Real>(std::scalbn(1.0, function.summary.exponent - half))});
+    if (!std::isfinite(scales.back().first) || !std::isfinite(scales.back().second)) {
+      throw UsageError(format("M{} has gains beyond 2^{}, more than single precision holds; use --precision "
+                              "double",
+                              function.tag, function.summary.exponent));
+    }
   }
   return scales;
 }
@@ -257,9 +262,9 @@ class OpenClRenderer::Implementation {
     const cl::Program program = programs_->get(
         "expose", k_expose_source,
         format("{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
-               "-DNUTIK_LANES={} -DNUTIK_PIECE_BITS={}",
+               "-DNUTIK_LANES={}",
                common_options(plan), plan.capture.code_bytes, light.kind, shape_.item_pixels,
-               shape_.item_tiles, shape_.lanes, piece_bits(plan.capture.white_code)));
+               shape_.item_tiles, shape_.lanes));
     ExposeKernel kernel(program, "expose");
 
     const cl::Buffer weights = upload(converted<Real>(plan.weights));

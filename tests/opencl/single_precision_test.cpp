@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "capture/error.hpp"
 #include "render/reference_renderer.hpp"
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
@@ -127,6 +128,21 @@ TEST(SinglePrecision, StaysWithinItsBoundOfTheReference) {
     }
     std::printf("blocks of %4u: worst difference %.3g of ∫|g|/D, %.3g of its bound\n",
                 block_samples, worst, tightest);
+  }
+}
+
+TEST(SinglePrecision, RefusesGainsThatItCannotHold) {
+  EveryCode every({1, 1, 255, Transfer::linear()});
+  const Shape& shape = every.format.shape;
+  const RenderPlan plan = make_plan(every.capture, {{0, GainFunction({{0, 1e80}})}},
+                                    Mask::uniform(shape.width, shape.height, 0), {});
+  OpenClRenderer renderer(test::renderer_options(Precision::single_));
+  try {
+    static_cast<void>(renderer.render(plan, every.capture, {ValueType::light64, 0}));
+    FAIL() << "gains of 1e80 were rendered";
+  } catch (const UsageError& error) {
+    EXPECT_STREQ(error.what(),
+                 "M0 has gains beyond 2^265, more than single precision holds; use --precision double");
   }
 }
 
