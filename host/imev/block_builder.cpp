@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <numeric>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -63,82 +65,80 @@ inline __attribute__((always_inline)) void gather_tile<std::uint8_t, 3>(const st
   }
 }
 
-// Marks the lanes in which any channel of `codes` is further than `tolerance` from `held`: 1 or 0 each.
-// Returns whether there is one.
-template <typename Code, std::uint32_t Channels>
-inline __attribute__((always_inline)) bool mark_changes(const Code* codes, const Code* held,
-                                                        std::uint32_t tolerance,
-                                                        std::array<std::uint8_t, kTilePixels>& changed) {
-  const auto limit = static_cast<Code>(tolerance);
-  std::uint8_t any = 0;
-  for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
-    std::uint8_t differs = 0;
-    for (std::uint32_t channel = 0; channel < Channels; ++channel) {
-      const Code now = codes[channel * kTilePixels + lane];
-      const Code before = held[channel * kTilePixels + lane];
-      const auto distance = static_cast<Code>(now > before ? now - before : before - now);
-      differs |= static_cast<std::uint8_t>(distance > limit);
-    }
-    changed[lane] = differs;
-    any |= differs;
-  }
-  return any != 0;
-}
-
-template <typename Code, std::uint32_t Channels>
-inline __attribute__((always_inline)) void hold(const Code* codes,
-                                                const std::array<std::uint8_t, kTilePixels>& changed,
-                                                Code* held) {
-  for (std::uint32_t channel = 0; channel < Channels; ++channel) {
-    for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
-      const std::uint32_t at = channel * kTilePixels + lane;
-      held[at] = changed[lane] != 0 ? codes[at] : held[at];
-    }
-  }
-}
-
-// Whether a tile differs at all from what it holds, and which lanes: the step every tile of every sample
-// takes. `held` is updated.
+// What a tile of a sample is compared with, and what its changes are counted in.
 struct TileStep {
   const std::byte* raster;
   std::size_t row_values;
   std::uint32_t tolerance;
-  std::byte* held;
-  std::array<std::uint8_t, kTilePixels>* changed;
+  std::byte* held;        // codes[channel][lane]; those that change are replaced
+  std::uint16_t* counts;  // change records of every lane; null where the change is none
 };
 
-template <typename Code, std::uint32_t Channels>
-inline __attribute__((always_inline)) bool step_tile(const TileStep& step) {
-  alignas(64) Code codes[Channels * kTilePixels];
-  gather_tile<Code, Channels>(reinterpret_cast<const Code*>(step.raster), step.row_values, codes);
-  auto* held = reinterpret_cast<Code*>(step.held);
-  if (std::memcmp(codes, held, sizeof codes) == 0) return false;
-  if (!mark_changes<Code, Channels>(codes, held, step.tolerance, *step.changed)) return false;
-  hold<Code, Channels>(codes, *step.changed, held);
-  return true;
+// A value for each lane of a tile; compilers cut these vectors into what the machine has.
+using Lanes8 = std::uint8_t __attribute__((vector_size(kTilePixels)));
+using Lanes16 = std::uint16_t __attribute__((vector_size(2 * kTilePixels)));
+
+// Lanes 0 … 63 of `differs`, each 0 or 1, as bits 0 … 63.
+inline __attribute__((always_inline)) std::uint64_t pack_lanes(const std::uint8_t* differs) {
+  std::uint64_t bits = 0;
+  for (std::uint32_t byte = 0; byte < 8; ++byte) {
+    std::uint64_t eight;
+    std::memcpy(&eight, differs + byte * 8, 8);
+    bits |= (eight * 0x0102'0408'1020'4080u >> 56) << (byte * 8);
+  }
+  return bits;
 }
 
-NUTIK_SIMD_CLONES bool step_grey8(const TileStep& step) { return step_tile<std::uint8_t, 1>(step); }
-NUTIK_SIMD_CLONES bool step_grey16(const TileStep& step) { return step_tile<std::uint16_t, 1>(step); }
-NUTIK_SIMD_CLONES bool step_colour8(const TileStep& step) { return step_tile<std::uint8_t, 3>(step); }
-NUTIK_SIMD_CLONES bool step_colour16(const TileStep& step) { return step_tile<std::uint16_t, 3>(step); }
+// The step that every tile of every sample takes: the lanes, as bits, in which any channel is further than
+// the tolerance from what is held.
+template <typename Code, std::uint32_t Channels>
+inline __attribute__((always_inline)) std::uint64_t step_tile(const TileStep& step) {
+  using Lanes = std::conditional_t<sizeof(Code) == 1, Lanes8, Lanes16>;
+  alignas(64) Code codes[Channels * kTilePixels];
+  gather_tile<Code, Channels>(reinterpret_cast<const Code*>(step.raster), step.row_values, codes);
+  if (std::memcmp(codes, step.held, sizeof codes) == 0) return 0;
 
-using StepFunction = bool (*)(const TileStep&);
+  Lanes now[Channels], held[Channels], differs{};
+  std::memcpy(now, codes, sizeof now);
+  std::memcpy(held, step.held, sizeof held);
+  const auto limit = static_cast<Code>(step.tolerance);
+  for (std::uint32_t channel = 0; channel < Channels; ++channel) {
+    const Lanes distance = now[channel] > held[channel] ? now[channel] - held[channel]
+                                                        : held[channel] - now[channel];
+    differs |= reinterpret_cast<Lanes>(distance > limit);
+  }
+  for (std::uint32_t channel = 0; channel < Channels; ++channel) {
+    held[channel] = differs != 0 ? now[channel] : held[channel];
+  }
+  std::memcpy(step.held, held, sizeof held);
+  const Lanes8 marks = __builtin_convertvector(differs, Lanes8) & 1;
+  if (step.counts != nullptr) {
+    Lanes16 counts;
+    std::memcpy(&counts, step.counts, sizeof counts);
+    counts += __builtin_convertvector(marks, Lanes16);
+    std::memcpy(step.counts, &counts, sizeof counts);
+  }
+  std::uint8_t bytes[kTilePixels];
+  std::memcpy(bytes, &marks, sizeof bytes);
+  return pack_lanes(bytes);
+}
+
+NUTIK_SIMD_CLONES std::uint64_t step_grey8(const TileStep& step) { return step_tile<std::uint8_t, 1>(step); }
+NUTIK_SIMD_CLONES std::uint64_t step_grey16(const TileStep& step) {
+  return step_tile<std::uint16_t, 1>(step);
+}
+NUTIK_SIMD_CLONES std::uint64_t step_colour8(const TileStep& step) {
+  return step_tile<std::uint8_t, 3>(step);
+}
+NUTIK_SIMD_CLONES std::uint64_t step_colour16(const TileStep& step) {
+  return step_tile<std::uint16_t, 3>(step);
+}
+
+using StepFunction = std::uint64_t (*)(const TileStep&);
 
 StepFunction step_function(const CaptureFormat& capture) {
   if (capture.shape.channels == 1) return capture.code_bytes == 1 ? step_grey8 : step_grey16;
   return capture.code_bytes == 1 ? step_colour8 : step_colour16;
-}
-
-// Lanes 0 … 63 of `changed` as bits 0 … 63.
-std::uint64_t pack_lanes(const std::array<std::uint8_t, kTilePixels>& changed) {
-  std::uint64_t bits = 0;
-  for (std::uint32_t byte = 0; byte < 8; ++byte) {
-    std::uint64_t eight;
-    std::memcpy(&eight, changed.data() + byte * 8, 8);
-    bits |= (eight * 0x0102'0408'1020'4080u >> 56) << (byte * 8);
-  }
-  return bits;
 }
 
 }  // namespace
@@ -177,7 +177,9 @@ class BlockBuilder::Implementation {
   [[nodiscard]] bool is_full() const { return samples_ == geometry_.sample_count; }
   [[nodiscard]] bool is_empty() const { return samples_ == 0; }
   [[nodiscard]] BlockExtent extent() const { return {first_sample_, samples_}; }
-  [[nodiscard]] std::uint64_t record_count() const { return records_; }
+  [[nodiscard]] std::uint64_t record_count() const {
+    return std::accumulate(lane_records_.begin(), lane_records_.end(), std::uint64_t{0});
+  }
 
   std::uint64_t finish(PageBuffer& into) {
     if (is_empty()) throw std::logic_error("a block without samples was finished");
@@ -220,7 +222,6 @@ class BlockBuilder::Implementation {
   void begin_next() {
     first_sample_ += samples_;
     samples_ = 0;
-    records_ = 0;
     std::fill(row_count_.begin(), row_count_.end(), 0);
     std::fill(lane_records_.begin(), lane_records_.end(), 0);
   }
@@ -264,7 +265,8 @@ class BlockBuilder::Implementation {
     alignas(64) std::array<std::byte, kTilePixels * 3 * 2> padded;
     TileStep step{};
     step.held = held_.data() + tile * geometry_.row_bytes();
-    step.changed = &marks_;
+    const bool starts = samples_ == 0;  // and a start is no record
+    step.counts = starts ? nullptr : lane_records_.data() + tile * kTilePixels;
     // The capture's first sample is held whatever it is: nothing was held before.
     const bool first_of_capture = first_sample_ == 0 && samples_ == 0;
     step.tolerance = first_of_capture ? 0 : capture_.noise.tolerance;
@@ -279,23 +281,12 @@ class BlockBuilder::Implementation {
       step.row_values = std::size_t{kTileSide} * shape.channels;
     }
 
-    const bool differs = step_(step);
-    const bool starts = samples_ == 0;
-    if (!differs && !starts && policy_ != TilePolicy::dense) return;
+    const std::uint64_t changes = step_(step);
+    if (changes == 0 && !starts && policy_ != TilePolicy::dense) return;
     const std::uint32_t row = row_count_[tile]++;
     std::memcpy(row_at(tile, row), step.held, geometry_.row_bytes());
     row_samples(tile)[row] = static_cast<std::uint16_t>(samples_);
-    if (starts || !differs) {
-      row_changes(tile)[row] = 0;  // a start is no record
-      return;
-    }
-    const std::uint64_t lanes = pack_lanes(marks_);
-    row_changes(tile)[row] = lanes;
-    records_ += static_cast<std::uint64_t>(__builtin_popcountll(lanes));
-    std::uint16_t* counts = lane_records_.data() + tile * kTilePixels;
-    for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
-      counts[lane] = static_cast<std::uint16_t>(counts[lane] + marks_[lane]);
-    }
+    row_changes(tile)[row] = starts ? 0 : changes;
   }
 
   [[nodiscard]] TileEntry choose(const BlockGeometry& geometry, std::uint64_t tile) const {
@@ -366,14 +357,12 @@ class BlockBuilder::Implementation {
 
   std::uint64_t first_sample_ = 0;
   std::uint32_t samples_ = 0;
-  std::uint64_t records_ = 0;
   PageBuffer held_;        // [tile][C][64] codes
   PageBuffer rows_;        // [tile][sample_count][C][64] codes
   PageBuffer changed_;     // [tile][sample_count] lanes that changed with the row, as bits
   PageBuffer row_sample_;  // [tile][sample_count] sample of each row within the block
   std::vector<std::uint32_t> row_count_;      // [tile]
   std::vector<std::uint16_t> lane_records_;   // [tile][64] change records of each pixel in the block
-  std::array<std::uint8_t, kTilePixels> marks_{};
 };
 
 BlockBuilder::BlockBuilder(const CaptureFormat& capture, std::uint32_t block_samples, TilePolicy policy) {

@@ -19,10 +19,10 @@ namespace nutik {
 
 inline constexpr std::uint32_t kDefaultBlockSamples = 64;
 inline constexpr std::uint32_t kLargestBlockSamples = 65'535;  // an index has two bytes at most
-inline constexpr std::uint64_t kDefaultBlockBytes = 256ull << 20;
+inline constexpr std::uint64_t kDefaultBlockBytes = 128ull << 20;
 
 // The samples a block holds where nothing else is asked for: 64, or fewer so that the samples' raw bytes
-// stay within kDefaultBlockBytes (43 of 1080p in colour), never less than one.
+// stay within kDefaultBlockBytes (21 of 1080p in colour), never less than one.
 [[nodiscard]] std::uint32_t default_block_samples(const CaptureFormat& capture);
 
 class BlockBuilder {

@@ -57,6 +57,8 @@ def measure(clip, build, folder, runs):
     for _ in range(runs):
         times["decode"].append(run(decode, clip))
         for codec in CODECS:
+            # To replace a file the system first writes what it holds back: not what is measured here.
+            captures[codec].unlink(missing_ok=True)
             times.setdefault(("encode", codec), []).append(
                 run(program, "encode", "-q", "--codec", codec, clip, captures[codec]))
     for _ in range(runs):
