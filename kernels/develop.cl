@@ -2,9 +2,9 @@
 //
 //   in:    sums [tile][channel][64] of expose.cl
 //   out:   an interleaved raster of width × height pixels
-//   items: NUTIK_LANES neighbouring pixels each, in tile order: one pixel, or a row of a tile; those in a
-//          tile's padding write nothing
-#include "lanes.clh"
+//   items: as in expose.cl; NUTIK_LANES pixels at a time, at most a row of a tile. A tile's padding is not
+//          written
+#include "items.clh"
 
 #ifndef NUTIK_CHANNELS
 #error "NUTIK_CHANNELS is not set: 1 or 3"
@@ -14,7 +14,6 @@
 #endif
 
 #define NUTIK_TILE_SIDE 8
-#define NUTIK_ITEMS_PER_ROW (NUTIK_TILE_SIDE / NUTIK_LANES)
 
 #if NUTIK_RASTER_BYTES == 1
 typedef uchar raster_code;
@@ -29,7 +28,7 @@ typedef struct {
   real second;
 } LightScale;
 
-// Where an item's pixels lie.
+// Where NUTIK_LANES pixels lie.
 typedef struct {
   uint count;        // how many are inside the picture
   size_t raster;     // the first one's place in the raster, in pixels
@@ -37,13 +36,13 @@ typedef struct {
   uint lane;
 } Pixels;
 
-NUTIK_INLINE Pixels pixels_of(const size_t item, const uint width, const uint height) {
+NUTIK_INLINE Pixels pixels_at(const size_t tile, const uint lane, const uint width, const uint height) {
   const size_t columns = (width + NUTIK_TILE_SIDE - 1) / NUTIK_TILE_SIDE;
   Pixels pixels;
-  pixels.tile = item / (NUTIK_TILE_PIXELS / NUTIK_LANES);
-  pixels.lane = (uint)(item % (NUTIK_TILE_PIXELS / NUTIK_LANES)) * NUTIK_LANES;
-  const size_t x = pixels.tile % columns * NUTIK_TILE_SIDE + pixels.lane % NUTIK_TILE_SIDE;
-  const size_t y = pixels.tile / columns * NUTIK_TILE_SIDE + pixels.lane / NUTIK_TILE_SIDE;
+  pixels.tile = tile;
+  pixels.lane = lane;
+  const size_t x = tile % columns * NUTIK_TILE_SIDE + lane % NUTIK_TILE_SIDE;
+  const size_t y = tile / columns * NUTIK_TILE_SIDE + lane / NUTIK_TILE_SIDE;
   pixels.count = y >= height || x >= width ? 0 : min((uint)NUTIK_LANES, (uint)(width - x));
   pixels.raster = y * width + x;
   return pixels;
@@ -72,35 +71,59 @@ NUTIK_INLINE uints codes_of(const reals light, global const real* restrict thres
   return guess + NUTIK_ONE_WHERE(gather(thresholds, guess + 1) <= inside);
 }
 
-kernel void develop_light(global const real* restrict sums, global const LightScale* restrict scales,
-                          global const uchar* restrict function_of_lane, const uint width,
-                          const uint height, global real* restrict raster) {
-  const Pixels pixels = pixels_of(get_global_id(0), width, height);
+NUTIK_INLINE void write_light(const Pixels* pixels, global const real* restrict sums,
+                              global const LightScale* restrict scales,
+                              global const uchar* restrict function_of_lane, global real* restrict raster) {
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
     real light[NUTIK_LANES];
-    NUTIK_STORE(light_at(sums, scales, function_of_lane, &pixels, channel), light);
-    for (uint i = 0; i < pixels.count; ++i) {
-      raster[(pixels.raster + i) * NUTIK_CHANNELS + channel] = light[i];
+    NUTIK_STORE(light_at(sums, scales, function_of_lane, pixels, channel), light);
+    for (uint i = 0; i < pixels->count; ++i) {
+      raster[(pixels->raster + i) * NUTIK_CHANNELS + channel] = light[i];
+    }
+  }
+}
+
+NUTIK_INLINE void write_codes(const Pixels* pixels, global const real* restrict sums,
+                              global const LightScale* restrict scales,
+                              global const uchar* restrict function_of_lane,
+                              global const real* restrict thresholds, global const uint* restrict guesses,
+                              const uint guess_count, global raster_code* restrict raster) {
+  uint codes[NUTIK_CHANNELS][NUTIK_LANES];
+#pragma unroll
+  for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
+    const reals light = light_at(sums, scales, function_of_lane, pixels, channel);
+    NUTIK_STORE(codes_of(light, thresholds, guesses, guess_count), codes[channel]);
+  }
+  for (uint i = 0; i < pixels->count; ++i) {
+#pragma unroll
+    for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
+      raster[(pixels->raster + i) * NUTIK_CHANNELS + channel] = (raster_code)codes[channel][i];
+    }
+  }
+}
+
+kernel void develop_light(global const real* restrict sums, global const LightScale* restrict scales,
+                          global const uchar* restrict function_of_lane, const uint width,
+                          const uint height, const ulong tile_count, global real* restrict raster) {
+  const Item item = item_of(get_global_id(0), tile_count);
+  for (size_t tile = item.first_tile; tile < item.last_tile; ++tile) {
+    for (uint lane = item.lane; lane < item.lane + NUTIK_ITEM_PIXELS; lane += NUTIK_LANES) {
+      const Pixels pixels = pixels_at(tile, lane, width, height);
+      write_light(&pixels, sums, scales, function_of_lane, raster);
     }
   }
 }
 
 kernel void develop_codes(global const real* restrict sums, global const LightScale* restrict scales,
                           global const uchar* restrict function_of_lane, const uint width,
-                          const uint height, global const real* restrict thresholds,
-                          global const uint* restrict guesses, const uint guess_count,
-                          global raster_code* restrict raster) {
-  const Pixels pixels = pixels_of(get_global_id(0), width, height);
-  uint codes[NUTIK_CHANNELS][NUTIK_LANES];
-#pragma unroll
-  for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
-    const reals light = light_at(sums, scales, function_of_lane, &pixels, channel);
-    NUTIK_STORE(codes_of(light, thresholds, guesses, guess_count), codes[channel]);
-  }
-  for (uint i = 0; i < pixels.count; ++i) {
-#pragma unroll
-    for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
-      raster[(pixels.raster + i) * NUTIK_CHANNELS + channel] = (raster_code)codes[channel][i];
+                          const uint height, const ulong tile_count,
+                          global const real* restrict thresholds, global const uint* restrict guesses,
+                          const uint guess_count, global raster_code* restrict raster) {
+  const Item item = item_of(get_global_id(0), tile_count);
+  for (size_t tile = item.first_tile; tile < item.last_tile; ++tile) {
+    for (uint lane = item.lane; lane < item.lane + NUTIK_ITEM_PIXELS; lane += NUTIK_LANES) {
+      const Pixels pixels = pixels_at(tile, lane, width, height);
+      write_codes(&pixels, sums, scales, function_of_lane, thresholds, guesses, guess_count, raster);
     }
   }
 }

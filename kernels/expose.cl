@@ -3,13 +3,9 @@
 //   in:    a chunk of blocks (layout: host/imev/block.hpp), the packed tables, each pixel's function
 //   out:   sums [tile][channel][64]: Σ_k v_k w_k so far, in scaled gain; added to what is there, or
 //          stored where `first` is set
-//   items: one for NUTIK_ITEM_PIXELS neighbouring pixels of each of NUTIK_ITEM_TILES tiles in a row; those
-//          of the same tiles are consecutive
+//   items: see items.clh
+#include "items.clh"
 #include "tiles.clh"
-
-#ifndef NUTIK_ITEM_TILES
-#error "NUTIK_ITEM_TILES is not set: 1 or more"
-#endif
 
 NUTIK_INLINE TileEntry tile_entry(global const uchar* restrict payload, const size_t tile) {
   return ((global const TileEntry*)payload)[tile];
@@ -37,10 +33,8 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
                    global const uchar* restrict function_of_lane,
                    global const real* restrict transfer, global real* restrict sums,
                    const ulong tile_count, const uint first) {
-  const size_t item = get_global_id(0);
-  const size_t first_tile = item / NUTIK_ITEMS_PER_TILE * NUTIK_ITEM_TILES;
-  const size_t last_tile = min(first_tile + NUTIK_ITEM_TILES, (size_t)tile_count);
-  const uint lane = (uint)(item % NUTIK_ITEMS_PER_TILE) * NUTIK_ITEM_PIXELS;
+  const Item item = item_of(get_global_id(0), tile_count);
+  const uint lane = item.lane;
 
   // Block by block, not tile by tile: a block's tiles lie one after the other in memory. A block is summed
   // on its own before it is added, so that rounding errors grow with its length, not the capture's; the
@@ -56,7 +50,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
     block.weights = weights + entry.table_row * function_count;
     block.boundaries = boundaries + entry.table_row * function_count;
 
-    for (size_t tile = first_tile; tile < last_tile; ++tile) {
+    for (size_t tile = item.first_tile; tile < item.last_tile; ++tile) {
       Region region;
 #if NUTIK_ITEM_PIXELS == 1
       region.is_uniform = true;

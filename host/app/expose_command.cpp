@@ -83,6 +83,7 @@ class Exposing {
 
   // What makes the picture, for the summary.
   [[nodiscard]] std::string renderer_name() const { return renderer_->name(); }
+  [[nodiscard]] std::string report() const { return renderer_->report(); }
   [[nodiscard]] const std::string& label() const { return request_.label(); }
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   void set_output(const std::filesystem::path& output) { output_ = output; }
@@ -172,6 +173,7 @@ int run_expose(const Options& options) {
                     shape_text(plan.capture.shape), plan.live_sample_count(),
                     exposed.timeline.sample_count(), still_gains_text(plan, !options.functions), stopwatch.seconds(),
                     exposing.renderer_name()));
+  if (options.verbose && !exposing.report().empty()) print_line(exposing.report());
   if (!captured) {
     print_line(format("source: {}", timing_text(exposed.timeline, source_options)));
     for (const std::string& note : exposing.notes()) print_note(format("note: {}", note));

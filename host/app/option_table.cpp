@@ -149,6 +149,8 @@ std::span<const Option> options() {
              "also write how often each pixel changes, as a grey picture: black never, white most often",
              bit(Id::info), &Options::activity),
       flag('q', "quiet", kOutput, "no progress bar and no summary", kAll, &Options::quiet),
+      flag('v', "verbose", kOutput, "also say in which precision, how fast and with how much memory", kExpose,
+           &Options::verbose),
   };
   return table;
 }

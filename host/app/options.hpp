@@ -41,6 +41,7 @@ struct Options {
   std::optional<std::string> activity;
 
   bool quiet = false;
+  bool verbose = false;
 };
 
 }  // namespace nutik::app

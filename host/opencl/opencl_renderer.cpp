@@ -1,6 +1,7 @@
 #include "opencl/opencl_renderer.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "capture/error.hpp"
@@ -35,8 +36,8 @@ using ExposeKernel =
     cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint,
                       cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong, cl_uint>;
 using DevelopLightKernel =
-    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl::Buffer>;
-using DevelopCodesKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint,
+    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_ulong, cl::Buffer>;
+using DevelopCodesKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_ulong,
                                              cl::Buffer, cl::Buffer, cl_uint, cl::Buffer>;
 
 // How work is cut for a device; see the table in docs/performance.md.
@@ -170,6 +171,15 @@ class OpenClRenderer::Implementation {
 
   [[nodiscard]] const std::string& name() const { return info_.name; }
   [[nodiscard]] const RenderStatistics& statistics() const { return statistics_; }
+  [[nodiscard]] std::string report() const {
+    const double megabytes = static_cast<double>(statistics_.payload_bytes) * 1e-6;
+    return format("{} precision; {} blocks of {:.1f} MB made ready in {:.1f} ms, read by the kernel in {:.1f} ms "
+                  "({:.1f} GB/s); codes or light in {:.1f} ms; at most {:.1f} MB on the device",
+                  to_text(options_.precision), statistics_.blocks, megabytes, statistics_.read_ms,
+                  statistics_.expose_ms,
+                  statistics_.expose_ms > 0 ? megabytes / statistics_.expose_ms : 0.0,
+                  statistics_.develop_ms, static_cast<double>(statistics_.device_bytes) * 1e-6);
+  }
 
   Picture render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
     try {
@@ -275,7 +285,10 @@ class OpenClRenderer::Implementation {
 
     bool first = true;
     for (std::size_t b = 0; b < plan.blocks.size();) {
+      const auto start = std::chrono::steady_clock::now();
       const Chunk chunk = next_chunk(plan, source, b);
+      statistics_.read_ms +=
+          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
       const cl::Buffer entries = upload(chunk.entries);
       const cl::Event event =
           kernel(items(shape_.items(grid.tile_count())), chunk.payload, entries, static_cast<cl_uint>(chunk.entries.size()),
@@ -351,9 +364,6 @@ class OpenClRenderer::Implementation {
     return chunk;
   }
 
-  // A row of a tile where an item should fill vector registers, else one pixel.
-  [[nodiscard]] std::uint32_t develop_lanes() const { return shape_.lanes == 1 ? 1 : 8; }
-
   template <typename Real>
   Picture develop(const RenderPlan& plan, const OutputFormat& output, const cl::Buffer& sums,
                   const cl::Buffer& function_of_lane) {
@@ -362,17 +372,19 @@ class OpenClRenderer::Implementation {
     const std::size_t raster_bytes = codes ? value_bytes(output.type) : 1;
     const cl::Program program =
         programs_->get("develop", k_develop_source,
-                       format("{} -DNUTIK_CODE_BYTES=1 -DNUTIK_ITEM_PIXELS={} -DNUTIK_LANES={} "
-                              "-DNUTIK_RASTER_BYTES={}",
-                              common_options(plan), develop_lanes(), develop_lanes(), raster_bytes));
+                       format("{} -DNUTIK_CODE_BYTES=1 -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
+                              "-DNUTIK_LANES={} -DNUTIK_RASTER_BYTES={}",
+                              common_options(plan), shape_.item_pixels, shape_.item_tiles,
+                              std::min(shape_.lanes, kTileSide), raster_bytes));
     const cl::Buffer scales = upload(light_scales<Real>(plan));
-    const std::uint64_t pixel_items = TileGrid(shape).tile_count() * (kTilePixels / develop_lanes());
+    const std::uint64_t tile_count = TileGrid(shape).tile_count();
+    const std::uint64_t item_count = shape_.items(tile_count);
     Picture picture(shape, output.type, output.white_code);
     if (!codes) {
       const cl::Buffer raster = allocate(shape.value_count() * sizeof(Real), CL_MEM_WRITE_ONLY);
       DevelopLightKernel kernel(program, "develop_light");
-      const cl::Event event = kernel(items(pixel_items), sums, scales, function_of_lane, shape.width,
-                                     shape.height, raster);
+      const cl::Event event = kernel(items(item_count), sums, scales, function_of_lane, shape.width,
+                                     shape.height, tile_count, raster);
       std::vector<Real> light(shape.value_count());
       queue_.enqueueReadBuffer(raster, CL_TRUE, 0, light.size() * sizeof(Real), light.data());
       statistics_.develop_ms = milliseconds(event);
@@ -388,7 +400,7 @@ class OpenClRenderer::Implementation {
     const cl::Buffer raster = allocate(picture.bytes.size(), CL_MEM_WRITE_ONLY);
     DevelopCodesKernel kernel(program, "develop_codes");
     const cl::Event event =
-        kernel(items(pixel_items), sums, scales, function_of_lane, shape.width, shape.height,
+        kernel(items(item_count), sums, scales, function_of_lane, shape.width, shape.height, tile_count,
                upload(search.thresholds), upload(search.guesses),
                static_cast<cl_uint>(search.guesses.size()), raster);
     queue_.enqueueReadBuffer(raster, CL_TRUE, 0, picture.bytes.size(), picture.bytes.data());
@@ -426,6 +438,8 @@ Picture OpenClRenderer::render(const RenderPlan& plan, CaptureSource& source,
 }
 
 std::string OpenClRenderer::name() const { return implementation_->name(); }
+
+std::string OpenClRenderer::report() const { return implementation_->report(); }
 
 const RenderStatistics& OpenClRenderer::statistics() const { return implementation_->statistics(); }
 

@@ -32,7 +32,8 @@ struct OpenClOptions {
 
 // What the last render did.
 struct RenderStatistics {
-  double expose_ms = 0.0;   // by the device's own clock
+  double read_ms = 0.0;     // until payloads are where the kernel reads them: unpacking, copying
+  double expose_ms = 0.0;   // of the kernels, by the device's own clock
   double develop_ms = 0.0;
   std::uint64_t payload_bytes = 0;  // read by the kernel
   std::uint64_t device_bytes = 0;   // largest sum of buffers at a time
@@ -49,6 +50,7 @@ class OpenClRenderer final : public Renderer {
   [[nodiscard]] Picture render(const RenderPlan& plan, CaptureSource& source,
                                const OutputFormat& output) override;
   [[nodiscard]] std::string name() const override;
+  [[nodiscard]] std::string report() const override;
   [[nodiscard]] const RenderStatistics& statistics() const;
 
  private:
