@@ -26,7 +26,7 @@ int run_encode(const Options& options) {
   const std::filesystem::path output = output_path(options);
   const std::string& input = options.operands.front();
   const SourceOptions source_options = SourceOptions::from(options);
-  const tik::Codec codec = options.codec ? tik::Codec::parse(*options.codec) : tik::Codec{};
+  const tik::Codec codec = tik::Codec::parse(options.codec.value_or("zstd"));
   if (is_tik(input) && std::filesystem::exists(input)) {
     throw UsageError(format("{} is a capture already; to expose a picture from it: nutik-cl --start 0s "
                             "--exposure 10ms {} picture.png",

@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <future>
 
 #include "app/capture_input.hpp"
 #include "app/commands.hpp"
@@ -43,7 +44,11 @@ OutputFormat output_format(const Options& options, const std::filesystem::path& 
 class Exposing {
  public:
   Exposing(const Options& options, const std::filesystem::path& output)
-      : options_(options), output_(output), request_(ExposureRequest::from(options)) {}
+      : options_(options),
+        output_(output),
+        request_(ExposureRequest::from(options)),
+        // A device takes a while to start: functions, mask and capture are read in the meantime.
+        starting_(std::async(std::launch::async, [&options] { return choose_renderer(options); })) {}
 
   Exposed from_tik(const std::string& input) {
     refuse_source_options(options_, input);
@@ -93,7 +98,10 @@ class Exposing {
     RenderPlan plan =
         make_plan(source, functions, request_.mask(source.format().shape), request_.plan_options());
     const OutputFormat format = output_format(options_, output_, plan.capture);
-    if (!renderer_) renderer_ = choose_renderer(options_);
+    if (!renderer_) {
+      if (!plan.blocks.empty()) source.preload(plan.blocks.front().block);
+      renderer_ = starting_.get();
+    }
     Picture picture = renderer_->render(plan, source, format);
     return {std::move(plan), std::move(picture), source.timeline()};
   }
@@ -101,6 +109,7 @@ class Exposing {
   const Options& options_;
   std::filesystem::path output_;
   ExposureRequest request_;
+  std::future<std::unique_ptr<Renderer>> starting_;
   std::unique_ptr<Renderer> renderer_;
   std::vector<std::string> notes_;  // on the clip
 };

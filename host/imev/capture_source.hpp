@@ -33,6 +33,10 @@ class CaptureSource {
   // Copies the payload of the block prepared last to the front of `into`.
   virtual void read(std::uint64_t block, std::span<std::byte> into) = 0;
 
+  // Does ahead what prepare() and read() will take time for, while whoever will ask for the block is not
+  // ready yet. A source may do nothing.
+  virtual void preload(std::uint64_t /*block*/) {}
+
   // Where every payload already lies in memory, ready to be used in place: that memory, which starts on
   // a page border, and the payload's offset in it. Otherwise the region is empty.
   [[nodiscard]] virtual std::span<const std::byte> region() const { return {}; }

@@ -143,7 +143,21 @@ std::uint64_t Reader::prepare(std::uint64_t block) {
   return header.payload_bytes;
 }
 
+void Reader::preload(std::uint64_t block) {
+  constexpr std::uint64_t kLargest = 64 << 20;  // what is unpacked in the time that a device takes to start
+  const std::uint64_t bytes = index_[block].payload_bytes;
+  if (index_[block].codec == static_cast<std::uint32_t>(CodecId::none) || bytes > kLargest) return;
+  prepare(block);
+  preloaded_.reserve(bytes);
+  read(block, preloaded_.first(bytes));
+  preloaded_block_ = block;
+}
+
 void Reader::read(std::uint64_t block, std::span<std::byte> into) {
+  if (preloaded_block_ == block) {
+    std::memcpy(into.data(), preloaded_.data(), into.size());
+    return;
+  }
   const BlockGeometry geometry(header_.capture, index_[block].sample_count);
   try {
     unpack(static_cast<CodecId>(index_[block].codec), geometry, stored_payload(block), into);

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "imev/capture_source.hpp"
 #include "system/mapped_file.hpp"
+#include "system/page_buffer.hpp"
 #include "tik/format.hpp"
 #include "tik/header.hpp"
 
@@ -29,6 +31,7 @@ class Reader final : public CaptureSource {
   // Checks the block's checksums; throws InputError naming its samples and times where it is damaged.
   std::uint64_t prepare(std::uint64_t block) override;
   void read(std::uint64_t block, std::span<std::byte> into) override;
+  void preload(std::uint64_t block) override;  // unpacks it, unless it is large
 
   // A block's tile directory alone: what kinds of tiles it has costs no look at their bodies. Only the
   // header's checksum is checked.
@@ -53,6 +56,8 @@ class Reader final : public CaptureSource {
   MappedFile file_;
   Header header_;
   std::vector<IndexEntry> index_;
+  std::optional<std::uint64_t> preloaded_block_;
+  PageBuffer preloaded_;
   Timeline timeline_ = Timeline::constant({1, 1}, Timeline::kFullShutter, 0);
 };
 
