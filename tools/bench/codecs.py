@@ -4,9 +4,9 @@
     tools/bench/codecs.py --build build --clips FOLDER [--only NAME ...] [--runs 5] [--csv FILE]
 
 Encoding is compared with decoding the same clip and doing nothing with it, in turns in the same run. A
-render is the whole process that exposes all of the clip, from .tik to a picture; cold, the file's pages
-are dropped from the system's cache before. FFV1 (level 3, bgr0 or the clip's own deep format) is the
-lossless peer, as ffmpeg makes it. Times are medians, in seconds; sizes are in bytes.
+render is the whole process that exposes all of it, from file to picture; cold, the file's pages are dropped
+from the system's cache before. FFV1 (level 3, bgr0, as ffmpeg makes it) is the lossless peer, the clip itself
+the smallest; pictures are exposed straight from both. Times are medians, in seconds.
 """
 
 import argparse
@@ -40,44 +40,41 @@ def drop_from_cache(path):
     os.close(descriptor)
 
 
-def ffv1_bytes(clip, folder):
-    target = folder / "peer.mkv"
-    run("ffmpeg", "-v", "error", "-y", "-i", clip, "-an", "-c:v", "ffv1", "-level", "3", "-pix_fmt", "bgr0",
-        target)
-    size = target.stat().st_size
-    target.unlink()
-    return size
+def encode_ffv1(clip, target):
+    return run("ffmpeg", "-v", "error", "-y", "-i", clip, "-an", "-c:v", "ffv1", "-level", "3", "-pix_fmt", "bgr0",
+               target)
 
 
 def measure(clip, build, folder, runs):
-    program, decode = build / "nutik-cl", build / "bench_decode"
-    captures = {codec: folder / f"{codec.replace(':', '-')}.tik" for codec in CODECS}
+    """Rows of one clip: its captures, and the same picture straight from the clip and from FFV1."""
+    program = build / "nutik-cl"
+    sources = {codec: folder / f"{codec.replace(':', '-')}.tik" for codec in CODECS}
+    sources |= {"FFV1": folder / "peer.mkv", "clip": clip}
     picture = folder / "picture.png"
     times = {"decode": []}
     for _ in range(runs):
-        times["decode"].append(run(decode, clip))
+        times["decode"].append(run(build / "bench_decode", clip))
         for codec in CODECS:
             # To replace a file the system first writes what it holds back: not what is measured here.
-            captures[codec].unlink(missing_ok=True)
+            sources[codec].unlink(missing_ok=True)
             times.setdefault(("encode", codec), []).append(
-                run(program, "encode", "-q", "--codec", codec, clip, captures[codec]))
+                run(program, "encode", "-q", "--codec", codec, clip, sources[codec]))
+        times.setdefault(("encode", "FFV1"), []).append(encode_ffv1(clip, sources["FFV1"]))
     for _ in range(runs):
-        for codec in CODECS:
-            render = (program, "expose", "-q", "--start", "0s", "--exposure", "24h", "--live", "all",
-                      captures[codec], picture)
-            drop_from_cache(captures[codec])
+        for codec, source in sources.items():
+            render = (program, "expose", "-q", "--start", "0s", "--exposure", "24h", "--live", "all", source, picture)
+            drop_from_cache(source)
             times.setdefault(("cold", codec), []).append(run(*render))
             times.setdefault(("warm", codec), []).append(run(*render))
     medians = {key: statistics.median(values) for key, values in times.items()}
     rows = []
-    peer = ffv1_bytes(clip, folder)
-    for codec in CODECS:
+    for codec, source in sources.items():
         rows.append({
-            "clip": clip.name, "codec": codec, "bytes": captures[codec].stat().st_size, "ffv1_bytes": peer,
-            "source_bytes": clip.stat().st_size, "decode_s": medians["decode"],
-            "encode_s": medians["encode", codec], "cold_s": medians["cold", codec],
+            "clip": clip.name, "codec": codec, "bytes": source.stat().st_size, "decode_s": medians["decode"],
+            "encode_s": medians.get(("encode", codec)), "cold_s": medians["cold", codec],
             "warm_s": medians["warm", codec]})
-        captures[codec].unlink()
+        if codec != "clip":
+            source.unlink()
     return rows
 
 
@@ -91,17 +88,16 @@ def main():
     arguments = parser.parse_args()
 
     everything = []
-    print(f"{'clip':34} {'codec':7} {'MB':>7} {'/ FFV1':>6} {'/ clip':>6} {'encode':>7} {'/ dec.':>6} "
-          f"{'cold':>6} {'warm':>6}")
+    print(f"{'clip':34} {'codec':7} {'MB':>7} {'/ FFV1':>6} {'encode':>7} {'/ dec.':>6} {'cold':>6} {'warm':>6}")
     with tempfile.TemporaryDirectory() as scratch:
         for name in arguments.only:
-            for row in measure(arguments.clips / name, arguments.build.resolve(), pathlib.Path(scratch),
-                               arguments.runs):
-                everything.append(row)
-                print(f"{row['clip']:34} {row['codec']:7} {row['bytes'] / 1e6:7.2f} "
-                      f"{row['bytes'] / row['ffv1_bytes']:6.2f} {row['bytes'] / row['source_bytes']:6.1f} "
-                      f"{row['encode_s']:7.3f} {row['encode_s'] / row['decode_s']:6.2f} "
-                      f"{row['cold_s']:6.3f} {row['warm_s']:6.3f}", flush=True)
+            rows = measure(arguments.clips / name, arguments.build.resolve(), pathlib.Path(scratch), arguments.runs)
+            everything += rows
+            peer = next(row["bytes"] for row in rows if row["codec"] == "FFV1")
+            for row in rows:
+                encode = f"{row['encode_s']:7.3f} {row['encode_s'] / row['decode_s']:6.2f}" if row["encode_s"] else " " * 14
+                print(f"{row['clip']:34} {row['codec']:7} {row['bytes'] / 1e6:7.2f} {row['bytes'] / peer:6.2f} "
+                      f"{encode} {row['cold_s']:6.3f} {row['warm_s']:6.3f}", flush=True)
     if arguments.csv:
         with arguments.csv.open("w", newline="") as file:
             writer = csv.DictWriter(file, everything[0].keys())
