@@ -7,13 +7,15 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "system/page_buffer.hpp"
+#include "opencl/function_map.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "opencl/code_search.hpp"
 #include "opencl/kernel_sources.hpp"
-#include "opencl/light_curve.hpp"
 #include "opencl/light_pieces.hpp"
+#include "opencl/light_source.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
+#include "opencl/work_shape.hpp"
 
 namespace nutik {
 
@@ -40,59 +42,6 @@ using DevelopLightKernel =
 using DevelopCodesKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_ulong,
                                              cl::Buffer, cl::Buffer, cl_uint, cl::Buffer>;
 
-// How work is cut for a device; see the table in docs/performance.md.
-struct WorkShape {
-  std::uint32_t item_pixels;  // of a tile
-  std::uint32_t item_tiles;
-  std::uint32_t lanes;
-  std::uint32_t group_items;
-
-  [[nodiscard]] std::uint64_t items(std::uint64_t tile_count) const {
-    return (tile_count + item_tiles - 1) / item_tiles * (kTilePixels / item_pixels);
-  }
-};
-
-WorkShape work_shape(const OpenClOptions& options, const DeviceInfo& device) {
-  WorkShape shape{1, 1, 1, 64};
-  if (device.kind == DeviceKind::cpu) {
-    shape = {kTilePixels, 16, options.precision == Precision::single_ ? 16u : 8u, 1};
-  }
-  if (options.item_pixels != 0) shape.item_pixels = options.item_pixels;
-  if (options.item_tiles != 0) shape.item_tiles = options.item_tiles;
-  if (options.lanes != 0) shape.lanes = options.lanes;
-  if (options.group_items != 0) shape.group_items = options.group_items;
-  const bool lanes_fit = shape.lanes == 1 || shape.lanes == 4 || shape.lanes == 8 || shape.lanes == 16;
-  if (shape.item_pixels == 0 || kTilePixels % shape.item_pixels != 0 || !lanes_fit ||
-      shape.item_pixels % shape.lanes != 0) {
-    throw UsageError(format("{} pixels an item in {} lanes do not divide a tile of {}", shape.item_pixels,
-                            shape.lanes, kTilePixels));
-  }
-  return shape;
-}
-
-// Each tile's pixels with the index of their functions: tile-major, and the tile's own where all agree.
-struct FunctionMap {
-  std::vector<std::uint8_t> of_lane;
-  std::vector<std::uint16_t> of_tile;
-};
-
-FunctionMap map_functions(const RenderPlan& plan) {
-  const TileGrid grid(plan.capture.shape);
-  FunctionMap map;
-  map.of_lane.resize(grid.tile_count() * kTilePixels);
-  map.of_tile.resize(grid.tile_count());
-  for (std::uint64_t tile = 0; tile < grid.tile_count(); ++tile) {
-    std::uint8_t* lanes = map.of_lane.data() + tile * kTilePixels;
-    grid.for_each_lane(tile, [&](std::uint32_t lane, std::uint64_t pixel) {
-      lanes[lane] = plan.function_of_pixel[pixel];
-    });
-    const bool same = std::all_of(lanes, lanes + kTilePixels,
-                                  [&](std::uint8_t function) { return function == lanes[0]; });
-    map.of_tile[tile] = same ? lanes[0] : kMixedFunctions;
-  }
-  return map;
-}
-
 template <typename Real>
 std::vector<Real> converted(const std::vector<double>& values) {
   return {values.begin(), values.end()};
@@ -114,30 +63,6 @@ std::vector<LightScale<Real>> light_scales(const RenderPlan& plan) {
     }
   }
   return scales;
-}
-
-// How a kernel turns codes into light, and what it reads for it.
-struct LightSource {
-  const char* kind;
-  std::vector<double> values;
-};
-
-LightSource light_source(const CaptureFormat& capture, Precision precision, bool permutes_pieces) {
-  if (capture.transfer.is_linear()) return {"NUTIK_LIGHT_LINEAR", {}};
-  if (precision == Precision::single_) {
-    if (permutes_pieces) {
-      if (auto pieces = light_pieces(capture.transfer, capture.white_code)) {
-        return {"NUTIK_LIGHT_PIECES", std::move(*pieces)};
-      }
-    }
-    if (auto curve = light_curve(capture.transfer, capture.white_code)) {
-      return {"NUTIK_LIGHT_CURVE", std::move(*curve)};
-    }
-  }
-  // An entry for every code that can be stored: no damaged file may make a kernel read past the table.
-  std::vector<double> light = capture.transfer.light_of_codes(capture.white_code);
-  light.resize(std::size_t{1} << (8 * capture.code_bytes), light.back());
-  return {"NUTIK_LIGHT_TABLE", std::move(light)};
 }
 
 // Whether fma() is the device's own. Devices that would emulate it do not report it, and a CPU's emulation

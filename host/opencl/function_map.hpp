@@ -1,0 +1,20 @@
+// Which function each pixel is exposed with, as the kernels read it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/render_plan.hpp"
+
+namespace nutik {
+
+// of_lane: [tile][64] indices of plan.functions. of_tile: the tile's own where all its pixels agree, else
+// kMixedFunctions.
+struct FunctionMap {
+  std::vector<std::uint8_t> of_lane;
+  std::vector<std::uint16_t> of_tile;
+};
+
+[[nodiscard]] FunctionMap map_functions(const RenderPlan& plan);
+
+}  // namespace nutik

@@ -1,0 +1,26 @@
+#include "opencl/work_shape.hpp"
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
+namespace nutik {
+
+WorkShape work_shape(const OpenClOptions& options, const DeviceInfo& device) {
+  WorkShape shape{1, 1, 1, 64};
+  if (device.kind == DeviceKind::cpu) {
+    shape = {kTilePixels, 16, options.precision == Precision::single_ ? 16u : 8u, 1};
+  }
+  if (options.item_pixels != 0) shape.item_pixels = options.item_pixels;
+  if (options.item_tiles != 0) shape.item_tiles = options.item_tiles;
+  if (options.lanes != 0) shape.lanes = options.lanes;
+  if (options.group_items != 0) shape.group_items = options.group_items;
+  const bool lanes_fit = shape.lanes == 1 || shape.lanes == 4 || shape.lanes == 8 || shape.lanes == 16;
+  if (shape.item_pixels == 0 || kTilePixels % shape.item_pixels != 0 || !lanes_fit ||
+      shape.item_pixels % shape.lanes != 0) {
+    throw UsageError(format("{} pixels an item in {} lanes do not divide a tile of {}", shape.item_pixels,
+                            shape.lanes, kTilePixels));
+  }
+  return shape;
+}
+
+}  // namespace nutik

@@ -1,0 +1,28 @@
+// How the pixels of a picture are cut into work-items; kernels/items.clh is the kernels' side.
+#pragma once
+
+#include <cstdint>
+
+#include "imev/tile.hpp"
+#include "opencl/device.hpp"
+#include "opencl/opencl_renderer.hpp"
+
+namespace nutik {
+
+struct WorkShape {
+  std::uint32_t item_pixels;  // of a tile
+  std::uint32_t item_tiles;
+  std::uint32_t lanes;
+  std::uint32_t group_items;
+
+  // Work-items for a picture of so many tiles.
+  [[nodiscard]] std::uint64_t items(std::uint64_t tile_count) const {
+    return (tile_count + item_tiles - 1) / item_tiles * (kTilePixels / item_pixels);
+  }
+};
+
+// The shape that suits a device, or what the options ask for: see the table in docs/performance.md. Throws
+// UsageError where it does not divide a tile.
+[[nodiscard]] WorkShape work_shape(const OpenClOptions& options, const DeviceInfo& device);
+
+}  // namespace nutik
