@@ -27,9 +27,10 @@ RawVideo parse_raw_video(const std::string& text) {
   const auto cross = text.find('x');
   const auto colon = text.find(':');
   if (cross == std::string::npos || colon == std::string::npos || colon < cross) {
-    throw UsageError(format("raw video '{}' is not described; write its size and pixel format, as in "
-                            "480x270:yuv420p10le",
-                            text));
+    throw UsageError(
+        format("raw video '{}' is not described; write its size and pixel format, as in "
+               "480x270:yuv420p10le",
+               text));
   }
   constexpr std::uint32_t kLargestSide = 65'536;
   return {parse_count(text.substr(0, cross), "width", 1, kLargestSide),
@@ -65,8 +66,7 @@ SourceOptions SourceOptions::from(const Options& options) {
     source.block_samples = parse_count(*options.block_samples, "block length", 1, kLargestBlockSamples);
   }
   // Made here so that a senseless rate or angle is refused before anything is opened.
-  static_cast<void>(
-      Timeline::constant(source.clip.rate.value_or(Rational{1, 1}), source.shutter_angle, 1));
+  static_cast<void>(Timeline::constant(source.clip.rate.value_or(Rational{1, 1}), source.shutter_angle, 1));
   return source;
 }
 
@@ -89,27 +89,30 @@ SourceClip open_source(const std::filesystem::path& path, const SourceOptions& o
 
 std::string timing_text(const Timeline& timeline, const SourceOptions& options) {
   const std::string rate =
-      options.clip.rate          ? format("{} pictures a second (--fps)", timeline.rate().text())
-      : timeline.is_constant() ? format("{} pictures a second (from the file)", timeline.rate().text())
-                                 : format("irregular times (from the file), {:.4g} pictures a second on average",
-                                          timeline.rate().value());
+      options.clip.rate ? format("{} pictures a second (--fps)", timeline.rate().text())
+      : timeline.is_constant()
+          ? format("{} pictures a second (from the file)", timeline.rate().text())
+          : format("irregular times (from the file), {:.4g} pictures a second on average",
+                   timeline.rate().value());
   return format("{}, shutter {} degrees ({})", rate, timeline.shutter_angle().text(),
                 options.angle_was_stated ? "--shutter-angle" : "assumed");
 }
 
 std::string slow_motion_note(const Timeline& timeline, const SourceOptions& options) {
   if (options.clip.rate || timeline.rate().value() > kHighestPlaybackRate) return {};
-  return format("the rate of {} a second comes from the file; slow-motion files state their playback rate: "
-                "if it was filmed faster, say so with --fps",
-                timeline.rate().text());
+  return format(
+      "the rate of {} a second comes from the file; slow-motion files state their playback rate: "
+      "if it was filmed faster, say so with --fps",
+      timeline.rate().text());
 }
 
 void refuse_source_options(const Options& options, const std::string& capture) {
   const auto refuse = [&](bool stated, std::string_view name) {
     if (!stated) return;
-    throw UsageError(format("{} describes a clip that is encoded; {} was encoded already. Encode the clip "
-                            "again with it",
-                            name, capture));
+    throw UsageError(
+        format("{} describes a clip that is encoded; {} was encoded already. Encode the clip "
+               "again with it",
+               name, capture));
   };
   refuse(options.fps.has_value(), "--fps");
   refuse(options.shutter_angle.has_value(), "--shutter-angle");

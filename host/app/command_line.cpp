@@ -31,8 +31,7 @@ struct Scan {
   std::vector<std::string> known{"--help", "--version"};
   for (const Option& option : options()) known.push_back("--" + std::string(option.long_name));
   const std::string name = word.substr(0, word.find('='));
-  throw UsageError(format("there is no option {}{}; see nutik-cl --help", name,
-                          did_you_mean(name, known)));
+  throw UsageError(format("there is no option {}{}; see nutik-cl --help", name, did_you_mean(name, known)));
 }
 
 Scan scan(std::span<const std::string> words) {
@@ -104,9 +103,10 @@ const Command& shorthand(const Scan& scan, std::span<const std::string> words) {
   if (scan.operands.size() == 1 && !scan.has("output")) {
     if (ends_with_tik(first) && scan.options.size() == scan.has("quiet")) return command(CommandId::info);
     if (ends_with_tik(first)) {
-      throw UsageError(format("what should be done with {}? To expose a picture: nutik-cl --start 0s "
-                              "--exposure 10ms {} picture.png",
-                              first, first));
+      throw UsageError(
+          format("what should be done with {}? To expose a picture: nutik-cl --start 0s "
+                 "--exposure 10ms {} picture.png",
+                 first, first));
     }
     const std::string stem = std::filesystem::path(first).stem().string();
     throw UsageError(format("the output is missing: nutik-cl {} {}.tik", first, stem));

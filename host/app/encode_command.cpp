@@ -28,9 +28,10 @@ int run_encode(const Options& options) {
   const SourceOptions source_options = SourceOptions::from(options);
   const tik::Codec codec = tik::Codec::parse(options.codec.value_or("zstd"));
   if (is_tik(input) && std::filesystem::exists(input)) {
-    throw UsageError(format("{} is a capture already; to expose a picture from it: nutik-cl --start 0s "
-                            "--exposure 10ms {} picture.png",
-                            input, input));
+    throw UsageError(
+        format("{} is a capture already; to expose a picture from it: nutik-cl --start 0s "
+               "--exposure 10ms {} picture.png",
+               input, input));
   }
   check_output(output, OutputKind::tik, std::array{input});
 
@@ -43,8 +44,8 @@ int run_encode(const Options& options) {
 
   const CaptureFormat& capture = encoding.source().capture;
   print_line(format("{}: {}, {} samples, {}, {} of {} raw, {:.2f} s", output.string(),
-                    shape_text(capture.shape), timeline.sample_count(),
-                    timing_text(timeline, source_options), bytes_text(encoding.bytes_written()),
+                    shape_text(capture.shape), timeline.sample_count(), timing_text(timeline, source_options),
+                    bytes_text(encoding.bytes_written()),
                     bytes_text(capture.sample_bytes() * timeline.sample_count()), stopwatch.seconds()));
   for (const std::string& note : info.notes) print_note(format("note: {}", note));
   if (const std::string note = slow_motion_note(timeline, source_options); !note.empty()) {

@@ -68,9 +68,10 @@ Timeline Encoding::timeline_for(std::uint64_t samples) const {
 void Encoding::warn_of_count(std::uint64_t samples) const {
   const std::uint64_t announced = source_.clip->info().sample_count;
   if (announced == 0 || announced == samples) return;
-  print_warning(format("{} announces {} pictures and {} could be decoded: if some within are damaged, those "
-                       "after them have the times of others",
-                       input_, announced, samples));
+  print_warning(
+      format("{} announces {} pictures and {} could be decoded: if some within are damaged, those "
+             "after them have the times of others",
+             input_, announced, samples));
 }
 
 std::uint64_t Encoding::decode(Progress& progress) {

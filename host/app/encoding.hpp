@@ -22,8 +22,8 @@ class Encoding {
   // Reads the first sample. Throws InputError where there is none or where the clip's times cannot be used,
   // OutputError where `output` cannot be written. `input` names the clip in messages; `options` must
   // outlive the encoding.
-  Encoding(SourceClip source, const SourceOptions& options, const tik::Codec& codec,
-           const std::string& input, const std::filesystem::path& output);
+  Encoding(SourceClip source, const SourceOptions& options, const tik::Codec& codec, const std::string& input,
+           const std::filesystem::path& output);
 
   // Encodes all of the clip; the file appears under its name at the end. Returns its timeline.
   Timeline run(Progress& progress);
@@ -55,9 +55,9 @@ class Encoding {
   Timeline times_;  // as announced
   std::optional<tik::Writer> writer_;
 
-  Channel<Raster> rasters_;         // decoded
+  Channel<Raster> rasters_;  // decoded
   Channel<Raster> spare_rasters_;
-  Channel<Block> blocks_;           // built
+  Channel<Block> blocks_;  // built
   Channel<PageBuffer> spare_payloads_;
 };
 

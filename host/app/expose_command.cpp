@@ -29,13 +29,12 @@ struct Exposed {
 
 OutputFormat output_format(const Options& options, const std::filesystem::path& output,
                            const CaptureFormat& capture) {
-  const std::optional<Depth> wish =
-      options.depth ? std::optional(parse_depth(*options.depth)) : std::nullopt;
+  const std::optional<Depth> wish = options.depth ? std::optional(parse_depth(*options.depth)) : std::nullopt;
   const ValueType usual = capture.code_bytes == 1 ? ValueType::code8 : ValueType::code16;
   OutputFormat format;
   format.type = value_type_for(output, wish, usual, capture.shape.channels);
   // A picture of the capture's own depth has the capture's codes; another depth its full range.
-  format.white_code = format.type == usual                ? capture.white_code
+  format.white_code = format.type == usual               ? capture.white_code
                       : format.type == ValueType::code16 ? 65'535
                                                          : 255;
   return format;
@@ -72,9 +71,8 @@ class Exposing {
       plan_options.transfer.reset();  // it went into the capture's format
       const SampleRange needed =
           needed_samples(timeline, functions, request_.mask(source.capture.shape), plan_options);
-      StreamingCapture stream(
-          source.capture, timeline, needed, source.block_samples, source_options.tiles,
-          [&](std::span<std::byte> raster) { return source.clip->read(raster); });
+      StreamingCapture stream(source.capture, timeline, needed, source.block_samples, source_options.tiles,
+                              [&](std::span<std::byte> raster) { return source.clip->read(raster); });
       try {
         return expose(stream, functions);
       } catch (const SampleCountMismatch& mismatch) {
@@ -118,8 +116,7 @@ std::vector<std::string> input_names(const Options& options) {
   std::vector<std::string> inputs{options.operands.front()};
   if (!options.raw) {
     // Each still of a sequence is an input that the picture must not replace.
-    for (const auto& still :
-         list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{})) {
+    for (const auto& still : list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{})) {
       inputs.push_back(still.string());
     }
   }
@@ -148,9 +145,10 @@ void warn_of_negative_gains(const Exposed& exposed) {
   for (const PlannedFunction& function : exposed.plan.functions) {
     const double still_gain = function.summary.still_gain();
     if (still_gain >= 0.0) continue;
-    print_warning(format("M{}: the still gain is {:.6g}: whatever does not move comes out black; write a .pfm "
-                         "or a .tif with --depth float to keep light below 0",
-                         function.tag, still_gain));
+    print_warning(
+        format("M{}: the still gain is {:.6g}: whatever does not move comes out black; write a .pfm "
+               "or a .tif with --depth float to keep light below 0",
+               function.tag, still_gain));
   }
 }
 
@@ -170,8 +168,7 @@ int run_expose(const Options& options) {
 
   const bool captured = is_tik(input);
   const SourceOptions source_options = SourceOptions::from(options);
-  const Exposed exposed =
-      captured ? exposing.from_tik(input) : exposing.from_clip(input, source_options);
+  const Exposed exposed = captured ? exposing.from_tik(input) : exposing.from_clip(input, source_options);
   for (const std::string& warning : exposed.plan.warnings) print_warning(warning);
   warn_of_negative_gains(exposed);
   write_picture(output, exposed.picture);
@@ -179,8 +176,8 @@ int run_expose(const Options& options) {
 
   const RenderPlan& plan = exposed.plan;
   print_line(format("{}: {}, {} of {} samples{}, {:.2f} s on {}", output.string(),
-                    shape_text(plan.capture.shape), plan.live_sample_count(),
-                    exposed.timeline.sample_count(), still_gains_text(plan, !options.functions), stopwatch.seconds(),
+                    shape_text(plan.capture.shape), plan.live_sample_count(), exposed.timeline.sample_count(),
+                    still_gains_text(plan, !options.functions), stopwatch.seconds(),
                     exposing.renderer_name()));
   if (options.verbose && !exposing.report().empty()) print_line(exposing.report());
   if (!captured) {

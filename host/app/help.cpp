@@ -97,9 +97,9 @@ void print_help() {
 }
 
 void print_command_help(const Command& command) {
-  std::string text = format("nutik-cl {} [OPTIONS]{}{}\n\n{}\n", command.name,
-                            command.operands.empty() ? "" : " ", command.operands,
-                            wrapped(command.summary, 0));
+  std::string text =
+      format("nutik-cl {} [OPTIONS]{}{}\n\n{}\n", command.name, command.operands.empty() ? "" : " ",
+             command.operands, wrapped(command.summary, 0));
   std::vector<std::string_view> groups;
   for (const Option& option : options()) {
     if ((option.commands & bit(command.id)) == 0) continue;

@@ -89,8 +89,8 @@ int run_info(const Options& options) {
                     bytes_text(reader.file_bytes()), share(reader.file_bytes(), raw_bytes),
                     bytes_text(raw_bytes), bytes_text(payload_bytes), reader.header().codec));
   if (options.activity) write_activity(reader, *options.activity);
-  print_line(format("try: nutik-cl --start {}f --exposure 1f {} picture.png", timeline.sample_count() / 2,
-                    name));
+  print_line(
+      format("try: nutik-cl --start {}f --exposure 1f {} picture.png", timeline.sample_count() / 2, name));
   return 0;
 }
 

@@ -11,17 +11,22 @@ namespace {
 using Id = CommandId;
 
 // Pointers to the members that hold a value; flags have their own setter.
-Option valued(char short_name, std::string_view long_name, std::string_view value,
-              std::string_view group, std::string_view help, CommandSet commands,
-              std::optional<std::string> Options::*member) {
-  return {short_name, long_name, value, group, help, commands,
+Option valued(char short_name, std::string_view long_name, std::string_view value, std::string_view group,
+              std::string_view help, CommandSet commands, std::optional<std::string> Options::*member) {
+  return {short_name,
+          long_name,
+          value,
+          group,
+          help,
+          commands,
           [member](Options& options, const std::string& text) { options.*member = text; }};
 }
 
 Option flag(char short_name, std::string_view long_name, std::string_view group, std::string_view help,
             CommandSet commands, bool Options::*member) {
-  return {short_name, long_name, {}, group, help, commands,
-          [member](Options& options, const std::string&) { options.*member = true; }};
+  return {short_name, long_name, {}, group, help, commands, [member](Options& options, const std::string&) {
+            options.*member = true;
+          }};
 }
 
 constexpr CommandSet kEncode = bit(Id::encode);
@@ -64,8 +69,8 @@ std::span<const Command> commands() {
       {Id::devices, "devices", "", "List the OpenCL devices that --device can choose from.",
        "nutik-cl devices", run_devices},
       {Id::recover, "recover", "DAMAGED.tik [WHOLE.tik]",
-       "Save the whole blocks of a .tik file that was cut off.",
-       "nutik-cl recover damaged.tik -o whole.tik", run_recover},
+       "Save the whole blocks of a .tik file that was cut off.", "nutik-cl recover damaged.tik -o whole.tik",
+       run_recover},
   };
   return table;
 }
@@ -96,7 +101,8 @@ std::span<const Option> options() {
              kEncode | kExpose, &Options::white),
       valued(0, "transfer", "NAME", kSource,
              "how codes stand for light: srgb, bt709, linear or gamma:G (default: srgb; linear for stills "
-             "and grey video of more than 8 bits and for 16-bit colour; what deep or raw video names; a .tik's own)",
+             "and grey video of more than 8 bits and for 16-bit colour; what deep or raw video names; a "
+             ".tik's own)",
              kEncode | kExpose, &Options::transfer),
       valued(0, "raw", "WxH:FORMAT", kSource,
              "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le",
@@ -105,16 +111,17 @@ std::span<const Option> options() {
              "differences up to this many codes are no change; 0 keeps every one (default: 0)",
              kEncode | kExpose, &Options::tolerance),
 
-      valued('k', "functions", "FILE.fn", kExposure, 
-             "the gain functions, one for each mask value; a file with a single one needs no mask", kExpose, &Options::functions),
+      valued('k', "functions", "FILE.fn", kExposure,
+             "the gain functions, one for each mask value; a file with a single one needs no mask", kExpose,
+             &Options::functions),
       valued('m', "mask", "FILE.pgm", kExposure,
-             "which function each pixel is exposed with: an 8-bit grey PGM or PNG", kExpose,
-             &Options::mask),
+             "which function each pixel is exposed with: an 8-bit grey PGM or PNG", kExpose, &Options::mask),
       valued(0, "start", "TIME", kExposure,
-             "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip",
-             kExpose, &Options::start),
+             "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip", kExpose,
+             &Options::start),
       valued(0, "exposure", "TIME", kExposure,
-             "length of the plain interval: 10ms, 1/100s, 250us, or 3f, to the end of the third picture", kExpose, &Options::exposure),
+             "length of the plain interval: 10ms, 1/100s, 250us, or 3f, to the end of the third picture",
+             kExpose, &Options::exposure),
       valued(0, "unmapped", "zero", kExposure,
              "expose mask values without a function to black (default: an error)", kExpose,
              &Options::unmapped),
@@ -138,9 +145,10 @@ std::span<const Option> options() {
       valued(0, "depth", "BITS", kOutput,
              "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
              kExpose, &Options::depth),
-      valued(0, "codec", "NAME", kOutput,
-             "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",
-             kEncode, &Options::codec),
+      valued(
+          0, "codec", "NAME", kOutput,
+          "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",
+          kEncode, &Options::codec),
       valued(0, "tiles", "KIND", kOutput,
              "auto, or all tiles as dense, rows or records, for experiments (default: auto)",
              kEncode | kExpose, &Options::tiles),

@@ -57,8 +57,7 @@ std::optional<std::filesystem::path> stated_output(const std::optional<std::stri
   return std::nullopt;
 }
 
-void check_output(const std::filesystem::path& output, OutputKind kind,
-                  std::span<const std::string> inputs) {
+void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs) {
   const std::string name = output.string();
   for (const std::string& input : inputs) {
     if (is_same_file(output, input)) {
@@ -66,9 +65,10 @@ void check_output(const std::filesystem::path& output, OutputKind kind,
     }
   }
   if (kind == OutputKind::tik && output.extension() != ".tik") {
-    throw UsageError(format("{} is no name for a capture: encode writes .tik files (nutik-cl CLIP "
-                            "CAPTURE.tik)",
-                            name));
+    throw UsageError(
+        format("{} is no name for a capture: encode writes .tik files (nutik-cl CLIP "
+               "CAPTURE.tik)",
+               name));
   }
   if (kind == OutputKind::picture && !is_picture_name(output)) {
     throw UsageError(format("{}: pictures are written as .png, .tif, .ppm, .pgm or .pfm", name));

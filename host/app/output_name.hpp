@@ -18,7 +18,6 @@ enum class OutputKind { tik, picture };
 
 // Throws UsageError where `output` names one of the inputs, has a name of another kind, or would replace
 // a file of another kind.
-void check_output(const std::filesystem::path& output, OutputKind kind,
-                  std::span<const std::string> inputs);
+void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs);
 
 }  // namespace nutik::app

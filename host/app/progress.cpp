@@ -36,9 +36,9 @@ void Progress::show(std::uint64_t done) {
   std::string line = what_;
   if (total_ > 0) {
     const std::uint64_t filled = std::min(kBarWidth, done * kBarWidth / total_);
-    const double left = done > 0 ? seconds / static_cast<double>(done) *
-                                       static_cast<double>(total_ - std::min(done, total_))
-                                 : 0.0;
+    const double left =
+        done > 0 ? seconds / static_cast<double>(done) * static_cast<double>(total_ - std::min(done, total_))
+                 : 0.0;
     line += format(" [{}{}] {}/{}, {:.0f} s left", std::string(filled, '#'),
                    std::string(kBarWidth - filled, '.'), done, total_, left);
   } else {

@@ -29,8 +29,8 @@ constexpr std::int64_t kLongestNs = 4'000'000'000'000'000'000;
 std::uint64_t existing_sample(std::int64_t sample, const Timeline& timeline) {
   const auto count = static_cast<std::int64_t>(timeline.sample_count());
   if (sample < 0 || sample >= count) {
-    throw UsageError(format("picture {} is outside the capture, which has {} (0f … {}f)", sample, count,
-                            count - 1));
+    throw UsageError(
+        format("picture {} is outside the capture, which has {} (0f … {}f)", sample, count, count - 1));
   }
   return static_cast<std::uint64_t>(sample);
 }
@@ -59,9 +59,10 @@ TimeText TimeText::parse(std::string_view text, std::string_view what) {
   const auto unit = std::find_if(kUnits.begin(), kUnits.end(),
                                  [&](const Unit& candidate) { return candidate.name == name; });
   if (unit == kUnits.end() || unit_at == 0) {
-    throw UsageError(format("{} '{}' is no time; write a number and a unit: 0.4s, 10ms, 250us, 1/100s, or "
-                            "37f for pictures of the clip",
-                            what, text));
+    throw UsageError(
+        format("{} '{}' is no time; write a number and a unit: 0.4s, 10ms, 250us, 1/100s, or "
+               "37f for pictures of the clip",
+               what, text));
   }
   TimeText time{Rational::parse(text.substr(0, unit_at), what), unit->nanoseconds};
   if (!time.counts_samples() &&
@@ -90,8 +91,8 @@ Exposure plain_interval(std::string_view start, std::string_view exposure, const
                                 : interval.start_ns + length.nanoseconds();
   } else {
     interval.start_ns = from.nanoseconds();
-    interval.end_ns = interval.start_ns + (count > 0 ? periods_ns(interval.start_ns, count, timeline)
-                                                     : length.nanoseconds());
+    interval.end_ns = interval.start_ns +
+                      (count > 0 ? periods_ns(interval.start_ns, count, timeline) : length.nanoseconds());
   }
   if (interval.end_ns <= interval.start_ns) {
     throw UsageError(format("exposure '{}' is shorter than a nanosecond", exposure));

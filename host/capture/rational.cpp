@@ -53,8 +53,8 @@ Rational Rational::parse(std::string_view text, std::string_view what) {
     good = read_decimal(text.substr(slash + 1), false, bottom, bottom_scale) && bottom != 0;
   }
   if (!good) {
-    throw UsageError(format(
-        "{} '{}' is not a number; write 120, 29.97 or 30000/1001 (15 digits at most)", what, original));
+    throw UsageError(format("{} '{}' is not a number; write 120, 29.97 or 30000/1001 (15 digits at most)",
+                            what, original));
   }
   return of(negative ? -top : top, slash == std::string_view::npos ? top_scale : bottom);
 }

@@ -10,7 +10,7 @@ namespace nutik {
 namespace {
 
 constexpr std::int64_t kSecondNs = 1'000'000'000;
-constexpr double kLongestNs = 4.6e18;             // 2^62
+constexpr double kLongestNs = 4.6e18;                 // 2^62
 constexpr std::int64_t kLargestTerm = 1'000'000'000;  // keeps every product below 2^126
 
 void check_angle(Rational angle) {
@@ -24,8 +24,7 @@ void check_angle(Rational angle) {
 
 // sample_index periods and `angle` degrees, in nanoseconds, rounded half up from the exact value.
 std::int64_t constant_time_ns(Rational rate, Rational angle, std::uint64_t sample_index) {
-  const int128 degrees =
-      static_cast<int128>(sample_index) * 360 * angle.denominator + angle.numerator;
+  const int128 degrees = static_cast<int128>(sample_index) * 360 * angle.denominator + angle.numerator;
   return round_half_up(degrees * rate.denominator * kSecondNs,
                        static_cast<int128>(360) * angle.denominator * rate.numerator);
 }
@@ -34,8 +33,7 @@ constexpr Rational kNoDegrees{0, 1};
 
 // Samples a second to a thousandth: a mean, for people to read.
 Rational mean_rate(std::uint64_t sample_count, std::int64_t duration_ns) {
-  return Rational::of(
-      round_half_up(static_cast<int128>(sample_count) * kSecondNs * 1000, duration_ns), 1000);
+  return Rational::of(round_half_up(static_cast<int128>(sample_count) * kSecondNs * 1000, duration_ns), 1000);
 }
 
 }  // namespace
@@ -45,22 +43,23 @@ Timeline Timeline::constant(Rational rate, Rational shutter_angle, std::uint64_t
     throw UsageError(format("frame rate {} is not positive", rate.text()));
   }
   if (rate.numerator > kLargestTerm || rate.denominator > kLargestTerm) {
-    throw UsageError(format("frame rate {} is written with more than nine digits above or below the "
-                            "fraction line, the most that times stay exact with",
-                            rate.text()));
+    throw UsageError(
+        format("frame rate {} is written with more than nine digits above or below the "
+               "fraction line, the most that times stay exact with",
+               rate.text()));
   }
   check_angle(shutter_angle);
-  const double duration =
-      static_cast<double>(sample_count) / rate.value() * static_cast<double>(kSecondNs);
+  const double duration = static_cast<double>(sample_count) / rate.value() * static_cast<double>(kSecondNs);
   if (duration > kLongestNs) {
-    throw UsageError(format("{} samples at {} a second last longer than 146 years", sample_count,
-                            rate.text()));
+    throw UsageError(
+        format("{} samples at {} a second last longer than 146 years", sample_count, rate.text()));
   }
   if (static_cast<int128>(shutter_angle.numerator) * rate.denominator * kSecondNs <
       static_cast<int128>(360) * shutter_angle.denominator * rate.numerator) {
-    throw UsageError(format("a shutter angle of {} degrees at {} samples a second exposes for less than "
-                            "1 ns, the shortest time a capture knows",
-                            shutter_angle.text(), rate.text()));
+    throw UsageError(
+        format("a shutter angle of {} degrees at {} samples a second exposes for less than "
+               "1 ns, the shortest time a capture knows",
+               shutter_angle.text(), rate.text()));
   }
   Timeline timeline;
   timeline.rate_ = rate;
@@ -86,9 +85,8 @@ Timeline Timeline::irregular(std::vector<std::int64_t> starts_ns, Rational shutt
     }
     const std::int64_t period =
         k + 1 < count ? starts_ns[k + 1] - starts_ns[k] : starts_ns[k] - starts_ns[k - 1];
-    const std::int64_t exposed =
-        round_half_up(static_cast<int128>(period) * shutter_angle.numerator,
-                      static_cast<int128>(360) * shutter_angle.denominator);
+    const std::int64_t exposed = round_half_up(static_cast<int128>(period) * shutter_angle.numerator,
+                                               static_cast<int128>(360) * shutter_angle.denominator);
     exposures[k].start_ns = starts_ns[k] - starts_ns[0];
     exposures[k].end_ns = exposures[k].start_ns + std::max<std::int64_t>(exposed, 1);
   }
@@ -97,8 +95,7 @@ Timeline Timeline::irregular(std::vector<std::int64_t> starts_ns, Rational shutt
   return stored(std::move(exposures), duration_ns, shutter_angle);
 }
 
-Timeline Timeline::stored(std::vector<Exposure> exposures, std::int64_t duration_ns,
-                          Rational shutter_angle) {
+Timeline Timeline::stored(std::vector<Exposure> exposures, std::int64_t duration_ns, Rational shutter_angle) {
   Timeline timeline = explicit_exposures(std::move(exposures));
   if (duration_ns < timeline.duration_ns_) {
     throw InputError(format("the capture ends at {} ns, before its last exposure at {} ns", duration_ns,
@@ -124,9 +121,10 @@ Timeline Timeline::explicit_exposures(std::vector<Exposure> exposures) {
     exposure.end_ns -= origin;
     exposed_ns += exposure.end_ns - exposure.start_ns;
     if (k > 0 && exposure.start_ns < exposures[k - 1].end_ns) {
-      throw InputError(format("sample {} starts at {} ns, before sample {} ends at {} ns (times from the "
-                              "first sample)",
-                              k, exposure.start_ns, k - 1, exposures[k - 1].end_ns));
+      throw InputError(
+          format("sample {} starts at {} ns, before sample {} ends at {} ns (times from the "
+                 "first sample)",
+                 k, exposure.start_ns, k - 1, exposures[k - 1].end_ns));
     }
   }
   Timeline timeline;

@@ -62,8 +62,7 @@ class Timeline {
 
   // Exposures that start at 0, and a domain that may go on after the last one: a timeline that was
   // stored. Throws InputError as above, or where the domain ends before the last exposure.
-  static Timeline stored(std::vector<Exposure> exposures, std::int64_t duration_ns,
-                         Rational shutter_angle);
+  static Timeline stored(std::vector<Exposure> exposures, std::int64_t duration_ns, Rational shutter_angle);
 
   [[nodiscard]] std::uint64_t sample_count() const { return sample_count_; }
   [[nodiscard]] std::int64_t duration_ns() const { return duration_ns_; }

@@ -80,9 +80,8 @@ double Transfer::fraction_of(double light) const {
                  ? light * kSrgbToeSlope
                  : (1.0 + kSrgbOffset) * std::pow(light, 1.0 / kSrgbExponent) - kSrgbOffset;
     case Kind::bt709:
-      return light < kBt709ToeLight
-                 ? light * kBt709ToeSlope
-                 : (1.0 + kBt709Offset) * std::pow(light, kBt709Exponent) - kBt709Offset;
+      return light < kBt709ToeLight ? light * kBt709ToeSlope
+                                    : (1.0 + kBt709Offset) * std::pow(light, kBt709Exponent) - kBt709Offset;
     case Kind::linear: return light;
     case Kind::gamma: return light <= 0.0 ? 0.0 : std::pow(light, 1.0 / exponent_);
   }

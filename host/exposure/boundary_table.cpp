@@ -30,8 +30,7 @@ double integrate_product(double length, double f0, double f1, double g0, double 
 
 }  // namespace
 
-WeightSweep::WeightSweep(const GainFunction& function, const GainSummary& summary,
-                         std::int64_t duration_ns)
+WeightSweep::WeightSweep(const GainFunction& function, const GainSummary& summary, std::int64_t duration_ns)
     : pieces_(function.pieces(duration_ns)), duration_ns_(duration_ns), support_ns_(summary.support_ns) {
   for (GainPiece& piece : pieces_) {
     piece.begin_gain = std::scalbn(piece.begin_gain, -summary.exponent);
@@ -56,8 +55,8 @@ double WeightSweep::integrate_hat(const SampleTimes& sample) {
       const std::int64_t from = std::max(piece.begin_ns, part.begin_ns);
       const std::int64_t to = std::min(piece.end_ns, part.end_ns);
       if (from >= to) continue;
-      sum.add(integrate_product(static_cast<double>(to - from), piece.at(from), piece.at(to),
-                                part.at(from), part.at(to)));
+      sum.add(integrate_product(static_cast<double>(to - from), piece.at(from), piece.at(to), part.at(from),
+                                part.at(to)));
     }
   }
   return sum.value();

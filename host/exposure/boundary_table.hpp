@@ -27,8 +27,7 @@ class WeightSweep {
   // Fills weights[i] for the samples with these times, and boundaries with one element more. Blocks may
   // be asked for in any order; in increasing order the whole sweep takes time linear in samples and
   // control points.
-  void pack(std::span<const SampleTimes> samples, std::span<double> weights,
-            std::span<double> boundaries);
+  void pack(std::span<const SampleTimes> samples, std::span<double> weights, std::span<double> boundaries);
 
  private:
   // ∫ g φ of one sample, in nanoseconds of scaled gain.

@@ -9,8 +9,7 @@ namespace nutik {
 
 std::string Diagnostic::text(std::string_view file_name) const {
   const std::string_view kind = severity == Severity::warning ? "warning: " : "";
-  const std::string first =
-      format("{}:{}:{}: {}{}", file_name, place.line, place.column, kind, message);
+  const std::string first = format("{}:{}:{}: {}{}", file_name, place.line, place.column, kind, message);
   if (excerpt.text.empty()) return first;  // an empty line shows nothing
   return format("{}\n    {}\n    {}^", first, excerpt.text, excerpt.indent);
 }
@@ -20,9 +19,7 @@ void Diagnostics::add(Diagnostic::Severity severity, const SourceText& source, s
   std::size_t& count = counts_[static_cast<std::size_t>(severity)];
   ++count;
   const TextPlace place = source.place_of(at);
-  const auto is_alike = [&](const Diagnostic& diagnostic) {
-    return diagnostic.severity == severity;
-  };
+  const auto is_alike = [&](const Diagnostic& diagnostic) { return diagnostic.severity == severity; };
   if (count > kMostShown) {
     // A mistake may be found after those behind it: an open brace at the end of the file.
     const auto last = std::find_if(shown_.rbegin(), shown_.rend(), is_alike);

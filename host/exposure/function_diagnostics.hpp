@@ -34,8 +34,7 @@ class Diagnostics {
   static constexpr std::size_t kMostShown = 20;
 
   // Of several at one place the first added stands first.
-  void add(Diagnostic::Severity severity, const SourceText& source, std::size_t at,
-           std::string message);
+  void add(Diagnostic::Severity severity, const SourceText& source, std::size_t at, std::string message);
 
   [[nodiscard]] const std::vector<Diagnostic>& shown() const { return shown_; }
   // All of them, also those that are not shown.

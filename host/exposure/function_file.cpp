@@ -22,20 +22,14 @@ constexpr std::string_view kLoneCarriageReturn =
     "a carriage return without a line feed; save the file with line ends of Unix or Windows";
 constexpr std::string_view kWriteBraces = "to go on over several lines write M0{ … }";
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c & 0x80) != 0;
-}
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\v' || c == '\f';
-}
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c & 0x80) != 0; }
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
 // A stretch that reads like a number, a name or a mistyped one: up to the next mark of the grammar.
 bool is_word(char c) {
-  return !is_blank(c) && c != '\n' && c != ',' && c != ':' && c != '[' && c != ']' && c != '{' &&
-         c != '}' && c != '#';
+  return !is_blank(c) && c != '\n' && c != ',' && c != ':' && c != '[' && c != ']' && c != '{' && c != '}' &&
+         c != '#';
 }
 
 // Thrown inside the parser to give up one function and go on with the next.
@@ -47,9 +41,8 @@ class Parser {
 
   FunctionFile parse() {
     if (const auto zero = text_.view().find('\0'); zero != std::string_view::npos) {
-      report(
-          Severity::error, zero,
-          "a zero byte: this is no text file, or one in UTF-16; save it as UTF-8 or plain ASCII");
+      report(Severity::error, zero,
+             "a zero byte: this is no text file, or one in UTF-16; save it as UTF-8 or plain ASCII");
       return std::move(file_);
     }
     while (at_ < text_.size()) parse_line();
@@ -74,8 +67,7 @@ class Parser {
       return;
     }
     if (peek() == '[') {
-      report(Severity::error, at_,
-             format("a line of control points outside braces; {}", kWriteBraces));
+      report(Severity::error, at_, format("a line of control points outside braces; {}", kWriteBraces));
     } else if (const std::string warning = comment_warning(); !warning.empty()) {
       report(Severity::warning, at_, "taken as a comment: " + warning);
     }
@@ -105,8 +97,8 @@ class Parser {
     const std::uint8_t tag = number_or_fail(read_mask_value(take_word()), value_at);
     const auto [first, is_new] = first_lines_.emplace(tag, text_.place_of(start).line);
     if (!is_new) {
-      note(start, format("M{} has a function already, on line {}; each mask value has one", tag,
-                         first->second));
+      note(start,
+           format("M{} has a function already, on line {}; each mask value has one", tag, first->second));
     }
     skip_blanks();
     is_braced_ = peek() == '{';
@@ -116,8 +108,7 @@ class Parser {
     brace_.reset();
     expect_line_end();
     if (!std::exchange(is_broken_, false)) {
-      file_.functions.emplace(tag,
-                              FileFunction{GainFunction(std::move(points)), text_.place_of(start)});
+      file_.functions.emplace(tag, FileFunction{GainFunction(std::move(points)), text_.place_of(start)});
     }
   }
 
@@ -165,10 +156,8 @@ class Parser {
     const std::string_view gain_word = take_word();
     const double gain = number_or_fail(read_gain(gain_word), gain_at);
     skip_blanks();
-    if (peek() == '\n')
-      fail(bracket, "a bracket that is not closed on its line; ']' ends a control point");
-    if (peek() != ']')
-      fail_at_other("where ']' should end the control point", split_gain_way_out(gain_word));
+    if (peek() == '\n') fail(bracket, "a bracket that is not closed on its line; ']' ends a control point");
+    if (peek() != ']') fail_at_other("where ']' should end the control point", split_gain_way_out(gain_word));
     ++at_;
     if (!points.empty() && time_ns <= points.back().time_ns)
       note_disorder(time_at, points.back().time_ns, time_ns);
@@ -177,8 +166,7 @@ class Parser {
 
   void note_disorder(std::size_t at, std::int64_t before_ns, std::int64_t time_ns) {
     if (time_ns < before_ns) {
-      note(at, format("time {} is not after {}; control points must be in time order", time_ns,
-                      before_ns));
+      note(at, format("time {} is not after {}; control points must be in time order", time_ns, before_ns));
       return;
     }
     const bool is_last = time_ns == kLargestTimeNs;
@@ -203,9 +191,9 @@ class Parser {
     skip_blanks();
     if (peek() == '#') at_ = text_.line_end(at_);
     if (peek() != '\n') {
-      fail_at_other("after the end of a function",
-                    is_function_start(at_) ? "; another function starts on a line of its own"
-                                           : "; only a comment that starts with # may follow");
+      fail_at_other("after the end of a function", is_function_start(at_)
+                                                       ? "; another function starts on a line of its own"
+                                                       : "; only a comment that starts with # may follow");
     }
     ++at_;
   }
@@ -214,8 +202,8 @@ class Parser {
     constexpr std::string_view kWhat = "a function without control points";
     if (is_braced_ || !brace_) fail(at_, format("{}; write at least one, as in [0:1]", kWhat));
     const std::size_t list_at = std::exchange(at_, *brace_);
-    fail(list_at, format("{}; the '{{' of line {} belongs on the line of the M, as in M0{{ … }}",
-                         kWhat, text_.place_of(*brace_).line));
+    fail(list_at, format("{}; the '{{' of line {} belongs on the line of the M, as in M0{{ … }}", kWhat,
+                         text_.place_of(*brace_).line));
   }
 
   [[noreturn]] void fail_after_point() {
@@ -226,9 +214,8 @@ class Parser {
       fail_at_other("after a control point", "; no brace is open before it, as in M0{ … }");
     }
     fail_at_other("after a control point",
-                  is_braced_
-                      ? "; a comma or '}' should follow, and a comment starts with #"
-                      : "; a comma or the line's end should follow, and a comment starts with #");
+                  is_braced_ ? "; a comma or '}' should follow, and a comment starts with #"
+                             : "; a comma or the line's end should follow, and a comment starts with #");
   }
 
   [[noreturn]] void fail_without_number(std::string_view name, std::string_view what) {
@@ -243,9 +230,8 @@ class Parser {
   [[noreturn]] void fail_at_other(std::string_view where, std::string_view way_out) {
     if (peek() == '\r') fail(at_, std::string(kLoneCarriageReturn));
     const std::size_t end = is_word(peek()) ? word_end(at_) : at_ + 1;
-    fail(at_,
-         format("{} {}{}", peek() == '\n' ? "the end of the line" : quoted(text_.piece(at_, end)),
-                where, way_out));
+    fail(at_, format("{} {}{}", peek() == '\n' ? "the end of the line" : quoted(text_.piece(at_, end)), where,
+                     way_out));
   }
 
   template <typename Number>
@@ -276,9 +262,9 @@ class Parser {
       at_ = behind_blanks(line_end + 1);
       if (at_ < text_.size() && !is_function_start(at_)) continue;
       const std::string what =
-          at_ < text_.size() ? format("a brace that is not closed before the function on line {}",
-                                      text_.place_of(at_).line)
-                             : "a brace that is never closed";
+          at_ < text_.size()
+              ? format("a brace that is not closed before the function on line {}", text_.place_of(at_).line)
+              : "a brace that is never closed";
       at_ = line_end;  // recover() goes on behind it
       const std::size_t brace = *std::exchange(brace_, std::nullopt);
       fail(brace, what + "; '}' ends the function");
@@ -345,8 +331,6 @@ class Parser {
 
 }  // namespace
 
-FunctionFile parse_functions(std::string_view bytes) {
-  return Parser(bytes).parse();
-}
+FunctionFile parse_functions(std::string_view bytes) { return Parser(bytes).parse(); }
 
 }  // namespace nutik

@@ -27,12 +27,8 @@ struct FunctionFile {
   std::map<std::uint8_t, FileFunction> functions;  // by mask value
   Diagnostics diagnostics;
 
-  [[nodiscard]] bool has_errors() const {
-    return diagnostics.count(Diagnostic::Severity::error) > 0;
-  }
-  [[nodiscard]] std::string report(std::string_view file_name) const {
-    return diagnostics.report(file_name);
-  }
+  [[nodiscard]] bool has_errors() const { return diagnostics.count(Diagnostic::Severity::error) > 0; }
+  [[nodiscard]] std::string report(std::string_view file_name) const { return diagnostics.report(file_name); }
 };
 
 // Reads a whole function file. Functions with errors are left out of `functions`.

@@ -15,12 +15,8 @@
 namespace nutik {
 namespace {
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-bool is_sign(char c) {
-  return c == '+' || c == '-';
-}
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_sign(char c) { return c == '+' || c == '-'; }
 
 std::size_t digits_at(std::string_view text, std::size_t at) {
   const auto begin = text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size()));
@@ -132,9 +128,8 @@ bool is_infinity_or_nan(std::string_view word) {
   if (!word.empty() && is_sign(word[0])) word.remove_prefix(1);
   const auto starts_like = [&](std::string_view name) {
     return word.size() >= name.size() &&
-           std::equal(name.begin(), name.end(), word.begin(), [](char a, char b) {
-             return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b);
-           });
+           std::equal(name.begin(), name.end(), word.begin(),
+                      [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b); });
   };
   return (word.size() == 3 && (starts_like("inf") || starts_like("nan"))) ||
          (word.size() == 8 && starts_like("infinity")) || starts_like("nan(");
@@ -147,8 +142,7 @@ ReadNumber<std::uint8_t> read_mask_value(std::string_view word) {
     return {0, format("'M{}' is no mask value; write M and a whole number 0 … 255", shown(word))};
   }
   unsigned value = 0;
-  for (const char digit : word)
-    value = std::min(value * 10 + static_cast<unsigned>(digit - '0'), 1000u);
+  for (const char digit : word) value = std::min(value * 10 + static_cast<unsigned>(digit - '0'), 1000u);
   if (value > 255) {
     return {0, format("mask value {} is above 255, the largest an 8-bit mask has", shown(word))};
   }
@@ -159,13 +153,13 @@ ReadNumber<std::int64_t> read_time(std::string_view word) {
   const std::size_t sign = !word.empty() && is_sign(word[0]) ? 1 : 0;
   const std::size_t digits = digits_at(word, sign);
   if (digits == 0 || sign + digits < word.size()) {
-    return {0, format("{} is no time; times are whole nanoseconds written as digits: {}",
-                      quoted(word), time_way_out(word))};
+    return {0, format("{} is no time; times are whole nanoseconds written as digits: {}", quoted(word),
+                      time_way_out(word))};
   }
   const auto value = whole_number(*decimal_at_start(word), 0);
   if (!value) {
-    return {0, format("time {} is further than {} ns from the start (126 years)", shown(word),
-                      kLargestTimeNs)};
+    return {0,
+            format("time {} is further than {} ns from the start (126 years)", shown(word), kLargestTimeNs)};
   }
   return {*value, {}};
 }

@@ -133,14 +133,12 @@ GainSummary summarize(const GainFunction& function, std::int64_t duration_ns) {
     summary.reaches_before_capture |= points[i].time_ns < 0;
     summary.reaches_after_capture |= points[i + 1].time_ns > duration_ns;
   }
-  summary.exposes_to_the_end =
-      function.last_gain() != 0.0 && points.back().time_ns < duration_ns;
+  summary.exposes_to_the_end = function.last_gain() != 0.0 && points.back().time_ns < duration_ns;
   return summary;
 }
 
 double GainSummary::still_gain() const {
-  return support_ns == 0 ? 0.0
-                         : std::scalbn(integral_ns / static_cast<double>(support_ns), exponent);
+  return support_ns == 0 ? 0.0 : std::scalbn(integral_ns / static_cast<double>(support_ns), exponent);
 }
 
 double GainSummary::error_scale() const {

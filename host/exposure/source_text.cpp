@@ -19,9 +19,7 @@ struct Character {
   bool is_utf8 = false;  // else one byte, its value in `code`
 };
 
-bool is_continuation(char c) {
-  return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-}
+bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
 // The first character of a text that is not empty.
 Character first_character(std::string_view text) {
@@ -78,9 +76,7 @@ std::string shown(std::string_view piece) {
   return text;
 }
 
-std::string quoted(std::string_view piece) {
-  return format("'{}'", shown(piece));
-}
+std::string quoted(std::string_view piece) { return format("'{}'", shown(piece)); }
 
 SourceText::SourceText(std::string_view bytes) {
   text_.reserve(bytes.size() + 1);
@@ -105,8 +101,7 @@ SourceText::SourceText(std::string_view bytes) {
 std::size_t SourceText::behind_invisible(std::size_t at) const {
   while ((*this)[at] != '\n') {
     const Character character = first_character(view().substr(at));
-    const bool is_seen =
-        character.code != ' ' && !(character.is_utf8 && is_invisible(character.code));
+    const bool is_seen = character.code != ' ' && !(character.is_utf8 && is_invisible(character.code));
     if (is_seen) break;
     at += character.bytes;
   }
@@ -138,8 +133,7 @@ Excerpt SourceText::excerpt(std::size_t at) const {
     const std::string text = is_tab ? "\t" : printable(rest, character);
     excerpt.text += text;
     if (next < at) {
-      const bool is_itself =
-          text.size() == character.bytes;  // one column wide; escapes are as wide as long
+      const bool is_itself = text.size() == character.bytes;  // one column wide; escapes are as wide as long
       excerpt.indent += is_tab ? "\t" : std::string(is_itself ? 1 : text.size(), ' ');
     }
     next += character.bytes;

@@ -36,9 +36,7 @@ class SourceText {
   explicit SourceText(std::string_view bytes);
 
   // The offset behind the last \n is the text's end; what is read there and beyond is a \n.
-  [[nodiscard]] char operator[](std::size_t at) const {
-    return at < text_.size() ? text_[at] : '\n';
-  }
+  [[nodiscard]] char operator[](std::size_t at) const { return at < text_.size() ? text_[at] : '\n'; }
   [[nodiscard]] std::size_t size() const { return text_.size(); }
   [[nodiscard]] std::string_view view() const { return text_; }
   [[nodiscard]] std::string_view piece(std::size_t begin, std::size_t end) const {

@@ -18,13 +18,10 @@ std::uint32_t read_unsigned(const std::byte* at, std::uint32_t bytes) {
 }  // namespace
 
 BlockView::BlockView(const CaptureFormat& capture, BlockExtent extent, std::span<const std::byte> payload)
-    : shape_(capture.shape),
-      extent_(extent),
-      geometry_(capture, extent.sample_count),
-      payload_(payload) {
+    : shape_(capture.shape), extent_(extent), geometry_(capture, extent.sample_count), payload_(payload) {
   const auto fail = [&](const std::string& why) {
     throw InputError(format("the block of samples {} to {} is damaged: {}", extent_.first_sample,
-                                   extent_.range().last - 1, why));
+                            extent_.range().last - 1, why));
   };
   if (extent.sample_count == 0) fail("it holds no sample");
   if (payload.size() < geometry_.directory_bytes()) {
@@ -65,8 +62,7 @@ ChangeRecord BlockView::record_at(std::uint32_t sample, const std::byte* codes, 
   record.sample = sample;
   for (std::uint32_t channel = 0; channel < geometry_.channels; ++channel) {
     record.codes[channel] = static_cast<std::uint16_t>(
-        read_unsigned(codes + (channel * kTilePixels + lane) * geometry_.code_bytes,
-                      geometry_.code_bytes));
+        read_unsigned(codes + (channel * kTilePixels + lane) * geometry_.code_bytes, geometry_.code_bytes));
   }
   return record;
 }
@@ -89,8 +85,7 @@ void BlockView::read_history(std::uint64_t tile, std::uint32_t lane,
   const std::uint64_t index_bytes = geometry_.row_index_bytes(at.rows());
   for (std::uint32_t row = 0; row < at.rows(); ++row) {
     const std::uint32_t sample = index_bytes == 0 ? row : index_at(bytes, row);
-    const ChangeRecord record =
-        record_at(sample, bytes + index_bytes + row * geometry_.row_bytes(), lane);
+    const ChangeRecord record = record_at(sample, bytes + index_bytes + row * geometry_.row_bytes(), lane);
     if (history.empty() || history.back().codes != record.codes) history.push_back(record);
   }
 }
@@ -101,13 +96,12 @@ void BlockView::read_sample(std::uint32_t sample, std::span<std::byte> raster) c
   for (std::uint64_t tile = 0; tile < geometry_.tile_count; ++tile) {
     grid.for_each_lane(tile, [&](std::uint32_t lane, std::uint64_t pixel) {
       read_history(tile, lane, history);
-      const auto after = std::upper_bound(
-          history.begin(), history.end(), sample,
-          [](std::uint32_t at, const ChangeRecord& record) { return at < record.sample; });
+      const auto after =
+          std::upper_bound(history.begin(), history.end(), sample,
+                           [](std::uint32_t at, const ChangeRecord& record) { return at < record.sample; });
       const ChangeRecord& held = *(after - 1);
       for (std::uint32_t channel = 0; channel < geometry_.channels; ++channel) {
-        std::byte* to =
-            raster.data() + (pixel * geometry_.channels + channel) * geometry_.code_bytes;
+        std::byte* to = raster.data() + (pixel * geometry_.channels + channel) * geometry_.code_bytes;
         std::memcpy(to, &held.codes[channel], geometry_.code_bytes);  // little-endian hosts
       }
     });

@@ -78,18 +78,15 @@ struct BlockGeometry {
         code_bytes(capture.code_bytes) {}
 
   [[nodiscard]] std::uint32_t index_bytes() const { return sample_count <= 255 ? 1 : 2; }
-  [[nodiscard]] std::uint64_t row_bytes() const {
-    return std::uint64_t{channels} * kTilePixels * code_bytes;
-  }
+  [[nodiscard]] std::uint64_t row_bytes() const { return std::uint64_t{channels} * kTilePixels * code_bytes; }
   [[nodiscard]] std::uint64_t slot_bytes() const { return kTilePixels * index_bytes() + row_bytes(); }
   [[nodiscard]] std::uint64_t directory_bytes() const {
     return align_up(tile_count * sizeof(TileEntry), kBlockAlignment);
   }
   // Bytes of the index list before a tile's rows.
   [[nodiscard]] std::uint64_t row_index_bytes(std::uint32_t rows) const {
-    return rows == 1 || rows == sample_count
-               ? 0
-               : align_up(std::uint64_t{rows} * index_bytes(), kBlockAlignment);
+    return rows == 1 || rows == sample_count ? 0
+                                             : align_up(std::uint64_t{rows} * index_bytes(), kBlockAlignment);
   }
   [[nodiscard]] std::uint64_t rows_bytes(std::uint32_t rows) const {
     return row_index_bytes(rows) + rows * row_bytes();

@@ -103,8 +103,8 @@ inline __attribute__((always_inline)) std::uint64_t step_tile(const TileStep& st
   std::memcpy(held, step.held, sizeof held);
   const auto limit = static_cast<Code>(step.tolerance);
   for (std::uint32_t channel = 0; channel < Channels; ++channel) {
-    const Lanes distance = now[channel] > held[channel] ? now[channel] - held[channel]
-                                                        : held[channel] - now[channel];
+    const Lanes distance =
+        now[channel] > held[channel] ? now[channel] - held[channel] : held[channel] - now[channel];
     differs |= reinterpret_cast<Lanes>(distance > limit);
   }
   for (std::uint32_t channel = 0; channel < Channels; ++channel) {
@@ -239,9 +239,10 @@ class BlockBuilder::Implementation {
       }
     }
     if (largest > capture_.white_code) {
-      throw InputError(format("sample {} has a code of {}, above the white code {}; state the right one "
-                              "with --white",
-                              first_sample_ + samples_, largest, capture_.white_code));
+      throw InputError(
+          format("sample {} has a code of {}, above the white code {}; state the right one "
+                 "with --white",
+                 first_sample_ + samples_, largest, capture_.white_code));
     }
   }
 
@@ -293,9 +294,8 @@ class BlockBuilder::Implementation {
     const std::uint16_t* counts = lane_records_.data() + tile * kTilePixels;
     const std::uint32_t slots = *std::max_element(counts, counts + kTilePixels);
     const std::uint32_t rows = row_count_[tile];
-    const bool as_records =
-        policy_ == TilePolicy::records ||
-        (policy_ == TilePolicy::automatic && records_are_cheaper(geometry, rows, slots));
+    const bool as_records = policy_ == TilePolicy::records ||
+                            (policy_ == TilePolicy::automatic && records_are_cheaper(geometry, rows, slots));
     return {0, as_records ? slots | TileEntry::kRecordsFlag : rows};
   }
 
@@ -309,8 +309,7 @@ class BlockBuilder::Implementation {
     }
   }
 
-  void write_rows(const BlockGeometry& geometry, std::uint64_t tile, std::uint32_t rows,
-                  std::byte* body) {
+  void write_rows(const BlockGeometry& geometry, std::uint64_t tile, std::uint32_t rows, std::byte* body) {
     const std::uint64_t index_bytes = geometry.row_index_bytes(rows);
     std::memset(body, 0, index_bytes);
     for (std::uint32_t row = 0; index_bytes != 0 && row < rows; ++row) {
@@ -357,18 +356,17 @@ class BlockBuilder::Implementation {
 
   std::uint64_t first_sample_ = 0;
   std::uint32_t samples_ = 0;
-  PageBuffer held_;        // [tile][C][64] codes
-  PageBuffer rows_;        // [tile][sample_count][C][64] codes
-  PageBuffer changed_;     // [tile][sample_count] lanes that changed with the row, as bits
-  PageBuffer row_sample_;  // [tile][sample_count] sample of each row within the block
-  std::vector<std::uint32_t> row_count_;      // [tile]
-  std::vector<std::uint16_t> lane_records_;   // [tile][64] change records of each pixel in the block
+  PageBuffer held_;                          // [tile][C][64] codes
+  PageBuffer rows_;                          // [tile][sample_count][C][64] codes
+  PageBuffer changed_;                       // [tile][sample_count] lanes that changed with the row, as bits
+  PageBuffer row_sample_;                    // [tile][sample_count] sample of each row within the block
+  std::vector<std::uint32_t> row_count_;     // [tile]
+  std::vector<std::uint16_t> lane_records_;  // [tile][64] change records of each pixel in the block
 };
 
 BlockBuilder::BlockBuilder(const CaptureFormat& capture, std::uint32_t block_samples, TilePolicy policy) {
   if (block_samples == 0 || block_samples > kLargestBlockSamples) {
-    throw UsageError(format("a block of {} samples is outside 1 … {}", block_samples,
-                            kLargestBlockSamples));
+    throw UsageError(format("a block of {} samples is outside 1 … {}", block_samples, kLargestBlockSamples));
   }
   implementation_ = std::make_unique<Implementation>(capture, block_samples, policy);
 }

@@ -12,8 +12,8 @@
 
 #include "capture/picture.hpp"
 #include "imev/block.hpp"
-#include "system/page_buffer.hpp"
 #include "imev/tile_cost.hpp"
+#include "system/page_buffer.hpp"
 
 namespace nutik {
 

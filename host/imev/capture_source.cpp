@@ -7,8 +7,8 @@
 namespace nutik {
 
 MemoryCapture::MemoryCapture(const CaptureFormat& capture, Timeline timeline,
-                             std::span<const std::vector<std::byte>> rasters,
-                             std::uint32_t block_samples, TilePolicy policy)
+                             std::span<const std::vector<std::byte>> rasters, std::uint32_t block_samples,
+                             TilePolicy policy)
     : capture_(capture), timeline_(std::move(timeline)) {
   if (rasters.size() != timeline_.sample_count()) {
     throw std::logic_error("a capture has another number of samples than its timeline");
@@ -36,8 +36,7 @@ BlockView MemoryCapture::view(std::uint64_t block) const {
 }
 
 StreamingCapture::StreamingCapture(const CaptureFormat& capture, Timeline timeline, SampleRange needed,
-                                   std::uint32_t block_samples, TilePolicy policy,
-                                   ReadSample read_sample)
+                                   std::uint32_t block_samples, TilePolicy policy, ReadSample read_sample)
     : capture_(capture),
       timeline_(std::move(timeline)),
       needed_(needed),

@@ -54,9 +54,7 @@ class MemoryCapture final : public CaptureSource {
   [[nodiscard]] const CaptureFormat& format() const override { return capture_; }
   [[nodiscard]] const Timeline& timeline() const override { return timeline_; }
   [[nodiscard]] std::uint64_t block_count() const override { return blocks_.size(); }
-  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
-    return blocks_[block].extent;
-  }
+  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override { return blocks_[block].extent; }
   std::uint64_t prepare(std::uint64_t block) override { return blocks_[block].bytes; }
   void read(std::uint64_t block, std::span<std::byte> into) override;
 

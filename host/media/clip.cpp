@@ -24,8 +24,7 @@ Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOp
                      Rational shutter_angle, std::uint64_t sample_count) {
   if (options.rate) return Timeline::constant(*options.rate, shutter_angle, sample_count);
   if (!info.timing.rate && info.timing.starts_ns.empty()) {
-    throw InputError(
-        format("{} does not say how fast it was taken; state the rate with --fps", name));
+    throw InputError(format("{} does not say how fast it was taken; state the rate with --fps", name));
   }
   if (info.timing.rate) return Timeline::constant(*info.timing.rate, shutter_angle, sample_count);
   if (info.timing.starts_ns.size() < sample_count) {
@@ -33,10 +32,9 @@ Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOp
                             sample_count, info.timing.starts_ns.size()));
   }
   try {
-    return Timeline::irregular(
-        {info.timing.starts_ns.begin(),
-         info.timing.starts_ns.begin() + static_cast<std::ptrdiff_t>(sample_count)},
-        shutter_angle);
+    return Timeline::irregular({info.timing.starts_ns.begin(),
+                                info.timing.starts_ns.begin() + static_cast<std::ptrdiff_t>(sample_count)},
+                               shutter_angle);
   } catch (const InputError& error) {
     throw InputError(format("{}: {}", name, error.what()));
   }

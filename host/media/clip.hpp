@@ -57,13 +57,11 @@ class Clip {
 
 // Opens a video, or a sequence of stills (media/still_sequence.hpp). Throws InputError where there is
 // none, or none that can be read.
-[[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path,
-                                              const ClipOptions& options);
+[[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options);
 
 // The timeline of the clip `name` with `sample_count` samples. Throws InputError where nothing
 // tells how fast it was taken, or its times are not in order.
-[[nodiscard]] Timeline timeline_of(const std::string& name, const ClipInfo& info,
-                                   const ClipOptions& options, Rational shutter_angle,
-                                   std::uint64_t sample_count);
+[[nodiscard]] Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOptions& options,
+                                   Rational shutter_angle, std::uint64_t sample_count);
 
 }  // namespace nutik

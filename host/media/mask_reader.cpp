@@ -13,9 +13,10 @@ Picture read_mask(const std::filesystem::path& path) {
   const std::string name = path.string();
   if (is_png(file.bytes())) return read_grey_png(file.bytes(), name);
   if (file.bytes().size() < 2 || file.bytes()[0] != std::byte{'P'}) {
-    throw InputError(format("{} is neither a PGM nor a PNG; masks are 8-bit grey pictures of these kinds "
-                            "(JPEG would change their values)",
-                            name));
+    throw InputError(
+        format("{} is neither a PGM nor a PNG; masks are 8-bit grey pictures of these kinds "
+               "(JPEG would change their values)",
+               name));
   }
   Picture picture = read_netpbm(file.bytes(), name);
   if (picture.shape.channels != 1) {

@@ -22,9 +22,7 @@ struct FileKind {
 };
 
 void write_netpbm(OutputFile& file, const Picture& picture) { file.write(netpbm_text(picture)); }
-void write_tiff_file(OutputFile& file, const Picture& picture) {
-  write_tiff(file.temporary_path(), picture);
-}
+void write_tiff_file(OutputFile& file, const Picture& picture) { write_tiff(file.temporary_path(), picture); }
 
 constexpr std::array<FileKind, 7> kKinds{{
     {".png", true, false, 0, write_png},
@@ -69,9 +67,8 @@ ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth>
                          std::uint32_t channels) {
   const FileKind& kind = kind_of(path);
   if (kind.only_channels != 0 && kind.only_channels != channels) {
-    throw UsageError(format("{} holds {} pictures only and this one {}; write a .png or .tif",
-                            path.string(), channels == 1 ? "colour" : "grey",
-                            channels == 1 ? "is grey" : "has colour"));
+    throw UsageError(format("{} holds {} pictures only and this one {}; write a .png or .tif", path.string(),
+                            channels == 1 ? "colour" : "grey", channels == 1 ? "is grey" : "has colour"));
   }
   const bool light = wish ? *wish == Depth::floating : !kind.holds_codes;
   if (light && !kind.holds_light) {

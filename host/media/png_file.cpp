@@ -14,8 +14,8 @@ namespace {
 // libpng reports errors through a callback that must not return. Throwing through its C frames is what
 // it leaves to C++ programs; it holds no resources there that its own structures do not own.
 [[noreturn]] void throw_input(png_structp png, png_const_charp message) {
-  throw InputError(format("{} cannot be read: {}", *static_cast<std::string*>(png_get_error_ptr(png)),
-                          message));
+  throw InputError(
+      format("{} cannot be read: {}", *static_cast<std::string*>(png_get_error_ptr(png)), message));
 }
 [[noreturn]] void throw_output(png_structp, png_const_charp message) {
   throw OutputError(format("the PNG cannot be written: {}", message));
@@ -79,8 +79,8 @@ Picture read_grey_png(std::span<const std::byte> file, const std::string& name) 
   const int colour = png_get_color_type(read.png, read.info);
   const int bits = png_get_bit_depth(read.png, read.info);
   if (colour != PNG_COLOR_TYPE_GRAY || bits != 8) {
-    throw InputError(format("{} is a PNG of {} bits, {}; it must be 8 bits, grey", name, bits,
-                            colour_name(colour)));
+    throw InputError(
+        format("{} is a PNG of {} bits, {}; it must be 8 bits, grey", name, bits, colour_name(colour)));
   }
   png_set_interlace_handling(read.png);
   png_read_update_info(read.png, read.info);

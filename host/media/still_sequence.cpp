@@ -27,17 +27,15 @@ constexpr std::array<std::array<std::string_view, 2>, 8> kKinds{{{".png", "PNG"}
                                                                  {".jpg", "JPEG"},
                                                                  {".jpeg", "JPEG"}}};
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 // The kind of picture that a name promises; empty where it promises none.
 std::string_view kind_of(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto found = std::find_if(kKinds.begin(), kKinds.end(),
-                                  [&](const auto& kind) { return kind[0] == extension; });
+  const auto found =
+      std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& kind) { return kind[0] == extension; });
   return found == kKinds.end() ? std::string_view() : (*found)[1];
 }
 
@@ -66,9 +64,8 @@ bool counts_before(const std::string& a, const std::string& b) {
 }
 
 void sort_by_count(std::vector<fs::path>& files) {
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return counts_before(a.string(), b.string());
-  });
+  std::sort(files.begin(), files.end(),
+            [](const fs::path& a, const fs::path& b) { return counts_before(a.string(), b.string()); });
 }
 
 // The files of a folder that are not hidden: a `._frame1.png`, which some systems leave beside a
@@ -94,10 +91,10 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
   // Two kinds are two sequences, or a sequence and something else: neither may be guessed at.
   for (const fs::path& file : files) {
     if (kind_of(file) == kind_of(files.front())) continue;
-    throw InputError(format(
-        "{}: the folder holds {} files ({}) and {} files ({}); name one kind: '{}'",
-        folder.string(), kind_of(files.front()), files.front().filename().string(), kind_of(file),
-        file.filename().string(), (folder / ("*" + files.front().extension().string())).string()));
+    throw InputError(format("{}: the folder holds {} files ({}) and {} files ({}); name one kind: '{}'",
+                            folder.string(), kind_of(files.front()), files.front().filename().string(),
+                            kind_of(file), file.filename().string(),
+                            (folder / ("*" + files.front().extension().string())).string()));
   }
   return files;
 }
@@ -124,8 +121,7 @@ struct NumberedName {
   char fill = ' ';
 
   [[nodiscard]] std::string with(const std::string& digits) const {
-    return before + std::string(width > digits.size() ? width - digits.size() : 0, fill) + digits +
-           after;
+    return before + std::string(width > digits.size() ? width - digits.size() : 0, fill) + digits + after;
   }
 };
 
@@ -139,8 +135,7 @@ std::optional<NumberedName> parse_numbered(const std::string& name) {
     numbered.width =
         std::min<std::size_t>(numbered.width * 10 + static_cast<std::size_t>(name[at] - '0'), 100);
   }
-  if (at >= name.size() || (name[at] != 'd' && name[at] != 'i' && name[at] != 'u'))
-    return std::nullopt;
+  if (at >= name.size() || (name[at] != 'd' && name[at] != 'i' && name[at] != 'u')) return std::nullopt;
   numbered.after = name.substr(at + 1);
   return numbered;
 }
@@ -152,8 +147,7 @@ std::optional<std::string> number_of(const fs::path& file, const NumberedName& n
       !text.ends_with(name.after)) {
     return std::nullopt;
   }
-  std::string digits =
-      text.substr(name.before.size(), text.size() - name.before.size() - name.after.size());
+  std::string digits = text.substr(name.before.size(), text.size() - name.before.size() - name.after.size());
   digits.erase(0, digits.find_first_not_of(' '));
   if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) return std::nullopt;
   digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
@@ -175,11 +169,10 @@ std::vector<fs::path> numbered_files(const fs::path& path, const NumberedName& n
     }
   }
   if (by_number.empty()) {
-    throw InputError(
-        format("{}: no file has such a name, {} for one{}", path.string(), name.with("1"),
-               other.empty() ? ""
-                             : format("; {} is there: its zeros are written %0{}d", other,
-                                      other.size() - name.before.size() - name.after.size())));
+    throw InputError(format("{}: no file has such a name, {} for one{}", path.string(), name.with("1"),
+                            other.empty() ? ""
+                                          : format("; {} is there: its zeros are written %0{}d", other,
+                                                   other.size() - name.before.size() - name.after.size())));
   }
   std::vector<fs::path> files;
   for (const auto& [number, file] : by_number) {
@@ -188,18 +181,15 @@ std::vector<fs::path> numbered_files(const fs::path& path, const NumberedName& n
       throw InputError(
           format("{}: {} is missing between {} and {}; to take the files that are there in "
                  "their order: '{}'",
-                 path.string(), name.with(std::to_string(expected)),
-                 files.back().filename().string(), file.filename().string(),
-                 (path.parent_path() / (name.before + "*" + name.after)).string()));
+                 path.string(), name.with(std::to_string(expected)), files.back().filename().string(),
+                 file.filename().string(), (path.parent_path() / (name.before + "*" + name.after)).string()));
     }
     files.push_back(file);
   }
   return files;
 }
 
-bool is_glob(const std::string& path) {
-  return path.find_first_of("*?[") != std::string::npos;
-}
+bool is_glob(const std::string& path) { return path.find_first_of("*?[") != std::string::npos; }
 
 }  // namespace
 

@@ -25,8 +25,7 @@ class PageReader {
     if (is_plain()) {
       check_plain();
       page.maximum = stated_maximum();
-      page.picture =
-          Picture(shape_, bits_ > 8 ? ValueType::code16 : ValueType::code8, (1u << bits_) - 1);
+      page.picture = Picture(shape_, bits_ > 8 ? ValueType::code16 : ValueType::code8, (1u << bits_) - 1);
       for (std::uint16_t plane = 0; plane < (separate_ ? shape_.channels : 1); ++plane) {
         TIFFIsTiled(file_) ? read_tiles(page.picture, plane) : read_rows(page.picture, plane);
       }
@@ -53,8 +52,7 @@ class PageReader {
     shape_.channels = field<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL, 1);
     bits_ = field<std::uint16_t>(TIFFTAG_BITSPERSAMPLE, 1);
     photometric_ = field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
-    separate_ =
-        field<std::uint16_t>(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_SEPARATE;
+    separate_ = field<std::uint16_t>(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_SEPARATE;
     if (shape_.width == 0 || shape_.height == 0 || shape_.width > kLargestSide ||
         shape_.height > kLargestSide || shape_.value_count() * 2 > kLargestPage) {
       fail(format("it states {} x {} pixels", shape_.width, shape_.height));
@@ -65,17 +63,15 @@ class PageReader {
     }
     const auto orientation = field<std::uint16_t>(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
     if (orientation != ORIENTATION_TOPLEFT) {
-      fail(
-          format("its orientation is {}; only upright pictures (1) are read. Turn it upright first",
-                 orientation));
+      fail(format("its orientation is {}; only upright pictures (1) are read. Turn it upright first",
+                  orientation));
     }
   }
 
   // Whether the values are codes as they stand, rather than indices of a palette, YCbCr or single
   // bits.
   [[nodiscard]] bool is_plain() const {
-    const bool grey =
-        photometric_ == PHOTOMETRIC_MINISBLACK || photometric_ == PHOTOMETRIC_MINISWHITE;
+    const bool grey = photometric_ == PHOTOMETRIC_MINISBLACK || photometric_ == PHOTOMETRIC_MINISWHITE;
     return bits_ >= 8 &&
            (grey ? shape_.channels == 1 : photometric_ == PHOTOMETRIC_RGB && shape_.channels == 3);
   }
@@ -83,8 +79,7 @@ class PageReader {
   void check_plain() const {
     const auto sample_format = field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
     if (bits_ > 16 || sample_format != SAMPLEFORMAT_UINT) {
-      fail(format("it has {}-bit {} values; whole numbers without sign of up to 16 bits are read",
-                  bits_,
+      fail(format("it has {}-bit {} values; whole numbers without sign of up to 16 bits are read", bits_,
                   sample_format == SAMPLEFORMAT_INT      ? "signed"
                   : sample_format == SAMPLEFORMAT_IEEEFP ? "floating-point"
                                                          : "unsigned"));
@@ -114,8 +109,8 @@ class PageReader {
   }
 
   // Puts `count` pixels of a row where they belong.
-  void place(Picture& picture, const std::vector<std::uint8_t>& row, std::size_t offset,
-             std::uint32_t x, std::uint32_t y, std::uint32_t count, std::uint16_t plane) const {
+  void place(Picture& picture, const std::vector<std::uint8_t>& row, std::size_t offset, std::uint32_t x,
+             std::uint32_t y, std::uint32_t count, std::uint16_t plane) const {
     const std::uint32_t together = separate_ ? 1 : shape_.channels;
     const std::uint32_t full = (1u << bits_) - 1;
     const bool inverted = photometric_ == PHOTOMETRIC_MINISWHITE;
@@ -164,8 +159,7 @@ class PageReader {
           fail(format("it is damaged or was cut off at row {} of {}", y, shape_.height));
         }
         for (std::uint32_t row = 0; row < std::min(height, shape_.height - y); ++row) {
-          place(picture, tile, row * row_bytes, x, y + row, std::min(width, shape_.width - x),
-                plane);
+          place(picture, tile, row * row_bytes, x, y + row, std::min(width, shape_.width - x), plane);
         }
       }
     }
@@ -175,16 +169,15 @@ class PageReader {
   Picture read_shown() {
     char why[1024] = {};
     if (bits_ > 8 || TIFFRGBAImageOK(file_, why) == 0) {
-      fail(format("it is of a kind that is not read (photometric interpretation {}, {} bits)",
-                  photometric_, bits_));
+      fail(format("it is of a kind that is not read (photometric interpretation {}, {} bits)", photometric_,
+                  bits_));
     }
     std::vector<std::uint32_t> pixels(shape_.pixel_count());
-    if (TIFFReadRGBAImageOriented(file_, shape_.width, shape_.height, pixels.data(),
-                                  ORIENTATION_TOPLEFT, 1) == 0) {
+    if (TIFFReadRGBAImageOriented(file_, shape_.width, shape_.height, pixels.data(), ORIENTATION_TOPLEFT,
+                                  1) == 0) {
       fail("it is damaged or was cut off");
     }
-    const bool grey =
-        photometric_ == PHOTOMETRIC_MINISBLACK || photometric_ == PHOTOMETRIC_MINISWHITE;
+    const bool grey = photometric_ == PHOTOMETRIC_MINISBLACK || photometric_ == PHOTOMETRIC_MINISWHITE;
     shape_.channels = grey ? 1 : 3;
     Picture picture(shape_, ValueType::code8, 255);
     std::size_t at = 0;
@@ -217,15 +210,12 @@ TIFF* open(const std::filesystem::path& path) {
 
 }  // namespace
 
-TiffReader::TiffReader(const std::filesystem::path& path)
-    : name_(path.string()), file_(open(path)) {}
+TiffReader::TiffReader(const std::filesystem::path& path) : name_(path.string()), file_(open(path)) {}
 TiffReader::~TiffReader() = default;
 TiffReader::TiffReader(TiffReader&&) noexcept = default;
 TiffReader& TiffReader::operator=(TiffReader&&) noexcept = default;
 
-void TiffReader::Close::operator()(tiff* file) const {
-  TIFFClose(file);
-}
+void TiffReader::Close::operator()(tiff* file) const { TIFFClose(file); }
 
 std::uint64_t TiffReader::count_pages(const std::filesystem::path& path) {
   const std::unique_ptr<tiff, Close> file(open(path));

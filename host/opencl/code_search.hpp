@@ -50,9 +50,10 @@ template <typename Real>
     search.thresholds.push_back(std::numeric_limits<Real>::infinity());
     return search;
   }
-  throw UsageError(format("transfer {} puts codes of a white of {} too close together to tell apart; write "
-                          "floating point (--depth float), or use --renderer reference",
-                          transfer.text(), white_code));
+  throw UsageError(
+      format("transfer {} puts codes of a white of {} too close together to tell apart; write "
+             "floating point (--depth float), or use --renderer reference",
+             transfer.text(), white_code));
 }
 
 }  // namespace nutik

@@ -34,8 +34,7 @@ std::string lower(std::string_view text) {
 std::string list_text(std::span<const DeviceInfo> devices) {
   std::string text;
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    text += format("\n  {}  {} ({}, {})", i, devices[i].name, to_text(devices[i].kind),
-                   devices[i].platform);
+    text += format("\n  {}  {} ({}, {})", i, devices[i].name, to_text(devices[i].kind), devices[i].platform);
   }
   return text;
 }
@@ -134,8 +133,8 @@ std::size_t choose_device(std::span<const DeviceInfo> devices, std::string_view 
   const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
   if (error == std::errc() && end == wanted.data() + wanted.size()) {
     if (index < devices.size()) return index;
-    throw DeviceError(format("there is no OpenCL device {}; these were found:{}", wanted,
-                             list_text(devices)));
+    throw DeviceError(
+        format("there is no OpenCL device {}; these were found:{}", wanted, list_text(devices)));
   }
   std::vector<std::size_t> matches;
   for (std::size_t i = 0; i < devices.size(); ++i) {

@@ -13,11 +13,10 @@ FunctionMap map_functions(const RenderPlan& plan) {
   map.of_tile.resize(grid.tile_count());
   for (std::uint64_t tile = 0; tile < grid.tile_count(); ++tile) {
     std::uint8_t* lanes = map.of_lane.data() + tile * kTilePixels;
-    grid.for_each_lane(tile, [&](std::uint32_t lane, std::uint64_t pixel) {
-      lanes[lane] = plan.function_of_pixel[pixel];
-    });
-    const bool same = std::all_of(lanes, lanes + kTilePixels,
-                                  [&](std::uint8_t function) { return function == lanes[0]; });
+    grid.for_each_lane(
+        tile, [&](std::uint32_t lane, std::uint64_t pixel) { lanes[lane] = plan.function_of_pixel[pixel]; });
+    const bool same =
+        std::all_of(lanes, lanes + kTilePixels, [&](std::uint8_t function) { return function == lanes[0]; });
     map.of_tile[tile] = same ? lanes[0] : kMixedFunctions;
   }
   return map;

@@ -9,12 +9,13 @@
 namespace nutik {
 
 struct LightSource {
-  const char* kind;  // the kernels' NUTIK_LIGHT
+  const char* kind;            // the kernels' NUTIK_LIGHT
   std::vector<double> values;  // a table, a curve or pieces, to be rounded to the kernel's precision
 };
 
 // `permutes_pieces`: whether the kernel works on as many lanes as there are pieces, and the device's vectors
 // hold them.
-[[nodiscard]] LightSource light_source(const CaptureFormat& capture, Precision precision, bool permutes_pieces);
+[[nodiscard]] LightSource light_source(const CaptureFormat& capture, Precision precision,
+                                       bool permutes_pieces);
 
 }  // namespace nutik

@@ -6,16 +6,16 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "system/page_buffer.hpp"
+#include "opencl/code_search.hpp"
 #include "opencl/function_map.hpp"
 #include "opencl/kernel_layout.hpp"
-#include "opencl/code_search.hpp"
 #include "opencl/kernel_sources.hpp"
 #include "opencl/light_pieces.hpp"
 #include "opencl/light_source.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
 #include "opencl/work_shape.hpp"
+#include "system/page_buffer.hpp"
 
 namespace nutik {
 
@@ -25,9 +25,7 @@ Precision parse_precision(std::string_view text) {
   throw UsageError(format("precision '{}' is not known; choose single or double", text));
 }
 
-std::string to_text(Precision precision) {
-  return precision == Precision::single_ ? "single" : "double";
-}
+std::string to_text(Precision precision) { return precision == Precision::single_ ? "single" : "double"; }
 
 namespace {
 
@@ -57,9 +55,10 @@ std::vector<LightScale<Real>> light_scales(const RenderPlan& plan) {
     scales.push_back({static_cast<Real>(std::scalbn(code_light, half)),
                       static_cast<Real>(std::scalbn(1.0, function.summary.exponent - half))});
     if (!std::isfinite(scales.back().first) || !std::isfinite(scales.back().second)) {
-      throw UsageError(format("M{} has gains beyond 2^{}, more than single precision holds; use --precision "
-                              "double",
-                              function.tag, function.summary.exponent));
+      throw UsageError(
+          format("M{} has gains beyond 2^{}, more than single precision holds; use --precision "
+                 "double",
+                 function.tag, function.summary.exponent));
     }
   }
   return scales;
@@ -68,8 +67,8 @@ std::vector<LightScale<Real>> light_scales(const RenderPlan& plan) {
 // Whether fma() is the device's own. Devices that would emulate it do not report it, and a CPU's emulation
 // is 20 times slower than rounding twice.
 bool has_fma(const cl::Device& device, bool single) {
-  const cl_device_fp_config config = single ? device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>()
-                                            : device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>();
+  const cl_device_fp_config config =
+      single ? device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() : device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>();
   return (config & CL_FP_FMA) != 0;
 }
 
@@ -98,12 +97,12 @@ class OpenClRenderer::Implementation {
   [[nodiscard]] const RenderStatistics& statistics() const { return statistics_; }
   [[nodiscard]] std::string report() const {
     const double megabytes = static_cast<double>(statistics_.payload_bytes) * 1e-6;
-    return format("{} precision; {} blocks of {:.1f} MB made ready in {:.1f} ms, read by the kernel in {:.1f} ms "
-                  "({:.1f} GB/s); codes or light in {:.1f} ms; at most {:.1f} MB on the device",
-                  to_text(options_.precision), statistics_.blocks, megabytes, statistics_.read_ms,
-                  statistics_.expose_ms,
-                  statistics_.expose_ms > 0 ? megabytes / statistics_.expose_ms : 0.0,
-                  statistics_.develop_ms, static_cast<double>(statistics_.device_bytes) * 1e-6);
+    return format(
+        "{} precision; {} blocks of {:.1f} MB made ready in {:.1f} ms, read by the kernel in {:.1f} ms "
+        "({:.1f} GB/s); codes or light in {:.1f} ms; at most {:.1f} MB on the device",
+        to_text(options_.precision), statistics_.blocks, megabytes, statistics_.read_ms,
+        statistics_.expose_ms, statistics_.expose_ms > 0 ? megabytes / statistics_.expose_ms : 0.0,
+        statistics_.develop_ms, static_cast<double>(statistics_.device_bytes) * 1e-6);
   }
 
   Picture render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
@@ -149,9 +148,10 @@ class OpenClRenderer::Implementation {
 
   cl::Buffer allocate(std::uint64_t bytes, cl_mem_flags flags) {
     if (bytes > info_.largest_allocation_bytes) {
-      throw DeviceError(format("{} allocates at most {} MB at a time and {} MB are needed; use a device "
-                               "with more memory, or --renderer reference",
-                               info_.name, info_.largest_allocation_bytes >> 20, bytes >> 20));
+      throw DeviceError(
+          format("{} allocates at most {} MB at a time and {} MB are needed; use a device "
+                 "with more memory, or --renderer reference",
+                 info_.name, info_.largest_allocation_bytes >> 20, bytes >> 20));
     }
     count_device_bytes(bytes);
     return {context_, flags, bytes};
@@ -215,10 +215,10 @@ class OpenClRenderer::Implementation {
       statistics_.read_ms +=
           std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
       const cl::Buffer entries = upload(chunk.entries);
-      const cl::Event event =
-          kernel(items(shape_.items(grid.tile_count())), chunk.payload, entries, static_cast<cl_uint>(chunk.entries.size()),
-                 spans, weights, boundaries, static_cast<cl_uint>(plan.function_count()),
-                 function_of_tile, function_of_lane, transfer, sums, grid.tile_count(), first ? 1u : 0u);
+      const cl::Event event = kernel(items(shape_.items(grid.tile_count())), chunk.payload, entries,
+                                     static_cast<cl_uint>(chunk.entries.size()), spans, weights, boundaries,
+                                     static_cast<cl_uint>(plan.function_count()), function_of_tile,
+                                     function_of_lane, transfer, sums, grid.tile_count(), first ? 1u : 0u);
       event.wait();
       statistics_.expose_ms += milliseconds(event);
       statistics_.blocks += chunk.entries.size();
@@ -249,7 +249,8 @@ class OpenClRenderer::Implementation {
     std::uint64_t begin = 0;  // of the chunk, within the region
     for (std::size_t b = first; b < plan.blocks.size(); ++b) {
       const PlannedBlock& planned = plan.blocks[b];
-      const std::uint64_t payload_bytes = pending_bytes_ != 0 ? pending_bytes_ : source.prepare(planned.block);
+      const std::uint64_t payload_bytes =
+          pending_bytes_ != 0 ? pending_bytes_ : source.prepare(planned.block);
       pending_bytes_ = 0;
       std::uint64_t offset = chunk.bytes;
       if (in_place) {
@@ -263,10 +264,10 @@ class OpenClRenderer::Implementation {
         break;
       }
       if (end > info_.largest_allocation_bytes) {
-        throw DeviceError(format("a block of {} samples takes {} MB and {} allocates at most {} MB at a "
-                                 "time; encode with fewer samples a block (--block-samples)",
-                                 planned.extent.sample_count, end >> 20, info_.name,
-                                 info_.largest_allocation_bytes >> 20));
+        throw DeviceError(
+            format("a block of {} samples takes {} MB and {} allocates at most {} MB at a "
+                   "time; encode with fewer samples a block (--block-samples)",
+                   planned.extent.sample_count, end >> 20, info_.name, info_.largest_allocation_bytes >> 20));
       }
       if (!in_place) {
         // Address space for a whole chunk at once, for growing would lose what was read into it.
@@ -326,8 +327,8 @@ class OpenClRenderer::Implementation {
     DevelopCodesKernel kernel(program, "develop_codes");
     const cl::Event event =
         kernel(items(item_count), sums, scales, function_of_lane, shape.width, shape.height, tile_count,
-               upload(search.thresholds), upload(search.guesses),
-               static_cast<cl_uint>(search.guesses.size()), raster);
+               upload(search.thresholds), upload(search.guesses), static_cast<cl_uint>(search.guesses.size()),
+               raster);
     queue_.enqueueReadBuffer(raster, CL_TRUE, 0, picture.bytes.size(), picture.bytes.data());
     statistics_.develop_ms = milliseconds(event);
     return picture;
@@ -357,8 +358,7 @@ OpenClRenderer::OpenClRenderer(const OpenClOptions& options) {
 
 OpenClRenderer::~OpenClRenderer() = default;
 
-Picture OpenClRenderer::render(const RenderPlan& plan, CaptureSource& source,
-                               const OutputFormat& output) {
+Picture OpenClRenderer::render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
   return implementation_->render(plan, source, output);
 }
 

@@ -57,10 +57,9 @@ ProgramStore::ProgramStore(cl::Context context, cl::Device device, std::filesyst
       cache_folder_(std::move(cache_folder)),
       announce_(std::move(announce)) {
   const cl::Platform platform(device_.getInfo<CL_DEVICE_PLATFORM>());
-  for (const std::string& part :
-       {device_.getInfo<CL_DEVICE_NAME>(), device_.getInfo<CL_DEVICE_VENDOR>(),
-        device_.getInfo<CL_DEVICE_VERSION>(), device_.getInfo<CL_DRIVER_VERSION>(),
-        platform.getInfo<CL_PLATFORM_VERSION>()}) {
+  for (const std::string& part : {device_.getInfo<CL_DEVICE_NAME>(), device_.getInfo<CL_DEVICE_VENDOR>(),
+                                  device_.getInfo<CL_DEVICE_VERSION>(), device_.getInfo<CL_DRIVER_VERSION>(),
+                                  platform.getInfo<CL_PLATFORM_VERSION>()}) {
     device_key_ += part + '\n';
   }
 }

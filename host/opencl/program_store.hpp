@@ -18,8 +18,7 @@ class ProgramStore {
   using Announce = std::function<void(const std::string&)>;
 
   // `cache_folder` may be empty: nothing is kept then. `announce` is told when a build starts.
-  ProgramStore(cl::Context context, cl::Device device, std::filesystem::path cache_folder,
-               Announce announce);
+  ProgramStore(cl::Context context, cl::Device device, std::filesystem::path cache_folder, Announce announce);
 
   // A built program: the one made before, else the cached binary, else a new build. Throws DeviceError
   // with program, options and the compiler's log.

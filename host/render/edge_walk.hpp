@@ -22,8 +22,8 @@ struct LightStretch {
 
   [[nodiscard]] double at(std::int64_t time_ns) const {
     if (begin == end) return begin;
-    return begin + (end - begin) * (static_cast<double>(time_ns - begin_ns) /
-                                    static_cast<double>(end_ns - begin_ns));
+    return begin +
+           (end - begin) * (static_cast<double>(time_ns - begin_ns) / static_cast<double>(end_ns - begin_ns));
   }
 };
 
@@ -59,8 +59,7 @@ class GainWalk {
   // Calls visit(begin_ns, end_ns, gain at begin, gain at end) for every interval of [begin_ns, end_ns]
   // between two control points. `piece` is the walk's place and moves on with it.
   template <typename Visit>
-  void for_each_interval(std::int64_t begin_ns, std::int64_t end_ns, std::size_t& piece,
-                         Visit visit) const {
+  void for_each_interval(std::int64_t begin_ns, std::int64_t end_ns, std::size_t& piece, Visit visit) const {
     std::int64_t time_ns = begin_ns;
     while (time_ns < end_ns) {
       while (pieces_[piece].end_ns <= time_ns) ++piece;
@@ -73,9 +72,9 @@ class GainWalk {
  private:
   [[nodiscard]] static double gain_at(const GainPiece& piece, std::int64_t time_ns) {
     if (time_ns == piece.end_ns) return piece.end_gain;
-    return piece.begin_gain + (piece.end_gain - piece.begin_gain) *
-                                  (static_cast<double>(time_ns - piece.begin_ns) /
-                                   static_cast<double>(piece.end_ns - piece.begin_ns));
+    return piece.begin_gain +
+           (piece.end_gain - piece.begin_gain) * (static_cast<double>(time_ns - piece.begin_ns) /
+                                                  static_cast<double>(piece.end_ns - piece.begin_ns));
   }
 
   std::vector<GainPiece> pieces_;
@@ -85,8 +84,7 @@ class GainWalk {
 
 // ∫ light × gain over the interval, both straight on it: mean times mean, plus a twelfth of the product
 // of their rises, times the length.
-inline double integrate_interval(double length_ns, double light0, double light1, double gain0,
-                                 double gain1) {
+inline double integrate_interval(double length_ns, double light0, double light1, double gain0, double gain1) {
   const double means = (light0 + light1) * (gain0 + gain1) / 4.0;
   const double rises = (light1 - light0) * (gain1 - gain0) / 12.0;
   return length_ns * (means + rises);

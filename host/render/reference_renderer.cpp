@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "imev/block.hpp"
-#include "system/page_buffer.hpp"
 #include "render/edge_walk.hpp"
+#include "system/page_buffer.hpp"
 #include "system/parallel.hpp"
 
 namespace nutik {
@@ -22,7 +22,10 @@ struct Walk {
 class Reference {
  public:
   Reference(const RenderPlan& plan, const Timeline& timeline)
-      : plan_(plan), timeline_(timeline), grid_(plan.capture.shape), walks_(plan.capture.shape.value_count()) {
+      : plan_(plan),
+        timeline_(timeline),
+        grid_(plan.capture.shape),
+        walks_(plan.capture.shape.value_count()) {
     for (const PlannedFunction& planned : plan.functions) {
       gains_.emplace_back(planned.function.pieces(plan.duration_ns));
     }
@@ -111,8 +114,7 @@ void store_codes(const Reference& reference, const Transfer& transfer, Picture& 
 
 }  // namespace
 
-Picture ReferenceRenderer::render(const RenderPlan& plan, CaptureSource& source,
-                                  const OutputFormat& output) {
+Picture ReferenceRenderer::render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
   Reference reference(plan, source.timeline());
   PageBuffer payload;
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {

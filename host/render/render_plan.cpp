@@ -25,39 +25,37 @@ void check_mapped(const FunctionSet& functions, const std::array<std::uint64_t, 
     unmapped += format("{}{} ({} pixels)", unmapped.empty() ? "" : ", ", tag, pixels[tag]);
   }
   if (unmapped.empty()) return;
-  throw InputError(format("mask values without a function: {}; add a line M<value> for each, or expose "
-                          "them to black with --unmapped zero",
-                          unmapped));
+  throw InputError(
+      format("mask values without a function: {}; add a line M<value> for each, or expose "
+             "them to black with --unmapped zero",
+             unmapped));
 }
 
 void warn(RenderPlan& plan, const PlannedFunction& function, bool was_unmapped,
           const std::string& function_name) {
   const GainSummary& summary = function.summary;
   const std::string name = function_name.empty() ? format("M{}", function.tag) : function_name;
-  const auto say = [&](const std::string& text) {
-    plan.warnings.push_back(format("{}: {}", name, text));
-  };
+  const auto say = [&](const std::string& text) { plan.warnings.push_back(format("{}: {}", name, text)); };
   const double seconds = static_cast<double>(plan.duration_ns) * 1e-9;
   if (summary.support_ns == 0 && !was_unmapped) {
-    say(format("the function is zero everywhere in the capture (0 … {:.6g} s); its {} pixels are 0",
-               seconds, function.pixel_count));
+    say(format("the function is zero everywhere in the capture (0 … {:.6g} s); its {} pixels are 0", seconds,
+               function.pixel_count));
   }
   if (summary.reaches_before_capture) {
     say("parts that are not zero lie before the capture's start and do not count");
   }
   if (summary.reaches_after_capture) {
-    say(format("parts that are not zero lie after the capture's end at {:.6g} s and do not count",
-               seconds));
+    say(format("parts that are not zero lie after the capture's end at {:.6g} s and do not count", seconds));
   }
   if (summary.exposes_to_the_end) {
-    say(format("the last gain, {}, holds to the end of the capture at {:.6g} s; end the function with a "
+    say(
+        format("the last gain, {}, holds to the end of the capture at {:.6g} s; end the function with a "
                "gain of 0 if it should stop",
                function.function.last_gain(), seconds));
   }
 }
 
-SampleRange live_samples(const GainSummary& summary, const Timeline& timeline,
-                         const PlanOptions& options) {
+SampleRange live_samples(const GainSummary& summary, const Timeline& timeline, const PlanOptions& options) {
   if (options.live_all) return {0, timeline.sample_count()};
   return timeline.samples_reaching(summary.live.begin_ns, summary.live.end_ns);
 }

@@ -24,8 +24,8 @@ namespace nutik {
 using FunctionSet = std::map<std::uint8_t, GainFunction>;  // by mask value
 
 struct PlanOptions {
-  bool unmapped_is_zero = false;  // mask values without a function expose to 0 instead of being an error
-  bool live_all = false;          // visit every sample, also where all gains are 0
+  bool unmapped_is_zero = false;     // mask values without a function expose to 0 instead of being an error
+  bool live_all = false;             // visit every sample, also where all gains are 0
   std::optional<Transfer> transfer;  // instead of the capture's own
   std::string function_name;         // in warnings, where it is not a mask value's; empty: M0, M1, …
 };
@@ -46,7 +46,7 @@ struct SampleSpan {
 static_assert(sizeof(SampleSpan) == 4);
 
 struct PlannedBlock {
-  std::uint64_t block;      // in the capture
+  std::uint64_t block;  // in the capture
   BlockExtent extent;
   std::uint64_t table_row;  // of its first sample in the tables
 };
@@ -54,9 +54,9 @@ struct PlannedBlock {
 struct RenderPlan {
   CaptureFormat capture;
   std::int64_t duration_ns = 0;
-  std::vector<PlannedFunction> functions;          // by increasing tag; at most 256
-  std::vector<std::uint8_t> function_of_pixel;     // index into functions, row by row
-  std::vector<PlannedBlock> blocks;                // in time order
+  std::vector<PlannedFunction> functions;       // by increasing tag; at most 256
+  std::vector<std::uint8_t> function_of_pixel;  // index into functions, row by row
+  std::vector<PlannedBlock> blocks;             // in time order
 
   // [row][function]: a block has a row for each of its samples and one more. See boundary_table.hpp.
   std::vector<double> weights;

@@ -20,7 +20,7 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
   };
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) fail(std::strerror(errno));
-  struct stat status{};
+  struct stat status {};
   const bool known = fstat(descriptor, &status) == 0;
   if (!known || !S_ISREG(status.st_mode)) {
     close(descriptor);

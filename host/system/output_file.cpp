@@ -20,8 +20,7 @@ OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
   if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored)) {
     throw OutputError(format("{} exists and is no regular file; choose another name", path_.string()));
   }
-  temporary_path_ =
-      path_.parent_path() / format(".{}.{}.part", path_.filename().string(), getpid());
+  temporary_path_ = path_.parent_path() / format(".{}.{}.part", path_.filename().string(), getpid());
   descriptor_ = open(temporary_path_.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail("cannot be created");
 }
@@ -52,7 +51,7 @@ void OutputFile::write(std::string_view text) { write(std::as_bytes(std::span(te
 
 void OutputFile::commit() {
   // A temporary file has the process's own permissions; what it replaces keeps its mode.
-  struct stat before{};
+  struct stat before {};
   if (stat(path_.c_str(), &before) == 0) fchmod(descriptor_, before.st_mode & 07777);
   const int descriptor = descriptor_;
   descriptor_ = -1;

@@ -20,8 +20,8 @@ PageBuffer::PageBuffer(std::uint64_t bytes) {
   const bool huge = bytes >= kHugeFromBytes;
   const std::uint64_t unit = huge ? kHugePageBytes : kPageBytes;
   bytes_ = (bytes + unit - 1) / unit * unit;
-  void* mapped = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE,
-                      MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  void* mapped =
+      mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (mapped == MAP_FAILED) throw std::bad_alloc();
   data_ = static_cast<std::byte*>(mapped);
   if (huge) madvise(data_, bytes_, MADV_HUGEPAGE);  // a hint: without it pages are small, nothing else

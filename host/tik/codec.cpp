@@ -25,14 +25,12 @@ std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> p
     packed.resize(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(plain.size()))));
     const int bytes = LZ4_compress_default(reinterpret_cast<const char*>(plain.data()),
                                            reinterpret_cast<char*>(packed.data()),
-                                           static_cast<int>(plain.size()),
-                                           static_cast<int>(packed.size()));
+                                           static_cast<int>(plain.size()), static_cast<int>(packed.size()));
     packed.resize(static_cast<std::size_t>(bytes));
   } else {
     packed.resize(ZSTD_compressBound(plain.size()));
-    const std::size_t bytes =
-        ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(),
-                      codec.level == 0 ? kUsualZstdLevel : codec.level);
+    const std::size_t bytes = ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(),
+                                            codec.level == 0 ? kUsualZstdLevel : codec.level);
     if (ZSTD_isError(bytes)) throw OutputError(format("zstd failed: {}", ZSTD_getErrorName(bytes)));
     packed.resize(bytes);
   }

@@ -35,18 +35,18 @@ enum class CodecId : std::uint32_t { none = 0, lz4 = 1, zstd = 2 };
 
 struct BlockHeader {
   char magic[8];
-  std::uint64_t block;            // number, from 0
+  std::uint64_t block;  // number, from 0
   std::uint64_t first_sample;
   std::uint32_t sample_count;
-  std::uint32_t codec;            // CodecId
-  std::uint64_t exposure_bytes;   // sample_count × {start_ns, end_ns}; 0 with a constant rate
-  std::uint64_t stored_bytes;     // of the payload in the file
-  std::uint64_t payload_bytes;    // of the payload as the kernels read it
-  std::uint64_t record_count;     // change records in the block, starts not counted
-  std::uint64_t payload_checksum;     // of the stored payload
-  std::uint64_t exposures_checksum;   // 0 with a constant rate
-  std::uint8_t reserved[40];          // zeros
-  std::uint64_t header_checksum;  // of the bytes before it
+  std::uint32_t codec;               // CodecId
+  std::uint64_t exposure_bytes;      // sample_count × {start_ns, end_ns}; 0 with a constant rate
+  std::uint64_t stored_bytes;        // of the payload in the file
+  std::uint64_t payload_bytes;       // of the payload as the kernels read it
+  std::uint64_t record_count;        // change records in the block, starts not counted
+  std::uint64_t payload_checksum;    // of the stored payload
+  std::uint64_t exposures_checksum;  // 0 with a constant rate
+  std::uint8_t reserved[40];         // zeros
+  std::uint64_t header_checksum;     // of the bytes before it
 };
 static_assert(sizeof(BlockHeader) == 128 && offsetof(BlockHeader, header_checksum) == 120);
 
@@ -69,8 +69,8 @@ struct Footer {
   std::int64_t duration_ns;
   std::uint64_t index_checksum;
   std::uint64_t exposures_checksum;
-  std::uint8_t reserved[56];   // zeros
-  std::uint64_t checksum;      // of the bytes before it
+  std::uint8_t reserved[56];  // zeros
+  std::uint64_t checksum;     // of the bytes before it
   char magic[8];
 };
 static_assert(sizeof(Footer) == 128 && offsetof(Footer, checksum) == 112);

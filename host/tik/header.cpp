@@ -85,13 +85,14 @@ class HeaderParser {
     const std::string_view rest = line.substr(kComment.size());
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), version);
     if (error != std::errc() || (end != rest.data() + rest.size() && *end != ' ')) {
-      throw InputError(format("{} is a TIK file of another program, whose records have another layout; "
-                              "encode its source clip again with nutik-cl",
-                              name_));
+      throw InputError(
+          format("{} is a TIK file of another program, whose records have another layout; "
+                 "encode its source clip again with nutik-cl",
+                 name_));
     }
     if (version != kVersion) {
-      throw InputError(format("{} is a .tik of version {}; this program reads version {}", name_, version,
-                              kVersion));
+      throw InputError(
+          format("{} is a .tik of version {}; this program reads version {}", name_, version, kVersion));
     }
     if (text_[1] != '5' && text_[1] != '6') fail("its picture is neither P5 nor P6");
   }
@@ -121,7 +122,9 @@ class HeaderParser {
     return number;
   }
 
-  static std::string_view first_word(std::string_view text) { return text.substr(0, text.find_first_of(" ,")); }
+  static std::string_view first_word(std::string_view text) {
+    return text.substr(0, text.find_first_of(" ,"));
+  }
 
   [[nodiscard]] std::uint32_t number_of(const std::map<std::string, std::string, std::less<>>& words,
                                         std::string_view key) const {

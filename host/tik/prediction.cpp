@@ -69,14 +69,16 @@ std::uint64_t row_offset(const TileEntry& entry, const BlockGeometry& geometry, 
 template <typename Index, typename Visit>
 void for_each_index_run(const TileEntry& entry, const BlockGeometry& geometry, Visit visit) {
   if (entry.is_records()) {
-    for (std::uint32_t slot = 0; slot < entry.slots(); ++slot) visit(slot_offset(geometry, slot), kTilePixels);
+    for (std::uint32_t slot = 0; slot < entry.slots(); ++slot)
+      visit(slot_offset(geometry, slot), kTilePixels);
   } else if (index_count(entry, geometry) != 0) {
     for (std::uint32_t row = 0; row < entry.rows(); ++row) visit(row * sizeof(Index), 1u);
   }
 }
 
 template <typename Index>
-void write_indices(const TileGroup& group, std::span<const std::byte> payload, std::vector<std::byte>& plain) {
+void write_indices(const TileGroup& group, std::span<const std::byte> payload,
+                   std::vector<std::byte>& plain) {
   for (const TileEntry& entry : group.entries) {
     const std::byte* body = payload.data() + entry.offset * kBlockAlignment;
     std::array<Index, kTilePixels> before{};
@@ -150,7 +152,8 @@ Residuals residuals_of(Mode mode, const Plane<Code>& now, const Plane<Code>& bef
   for (std::size_t i = 0; i < kTilePixels; ++i) drift[i] = static_cast<Code>(now[i] - before[i] + kHalf);
   switch (mode) {
     case Mode::before:
-      for (std::size_t i = 0; i < kTilePixels; ++i) residuals[i] = as_signed(static_cast<Code>(drift[i] - kHalf));
+      for (std::size_t i = 0; i < kTilePixels; ++i)
+        residuals[i] = as_signed(static_cast<Code>(drift[i] - kHalf));
       break;
     case Mode::neighbours:
     case Mode::drift: {
@@ -314,7 +317,9 @@ auto with_predictor(const BlockGeometry& geometry, Use use) {
 
 }  // namespace
 
-std::uint64_t TileGroup::head_bytes() const { return index_bytes(*this) + row_total(*this) * geometry.channels; }
+std::uint64_t TileGroup::head_bytes() const {
+  return index_bytes(*this) + row_total(*this) * geometry.channels;
+}
 
 PlainGroup predict(const TileGroup& group, std::span<const std::byte> payload) {
   return with_predictor(group.geometry, [&](auto predictor) { return predictor.predict(group, payload); });

@@ -62,17 +62,17 @@ void Reader::fail(const std::string& why) const { throw InputError(nutik::format
 void Reader::read_footer() {
   const std::span<const std::byte> file = file_.bytes();
   const auto fail_cut_off = [&] {
-    fail(nutik::format("the file was cut off before its end; save what is whole with: nutik-cl recover "
-                       "{} -o recovered.tik",
-                       name_));
+    fail(
+        nutik::format("the file was cut off before its end; save what is whole with: nutik-cl recover "
+                      "{} -o recovered.tik",
+                      name_));
   };
   if (file.size() < sizeof(Footer)) fail_cut_off();
   const auto footer = load<Footer>(file, file.size() - sizeof(Footer));
   if (std::memcmp(footer.magic, kFooterMagic, sizeof footer.magic) != 0) fail_cut_off();
-  const bool intact =
-      footer.checksum == checksum_of(footer, offsetof(Footer, checksum)) &&
-      footer.block_count <= file.size() / sizeof(IndexEntry) &&
-      fits(footer.index_offset, footer.block_count * sizeof(IndexEntry), file.size());
+  const bool intact = footer.checksum == checksum_of(footer, offsetof(Footer, checksum)) &&
+                      footer.block_count <= file.size() / sizeof(IndexEntry) &&
+                      fits(footer.index_offset, footer.block_count * sizeof(IndexEntry), file.size());
   if (!intact) fail("its footer is damaged");
   const auto index_bytes = file.subspan(footer.index_offset, footer.block_count * sizeof(IndexEntry));
   if (footer.index_checksum != checksum(index_bytes)) fail("its index is damaged");

@@ -72,8 +72,8 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
   if (!exposures.empty()) header.exposures_checksum = checksum(std::as_bytes(exposures));
   header.header_checksum = checksum_of(header, offsetof(BlockHeader, header_checksum));
 
-  index_.push_back({file_.size(), header.first_sample, header.sample_count, header.codec,
-                    header.stored_bytes, header.payload_bytes, header.record_count});
+  index_.push_back({file_.size(), header.first_sample, header.sample_count, header.codec, header.stored_bytes,
+                    header.payload_bytes, header.record_count});
   file_.write(bytes_of(header));
   file_.write(std::as_bytes(exposures));
   pad(file_);

@@ -30,8 +30,7 @@ class DeepInput : public testing::Test {
                       const std::vector<std::string>& parts) const {
     const ProgramResult result = run(words);
     EXPECT_EQ(result.status, status) << result.err;
-    for (const std::string& part : parts)
-      EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+    for (const std::string& part : parts) EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
   }
   void expect_said(const ProgramResult& result, const std::string& part) const {
     EXPECT_EQ(result.status, 0) << result.err;
@@ -43,8 +42,7 @@ class DeepInput : public testing::Test {
     std::filesystem::create_directories(scratch_ / folder);
     for (std::size_t k = 0; k < stills.size(); ++k) {
       char name[32];
-      std::snprintf(name, sizeof name, "/f%03zu.%s", k,
-                    stills[k].shape.channels == 1 ? "pgm" : "ppm");
+      std::snprintf(name, sizeof name, "/f%03zu.%s", k, stills[k].shape.channels == 1 ? "pgm" : "ppm");
       scratch_.write(folder + name, netpbm_file(stills[k], k % 2 == 0));
     }
   }
@@ -53,8 +51,7 @@ class DeepInput : public testing::Test {
   static void expect_codes(const std::filesystem::path& path, const Picture& want) {
     const cv::Mat picture = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
     ASSERT_EQ(picture.depth(), want.type == ValueType::code8 ? CV_8U : CV_16U);
-    ASSERT_EQ(picture.total() * static_cast<std::size_t>(picture.channels()),
-              want.shape.value_count());
+    ASSERT_EQ(picture.total() * static_cast<std::size_t>(picture.channels()), want.shape.value_count());
     std::vector<std::byte> codes(want.bytes.size());
     const std::size_t bytes = picture.elemSize1(), channels = want.shape.channels;
     for (std::size_t i = 0; i < want.shape.value_count(); ++i) {
@@ -77,8 +74,7 @@ TEST_F(DeepInput, OneSampleIsTheSourceCodeForCode) {
       std::vector<std::string> transfers{"linear", "srgb"};
       if (white == 4095) transfers.insert(transfers.end(), {"bt709", "gamma:2.2"});
       for (const std::string& transfer : transfers) {
-        succeed(
-            {"encode", "-q", "-f", "100", "-a", "180", "--transfer", transfer, folder, "x.tik"});
+        succeed({"encode", "-q", "-f", "100", "-a", "180", "--transfer", transfer, folder, "x.tik"});
         for (const char* renderer : {"opencl", "reference"}) {
           succeed({"--start", "3f", "--exposure", "1f", "--renderer", renderer, "x.tik", "x.png"});
           expect_codes(scratch_ / "x.png", stills[3]);
@@ -115,8 +111,7 @@ TEST_F(DeepInput, EveryNameOfASequenceGivesTheSameCapture) {
   write_netpbm("frames", stills);
   scratch_.write("stack.tif", tiff_file(stills, {12}));
   std::string first;
-  for (const std::string source :
-       {"frames", "frames/", "frames/*.pgm", "frames/f%03d.pgm", "stack.tif"}) {
+  for (const std::string source : {"frames", "frames/", "frames/*.pgm", "frames/f%03d.pgm", "stack.tif"}) {
     succeed({"encode", "-q", "-f", "30000", source, "x.tik"});
     const std::string capture = test::read_file(scratch_ / "x.tik");
     if (first.empty()) first = capture;
@@ -127,8 +122,7 @@ TEST_F(DeepInput, EveryNameOfASequenceGivesTheSameCapture) {
 TEST_F(DeepInput, SaysWhatItTookForWhite) {
   write_netpbm("twelve", test::random_stills({17, 9, 1}, 4095, 2, 1));
   expect_said(run({"encode", "-f", "10", "twelve"}), "twelve.tik: 17 x 9 grey, 2 samples");
-  expect_said(run({"info", "twelve.tik"}),
-              "17 x 9 grey, 16 bits, white code 4095, transfer linear");
+  expect_said(run({"info", "twelve.tik"}), "17 x 9 grey, 16 bits, white code 4095, transfer linear");
   scratch_.write("stack.tif", tiff_file(test::random_stills({17, 9, 1}, 4095, 2, 1), {}));
   expect_said(run({"-f", "10", "stack.tif", "x.tik"}),
               "white is taken to be 65535; state another with --white");
@@ -151,8 +145,7 @@ TEST_F(DeepInput, RefusesWithTheFileBothValuesAndTheWayOut) {
   std::filesystem::remove(scratch_ / "frames/f001.pgm");
   expect_refused({"-f", "10", "frames/f%03d.pgm", "x.tik"}, 3,
                  {"f001.pgm is missing between f000.pgm and f002.pgm", "'frames/f*.pgm'"});
-  scratch_.write("frames/f003.pgm",
-                 netpbm_file(test::random_stills({16, 9, 1}, 4095, 1, 1)[0], false));
+  scratch_.write("frames/f003.pgm", netpbm_file(test::random_stills({16, 9, 1}, 4095, 1, 1)[0], false));
   expect_refused({"-f", "10", "frames", "x.tik"}, 3,
                  {"frames/f003.pgm is 16 x 9 grey", "frames/f000.pgm, is 17 x 9 grey"});
   scratch_.write("frames/f003.pgm", "P5 17 9 4095\nshort");
@@ -169,8 +162,8 @@ TEST_F(DeepInput, NeverReplacesAStillOfItsSource) {
   write_netpbm("frames", test::random_stills({17, 9, 1}, 255, 3, 1));
   const std::string before = test::read_file(scratch_ / "frames/f001.pgm");
   for (const std::string source : {"frames", "frames/*", "frames/f%03d.pgm"}) {
-    expect_refused({"-f", "10", "--start", "0s", "--exposure", "100ms", source, "frames/f001.pgm"},
-                   2, {"the output frames/f001.pgm is also an input"});
+    expect_refused({"-f", "10", "--start", "0s", "--exposure", "100ms", source, "frames/f001.pgm"}, 2,
+                   {"the output frames/f001.pgm is also an input"});
   }
   EXPECT_EQ(test::read_file(scratch_ / "frames/f001.pgm"), before);
 }
@@ -181,8 +174,7 @@ TEST_F(DeepInput, NamesOutputsAfterTheSequence) {
     expect_said(run({"encode", "-f", "10", source}), "frames.tik: ");
     std::filesystem::remove(scratch_ / "frames.tik");
   }
-  expect_said(run({"-f", "10", "--start", "0f", "--exposure", "1f", "frames/f%03d.pgm"}),
-              "f-0f-1f.png: ");
+  expect_said(run({"-f", "10", "--start", "0f", "--exposure", "1f", "frames/f%03d.pgm"}), "f-0f-1f.png: ");
 }
 
 // The camera files that people send, where the folder of clips is there.
@@ -199,12 +191,10 @@ TEST_F(DeepInput, ReadsTheRecordedFiles) {
        "384 x 384 grey, 16 bits, white code 4095, transfer linear");
   info({"-f", "10", (media / "stuck.tif").string()},
        "512 x 512 grey, 16 bits, white code 65535, transfer linear");
-  info({(media / "cine_781.cine").string()},
-       "256 x 256 grey, 16 bits, white code 4095, transfer linear");
+  info({(media / "cine_781.cine").string()}, "256 x 256 grey, 16 bits, white code 4095, transfer linear");
   info({(media / "data_small_cine.cine").string()},
        "256 x 32 grey, 16 bits, white code 1023, transfer linear");
-  info({"-f", "24", "--raw", "480x270:yuv420p10le",
-        (media / "sparks_ref_480x270.yuv42010le.yuv").string()},
+  info({"-f", "24", "--raw", "480x270:yuv420p10le", (media / "sparks_ref_480x270.yuv42010le.yuv").string()},
        "480 x 270 colour, 16 bits, white code 65535, transfer srgb");
 }
 

@@ -30,11 +30,11 @@ void write_clip(const std::filesystem::path& path, int width, int height, int co
     raw.append(reinterpret_cast<const char*>(picture.data), picture.total() * picture.elemSize());
   }
   const Scratch scratch;
-  const auto encoded = test::run_shell("ffmpeg -v error -f rawvideo -pix_fmt bgr24 -s " + std::to_string(width) +
-                                           "x" + std::to_string(height) + " -r 25 -i " +
-                                           scratch.write("raw", raw).string() + " -c:v ffv1 -pix_fmt bgr0 " +
-                                           path.string(),
-                                       scratch.folder());
+  const auto encoded =
+      test::run_shell("ffmpeg -v error -f rawvideo -pix_fmt bgr24 -s " + std::to_string(width) + "x" +
+                          std::to_string(height) + " -r 25 -i " + scratch.write("raw", raw).string() +
+                          " -c:v ffv1 -pix_fmt bgr0 " + path.string(),
+                      scratch.folder());
   ASSERT_EQ(encoded.status, 0) << encoded.err;
 }
 

@@ -16,8 +16,8 @@ TEST(Rational, ReadsWhatPeopleWriteExactly) {
 }
 
 TEST(Rational, RefusesEverythingElseByName) {
-  for (const char* text : {"", "fast", "1e3", "1/0", "1.5/2", "1/2/3", "--1", "1.2.3", ".", "-",
-                           "12345678901234567890"}) {
+  for (const char* text :
+       {"", "fast", "1e3", "1/0", "1.5/2", "1/2/3", "--1", "1.2.3", ".", "-", "12345678901234567890"}) {
     try {
       static_cast<void>(Rational::parse(text, "frame rate"));
       FAIL() << "'" << text << "' was accepted";

@@ -83,9 +83,13 @@ TEST(Timeline, SaysWhatIsWrongWithTimes) {
   const auto contains = [](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   };
-  contains(message_of([] { Timeline::irregular({0, 10, 10}, {360, 1}); }),
+  contains(message_of([] {
+             Timeline::irregular({0, 10, 10}, {360, 1});
+           }),
            "sample 2 starts at 10 ns, not after sample 1 at 10 ns");
-  contains(message_of([] { Timeline::explicit_exposures({{0, 10}, {5, 20}}); }),
+  contains(message_of([] {
+             Timeline::explicit_exposures({{0, 10}, {5, 20}});
+           }),
            "sample 1 starts at 5 ns, before sample 0 ends at 10 ns");
   contains(message_of([] { Timeline::explicit_exposures({{0, 0}}); }), "sample 0 ends at 0 ns");
   contains(message_of([] { Timeline::irregular({7}, {360, 1}); }), "--fps");
@@ -100,8 +104,7 @@ TEST(Timeline, SaysWhatIsWrongWithTimes) {
 TEST(Timeline, FindsTheSamplesThatReachAnInterval) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     test::Random random(seed);
-    const Timeline timeline =
-        test::random_timeline(random, static_cast<std::uint64_t>(random.whole(1, 40)));
+    const Timeline timeline = test::random_timeline(random, static_cast<std::uint64_t>(random.whole(1, 40)));
     const std::int64_t duration = timeline.duration_ns();
     const std::int64_t begin = random.whole(-duration / 3, duration + duration / 3);
     const std::int64_t end = begin + random.whole(0, duration);

@@ -55,8 +55,7 @@ TEST(WeightSweep, PacksWhatExactArithmeticSays) {
       worst = std::max(worst, error);
       boundary += exact;
       magnitude += scale;
-      EXPECT_LE(units(Exact(std::scalbn(boundaries[k + 1], summary.exponent)) -
-                          boundary / summary.support_ns,
+      EXPECT_LE(units(Exact(std::scalbn(boundaries[k + 1], summary.exponent)) - boundary / summary.support_ns,
                       magnitude / summary.support_ns),
                 test::kWeightRoundings + 1)
           << "seed " << seed << ", boundary " << k + 1;
@@ -75,7 +74,8 @@ TEST(WeightSweep, DoesNotDependOnTheOrderOfBlocks) {
     const GainFunction function = test::random_function(random, timeline);
     const GainSummary summary = summarize(function, timeline.duration_ns());
     std::vector<double> whole(count), boundaries(count + 1), part(20), part_boundaries(21);
-    WeightSweep(function, summary, timeline.duration_ns()).pack(timeline.times({0, count}), whole, boundaries);
+    WeightSweep(function, summary, timeline.duration_ns())
+        .pack(timeline.times({0, count}), whole, boundaries);
     WeightSweep sweep(function, summary, timeline.duration_ns());
     for (const std::uint64_t first : {40ull, 0ull, 20ull}) {
       sweep.pack(timeline.times({first, first + 20}), part, part_boundaries);

@@ -37,15 +37,12 @@ std::string read(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-nlohmann::json expectations() {
-  return nlohmann::json::parse(read(kCorpus / "expected.json"));
-}
+nlohmann::json expectations() { return nlohmann::json::parse(read(kCorpus / "expected.json")); }
 
 Functions expected_functions(const nlohmann::json& expected) {
   Functions functions;
   for (const auto& [tag, points] : expected.at("functions").items()) {
-    functions.emplace(static_cast<std::uint8_t>(std::stoi(tag)),
-                      points.get<Functions::mapped_type>());
+    functions.emplace(static_cast<std::uint8_t>(std::stoi(tag)), points.get<Functions::mapped_type>());
   }
   return functions;
 }
@@ -117,8 +114,7 @@ TEST(FunctionCorpus, ValidFilesGiveTheExpectedWarnings) {
 TEST(FunctionCorpus, InvalidFilesReportEveryErrorAtItsPlaceInTheExpectedWords) {
   for_each_file(false, [](const nlohmann::json& expected, const FunctionFile& file) {
     EXPECT_TRUE(file.has_errors());
-    EXPECT_EQ(findings(file, Diagnostic::Severity::error),
-              expected.at("errors").get<std::vector<Finding>>());
+    EXPECT_EQ(findings(file, Diagnostic::Severity::error), expected.at("errors").get<std::vector<Finding>>());
   });
 }
 

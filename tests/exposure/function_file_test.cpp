@@ -21,8 +21,7 @@ TEST(FunctionFile, ReadsBothForms) {
       "     [400000000:-1.5e0]}\n");
   EXPECT_EQ(file.report("t"), "");
   EXPECT_EQ(points_of(file, 0), (std::vector<ControlPoint>{{0, 1}, {10000000, 1}, {10000001, 0}}));
-  EXPECT_EQ(points_of(file, 128),
-            (std::vector<ControlPoint>{{0, 0}, {399999999, 0}, {400000000, -1.5}}));
+  EXPECT_EQ(points_of(file, 128), (std::vector<ControlPoint>{{0, 0}, {399999999, 0}, {400000000, -1.5}}));
 }
 
 // The messages of all kinds of mistakes are in tests/corpus/functions; see
@@ -40,16 +39,15 @@ TEST(FunctionFile, PutsTheMarkUnderThePlaceBehindTabsAndOtherCharacters) {
             "with #\n"
             "    \t[0:1],\\u00a0[5:0]}\n"
             "    \t      ^");
-  EXPECT_EQ(
-      parse_functions("M0{[0:1]} # \xC2\xB5\x1B\xE9\nM0 [0:1]\x1B\xC2\xB5\xE9\n").report("f.fn"),
-      "f.fn:2:1: M0 has a function already, on line 1; each mask value has one\n"
-      "    M0 [0:1]\\x1b\xC2\xB5\\xe9\n"
-      "    ^\n"
-      "f.fn:2:9: '\\x1b\xC2\xB5\\xe9' after a control point; a comma or the line's end should "
-      "follow, "
-      "and a comment starts with #\n"
-      "    M0 [0:1]\\x1b\xC2\xB5\\xe9\n"
-      "            ^");
+  EXPECT_EQ(parse_functions("M0{[0:1]} # \xC2\xB5\x1B\xE9\nM0 [0:1]\x1B\xC2\xB5\xE9\n").report("f.fn"),
+            "f.fn:2:1: M0 has a function already, on line 1; each mask value has one\n"
+            "    M0 [0:1]\\x1b\xC2\xB5\\xe9\n"
+            "    ^\n"
+            "f.fn:2:9: '\\x1b\xC2\xB5\\xe9' after a control point; a comma or the line's end should "
+            "follow, "
+            "and a comment starts with #\n"
+            "    M0 [0:1]\\x1b\xC2\xB5\\xe9\n"
+            "            ^");
 }
 
 // A function on one line whose point number `mistake` has a word for a gain.
@@ -92,8 +90,7 @@ TEST(FunctionFile, FindsEveryMistakeAndKeepsTheRest) {
       "M3 [0:1]\n"
       "M4 [7:2]\n");
   std::vector<std::size_t> lines;
-  for (const Diagnostic& diagnostic : file.diagnostics.shown())
-    lines.push_back(diagnostic.place.line);
+  for (const Diagnostic& diagnostic : file.diagnostics.shown()) lines.push_back(diagnostic.place.line);
   EXPECT_EQ(lines, (std::vector<std::size_t>{1, 1, 2, 3}));
   EXPECT_EQ(file.functions.size(), 2u);  // M3 and M4
 }
@@ -127,8 +124,7 @@ TEST(FunctionFile, ShowsTheFirstMistakesAndCountsTheOthers) {
   EXPECT_EQ(file.diagnostics.shown().front().message,
             "a brace that is not closed before the function on line 32; '}' ends the function");
   EXPECT_EQ(file.diagnostics.shown()[19].place, (TextPlace{20, 2}));
-  EXPECT_TRUE(
-      file.report("f.fn").ends_with("\nf.fn: and 31 more mistakes\nf.fn: and 1 more warning"));
+  EXPECT_TRUE(file.report("f.fn").ends_with("\nf.fn: and 31 more mistakes\nf.fn: and 1 more warning"));
 }
 
 // A report of any file is a few kilobytes of printable text, also where the file is made to break
@@ -149,8 +145,7 @@ TEST(FunctionFile, KeepsMillionsOfMistakesShort) {
     const std::string report = parse_functions(input).report("f.fn");
     EXPECT_GT(report.size(), 0u);
     EXPECT_LT(report.size(), 2000u) << report.substr(0, 300);
-    for (const char c : report)
-      ASSERT_TRUE(c == '\n' || (c >= ' ' && c != '\x7F') || (c & 0x80)) << int{c};
+    for (const char c : report) ASSERT_TRUE(c == '\n' || (c >= ' ' && c != '\x7F') || (c & 0x80)) << int{c};
   }
   std::string disorder = "M0 ", functions;
   for (int i = 200'000; i > 0; --i) disorder += "[" + std::to_string(i) + ":1],";

@@ -40,20 +40,19 @@ TEST(GainSummary, KnowsThePapersFigures) {
   EXPECT_EQ(multiple.support_ns, 40'000'007);
   EXPECT_NEAR(multiple.integral_ns, 40'000'003.5, 1e-8);
 
-  const GainSummary printed = summarize(
-      parse("M0{[0:0], [1:1], [100000000:1], [1000000002:-25], [1010000000:-25], [1010000001:0]}"),
-      kThreeSeconds);
+  const GainSummary printed =
+      summarize(parse("M0{[0:0], [1:1], [100000000:1], [1000000002:-25], [1010000000:-25], [1010000001:0]}"),
+                kThreeSeconds);
   EXPECT_NEAR(printed.still_gain(), -10.84, 0.005);
-  const GainSummary restored = summarize(
-      parse("M0{[0:0], [1:1], [1000000000:1], [1000000002:-25], [1010000000:-25], [1010000001:0]}"),
-      kThreeSeconds);
+  const GainSummary restored =
+      summarize(parse("M0{[0:0], [1:1], [1000000000:1], [1000000002:-25], [1010000000:-25], [1010000001:0]}"),
+                kThreeSeconds);
   EXPECT_EQ(restored.support_ns, 1'010'000'001);
   EXPECT_NEAR(std::scalbn(restored.integral_ns, restored.exponent), 750'000'013, 1e-6);
   EXPECT_NEAR(restored.still_gain(), 0.742574, 5e-7);
 
-  const GainSummary blur =
-      summarize(parse("M0{[0:0], [600000000:0], [800000000:2], [800000001:0], [1000000000:0]}"),
-                kThreeSeconds);
+  const GainSummary blur = summarize(
+      parse("M0{[0:0], [600000000:0], [800000000:2], [800000001:0], [1000000000:0]}"), kThreeSeconds);
   EXPECT_EQ(blur.support_ns, 200'000'001);
   EXPECT_EQ(std::scalbn(blur.integral_ns, blur.exponent), 200'000'001.0);
 }
@@ -62,8 +61,7 @@ TEST(GainSummary, AgreesWithExactArithmetic) {
   double worst = 0.0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     test::Random random(seed);
-    const Timeline timeline =
-        test::random_timeline(random, static_cast<std::uint64_t>(random.whole(1, 40)));
+    const Timeline timeline = test::random_timeline(random, static_cast<std::uint64_t>(random.whole(1, 40)));
     const GainFunction function = test::random_function(random, timeline);
     const GainSummary summary = summarize(function, timeline.duration_ns());
     const test::ExactSummary exact = test::exact_summary(test::exact_gain(function, timeline.duration_ns()));

@@ -21,7 +21,8 @@ TEST(Activity, CountsChangesWhereverBlocksBegin) {
     const std::uint32_t channels = random.capture.shape.channels;
     random.capture.noise.tolerance = 0;
     for (const std::uint32_t block_samples : {1u, 3u, 64u}) {
-      const Activity activity = activity_of(MemoryCapture(random.capture, random.timeline, random.rasters, block_samples));
+      const Activity activity =
+          activity_of(MemoryCapture(random.capture, random.timeline, random.rasters, block_samples));
       for (std::uint64_t pixel = 0; pixel < random.capture.shape.pixel_count(); ++pixel) {
         std::uint64_t changes = 0;
         for (std::size_t k = 1; k < random.rasters.size(); ++k) {

@@ -33,8 +33,8 @@ TEST(StreamingCapture, GivesTheBlocksOfTheWholeCaptureAndReadsNoFurther) {
         draw.whole(static_cast<std::int64_t>(needed.first) + 1, static_cast<std::int64_t>(count)));
     const MemoryCapture whole = random.encode();
     CountingStream stream{random, 0, count};
-    StreamingCapture streaming(random.capture, random.timeline, needed, random.block_samples,
-                               random.policy, std::ref(stream));
+    StreamingCapture streaming(random.capture, random.timeline, needed, random.block_samples, random.policy,
+                               std::ref(stream));
     for (std::uint64_t block = 0; block < streaming.block_count(); ++block) {
       const BlockExtent extent = streaming.block_extent(block);
       if (extent.range().last <= needed.first) continue;

@@ -75,8 +75,7 @@ TEST(ClipTimes, RefusesTimesThatDoNotIncrease) {
       "were taken at a constant rate, state it with --fps");
   ClipOptions stated;
   stated.rate = Rational{25, 1};
-  EXPECT_TRUE(
-      timeline_of("", open_test_clip(clip, stated)->info(), stated, {360, 1}, 7).is_constant());
+  EXPECT_TRUE(timeline_of("", open_test_clip(clip, stated)->info(), stated, {360, 1}, 7).is_constant());
 }
 
 // Camera files, against bytes picked out of them by hand.
@@ -110,8 +109,7 @@ TEST(ClipTimes, GivesTheCodesThatCineFilesHold) {
 
   const auto packed = open_test_clip(media / "data_small_cine.cine");
   EXPECT_EQ(packed->info().format.white_code, 1023u);
-  EXPECT_EQ(packed->info().timing.rate, (Rational{100, 1}))
-      << "its last picture is stamped 292 days late";
+  EXPECT_EQ(packed->info().timing.rate, (Rational{100, 1})) << "its last picture is stamped 292 days late";
   EXPECT_EQ(packed->info().notes.size(), 2u);
 }
 

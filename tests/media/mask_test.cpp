@@ -22,7 +22,8 @@ TEST(Mask, TagsAreLiteralWhateverTheMaximum) {
             (std::vector<int>{0, 1, 4}));
   EXPECT_EQ(tags_of(read_mask(scratch.write("b.pgm", std::string("P5 3 1 4\n\0\1\4", 12)))),
             (std::vector<int>{0, 1, 4}));
-  EXPECT_EQ(tags_of(read_mask(scratch.write("c.pgm", "P2 3 1 255 0 128 255"))), (std::vector<int>{0, 128, 255}));
+  EXPECT_EQ(tags_of(read_mask(scratch.write("c.pgm", "P2 3 1 255 0 128 255"))),
+            (std::vector<int>{0, 128, 255}));
 }
 
 TEST(Mask, ReadsGreyPng) {
@@ -56,10 +57,14 @@ TEST(Mask, SaysWhatIsWrong) {
   expect(message_of(scratch / "colour.png"), "is a PNG of 8 bits, RGB; it must be 8 bits, grey");
   expect(message_of(scratch / "mask.jpg"), "neither a PGM nor a PNG");
   expect(message_of(scratch / "absent.pgm"), "cannot be read: No such file");
-  expect(message_of(scratch.write("rgb.ppm", "P3 1 1 255 1 2 3")), "is a picture of 3 channels; a mask has 1");
-  expect(message_of(scratch.write("deep.pgm", "P2 1 1 65535 300")), "is a picture of 16 bits (maximum 65535)");
-  expect(message_of(scratch.write("cut.pgm", "P5 100 100 255\nabc")), "it was cut off: 100 x 100 pixels need 10000");
-  expect(message_of(scratch.write("cut2.pgm", "P2 2 2 255 1 2 3")), "it was cut off: 2 x 2 pixels need 8 bytes, 6 are left");
+  expect(message_of(scratch.write("rgb.ppm", "P3 1 1 255 1 2 3")),
+         "is a picture of 3 channels; a mask has 1");
+  expect(message_of(scratch.write("deep.pgm", "P2 1 1 65535 300")),
+         "is a picture of 16 bits (maximum 65535)");
+  expect(message_of(scratch.write("cut.pgm", "P5 100 100 255\nabc")),
+         "it was cut off: 100 x 100 pixels need 10000");
+  expect(message_of(scratch.write("cut2.pgm", "P2 2 2 255 1 2 3")),
+         "it was cut off: 2 x 2 pixels need 8 bytes, 6 are left");
   expect(message_of(scratch.write("over.pgm", "P2 1 1 10 11")), "value 11 is above its maximum of 10");
   expect(message_of(scratch.write("huge.pgm", "P5 4000000000 2 255\n")), "its width is above");
   expect(message_of(scratch.write("word.pgm", "P2 two 2 255")), "a width is missing at byte 3");

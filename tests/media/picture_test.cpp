@@ -18,13 +18,15 @@ Picture random_picture(Shape shape, ValueType type, std::uint64_t seed) {
   Picture picture(shape, type, type == ValueType::code16 ? 65'535 : 255);
   test::Random random(seed);
   for (std::uint64_t i = 0; i < shape.value_count(); ++i) {
-    if (type == ValueType::code8) picture.values<std::uint8_t>()[i] = static_cast<std::uint8_t>(random.whole(0, 255));
+    if (type == ValueType::code8)
+      picture.values<std::uint8_t>()[i] = static_cast<std::uint8_t>(random.whole(0, 255));
     if (type == ValueType::code16) {
       picture.values<std::uint16_t>()[i] = static_cast<std::uint16_t>(random.whole(0, 65'535));
     }
     // Light below 0, above 1, tiny and huge: floating point keeps all of it.
     if (type == ValueType::light32) {
-      picture.values<float>()[i] = static_cast<float>(random.real(-3, 3) * std::pow(10.0, random.real(-20, 20)));
+      picture.values<float>()[i] =
+          static_cast<float>(random.real(-3, 3) * std::pow(10.0, random.real(-20, 20)));
     }
   }
   return picture;

@@ -26,8 +26,7 @@ void expect_codes(Clip& clip, const std::vector<Picture>& stills) {
   EXPECT_EQ(clip.info().sample_count, stills.size());
   const auto rasters = read_all(clip);
   ASSERT_EQ(rasters.size(), stills.size());
-  for (std::size_t k = 0; k < stills.size(); ++k)
-    EXPECT_EQ(difference(rasters[k], stills[k]), "") << k;
+  for (std::size_t k = 0; k < stills.size(); ++k) EXPECT_EQ(difference(rasters[k], stills[k]), "") << k;
 }
 
 void expect_refused(const std::filesystem::path& path, const std::vector<std::string>& parts,
@@ -182,22 +181,20 @@ TEST(StillClip, SaysWhichStillDiffersAndHow) {
   write("channels/f2.png", kColour, 255);
   expect_refused(scratch / "size",
                  {"size/f2.png is 18 x 9 grey of 8 bits", "size/f0.png, is 17 x 9 grey of 8 bits"});
-  expect_refused(scratch / "depth",
-                 {"depth/f2.png is 17 x 9 grey of 16 bits", "17 x 9 grey of 8 bits"});
+  expect_refused(scratch / "depth", {"depth/f2.png is 17 x 9 grey of 16 bits", "17 x 9 grey of 8 bits"});
   expect_refused(scratch / "channels", {"channels/f2.png is 17 x 9 colour", "17 x 9 grey"});
 
   write("white/f0.pgm", kGrey, 1023);
   write("white/f1.pgm", kGrey, 4095);
-  expect_refused(scratch / "white", {"f1.pgm is 17 x 9 grey of 16 bits, white code 4095",
-                                     "white code 1023", "say what is white with --white"});
+  expect_refused(scratch / "white", {"f1.pgm is 17 x 9 grey of 16 bits, white code 4095", "white code 1023",
+                                     "say what is white with --white"});
   ClipOptions options;
   options.white_code = 4095;
   EXPECT_EQ(read_all(*open_test_clip(scratch / "white", options)).size(), 2u);
 
   auto pages = test::random_stills(kGrey, 65'535, 2, 1);
   pages.push_back(test::random_stills({9, 17, 1}, 65'535, 1, 1)[0]);
-  expect_refused(scratch.write("stack.tif", tiff_file(pages, {})),
-                 {"stack.tif, page 3, is 9 x 17 grey"});
+  expect_refused(scratch.write("stack.tif", tiff_file(pages, {})), {"stack.tif, page 3, is 9 x 17 grey"});
 }
 
 TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
@@ -217,13 +214,11 @@ TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
     }
     const std::string whole = test::read_file(path(1));
     scratch.write(path(1).filename().string(), std::string_view(whole).substr(0, whole.size() / 2));
-    expect_refused(scratch / (std::string("f%d") + extension),
-                   {path(1).string() + " cannot be read"});
+    expect_refused(scratch / (std::string("f%d") + extension), {path(1).string() + " cannot be read"});
     // Also where it is the first.
     expect_refused(path(1), {path(1).string() + " cannot be read"});
     scratch.write(path(1).filename().string(), "no picture at all");
-    expect_refused(scratch / (std::string("f%d") + extension),
-                   {path(1).string() + " cannot be read"});
+    expect_refused(scratch / (std::string("f%d") + extension), {path(1).string() + " cannot be read"});
   }
   cv::imwrite((scratch / "alpha.png").string(), cv::Mat::zeros(9, 9, CV_8UC4));
   expect_refused(scratch / "alpha.png", {"alpha.png has 4 channels", "transparency is not"});
@@ -243,8 +238,7 @@ TEST(StillClip, AStackThatIsCutOffNamesThePage) {
   const auto position = bytes.find(bytes.substr(third, 16), third);
   ASSERT_EQ(position, third);
   for (std::size_t at = two.size(); at + 12 < bytes.size(); ++at) {
-    if (bytes.compare(at, 8, std::string("\x11\x01\x04\x00\x01\x00\x00\x00", 8)) ==
-        0) {  // StripOffsets
+    if (bytes.compare(at, 8, std::string("\x11\x01\x04\x00\x01\x00\x00\x00", 8)) == 0) {  // StripOffsets
       bytes.replace(at + 8, 4, std::string("\x00\x00\x00\x7F", 4));
       break;
     }

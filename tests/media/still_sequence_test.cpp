@@ -42,8 +42,7 @@ class StillSequence : public testing::Test {
 };
 
 TEST_F(StillSequence, AFolderHoldsItsPicturesAsAPersonCounts) {
-  touch({"a/f10.png", "a/f9.PNG", "a/f1.png", "a/f009b.png", "a/notes.txt", "a/Thumbs.db",
-         "a/._f1.png"});
+  touch({"a/f10.png", "a/f9.PNG", "a/f1.png", "a/f009b.png", "a/notes.txt", "a/Thumbs.db", "a/._f1.png"});
   EXPECT_EQ(listed("a"), "f1.png f9.PNG f009b.png f10.png");
   EXPECT_EQ(listed("a/"), listed("a"));
   std::filesystem::create_directory(scratch_ / "a/f2.png");  // a folder in spite of its name
@@ -53,14 +52,12 @@ TEST_F(StillSequence, AFolderHoldsItsPicturesAsAPersonCounts) {
 TEST_F(StillSequence, TwoKindsInAFolderAreNotMixed) {
   touch({"a/f1.tif", "a/f2.tiff", "b/f1.png", "b/f2.png", "b/preview.jpg"});
   EXPECT_EQ(listed("a"), "f1.tif f2.tiff");
-  expect_refused(
-      "b", {"b: the folder holds PNG files (f1.png) and JPEG files (preview.jpg)", "b/*.png'"});
+  expect_refused("b", {"b: the folder holds PNG files (f1.png) and JPEG files (preview.jpg)", "b/*.png'"});
   EXPECT_EQ(listed("b/*.png"), "f1.png f2.png");
 }
 
 TEST_F(StillSequence, PatternsAreThoseOfTheShell) {
-  touch(
-      {"cam1/f1.png", "cam1/f2.png", "cam1/f12.png", "cam2/f3.png", "cam1/.f4.png", "cam1/f1.txt"});
+  touch({"cam1/f1.png", "cam1/f2.png", "cam1/f12.png", "cam2/f3.png", "cam1/.f4.png", "cam1/f1.txt"});
   EXPECT_EQ(listed("cam1/*.png"), "f1.png f2.png f12.png");
   EXPECT_EQ(listed("cam1/f?.png"), "f1.png f2.png");
   EXPECT_EQ(listed("cam1/f[2-9].png"), "f2.png");
@@ -72,8 +69,7 @@ TEST_F(StillSequence, PatternsAreThoseOfTheShell) {
 }
 
 TEST_F(StillSequence, NumbersAreReadAsPrintfWritesThem) {
-  touch({"f0008.png", "f0009.png", "f0010.png", "f8.png", "f9.png", "f10.png", "f0010.txt",
-         "fx.png"});
+  touch({"f0008.png", "f0009.png", "f0010.png", "f8.png", "f9.png", "f10.png", "f0010.txt", "fx.png"});
   EXPECT_EQ(listed("f%04d.png"), "f0008.png f0009.png f0010.png");
   EXPECT_EQ(listed("f%d.png"), "f8.png f9.png f10.png");
   EXPECT_EQ(listed("f%i.png"), listed("f%d.png"));
@@ -84,8 +80,7 @@ TEST_F(StillSequence, NumbersAreReadAsPrintfWritesThem) {
 
 TEST_F(StillSequence, SaysWhichNumberIsMissing) {
   touch({"f0001.png", "f0002.png", "f0005.png"});
-  expect_refused("f%04d.png",
-                 {"f%04d.png: f0003.png is missing between f0002.png and f0005.png", "f*.png'"});
+  expect_refused("f%04d.png", {"f%04d.png: f0003.png is missing between f0002.png and f0005.png", "f*.png'"});
   expect_refused("f%d.png", {"no file has such a name, f1.png for one",
                              "f0005.png is there: its zeros are written %04d"});
   expect_refused("g%d.png", {"g%d.png: no file has such a name, g1.png for one"});

@@ -41,8 +41,7 @@ void expect_codes(Clip& clip, const std::vector<Picture>& pictures) {
   ASSERT_EQ(clip.info().format.white_code, pictures[0].white_code);
   const auto rasters = read_all(clip);
   ASSERT_EQ(rasters.size(), pictures.size());
-  for (std::size_t k = 0; k < pictures.size(); ++k)
-    EXPECT_EQ(difference(rasters[k], pictures[k]), "") << k;
+  for (std::size_t k = 0; k < pictures.size(); ++k) EXPECT_EQ(difference(rasters[k], pictures[k]), "") << k;
 }
 
 TEST(VideoClip, KeepsGreyCodeForCode) {
@@ -162,8 +161,7 @@ TEST(VideoClip, TurnsYuvIntoRgbByTheMatrixTheFileNames) {
     auto codes = planes[0].values<std::uint16_t>();
     for (std::size_t i = 0; i < 3 * count; ++i) {
       // Colours near grey, so that hardly any lies outside RGB.
-      codes[i] =
-          static_cast<std::uint16_t>(i < count ? random.whole(200, 800) : random.whole(452, 572));
+      codes[i] = static_cast<std::uint16_t>(i < count ? random.whole(200, 800) : random.whole(452, 572));
     }
     scratch.write("raw", bytes_of(planes));
     make(scratch, from_raw(kGrey, "yuv444p10le") + "-c:v ffv1 -pix_fmt yuv444p10le -colorspace " +
@@ -176,12 +174,11 @@ TEST(VideoClip, TurnsYuvIntoRgbByTheMatrixTheFileNames) {
       const double scale = colours.full ? 1023.0 : 896.0;
       const double u = (codes[count + i] - 512) / scale, v = (codes[2 * count + i] - 512) / scale;
       const double red = y + 2 * (1 - colours.red) * v, blue = y + 2 * (1 - colours.blue) * u;
-      const double green =
-          (y - colours.red * red - colours.blue * blue) / (1 - colours.red - colours.blue);
+      const double green = (y - colours.red * red - colours.blue * blue) / (1 - colours.red - colours.blue);
       const double want[] = {red, green, blue};
       for (std::size_t channel = 0; channel < 3; ++channel) {
-        worst = std::max(
-            worst, std::abs(rgb[i * 3 + channel] - 65'535 * std::clamp(want[channel], 0.0, 1.0)));
+        worst =
+            std::max(worst, std::abs(rgb[i * 3 + channel] - 65'535 * std::clamp(want[channel], 0.0, 1.0)));
       }
     }
     EXPECT_LE(worst, 0.5 + 1e-6);
@@ -214,13 +211,11 @@ TEST(VideoClip, KeepsTheDepthOfSubsampledLuma) {
 TEST(VideoClip, RefusesWhatItCannotKeep) {
   const Scratch scratch;
   const auto file = scratch.write("raw", std::string(17 * 9 * 4, '\0'));
-  expect_clip_refused(file, raw_options(kGrey, "grayf32le"),
-                      "holds floating-point pixels (grayf32le)");
+  expect_clip_refused(file, raw_options(kGrey, "grayf32le"), "holds floating-point pixels (grayf32le)");
   expect_clip_refused(
       file, raw_options({17, 8, 1}, "gray"),
       "612 bytes, which is no whole number of pictures of 136 bytes (17 x 8, gray); check --raw");
-  expect_clip_refused(file, raw_options(kGrey, "grey"),
-                      "'grey' is no pixel format that FFmpeg knows");
+  expect_clip_refused(file, raw_options(kGrey, "grey"), "'grey' is no pixel format that FFmpeg knows");
   expect_clip_refused(scratch.write("empty", ""), raw_options(kGrey, "gray"), "0 bytes");
   ClipOptions without_rate = raw_options(kGrey, "gray");
   without_rate.rate.reset();
@@ -236,16 +231,14 @@ TEST(VideoClip, SaysThatATransferFunctionIsNotKnown) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   scratch.write("raw", bytes_of(test::random_stills({17, 27, 1}, 1023, 1, 4)));
-  for (const auto& [name, known] :
-       {std::pair<std::string, bool>{"bt709", true}, {"smpte2084", false}}) {
-    make(scratch, from_raw(kGrey, "yuv444p10le") + "-c:v ffv1 -pix_fmt yuv444p10le -color_trc " +
-                      name + " clip.mkv");
+  for (const auto& [name, known] : {std::pair<std::string, bool>{"bt709", true}, {"smpte2084", false}}) {
+    make(scratch,
+         from_raw(kGrey, "yuv444p10le") + "-c:v ffv1 -pix_fmt yuv444p10le -color_trc " + name + " clip.mkv");
     const auto clip = open_test_clip(scratch / "clip.mkv");
     EXPECT_EQ(clip->info().format.transfer, known ? Transfer::bt709() : Transfer::srgb());
     ASSERT_EQ(clip->info().notes.size(), known ? 0u : 1u);
     if (known) continue;
-    EXPECT_NE(clip->info().notes[0].find("transfer function, smpte2084, is not known"),
-              std::string::npos);
+    EXPECT_NE(clip->info().notes[0].find("transfer function, smpte2084, is not known"), std::string::npos);
   }
 }
 
@@ -255,8 +248,7 @@ TEST(VideoClip, StandsUprightAsPlayersShowIt) {
   scratch.write("raw", bytes_of(test::random_stills({16, 8, 1}, 4095, 2, 4)));
   make(scratch, from_raw({16, 8, 1}, "gray12le") + "-c:v ffv1 -pix_fmt gray12le flat.mov");
   for (const int angle : {0, 90, 180, 270}) {
-    make(scratch,
-         "-i flat.mov -c copy -metadata:s:v rotate=" + std::to_string(angle) + " clip.mov");
+    make(scratch, "-i flat.mov -c copy -metadata:s:v rotate=" + std::to_string(angle) + " clip.mov");
     make(scratch, "-i clip.mov -f rawvideo -pix_fmt gray12le shown");  // ffmpeg turns it, too
     const auto clip = open_test_clip(scratch / "clip.mov");
     const bool swapped = angle % 180 != 0;
@@ -271,8 +263,7 @@ TEST(VideoClip, StandsUprightAsPlayersShowIt) {
 TEST(VideoClip, RefusesPicturesThatTheDecoderMarksAsDamaged) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  make(scratch,
-       "-f lavfi -i testsrc2=s=64x48:r=25:d=0.6 -c:v libx264 -pix_fmt yuv422p10le clip.mp4");
+  make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25:d=0.6 -c:v libx264 -pix_fmt yuv422p10le clip.mp4");
   const std::string whole = test::read_file(scratch / "clip.mp4");
   int refused = 0;
   for (std::size_t percent = 20; percent < 80; percent += 4) {  // wherever a decoder can see it

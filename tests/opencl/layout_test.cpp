@@ -9,12 +9,21 @@ namespace nutik {
 namespace {
 
 TEST(KernelLayout, IsTheHosts) {
-  const std::vector<cl_uint> expected{
-      sizeof(TileEntry), offsetof(TileEntry, offset), offsetof(TileEntry, count),
-      sizeof(SampleSpan), offsetof(SampleSpan, first), offsetof(SampleSpan, last),
-      sizeof(BlockEntry), offsetof(BlockEntry, payload_offset), offsetof(BlockEntry, table_row),
-      offsetof(BlockEntry, span_row), offsetof(BlockEntry, sample_count),
-      kTilePixels, kBlockAlignment, TileEntry::kRecordsFlag, kMixedFunctions};
+  const std::vector<cl_uint> expected{sizeof(TileEntry),
+                                      offsetof(TileEntry, offset),
+                                      offsetof(TileEntry, count),
+                                      sizeof(SampleSpan),
+                                      offsetof(SampleSpan, first),
+                                      offsetof(SampleSpan, last),
+                                      sizeof(BlockEntry),
+                                      offsetof(BlockEntry, payload_offset),
+                                      offsetof(BlockEntry, table_row),
+                                      offsetof(BlockEntry, span_row),
+                                      offsetof(BlockEntry, sample_count),
+                                      kTilePixels,
+                                      kBlockAlignment,
+                                      TileEntry::kRecordsFlag,
+                                      kMixedFunctions};
   for (const cl::Device& device : all_devices()) {
     const cl::Context context(device);
     cl::CommandQueue queue(context, device);

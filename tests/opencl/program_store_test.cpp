@@ -10,8 +10,7 @@
 namespace nutik {
 namespace {
 
-constexpr const char* kSource =
-    "kernel void fill(global int* to) { to[get_global_id(0)] = NUMBER; }";
+constexpr const char* kSource = "kernel void fill(global int* to) { to[get_global_id(0)] = NUMBER; }";
 
 class ProgramStoreTest : public testing::Test {
  protected:
@@ -56,9 +55,8 @@ TEST_F(ProgramStoreTest, RebuildsADamagedEntry) {
   EXPECT_EQ(run("7"), 7);
   const auto file = cached().front();
   const std::string whole = test::read_file(file);
-  for (const std::string& damaged :
-       {std::string(), whole.substr(0, whole.size() / 2), whole.substr(0, whole.size() - 1) + "x",
-        "other " + whole}) {
+  for (const std::string& damaged : {std::string(), whole.substr(0, whole.size() / 2),
+                                     whole.substr(0, whole.size() - 1) + "x", "other " + whole}) {
     std::ofstream(file, std::ios::binary) << damaged;
     const int before = builds_;
     EXPECT_EQ(run("7"), 7);

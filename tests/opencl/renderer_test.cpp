@@ -30,9 +30,8 @@ TEST(OpenClRenderer, AgreesWithTheReferenceInDouble) {
     const double light_bound = test::bound_of(plan, Precision::double_);
     ASSERT_LE(light_bound, test::kDoubleAgainstReference) << random.text();
     ASSERT_LE(difference.worst, light_bound)
-        << random.text() << ", value " << difference.value << ": "
-        << light.values<double>()[difference.value] << " and "
-        << expected.values<double>()[difference.value]
+        << random.text() << ", value " << difference.value << ": " << light.values<double>()[difference.value]
+        << " and " << expected.values<double>()[difference.value]
         << "; rerun: opencl_tests --gtest_filter=*Reference*";
     worst = std::max(worst, difference.worst);
     tightest = std::max(tightest, difference.worst / light_bound);
@@ -49,16 +48,14 @@ TEST(OpenClRenderer, AgreesWithTheReferenceInDouble) {
       ++differing;
       const double edge = thresholds[std::max(a, b)];
       const double bound = test::kDoubleAgainstReference * test::scale_of(plan, i);
-      ASSERT_LE(std::fabs(expected.values<double>()[i] - edge), bound)
-          << random.text() << ", value " << i;
+      ASSERT_LE(std::fabs(expected.values<double>()[i] - edge), bound) << random.text() << ", value " << i;
       ASSERT_EQ(std::abs(a - b), 1) << random.text() << ", value " << i;
     }
   }
   std::printf(
       "worst difference: %.3g of ∫|g|/D, %.3g of its bound; %llu of %llu codes differ, all at "
       "rounding edges\n",
-      worst, tightest, static_cast<unsigned long long>(differing),
-      static_cast<unsigned long long>(codes));
+      worst, tightest, static_cast<unsigned long long>(differing), static_cast<unsigned long long>(codes));
 }
 
 // However the work is cut, the picture is the same within the bound: pixels of an item in one
@@ -72,8 +69,7 @@ TEST(OpenClRenderer, DoesNotDependOnHowTheWorkIsCut) {
     std::uint64_t chunk_bytes;
   };
   const Cut cuts[] = {{1, 1, 1, 0}, {1, 1, 64, 1}, {16, 4, 3, 0}, {8, 8, 16, 4096}, {16, 16, 2, 1}};
-  const test::CodeFormat formats[] = {{3, 1, 255, Transfer::srgb()},
-                                      {1, 2, 4095, Transfer::linear()}};
+  const test::CodeFormat formats[] = {{3, 1, 255, Transfer::srgb()}, {1, 2, 4095, Transfer::linear()}};
   ReferenceRenderer reference;
   for (const Cut& cut : cuts) {
     OpenClOptions options = test::renderer_options(Precision::double_);
@@ -109,8 +105,8 @@ TEST(OpenClRenderer, DoesNotDependOnTilesOrBlocks) {
            {TilePolicy::automatic, TilePolicy::dense, TilePolicy::rows, TilePolicy::records}) {
         MemoryCapture capture = random.encode(block_samples, policy);
         const RenderPlan other = make_plan(capture, random.functions, random.mask, {});
-        const Difference difference = test::difference_of(
-            plan, renderer.render(other, capture, {ValueType::light64, 0}), expected);
+        const Difference difference =
+            test::difference_of(plan, renderer.render(other, capture, {ValueType::light64, 0}), expected);
         ASSERT_LE(difference.worst, test::kDoubleAgainstReference)
             << random.text() << ", blocks of " << block_samples << ", tiles " << to_text(policy);
       }
@@ -143,8 +139,7 @@ TEST(OpenClRenderer, ReadsBlocksOfAnyLength) {
           test::difference_of(plan, renderer.render(plan, capture, {ValueType::light64, 0}),
                               reference.render(plan, capture, {ValueType::light64, 0}));
       ASSERT_LE(difference.worst, test::bound_of(plan, Precision::double_))
-          << "blocks of " << block_samples << ", tiles " << to_text(policy) << ", value "
-          << difference.value;
+          << "blocks of " << block_samples << ", tiles " << to_text(policy) << ", value " << difference.value;
     }
   }
 }
@@ -165,8 +160,7 @@ TEST(OpenClRenderer, ReadsOnlyTheBlocksOfThePlan) {
   CaptureFormat format;
   format.shape = {16, 16, 1};
   const test::Rasters rasters(100, std::vector<std::byte>(256, std::byte{90}));
-  MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100), rasters,
-                        10);
+  MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100), rasters, 10);
   const FunctionSet functions{{0, GainFunction::boxcar(250'000'000, 260'000'000)}};
   const RenderPlan plan = make_plan(capture, functions, Mask::uniform(16, 16, 0), {});
   OpenClRenderer renderer(test::renderer_options(Precision::double_));

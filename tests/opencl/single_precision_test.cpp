@@ -38,8 +38,7 @@ struct EveryCode {
     for (std::uint32_t i = 0; i < format.shape.value_count(); ++i) {
       test::set_code(format, rasters[0], i, std::min(i, format.white_code));
     }
-    return MemoryCapture(format, Timeline::constant({25, 1}, Timeline::kFullShutter, 1), rasters,
-                         64);
+    return MemoryCapture(format, Timeline::constant({25, 1}, Timeline::kFullShutter, 1), rasters, 64);
   }
   static RenderPlan plan_of(const MemoryCapture& capture) {
     const Shape& shape = capture.format().shape;
@@ -117,17 +116,16 @@ TEST(SinglePrecision, StaysWithinItsBoundOfTheReference) {
         const Difference difference = test::difference_of(plan, light, expected);
         const double bound = test::bound_of(plan, Precision::single_);
         ASSERT_LE(difference.worst, bound)
-            << random.text() << ", here in blocks of " << block_samples << ", tiles "
-            << to_text(policy) << ", value " << difference.value << ": "
-            << light.values<double>()[difference.value] << " and "
+            << random.text() << ", here in blocks of " << block_samples << ", tiles " << to_text(policy)
+            << ", value " << difference.value << ": " << light.values<double>()[difference.value] << " and "
             << expected.values<double>()[difference.value]
             << "; rerun: opencl_tests --gtest_filter=SinglePrecision*Reference";
         worst = std::max(worst, difference.worst);
         tightest = std::max(tightest, difference.worst / bound);
       }
     }
-    std::printf("blocks of %4u: worst difference %.3g of ∫|g|/D, %.3g of its bound\n",
-                block_samples, worst, tightest);
+    std::printf("blocks of %4u: worst difference %.3g of ∫|g|/D, %.3g of its bound\n", block_samples, worst,
+                tightest);
   }
 }
 

@@ -59,8 +59,7 @@ TEST(Reference, StaysWithinAFewUlpOfExactArithmetic) {
         continue;
       }
       const Exact error = Exact(rendered) - exact;
-      const double units =
-          std::fabs((error / summaries[f].scale()).convert_to<double>()) / test::kRoundoff64;
+      const double units = std::fabs((error / summaries[f].scale()).convert_to<double>()) / test::kRoundoff64;
       EXPECT_LE(units, test::kReferenceRoundings) << random.text() << ", value " << value;
       worst = std::max(worst, units);
     }
@@ -108,8 +107,14 @@ TEST_F(ByHand, ARampOfGainAcrossARampOfLight) {
 }
 
 TEST_F(ByHand, NegativeGainsSubtract) {
-  const GainFunction difference({{10'000'000, 0.0}, {10'000'000, -1.0}, {15'000'000, -1.0}, {15'000'000, 0.0},
-                                 {60'000'000, 0.0}, {60'000'000, 1.0}, {65'000'000, 1.0}, {65'000'000, 0.0}});
+  const GainFunction difference({{10'000'000, 0.0},
+                                 {10'000'000, -1.0},
+                                 {15'000'000, -1.0},
+                                 {15'000'000, 0.0},
+                                 {60'000'000, 0.0},
+                                 {60'000'000, 1.0},
+                                 {65'000'000, 1.0},
+                                 {65'000'000, 0.0}});
   EXPECT_NEAR(light(difference), (60.0 - 10.0) / 2, 1e-13);
 }
 

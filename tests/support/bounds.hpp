@@ -31,19 +31,17 @@ inline constexpr double kCurveLightOfUsualWhites = 1.7e-7;
 
 // What single precision adds to the light of a code, beside roundings of the last place.
 inline double single_light_error(const Transfer& transfer) {
-  const bool has_curve =
-      transfer.kind() == Transfer::Kind::srgb || transfer.kind() == Transfer::Kind::bt709;
+  const bool has_curve = transfer.kind() == Transfer::Kind::srgb || transfer.kind() == Transfer::Kind::bt709;
   return has_curve ? kCurveLight : 0.0;
 }
 
 // OpenCL in arithmetic with unit roundoff u against the reference, in S, for an exposure of
 // `blocks` blocks of at most `block_samples` samples: sums round n + blocks - 1 times, weights 1,
 // tables n, light or its scale 2; then what the packed weights and the reference err by.
-inline double kernel_against_reference(double roundoff, std::uint64_t block_samples,
-                                       std::uint64_t blocks, double light_error) {
+inline double kernel_against_reference(double roundoff, std::uint64_t block_samples, std::uint64_t blocks,
+                                       double light_error) {
   const double errors = roundoff * static_cast<double>(2 * block_samples + blocks + 2);
-  return errors / (1 - errors) + light_error +
-         (2 * kWeightRoundings + kReferenceRoundings + 1) * kRoundoff64;
+  return errors / (1 - errors) + light_error + (2 * kWeightRoundings + kReferenceRoundings + 1) * kRoundoff64;
 }
 
 }  // namespace nutik::test

@@ -32,13 +32,12 @@ struct ExactStretch {
 [[nodiscard]] std::vector<ExactStretch> exact_gain(const GainFunction& function, std::int64_t duration_ns);
 
 // ∫ of the product of two functions that are straight on each of their stretches.
-[[nodiscard]] Exact integrate_product(const std::vector<ExactStretch>& a,
-                                      const std::vector<ExactStretch>& b);
+[[nodiscard]] Exact integrate_product(const std::vector<ExactStretch>& a, const std::vector<ExactStretch>& b);
 
 struct ExactSummary {
-  Exact integral_ns;           // ∫g
-  Exact absolute_integral_ns;  // ∫|g|
-  std::int64_t support_ns = 0;  // D
+  Exact integral_ns;                                                               // ∫g
+  Exact absolute_integral_ns;                                                      // ∫|g|
+  std::int64_t support_ns = 0;                                                     // D
   [[nodiscard]] Exact scale() const { return absolute_integral_ns / support_ns; }  // S
 };
 [[nodiscard]] ExactSummary exact_summary(const std::vector<ExactStretch>& gain);

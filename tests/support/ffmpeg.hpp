@@ -20,9 +20,8 @@ inline bool has_ffmpeg() {
   return test::run_shell("ffmpeg -version", scratch.folder()).status == 0;
 }
 
-#define NEEDS_FFMPEG()            \
-  if (!nutik::test::has_ffmpeg()) \
-  GTEST_SKIP() << "the ffmpeg command is missing, which makes the clips"
+#define NEEDS_FFMPEG() \
+  if (!nutik::test::has_ffmpeg()) GTEST_SKIP() << "the ffmpeg command is missing, which makes the clips"
 
 inline std::string bytes_of(const std::vector<Picture>& pictures) {
   std::string bytes;

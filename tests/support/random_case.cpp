@@ -56,8 +56,8 @@ CaptureFormat random_format(Random& random) {
   capture.code_bytes = random.chance(0.7) ? 1 : 2;
   capture.white_code =
       capture.code_bytes == 1 ? 255 : random.pick(std::vector<std::uint32_t>{1023, 4095, 65'535});
-  capture.transfer = random.pick(std::vector<Transfer>{Transfer::srgb(), Transfer::linear(),
-                                                       Transfer::bt709(), Transfer::gamma(2.2)});
+  capture.transfer = random.pick(
+      std::vector<Transfer>{Transfer::srgb(), Transfer::linear(), Transfer::bt709(), Transfer::gamma(2.2)});
   if (random.chance(0.3)) capture.noise.tolerance = static_cast<std::uint32_t>(random.whole(1, 20));
   return capture;
 }
@@ -65,8 +65,8 @@ CaptureFormat random_format(Random& random) {
 Timeline random_timeline(Random& random, std::uint64_t sample_count) {
   const Rational angle = random.pick(std::vector<Rational>{{360, 1}, {180, 1}, {1728, 10}, {1, 1}});
   if (sample_count == 1 || random.chance(0.6)) {
-    const Rational rate = random.pick(
-        std::vector<Rational>{{30, 1}, {30000, 1001}, {960, 1}, {1, 3}, {1'000'000, 1}});
+    const Rational rate =
+        random.pick(std::vector<Rational>{{30, 1}, {30000, 1001}, {960, 1}, {1, 3}, {1'000'000, 1}});
     return Timeline::constant(rate, angle, sample_count);
   }
   if (random.chance(0.5)) {
@@ -110,8 +110,7 @@ GainFunction random_function(Random& random, const Timeline& timeline) {
   return GainFunction(std::move(points));
 }
 
-RandomCase::RandomCase(std::uint64_t case_seed)
-    : RandomCase(Random(case_seed), case_seed, nullptr) {}
+RandomCase::RandomCase(std::uint64_t case_seed) : RandomCase(Random(case_seed), case_seed, nullptr) {}
 
 RandomCase::RandomCase(std::uint64_t case_seed, const CodeFormat& codes)
     : RandomCase(Random(case_seed), case_seed, &codes) {}
@@ -143,8 +142,7 @@ RandomCase::RandomCase(Random random, std::uint64_t case_seed, const CodeFormat*
       rasters(random_rasters(random, capture, timeline.sample_count())),
       block_samples(random.pick(std::vector<std::uint32_t>{1, 2, 5, 64, 64, 64, 300})),
       policy(random.pick(std::vector<TilePolicy>{TilePolicy::automatic, TilePolicy::automatic,
-                                                 TilePolicy::dense, TilePolicy::rows,
-                                                 TilePolicy::records})),
+                                                 TilePolicy::dense, TilePolicy::rows, TilePolicy::records})),
       mask(Mask::uniform(capture.shape.width, capture.shape.height, 0)) {
   std::vector<std::uint8_t> tags{0};
   const std::int64_t tag_count = random.pick(std::vector<std::int64_t>{1, 2, 3, 20});
@@ -161,12 +159,12 @@ RandomCase::RandomCase(Random random, std::uint64_t case_seed, const CodeFormat*
 }
 
 std::string RandomCase::text() const {
-  return format("seed {}: {} x {} x {}, {} byte codes, white {}, {}, tolerance {}, {} samples in blocks "
-                "of {}, tiles {}, {} functions",
-                seed, capture.shape.width, capture.shape.height, capture.shape.channels,
-                capture.code_bytes, capture.white_code, capture.transfer.text(),
-                capture.noise.tolerance, timeline.sample_count(), block_samples, to_text(policy),
-                functions.size());
+  return format(
+      "seed {}: {} x {} x {}, {} byte codes, white {}, {}, tolerance {}, {} samples in blocks "
+      "of {}, tiles {}, {} functions",
+      seed, capture.shape.width, capture.shape.height, capture.shape.channels, capture.code_bytes,
+      capture.white_code, capture.transfer.text(), capture.noise.tolerance, timeline.sample_count(),
+      block_samples, to_text(policy), functions.size());
 }
 
 }  // namespace nutik::test

@@ -50,8 +50,7 @@ inline double bound_of(const RenderPlan& plan, Precision precision) {
     longest = std::max<std::uint64_t>(longest, block.extent.sample_count);
   }
   const bool is_single = precision == Precision::single_;
-  return kernel_against_reference(is_single ? kRoundoff32 : kRoundoff64, longest,
-                                  plan.blocks.size(),
+  return kernel_against_reference(is_single ? kRoundoff32 : kRoundoff64, longest, plan.blocks.size(),
                                   is_single ? single_light_error(plan.capture.transfer) : 0.0);
 }
 

@@ -33,17 +33,16 @@ class Bytes {
 };
 
 // A page's values as they lie in the file: row after row, each starting with a whole byte.
-std::string tiff_values(const Picture& page, const TiffOptions& options,
-                        std::uint32_t first_channel, std::uint32_t channels) {
+std::string tiff_values(const Picture& page, const TiffOptions& options, std::uint32_t first_channel,
+                        std::uint32_t channels) {
   Bytes bytes(options.big_endian);
   const std::uint32_t full = (1u << options.bits) - 1;
   for (std::uint32_t y = 0; y < page.shape.height; ++y) {
     std::uint64_t window = 0;
     int held = 0;
     for (std::uint32_t i = 0; i < page.shape.width * channels; ++i) {
-      const std::uint64_t at =
-          (std::uint64_t{y} * page.shape.width + i / channels) * page.shape.channels +
-          first_channel + i % channels;
+      const std::uint64_t at = (std::uint64_t{y} * page.shape.width + i / channels) * page.shape.channels +
+                               first_channel + i % channels;
       const std::uint32_t code = code_of(page, at);
       const std::uint32_t value = options.inverted ? full - code : code;
       if (options.bits % 8 == 0) {
@@ -60,13 +59,12 @@ std::string tiff_values(const Picture& page, const TiffOptions& options,
 
 }  // namespace
 
-std::vector<Picture> random_stills(Shape shape, std::uint32_t white_code, int count,
-                                   std::uint64_t seed) {
+std::vector<Picture> random_stills(Shape shape, std::uint32_t white_code, int count, std::uint64_t seed) {
   Random random(seed);
   std::vector<Picture> stills;
   for (int k = 0; k < count; ++k) {
-    Picture& still = stills.emplace_back(
-        shape, white_code > 255 ? ValueType::code16 : ValueType::code8, white_code);
+    Picture& still =
+        stills.emplace_back(shape, white_code > 255 ? ValueType::code16 : ValueType::code8, white_code);
     for (std::uint64_t i = 0; i < shape.value_count(); ++i) {
       // Both ends are sure to occur.
       const auto code = static_cast<std::uint32_t>(i == 0   ? white_code
@@ -144,8 +142,7 @@ std::string tiff_file(const std::vector<Picture>& pages, const TiffOptions& opti
     file.set(link, static_cast<std::uint32_t>(file.size()));
     const std::uint32_t entries = options.max_sample_value != 0 ? 12 : 11;
     file.add(entries, 2);
-    const auto entry = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t count,
-                           std::uint32_t value) {
+    const auto entry = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t count, std::uint32_t value) {
       file.add(tag, 2);
       file.add(type, 2);
       file.add(count, 4);
@@ -157,8 +154,7 @@ std::string tiff_file(const std::vector<Picture>& pages, const TiffOptions& opti
     };
     entry(256, kLong, 1, page.shape.width);
     entry(257, kLong, 1, page.shape.height);
-    entry(258, kShort, channels,
-          alone(channels, static_cast<std::uint32_t>(options.bits), bit_list));
+    entry(258, kShort, channels, alone(channels, static_cast<std::uint32_t>(options.bits), bit_list));
     entry(259, kShort, 1, 1);  // not compressed
     entry(262, kShort, 1, channels == 3 ? 2 : options.inverted ? 0 : 1);
     entry(273, kLong, planes, alone(planes, offsets[0], offset_list));

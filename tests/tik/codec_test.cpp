@@ -43,8 +43,8 @@ TEST(Codec, SurvivesDamage) {
       test::Random draw(seed);
       for (int i = 0; i < 30; ++i) {
         std::vector<std::byte> damaged = stored;
-        const auto at = static_cast<std::size_t>(
-            draw.whole(0, static_cast<std::int64_t>(damaged.size()) - 1));
+        const auto at =
+            static_cast<std::size_t>(draw.whole(0, static_cast<std::int64_t>(damaged.size()) - 1));
         damaged[at] ^= static_cast<std::byte>(draw.whole(1, 255));
         if (i % 5 == 0) damaged.resize(at);
         std::vector<std::byte> payload(view.payload().size());

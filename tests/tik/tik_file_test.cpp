@@ -99,8 +99,8 @@ TEST(TikFile, OpensAsAPictureOfTheFirstSample) {
       const std::uint64_t pixel = value / shape.channels;
       const std::uint64_t channel = shape.channels == 3 ? 2 - value % 3 : 0;  // BGR
       const std::uint64_t at = pixel * shape.channels + channel;
-      const std::uint32_t code = picture.depth() == CV_8U ? picture.ptr<std::uint8_t>()[at]
-                                                          : picture.ptr<std::uint16_t>()[at];
+      const std::uint32_t code =
+          picture.depth() == CV_8U ? picture.ptr<std::uint8_t>()[at] : picture.ptr<std::uint16_t>()[at];
       ASSERT_EQ(code, test::code_at(random.capture, random.rasters[0], value)) << "value " << value;
     }
   }
@@ -110,10 +110,11 @@ TEST(TikFile, SaysWhatItIsInWords) {
   const RandomCase random(5);
   const Scratch scratch;
   const std::string text = test::read_file(write(random, {CodecId::lz4, 0}, scratch)).substr(0, 600);
-  for (const std::string& line :
-       {std::string("# TIK 0 - an image evolution model"), format("# TIK channels: {}", random.capture.shape.channels),
-        format("# TIK transfer: {}", random.capture.transfer.text()),
-        format("# TIK tolerance: {} codes", random.capture.noise.tolerance), std::string("# TIK codec: lz4")}) {
+  for (const std::string& line : {std::string("# TIK 0 - an image evolution model"),
+                                  format("# TIK channels: {}", random.capture.shape.channels),
+                                  format("# TIK transfer: {}", random.capture.transfer.text()),
+                                  format("# TIK tolerance: {} codes", random.capture.noise.tolerance),
+                                  std::string("# TIK codec: lz4")}) {
     EXPECT_NE(text.find(line), std::string::npos) << "no '" << line << "' in\n" << text;
   }
 }
@@ -184,7 +185,8 @@ TEST(TikFile, IsRecoveredUpToItsLastWholeBlock) {
       const std::string message = message_of([&] { Reader(scratch / "cut.tik"); });
       EXPECT_NE(message, "nothing was thrown");
       if (whole == 0) {
-        EXPECT_NE(message_of([&] { recover(scratch / "cut.tik", scratch / "new.tik"); }), "nothing was thrown");
+        EXPECT_NE(message_of([&] { recover(scratch / "cut.tik", scratch / "new.tik"); }),
+                  "nothing was thrown");
         EXPECT_FALSE(std::filesystem::exists(scratch / "new.tik"));
         continue;
       }
@@ -213,8 +215,10 @@ TEST(TikFile, TellsOtherFilesApart) {
   };
   EXPECT_NE(refusal("").find("no .tik file"), std::string::npos);
   EXPECT_NE(refusal("hello").find("no .tik file"), std::string::npos);
-  EXPECT_NE(refusal("P6\n2 2\n255\n123456789012").find("is a Netpbm picture, not a .tik file"), std::string::npos);
-  EXPECT_NE(refusal("P6\n# TIK FPS=120\n2 2\n255\n...").find("TIK file of another program"), std::string::npos);
+  EXPECT_NE(refusal("P6\n2 2\n255\n123456789012").find("is a Netpbm picture, not a .tik file"),
+            std::string::npos);
+  EXPECT_NE(refusal("P6\n# TIK FPS=120\n2 2\n255\n...").find("TIK file of another program"),
+            std::string::npos);
   EXPECT_NE(refusal("P6\n#TIK v1\n2 2\n255\n...").find("TIK file of another program"), std::string::npos);
   EXPECT_NE(refusal("P6\n# TIK 7 - something newer\n").find("version 7; this program reads version 0"),
             std::string::npos);

@@ -39,13 +39,20 @@ Settings parse(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     const auto number = [&] { return i + 1 < argc ? std::strtoul(argv[++i], nullptr, 10) : 0; };
-    if (word == "--width") settings.width = static_cast<std::uint32_t>(number());
-    else if (word == "--height") settings.height = static_cast<std::uint32_t>(number());
-    else if (word == "--samples") settings.samples = number();
-    else if (word == "--runs") settings.runs = static_cast<int>(number());
-    else if (word == "--device") settings.device = number();
-    else if (word == "--csv" && i + 1 < argc) settings.csv = argv[++i];
-    else if (word == "--quick") settings.quick = true;
+    if (word == "--width")
+      settings.width = static_cast<std::uint32_t>(number());
+    else if (word == "--height")
+      settings.height = static_cast<std::uint32_t>(number());
+    else if (word == "--samples")
+      settings.samples = number();
+    else if (word == "--runs")
+      settings.runs = static_cast<int>(number());
+    else if (word == "--device")
+      settings.device = number();
+    else if (word == "--csv" && i + 1 < argc)
+      settings.csv = argv[++i];
+    else if (word == "--quick")
+      settings.quick = true;
     else {
       std::fprintf(stderr, "unknown option %s; see the head of tools/bench/kernels.cpp\n", argv[i]);
       std::exit(2);
@@ -88,7 +95,8 @@ FunctionSet functions_for(Regions regions, std::int64_t duration_ns, std::uint32
   for (int tag = 0; tag < count; ++tag) {
     std::vector<ControlPoint> control;
     for (std::uint32_t i = 0; i < points; ++i) {
-      control.push_back({duration_ns * i / points, 0.5 + 0.5 * ((i * 7 + static_cast<std::uint32_t>(tag)) % 11) / 11.0});
+      control.push_back(
+          {duration_ns * i / points, 0.5 + 0.5 * ((i * 7 + static_cast<std::uint32_t>(tag)) % 11) / 11.0});
     }
     functions.emplace(static_cast<std::uint8_t>(tag), GainFunction(std::move(control)));
   }
@@ -118,7 +126,8 @@ Measurement measure(OpenClRenderer& renderer, const RenderPlan& plan, SyntheticC
     develop.push_back(renderer.statistics().develop_ms);
   }
   const auto median = [](std::vector<double>& values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                     values.end());
     return values[values.size() / 2];
   };
   return {median(expose), median(develop), renderer.statistics().payload_bytes};
@@ -155,8 +164,9 @@ int run(const Settings& settings) {
               static_cast<unsigned long long>(settings.samples), settings.runs);
 
   std::vector<Case> cases;
-  const std::vector<Precision> precisions =
-      device.has_double ? std::vector{Precision::single_, Precision::double_} : std::vector{Precision::single_};
+  const std::vector<Precision> precisions = device.has_double
+                                                ? std::vector{Precision::single_, Precision::double_}
+                                                : std::vector{Precision::single_};
   for (const Precision precision : precisions) {
     for (const Transfer transfer : {Transfer::linear(), Transfer::srgb()}) {
       for (const Content content : {Content::dense, Content::rows, Content::records, Content::still}) {
@@ -169,11 +179,14 @@ int run(const Settings& settings) {
     }
   }
   if (settings.quick) {
-    std::erase_if(cases, [](const Case& one) { return one.content != Content::dense || one.regions != Regions::uniform; });
+    std::erase_if(cases, [](const Case& one) {
+      return one.content != Content::dense || one.regions != Regions::uniform;
+    });
   }
 
-  std::printf("limit: %s, measured before and after each case\n\n",
-              device.shares_host_memory ? "memory read by all cores" : "copy within the device, read and write");
+  std::printf(
+      "limit: %s, measured before and after each case\n\n",
+      device.shares_host_memory ? "memory read by all cores" : "copy within the device, read and write");
   // Of the capture's own memory: on a virtual machine one allocation may be read at twice the rate of
   // another, and the rate may change from minute to minute. Small captures say nothing: they fit caches.
   double last_limit = 0.0;
@@ -187,7 +200,8 @@ int run(const Settings& settings) {
   std::printf("%-8s %-7s %-7s %-5s %-11s %9s %8s %8s %7s %9s %10s\n", "tiles", "prec.", "light", "bits",
               "regions", "expose ms", "GB/s", "limit", "share", "dev. ms", "worst / S");
   std::ofstream csv(settings.csv);
-  csv << "device,tiles,precision,light,bits,regions,expose_ms,bytes,gb_per_s,limit_gb_per_s,develop_ms,worst\n";
+  csv << "device,tiles,precision,light,bits,regions,expose_ms,bytes,gb_per_s,limit_gb_per_s,develop_ms,"
+         "worst\n";
   for (const Case& one : cases) {
     CaptureFormat format;
     format.shape = {settings.width, settings.height, 3};
@@ -195,8 +209,9 @@ int run(const Settings& settings) {
     format.white_code = one.code_bytes == 1 ? 255 : 4095;
     format.transfer = one.transfer;
     SyntheticCapture capture(format, settings.samples, 64, one.content);
-    const RenderPlan plan = make_plan(capture, functions_for(one.regions, capture.timeline().duration_ns(), 5),
-                                      mask_for(format.shape, one.regions), {});
+    const RenderPlan plan =
+        make_plan(capture, functions_for(one.regions, capture.timeline().duration_ns(), 5),
+                  mask_for(format.shape, one.regions), {});
     OpenClOptions options;
     options.device = settings.device;
     options.precision = one.precision;
@@ -209,7 +224,8 @@ int run(const Settings& settings) {
     const double rate = static_cast<double>(measured.bytes) / measured.expose_ms * 1e3;
     std::printf("%-8s %-7s %-7s %-5u %-11s %9.2f %8.2f %8.1f %7.2f %9.2f %10.2g\n", name_of(one.content),
                 to_text(one.precision).c_str(), one.transfer.text().c_str(), one.code_bytes * 8,
-                name_of(one.regions), measured.expose_ms, rate * 1e-9, limit * 1e-9, rate / limit, measured.develop_ms, worst);
+                name_of(one.regions), measured.expose_ms, rate * 1e-9, limit * 1e-9, rate / limit,
+                measured.develop_ms, worst);
     std::fflush(stdout);
     csv << device.name << ',' << name_of(one.content) << ',' << to_text(one.precision) << ','
         << one.transfer.text() << ',' << one.code_bytes * 8 << ',' << name_of(one.regions) << ','

@@ -30,7 +30,8 @@ SyntheticCapture::SyntheticCapture(const CaptureFormat& capture, std::uint64_t s
                                    std::uint32_t block_samples, Content content)
     : capture_(capture), timeline_(Timeline::constant({240, 1}, Timeline::kFullShutter, sample_count)) {
   for (std::uint64_t first = 0; first < sample_count; first += block_samples) {
-    const auto count = static_cast<std::uint32_t>(std::min<std::uint64_t>(block_samples, sample_count - first));
+    const auto count =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(block_samples, sample_count - first));
     const BlockGeometry geometry(capture, count);
     const std::uint64_t bytes =
         geometry.directory_bytes() + geometry.tile_count * geometry.body_bytes(entry_for(content, count));
@@ -62,8 +63,9 @@ SyntheticCapture::SyntheticCapture(const CaptureFormat& capture, std::uint64_t s
           std::byte* index = body + geometry.row_bytes() + slot * geometry.slot_bytes();
           for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
             const std::uint32_t spread = block.extent.sample_count / (entry.slots() + 1);
-            write_index(index, lane, geometry.index_bytes(),
-                        1 + slot * spread + static_cast<std::uint32_t>((lane * 7 + tile) % std::max(spread, 1u)));
+            write_index(
+                index, lane, geometry.index_bytes(),
+                1 + slot * spread + static_cast<std::uint32_t>((lane * 7 + tile) % std::max(spread, 1u)));
           }
         }
       } else if (geometry.row_index_bytes(entry.rows()) != 0) {

@@ -27,7 +27,9 @@ class SyntheticCapture final : public CaptureSource {
   std::uint64_t prepare(std::uint64_t block) override { return blocks_[block].bytes; }
   void read(std::uint64_t block, std::span<std::byte> into) override;
   [[nodiscard]] std::span<const std::byte> region() const override { return {memory_.data(), bytes_}; }
-  [[nodiscard]] std::uint64_t region_offset(std::uint64_t block) const override { return blocks_[block].offset; }
+  [[nodiscard]] std::uint64_t region_offset(std::uint64_t block) const override {
+    return blocks_[block].offset;
+  }
 
  private:
   struct Block {

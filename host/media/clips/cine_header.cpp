@@ -48,13 +48,11 @@ std::optional<CineHeader> read_cine_header(const std::filesystem::path& path) {
   if (file.size() < kFileHeaderBytes || std::memcmp(file.data(), "CI", 2) != 0) return std::nullopt;
   const std::uint64_t count = number<std::uint32_t>(file, 20);
   const std::uint64_t setup = number<std::uint32_t>(file, 28);
-  const std::uint64_t tags_end =
-      std::min<std::uint64_t>(number<std::uint32_t>(file, 32), file.size());
+  const std::uint64_t tags_end = std::min<std::uint64_t>(number<std::uint32_t>(file, 32), file.size());
   CineHeader header;
   header.is_packed =
       number<std::uint32_t>(file, std::uint64_t{number<std::uint32_t>(file, 24)} + 16) == kPacked10;
-  if (setup + 144 > file.size() || std::memcmp(file.data() + setup + 140, "ST", 2) != 0)
-    return header;
+  if (setup + 144 > file.size() || std::memcmp(file.data() + setup + 140, "ST", 2) != 0) return header;
   std::uint64_t tag = setup + number<std::uint16_t>(file, setup + 142);
   while (tag + kTagHeaderBytes <= tags_end) {
     const std::uint64_t size = number<std::uint32_t>(file, tag), data = tag + kTagHeaderBytes;
@@ -64,15 +62,13 @@ std::optional<CineHeader> read_cine_header(const std::filesystem::path& path) {
       const auto first = number<std::uint64_t>(file, data);
       for (std::uint64_t k = 0; k < count; ++k) {
         const auto time = number<std::uint64_t>(file, data + k * 8);
-        header.starts_ns.push_back(time < first ? -nanoseconds(first - time)
-                                                : nanoseconds(time - first));
+        header.starts_ns.push_back(time < first ? -nanoseconds(first - time) : nanoseconds(time - first));
       }
     }
     if (type == kExposures && count > 0 && size - kTagHeaderBytes >= count * 4) {
       const auto exposed = number<std::uint32_t>(file, data);
       bool alike = exposed > 0;
-      for (std::uint64_t k = 1; k < count; ++k)
-        alike &= number<std::uint32_t>(file, data + k * 4) == exposed;
+      for (std::uint64_t k = 1; k < count; ++k) alike &= number<std::uint32_t>(file, data + k * 4) == exposed;
       if (alike) header.exposed_ns = nanoseconds(exposed);
     }
     tag += size;

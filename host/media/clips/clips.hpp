@@ -11,12 +11,11 @@
 namespace nutik::clips {
 
 // 8-bit colour.
-[[nodiscard]] std::unique_ptr<Clip> open_with_opencv(const std::filesystem::path& path,
-                                                     const Probe& probe);
+[[nodiscard]] std::unique_ptr<Clip> open_with_opencv(const std::filesystem::path& path, const Probe& probe);
 
 // Grey and deeper video, whose depth OpenCV's reader would lose.
-[[nodiscard]] std::unique_ptr<Clip> open_with_libav(const std::filesystem::path& path,
-                                                    const Probe& probe, const ClipOptions& options);
+[[nodiscard]] std::unique_ptr<Clip> open_with_libav(const std::filesystem::path& path, const Probe& probe,
+                                                    const ClipOptions& options);
 
 // Stills, one sample each; a TIFF may hold several.
 [[nodiscard]] std::unique_ptr<Clip> open_still_files(std::span<const std::filesystem::path> files,

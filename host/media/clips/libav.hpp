@@ -65,9 +65,10 @@ inline OpenedVideo open_video(const std::filesystem::path& path, const std::opti
   const AVInputFormat* kind = nullptr;
   if (raw) {
     if (av_get_pix_fmt(raw->pixel_format.c_str()) == AV_PIX_FMT_NONE) {
-      throw UsageError(format("raw video: '{}' is no pixel format that FFmpeg knows; examples are "
-                              "yuv420p10le and gray16le",
-                              raw->pixel_format));
+      throw UsageError(
+          format("raw video: '{}' is no pixel format that FFmpeg knows; examples are "
+                 "yuv420p10le and gray16le",
+                 raw->pixel_format));
     }
     kind = av_find_input_format("rawvideo");
     av_dict_set(&settings, "video_size", format("{}x{}", raw->width, raw->height).c_str(), 0);

@@ -17,8 +17,7 @@ class LibavClip final : public Clip {
         frame_(av_frame_alloc()) {
     const AVCodecParameters* parameters = stream().codecpar;
     const AVCodec* decoder = avcodec_find_decoder(parameters->codec_id);
-    if (decoder == nullptr)
-      throw InputError(format("{}: no decoder here knows its pictures", name_));
+    if (decoder == nullptr) throw InputError(format("{}: no decoder here knows its pictures", name_));
     codec_.reset(avcodec_alloc_context3(decoder));
     codec_->thread_count = 0;  // as many as there are cores
     codec_->err_recognition = AV_EF_CRCCHECK;
@@ -49,9 +48,8 @@ class LibavClip final : public Clip {
     if (!decode_next()) return false;
     if (frame_->width != static_cast<int>(coded_.width) ||
         frame_->height != static_cast<int>(coded_.height)) {
-      throw InputError(format("{}: picture {} has {} x {} pixels, the ones before it {} x {}",
-                              name_, frames_read_, frame_->width, frame_->height, coded_.width,
-                              coded_.height));
+      throw InputError(format("{}: picture {} has {} x {} pixels, the ones before it {} x {}", name_,
+                              frames_read_, frame_->width, frame_->height, coded_.width, coded_.height));
     }
     // A decoder fills damaged parts with what was there before, which would pass for a still scene.
     if (frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0) {
@@ -67,10 +65,10 @@ class LibavClip final : public Clip {
 
   void set_white(std::uint32_t white, const PixelKind& pixels) {
     if (!pixels.is_grey && white != pixels.white_code()) {
-      throw UsageError(format(
-          "--white {}: colour video is converted to RGB, whose white is {} whatever its depth "
-          "was; leave --white out",
-          white, pixels.white_code()));
+      throw UsageError(
+          format("--white {}: colour video is converted to RGB, whose white is {} whatever its depth "
+                 "was; leave --white out",
+                 white, pixels.white_code()));
     }
     info_.format.white_code = white;
   }
@@ -100,8 +98,7 @@ class LibavClip final : public Clip {
   }
 
   [[noreturn]] void fail(int code) const {
-    throw InputError(
-        format("{}: picture {} cannot be decoded: {}", name_, frames_read_, error_text(code)));
+    throw InputError(format("{}: picture {} cannot be decoded: {}", name_, frames_read_, error_text(code)));
   }
 
   std::string name_;

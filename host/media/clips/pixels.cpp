@@ -10,40 +10,31 @@ namespace {
 AVPixelFormat raster_format(const PixelKind& kind) {
   if (!kind.is_grey) return kind.bits <= 8 ? AV_PIX_FMT_RGB24 : AV_PIX_FMT_RGB48;
   switch (kind.bits + kind.padding_bits) {
-    case 8:
-      return AV_PIX_FMT_GRAY8;
-    case 9:
-      return AV_PIX_FMT_GRAY9;
-    case 10:
-      return AV_PIX_FMT_GRAY10;
-    case 12:
-      return AV_PIX_FMT_GRAY12;
-    case 14:
-      return AV_PIX_FMT_GRAY14;
-    default:
-      return AV_PIX_FMT_GRAY16;
+    case 8: return AV_PIX_FMT_GRAY8;
+    case 9: return AV_PIX_FMT_GRAY9;
+    case 10: return AV_PIX_FMT_GRAY10;
+    case 12: return AV_PIX_FMT_GRAY12;
+    case 14: return AV_PIX_FMT_GRAY14;
+    default: return AV_PIX_FMT_GRAY16;
   }
 }
 
 bool is_yuv(AVPixelFormat format) {
   const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(format);
-  return pixels.nb_components >= 3 &&
-         (pixels.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BAYER)) == 0 &&
+  return pixels.nb_components >= 3 && (pixels.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BAYER)) == 0 &&
          format != AV_PIX_FMT_XYZ12LE && format != AV_PIX_FMT_XYZ12BE;
 }
 
 bool has_full_range(const AVFrame& frame) {
   return frame.color_range == AVCOL_RANGE_JPEG ||
-         std::string_view(av_get_pix_fmt_name(static_cast<AVPixelFormat>(frame.format)))
-             .starts_with("yuvj");
+         std::string_view(av_get_pix_fmt_name(static_cast<AVPixelFormat>(frame.format))).starts_with("yuvj");
 }
 
 // libswscale takes every YUV picture for BT.601 with limited range unless it is told otherwise.
 void set_colours(SwsContext* scaler, const AVFrame& frame) {
   constexpr int kOne = 1 << 16;  // contrast and saturation
-  sws_setColorspaceDetails(scaler, sws_getCoefficients(frame.colorspace),
-                           has_full_range(frame) ? 1 : 0, sws_getCoefficients(SWS_CS_DEFAULT), 1, 0,
-                           kOne, kOne);
+  sws_setColorspaceDetails(scaler, sws_getCoefficients(frame.colorspace), has_full_range(frame) ? 1 : 0,
+                           sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, kOne, kOne);
 }
 
 // What red and blue weigh in a matrix's luma.
@@ -53,32 +44,22 @@ struct LumaWeights {
 
 LumaWeights luma_weights(AVColorSpace space) {
   switch (space) {
-    case AVCOL_SPC_BT709:
-      return {0.2126, 0.0722};
-    case AVCOL_SPC_FCC:
-      return {0.30, 0.11};
-    case AVCOL_SPC_SMPTE240M:
-      return {0.212, 0.087};
+    case AVCOL_SPC_BT709: return {0.2126, 0.0722};
+    case AVCOL_SPC_FCC: return {0.30, 0.11};
+    case AVCOL_SPC_SMPTE240M: return {0.212, 0.087};
     case AVCOL_SPC_BT2020_NCL:
-    case AVCOL_SPC_BT2020_CL:
-      return {0.2627, 0.0593};
-    default:
-      return {0.299, 0.114};  // BT.601
+    case AVCOL_SPC_BT2020_CL: return {0.2627, 0.0593};
+    default: return {0.299, 0.114};  // BT.601
   }
 }
 
 AVPixelFormat planar_format(std::uint32_t bits) {
   switch (bits) {
-    case 9:
-      return AV_PIX_FMT_YUV444P9;
-    case 10:
-      return AV_PIX_FMT_YUV444P10;
-    case 12:
-      return AV_PIX_FMT_YUV444P12;
-    case 14:
-      return AV_PIX_FMT_YUV444P14;
-    default:
-      return AV_PIX_FMT_YUV444P16;
+    case 9: return AV_PIX_FMT_YUV444P9;
+    case 10: return AV_PIX_FMT_YUV444P10;
+    case 12: return AV_PIX_FMT_YUV444P12;
+    case 14: return AV_PIX_FMT_YUV444P14;
+    default: return AV_PIX_FMT_YUV444P16;
   }
 }
 
@@ -103,12 +84,12 @@ void yuv_to_rgb(const AVFrame& planes, std::uint32_t bits, AVFrame& rgb) {
   };
   for (int row = 0; row < planes.height; ++row) {
     const auto plane = [&](int index) {
-      return reinterpret_cast<const std::uint16_t*>(
-          planes.data[index] + static_cast<std::ptrdiff_t>(row) * planes.linesize[index]);
+      return reinterpret_cast<const std::uint16_t*>(planes.data[index] + static_cast<std::ptrdiff_t>(row) *
+                                                                             planes.linesize[index]);
     };
     const std::uint16_t *y = plane(0), *u = plane(1), *v = plane(2);
-    auto* out = reinterpret_cast<std::uint16_t*>(rgb.data[0] + static_cast<std::ptrdiff_t>(row) *
-                                                                   rgb.linesize[0]);
+    auto* out =
+        reinterpret_cast<std::uint16_t*>(rgb.data[0] + static_cast<std::ptrdiff_t>(row) * rgb.linesize[0]);
     for (int x = 0; x < planes.width; ++x) {
       const double luma = (y[x] - black) * luma_scale, from_u = u[x] - grey, from_v = v[x] - grey;
       out[3 * x] = nearest(luma + red_of_v * from_v);
@@ -130,12 +111,10 @@ FramePointer new_frame(AVPixelFormat pixels, int width, int height) {
 }
 
 // Copies a row-major picture of `height` rows while it is turned.
-void copy_turned(const std::uint8_t* from, std::ptrdiff_t stride, std::size_t width,
-                 std::size_t height, std::size_t pixel_bytes, int turns,
-                 std::span<std::byte> raster) {
+void copy_turned(const std::uint8_t* from, std::ptrdiff_t stride, std::size_t width, std::size_t height,
+                 std::size_t pixel_bytes, int turns, std::span<std::byte> raster) {
   const auto pixel = [&](std::size_t x, std::size_t y) {
-    return from + static_cast<std::ptrdiff_t>(y) * stride +
-           static_cast<std::ptrdiff_t>(x * pixel_bytes);
+    return from + static_cast<std::ptrdiff_t>(y) * stride + static_cast<std::ptrdiff_t>(x * pixel_bytes);
   };
   if (turns == 0) {
     for (std::size_t y = 0; y < height; ++y) {
@@ -166,8 +145,7 @@ PixelKind pixel_kind(const AVCodecParameters& codec, const std::string& name) {
   const AVPixFmtDescriptor* pixels = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(codec.format));
   if (pixels == nullptr || codec.width <= 0 || codec.height <= 0) {
     throw InputError(format(
-        "{}: no decoder here knows its pictures; a video without a header is described with --raw",
-        name));
+        "{}: no decoder here knows its pictures; a video without a header is described with --raw", name));
   }
   if ((pixels->flags & AV_PIX_FMT_FLAG_FLOAT) != 0) {
     throw InputError(
@@ -177,8 +155,8 @@ PixelKind pixel_kind(const AVCodecParameters& codec, const std::string& name) {
   }
   PixelKind kind;
   const bool is_mosaic = (pixels->flags & AV_PIX_FMT_FLAG_BAYER) != 0;
-  kind.is_grey = pixels->nb_components <= 2 &&
-                 (pixels->flags & (AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BAYER)) == 0;
+  kind.is_grey =
+      pixels->nb_components <= 2 && (pixels->flags & (AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BAYER)) == 0;
   for (int component = 0; component < pixels->nb_components; ++component) {
     kind.bits = std::max(kind.bits, static_cast<std::uint32_t>(pixels->comp[component].depth));
   }
@@ -204,8 +182,7 @@ int quarter_turns(const AVStream& stream) {
   return static_cast<int>((std::lround(-turned / 90.0) % 4 + 4) % 4);
 }
 
-const AVFrame& PixelConverter::scaled(const AVFrame& frame, AVPixelFormat wanted,
-                                      const std::string& name) {
+const AVFrame& PixelConverter::scaled(const AVFrame& frame, AVPixelFormat wanted, const std::string& name) {
   const auto from = static_cast<AVPixelFormat>(frame.format);
   if (from == wanted) return frame;
   if (!scaled_ || scaled_->format != wanted) scaled_ = new_frame(wanted, frame.width, frame.height);
@@ -213,22 +190,19 @@ const AVFrame& PixelConverter::scaled(const AVFrame& frame, AVPixelFormat wanted
       scaler_.release(), frame.width, frame.height, from, frame.width, frame.height, wanted,
       SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT, nullptr, nullptr, nullptr));
   if (!scaler_) {
-    throw InputError(
-        format("{}: pixels of {} cannot be converted", name, av_get_pix_fmt_name(from)));
+    throw InputError(format("{}: pixels of {} cannot be converted", name, av_get_pix_fmt_name(from)));
   }
   if (is_yuv(from) && !is_yuv(wanted)) {
     set_colours(scaler_.get(), frame);
   }
-  sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, scaled_->data,
-            scaled_->linesize);
+  sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, scaled_->data, scaled_->linesize);
   scaled_->colorspace = frame.colorspace;
   scaled_->color_range = frame.color_range;
   return *scaled_;
 }
 
 const AVFrame& PixelConverter::converted(const AVFrame& frame, const std::string& name) {
-  const bool deep_yuv =
-      !kind_.is_grey && kind_.bits > 8 && is_yuv(static_cast<AVPixelFormat>(frame.format));
+  const bool deep_yuv = !kind_.is_grey && kind_.bits > 8 && is_yuv(static_cast<AVPixelFormat>(frame.format));
   if (!deep_yuv) return scaled(frame, raster_format(kind_), name);
   // libswscale only gives every pixel its U and V.
   const AVFrame& planes = scaled(frame, planar_format(kind_.bits), name);
@@ -237,8 +211,7 @@ const AVFrame& PixelConverter::converted(const AVFrame& frame, const std::string
   return *rgb_;
 }
 
-void PixelConverter::convert(const AVFrame& frame, std::span<std::byte> raster,
-                             const std::string& name) {
+void PixelConverter::convert(const AVFrame& frame, std::span<std::byte> raster, const std::string& name) {
   const AVFrame& picture = converted(frame, name);
   const std::size_t pixel_bytes = (kind_.is_grey ? 1u : 3u) * (kind_.bits > 8 ? 2u : 1u);
   copy_turned(picture.data[0], picture.linesize[0], static_cast<std::size_t>(picture.width),

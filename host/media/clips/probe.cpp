@@ -15,18 +15,12 @@ std::optional<Transfer> transfer_of(AVColorTransferCharacteristic characteristic
     case AVCOL_TRC_BT709:
     case AVCOL_TRC_SMPTE170M:
     case AVCOL_TRC_BT2020_10:
-    case AVCOL_TRC_BT2020_12:
-      return Transfer::bt709();
-    case AVCOL_TRC_IEC61966_2_1:
-      return Transfer::srgb();
-    case AVCOL_TRC_GAMMA22:
-      return Transfer::gamma(2.2);
-    case AVCOL_TRC_GAMMA28:
-      return Transfer::gamma(2.8);
-    case AVCOL_TRC_LINEAR:
-      return Transfer::linear();
-    default:
-      return std::nullopt;
+    case AVCOL_TRC_BT2020_12: return Transfer::bt709();
+    case AVCOL_TRC_IEC61966_2_1: return Transfer::srgb();
+    case AVCOL_TRC_GAMMA22: return Transfer::gamma(2.2);
+    case AVCOL_TRC_GAMMA28: return Transfer::gamma(2.8);
+    case AVCOL_TRC_LINEAR: return Transfer::linear();
+    default: return std::nullopt;
   }
 }
 
@@ -45,8 +39,8 @@ std::string unknown_transfer(AVColorTransferCharacteristic characteristic) {
 bool fits(const std::vector<std::int64_t>& times, Rational time_base, Rational rate) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     // i / rate, in ticks of the time base.
-    const auto ticks = static_cast<std::int64_t>(i) * static_cast<int128>(rate.denominator) *
-                       time_base.denominator;
+    const auto ticks =
+        static_cast<std::int64_t>(i) * static_cast<int128>(rate.denominator) * time_base.denominator;
     const std::int64_t expected =
         round_half_up(ticks, static_cast<int128>(rate.numerator) * time_base.numerator);
     if (std::abs(times[i] - times[0] - expected) > 1) return false;
@@ -61,17 +55,16 @@ ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base,
   // The rate that the first and last picture tell, for files that announce another or none.
   if (times.back() > times.front()) {
     const auto periods = static_cast<std::int64_t>(times.size()) - 1;
-    rates.push_back(Rational::of(periods * time_base.denominator,
-                                 (times.back() - times.front()) * time_base.numerator));
+    rates.push_back(
+        Rational::of(periods * time_base.denominator, (times.back() - times.front()) * time_base.numerator));
   }
   for (const Rational& rate : rates) {
     if (fits(times, time_base, rate)) return {rate, {}};
   }
   ClipTiming timing;
   for (const std::int64_t time : times) {
-    timing.starts_ns.push_back(
-        round_half_up(static_cast<int128>(time - times[0]) * time_base.numerator * kSecondNs,
-                      time_base.denominator));
+    timing.starts_ns.push_back(round_half_up(
+        static_cast<int128>(time - times[0]) * time_base.numerator * kSecondNs, time_base.denominator));
   }
   return timing;
 }
@@ -100,8 +93,7 @@ ClipTiming packet_timing(const AVStream& stream, std::vector<std::int64_t> times
 std::size_t first_senseless(const std::vector<std::int64_t>& starts_ns) {
   constexpr std::int64_t kLongestPause = 1000;  // usual periods
   std::vector<std::int64_t> periods;
-  for (std::size_t k = 1; k < starts_ns.size(); ++k)
-    periods.push_back(starts_ns[k] - starts_ns[k - 1]);
+  for (std::size_t k = 1; k < starts_ns.size(); ++k) periods.push_back(starts_ns[k] - starts_ns[k - 1]);
   std::vector<std::int64_t> sorted = periods;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
                    sorted.end());
@@ -144,9 +136,8 @@ void add_cine_header(const CineHeader& header, const AVStream& stream, Probe& re
 
 // A size or format that is wrong would cut the pictures at the wrong places.
 void check_raw_size(const std::filesystem::path& path, const RawVideo& raw) {
-  const int bytes =
-      av_image_get_buffer_size(av_get_pix_fmt(raw.pixel_format.c_str()),
-                               static_cast<int>(raw.width), static_cast<int>(raw.height), 1);
+  const int bytes = av_image_get_buffer_size(av_get_pix_fmt(raw.pixel_format.c_str()),
+                                             static_cast<int>(raw.width), static_cast<int>(raw.height), 1);
   const std::uint64_t file_bytes = std::filesystem::file_size(path);
   if (bytes > 0 && file_bytes > 0 && file_bytes % static_cast<std::uint64_t>(bytes) == 0) return;
   throw InputError(
@@ -163,8 +154,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   const AVCodecParameters& codec = *stream.codecpar;
   Probe result;
   result.stream = opened.stream;
-  result.shape = {static_cast<std::uint32_t>(codec.width), static_cast<std::uint32_t>(codec.height),
-                  3};
+  result.shape = {static_cast<std::uint32_t>(codec.width), static_cast<std::uint32_t>(codec.height), 3};
   result.pixels = pixel_kind(codec, path.string());
   result.quarter_turns = quarter_turns(stream);
   result.transfer = transfer_of(codec.color_trc);
@@ -180,14 +170,13 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   const PacketPointer packet(av_packet_alloc());
   int code = 0;
   while ((code = av_read_frame(opened.format.get(), packet.get())) >= 0) {
-    const bool counts =
-        packet->stream_index == opened.stream && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
+    const bool counts = packet->stream_index == opened.stream && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
     if (counts) times.push_back(packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts);
     av_packet_unref(packet.get());
   }
   if (code != AVERROR_EOF) {
-    result.notes.push_back(format("the file is damaged or was cut off behind picture {}: {}",
-                                  times.size(), error_text(code)));
+    result.notes.push_back(
+        format("the file is damaged or was cut off behind picture {}: {}", times.size(), error_text(code)));
   }
   result.sample_count = times.size();
   if (!raw) result.timing = packet_timing(stream, std::move(times));

@@ -33,8 +33,7 @@ struct Still {
   std::vector<std::byte> codes;          // interleaved raster
 };
 
-bool has_extension(const std::filesystem::path& file,
-                   std::initializer_list<std::string_view> extensions) {
+bool has_extension(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions) {
   std::string extension = file.extension().string();
   for (char& c : extension) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -58,8 +57,7 @@ Still read_netpbm_still(const std::filesystem::path& file) {
 // and the start of a scan cannot occur within a scan.
 bool is_cut_off_jpeg(const std::filesystem::path& file) {
   const MappedFile mapped(file);
-  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()),
-                               mapped.bytes().size());
+  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
   const auto scan = bytes.rfind("\xFF\xDA"), end = bytes.rfind("\xFF\xD9");
   return bytes.starts_with("\xFF\xD8") && (scan == bytes.npos || end == bytes.npos || end < scan);
 }
@@ -74,9 +72,8 @@ Still read_with_opencv(const std::filesystem::path& file) {
     throw InputError(format("{} holds neither 8- nor 16-bit values", name));
   }
   if (picture.channels() != 1 && picture.channels() != 3) {
-    throw InputError(
-        format("{} has {} channels; grey (1) and colour (3) are read, transparency is not", name,
-               picture.channels()));
+    throw InputError(format("{} has {} channels; grey (1) and colour (3) are read, transparency is not", name,
+                            picture.channels()));
   }
   if (picture.channels() == 3) cv::cvtColor(picture, picture, cv::COLOR_BGR2RGB);
   if (!picture.isContinuous()) picture = picture.clone();
@@ -95,8 +92,7 @@ class StillClip final : public Clip {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     for (const std::filesystem::path& file : files) {
       const std::uint64_t count = is_tiff(file) ? TiffReader::count_pages(file) : 1;
-      for (std::uint64_t number = 1; number <= count; ++number)
-        pages_.push_back({file, number, count});
+      for (std::uint64_t number = 1; number <= count; ++number) pages_.push_back({file, number, count});
     }
     first_ = read_page(pages_.front());
     first_maximum_ = first_.maximum;
@@ -131,9 +127,7 @@ class StillClip final : public Clip {
   }
 
  private:
-  static bool is_tiff(const std::filesystem::path& file) {
-    return has_extension(file, {".tif", ".tiff"});
-  }
+  static bool is_tiff(const std::filesystem::path& file) { return has_extension(file, {".tif", ".tiff"}); }
 
   Still read_page(const Page& page) {
     if (has_extension(page.file, {".pgm", ".ppm", ".pnm"})) return read_netpbm_still(page.file);
@@ -147,17 +141,14 @@ class StillClip final : public Clip {
   void check_like_first(const Still& still, const Page& page) const {
     const CaptureFormat& capture = info_.format;
     const bool same_white = white_is_stated_ || still.maximum == first_maximum_;
-    if (still.shape == capture.shape && still.code_bytes == capture.code_bytes && same_white)
-      return;
-    const auto text = [](const Shape& shape, std::uint32_t code_bytes,
-                         std::optional<std::uint32_t> maximum) {
+    if (still.shape == capture.shape && still.code_bytes == capture.code_bytes && same_white) return;
+    const auto text = [](const Shape& shape, std::uint32_t code_bytes, std::optional<std::uint32_t> maximum) {
       return format("{} x {} {} of {} bits{}", shape.width, shape.height,
                     shape.channels == 1 ? "grey" : "colour", code_bytes * 8,
                     maximum ? format(", white code {}", *maximum) : "");
     };
-    throw InputError(format("{} is {}; the first still, {}, is {}. All must be alike{}",
-                            page.name(), text(still.shape, still.code_bytes, still.maximum),
-                            pages_.front().file.string(),
+    throw InputError(format("{} is {}; the first still, {}, is {}. All must be alike{}", page.name(),
+                            text(still.shape, still.code_bytes, still.maximum), pages_.front().file.string(),
                             text(capture.shape, capture.code_bytes, first_maximum_),
                             same_white ? "; name those that are with a pattern: 'frame*.png'"
                                        : ", or say what is white with --white"));
