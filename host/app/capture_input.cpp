@@ -1,10 +1,10 @@
 #include "app/capture_input.hpp"
 
 #include <charconv>
-#include <fstream>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/mapped_file.hpp"
 #include "tik/header.hpp"
 
 namespace nutik::app {
@@ -41,13 +41,8 @@ RawVideo parse_raw_video(const std::string& text) {
 }  // namespace
 
 bool is_tik(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::array<char, 16> start{};
-  in.read(start.data(), start.size());
-  if (tik::looks_like_tik(std::as_bytes(std::span(start.data(), static_cast<std::size_t>(in.gcount()))))) {
-    return true;
-  }
-  return path.extension() == ".tik";
+  const std::string start = first_bytes(path);
+  return tik::looks_like_tik(std::as_bytes(std::span(start))) || path.extension() == ".tik";
 }
 
 SourceOptions SourceOptions::from(const Options& options) {

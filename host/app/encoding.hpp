@@ -1,4 +1,5 @@
-// Turns a clip into a capture file: three stages side by side, so that decoding never waits for the disk.
+// Turns a clip into a capture file: three stages side by side, so that decoding goes on while a block is closed,
+// packed and written.
 //
 //   this thread     decodes samples               │ rasters, reused
 //   a second        builds blocks from them       │ payloads, reused

@@ -68,7 +68,7 @@ std::span<const Command> commands() {
        run_info},
       {Id::devices, "devices", "", "List the OpenCL devices that --device can choose from.",
        "nutik-cl devices", run_devices},
-      {Id::recover, "recover", "DAMAGED.tik [WHOLE.tik]",
+      {Id::recover, "recover", "DAMAGED.tik WHOLE.tik",
        "Save the whole blocks of a .tik file that was cut off.", "nutik-cl recover damaged.tik -o whole.tik",
        run_recover},
   };
@@ -130,7 +130,7 @@ std::span<const Option> options() {
              &Options::live),
 
       valued(0, "renderer", "NAME", kComputing,
-             "opencl, or reference: one thread of plain double precision, slow (default: opencl)", kExpose,
+             "opencl, or reference: plain double precision on the processor, slow (default: opencl)", kExpose,
              &Options::renderer),
       valued(0, "device", "NAME", kComputing,
              "OpenCL device by number or part of its name; NUTIK_DEVICE does the same (default: the first "

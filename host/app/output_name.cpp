@@ -1,23 +1,15 @@
 #include "app/output_name.hpp"
 
-#include <array>
-#include <fstream>
 #include <string_view>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
+#include "system/mapped_file.hpp"
 #include "tik/header.hpp"
 
 namespace nutik::app {
 namespace {
-
-std::string first_bytes(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::array<char, 16> bytes{};
-  in.read(bytes.data(), bytes.size());
-  return {bytes.data(), static_cast<std::size_t>(in.gcount())};
-}
 
 bool is_tik_content(const std::string& bytes) { return tik::looks_like_tik(std::as_bytes(std::span(bytes))); }
 

@@ -94,6 +94,8 @@ Exposure plain_interval(std::string_view start, std::string_view exposure, const
     interval.end_ns = interval.start_ns +
                       (count > 0 ? periods_ns(interval.start_ns, count, timeline) : length.nanoseconds());
   }
+  // Nothing behind the capture's end is exposed; GainFunction could not even hold some of these times.
+  interval.end_ns = std::min(interval.end_ns, std::max(timeline.duration_ns() + 1, interval.start_ns + 1));
   if (interval.end_ns <= interval.start_ns) {
     throw UsageError(format("exposure '{}' is shorter than a nanosecond", exposure));
   }

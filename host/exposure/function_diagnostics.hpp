@@ -1,10 +1,8 @@
-// What is wrong with a function file: for each mistake its place, what is wrong, what would be
-// right, and the line.
+// What is wrong with a function file: for each mistake its place, what is wrong, what would be right, and
+// the line.
 //
-//   always:  in the order of the text; of each severity at most kMostShown are kept, the first in
-//   the
-//            file, and the others are counted: a file of a million mistakes costs no more than one
-//            of 20
+//   always:  in the order of the text; of each severity at most kMostShown are kept, the first in the
+//            file, and the others are counted: a file of a million mistakes costs no more than one of 20
 #pragma once
 
 #include <array>

@@ -12,7 +12,7 @@
 
 namespace nutik {
 
-// No time lies further from the start of a capture (127 years), so that differences of times fit.
+// No time lies further from the start of a capture (126 years), so that differences of times fit.
 inline constexpr std::int64_t kLargestTimeNs = 4'000'000'000'000'000'000;
 
 struct ControlPoint {

@@ -48,6 +48,7 @@ class Clip {
  public:
   virtual ~Clip() = default;
 
+  // Does not change once the clip is open; may be asked for while another thread reads.
   [[nodiscard]] virtual const ClipInfo& info() const = 0;
 
   // Reads the next sample into `raster`, of info().format.sample_bytes(). Returns false at the end.

@@ -9,14 +9,13 @@
 namespace nutik {
 
 // The files that `path` stands for where it is a sequence of stills or a single still:
-//   a folder            every picture in it that is not hidden, in the order a person counts (2
-//   before
+//   a folder            every picture in it that is not hidden, in the order a person counts (2 before
 //                       10); all must be of one kind of file
-//   `frames/*.png`      every file that matches (*, ? and [a-z], as shells have them), in that
-//   order `frame%04d.png`     numbered files as printf writes them, from the lowest number on a
-//   picture           that file (a TIFF may hold several pictures)
-// Empty optional: `path` is none of these (a video, presumably). Throws InputError where it is one
-// but no file is there, or numbers of a numbered sequence are missing.
+//   `frames/*.png`      every file that matches (*, ? and [a-z], as shells have them), in that order
+//   `frame%04d.png`     numbered files as printf writes them, from the lowest number on
+//   a picture           that file (a TIFF may hold several pictures)
+// Empty optional: `path` is none of these (a video, presumably). Throws InputError where it is one but no
+// file is there, or numbers of a numbered sequence are missing.
 [[nodiscard]] std::optional<std::vector<std::filesystem::path>> list_stills(
     const std::filesystem::path& path);
 

@@ -39,7 +39,7 @@ std::string list_text(std::span<const DeviceInfo> devices) {
   return text;
 }
 
-// Clang's and the Khronos headers' names for the codes that people meet.
+// The names of the error codes that people meet.
 std::string error_name(cl_int code) {
   switch (code) {
     case CL_DEVICE_NOT_FOUND: return "CL_DEVICE_NOT_FOUND";

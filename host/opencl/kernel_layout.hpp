@@ -30,5 +30,6 @@ struct LightScale {
   Real first;
   Real second;
 };
+static_assert(sizeof(LightScale<float>) == 2 * sizeof(float) && sizeof(LightScale<double>) == 2 * sizeof(double));
 
 }  // namespace nutik

@@ -72,6 +72,19 @@ bool has_fma(const cl::Device& device, bool single) {
   return (config & CL_FP_FMA) != 0;
 }
 
+// Buffers made in a scope no longer count when it ends.
+class HeldBytes {
+ public:
+  explicit HeldBytes(std::uint64_t& held) : held_(held), before_(held) {}
+  ~HeldBytes() { held_ = before_; }
+  HeldBytes(const HeldBytes&) = delete;
+  HeldBytes& operator=(const HeldBytes&) = delete;
+
+ private:
+  std::uint64_t& held_;
+  std::uint64_t before_;
+};
+
 }  // namespace
 
 class OpenClRenderer::Implementation {
@@ -127,6 +140,7 @@ class OpenClRenderer::Implementation {
   Picture render_as(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
     statistics_ = {};
     held_bytes_ = 0;
+    pending_bytes_ = 0;  // a render that failed may have left some
     const FunctionMap map = map_functions(plan);
     const cl::Buffer function_of_lane = upload(map.of_lane);
     const cl::Buffer sums = expose<Real>(plan, source, map, function_of_lane);
@@ -192,6 +206,7 @@ class OpenClRenderer::Implementation {
       queue_.enqueueFillBuffer(sums, Real{0}, 0, sum_bytes);
       return sums;
     }
+    const HeldBytes scope(held_bytes_);  // of what is not the picture
     const bool permutes = shape_.lanes == kLightPieces && info_.native_float_lanes >= kLightPieces;
     const LightSource light = light_source(plan.capture, options_.precision, permutes);
     const cl::Program program = programs_->get(
@@ -210,6 +225,7 @@ class OpenClRenderer::Implementation {
 
     bool first = true;
     for (std::size_t b = 0; b < plan.blocks.size();) {
+      const HeldBytes chunk_scope(held_bytes_);
       const auto start = std::chrono::steady_clock::now();
       const Chunk chunk = next_chunk(plan, source, b);
       statistics_.read_ms +=
@@ -223,7 +239,6 @@ class OpenClRenderer::Implementation {
       statistics_.expose_ms += milliseconds(event);
       statistics_.blocks += chunk.entries.size();
       ++statistics_.launches;
-      held_bytes_ -= chunk.bytes;
       first = false;
       b += chunk.entries.size();
     }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 
 namespace nutik {
 
@@ -21,5 +22,8 @@ class MappedFile {
  private:
   std::span<const std::byte> bytes_;
 };
+
+// The first 16 bytes of a regular file, or all it has; of anything else (a pipe would never end), none.
+[[nodiscard]] std::string first_bytes(const std::filesystem::path& path);
 
 }  // namespace nutik

@@ -1,8 +1,7 @@
 // How FFmpeg's pictures become rasters of codes.
 //
 //   grey      as stored: 8, 9, 10, 12, 14 or 16 bits, code for code
-//   colour    8 bits as 8-bit RGB, deeper as RGB over the full 16-bit range, YUV by the matrix and
-//   range
+//   colour    8 bits as 8-bit RGB, deeper as RGB over the full 16-bit range, YUV by the matrix and range
 //             that the picture names (BT.601 and limited range where it names none)
 // Transparency is left out.
 #pragma once

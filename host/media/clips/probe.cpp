@@ -128,8 +128,7 @@ void add_cine_header(const CineHeader& header, const AVStream& stream, Probe& re
   if (header.is_packed) {
     result.notes.push_back(
         "the codes are packed into 10 bits, for which Phantom cameras compress their range by a "
-        "curve of their own: light is then not proportional to the codes; state with --transfer "
-        "what "
+        "curve of their own: light is then not proportional to the codes; state with --transfer what "
         "comes near it");
   }
 }
