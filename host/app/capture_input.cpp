@@ -67,6 +67,12 @@ SourceOptions SourceOptions::from(const Options& options) {
 
 SourceClip open_source(const std::filesystem::path& path, const SourceOptions& options) {
   SourceClip source;
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && std::filesystem::is_other(status)) {
+    throw InputError(format("{} is no regular file: a clip is read more than once; save the stream to a file first",
+                            path.string()));
+  }
   source.clip = open_clip(path, options.clip);
   source.capture = source.clip->info().format;
   source.capture.noise = options.noise;
@@ -79,6 +85,11 @@ SourceClip open_source(const std::filesystem::path& path, const SourceOptions& o
     source.capture.white_code = *options.clip.white_code;
   }
   source.block_samples = options.block_samples.value_or(default_block_samples(source.capture));
+  // A block takes memory for the samples it may hold: no more than there are.
+  const std::uint64_t announced = source.clip->info().sample_count;
+  if (announced != 0 && announced < source.block_samples) {
+    source.block_samples = static_cast<std::uint32_t>(announced);
+  }
   return source;
 }
 

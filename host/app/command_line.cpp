@@ -39,6 +39,9 @@ Scan scan(std::span<const std::string> words) {
   scan.operands_end = words.size();
   const auto take = [&](const Option* option, const std::string& word, bool has_value, std::size_t& i) {
     if (option == nullptr) fail_unknown_option(word);
+    if (!option->value.empty() && scan.has(option->long_name)) {
+      throw UsageError(format("{} is given twice", option->display_name()));
+    }
     scan.options.push_back(option);
     if (option->value.empty()) {
       if (has_value) throw UsageError(format("{} takes no value", option->display_name()));
@@ -88,6 +91,17 @@ bool ends_with_tik(const std::string& word) {
   return word.size() >= 4 && word.compare(word.size() - 4, 4, ".tik") == 0;
 }
 
+// A first word that names no file and looks like no file's name was meant as a command.
+void fail_misspelt_command(const std::string& word) {
+  std::error_code error;
+  const bool is_word = word.find_first_of("./*?%[") == std::string::npos;
+  if (!is_word || std::filesystem::exists(word, error)) return;
+  std::vector<std::string> known;
+  for (const Command& command : commands()) known.push_back(std::string(command.name));
+  throw UsageError(format("there is no file and no command '{}'{}; see nutik-cl --help", word,
+                          did_you_mean(word, known)));
+}
+
 // The paper's forms: no command, only what belongs to it.
 const Command& shorthand(const Scan& scan, std::span<const std::string> words) {
   const bool exposes = scan.has("functions") || scan.has("start") || scan.has("exposure");
@@ -100,6 +114,7 @@ const Command& shorthand(const Scan& scan, std::span<const std::string> words) {
   if (scan.operands.empty()) {
     throw UsageError("a clip or a capture is missing: nutik-cl clip.mp4 clip.tik");
   }
+  fail_misspelt_command(first);
   if (scan.operands.size() == 1 && !scan.has("output")) {
     if (ends_with_tik(first) && scan.options.size() == scan.has("quiet")) return command(CommandId::info);
     if (ends_with_tik(first)) {

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "capture/error.hpp"
+
 namespace nutik::app {
 namespace {
 
@@ -16,5 +18,11 @@ void print_line(const std::string& text) { write_line(stdout, "", text); }
 void print_warning(const std::string& text) { write_line(stderr, "warning: ", text); }
 void print_error(const std::string& text) { write_line(stderr, "nutik-cl: ", text); }
 void print_note(const std::string& text) { write_line(stderr, "", text); }
+
+void flush_output() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw OutputError("standard output cannot be written");
+  }
+}
 
 }  // namespace nutik::app

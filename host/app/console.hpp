@@ -10,4 +10,7 @@ void print_warning(const std::string& text);  // to stderr, behind "warning: "
 void print_error(const std::string& text);    // to stderr, behind "nutik-cl: "
 void print_note(const std::string& text);     // to stderr
 
+// Throws OutputError where standard output could not be written, to a full disk for example.
+void flush_output();
+
 }  // namespace nutik::app

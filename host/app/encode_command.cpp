@@ -40,7 +40,10 @@ int run_encode(const Options& options) {
   Encoding encoding(std::move(source), source_options, codec, input, output);
   Progress progress("encoding", info.sample_count, options.quiet);
   const Timeline timeline = encoding.run(progress);
-  if (options.quiet) return 0;
+  if (options.quiet) {
+    if (!options.output && options.operands.size() < 2) print_line(output.string());  // a name that nobody gave
+    return 0;
+  }
 
   const CaptureFormat& capture = encoding.source().capture;
   print_line(format("{}: {}, {} samples, {}, {} of {} raw, {:.2f} s", output.string(),

@@ -125,9 +125,11 @@ std::vector<std::string> input_names(const Options& options) {
   return inputs;
 }
 
-// `, still gain M0 1, M128 0.25`; nothing for a plain interval, whose gain is 1.
+// `, still gain M0 1, M128 0.25`, or without a tag for a plain interval.
 std::string still_gains_text(const RenderPlan& plan, bool plain) {
-  if (plain) return {};
+  if (plain && !plan.functions.empty()) {
+    return format(", still gain {:.6g}", plan.functions.front().summary.still_gain());
+  }
   std::string text = ", still gain";
   for (std::size_t f = 0; f < std::min(plan.functions.size(), kFunctionsInSummary); ++f) {
     const PlannedFunction& function = plan.functions[f];
@@ -172,7 +174,10 @@ int run_expose(const Options& options) {
   for (const std::string& warning : exposed.plan.warnings) print_warning(warning);
   warn_of_negative_gains(exposed);
   write_picture(output, exposed.picture);
-  if (options.quiet) return 0;
+  if (options.quiet) {
+    if (!stated) print_line(output.string());  // a name that nobody gave
+    return 0;
+  }
 
   const RenderPlan& plan = exposed.plan;
   print_line(format("{}: {}, {} of {} samples{}, {:.2f} s on {}", output.string(),

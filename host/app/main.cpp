@@ -23,7 +23,9 @@ int main(int argc, char** argv) {
   try {
     const std::vector<std::string> words(argv + 1, argv + argc);
     const nutik::app::ParsedCommandLine parsed = nutik::app::parse_command_line(words);
-    return parsed.command == nullptr ? kOk : parsed.command->run(parsed.options);
+    const int status = parsed.command == nullptr ? kOk : parsed.command->run(parsed.options);
+    nutik::app::flush_output();
+    return status;
   } catch (const nutik::UsageError& error) {
     return fail(error, kUsage);
   } catch (const nutik::InputError& error) {

@@ -44,8 +44,11 @@ std::optional<std::filesystem::path> stated_output(const std::optional<std::stri
   if (option && operands.size() == 2) {
     throw UsageError(format("two outputs: -o {} and {}; leave one out", *option, operands[1]));
   }
-  if (option) return *option;
-  if (operands.size() == 2) return operands[1];
+  for (const auto* name : {option ? &*option : nullptr, operands.size() == 2 ? &operands[1] : nullptr}) {
+    if (name == nullptr) continue;
+    if (name->empty()) throw UsageError("the output's name is empty");
+    return *name;
+  }
   return std::nullopt;
 }
 

@@ -37,8 +37,11 @@ GainFunction GainFunction::boxcar(std::int64_t begin_ns, std::int64_t end_ns, do
 namespace {
 
 // The gain at a time within a piece, to the last place: the numerator gain·time + gain·time is summed
-// from exact products of factors that fit a double.
+// from exact products of factors that fit a double. Gains are scaled by a power of two, lest a product overflows.
 double interpolate_exactly(const GainPiece& piece, std::int64_t time_ns) {
+  const double largest = std::max(std::fabs(piece.begin_gain), std::fabs(piece.end_gain));
+  if (largest == 0.0) return 0.0;
+  const int exponent = std::ilogb(largest);
   CompensatedSum numerator;
   const auto add_product = [&](double gain, std::int64_t factor_ns) {
     const std::int64_t low = factor_ns & 0xFFFF'FFFF;
@@ -49,9 +52,9 @@ double interpolate_exactly(const GainPiece& piece, std::int64_t time_ns) {
       numerator.add(std::fma(gain, factor, -product));
     }
   };
-  add_product(piece.begin_gain, piece.end_ns - time_ns);
-  add_product(piece.end_gain, time_ns - piece.begin_ns);
-  return numerator.value() / static_cast<double>(piece.end_ns - piece.begin_ns);
+  add_product(std::scalbn(piece.begin_gain, -exponent), piece.end_ns - time_ns);
+  add_product(std::scalbn(piece.end_gain, -exponent), time_ns - piece.begin_ns);
+  return std::scalbn(numerator.value() / static_cast<double>(piece.end_ns - piece.begin_ns), exponent);
 }
 
 }  // namespace
@@ -133,6 +136,7 @@ GainSummary summarize(const GainFunction& function, std::int64_t duration_ns) {
     summary.reaches_before_capture |= points[i].time_ns < 0;
     summary.reaches_after_capture |= points[i + 1].time_ns > duration_ns;
   }
+  summary.exposes_from_the_start = function.first_gain() != 0.0 && points.front().time_ns > 0;
   summary.exposes_to_the_end = function.last_gain() != 0.0 && points.back().time_ns < duration_ns;
   return summary;
 }

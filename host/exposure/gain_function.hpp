@@ -80,6 +80,7 @@ struct GainSummary {
   // Parts between control points that are not zero and lie outside the domain, where they do not count.
   bool reaches_before_capture = false;
   bool reaches_after_capture = false;
+  bool exposes_from_the_start = false;  // held at a gain that is not zero from the capture's start on
   bool exposes_to_the_end = false;  // held at a gain that is not zero up to the end of the capture
 
   // What a still scene is multiplied by: ∫g / D; 0 where D is 0.

@@ -47,12 +47,16 @@ void warn(RenderPlan& plan, const PlannedFunction& function, bool was_unmapped,
   if (summary.reaches_after_capture) {
     say(format("parts that are not zero lie after the capture's end at {:.6g} s and do not count", seconds));
   }
-  if (summary.exposes_to_the_end) {
-    say(
-        format("the last gain, {}, holds to the end of the capture at {:.6g} s; end the function with a "
-               "gain of 0 if it should stop",
-               function.function.last_gain(), seconds));
+  // One warning for both ends: a function that means to expose a moment is not zero on either side of it.
+  std::string held;
+  if (summary.exposes_from_the_start) {
+    held = format("the first gain, {}, holds from the start of the capture", function.function.first_gain());
   }
+  if (summary.exposes_to_the_end) {
+    held += format("{}the last gain, {}, holds to the end of the capture at {:.6g} s", held.empty() ? "" : ", and ",
+                   function.function.last_gain(), seconds);
+  }
+  if (!held.empty()) say(held + "; put a gain of 0 beside it if it should not");
 }
 
 SampleRange live_samples(const GainSummary& summary, const Timeline& timeline, const PlanOptions& options) {

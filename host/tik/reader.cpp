@@ -159,8 +159,9 @@ void Reader::read(std::uint64_t block, std::span<std::byte> into) {
     return;
   }
   const BlockGeometry geometry(header_.capture, index_[block].sample_count);
+  const std::span<const std::byte> stored = stored_payload(block);
   try {
-    unpack(static_cast<CodecId>(index_[block].codec), geometry, stored_payload(block), into);
+    unpack(static_cast<CodecId>(index_[block].codec), geometry, stored, into);
   } catch (const InputError& error) {
     fail_block(block, error.what());
   }
@@ -168,8 +169,9 @@ void Reader::read(std::uint64_t block, std::span<std::byte> into) {
 
 std::vector<TileEntry> Reader::directory(std::uint64_t block) const {
   const BlockGeometry geometry(header_.capture, index_[block].sample_count);
+  const std::span<const std::byte> stored = stored_payload(block);
   try {
-    return unpack_directory(static_cast<CodecId>(index_[block].codec), geometry, stored_payload(block),
+    return unpack_directory(static_cast<CodecId>(index_[block].codec), geometry, stored,
                             index_[block].payload_bytes);
   } catch (const InputError& error) {
     fail_block(block, error.what());

@@ -53,6 +53,29 @@ TEST_F(CommandLine, TakesThePapersForms) {
   EXPECT_TRUE(exists("b-two.png"));
 }
 
+TEST_F(CommandLine, NamesWhatWasMeant) {
+  expect_refused({"encod", "clip.avi", "x.tik"}, 2, "there is no file and no command 'encod'; did you mean encode?");
+  expect_refused({"frobnicate"}, 2, "there is no file and no command 'frobnicate'");
+  expect_refused({"-f", "25", "--fps", "30", "clip.avi", "x.tik"}, 2, "-f is given twice");
+  expect_refused({"--start", "0s", "--exposure", "1f", "-o", "", "clip.tik"}, 2, "the output's name is empty");
+  ASSERT_EQ(test::run_shell("mkfifo pipe", scratch_.folder()).status, 0);
+  expect_refused({"pipe", "x.tik"}, 3, "pipe is no regular file");
+}
+
+TEST_F(CommandLine, SaysTheNameThatNobodyGave) {
+  EXPECT_EQ(run({"-q", "-k", "one.fn", "clip.tik"}).out, "clip-one.png\n");
+  EXPECT_EQ(run({"-q", "-k", "one.fn", "clip.tik", "named.png"}).out, "");
+  EXPECT_EQ(run({"encode", "-q", "clip.avi"}).out, "clip.tik\n");
+}
+
+TEST_F(CommandLine, ReportsHowAnExposureWasComputed) {
+  const ProgramResult result = run({"-v", "--start", "0s", "--exposure", "3f", "clip.tik", "out.png"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find(", still gain 1,"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("1 blocks of "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(" MB on the device"), std::string::npos) << result.out;
+}
+
 TEST_F(CommandLine, SaysWhatACaptureHolds) {
   const ProgramResult info = run({"info", "clip.tik", "--activity", "map.png"});
   EXPECT_EQ(info.status, 0) << info.err;

@@ -116,5 +116,13 @@ TEST(GainFunction, JumpsWhereTwoPointsShareATime) {
   EXPECT_EQ(summary.live, (Interval{100, 200}));
 }
 
+// Gains near the largest number a double holds, cut where the capture ends: gain times time would overflow.
+TEST(GainFunction, HoldsHugeGainsAtTheCapturesEnd) {
+  const GainFunction function({{0, 1e300}, {500'000'000, 1e300}, {500'000'001, 0.0}});
+  EXPECT_DOUBLE_EQ(summarize(function, 33'333'333).still_gain(), 1e300);
+  const GainFunction ramp({{0, 0.0}, {1'000'000'000, 1.6e308}});
+  EXPECT_DOUBLE_EQ(summarize(ramp, 500'000'000).still_gain(), 0.4e308);
+}
+
 }  // namespace
 }  // namespace nutik
