@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <type_traits>
@@ -101,7 +102,9 @@ inline __attribute__((always_inline)) std::uint64_t step_tile(const TileStep& st
   Lanes now[Channels], held[Channels], differs{};
   std::memcpy(now, codes, sizeof now);
   std::memcpy(held, step.held, sizeof held);
-  const auto limit = static_cast<Code>(step.tolerance);
+  // No distance is above the largest code: a larger tolerance means the same, but would not fit.
+  const auto limit =
+      static_cast<Code>(std::min<std::uint32_t>(step.tolerance, std::numeric_limits<Code>::max()));
   for (std::uint32_t channel = 0; channel < Channels; ++channel) {
     const Lanes distance =
         now[channel] > held[channel] ? now[channel] - held[channel] : held[channel] - now[channel];

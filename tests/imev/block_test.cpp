@@ -59,6 +59,29 @@ TEST(Block, HoldsWhatTheDefinitionSays) {
   }
 }
 
+// No two codes of 8 bits differ by more than 255, none of 16 bits by more than 65535: from there on nothing
+// changes, however large the tolerance.
+TEST(Block, ToleratesWhateverATolerancePermits) {
+  struct Case {
+    std::uint32_t code_bytes, tolerance;
+    bool changes;
+  };
+  for (const Case& each :
+       {Case{1, 254, true}, Case{1, 255, false}, Case{1, 256, false}, Case{1, 300, false},
+        Case{2, 65'534, true}, Case{2, 65'535, false}, Case{2, 65'536, false}, Case{2, 65'836, false}}) {
+    CaptureFormat capture;
+    capture.shape = {9, 8, 3};
+    capture.code_bytes = each.code_bytes;
+    capture.white_code = each.code_bytes == 1 ? 255 : 65'535;
+    capture.noise.tolerance = each.tolerance;
+    const Rasters rasters{std::vector<std::byte>(capture.sample_bytes(), std::byte{0}),
+                          std::vector<std::byte>(capture.sample_bytes(), std::byte{0xFF})};
+    const MemoryCapture encoded(capture, Timeline::constant({100, 1}, Timeline::kFullShutter, 2), rasters, 2);
+    EXPECT_EQ(sample_of(encoded, 1), rasters[each.changes ? 1 : 0])
+        << each.code_bytes << " bytes, tolerance " << each.tolerance;
+  }
+}
+
 TEST(Block, GivesASourceBackExactlyAtToleranceZero) {
   for (std::uint64_t seed = 200; seed < 260; ++seed) {
     RandomCase random(seed);
