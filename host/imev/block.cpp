@@ -19,10 +19,6 @@ std::uint32_t read_unsigned(const std::byte* at, std::uint32_t bytes) {
 
 BlockView::BlockView(const CaptureFormat& capture, BlockExtent extent, std::span<const std::byte> payload)
     : shape_(capture.shape), extent_(extent), geometry_(capture, extent.sample_count), payload_(payload) {
-  const auto fail = [&](const std::string& why) {
-    throw InputError(format("the block of samples {} to {} is damaged: {}", extent_.first_sample,
-                            extent_.range().last - 1, why));
-  };
   if (extent.sample_count == 0) fail("it holds no sample");
   if (payload.size() < geometry_.directory_bytes()) {
     fail(format("its {} bytes end within the tile directory of {}", payload.size(),
@@ -40,6 +36,11 @@ BlockView::BlockView(const CaptureFormat& capture, BlockExtent extent, std::span
   }
 }
 
+void BlockView::fail(const std::string& why) const {
+  throw InputError(format("the block of samples {} to {} is damaged: {}", extent_.first_sample,
+                          extent_.range().last - 1, why));
+}
+
 TileEntry BlockView::entry(std::uint64_t tile) const {
   TileEntry at;
   std::memcpy(&at, payload_.data() + tile * sizeof at, sizeof at);
@@ -51,10 +52,9 @@ std::span<const std::byte> BlockView::body(std::uint64_t tile) const {
   return payload_.subspan(at.offset * kBlockAlignment, geometry_.body_bytes(at));
 }
 
-// Clamped, as the kernels clamp it: a crafted file must not make anything read outside its tables.
 std::uint32_t BlockView::index_at(const std::byte* list, std::uint64_t position) const {
   const std::uint32_t bytes = geometry_.index_bytes();
-  return std::min(read_unsigned(list + position * bytes, bytes), geometry_.sample_count);
+  return read_unsigned(list + position * bytes, bytes);
 }
 
 ChangeRecord BlockView::record_at(std::uint32_t sample, const std::byte* codes, std::uint32_t lane) const {
@@ -67,6 +67,8 @@ ChangeRecord BlockView::record_at(std::uint32_t sample, const std::byte* codes, 
   return record;
 }
 
+// The checksums of a crafted file are right, and the directory says nothing about sample numbers: here they
+// are checked, so that whoever looks them up in a table of the block's samples needs no care of their own.
 void BlockView::read_history(std::uint64_t tile, std::uint32_t lane,
                              std::vector<ChangeRecord>& history) const {
   history.clear();
@@ -74,18 +76,32 @@ void BlockView::read_history(std::uint64_t tile, std::uint32_t lane,
   const std::byte* bytes = body(tile).data();
   if (at.is_records()) {
     history.push_back(record_at(0, bytes, lane));
+    std::uint32_t before = 0;
     for (std::uint32_t slot = 0; slot < at.slots(); ++slot) {
       const std::byte* index = bytes + geometry_.row_bytes() + slot * geometry_.slot_bytes();
       const std::uint32_t sample = index_at(index, lane);
-      if (sample >= geometry_.sample_count) break;
-      history.push_back(record_at(sample, index + kTilePixels * geometry_.index_bytes(), lane));
+      const bool is_padding = sample == geometry_.sample_count;
+      if (sample > geometry_.sample_count || (sample <= before && !is_padding)) {
+        fail(format("tile {}, pixel {}: its change record {} is at sample {} of {}, the one before at {}",
+                    tile, lane, slot, sample, geometry_.sample_count, before));
+      }
+      before = sample;
+      if (!is_padding)
+        history.push_back(record_at(sample, index + kTilePixels * geometry_.index_bytes(), lane));
     }
     return;
   }
-  const std::uint64_t index_bytes = geometry_.row_index_bytes(at.rows());
+  const std::uint64_t list_bytes = geometry_.row_index_bytes(at.rows());
+  std::uint32_t before = 0;
   for (std::uint32_t row = 0; row < at.rows(); ++row) {
-    const std::uint32_t sample = index_bytes == 0 ? row : index_at(bytes, row);
-    const ChangeRecord record = record_at(sample, bytes + index_bytes + row * geometry_.row_bytes(), lane);
+    const std::uint32_t sample = list_bytes == 0 ? row : index_at(bytes, row);
+    if (row == 0 ? sample != 0 : sample <= before || sample >= geometry_.sample_count) {
+      fail(row == 0 ? format("tile {}: its first row is at sample {}, not 0", tile, sample)
+                    : format("tile {}: its row {} is at sample {} of {}, the one before at {}", tile, row,
+                             sample, geometry_.sample_count, before));
+    }
+    before = sample;
+    const ChangeRecord record = record_at(sample, bytes + list_bytes + row * geometry_.row_bytes(), lane);
     if (history.empty() || history.back().codes != record.codes) history.push_back(record);
   }
 }

@@ -27,6 +27,7 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "capture/picture.hpp"
@@ -126,13 +127,16 @@ class BlockView {
   [[nodiscard]] std::span<const std::byte> body(std::uint64_t tile) const;
 
   // What one pixel holds: its start (sample 0) followed by its change records in time order. Rows of a
-  // tile that leave the pixel's codes as they were are skipped. `history` is replaced.
+  // tile that leave the pixel's codes as they were are skipped. `history` is replaced. Sample numbers are
+  // those of the block and strictly increase; throws InputError where the payload's do not.
   void read_history(std::uint64_t tile, std::uint32_t lane, std::vector<ChangeRecord>& history) const;
 
   // The codes held at a sample of the block, as an interleaved raster of CaptureFormat::sample_bytes().
+  // Throws as read_history() does.
   void read_sample(std::uint32_t sample, std::span<std::byte> raster) const;
 
  private:
+  [[noreturn]] void fail(const std::string& why) const;
   [[nodiscard]] std::uint32_t index_at(const std::byte* list, std::uint64_t position) const;
   [[nodiscard]] ChangeRecord record_at(std::uint32_t sample, const std::byte* codes,
                                        std::uint32_t lane) const;

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "imev/capture_source.hpp"
 #include "support/random_case.hpp"
 
@@ -180,6 +181,102 @@ TEST(BlockView, RefusesADirectoryThatPointsOutside) {
   }
   EXPECT_THROW(BlockView(capture.format(), extent, std::span(payload).first(32)), InputError);
   EXPECT_NO_THROW(BlockView(capture.format(), extent, payload));
+}
+
+// One tile in a block of `samples` whose sample numbers are `indices`: of the rows of a rows tile, or of
+// every pixel's records in a records tile.
+class CraftedBlock {
+ public:
+  CraftedBlock(std::uint32_t samples, bool as_records, const std::vector<std::uint32_t>& indices)
+      : extent_{40, samples} {
+    capture_.shape = {8, 8, 1};
+    const BlockGeometry geometry(capture_, samples);
+    const auto count = static_cast<std::uint32_t>(indices.size());
+    const TileEntry entry{1, as_records ? count | TileEntry::kRecordsFlag : count};
+    payload_.resize(geometry.directory_bytes() + geometry.body_bytes(entry));
+    std::memcpy(payload_.data(), &entry, sizeof entry);
+    std::byte* at = payload_.data() + geometry.directory_bytes() + (as_records ? geometry.row_bytes() : 0);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      for (std::uint32_t lane = 0; lane < (as_records ? kTilePixels : 1); ++lane) {
+        std::memcpy(at, &indices[i], geometry.index_bytes());  // little-endian hosts
+        at += geometry.index_bytes();
+      }
+      if (as_records) at = std::fill_n(at, geometry.row_bytes(), static_cast<std::byte>(i + 1));
+    }
+    // Rows differ, or their sample numbers would not matter.
+    for (std::uint32_t i = 0; !as_records && i < count; ++i) {
+      std::byte* row = payload_.data() + payload_.size() - (count - i) * geometry.row_bytes();
+      std::fill_n(row, geometry.row_bytes(), static_cast<std::byte>(i));
+    }
+  }
+
+  // What reading pixel 63, or sample 1, ends with.
+  [[nodiscard]] std::string message() const {
+    const BlockView view(capture_, extent_, payload_);
+    std::string of_history, of_sample;
+    try {
+      std::vector<ChangeRecord> history;
+      view.read_history(0, 63, history);
+    } catch (const InputError& error) {
+      of_history = error.what();
+    }
+    try {
+      std::vector<std::byte> raster(64);
+      view.read_sample(1, raster);
+    } catch (const InputError& error) {
+      of_sample = error.what();
+    }
+    EXPECT_EQ(of_history.empty(), of_sample.empty()) << of_history << " | " << of_sample;
+    return of_history;
+  }
+
+ private:
+  CaptureFormat capture_;
+  BlockExtent extent_;
+  std::vector<std::byte> payload_;
+};
+
+TEST(BlockView, RefusesSampleNumbersThatARowsTileCannotHave) {
+  for (const std::uint32_t samples : {8u, 255u, 256u, 60'000u}) {
+    const std::uint32_t last = samples - 1;
+    const auto message = [&](const std::vector<std::uint32_t>& indices) {
+      return CraftedBlock(samples, false, indices).message();
+    };
+    EXPECT_EQ(message({0, 3, last}), "") << samples;
+    EXPECT_EQ(message({0}), "") << samples;
+    EXPECT_EQ(message({1, 3, last}), format("the block of samples 40 to {} is damaged: tile 0: its first row "
+                                            "is at sample 1, not 0",
+                                            39 + samples));
+    EXPECT_EQ(message({0, 3, 3}), format("the block of samples 40 to {} is damaged: tile 0: its row 2 is at "
+                                         "sample 3 of {}, the one before at 3",
+                                         39 + samples, samples));
+    for (const std::vector<std::uint32_t>& indices : std::vector<std::vector<std::uint32_t>>{
+             {last, 0}, {0, 0}, {0, 5, 4}, {0, samples, last}, {0, 3, samples}, {samples, samples}}) {
+      EXPECT_NE(message(indices).find("is damaged"), std::string::npos) << samples << " " << indices[1];
+    }
+  }
+}
+
+TEST(BlockView, RefusesSampleNumbersThatARecordsTileCannotHave) {
+  for (const std::uint32_t samples : {8u, 254u, 255u, 256u, 60'000u}) {
+    const std::uint32_t last = samples - 1;
+    const auto message = [&](const std::vector<std::uint32_t>& indices) {
+      return CraftedBlock(samples, true, indices).message();
+    };
+    EXPECT_EQ(message({1, 3, last}), "") << samples;
+    EXPECT_EQ(message({3, samples, samples}), "") << samples;
+    EXPECT_EQ(message({3, 2}),
+              format("the block of samples 40 to {} is damaged: tile 0, pixel 63: its change "
+                     "record 1 is at sample 2 of {}, the one before at 3",
+                     39 + samples, samples));
+    // At sample 0 the start is held already; behind the padding there is nothing more.
+    for (const std::vector<std::uint32_t>& indices : std::vector<std::vector<std::uint32_t>>{
+             {0, 3}, {3, 3}, {last, 1}, {samples, 1}, {samples, 0}, {3, samples, last}}) {
+      EXPECT_NE(message(indices).find("is damaged"), std::string::npos) << samples << " " << indices[0];
+    }
+    if (samples == 255) continue;  // no index of one byte is larger
+    EXPECT_NE(message({3, samples + 1}).find("is damaged"), std::string::npos) << samples;
+  }
 }
 
 }  // namespace
