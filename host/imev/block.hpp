@@ -23,6 +23,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -35,6 +36,10 @@
 #include "imev/tile.hpp"
 
 namespace nutik {
+
+// Payloads, headers and codes are copied between memory and files as they are.
+static_assert(std::endian::native == std::endian::little,
+              "files are little-endian and read without swapping");
 
 inline constexpr std::uint64_t kBlockAlignment = 64;
 
