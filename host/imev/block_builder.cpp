@@ -144,6 +144,32 @@ StepFunction step_function(const CaptureFormat& capture) {
   return capture.code_bytes == 1 ? step_colour8 : step_colour16;
 }
 
+// Whether the largest payload that a block of so many samples may come to stays within the limit. One tile
+// takes less than 2^26 bytes, so that only their number needs care.
+bool fits_payload(const CaptureFormat& capture, std::uint32_t samples, TilePolicy policy) {
+  const BlockGeometry geometry(capture, samples);
+  const std::uint64_t rows = std::max(geometry.rows_bytes(samples), geometry.rows_bytes(samples - 1));
+  // Chosen for their cost, records take fewer bytes than the rows would.
+  const std::uint64_t body = policy == TilePolicy::records ? geometry.records_bytes(samples - 1) : rows;
+  return geometry.tile_count <= kLargestPayloadBytes / (body + sizeof(TileEntry) + kBlockAlignment);
+}
+
+void check_block_samples(const CaptureFormat& capture, std::uint32_t samples, TilePolicy policy) {
+  if (samples == 0 || samples > kLargestBlockSamples) {
+    throw UsageError(format("a block of {} samples is outside 1 … {}", samples, kLargestBlockSamples));
+  }
+  if (fits_payload(capture, samples, policy)) return;
+  std::uint32_t fitting = 0, too_many = samples;
+  while (fitting + 1 < too_many) {
+    const std::uint32_t middle = std::midpoint(fitting, too_many);
+    (fits_payload(capture, middle, policy) ? fitting : too_many) = middle;
+  }
+  throw UsageError(format(
+      "a block of {} samples of {} x {} pixels may come to more than the {} GiB that a block can have; "
+      "use --block-samples {} or less",
+      samples, capture.shape.width, capture.shape.height, kLargestPayloadBytes >> 30, fitting));
+}
+
 }  // namespace
 
 // While a block is open each tile has room for a row per sample, in address space: [tile][row][C][64].
@@ -368,9 +394,7 @@ class BlockBuilder::Implementation {
 };
 
 BlockBuilder::BlockBuilder(const CaptureFormat& capture, std::uint32_t block_samples, TilePolicy policy) {
-  if (block_samples == 0 || block_samples > kLargestBlockSamples) {
-    throw UsageError(format("a block of {} samples is outside 1 … {}", block_samples, kLargestBlockSamples));
-  }
+  check_block_samples(capture, block_samples, policy);
   implementation_ = std::make_unique<Implementation>(capture, block_samples, policy);
 }
 

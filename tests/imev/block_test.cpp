@@ -164,6 +164,32 @@ TEST(BlockBuilder, RefusesCodesAboveWhite) {
   }
 }
 
+TEST(BlockBuilder, RefusesBlocksThatMayComeToMoreThanAnOffsetReaches) {
+  CaptureFormat capture;
+  capture.shape = {3840, 2160, 3};
+  capture.code_bytes = 2;
+  capture.white_code = 65'535;
+  const auto message = [&](std::uint32_t samples, TilePolicy policy) {
+    try {
+      BlockBuilder(capture, samples, policy);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing was thrown");
+  };
+  // 129600 tiles: 2120998 bytes each, less 72 for entry and padding. Of 5495 samples 5494 rows of 384 bytes
+  // and their index take 2120704, of one more 2121088.
+  EXPECT_EQ(
+      message(65'535, TilePolicy::automatic),
+      "a block of 65535 samples of 3840 x 2160 pixels may come to more than the 256 GiB that a block can "
+      "have; use --block-samples 5495 or less");
+  EXPECT_EQ(message(65'536, TilePolicy::automatic), "a block of 65536 samples is outside 1 … 65535");
+  // A slot has an index of 128 bytes too: 384 + 512 (n - 1) bytes, n = 4142.
+  EXPECT_NE(message(5495, TilePolicy::records).find("--block-samples 4142 or less"), std::string::npos);
+  capture.shape = {0xFFFF'FFF8, 0xFFFF'FFF8, 3};  // nearly 2^58 tiles: no product overflows
+  EXPECT_NE(message(65'535, TilePolicy::dense).find("256 GiB"), std::string::npos);
+}
+
 TEST(BlockView, RefusesADirectoryThatPointsOutside) {
   const auto everything = [](std::uint32_t k, std::vector<std::byte>& raster) {
     for (std::byte& code : raster) code = static_cast<std::byte>(k);
