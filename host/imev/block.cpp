@@ -17,6 +17,17 @@ std::uint32_t read_unsigned(const std::byte* at, std::uint32_t bytes) {
 
 }  // namespace
 
+std::string BlockGeometry::flaw_of(const TileEntry& entry) const {
+  if (entry.is_records()) {
+    if (entry.slots() < sample_count) return {};
+    return format("has {} change records a pixel; in {} samples there are at most {}", entry.slots(),
+                  sample_count, sample_count - 1);
+  }
+  if (entry.rows() == 0) return "has no row";
+  if (entry.rows() <= sample_count) return {};
+  return format("has {} rows; {} samples have at most as many", entry.rows(), sample_count);
+}
+
 BlockView::BlockView(const CaptureFormat& capture, BlockExtent extent, std::span<const std::byte> payload)
     : shape_(capture.shape), extent_(extent), geometry_(capture, extent.sample_count), payload_(payload) {
   if (extent.sample_count == 0) fail("it holds no sample");
@@ -26,9 +37,7 @@ BlockView::BlockView(const CaptureFormat& capture, BlockExtent extent, std::span
   }
   for (std::uint64_t tile = 0; tile < geometry_.tile_count; ++tile) {
     const TileEntry at = entry(tile);
-    const bool counted = at.is_records() ? at.slots() < extent.sample_count
-                                         : at.rows() >= 1 && at.rows() <= extent.sample_count;
-    if (!counted) fail(format("tile {} claims more change records than the block has samples", tile));
+    if (const std::string flaw = geometry_.flaw_of(at); !flaw.empty()) fail(format("tile {} {}", tile, flaw));
     const std::uint64_t end = at.offset * kBlockAlignment + geometry_.body_bytes(at);
     if (at.offset * kBlockAlignment < geometry_.directory_bytes() || end > payload.size()) {
       fail(format("tile {} lies outside its {} bytes", tile, payload.size()));

@@ -103,6 +103,9 @@ struct BlockGeometry {
   [[nodiscard]] std::uint64_t body_bytes(const TileEntry& entry) const {
     return entry.is_records() ? records_bytes(entry.slots()) : rows_bytes(entry.rows());
   }
+  // What is wrong with an entry that no tile of such a block can have ("has no row"); empty where it is
+  // possible. Says nothing about its offset.
+  [[nodiscard]] std::string flaw_of(const TileEntry& entry) const;
   [[nodiscard]] TileKind kind_of(const TileEntry& entry) const {
     if (entry.is_records()) return TileKind::records;
     if (entry.rows() == 1) return TileKind::still;

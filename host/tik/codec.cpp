@@ -164,9 +164,9 @@ StoredFront read_front(CodecId codec, const BlockGeometry& geometry, std::span<c
   for (std::size_t tile = 0; tile < entries.size(); ++tile) {
     entries[tile] = {static_cast<std::uint32_t>(offset / kBlockAlignment), counts[tile]};
     const TileEntry& entry = entries[tile];
-    const bool plausible = entry.is_records() ? entry.slots() < geometry.sample_count
-                                              : entry.rows() >= 1 && entry.rows() <= geometry.sample_count;
-    if (!plausible) fail_damaged();
+    if (const std::string flaw = geometry.flaw_of(entry); !flaw.empty()) {
+      throw InputError(format("tile {} {}", tile, flaw));
+    }
     offset += geometry.body_bytes(entry);
   }
   if (offset != payload_bytes) fail_damaged();

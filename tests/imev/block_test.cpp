@@ -209,6 +209,28 @@ TEST(BlockView, RefusesADirectoryThatPointsOutside) {
   EXPECT_NO_THROW(BlockView(capture.format(), extent, payload));
 }
 
+TEST(BlockView, TellsWhatATileCannotHave) {
+  const MemoryCapture capture =
+      one_tile(8, 8, TilePolicy::automatic, [](std::uint32_t, std::vector<std::byte>&) {});
+  const BlockView view = capture.view(0);
+  const auto message = [&](std::uint32_t count) {
+    std::vector<std::byte> damaged(view.payload().begin(), view.payload().end());
+    std::memcpy(damaged.data() + offsetof(TileEntry, count), &count, sizeof count);
+    try {
+      BlockView(capture.format(), view.extent(), damaged);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing was thrown");
+  };
+  const std::string block = "the block of samples 0 to 7 is damaged: tile 0 ";
+  EXPECT_EQ(message(1), "nothing was thrown");
+  EXPECT_EQ(message(0), block + "has no row");
+  EXPECT_EQ(message(9), block + "has 9 rows; 8 samples have at most as many");
+  EXPECT_EQ(message(8 | TileEntry::kRecordsFlag),
+            block + "has 8 change records a pixel; in 8 samples there are at most 7");
+}
+
 // One tile in a block of `samples` whose sample numbers are `indices`: of the rows of a rows tile, or of
 // every pixel's records in a records tile.
 class CraftedBlock {
