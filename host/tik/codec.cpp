@@ -6,6 +6,7 @@
 #include <atomic>
 #include <charconv>
 #include <cstring>
+#include <limits>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -22,10 +23,15 @@ constexpr int kUsualZstdLevel = 1;
 std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> plain) {
   std::vector<std::byte> packed;
   if (codec.id == CodecId::lz4) {
+    if (plain.size() > LZ4_MAX_INPUT_SIZE) {
+      throw OutputError(format("lz4 packs at most {} bytes at once, not {}; use codec zstd",
+                               LZ4_MAX_INPUT_SIZE, plain.size()));
+    }
     packed.resize(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(plain.size()))));
     const int bytes = LZ4_compress_default(reinterpret_cast<const char*>(plain.data()),
                                            reinterpret_cast<char*>(packed.data()),
                                            static_cast<int>(plain.size()), static_cast<int>(packed.size()));
+    if (bytes <= 0) throw OutputError(format("lz4 failed to pack {} bytes", plain.size()));
     packed.resize(static_cast<std::size_t>(bytes));
   } else {
     packed.resize(ZSTD_compressBound(plain.size()));
@@ -39,6 +45,8 @@ std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> p
 
 bool decompress(CodecId codec, std::span<const std::byte> packed, std::span<std::byte> plain) {
   if (codec == CodecId::lz4) {
+    constexpr std::size_t kLargest = std::numeric_limits<int>::max();
+    if (packed.size() > kLargest || plain.size() > LZ4_MAX_INPUT_SIZE) return false;
     return LZ4_decompress_safe(reinterpret_cast<const char*>(packed.data()),
                                reinterpret_cast<char*>(plain.data()), static_cast<int>(packed.size()),
                                static_cast<int>(plain.size())) == static_cast<int>(plain.size());
