@@ -139,6 +139,7 @@ class StoredReader {
     rest_ = rest_.subspan(bytes);
     return taken;
   }
+  [[nodiscard]] bool is_empty() const { return rest_.empty(); }
 
  private:
   std::span<const std::byte> rest_;
@@ -269,7 +270,7 @@ void unpack(CodecId codec, const BlockGeometry& geometry, std::span<const std::b
     next += group.tile_count;
     packed.push_back(front.bodies.take(group.packed_bytes));
   }
-  if (next != front.entries.size()) fail_damaged();
+  if (next != front.entries.size() || !front.bodies.is_empty()) fail_damaged();
   std::atomic<bool> good{true};
   parallel_for(front.groups.size(), [&](std::uint64_t g) {
     const TileGroup group{std::span(front.entries).subspan(firsts[g], front.groups[g].tile_count), geometry};
