@@ -17,12 +17,19 @@ std::uint32_t read_unsigned(const std::byte* at, std::uint32_t bytes) {
 
 }  // namespace
 
+std::string BlockGeometry::flaw_of(const TileEntry& entry) const {
+  if (entry.is_records()) {
+    if (entry.slots() < sample_count) return {};
+    return format("has {} change records a pixel; in {} samples there are at most {}", entry.slots(),
+                  sample_count, sample_count - 1);
+  }
+  if (entry.rows() == 0) return "has no row";
+  if (entry.rows() <= sample_count) return {};
+  return format("has {} rows; {} samples have at most as many", entry.rows(), sample_count);
+}
+
 BlockView::BlockView(const CaptureFormat& capture, BlockExtent extent, std::span<const std::byte> payload)
     : shape_(capture.shape), extent_(extent), geometry_(capture, extent.sample_count), payload_(payload) {
-  const auto fail = [&](const std::string& why) {
-    throw InputError(format("the block of samples {} to {} is damaged: {}", extent_.first_sample,
-                            extent_.range().last - 1, why));
-  };
   if (extent.sample_count == 0) fail("it holds no sample");
   if (payload.size() < geometry_.directory_bytes()) {
     fail(format("its {} bytes end within the tile directory of {}", payload.size(),
@@ -30,14 +37,17 @@ BlockView::BlockView(const CaptureFormat& capture, BlockExtent extent, std::span
   }
   for (std::uint64_t tile = 0; tile < geometry_.tile_count; ++tile) {
     const TileEntry at = entry(tile);
-    const bool counted = at.is_records() ? at.slots() < extent.sample_count
-                                         : at.rows() >= 1 && at.rows() <= extent.sample_count;
-    if (!counted) fail(format("tile {} claims more change records than the block has samples", tile));
+    if (const std::string flaw = geometry_.flaw_of(at); !flaw.empty()) fail(format("tile {} {}", tile, flaw));
     const std::uint64_t end = at.offset * kBlockAlignment + geometry_.body_bytes(at);
     if (at.offset * kBlockAlignment < geometry_.directory_bytes() || end > payload.size()) {
       fail(format("tile {} lies outside its {} bytes", tile, payload.size()));
     }
   }
+}
+
+void BlockView::fail(const std::string& why) const {
+  throw InputError(format("the block of samples {} to {} is damaged: {}", extent_.first_sample,
+                          extent_.range().last - 1, why));
 }
 
 TileEntry BlockView::entry(std::uint64_t tile) const {
@@ -51,10 +61,9 @@ std::span<const std::byte> BlockView::body(std::uint64_t tile) const {
   return payload_.subspan(at.offset * kBlockAlignment, geometry_.body_bytes(at));
 }
 
-// Clamped, as the kernels clamp it: a crafted file must not make anything read outside its tables.
 std::uint32_t BlockView::index_at(const std::byte* list, std::uint64_t position) const {
   const std::uint32_t bytes = geometry_.index_bytes();
-  return std::min(read_unsigned(list + position * bytes, bytes), geometry_.sample_count);
+  return read_unsigned(list + position * bytes, bytes);
 }
 
 ChangeRecord BlockView::record_at(std::uint32_t sample, const std::byte* codes, std::uint32_t lane) const {
@@ -67,6 +76,8 @@ ChangeRecord BlockView::record_at(std::uint32_t sample, const std::byte* codes, 
   return record;
 }
 
+// The checksums of a crafted file are right, and the directory says nothing about sample numbers: here they
+// are checked, so that whoever looks them up in a table of the block's samples needs no care of their own.
 void BlockView::read_history(std::uint64_t tile, std::uint32_t lane,
                              std::vector<ChangeRecord>& history) const {
   history.clear();
@@ -74,18 +85,32 @@ void BlockView::read_history(std::uint64_t tile, std::uint32_t lane,
   const std::byte* bytes = body(tile).data();
   if (at.is_records()) {
     history.push_back(record_at(0, bytes, lane));
+    std::uint32_t before = 0;
     for (std::uint32_t slot = 0; slot < at.slots(); ++slot) {
       const std::byte* index = bytes + geometry_.row_bytes() + slot * geometry_.slot_bytes();
       const std::uint32_t sample = index_at(index, lane);
-      if (sample >= geometry_.sample_count) break;
-      history.push_back(record_at(sample, index + kTilePixels * geometry_.index_bytes(), lane));
+      const bool is_padding = sample == geometry_.sample_count;
+      if (sample > geometry_.sample_count || (sample <= before && !is_padding)) {
+        fail(format("tile {}, pixel {}: its change record {} is at sample {} of {}, the one before at {}",
+                    tile, lane, slot, sample, geometry_.sample_count, before));
+      }
+      before = sample;
+      if (!is_padding)
+        history.push_back(record_at(sample, index + kTilePixels * geometry_.index_bytes(), lane));
     }
     return;
   }
-  const std::uint64_t index_bytes = geometry_.row_index_bytes(at.rows());
+  const std::uint64_t list_bytes = geometry_.row_index_bytes(at.rows());
+  std::uint32_t before = 0;
   for (std::uint32_t row = 0; row < at.rows(); ++row) {
-    const std::uint32_t sample = index_bytes == 0 ? row : index_at(bytes, row);
-    const ChangeRecord record = record_at(sample, bytes + index_bytes + row * geometry_.row_bytes(), lane);
+    const std::uint32_t sample = list_bytes == 0 ? row : index_at(bytes, row);
+    if (row == 0 ? sample != 0 : sample <= before || sample >= geometry_.sample_count) {
+      fail(row == 0 ? format("tile {}: its first row is at sample {}, not 0", tile, sample)
+                    : format("tile {}: its row {} is at sample {} of {}, the one before at {}", tile, row,
+                             sample, geometry_.sample_count, before));
+    }
+    before = sample;
+    const ChangeRecord record = record_at(sample, bytes + list_bytes + row * geometry_.row_bytes(), lane);
     if (history.empty() || history.back().codes != record.codes) history.push_back(record);
   }
 }

@@ -23,10 +23,12 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "capture/picture.hpp"
@@ -34,6 +36,10 @@
 #include "imev/tile.hpp"
 
 namespace nutik {
+
+// Payloads, headers and codes are copied between memory and files as they are.
+static_assert(std::endian::native == std::endian::little,
+              "files are little-endian and read without swapping");
 
 inline constexpr std::uint64_t kBlockAlignment = 64;
 
@@ -97,6 +103,9 @@ struct BlockGeometry {
   [[nodiscard]] std::uint64_t body_bytes(const TileEntry& entry) const {
     return entry.is_records() ? records_bytes(entry.slots()) : rows_bytes(entry.rows());
   }
+  // What is wrong with an entry that no tile of such a block can have ("has no row"); empty where it is
+  // possible. Says nothing about its offset.
+  [[nodiscard]] std::string flaw_of(const TileEntry& entry) const;
   [[nodiscard]] TileKind kind_of(const TileEntry& entry) const {
     if (entry.is_records()) return TileKind::records;
     if (entry.rows() == 1) return TileKind::still;
@@ -126,13 +135,16 @@ class BlockView {
   [[nodiscard]] std::span<const std::byte> body(std::uint64_t tile) const;
 
   // What one pixel holds: its start (sample 0) followed by its change records in time order. Rows of a
-  // tile that leave the pixel's codes as they were are skipped. `history` is replaced.
+  // tile that leave the pixel's codes as they were are skipped. `history` is replaced. Sample numbers are
+  // those of the block and strictly increase; throws InputError where the payload's do not.
   void read_history(std::uint64_t tile, std::uint32_t lane, std::vector<ChangeRecord>& history) const;
 
   // The codes held at a sample of the block, as an interleaved raster of CaptureFormat::sample_bytes().
+  // Throws as read_history() does.
   void read_sample(std::uint32_t sample, std::span<std::byte> raster) const;
 
  private:
+  [[noreturn]] void fail(const std::string& why) const;
   [[nodiscard]] std::uint32_t index_at(const std::byte* list, std::uint64_t position) const;
   [[nodiscard]] ChangeRecord record_at(std::uint32_t sample, const std::byte* codes,
                                        std::uint32_t lane) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <type_traits>
@@ -101,7 +102,9 @@ inline __attribute__((always_inline)) std::uint64_t step_tile(const TileStep& st
   Lanes now[Channels], held[Channels], differs{};
   std::memcpy(now, codes, sizeof now);
   std::memcpy(held, step.held, sizeof held);
-  const auto limit = static_cast<Code>(step.tolerance);
+  // No distance is above the largest code: a larger tolerance means the same, but would not fit.
+  const auto limit =
+      static_cast<Code>(std::min<std::uint32_t>(step.tolerance, std::numeric_limits<Code>::max()));
   for (std::uint32_t channel = 0; channel < Channels; ++channel) {
     const Lanes distance =
         now[channel] > held[channel] ? now[channel] - held[channel] : held[channel] - now[channel];
@@ -139,6 +142,32 @@ using StepFunction = std::uint64_t (*)(const TileStep&);
 StepFunction step_function(const CaptureFormat& capture) {
   if (capture.shape.channels == 1) return capture.code_bytes == 1 ? step_grey8 : step_grey16;
   return capture.code_bytes == 1 ? step_colour8 : step_colour16;
+}
+
+// Whether the largest payload that a block of so many samples may come to stays within the limit. One tile
+// takes less than 2^26 bytes, so that only their number needs care.
+bool fits_payload(const CaptureFormat& capture, std::uint32_t samples, TilePolicy policy) {
+  const BlockGeometry geometry(capture, samples);
+  const std::uint64_t rows = std::max(geometry.rows_bytes(samples), geometry.rows_bytes(samples - 1));
+  // Chosen for their cost, records take fewer bytes than the rows would.
+  const std::uint64_t body = policy == TilePolicy::records ? geometry.records_bytes(samples - 1) : rows;
+  return geometry.tile_count <= kLargestPayloadBytes / (body + sizeof(TileEntry) + kBlockAlignment);
+}
+
+void check_block_samples(const CaptureFormat& capture, std::uint32_t samples, TilePolicy policy) {
+  if (samples == 0 || samples > kLargestBlockSamples) {
+    throw UsageError(format("a block of {} samples is outside 1 … {}", samples, kLargestBlockSamples));
+  }
+  if (fits_payload(capture, samples, policy)) return;
+  std::uint32_t fitting = 0, too_many = samples;
+  while (fitting + 1 < too_many) {
+    const std::uint32_t middle = std::midpoint(fitting, too_many);
+    (fits_payload(capture, middle, policy) ? fitting : too_many) = middle;
+  }
+  throw UsageError(format(
+      "a block of {} samples of {} x {} pixels may come to more than the {} GiB that a block can have; "
+      "use --block-samples {} or less",
+      samples, capture.shape.width, capture.shape.height, kLargestPayloadBytes >> 30, fitting));
 }
 
 }  // namespace
@@ -365,9 +394,7 @@ class BlockBuilder::Implementation {
 };
 
 BlockBuilder::BlockBuilder(const CaptureFormat& capture, std::uint32_t block_samples, TilePolicy policy) {
-  if (block_samples == 0 || block_samples > kLargestBlockSamples) {
-    throw UsageError(format("a block of {} samples is outside 1 … {}", block_samples, kLargestBlockSamples));
-  }
+  check_block_samples(capture, block_samples, policy);
   implementation_ = std::make_unique<Implementation>(capture, block_samples, policy);
 }
 

@@ -19,6 +19,8 @@ namespace nutik {
 
 inline constexpr std::uint32_t kDefaultBlockSamples = 64;
 inline constexpr std::uint32_t kLargestBlockSamples = 65'535;  // an index has two bytes at most
+inline constexpr std::uint64_t kLargestPayloadBytes =          // a tile's offset has 32 bits
+    (std::uint64_t{1} << 32) * kBlockAlignment;
 inline constexpr std::uint64_t kDefaultBlockBytes = 128ull << 20;
 
 // The samples a block holds where nothing else is asked for: 64, or fewer so that the samples' raw bytes
@@ -27,6 +29,7 @@ inline constexpr std::uint64_t kDefaultBlockBytes = 128ull << 20;
 
 class BlockBuilder {
  public:
+  // Throws UsageError where a block of so many samples, or the payload that it may come to, is too large.
   BlockBuilder(const CaptureFormat& capture, std::uint32_t block_samples, TilePolicy policy);
   ~BlockBuilder();
   BlockBuilder(BlockBuilder&&) noexcept;

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "capture/format.hpp"
+
 namespace nutik {
 
 MemoryCapture::MemoryCapture(const CaptureFormat& capture, Timeline timeline,
@@ -35,6 +37,10 @@ BlockView MemoryCapture::view(std::uint64_t block) const {
   return {capture_, at.extent, {at.payload.data(), at.bytes}};
 }
 
+SampleCountMismatch::SampleCountMismatch(std::uint64_t found, std::uint64_t expected)
+    : InputError(nutik::format("the capture has {} samples where {} were expected", found, expected)),
+      sample_count(found) {}
+
 StreamingCapture::StreamingCapture(const CaptureFormat& capture, Timeline timeline, SampleRange needed,
                                    std::uint32_t block_samples, TilePolicy policy, ReadSample read_sample)
     : capture_(capture),
@@ -57,7 +63,7 @@ BlockExtent StreamingCapture::block_extent(std::uint64_t block) const {
 
 void StreamingCapture::read_samples(std::uint64_t until, bool keep) {
   while (samples_read_ < until) {
-    if (!read_sample_(raster_)) throw SampleCountMismatch{samples_read_};
+    if (!read_sample_(raster_)) throw SampleCountMismatch(samples_read_, timeline_.sample_count());
     ++samples_read_;
     if (keep) {
       builder_.add(raster_);
@@ -78,7 +84,7 @@ std::uint64_t StreamingCapture::prepare(std::uint64_t block) {
   if (samples_read_ == timeline_.sample_count()) {
     std::uint64_t more = 0;
     while (read_sample_(raster_)) ++more;
-    if (more > 0) throw SampleCountMismatch{samples_read_ + more};
+    if (more > 0) throw SampleCountMismatch(samples_read_ + more, timeline_.sample_count());
   }
   return payload_bytes_;
 }

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "capture/error.hpp"
 #include "capture/picture.hpp"
 #include "capture/timeline.hpp"
 #include "imev/block.hpp"
@@ -73,8 +74,10 @@ class MemoryCapture final : public CaptureSource {
 };
 
 // Thrown where a stream turns out to have another number of samples than its timeline.
-struct SampleCountMismatch {
+struct SampleCountMismatch : InputError {
   std::uint64_t sample_count;  // that there really are
+
+  SampleCountMismatch(std::uint64_t found, std::uint64_t expected);
 };
 
 // A capture that is built while it is read, from a stream of samples. Nothing outside `needed` is kept,

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <charconv>
 #include <cstring>
+#include <limits>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -22,10 +23,15 @@ constexpr int kUsualZstdLevel = 1;
 std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> plain) {
   std::vector<std::byte> packed;
   if (codec.id == CodecId::lz4) {
+    if (plain.size() > LZ4_MAX_INPUT_SIZE) {
+      throw OutputError(format("lz4 packs at most {} bytes at once, not {}; use codec zstd",
+                               LZ4_MAX_INPUT_SIZE, plain.size()));
+    }
     packed.resize(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(plain.size()))));
     const int bytes = LZ4_compress_default(reinterpret_cast<const char*>(plain.data()),
                                            reinterpret_cast<char*>(packed.data()),
                                            static_cast<int>(plain.size()), static_cast<int>(packed.size()));
+    if (bytes <= 0) throw OutputError(format("lz4 failed to pack {} bytes", plain.size()));
     packed.resize(static_cast<std::size_t>(bytes));
   } else {
     packed.resize(ZSTD_compressBound(plain.size()));
@@ -39,6 +45,8 @@ std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> p
 
 bool decompress(CodecId codec, std::span<const std::byte> packed, std::span<std::byte> plain) {
   if (codec == CodecId::lz4) {
+    constexpr std::size_t kLargest = std::numeric_limits<int>::max();
+    if (packed.size() > kLargest || plain.size() > LZ4_MAX_INPUT_SIZE) return false;
     return LZ4_decompress_safe(reinterpret_cast<const char*>(packed.data()),
                                reinterpret_cast<char*>(plain.data()), static_cast<int>(packed.size()),
                                static_cast<int>(plain.size())) == static_cast<int>(plain.size());
@@ -131,6 +139,7 @@ class StoredReader {
     rest_ = rest_.subspan(bytes);
     return taken;
   }
+  [[nodiscard]] bool is_empty() const { return rest_.empty(); }
 
  private:
   std::span<const std::byte> rest_;
@@ -164,9 +173,9 @@ StoredFront read_front(CodecId codec, const BlockGeometry& geometry, std::span<c
   for (std::size_t tile = 0; tile < entries.size(); ++tile) {
     entries[tile] = {static_cast<std::uint32_t>(offset / kBlockAlignment), counts[tile]};
     const TileEntry& entry = entries[tile];
-    const bool plausible = entry.is_records() ? entry.slots() < geometry.sample_count
-                                              : entry.rows() >= 1 && entry.rows() <= geometry.sample_count;
-    if (!plausible) fail_damaged();
+    if (const std::string flaw = geometry.flaw_of(entry); !flaw.empty()) {
+      throw InputError(format("tile {} {}", tile, flaw));
+    }
     offset += geometry.body_bytes(entry);
   }
   if (offset != payload_bytes) fail_damaged();
@@ -261,7 +270,7 @@ void unpack(CodecId codec, const BlockGeometry& geometry, std::span<const std::b
     next += group.tile_count;
     packed.push_back(front.bodies.take(group.packed_bytes));
   }
-  if (next != front.entries.size()) fail_damaged();
+  if (next != front.entries.size() || !front.bodies.is_empty()) fail_damaged();
   std::atomic<bool> good{true};
   parallel_for(front.groups.size(), [&](std::uint64_t g) {
     const TileGroup group{std::span(front.entries).subspan(firsts[g], front.groups[g].tile_count), geometry};

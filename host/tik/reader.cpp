@@ -36,6 +36,44 @@ std::uint64_t payload_offset(std::uint64_t block_offset, const BlockHeader& head
   return align_up(exposures_offset(block_offset) + header.exposure_bytes, kAlignment);
 }
 
+// What a header has to agree with: where it stands, and what was read before it.
+struct HeaderPlace {
+  std::uint64_t offset;
+  std::uint64_t block;
+  std::uint64_t first_sample;
+  bool is_regular;  // the capture has a constant rate
+};
+
+// What a header, whose checksum may be right and the rest made up, says that cannot be; empty where all of it
+// can, and then its exposures and its payload lie within the file and none of the offsets above overflows.
+std::string flaw_of(const BlockHeader& header, const HeaderPlace& place, std::uint64_t file_bytes) {
+  if (header.block != place.block) return format("its header is that of block {}", header.block);
+  if (header.first_sample != place.first_sample) {
+    return format("its header tells of sample {} as its first", header.first_sample);
+  }
+  if (header.sample_count == 0 || header.sample_count > kLargestBlockSamples) {
+    return format("its header tells of {} samples; it can have 1 … {}", header.sample_count,
+                  kLargestBlockSamples);
+  }
+  if (header.codec > static_cast<std::uint32_t>(CodecId::zstd)) {
+    return format("its codec {} is not known", header.codec);
+  }
+  const std::uint64_t exposure_bytes = place.is_regular ? 0 : header.sample_count * sizeof(Exposure);
+  if (header.exposure_bytes != exposure_bytes) {
+    return format("its header tells of {} bytes of exposures, not {}", header.exposure_bytes, exposure_bytes);
+  }
+  const bool is_plain = header.codec == static_cast<std::uint32_t>(CodecId::none);
+  if (header.payload_bytes > kLargestPayloadBytes ||
+      (is_plain && header.payload_bytes != header.stored_bytes)) {
+    return format("its header tells of {} bytes of payload", header.payload_bytes);
+  }
+  // The block's start lies in the file and exposures take a mebibyte at most: no sum comes near 2^64.
+  if (!fits(payload_offset(place.offset, header), header.stored_bytes, file_bytes)) {
+    return format("its {} bytes reach beyond the file's end", header.stored_bytes);
+  }
+  return {};
+}
+
 std::uint64_t raster_bytes(const CaptureFormat& capture) {
   return capture.shape.value_count() * (capture.white_code > 255 ? 2 : 1);
 }
@@ -107,14 +145,11 @@ BlockHeader Reader::block_header(std::uint64_t block) const {
   const IndexEntry& entry = index_[block];
   const auto header = load<BlockHeader>(file, entry.offset);
   if (!is_whole(header)) fail_block(block, "its header is damaged");
-  if (header.block != block || header.first_sample != entry.first_sample ||
-      header.sample_count != entry.sample_count || header.stored_bytes != entry.stored_bytes ||
-      header.payload_bytes != entry.payload_bytes || header.codec != entry.codec ||
-      !fits(payload_offset(entry.offset, header), header.stored_bytes, file.size())) {
+  const HeaderPlace place{entry.offset, block, entry.first_sample, header_.rate.has_value()};
+  if (const std::string flaw = flaw_of(header, place, file.size()); !flaw.empty()) fail_block(block, flaw);
+  if (header.sample_count != entry.sample_count || header.stored_bytes != entry.stored_bytes ||
+      header.payload_bytes != entry.payload_bytes || header.codec != entry.codec) {
     fail_block(block, "its header contradicts the index");
-  }
-  if (header.codec > static_cast<std::uint32_t>(CodecId::zstd)) {
-    fail_block(block, nutik::format("its codec {} is not known", header.codec));
   }
   return header;
 }
@@ -200,8 +235,9 @@ Recovery recover(const std::filesystem::path& damaged, const std::filesystem::pa
   std::uint64_t offset = first_block_offset(parsed);
   while (fits(offset, sizeof(BlockHeader), file.size())) {
     const auto header = load<BlockHeader>(file, offset);
-    if (!is_whole(header) || header.first_sample != recovery.sample_count) break;
-    if (!fits(exposures_offset(offset), header.exposure_bytes, file.size())) break;
+    const HeaderPlace place{offset, recovery.block_count, recovery.sample_count,
+                            parsed.header.rate.has_value()};
+    if (!is_whole(header) || !flaw_of(header, place, file.size()).empty()) break;
     const auto exposure_bytes = file.subspan(exposures_offset(offset), header.exposure_bytes);
     const std::uint64_t payload = payload_offset(offset, header);
     if (!fits(payload, header.stored_bytes, file.size())) break;

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "imev/capture_source.hpp"
 #include "support/random_case.hpp"
 
@@ -56,6 +57,29 @@ TEST(Block, HoldsWhatTheDefinitionSays) {
     for (std::uint64_t k = 0; k < held.size(); ++k) {
       ASSERT_EQ(sample_of(capture, k), held[k]) << random.text() << ", sample " << k;
     }
+  }
+}
+
+// No two codes of 8 bits differ by more than 255, none of 16 bits by more than 65535: from there on nothing
+// changes, however large the tolerance.
+TEST(Block, ToleratesWhateverATolerancePermits) {
+  struct Case {
+    std::uint32_t code_bytes, tolerance;
+    bool changes;
+  };
+  for (const Case& each :
+       {Case{1, 254, true}, Case{1, 255, false}, Case{1, 256, false}, Case{1, 300, false},
+        Case{2, 65'534, true}, Case{2, 65'535, false}, Case{2, 65'536, false}, Case{2, 65'836, false}}) {
+    CaptureFormat capture;
+    capture.shape = {9, 8, 3};
+    capture.code_bytes = each.code_bytes;
+    capture.white_code = each.code_bytes == 1 ? 255 : 65'535;
+    capture.noise.tolerance = each.tolerance;
+    const Rasters rasters{std::vector<std::byte>(capture.sample_bytes(), std::byte{0}),
+                          std::vector<std::byte>(capture.sample_bytes(), std::byte{0xFF})};
+    const MemoryCapture encoded(capture, Timeline::constant({100, 1}, Timeline::kFullShutter, 2), rasters, 2);
+    EXPECT_EQ(sample_of(encoded, 1), rasters[each.changes ? 1 : 0])
+        << each.code_bytes << " bytes, tolerance " << each.tolerance;
   }
 }
 
@@ -140,6 +164,32 @@ TEST(BlockBuilder, RefusesCodesAboveWhite) {
   }
 }
 
+TEST(BlockBuilder, RefusesBlocksThatMayComeToMoreThanAnOffsetReaches) {
+  CaptureFormat capture;
+  capture.shape = {3840, 2160, 3};
+  capture.code_bytes = 2;
+  capture.white_code = 65'535;
+  const auto message = [&](std::uint32_t samples, TilePolicy policy) {
+    try {
+      BlockBuilder(capture, samples, policy);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing was thrown");
+  };
+  // 129600 tiles: 2120998 bytes each, less 72 for entry and padding. Of 5495 samples 5494 rows of 384 bytes
+  // and their index take 2120704, of one more 2121088.
+  EXPECT_EQ(
+      message(65'535, TilePolicy::automatic),
+      "a block of 65535 samples of 3840 x 2160 pixels may come to more than the 256 GiB that a block can "
+      "have; use --block-samples 5495 or less");
+  EXPECT_EQ(message(65'536, TilePolicy::automatic), "a block of 65536 samples is outside 1 … 65535");
+  // A slot has an index of 128 bytes too: 384 + 512 (n - 1) bytes, n = 4142.
+  EXPECT_NE(message(5495, TilePolicy::records).find("--block-samples 4142 or less"), std::string::npos);
+  capture.shape = {0xFFFF'FFF8, 0xFFFF'FFF8, 3};  // nearly 2^58 tiles: no product overflows
+  EXPECT_NE(message(65'535, TilePolicy::dense).find("256 GiB"), std::string::npos);
+}
+
 TEST(BlockView, RefusesADirectoryThatPointsOutside) {
   const auto everything = [](std::uint32_t k, std::vector<std::byte>& raster) {
     for (std::byte& code : raster) code = static_cast<std::byte>(k);
@@ -157,6 +207,124 @@ TEST(BlockView, RefusesADirectoryThatPointsOutside) {
   }
   EXPECT_THROW(BlockView(capture.format(), extent, std::span(payload).first(32)), InputError);
   EXPECT_NO_THROW(BlockView(capture.format(), extent, payload));
+}
+
+TEST(BlockView, TellsWhatATileCannotHave) {
+  const MemoryCapture capture =
+      one_tile(8, 8, TilePolicy::automatic, [](std::uint32_t, std::vector<std::byte>&) {});
+  const BlockView view = capture.view(0);
+  const auto message = [&](std::uint32_t count) {
+    std::vector<std::byte> damaged(view.payload().begin(), view.payload().end());
+    std::memcpy(damaged.data() + offsetof(TileEntry, count), &count, sizeof count);
+    try {
+      BlockView(capture.format(), view.extent(), damaged);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing was thrown");
+  };
+  const std::string block = "the block of samples 0 to 7 is damaged: tile 0 ";
+  EXPECT_EQ(message(1), "nothing was thrown");
+  EXPECT_EQ(message(0), block + "has no row");
+  EXPECT_EQ(message(9), block + "has 9 rows; 8 samples have at most as many");
+  EXPECT_EQ(message(8 | TileEntry::kRecordsFlag),
+            block + "has 8 change records a pixel; in 8 samples there are at most 7");
+}
+
+// One tile in a block of `samples` whose sample numbers are `indices`: of the rows of a rows tile, or of
+// every pixel's records in a records tile.
+class CraftedBlock {
+ public:
+  CraftedBlock(std::uint32_t samples, bool as_records, const std::vector<std::uint32_t>& indices)
+      : extent_{40, samples} {
+    capture_.shape = {8, 8, 1};
+    const BlockGeometry geometry(capture_, samples);
+    const auto count = static_cast<std::uint32_t>(indices.size());
+    const TileEntry entry{1, as_records ? count | TileEntry::kRecordsFlag : count};
+    payload_.resize(geometry.directory_bytes() + geometry.body_bytes(entry));
+    std::memcpy(payload_.data(), &entry, sizeof entry);
+    std::byte* at = payload_.data() + geometry.directory_bytes() + (as_records ? geometry.row_bytes() : 0);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      for (std::uint32_t lane = 0; lane < (as_records ? kTilePixels : 1); ++lane) {
+        std::memcpy(at, &indices[i], geometry.index_bytes());  // little-endian hosts
+        at += geometry.index_bytes();
+      }
+      if (as_records) at = std::fill_n(at, geometry.row_bytes(), static_cast<std::byte>(i + 1));
+    }
+    // Rows differ, or their sample numbers would not matter.
+    for (std::uint32_t i = 0; !as_records && i < count; ++i) {
+      std::byte* row = payload_.data() + payload_.size() - (count - i) * geometry.row_bytes();
+      std::fill_n(row, geometry.row_bytes(), static_cast<std::byte>(i));
+    }
+  }
+
+  // What reading pixel 63, or sample 1, ends with.
+  [[nodiscard]] std::string message() const {
+    const BlockView view(capture_, extent_, payload_);
+    std::string of_history, of_sample;
+    try {
+      std::vector<ChangeRecord> history;
+      view.read_history(0, 63, history);
+    } catch (const InputError& error) {
+      of_history = error.what();
+    }
+    try {
+      std::vector<std::byte> raster(64);
+      view.read_sample(1, raster);
+    } catch (const InputError& error) {
+      of_sample = error.what();
+    }
+    EXPECT_EQ(of_history.empty(), of_sample.empty()) << of_history << " | " << of_sample;
+    return of_history;
+  }
+
+ private:
+  CaptureFormat capture_;
+  BlockExtent extent_;
+  std::vector<std::byte> payload_;
+};
+
+TEST(BlockView, RefusesSampleNumbersThatARowsTileCannotHave) {
+  for (const std::uint32_t samples : {8u, 255u, 256u, 60'000u}) {
+    const std::uint32_t last = samples - 1;
+    const auto message = [&](const std::vector<std::uint32_t>& indices) {
+      return CraftedBlock(samples, false, indices).message();
+    };
+    EXPECT_EQ(message({0, 3, last}), "") << samples;
+    EXPECT_EQ(message({0}), "") << samples;
+    EXPECT_EQ(message({1, 3, last}), format("the block of samples 40 to {} is damaged: tile 0: its first row "
+                                            "is at sample 1, not 0",
+                                            39 + samples));
+    EXPECT_EQ(message({0, 3, 3}), format("the block of samples 40 to {} is damaged: tile 0: its row 2 is at "
+                                         "sample 3 of {}, the one before at 3",
+                                         39 + samples, samples));
+    for (const std::vector<std::uint32_t>& indices : std::vector<std::vector<std::uint32_t>>{
+             {last, 0}, {0, 0}, {0, 5, 4}, {0, samples, last}, {0, 3, samples}, {samples, samples}}) {
+      EXPECT_NE(message(indices).find("is damaged"), std::string::npos) << samples << " " << indices[1];
+    }
+  }
+}
+
+TEST(BlockView, RefusesSampleNumbersThatARecordsTileCannotHave) {
+  for (const std::uint32_t samples : {8u, 254u, 255u, 256u, 60'000u}) {
+    const std::uint32_t last = samples - 1;
+    const auto message = [&](const std::vector<std::uint32_t>& indices) {
+      return CraftedBlock(samples, true, indices).message();
+    };
+    EXPECT_EQ(message({1, 3, last}), "") << samples;
+    EXPECT_EQ(message({3, samples, samples}), "") << samples;
+    EXPECT_EQ(message({3, 2}),
+              format("the block of samples 40 to {} is damaged: tile 0, pixel 63: its change "
+                     "record 1 is at sample 2 of {}, the one before at 3",
+                     39 + samples, samples));
+    // At sample 0 the start is held already; behind the padding there is nothing more.
+    for (const std::vector<std::uint32_t>& indices : std::vector<std::vector<std::uint32_t>>{
+             {0, 3}, {3, 3}, {last, 1}, {samples, 1}, {samples, 0}, {3, samples, last}}) {
+      EXPECT_NE(message(indices).find("is damaged"), std::string::npos) << samples << " " << indices[0];
+    }
+    if (samples == 255) continue;  // no index of one byte is larger
+    EXPECT_NE(message({3, samples + 1}).find("is damaged"), std::string::npos) << samples;
+  }
 }
 
 }  // namespace

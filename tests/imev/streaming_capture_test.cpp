@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "capture/format.hpp"
 #include "imev/capture_source.hpp"
 #include "support/random_case.hpp"
 
@@ -68,6 +69,8 @@ TEST(StreamingCapture, TellsTheRealNumberOfSamples) {
       }
     } catch (const SampleCountMismatch& mismatch) {
       found = mismatch.sample_count;
+      const InputError& error = mismatch;
+      EXPECT_EQ(error.what(), format("the capture has {} samples where {} were expected", count, announced));
     }
     EXPECT_EQ(found, count) << "announced " << announced;
   }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "capture/error.hpp"
 #include "render/reference_renderer.hpp"
 #include "support/bounds.hpp"
 #include "support/exact.hpp"
@@ -116,6 +117,54 @@ TEST_F(ByHand, NegativeGainsSubtract) {
                                  {65'000'000, 1.0},
                                  {65'000'000, 0.0}});
   EXPECT_NEAR(light(difference), (60.0 - 10.0) / 2, 1e-13);
+}
+
+// A capture whose payloads are changed while they are read, as a crafted file's may be.
+class CraftedCapture final : public CaptureSource {
+ public:
+  CraftedCapture(MemoryCapture& capture, std::uint64_t at, std::byte value)
+      : capture_(capture), at_(at), value_(value) {}
+  [[nodiscard]] const CaptureFormat& format() const override { return capture_.format(); }
+  [[nodiscard]] const Timeline& timeline() const override { return capture_.timeline(); }
+  [[nodiscard]] std::uint64_t block_count() const override { return capture_.block_count(); }
+  [[nodiscard]] BlockExtent block_extent(std::uint64_t b) const override { return capture_.block_extent(b); }
+  std::uint64_t prepare(std::uint64_t block) override { return capture_.prepare(block); }
+  void read(std::uint64_t block, std::span<std::byte> into) override {
+    capture_.read(block, into);
+    into[at_] = value_;
+  }
+
+ private:
+  MemoryCapture& capture_;
+  std::uint64_t at_;
+  std::byte value_;
+};
+
+TEST(Reference, RefusesSampleNumbersThatNoTileCanHave) {
+  CaptureFormat format;
+  format.shape = {8, 8, 1};
+  test::Rasters rasters;
+  for (const int code : {0, 0, 5, 5, 9, 9}) rasters.emplace_back(64, static_cast<std::byte>(code));
+  const Timeline timeline = Timeline::constant({100, 1}, {180, 1}, 6);
+  // Behind the directory of 64 bytes: three rows at samples 0, 2, 4; or a start of 64 codes and a slot at
+  // sample 2 for each pixel.
+  struct Case {
+    TilePolicy policy;
+    std::uint64_t first_index;
+    int value;
+  };
+  for (const Case& each :
+       {Case{TilePolicy::rows, 64, 2}, Case{TilePolicy::rows, 64, 255}, Case{TilePolicy::rows, 65, 0},
+        Case{TilePolicy::rows, 65, 4}, Case{TilePolicy::records, 128, 0}, Case{TilePolicy::records, 128, 5},
+        Case{TilePolicy::records, 128, 255}}) {
+    MemoryCapture capture(format, timeline, rasters, 6, each.policy);
+    const GainFunction gain = GainFunction::boxcar(0, 60'000'000);
+    const RenderPlan plan = make_plan(capture, {{0, gain}}, Mask::uniform(8, 8, 0), {});
+    EXPECT_NO_THROW(ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}));
+    CraftedCapture crafted(capture, each.first_index, static_cast<std::byte>(each.value));
+    EXPECT_THROW(ReferenceRenderer().render(plan, crafted, {ValueType::light64, 0}), InputError)
+        << to_text(each.policy) << ", byte " << each.first_index << " = " << each.value;
+  }
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <cstring>
+
 #include "capture/error.hpp"
 #include "support/random_case.hpp"
 
@@ -30,16 +33,42 @@ TEST(Codec, GivesEveryPayloadBackBitForBit) {
   }
 }
 
-// A damaged payload is refused or gives other codes; it never reads or writes outside.
+// Reads everything in a payload that may hold anything, as a renderer would; returns whether it was refused.
+// What matters is that nothing is read outside: sanitizers see it.
+bool is_refused_when_read(const CaptureFormat& capture, BlockExtent extent,
+                          std::span<const std::byte> payload) {
+  try {
+    const BlockView view(capture, extent, payload);
+    std::vector<ChangeRecord> history;
+    for (std::uint64_t tile = 0; tile < view.geometry().tile_count; ++tile) {
+      for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
+        view.read_history(tile, lane, history);
+        std::uint32_t next = 0;
+        for (const ChangeRecord& record : history) {
+          EXPECT_TRUE(record.sample >= next && record.sample < extent.sample_count) << record.sample;
+          next = record.sample + 1;
+        }
+        EXPECT_EQ(history.front().sample, 0u);
+      }
+    }
+    std::vector<std::byte> raster(capture.sample_bytes());
+    view.read_sample(extent.sample_count - 1, raster);
+  } catch (const InputError&) {
+    return true;
+  }
+  return false;
+}
+
+// A damaged payload is refused, when it is unpacked or when it is read, or gives other codes; nothing reads
+// or writes outside.
 TEST(Codec, SurvivesDamage) {
-  std::uint64_t refused = 0, tried = 0;
+  std::uint64_t unpacked = 0, read = 0, tried = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const RandomCase random(seed);
     const MemoryCapture capture = random.encode();
     const BlockView view = capture.view(0);
-    const BlockGeometry geometry(random.capture, view.extent().sample_count);
-    for (const Codec& codec : {kCodecs[1], kCodecs[2]}) {
-      const std::vector<std::byte> stored = pack(codec, geometry, view.payload());
+    for (const Codec& codec : {kCodecs[0], kCodecs[1], kCodecs[2]}) {
+      const std::vector<std::byte> stored = pack(codec, view.geometry(), view.payload());
       test::Random draw(seed);
       for (int i = 0; i < 30; ++i) {
         std::vector<std::byte> damaged = stored;
@@ -50,14 +79,99 @@ TEST(Codec, SurvivesDamage) {
         std::vector<std::byte> payload(view.payload().size());
         ++tried;
         try {
-          unpack(codec.id, geometry, damaged, payload);
+          unpack(codec.id, view.geometry(), damaged, payload);
         } catch (const InputError&) {
-          ++refused;
+          continue;
         }
+        ++unpacked;
+        if (!is_refused_when_read(random.capture, view.extent(), payload)) ++read;
       }
     }
   }
-  EXPECT_GT(refused, tried / 4);
+  std::printf("of %llu damaged payloads %llu were unpacked, %llu of them read\n",
+              static_cast<unsigned long long>(tried), static_cast<unsigned long long>(unpacked),
+              static_cast<unsigned long long>(read));
+}
+
+TEST(Codec, RefusesWhatNoPayloadIsStoredAs) {
+  const RandomCase random(3);
+  const MemoryCapture capture = random.encode();
+  const BlockView view = capture.view(0);
+  const BlockGeometry& geometry = view.geometry();
+  // The stored form's front: group count, 0, then {tile count, packed bytes} for each group.
+  const auto with_word = [](std::vector<std::byte> stored, std::size_t word, std::uint32_t value) {
+    std::memcpy(stored.data() + word * 4, &value, sizeof value);
+    return stored;
+  };
+  const auto word_of = [](const std::vector<std::byte>& stored, std::size_t word) {
+    std::uint32_t value;
+    std::memcpy(&value, stored.data() + word * 4, sizeof value);
+    return value;
+  };
+  for (const Codec& codec : {kCodecs[1], kCodecs[2]}) {
+    const std::vector<std::byte> stored = pack(codec, geometry, view.payload());
+    const auto message = [&](const std::vector<std::byte>& damaged, std::uint64_t payload_bytes) {
+      std::vector<std::byte> payload(payload_bytes);
+      try {
+        unpack(codec.id, geometry, damaged, payload);
+      } catch (const InputError& error) {
+        return std::string(error.what());
+      }
+      return std::string("nothing was thrown");
+    };
+    const auto refused = [&](const std::vector<std::byte>& damaged) {
+      return message(damaged, view.payload().size()) == "its packed payload is damaged";
+    };
+    const std::string name = codec.text();
+    ASSERT_EQ(message(stored, view.payload().size()), "nothing was thrown") << name;
+    for (std::size_t bytes = 0; bytes < stored.size(); ++bytes) {
+      EXPECT_TRUE(refused({stored.begin(), stored.begin() + static_cast<std::ptrdiff_t>(bytes)}))
+          << name << " cut to " << bytes << " of " << stored.size();
+    }
+    std::vector<std::byte> longer = stored;
+    longer.push_back(std::byte{0});
+    EXPECT_TRUE(refused(longer)) << name << ": a byte too many";
+
+    const std::uint32_t groups = word_of(stored, 0);
+    const std::uint32_t tiles = word_of(stored, 2);
+    for (const std::uint32_t count : {0u, groups - 1, groups + 1, 0xFFFF'FFFFu}) {
+      EXPECT_TRUE(refused(with_word(stored, 0, count))) << name << ": " << count << " groups";
+    }
+    for (const std::uint32_t count : {0u, tiles - 1, tiles + 1, 0xFFFF'FFFFu}) {
+      EXPECT_TRUE(refused(with_word(stored, 2, count))) << name << ": a group of " << count << " tiles";
+    }
+    EXPECT_TRUE(refused(with_word(stored, 3, word_of(stored, 3) - 1))) << name << ": a group cut short";
+    for (const std::uint64_t bytes : {view.payload().size() - 64, view.payload().size() + 64}) {
+      EXPECT_EQ(message(stored, bytes), "its packed payload is damaged") << name << ": another size";
+    }
+  }
+}
+
+TEST(Codec, RefusesATileThatNoBlockCanHave) {
+  CaptureFormat capture;
+  capture.shape = {8, 8, 1};
+  const BlockGeometry geometry(capture, 3);
+  // A longer block's payload: 9 rows, or 8 slots of records.
+  const BlockGeometry longer(capture, 9);
+  for (const std::uint32_t count : {9u, 8u | TileEntry::kRecordsFlag}) {
+    const TileEntry entry{1, count};
+    std::vector<std::byte> payload(longer.directory_bytes() + longer.body_bytes(entry));
+    std::memcpy(payload.data(), &entry, sizeof entry);
+    for (const Codec& codec : {kCodecs[1], kCodecs[2]}) {
+      const std::vector<std::byte> stored = pack(codec, longer, payload);
+      std::vector<std::byte> unpacked(payload.size());
+      unpack(codec.id, longer, stored, unpacked);
+      try {
+        unpack(codec.id, geometry, stored, unpacked);
+        FAIL() << "a tile of " << count << " was accepted";
+      } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(),
+                     entry.is_records()
+                         ? "tile 0 has 8 change records a pixel; in 3 samples there are at most 2"
+                         : "tile 0 has 9 rows; 3 samples have at most as many");
+      }
+    }
+  }
 }
 
 TEST(Codec, ReadsItsNames) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/error.hpp"
@@ -7,6 +8,7 @@
 #include "support/program.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
+#include "tik/checksum.hpp"
 #include "tik/reader.hpp"
 #include "tik/writer.hpp"
 
@@ -205,6 +207,68 @@ TEST(TikFile, IsRecoveredUpToItsLastWholeBlock) {
       }
     }
   }
+}
+
+// A file whose headers' checksums are right, whatever they say.
+std::string with_header(std::string file, std::uint64_t offset,
+                        const std::function<void(BlockHeader&)>& change) {
+  BlockHeader header;
+  std::memcpy(&header, file.data() + offset, sizeof header);
+  change(header);
+  header.header_checksum = checksum_of(header, offsetof(BlockHeader, header_checksum));
+  std::memcpy(file.data() + offset, &header, sizeof header);
+  return file;
+}
+
+TEST(TikFile, BelievesNoHeaderThatCannotBe) {
+  struct Lie {
+    std::string complaint;
+    std::function<void(BlockHeader&)> tell;
+  };
+  const std::uint64_t most = ~std::uint64_t{0};
+  const std::vector<Lie> lies{
+      {"its header is that of block 2", [](BlockHeader& header) { ++header.block; }},
+      {"as its first", [](BlockHeader& header) { ++header.first_sample; }},
+      {"its header tells of 0 samples; it can have 1 … 65535",
+       [](BlockHeader& header) { header.sample_count = 0; }},
+      {"its header tells of 65536 samples", [](BlockHeader& header) { header.sample_count = 65'536; }},
+      {"its codec 3 is not known", [](BlockHeader& header) { header.codec = 3; }},
+      {"bytes of exposures, not", [](BlockHeader& header) { header.exposure_bytes += 16; }},
+      {"bytes of exposures, not", [](BlockHeader& header) { header.exposure_bytes += 8; }},
+      {"bytes of exposures, not", [&](BlockHeader& header) { header.exposure_bytes = most; }},
+      {"bytes of exposures, not", [&](BlockHeader& header) { header.exposure_bytes = most - 191; }},
+      {"bytes of payload", [&](BlockHeader& header) { header.payload_bytes = most; }},
+      {"beyond the file's end", [&](BlockHeader& header) { header.stored_bytes = most; }},
+      {"beyond the file's end", [&](BlockHeader& header) { header.stored_bytes = most - 63; }},
+  };
+  bool regular = false, irregular = false;
+  for (std::uint64_t seed = 0; seed < 60 && !(regular && irregular); ++seed) {
+    const RandomCase random(seed);
+    bool& done = random.timeline.is_constant() ? regular : irregular;
+    if (done || random.encode().block_count() < 3) continue;
+    done = true;
+    const Scratch scratch;
+    const auto path = write(random, {CodecId::zstd, 0}, scratch);
+    const std::string file = test::read_file(path);
+    const std::uint64_t offset = Reader(path).index()[1].offset;
+    std::vector<Lie> told = lies;
+    if (!random.timeline.is_constant()) {
+      told.push_back({"0 bytes of exposures, not", [](BlockHeader& header) { header.exposure_bytes = 0; }});
+    }
+    for (const Lie& lie : told) {
+      SCOPED_TRACE(random.text() + ": " + lie.complaint);
+      Reader reader(scratch.write("lie.tik", with_header(file, offset, lie.tell)));
+      const std::string message = message_of([&] { payload_of(reader, 1); });
+      EXPECT_NE(message.find(lie.complaint), std::string::npos) << message;
+      EXPECT_NO_THROW(payload_of(reader, 0));
+
+      std::filesystem::remove(scratch / "saved.tik");
+      const std::string cut = with_header(file, offset, lie.tell);
+      scratch.write("cut.tik", std::string_view(cut).substr(0, cut.size() - sizeof(Footer)));
+      EXPECT_EQ(recover(scratch / "cut.tik", scratch / "saved.tik").block_count, 1u);
+    }
+  }
+  EXPECT_TRUE(regular && irregular);
 }
 
 TEST(TikFile, TellsOtherFilesApart) {
