@@ -1,7 +1,9 @@
-# nutik_room(<name> SOURCES … [USES …] [LINKS …] [PRIVATE_LINKS …])
+# nutik_room(<name> SOURCES … HEADERS … [USES …] [LINKS …] [PRIVATE_LINKS …])
 #
-# A room of the house: the library nutik::<name> from host/<name>/. USES names the rooms it knows of;
-# LINKS and PRIVATE_LINKS what else it needs, in its headers or only inside.
+# A room of the house: the library nutik::<name> from host/<name>/. HEADERS are those that other projects
+# may include, and those that these include: they are installed, and each compiles on its own there. USES
+# names the rooms it knows of; LINKS and PRIVATE_LINKS what else it needs, in its headers or only inside.
+# What a room newly links to, nutik-config.cmake.in has to find.
 
 add_library(nutik_warnings INTERFACE)
 target_compile_options(nutik_warnings INTERFACE -Wall -Wextra -Wconversion -Wshadow -Wpedantic)
@@ -22,7 +24,7 @@ if(NOT NUTIK_HAS_STD_FORMAT)
 endif()
 
 function(nutik_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;HEADERS;USES;LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(nutik_${name} STATIC ${ROOM_SOURCES})
   add_library(nutik::${name} ALIAS nutik_${name})
   set_target_properties(nutik_${name} PROPERTIES EXPORT_NAME ${name})
@@ -34,6 +36,5 @@ function(nutik_room name)
   target_link_libraries(nutik_${name} PUBLIC ${ROOM_USES} ${ROOM_LINKS}
                                       PRIVATE ${ROOM_PRIVATE_LINKS} $<BUILD_INTERFACE:nutik_warnings>)
   install(TARGETS nutik_${name} EXPORT nutik-targets)
-  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nutik/${name}
-          FILES_MATCHING PATTERN "*.hpp")
+  install(FILES ${ROOM_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nutik/${name})
 endfunction()

@@ -1,6 +1,7 @@
 // The capture that a command works on: a .tik, or a clip that is turned into one while it is read.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>

@@ -1,7 +1,6 @@
 // From the words of a command line to a command and its options.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 

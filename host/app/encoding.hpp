@@ -6,6 +6,7 @@
 //   a third         packs and writes the blocks
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -1,7 +1,6 @@
 // Everything that can be said on the command line, as it was said.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>

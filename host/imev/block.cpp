@@ -1,6 +1,7 @@
 #include "imev/block.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"

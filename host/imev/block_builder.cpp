@@ -7,7 +7,6 @@
 #include <numeric>
 #include <stdexcept>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "capture/error.hpp"

@@ -1,9 +1,10 @@
 // Pictures to files, by extension.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
+#include <string_view>
 
 #include "capture/picture.hpp"
 

@@ -3,8 +3,8 @@
 
 namespace nutik {
 
-extern const char* const k_expose_source;
-extern const char* const k_develop_source;
-extern const char* const k_layout_probe_source;
+extern const char* const kExposeSource;
+extern const char* const kDevelopSource;
+extern const char* const kLayoutProbeSource;
 
 }  // namespace nutik

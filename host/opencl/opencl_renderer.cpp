@@ -210,7 +210,7 @@ class OpenClRenderer::Implementation {
     const bool permutes = shape_.lanes == kLightPieces && info_.native_float_lanes >= kLightPieces;
     const LightSource light = light_source(plan.capture, options_.precision, permutes);
     const cl::Program program = programs_->get(
-        "expose", k_expose_source,
+        "expose", kExposeSource,
         format("{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
                "-DNUTIK_LANES={}",
                common_options(plan), plan.capture.code_bytes, light.kind, shape_.item_pixels,
@@ -312,7 +312,7 @@ class OpenClRenderer::Implementation {
     const bool codes = holds_codes(output.type);
     const std::size_t raster_bytes = codes ? value_bytes(output.type) : 1;
     const cl::Program program =
-        programs_->get("develop", k_develop_source,
+        programs_->get("develop", kDevelopSource,
                        format("{} -DNUTIK_CODE_BYTES=1 -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
                               "-DNUTIK_LANES={} -DNUTIK_RASTER_BYTES={}",
                               common_options(plan), shape_.item_pixels, shape_.item_tiles,

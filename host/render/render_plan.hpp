@@ -67,9 +67,6 @@ struct RenderPlan {
   std::vector<std::string> warnings;  // whole sentences
 
   [[nodiscard]] std::uint64_t function_count() const { return functions.size(); }
-  [[nodiscard]] std::uint64_t table_rows() const {
-    return functions.empty() ? 0 : weights.size() / functions.size();
-  }
   // The samples that some function needs.
   [[nodiscard]] std::uint64_t live_sample_count() const;
 };

@@ -2,6 +2,7 @@
 // picture, and what is wrong with an input is said.
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <opencv2/imgcodecs.hpp>
 
 #include "support/program.hpp"

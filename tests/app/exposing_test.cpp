@@ -1,7 +1,6 @@
 // Whole paths through the program: clip to capture to picture, and clip to picture.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 

@@ -1,6 +1,5 @@
 #include "support/random_case.hpp"
 
-#include <algorithm>
 #include <cstring>
 #include <set>
 
