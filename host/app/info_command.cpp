@@ -59,9 +59,15 @@ int run_info(const Options& options) {
 
   TileTally tally;
   std::uint64_t payload_bytes = 0, record_count = 0;
+  bool is_damaged = false;
   for (std::uint64_t block = 0; block < reader.block_count(); ++block) {
     const BlockGeometry geometry(capture, reader.block_extent(block).sample_count);
-    for (const TileEntry& entry : reader.directory(block)) tally.count(geometry.kind_of(entry));
+    try {
+      for (const TileEntry& entry : reader.directory(block)) tally.count(geometry.kind_of(entry));
+    } catch (const InputError& error) {
+      is_damaged = true;
+      print_warning(error.what());
+    }
     payload_bytes += reader.index()[block].payload_bytes;
     record_count += reader.index()[block].record_count;
   }
@@ -69,7 +75,8 @@ int run_info(const Options& options) {
   const auto share = [](std::uint64_t part, std::uint64_t whole) {
     return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
   };
-  const std::uint64_t tiles = tally.still + tally.rows + tally.dense + tally.records;
+  const std::uint64_t tiles =
+      std::max<std::uint64_t>(1, tally.still + tally.rows + tally.dense + tally.records);
 
   print_line(format("{}: a .tik capture, version {}", name, tik::kVersion));
   print_line(format("  pictures    {}, {} bits, white code {}, transfer {}", shape_text(capture.shape),
@@ -91,7 +98,7 @@ int run_info(const Options& options) {
   if (options.activity) write_activity(reader, *options.activity);
   print_line(
       format("try: nutik-cl --start {}f --exposure 1f {} picture.png", timeline.sample_count() / 2, name));
-  return 0;
+  return is_damaged ? 3 : 0;  // as any command that meets damaged input
 }
 
 }  // namespace nutik::app

@@ -155,7 +155,8 @@ std::span<const Option> options() {
       valued(0, "block-samples", "N", kOutput, "samples in a block (default: 64, fewer for large pictures)",
              kEncode | kExpose, &Options::block_samples),
       valued(0, "activity", "MAP.png", kOutput,
-             "also write how often each pixel changes, as a grey picture: black never, white most often",
+             "also write how often each pixel changes, as a grey picture: black never, white most often, "
+             "between them sRGB",
              bit(Id::info), &Options::activity),
       flag('q', "quiet", kOutput, "no progress bar and no summary", kAll, &Options::quiet),
       flag('v', "verbose", kOutput, "also say in which precision, how fast and with how much memory", kExpose,

@@ -45,7 +45,8 @@ struct BlockHeader {
   std::uint64_t record_count;        // change records in the block, starts not counted
   std::uint64_t payload_checksum;    // of the stored payload
   std::uint64_t exposures_checksum;  // 0 with a constant rate
-  std::uint8_t reserved[40];         // zeros
+  std::uint64_t front_checksum;      // of the file's bytes before the first block
+  std::uint8_t reserved[32];         // zeros
   std::uint64_t header_checksum;     // of the bytes before it
 };
 static_assert(sizeof(BlockHeader) == 128 && offsetof(BlockHeader, header_checksum) == 120);

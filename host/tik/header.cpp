@@ -176,7 +176,11 @@ bool looks_like_tik(std::span<const std::byte> file) {
 }
 
 ParsedHeader parse_header(std::span<const std::byte> file, const std::string& name) {
-  return HeaderParser(front_text(file), name).parse();
+  try {
+    return HeaderParser(front_text(file), name).parse();
+  } catch (const UsageError& error) {  // a value that a person may not state either
+    throw InputError(format("{}: the text at its start is damaged: {}", name, error.what()));
+  }
 }
 
 }  // namespace nutik::tik

@@ -88,11 +88,26 @@ std::vector<Exposure> load_exposures(std::span<const std::byte> bytes) {
   return exposures;
 }
 
+constexpr const char* kDamagedFront =
+    "the text or picture at its start is damaged, which says when and how it was filmed; encode the clip "
+    "again";
+
 }  // namespace
 
 Reader::Reader(const std::filesystem::path& path) : name_(path.string()), file_(path) {
   header_ = parse_header(file_.bytes(), name_).header;
   read_footer();
+  check_front();
+}
+
+// By the first block whose header is whole: each holds the same checksum.
+void Reader::check_front() const {
+  for (const IndexEntry& entry : index_) {
+    const auto header = load<BlockHeader>(file_.bytes(), entry.offset);
+    if (!is_whole(header)) continue;
+    if (header.front_checksum != checksum(file_.bytes().first(index_.front().offset))) fail(kDamagedFront);
+    return;
+  }
 }
 
 void Reader::fail(const std::string& why) const { throw InputError(nutik::format("{}: {}", name_, why)); }
@@ -101,8 +116,8 @@ void Reader::read_footer() {
   const std::span<const std::byte> file = file_.bytes();
   const auto fail_cut_off = [&] {
     fail(
-        nutik::format("the file was cut off before its end; save what is whole with: nutik-cl recover "
-                      "{} -o recovered.tik",
+        nutik::format("it does not end as a .tik does, so it was cut off; save what is whole with: nutik-cl "
+                      "recover {} -o recovered.tik",
                       name_));
   };
   if (file.size() < sizeof(Footer)) fail_cut_off();
@@ -111,9 +126,10 @@ void Reader::read_footer() {
   const bool intact = footer.checksum == checksum_of(footer, offsetof(Footer, checksum)) &&
                       footer.block_count <= file.size() / sizeof(IndexEntry) &&
                       fits(footer.index_offset, footer.block_count * sizeof(IndexEntry), file.size());
-  if (!intact) fail("its footer is damaged");
+  const std::string way_out = nutik::format("; save it with: nutik-cl recover {} -o recovered.tik", name_);
+  if (!intact) fail("its footer is damaged" + way_out);
   const auto index_bytes = file.subspan(footer.index_offset, footer.block_count * sizeof(IndexEntry));
-  if (footer.index_checksum != checksum(index_bytes)) fail("its index is damaged");
+  if (footer.index_checksum != checksum(index_bytes)) fail("its index is damaged" + way_out);
   index_.resize(footer.block_count);
   std::memcpy(index_.data(), index_bytes.data(), index_bytes.size());
 
@@ -136,7 +152,8 @@ void Reader::read_footer() {
     fail("its list of exposures is damaged");
   }
   const auto exposure_bytes = file.subspan(footer.exposures_offset, samples * sizeof(Exposure));
-  if (footer.exposures_checksum != checksum(exposure_bytes)) fail("its list of exposures is damaged");
+  if (footer.exposures_checksum != checksum(exposure_bytes))
+    fail("its list of exposures is damaged" + way_out);
   timeline_ = Timeline::stored(load_exposures(exposure_bytes), footer.duration_ns, header_.shutter_angle);
 }
 
@@ -224,20 +241,40 @@ std::uint64_t Reader::region_offset(std::uint64_t block) const {
   return payload_offset(index_[block].offset, block_header(block));
 }
 
+namespace {
+
+bool is_readable(const std::filesystem::path& path) {
+  try {
+    Reader reader(path);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
 Recovery recover(const std::filesystem::path& damaged, const std::filesystem::path& whole) {
   const std::string name = damaged.string();
   const MappedFile mapped(damaged);
   const std::span<const std::byte> file = mapped.bytes();
   const ParsedHeader parsed = parse_header(file, name);
+  if (is_readable(damaged)) {
+    throw InputError(nutik::format(
+        "{}: it was not cut off: expose from it as it is; a damaged block costs its own times only", name));
+  }
   Recovery recovery;
   std::vector<IndexEntry> index;
   std::vector<Exposure> exposures;
   std::uint64_t offset = first_block_offset(parsed);
+  const std::uint64_t front_checksum = checksum(file.first(std::min<std::uint64_t>(offset, file.size())));
   while (fits(offset, sizeof(BlockHeader), file.size())) {
     const auto header = load<BlockHeader>(file, offset);
     const HeaderPlace place{offset, recovery.block_count, recovery.sample_count,
                             parsed.header.rate.has_value()};
     if (!is_whole(header) || !flaw_of(header, place, file.size()).empty()) break;
+    if (header.front_checksum != front_checksum)
+      throw InputError(nutik::format("{}: {}", name, kDamagedFront));
     const auto exposure_bytes = file.subspan(exposures_offset(offset), header.exposure_bytes);
     const std::uint64_t payload = payload_offset(offset, header);
     if (!fits(payload, header.stored_bytes, file.size())) break;
@@ -252,7 +289,8 @@ Recovery recover(const std::filesystem::path& damaged, const std::filesystem::pa
     offset = align_up(payload + header.stored_bytes, kAlignment);
   }
   if (index.empty()) {
-    throw InputError(nutik::format("{}: no whole block is left; encode the clip again", name));
+    throw InputError(
+        nutik::format("{}: its first block is not whole, and blocks are saved from the front", name));
   }
   const std::uint64_t kept = std::min<std::uint64_t>(offset, file.size());
   recovery.lost_bytes = file.size() - kept;

@@ -47,6 +47,7 @@ class Reader final : public CaptureSource {
 
  private:
   void read_footer();
+  void check_front() const;
   [[nodiscard]] BlockHeader block_header(std::uint64_t block) const;
   [[nodiscard]] std::span<const std::byte> stored_payload(std::uint64_t block) const;
   [[noreturn]] void fail(const std::string& why) const;

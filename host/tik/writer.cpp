@@ -39,11 +39,15 @@ Writer::Writer(const std::filesystem::path& path, const Header& header, const Co
                std::span<const std::byte> first_sample)
     : file_(path), header_(header), codec_(codec) {
   header_.codec = codec.text();
-  file_.write(header_.text());
-  file_.write(netpbm_raster(header_.capture, first_sample));
+  std::vector<std::byte> front = netpbm_raster(header_.capture, first_sample);
+  const std::string text = header_.text();
+  const auto text_bytes = std::as_bytes(std::span(text));
+  front.insert(front.begin(), text_bytes.begin(), text_bytes.end());
   // Never 'P', after which a reader would look for a second picture.
-  file_.write(std::string_view("\n"));
-  pad(file_);
+  front.push_back(std::byte{'\n'});
+  front.resize(align_up(front.size(), kAlignment));
+  front_checksum_ = checksum(front);
+  file_.write(front);
 }
 
 void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures) {
@@ -70,6 +74,7 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
   header.record_count = block.record_count;
   header.payload_checksum = checksum(payload);
   if (!exposures.empty()) header.exposures_checksum = checksum(std::as_bytes(exposures));
+  header.front_checksum = front_checksum_;
   header.header_checksum = checksum_of(header, offsetof(BlockHeader, header_checksum));
 
   index_.push_back({file_.size(), header.first_sample, header.sample_count, header.codec, header.stored_bytes,

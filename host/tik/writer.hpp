@@ -43,6 +43,7 @@ class Writer {
   Header header_;
   Codec codec_;
   std::vector<IndexEntry> index_;
+  std::uint64_t front_checksum_ = 0;  // of what stands before the first block
   std::uint64_t sample_count_ = 0;
 };
 

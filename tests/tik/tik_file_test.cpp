@@ -137,6 +137,43 @@ std::string message_of(const std::function<void()>& action) {
   return "nothing was thrown";
 }
 
+// Rate, shutter and size stand in the text: a changed digit would give another picture without a word.
+TEST(TikFile, RefusesAnyChangeBeforeItsFirstBlock) {
+  const RandomCase random(3);
+  const Scratch scratch;
+  const std::string whole = test::read_file(write(random, {CodecId::none, 0}, scratch));
+  const std::size_t first_block = whole.find(std::string_view(kBlockMagic, sizeof kBlockMagic));
+  ASSERT_NE(first_block, std::string::npos);
+  for (std::size_t byte = 0; byte < first_block; ++byte) {
+    std::string flipped = whole;
+    flipped[byte] = static_cast<char>(flipped[byte] ^ (1 << byte % 8));
+    const auto path = scratch.write("flipped.tik", flipped);
+    EXPECT_THROW(Reader{path}, InputError) << "byte " << byte;
+    EXPECT_THROW(recover(path, scratch / "new.tik"), InputError) << "byte " << byte;
+  }
+}
+
+TEST(TikFile, IsNotRecoveredWithoutNeed) {
+  const RandomCase random(3);
+  const Scratch scratch;
+  const auto path = write(random, {CodecId::none, 0}, scratch);
+  EXPECT_NE(message_of([&] { recover(path, scratch / "new.tik"); }).find("was not cut off"),
+            std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(scratch / "new.tik"));
+}
+
+TEST(TikFile, UnpacksAheadWhatItIsAskedFor) {
+  RandomCase random(5);
+  random.block_samples = 2;
+  for (const CodecId codec : {CodecId::none, CodecId::zstd}) {
+    const Scratch scratch;
+    Reader reader(write(random, {codec, 0}, scratch));
+    ASSERT_GE(reader.block_count(), 2u);
+    reader.preload(1);
+    expect_same_capture(random, reader);
+  }
+}
+
 TEST(TikFile, ADamagedBlockCostsThatBlockOnly) {
   const RandomCase random = case_with_blocks(3);
   const Scratch scratch;
