@@ -159,7 +159,7 @@ StoredFront read_front(CodecId codec, const BlockGeometry& geometry, std::span<c
   reader.take<std::uint32_t>();
   const auto group_table = reader.take(std::uint64_t{group_count} * sizeof(StoredGroup));
   std::vector<StoredGroup> groups(group_count);
-  std::memcpy(groups.data(), group_table.data(), group_table.size());
+  if (group_count != 0) std::memcpy(groups.data(), group_table.data(), group_table.size());
   const auto counts_bytes = reader.take<std::uint32_t>();
   reader.take<std::uint32_t>();
   std::vector<std::uint32_t> counts(geometry.tile_count);
