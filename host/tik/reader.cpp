@@ -84,7 +84,7 @@ std::uint64_t first_block_offset(const ParsedHeader& parsed) {
 
 std::vector<Exposure> load_exposures(std::span<const std::byte> bytes) {
   std::vector<Exposure> exposures(bytes.size() / sizeof(Exposure));
-  std::memcpy(exposures.data(), bytes.data(), exposures.size() * sizeof(Exposure));
+  if (!exposures.empty()) std::memcpy(exposures.data(), bytes.data(), exposures.size() * sizeof(Exposure));
   return exposures;
 }
 
