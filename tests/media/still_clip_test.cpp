@@ -161,6 +161,15 @@ TEST(StillClip, AStatedWhiteCodeGoesBeforeTheFiles) {
   EXPECT_TRUE(clip->info().notes.empty());
 }
 
+// A stack's pages are chained: where a link leads nowhere the rest would be lost without a word.
+TEST(StillClip, RefusesAStackThatWasCutOff) {
+  const Scratch scratch;
+  const std::string whole = tiff_file(test::random_stills(kGrey, 65'535, 4, 1), {});
+  for (const std::size_t eighths : {3u, 5u, 7u}) {
+    expect_refused(scratch.write("cut.tif", whole.substr(0, whole.size() * eighths / 8)), {"cut.tif"});
+  }
+}
+
 TEST(StillClip, SaysWhichStillDiffersAndHow) {
   const Scratch scratch;
   const auto write = [&](const std::string& name, Shape shape, std::uint32_t white) {
