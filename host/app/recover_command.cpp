@@ -17,7 +17,7 @@ int run_recover(const Options& options) {
   check_output(*output, OutputKind::tik, std::array{damaged});
   const tik::Recovery recovery = tik::recover(damaged, *output);
   if (!options.quiet) {
-    print_line(format("{}: {} samples in {} blocks were saved, {} after them were lost", output->string(),
+    print_line(format("{}: {} samples in {} blocks were saved, {} behind them left out", output->string(),
                       recovery.sample_count, recovery.block_count, bytes_text(recovery.lost_bytes)));
   }
   return 0;
