@@ -97,8 +97,13 @@ class Exposing {
         make_plan(source, functions, request_.mask(source.format().shape), request_.plan_options());
     const OutputFormat format = output_format(options_, output_, plan.capture);
     if (!renderer_) {
+      auto ready = std::async(std::launch::async, [&] {
+        auto renderer = starting_.get();
+        renderer->prepare(plan, format);
+        return renderer;
+      });
       if (!plan.blocks.empty()) source.preload(plan.blocks.front().block);
-      renderer_ = starting_.get();
+      renderer_ = ready.get();
     }
     Picture picture = renderer_->render(plan, source, format);
     return {std::move(plan), std::move(picture), source.timeline()};

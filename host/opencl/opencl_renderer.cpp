@@ -118,6 +118,15 @@ class OpenClRenderer::Implementation {
         statistics_.develop_ms, static_cast<double>(statistics_.device_bytes) * 1e-6);
   }
 
+  void prepare(const RenderPlan& plan, const OutputFormat& output) {
+    try {
+      expose_program(plan, light_source_for(plan));
+      develop_program(plan, output);
+    } catch (const cl::Error& error) {
+      throw DeviceError(describe(error, format("{} failed", info_.name)));
+    }
+  }
+
   Picture render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
     try {
       return options_.precision == Precision::single_ ? render_as<float>(plan, source, output)
@@ -183,6 +192,29 @@ class OpenClRenderer::Implementation {
                   plan.capture.shape.channels);
   }
 
+  [[nodiscard]] LightSource light_source_for(const RenderPlan& plan) const {
+    const bool permutes = shape_.lanes == kLightPieces && info_.native_float_lanes >= kLightPieces;
+    return light_source(plan.capture, options_.precision, permutes);
+  }
+
+  cl::Program expose_program(const RenderPlan& plan, const LightSource& light) {
+    return programs_->get(
+        "expose", kExposeSource,
+        format("{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
+               "-DNUTIK_LANES={}",
+               common_options(plan), plan.capture.code_bytes, light.kind, shape_.item_pixels,
+               shape_.item_tiles, shape_.lanes));
+  }
+
+  cl::Program develop_program(const RenderPlan& plan, const OutputFormat& output) {
+    const std::size_t raster_bytes = holds_codes(output.type) ? value_bytes(output.type) : 1;
+    return programs_->get("develop", kDevelopSource,
+                          format("{} -DNUTIK_CODE_BYTES=1 -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
+                                 "-DNUTIK_LANES={} -DNUTIK_RASTER_BYTES={}",
+                                 common_options(plan), shape_.item_pixels, shape_.item_tiles,
+                                 std::min(shape_.lanes, kTileSide), raster_bytes));
+  }
+
   [[nodiscard]] cl::EnqueueArgs items(std::uint64_t count) {
     const std::uint64_t group = shape_.group_items;
     return {queue_, cl::NDRange((count + group - 1) / group * group), cl::NDRange(group)};
@@ -207,15 +239,8 @@ class OpenClRenderer::Implementation {
       return sums;
     }
     const HeldBytes scope(held_bytes_);  // of what is not the picture
-    const bool permutes = shape_.lanes == kLightPieces && info_.native_float_lanes >= kLightPieces;
-    const LightSource light = light_source(plan.capture, options_.precision, permutes);
-    const cl::Program program = programs_->get(
-        "expose", kExposeSource,
-        format("{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
-               "-DNUTIK_LANES={}",
-               common_options(plan), plan.capture.code_bytes, light.kind, shape_.item_pixels,
-               shape_.item_tiles, shape_.lanes));
-    ExposeKernel kernel(program, "expose");
+    const LightSource light = light_source_for(plan);
+    ExposeKernel kernel(expose_program(plan, light), "expose");
 
     const cl::Buffer weights = upload(converted<Real>(plan.weights));
     const cl::Buffer boundaries = upload(converted<Real>(plan.boundaries));
@@ -310,13 +335,7 @@ class OpenClRenderer::Implementation {
                   const cl::Buffer& function_of_lane) {
     const Shape& shape = plan.capture.shape;
     const bool codes = holds_codes(output.type);
-    const std::size_t raster_bytes = codes ? value_bytes(output.type) : 1;
-    const cl::Program program =
-        programs_->get("develop", kDevelopSource,
-                       format("{} -DNUTIK_CODE_BYTES=1 -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
-                              "-DNUTIK_LANES={} -DNUTIK_RASTER_BYTES={}",
-                              common_options(plan), shape_.item_pixels, shape_.item_tiles,
-                              std::min(shape_.lanes, kTileSide), raster_bytes));
+    const cl::Program program = develop_program(plan, output);
     const cl::Buffer scales = upload(light_scales<Real>(plan));
     const std::uint64_t tile_count = TileGrid(shape).tile_count();
     const std::uint64_t item_count = shape_.items(tile_count);
@@ -372,6 +391,10 @@ OpenClRenderer::OpenClRenderer(const OpenClOptions& options) {
 }
 
 OpenClRenderer::~OpenClRenderer() = default;
+
+void OpenClRenderer::prepare(const RenderPlan& plan, const OutputFormat& output) {
+  implementation_->prepare(plan, output);
+}
 
 Picture OpenClRenderer::render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
   return implementation_->render(plan, source, output);

@@ -47,6 +47,7 @@ class OpenClRenderer final : public Renderer {
   explicit OpenClRenderer(const OpenClOptions& options);
   ~OpenClRenderer() override;
 
+  void prepare(const RenderPlan& plan, const OutputFormat& output) override;
   [[nodiscard]] Picture render(const RenderPlan& plan, CaptureSource& source,
                                const OutputFormat& output) override;
   [[nodiscard]] std::string name() const override;

@@ -21,6 +21,9 @@ class Renderer {
  public:
   virtual ~Renderer() = default;
 
+  // Does ahead what render() needs no capture for, kernels to load for example. May be left out.
+  virtual void prepare(const RenderPlan& /*plan*/, const OutputFormat& /*output*/) {}
+
   // Exposes a picture. `source` is the capture that the plan was made for; its blocks are read in time
   // order. Throws InputError for a damaged block, DeviceError where the device fails.
   [[nodiscard]] virtual Picture render(const RenderPlan& plan, CaptureSource& source,
