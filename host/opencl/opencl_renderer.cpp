@@ -120,7 +120,7 @@ class OpenClRenderer::Implementation {
 
   void prepare(const RenderPlan& plan, const OutputFormat& output) {
     try {
-      expose_program(plan, light_source_for(plan));
+      if (!plan.blocks.empty()) expose_program(plan, light_source_for(plan));
       develop_program(plan, output);
     } catch (const cl::Error& error) {
       throw DeviceError(describe(error, format("{} failed", info_.name)));

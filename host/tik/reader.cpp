@@ -273,8 +273,9 @@ Recovery recover(const std::filesystem::path& damaged, const std::filesystem::pa
     const HeaderPlace place{offset, recovery.block_count, recovery.sample_count,
                             parsed.header.rate.has_value()};
     if (!is_whole(header) || !flaw_of(header, place, file.size()).empty()) break;
-    if (header.front_checksum != front_checksum)
+    if (header.front_checksum != front_checksum) {
       throw InputError(nutik::format("{}: {}", name, kDamagedFront));
+    }
     const auto exposure_bytes = file.subspan(exposures_offset(offset), header.exposure_bytes);
     const std::uint64_t payload = payload_offset(offset, header);
     if (!fits(payload, header.stored_bytes, file.size())) break;

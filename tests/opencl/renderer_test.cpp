@@ -59,21 +59,23 @@ TEST(OpenClRenderer, AgreesWithTheReferenceInDouble) {
 }
 
 // However the work is cut, the picture is the same within the bound: pixels of an item in one
-// vector or in several, work-groups that do not divide the picture, blocks read one launch each or
-// all at once. Every vector width meets both depths, both numbers of channels, and light looked up
+// vector or in several, tiles of an item, work-groups that do not divide the picture, blocks read one
+// launch each or all at once. Every vector width meets both depths, both numbers of channels, and light looked up
 // and converted; meeting all their products would only take longer, since a kernel is built for
 // each.
 TEST(OpenClRenderer, DoesNotDependOnHowTheWorkIsCut) {
   struct Cut {
-    std::uint32_t item_pixels, lanes, group_items;
+    std::uint32_t item_pixels, item_tiles, lanes, group_items;
     std::uint64_t chunk_bytes;
   };
-  const Cut cuts[] = {{1, 1, 1, 0}, {1, 1, 64, 1}, {16, 4, 3, 0}, {8, 8, 16, 4096}, {16, 16, 2, 1}};
+  const Cut cuts[] = {
+      {1, 1, 1, 1, 0}, {1, 1, 1, 64, 1}, {16, 3, 4, 3, 0}, {8, 16, 8, 16, 4096}, {16, 1000, 16, 2, 1}};
   const test::CodeFormat formats[] = {{3, 1, 255, Transfer::srgb()}, {1, 2, 4095, Transfer::linear()}};
   ReferenceRenderer reference;
   for (const Cut& cut : cuts) {
     OpenClOptions options = test::renderer_options(Precision::double_);
     options.item_pixels = cut.item_pixels;
+    options.item_tiles = cut.item_tiles;
     options.lanes = cut.lanes;
     options.group_items = cut.group_items;
     options.chunk_bytes = cut.chunk_bytes;
@@ -86,8 +88,8 @@ TEST(OpenClRenderer, DoesNotDependOnHowTheWorkIsCut) {
           test::difference_of(plan, renderer.render(plan, capture, {ValueType::light64, 0}),
                               reference.render(plan, capture, {ValueType::light64, 0}));
       ASSERT_LE(difference.worst, test::bound_of(plan, Precision::double_))
-          << random.text() << ", " << cut.item_pixels << " pixels an item in " << cut.lanes
-          << " lanes, value " << difference.value;
+          << random.text() << ", " << cut.item_pixels << " pixels of " << cut.item_tiles
+          << " tiles an item in " << cut.lanes << " lanes, value " << difference.value;
     }
   }
 }

@@ -10,7 +10,6 @@ the smallest; pictures are exposed straight from both. Times are medians, in sec
 """
 
 import argparse
-import csv
 import os
 import pathlib
 import statistics
@@ -18,6 +17,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+from tables import write_csv
 
 CLIPS = ("bicycle-wheel.mp4", "diabolo-cm-trajectory.mp4", "BallTossOut.mp4",
          "one-by-one-person-detection.mp4", "bottle-detection.mp4", "bulk-water.mov", "realshort.mp4",
@@ -99,10 +100,7 @@ def main():
                 print(f"{row['clip']:34} {row['codec']:7} {row['bytes'] / 1e6:7.2f} {row['bytes'] / peer:6.2f} "
                       f"{encode} {row['cold_s']:6.3f} {row['warm_s']:6.3f}", flush=True)
     if arguments.csv:
-        with arguments.csv.open("w", newline="") as file:
-            writer = csv.DictWriter(file, everything[0].keys())
-            writer.writeheader()
-            writer.writerows(everything)
+        write_csv(arguments.csv, everything)
 
 
 if __name__ == "__main__":

@@ -9,13 +9,14 @@ seconds of the whole process; medians, and the share of what dense tiles take.
 """
 
 import argparse
-import csv
 import pathlib
 import re
 import statistics
 import subprocess
 import tempfile
 import time
+
+from tables import write_csv
 
 KINDS = ("auto", "dense", "rows", "records")
 CLIPS = ("one-by-one-person-detection.mp4:4", "one-by-one-person-detection.mp4:0", "bikes.mp4:0", "bikes.mp4:4",
@@ -79,10 +80,7 @@ def main():
                 print(f"{name:32} {tolerance:>4} {row['tiles']:8} {' '.join(columns)}", flush=True)
             everything += rows
     if arguments.csv:
-        with arguments.csv.open("w", newline="") as file:
-            writer = csv.DictWriter(file, everything[0].keys())
-            writer.writeheader()
-            writer.writerows(everything)
+        write_csv(arguments.csv, everything)
 
 
 if __name__ == "__main__":
