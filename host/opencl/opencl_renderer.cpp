@@ -19,14 +19,6 @@
 
 namespace nutik {
 
-Precision parse_precision(std::string_view text) {
-  if (text == "single") return Precision::single_;
-  if (text == "double") return Precision::double_;
-  throw UsageError(format("precision '{}' is not known; choose single or double", text));
-}
-
-std::string to_text(Precision precision) { return precision == Precision::single_ ? "single" : "double"; }
-
 namespace {
 
 constexpr std::uint64_t kDefaultChunkBytes = 1ull << 30;

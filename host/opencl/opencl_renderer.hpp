@@ -6,15 +6,11 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <string_view>
 
+#include "render/precision.hpp"
 #include "render/renderer.hpp"
 
 namespace nutik {
-
-enum class Precision { single_, double_ };
-Precision parse_precision(std::string_view text);  // `single` or `double`; throws UsageError
-std::string to_text(Precision precision);
 
 struct OpenClOptions {
   std::size_t device = 0;  // index into list_devices()
