@@ -13,11 +13,15 @@ constexpr double kRoundoff64 = 0x1p-53;
 constexpr double kRoundoff32 = 0x1p-24;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// In u₆₄ of S, whatever the kernel's arithmetic: weights 26, the reference 30, light of a code in double 14.
-constexpr double kDoubleRoundings = 26 + 30 + 14;
+// In u₆₄ of S, whatever the kernel's arithmetic: weights 26, the reference 30, codes to light and sums
+// to light in double 16.
+constexpr double kDoubleRoundings = 26 + 30 + 16;
 
 // Light of a code in single precision by a curve or by pieces, for any white code and any device.
 constexpr double kCurveLight = 3.3e-7;
+
+// What doubles lose that are too small to be normal, in the reference and in the light of sums.
+constexpr double kSmallest = 16 * std::numeric_limits<double>::denorm_min();
 
 // What an arithmetic adds to the error, to first order: multiples of `unit` for each of a function's measures.
 struct Roundings {
@@ -60,12 +64,21 @@ Roundings roundings_of(Precision precision, const Transfer& transfer) {
   return {kRoundoff64, 1, 1, 2, 0, 0.0, kRoundoff64, 0.0, kRoundoff64};
 }
 
+// Between what a sum of light · weight can lie for light in [0, 1]: -below … above.
+struct Extent {
+  double above = 0.0;
+  double below = 0.0;
+
+  void add(double weight) { (weight > 0.0 ? above : below) += std::fabs(weight); }
+  [[nodiscard]] double largest() const { return std::max(above, below); }
+};
+
 // What the sums of one function can come to, over all light in [0, 1].
 struct Course {
   double magnitude = 0.0;        // Σ|w|
-  double extent = 0.0;           // of the whole sum: the larger of the weights above 0 and those below
-  double partial_sums = 0.0;     // Σ over samples: extent of their block up to them
-  double block_sums = 0.0;       // Σ over blocks but the first: extent of everything up to their ends
+  double extent = 0.0;           // the largest that the whole sum can be
+  double partial_sums = 0.0;     // Σ over samples: the same of their block's sum up to them
+  double block_sums = 0.0;       // Σ over blocks but the first: the same of all up to their ends
   double boundaries = 0.0;       // Σ|B|
   double boundary_errors = 0.0;  // Σ of what the kernel's table misses of each boundary
   double weight_count = 0.0;     // that are not 0
@@ -74,34 +87,42 @@ struct Course {
   double sample_count = 0.0;     // live
 };
 
-Course course_of(const RenderPlan& plan, std::size_t function, Precision precision) {
+std::vector<Course> courses_of(const RenderPlan& plan, Precision precision) {
   const std::uint64_t count = plan.function_count();
-  Course course;
-  double above = 0.0, below = 0.0;  // of the whole capture
+  std::vector<Course> courses(count);
+  std::vector<Extent> capture(count), block(count);
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
-    const SampleSpan& span = plan.spans[b * count + function];
-    if (span.first == span.last) continue;
-    double block_above = 0.0, block_below = 0.0;
-    for (std::uint32_t k = span.first; k < span.last; ++k) {
-      const std::uint64_t row = plan.blocks[b].table_row + k;
-      const double weight = plan.weights[row * count + function];
-      const double boundary = plan.boundaries[(row + 1) * count + function];
-      (weight > 0.0 ? block_above : block_below) += std::fabs(weight);
-      course.partial_sums += std::max(block_above, block_below);
-      course.boundaries += std::fabs(boundary);
-      course.boundary_errors += std::fabs(boundary - in_table(precision, boundary));
-      course.weight_count += weight != 0.0;
+    const SampleSpan* spans = plan.spans.data() + b * count;
+    std::fill(block.begin(), block.end(), Extent{});
+    for (std::uint32_t k = 0; k < plan.blocks[b].extent.sample_count; ++k) {
+      const double* weights = plan.weights.data() + (plan.blocks[b].table_row + k) * count;
+      const double* boundaries = plan.boundaries.data() + (plan.blocks[b].table_row + k + 1) * count;
+      for (std::uint64_t f = 0; f < count; ++f) {
+        if (k < spans[f].first || k >= spans[f].last) continue;
+        Course& course = courses[f];
+        block[f].add(weights[f]);
+        course.partial_sums += block[f].largest();
+        course.boundaries += std::fabs(boundaries[f]);
+        course.boundary_errors += std::fabs(boundaries[f] - in_table(precision, boundaries[f]));
+        course.weight_count += weights[f] != 0.0;
+      }
     }
-    above += block_above;
-    below += block_below;
-    if (course.block_count > 0) course.block_sums += std::max(above, below);
-    course.longest_block = std::max<double>(course.longest_block, span.last - span.first);
-    course.block_count += 1;
-    course.sample_count += span.last - span.first;
+    for (std::uint64_t f = 0; f < count; ++f) {
+      if (spans[f].first == spans[f].last) continue;
+      Course& course = courses[f];
+      capture[f].above += block[f].above;
+      capture[f].below += block[f].below;
+      if (course.block_count > 0) course.block_sums += capture[f].largest();
+      course.longest_block = std::max<double>(course.longest_block, spans[f].last - spans[f].first);
+      course.block_count += 1;
+      course.sample_count += spans[f].last - spans[f].first;
+    }
   }
-  course.magnitude = above + below;
-  course.extent = std::max(above, below);
-  return course;
+  for (std::uint64_t f = 0; f < count; ++f) {
+    courses[f].magnitude = capture[f].above + capture[f].below;
+    courses[f].extent = capture[f].largest();
+  }
+  return courses;
 }
 
 double floating_error(const Course& course, const Roundings& roundings) {
@@ -146,19 +167,20 @@ double code_error(const Transfer& transfer, std::uint32_t white_code, double lig
 ErrorBound error_bound(const RenderPlan& plan, Precision precision, const OutputFormat& output) {
   const Roundings roundings = roundings_of(precision, plan.capture.transfer);
   const FixedScale scale = precision == Precision::fixed ? fixed_scale(plan) : FixedScale{};
+  const std::vector<Course> courses = courses_of(plan, precision);
   ErrorBound bound{precision, {}, {}};
   for (std::size_t f = 0; f < plan.functions.size(); ++f) {
     const GainSummary& gain = plan.functions[f].summary;
     PictureError error;
     if (gain.support_ns > 0) {
-      const Course course = course_of(plan, f, precision);
+      const Course& course = courses[f];
       const double sums = precision == Precision::fixed
                               ? fixed_error(course, scale, f, plan.capture.transfer.is_linear())
                               : floating_error(course, roundings);
       const double tables =
           kRoundoff64 * (kDoubleRoundings * gain.absolute_integral_ns / static_cast<double>(gain.support_ns) +
                          course.boundaries);
-      error.light = std::scalbn(sums + tables, gain.exponent);
+      error.light = std::scalbn(sums + tables, gain.exponent) + kSmallest;
       error.steps = in_steps(plan, gain, error.light, roundings.threshold, output);
     }
     bound.functions.push_back(error);

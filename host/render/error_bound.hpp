@@ -28,7 +28,7 @@ struct PictureError {
 };
 
 struct ErrorBound {
-  Precision precision;
+  Precision precision = Precision::single_;
   std::vector<PictureError> functions;  // by planned function
   PictureError worst;                   // the largest of each
 };
