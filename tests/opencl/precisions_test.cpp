@@ -60,7 +60,9 @@ class Precisions : public testing::Test {
                                   << expected.values<double>()[share.value] << ", " << what;
       seen.tightest = std::max(seen.tightest, share.worst);
       const double difference = test::difference_of(plan, light, expected).worst;
-      if (precision == Precision::double_) ASSERT_LE(difference, test::kDoubleAgainstReference) << what;
+      if (precision == Precision::double_) {
+        ASSERT_LE(difference, test::kDoubleAgainstReference) << what;
+      }
       seen.worst = std::max(seen.worst, difference);
 
       const Picture picture = seen.renderer->render(plan, capture, codes);
