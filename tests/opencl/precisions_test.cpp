@@ -1,6 +1,7 @@
 // Every arithmetic that the device has, against the reference: within its bound, in light and in codes.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -32,9 +33,14 @@ class Precisions : public testing::Test {
     double tightest = 0.0;  // of the bound
   };
 
-  Precisions() {
-    for (const Precision precision : precisions_of(list_devices().front())) {
-      seen_[precision].renderer = std::make_unique<OpenClRenderer>(test::renderer_options(precision));
+  Precisions() { start(precisions_of(list_devices().front()), true); }
+
+  void start(std::span<const Precision> precisions, bool use_fma) {
+    seen_.clear();
+    for (const Precision precision : precisions) {
+      OpenClOptions options = test::renderer_options(precision);
+      options.use_fma = use_fma;
+      seen_[precision].renderer = std::make_unique<OpenClRenderer>(options);
     }
   }
 
@@ -135,6 +141,17 @@ TEST_F(Precisions, StayWithinTheirBoundsWhereSumsCancel) {
         }
       }
     }
+  }
+}
+
+// Where a device does not fuse, products round twice and pairs are multiplied by halves.
+TEST_F(Precisions, OfFloatsStayWithinTheirBoundsWithoutFusedProducts) {
+  start(std::array{Precision::single_, Precision::compensated}, false);
+  MemoryCapture capture = clip_of(Transfer::srgb(), false, TilePolicy::records);
+  for (const double gain : {1.0, 1e6}) {
+    const RenderPlan plan = make_plan(capture, {{0, cancelling(gain, 0.3)}}, Mask::uniform(19, 9, 0), {});
+    check(plan, capture, {ValueType::code8, 255}, format("gains of ±{} without fma", gain));
+    if (HasFatalFailure()) return;
   }
 }
 
