@@ -87,6 +87,7 @@ class Exposing {
   // What makes the picture, for the summary.
   [[nodiscard]] std::string renderer_name() const { return renderer_->name(); }
   [[nodiscard]] std::string report() const { return renderer_->report(); }
+  [[nodiscard]] std::string warning() const { return renderer_->warning(); }
   [[nodiscard]] const std::string& label() const { return request_.label(); }
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   void set_output(const std::filesystem::path& output) { output_ = output; }
@@ -178,6 +179,7 @@ int run_expose(const Options& options) {
   const Exposed exposed = captured ? exposing.from_tik(input) : exposing.from_clip(input, source_options);
   for (const std::string& warning : exposed.plan.warnings) print_warning(warning);
   warn_of_negative_gains(exposed);
+  if (const std::string warning = exposing.warning(); !warning.empty()) print_warning(warning);
   write_picture(output, exposed.picture);
   if (options.quiet) {
     if (!stated) print_line(output.string());  // a name that nobody gave

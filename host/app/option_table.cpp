@@ -136,7 +136,9 @@ std::span<const Option> options() {
              "OpenCL device by number or part of its name; NUTIK_DEVICE does the same (default: the first "
              "GPU, else the first device)",
              kExpose, &Options::device),
-      valued(0, "precision", "NAME", kComputing, "single or double (default: double where the device can)",
+      valued(0, "precision", "NAME", kComputing,
+             "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is "
+             "sure to be right to half a code, or to half a float's step (default: auto; see -v)",
              kExpose, &Options::precision),
 
       valued('o', "output", "FILE", kOutput,
@@ -159,7 +161,7 @@ std::span<const Option> options() {
              "between them sRGB",
              bit(Id::info), &Options::activity),
       flag('q', "quiet", kOutput, "no progress bar and no summary", kAll, &Options::quiet),
-      flag('v', "verbose", kOutput, "also say in which precision, how fast and with how much memory", kExpose,
+      flag('v', "verbose", kOutput, "also say in which precision and why, how fast and with how much memory", kExpose,
            &Options::verbose),
   };
   return table;

@@ -27,8 +27,7 @@ std::unique_ptr<Renderer> choose_renderer(const Options& options) {
   const std::vector<DeviceInfo> devices = list_devices();
   OpenClOptions opencl;
   opencl.device = choose_device(devices, wanted);
-  opencl.precision = devices[opencl.device].has_double ? Precision::double_ : Precision::single_;
-  if (options.precision) opencl.precision = parse_precision(*options.precision);
+  if (options.precision.value_or("auto") != "auto") opencl.precision = parse_precision(*options.precision);
   opencl.cache_folder = default_cache_folder();
   if (!options.quiet) opencl.announce = print_note;
   return std::make_unique<OpenClRenderer>(opencl);
