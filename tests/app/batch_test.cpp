@@ -19,7 +19,7 @@ class Batch : public testing::Test {
       for (int i = 0; i < 9 * 7; ++i) still += static_cast<char>(40 + 20 * k + i);
       scratch_.write("still" + std::to_string(k) + ".pgm", still);
     }
-    ASSERT_EQ(run({"-f", "100", "still%d.pgm)", "scene.tik"}).status, 0);
+    ASSERT_EQ(run({"-f", "100", "still%d.pgm", "scene.tik"}).status, 0);
     scratch_.write("trail.fn", "M0 [0:0], [10000000:1], [40000000:0]\n");
   }
   ProgramResult run(const std::vector<std::string>& words) {
@@ -53,7 +53,7 @@ TEST_F(Batch, GivesThePicturesOfSingleCommands) {
 TEST_F(Batch, LeavesTheCaptureToTheCommandAndReadsFromStandardInput) {
   const ProgramResult batch = test::run_shell(
       "(printf '%s\\n' '--start 0f --exposure 1f a.png' '-k trail.fn b.png' | " NUTIK_TEST_PROGRAM
-      " batch -f 100 - still%d.pgm",
+      " batch -f 100 - still%d.pgm)",
       scratch_.folder());
   ASSERT_EQ(batch.status, 0) << batch.err;
   EXPECT_TRUE(batch.out.starts_with("2 of 2 pictures, ")) << batch.out;
