@@ -77,7 +77,7 @@ TEST_F(Batch, ReportsBadLinesAndGoesOn) {
   EXPECT_EQ(batch.status, 1);
   EXPECT_TRUE(batch.out.starts_with("2 of 10 pictures, ")) << batch.out;
   for (const char* message :
-       {"list.txt:2: the interval of 10 ms from 9 s on lies outside the capture, which lasts 60 ms",
+       {"list.txt:2: the interval from 9 s on lies outside the capture, which lasts 60 ms",
         "list.txt:3: a.png is the picture of line 1 already", "list.txt:4: absent.fn cannot be read: ",
         "list.txt:5: --precision holds for all exposures: nutik-cl batch --precision single",
         "list.txt:6: there is no option --exposre; did you mean --exposure?",
