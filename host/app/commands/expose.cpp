@@ -12,6 +12,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
+#include "media/read_ahead.hpp"
 #include "render/render_plan.hpp"
 
 namespace nutik::app {
@@ -52,8 +53,11 @@ class Exposing {
       plan_options.transfer.reset();  // it went into the capture's format
       const SampleRange needed =
           needed_samples(timeline, functions, request_.mask(source.capture.shape), plan_options);
+      // At the timeline's end samples that follow are counted: they prove it wrong.
+      const bool is_end = needed.last == timeline.sample_count();
+      ReadAhead samples(*source.clip, is_end ? ReadAhead::kAll : needed.last);
       StreamingCapture stream(source.capture, timeline, needed, source.block_samples, source_options.tiles,
-                              [&](std::span<std::byte> raster) { return source.clip->read(raster); });
+                              [&] { return samples.next(); });
       try {
         return expose(stream, functions);
       } catch (const SampleCountMismatch& mismatch) {
