@@ -144,6 +144,7 @@ class Batch {
       capture_.reset();
       capture_ = std::make_unique<OpenedCapture>(name, options_);
       capture_name_ = name;
+      exposer_.hold(capture_->reader());
       if (!options_.quiet) {
         for (const std::string& note : capture_->notes()) print_note(note);
       }
