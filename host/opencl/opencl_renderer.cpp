@@ -166,9 +166,8 @@ class OpenClRenderer::Implementation {
   }
 
   [[nodiscard]] FeedLimits feed_limits() const {
-    const std::uint64_t memory = options_.memory_bytes != 0
-                                     ? options_.memory_bytes
-                                     : std::min(kDefaultMemoryBytes, info_.memory_bytes / 2);
+    const std::uint64_t memory = std::min(
+        options_.memory_bytes != 0 ? options_.memory_bytes : kDefaultMemoryBytes, info_.memory_bytes / 2);
     FeedLimits limits{std::min(kChunkBytes, memory / 4), memory / 2};
     if (options_.chunk_bytes != 0) limits.chunk_bytes = options_.chunk_bytes;
     return limits;

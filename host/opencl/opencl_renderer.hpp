@@ -25,8 +25,8 @@ struct OpenClOptions {
   std::function<void(const std::string& message)> announce;  // told what takes long; may be empty
 
   // For blocks of captures, on the device or where it reads the host's memory: half of it for those of a held
-  // capture, half at most for those on their way. A block that is larger is taken all the same. 0: 4 GB, or
-  // half of the device's memory where that is less.
+  // capture, half at most for those on their way. A block that is larger is taken all the same. 0: 4 GB. Never
+  // more than half of the device's memory.
   std::uint64_t memory_bytes = 0;
 
   // How the work is cut. 0 leaves it to the device; the picture does not depend on it beyond rounding.

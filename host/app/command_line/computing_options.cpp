@@ -18,6 +18,10 @@ std::vector<Option> computing_options() {
              kExposes, &Options::device),
       valued(0, "precision", "NAME", kGroup, "single or double (default: double where the device can)",
              kExposes, &Options::precision),
+      valued(0, "memory", "SIZE", kGroup,
+             "what pictures and blocks may take: 500MB, 2GB, 1GiB; libraries take some 150 MB besides (default: "
+             "half of the machine's)",
+             kReadsClips | kExposes, &Options::memory),
   };
 }
 

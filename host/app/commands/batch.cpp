@@ -56,6 +56,7 @@ constexpr std::pair<std::optional<std::string> Options::*, std::string_view> kOf
     {&Options::renderer, "--renderer"},
     {&Options::device, "--device"},
     {&Options::precision, "--precision"},
+    {&Options::memory, "--memory"},
     {&Options::fps, "--fps"},
     {&Options::shutter_angle, "--shutter-angle"},
     {&Options::white, "--white"},
