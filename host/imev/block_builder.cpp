@@ -22,8 +22,8 @@
 
 namespace nutik {
 
-std::uint32_t default_block_samples(const CaptureFormat& capture) {
-  const std::uint64_t fitting = kDefaultBlockBytes / std::max<std::uint64_t>(capture.sample_bytes(), 1);
+std::uint32_t default_block_samples(const CaptureFormat& capture, std::uint64_t block_bytes) {
+  const std::uint64_t fitting = block_bytes / std::max<std::uint64_t>(capture.sample_bytes(), 1);
   return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fitting, 1, kDefaultBlockSamples));
 }
 

@@ -24,8 +24,9 @@ inline constexpr std::uint64_t kLargestPayloadBytes =          // a tile's offse
 inline constexpr std::uint64_t kDefaultBlockBytes = 128ull << 20;
 
 // The samples a block holds where nothing else is asked for: 64, or fewer so that the samples' raw bytes
-// stay within kDefaultBlockBytes (21 of 1080p in colour), never less than one.
-[[nodiscard]] std::uint32_t default_block_samples(const CaptureFormat& capture);
+// stay within `block_bytes` (21 of 1080p in colour), never less than one.
+[[nodiscard]] std::uint32_t default_block_samples(const CaptureFormat& capture,
+                                                  std::uint64_t block_bytes = kDefaultBlockBytes);
 
 class BlockBuilder {
  public:

@@ -5,18 +5,17 @@
 namespace nutik {
 namespace {
 
-// Enough that decoding goes on while a block is closed or exposed.
-constexpr std::uint64_t kRasterBytes = 64 << 20;
-
-std::size_t raster_count(const Clip& clip) {
-  return std::clamp<std::uint64_t>(kRasterBytes / clip.info().format.sample_bytes(), 2, 64);
+std::size_t raster_count(const Clip& clip, std::uint64_t ahead_bytes) {
+  return std::clamp<std::uint64_t>(ahead_bytes / clip.info().format.sample_bytes(), 2, 64);
 }
 
 }  // namespace
 
-ReadAhead::ReadAhead(Clip& clip, std::uint64_t most)
-    : clip_(clip), decoded_(raster_count(clip)), spare_(raster_count(clip)) {
-  for (std::size_t i = 0; i < raster_count(clip); ++i) spare_.push(Raster(clip.info().format.sample_bytes()));
+ReadAhead::ReadAhead(Clip& clip, std::uint64_t ahead_bytes, std::uint64_t most)
+    : clip_(clip), decoded_(raster_count(clip, ahead_bytes)), spare_(raster_count(clip, ahead_bytes)) {
+  for (std::size_t i = 0; i < raster_count(clip, ahead_bytes); ++i) {
+    spare_.push(Raster(clip.info().format.sample_bytes()));
+  }
   decoding_ = std::async(std::launch::async, [this, most] { decode(most); });
 }
 

@@ -18,8 +18,9 @@ class ReadAhead {
  public:
   static constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 
-  // Decodes no more than `most` samples. `clip` must outlive this, and nobody else may read from it.
-  explicit ReadAhead(Clip& clip, std::uint64_t most = kAll);
+  // Decodes up to `ahead_bytes` of samples ahead (two samples at least), and no more than `most` of them.
+  // `clip` must outlive this, and nobody else may read from it.
+  explicit ReadAhead(Clip& clip, std::uint64_t ahead_bytes, std::uint64_t most = kAll);
   // Stops decoding.
   ~ReadAhead();
   ReadAhead(const ReadAhead&) = delete;

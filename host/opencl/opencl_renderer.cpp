@@ -6,6 +6,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "opencl/block_feed.hpp"
 #include "opencl/build_options.hpp"
 #include "opencl/function_map.hpp"
 #include "opencl/kernel_layout.hpp"
@@ -15,13 +16,13 @@
 #include "opencl/light_source.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
-#include "system/page_buffer.hpp"
 
 namespace nutik {
 namespace {
 
-constexpr std::uint64_t kDefaultChunkBytes = 1ull << 30;
-constexpr std::uint64_t kPageBytes = 4096;
+// Large enough that launching costs nothing, small enough that reading the next one hides behind it.
+constexpr std::uint64_t kChunkBytes = 64ull << 20;
+constexpr std::uint64_t kDefaultMemoryBytes = 4ull << 30;
 
 using ExposeKernel =
     cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint,
@@ -75,6 +76,7 @@ class OpenClRenderer::Implementation {
     }
     context_ = cl::Context(device_);
     queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
+    feed_ = std::make_unique<BlockFeed>(context_, device_, info_, feed_limits());
     programs_ = std::make_unique<ProgramStore>(context_, device_, options.cache_folder, [this](auto&) {
       if (announced_ || !options_.announce) return;
       announced_ = true;
@@ -106,6 +108,8 @@ class OpenClRenderer::Implementation {
            choice_text();
   }
 
+  void hold(const CaptureSource* source) { feed_->hold(source); }
+
   void prepare(const RenderPlan& plan, const OutputFormat& output) {
     try {
       const Work work = work_for(choose(plan, output).precision());
@@ -120,7 +124,6 @@ class OpenClRenderer::Implementation {
     try {
       statistics_ = {};
       held_bytes_ = 0;
-      pending_bytes_ = 0;  // a render that failed may have left some
       output_ = output;
       choice_ = choose(plan, output);
       const Work work = work_for(choice_.precision());
@@ -143,6 +146,14 @@ class OpenClRenderer::Implementation {
       throw DeviceError(format("there is no OpenCL device {}", options.device));
     }
     return devices[options.device];
+  }
+
+  [[nodiscard]] FeedLimits feed_limits() const {
+    const std::uint64_t memory = std::min(
+        options_.memory_bytes != 0 ? options_.memory_bytes : kDefaultMemoryBytes, info_.memory_bytes / 2);
+    FeedLimits limits{std::min(kChunkBytes, memory / 4), memory / 2};
+    if (options_.chunk_bytes != 0) limits.chunk_bytes = options_.chunk_bytes;
+    return limits;
   }
 
   [[nodiscard]] PrecisionChoice choose(const RenderPlan& plan, const OutputFormat& output) const {
@@ -239,86 +250,32 @@ class OpenClRenderer::Implementation {
     const cl::Buffer function_of_tile = upload(map.of_tile);
     const cl::Buffer transfer = upload(tables.light);
 
+    feed_->start(plan, source);
     bool first = true;
-    for (std::size_t b = 0; b < plan.blocks.size();) {
+    while (std::optional<BlockFeed::Chunk> chunk = next_chunk()) {
+      if (options_.last_block_first) std::reverse(chunk->entries.begin(), chunk->entries.end());
       const HeldBytes chunk_scope(held_bytes_);
-      const auto start = std::chrono::steady_clock::now();
-      Chunk chunk = next_chunk(plan, source, b);
-      if (options_.last_block_first) std::reverse(chunk.entries.begin(), chunk.entries.end());
-      statistics_.read_ms +=
-          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-      const cl::Buffer entries = upload(chunk.entries);
-      const cl::Event event = kernel(items(work.shape, grid.tile_count()), chunk.payload, entries,
-                                     static_cast<cl_uint>(chunk.entries.size()), spans, weights, boundaries,
+      count_device_bytes(feed_->bytes());
+      const cl::Buffer entries = upload(chunk->entries);
+      const cl::Event event = kernel(items(work.shape, grid.tile_count()), chunk->payload, entries,
+                                     static_cast<cl_uint>(chunk->entries.size()), spans, weights, boundaries,
                                      static_cast<cl_uint>(plan.function_count()), function_of_tile,
                                      function_of_lane, transfer, sums, grid.tile_count(), first ? 1u : 0u);
       event.wait();
       statistics_.expose_ms += milliseconds(event);
-      statistics_.blocks += chunk.entries.size();
+      statistics_.blocks += chunk->entries.size();
+      statistics_.payload_bytes += chunk->payload_bytes;
       ++statistics_.launches;
       first = false;
-      b += chunk.entries.size();
     }
     return sums;
   }
 
-  // Consecutive planned blocks that one launch reads.
-  struct Chunk {
-    cl::Buffer payload;
-    std::uint64_t bytes = 0;
-    std::vector<BlockEntry> entries;
-  };
-
-  [[nodiscard]] std::uint64_t chunk_limit() const {
-    const std::uint64_t wanted = options_.chunk_bytes != 0 ? options_.chunk_bytes : kDefaultChunkBytes;
-    return std::min(wanted, info_.largest_allocation_bytes);
-  }
-
-  Chunk next_chunk(const RenderPlan& plan, CaptureSource& source, std::size_t first) {
-    Chunk chunk;
-    const std::span<const std::byte> region = source.region();
-    const bool in_place = !region.empty() && info_.shares_host_memory;
-    std::uint64_t begin = 0;  // of the chunk, within the region
-    for (std::size_t b = first; b < plan.blocks.size(); ++b) {
-      const PlannedBlock& planned = plan.blocks[b];
-      const std::uint64_t payload_bytes =
-          pending_bytes_ != 0 ? pending_bytes_ : source.prepare(planned.block);
-      pending_bytes_ = 0;
-      std::uint64_t offset = chunk.bytes;
-      if (in_place) {
-        const std::uint64_t in_region = source.region_offset(planned.block);
-        if (b == first) begin = in_region / kPageBytes * kPageBytes;
-        offset = in_region - begin;
-      }
-      const std::uint64_t end = align_up(offset + payload_bytes, kBlockAlignment);
-      if (b > first && end > chunk_limit()) {
-        pending_bytes_ = payload_bytes;
-        break;
-      }
-      if (end > info_.largest_allocation_bytes) {
-        throw DeviceError(
-            format("a block of {} samples takes {} MB and {} allocates at most {} MB at a "
-                   "time; encode with fewer samples a block (--block-samples)",
-                   planned.extent.sample_count, end >> 20, info_.name, info_.largest_allocation_bytes >> 20));
-      }
-      if (!in_place) {
-        // Address space for a whole chunk at once, for growing would lose what was read into it.
-        if (b == first) chunk_memory_.reserve(std::max(end, chunk_limit()));
-        source.read(planned.block, {chunk_memory_.data() + offset, payload_bytes});
-      }
-      chunk.entries.push_back({offset, planned.table_row, b, planned.extent.sample_count, 0});
-      chunk.bytes = end;
-      statistics_.payload_bytes += payload_bytes;
-    }
-    count_device_bytes(chunk.bytes);
-    if (info_.shares_host_memory) {
-      auto* host = in_place ? const_cast<std::byte*>(region.data()) + begin : chunk_memory_.data();
-      const std::uint64_t bytes = in_place ? std::min(chunk.bytes, region.size() - begin) : chunk.bytes;
-      chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, bytes, host);
-    } else {
-      chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY, chunk.bytes);
-      queue_.enqueueWriteBuffer(chunk.payload, CL_TRUE, 0, chunk.bytes, chunk_memory_.data());
-    }
+  std::optional<BlockFeed::Chunk> next_chunk() {
+    const auto start = std::chrono::steady_clock::now();
+    auto chunk = feed_->next();
+    statistics_.read_ms +=
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return chunk;
   }
 
@@ -362,8 +319,7 @@ class OpenClRenderer::Implementation {
   cl::CommandQueue queue_;
   std::unique_ptr<ProgramStore> programs_;
   bool announced_ = false;
-  PageBuffer chunk_memory_;
-  std::uint64_t pending_bytes_ = 0;  // of a block that was prepared and did not fit the chunk before
+  std::unique_ptr<BlockFeed> feed_;
   std::uint64_t held_bytes_ = 0;
   RenderStatistics statistics_;
   OutputFormat output_;     // of the last picture
@@ -387,6 +343,8 @@ void OpenClRenderer::prepare(const RenderPlan& plan, const OutputFormat& output)
 Picture OpenClRenderer::render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
   return implementation_->render(plan, source, output);
 }
+
+void OpenClRenderer::hold(const CaptureSource* source) { implementation_->hold(source); }
 
 std::string OpenClRenderer::name() const { return implementation_->name(); }
 

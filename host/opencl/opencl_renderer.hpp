@@ -24,19 +24,24 @@ struct OpenClOptions {
   std::filesystem::path cache_folder;  // of built kernels; empty: none
   std::function<void(const std::string& message)> announce;  // told what takes long; may be empty
 
+  // For blocks of captures, on the device or where it reads the host's memory: half of it for those of a held
+  // capture, half at most for those on their way. A block that is larger is taken all the same. 0: 4 GB. Never
+  // more than half of the device's memory.
+  std::uint64_t memory_bytes = 0;
+
   // How the work is cut. 0 leaves it to the device; the picture does not depend on it beyond rounding.
   std::uint32_t item_pixels = 0;  // pixels of a tile that a work-item owns: 1 … 64, a power of two
   std::uint32_t item_tiles = 0;   // tiles in a row that a work-item owns pixels of
   std::uint32_t lanes = 0;        // of them that it works on at a time: 1, 4, 8 or 16
   std::uint32_t group_items = 0;  // work-items in a work-group
   bool use_fma = true;            // false: as on a device that does not fuse multiplication and addition
-  std::uint64_t chunk_bytes = 0;  // payload that is on the device at a time
+  std::uint64_t chunk_bytes = 0;  // of blocks that one launch reads
   bool last_block_first = false;  // within a chunk: sums of whole numbers do not depend on it
 };
 
 // What the last render did.
 struct RenderStatistics {
-  double read_ms = 0.0;    // until payloads are where the kernel reads them: unpacking, copying
+  double read_ms = 0.0;    // waited for payloads to be where the kernel reads them: unpacking, copying
   double expose_ms = 0.0;  // of the kernels, by the device's own clock
   double develop_ms = 0.0;
   std::uint64_t payload_bytes = 0;  // read by the kernel
@@ -51,6 +56,7 @@ class OpenClRenderer final : public Renderer {
   explicit OpenClRenderer(const OpenClOptions& options);
   ~OpenClRenderer() override;
 
+  void hold(const CaptureSource* source) override;
   void prepare(const RenderPlan& plan, const OutputFormat& output) override;
   [[nodiscard]] Picture render(const RenderPlan& plan, CaptureSource& source,
                                const OutputFormat& output) override;

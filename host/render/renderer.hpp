@@ -21,6 +21,11 @@ class Renderer {
  public:
   virtual ~Renderer() = default;
 
+  // Blocks of this capture stay where they are rendered from once they have been read, as far as memory
+  // allows, so that the next picture of it needs not read them again. Until another is held; null: none. The
+  // capture must live that long. A renderer may do without.
+  virtual void hold(const CaptureSource* /*source*/) {}
+
   // Does ahead what render() needs no capture for, kernels to load for example. May be left out.
   virtual void prepare(const RenderPlan& /*plan*/, const OutputFormat& /*output*/) {}
 

@@ -19,6 +19,10 @@ class MappedFile {
   // Starts on a page border.
   [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
 
+  // Tells the system that `part` of bytes() will not be read again soon: it no longer counts as this
+  // process's memory, and comes back when it is read after all.
+  void release(std::span<const std::byte> part) const;
+
  private:
   std::span<const std::byte> bytes_;
 };

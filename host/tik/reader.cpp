@@ -217,6 +217,7 @@ void Reader::read(std::uint64_t block, std::span<std::byte> into) {
   } catch (const InputError& error) {
     fail_block(block, error.what());
   }
+  file_.release(stored);  // a capture may be larger than memory
 }
 
 std::vector<TileEntry> Reader::directory(std::uint64_t block) const {

@@ -36,7 +36,7 @@ constexpr std::uint64_t kWhole = ReadAhead::kAll;
 TEST(ReadAhead, GivesEverySampleInOrderAndNoMoreThanAsked) {
   for (const std::uint64_t most : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{130}, kWhole}) {
     NumberedClip clip(200, kWhole);
-    ReadAhead ahead(clip, most);
+    ReadAhead ahead(clip, most == 1 ? 0 : 4000, most);
     const std::uint64_t expected = std::min<std::uint64_t>(most, 200);
     for (std::uint64_t k = 0; k < expected; ++k) {
       const auto raster = ahead.next();
@@ -52,14 +52,14 @@ TEST(ReadAhead, GivesEverySampleInOrderAndNoMoreThanAsked) {
 
 TEST(ReadAhead, ThrowsWhatTheClipThrewAfterTheSamplesBeforeIt) {
   NumberedClip clip(200, 3);
-  ReadAhead ahead(clip);
+  ReadAhead ahead(clip, 4000);
   for (int k = 0; k < 3; ++k) EXPECT_FALSE(ahead.next().empty());
   EXPECT_THROW(static_cast<void>(ahead.next()), InputError);
 }
 
 TEST(ReadAhead, StopsWhereNobodyWantsMore) {
   NumberedClip clip(kWhole, kWhole);
-  ReadAhead ahead(clip);
+  ReadAhead ahead(clip, 4000);
   EXPECT_FALSE(ahead.next().empty());
 }
 

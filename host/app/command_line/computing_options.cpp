@@ -20,6 +20,10 @@ std::vector<Option> computing_options() {
              "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is "
              "sure to be right to half a code, or to half a float's step (default: auto; see -v)",
              kExposes, &Options::precision),
+      valued(0, "memory", "SIZE", kGroup,
+             "what pictures and blocks may take: 500MB, 2GB, 1GiB; libraries take some 150 MB besides (default: "
+             "half of the machine's)",
+             kReadsClips | kExposes, &Options::memory),
   };
 }
 

@@ -29,6 +29,7 @@ struct Options {
   std::optional<std::string> renderer;
   std::optional<std::string> device;
   std::optional<std::string> precision;
+  std::optional<std::string> memory;
 
   // The file.
   std::optional<std::string> output;

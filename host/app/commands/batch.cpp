@@ -56,6 +56,7 @@ constexpr std::pair<std::optional<std::string> Options::*, std::string_view> kOf
     {&Options::renderer, "--renderer"},
     {&Options::device, "--device"},
     {&Options::precision, "--precision"},
+    {&Options::memory, "--memory"},
     {&Options::fps, "--fps"},
     {&Options::shutter_angle, "--shutter-angle"},
     {&Options::white, "--white"},
@@ -144,6 +145,7 @@ class Batch {
       capture_.reset();
       capture_ = std::make_unique<OpenedCapture>(name, options_);
       capture_name_ = name;
+      exposer_.hold(capture_->reader());
       if (!options_.quiet) {
         for (const std::string& note : capture_->notes()) print_note(note);
       }

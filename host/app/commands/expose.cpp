@@ -55,7 +55,8 @@ class Exposing {
           needed_samples(timeline, functions, request_.mask(source.capture.shape), plan_options);
       // At the timeline's end samples that follow are counted: they prove it wrong.
       const bool is_end = needed.last == timeline.sample_count();
-      ReadAhead samples(*source.clip, is_end ? ReadAhead::kAll : needed.last);
+      ReadAhead samples(*source.clip, source_options.memory.read_ahead_bytes(),
+                        is_end ? ReadAhead::kAll : needed.last);
       StreamingCapture stream(source.capture, timeline, needed, source.block_samples, source_options.tiles,
                               [&] { return samples.next(); });
       try {

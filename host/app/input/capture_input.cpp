@@ -60,6 +60,7 @@ SourceOptions SourceOptions::from(const Options& options) {
   if (options.block_samples) {
     source.block_samples = parse_count(*options.block_samples, "block length", 1, kLargestBlockSamples);
   }
+  source.memory = MemoryBudget::from(options);
   // Made here so that a senseless rate or angle is refused before anything is opened.
   static_cast<void>(Timeline::constant(source.clip.rate.value_or(Rational{1, 1}), source.shutter_angle, 1));
   return source;
@@ -85,12 +86,14 @@ SourceClip open_source(const std::filesystem::path& path, const SourceOptions& o
     }
     source.capture.white_code = *options.clip.white_code;
   }
-  source.block_samples = options.block_samples.value_or(default_block_samples(source.capture));
+  source.block_samples = options.block_samples.value_or(
+      default_block_samples(source.capture, std::min(kDefaultBlockBytes, options.memory.block_bytes())));
   // A block takes memory for the samples it may hold: no more than there are.
   const std::uint64_t announced = source.clip->info().sample_count;
   if (announced != 0 && announced < source.block_samples) {
     source.block_samples = static_cast<std::uint32_t>(announced);
   }
+  options.memory.check(source.capture, source.block_samples);
   return source;
 }
 

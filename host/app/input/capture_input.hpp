@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/command_line/options.hpp"
+#include "app/input/memory_budget.hpp"
 #include "imev/capture_source.hpp"
 #include "media/clip.hpp"
 #include "tik/reader.hpp"
@@ -25,6 +26,7 @@ struct SourceOptions {
   NoiseModel noise;
   TilePolicy tiles = TilePolicy::automatic;
   std::optional<std::uint32_t> block_samples;
+  MemoryBudget memory;
 
   // Throws UsageError where a value makes no sense.
   static SourceOptions from(const Options& options);

@@ -10,12 +10,11 @@
 namespace nutik::app {
 namespace {
 
-// Enough that decoding goes on while a block is closed.
-constexpr std::uint64_t kRasterBytes = 64 << 20;
 constexpr std::size_t kPayloads = 2;
 
-std::size_t raster_count(const CaptureFormat& capture) {
-  return std::clamp<std::uint64_t>(kRasterBytes / capture.sample_bytes(), 2, 64);
+// Enough that decoding goes on while a block is closed.
+std::size_t raster_count(const CaptureFormat& capture, const MemoryBudget& memory) {
+  return std::clamp<std::uint64_t>(memory.read_ahead_bytes() / capture.sample_bytes(), 2, 64);
 }
 
 }  // namespace
@@ -28,8 +27,8 @@ Encoding::Encoding(SourceClip source, const SourceOptions& options, const tik::C
       builder_(source_.capture, source_.block_samples, options.tiles),
       // Before anything is read, so that times that cannot be used are said at once.
       times_(timeline_for(std::max<std::uint64_t>(source_.clip->info().sample_count, 1))),
-      rasters_(raster_count(source_.capture)),
-      spare_rasters_(raster_count(source_.capture)),
+      rasters_(raster_count(source_.capture, options.memory)),
+      spare_rasters_(raster_count(source_.capture, options.memory)),
       blocks_(kPayloads),
       spare_payloads_(kPayloads) {
   Raster first(source_.capture.sample_bytes());
@@ -40,7 +39,7 @@ Encoding::Encoding(SourceClip source, const SourceOptions& options, const tik::C
   header.rate = options.clip.rate ? options.clip.rate : timing.rate;
   header.shutter_angle = options.shutter_angle;
   writer_.emplace(output, header, codec, first);
-  for (std::size_t i = 1; i < raster_count(source_.capture); ++i) {
+  for (std::size_t i = 1; i < raster_count(source_.capture, options.memory); ++i) {
     spare_rasters_.push(Raster(source_.capture.sample_bytes()));
   }
   for (std::size_t i = 0; i < kPayloads; ++i) spare_payloads_.push(PageBuffer());

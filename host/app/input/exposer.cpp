@@ -23,6 +23,11 @@ std::vector<std::string> exposure_warnings(const Exposed& exposed) {
 Exposer::Exposer(const Options& options)
     : starting_(std::async(std::launch::async, [&options] { return choose_renderer(options); })) {}
 
+void Exposer::hold(const CaptureSource& source) {
+  held_ = &source;
+  if (renderer_) renderer_->hold(held_);
+}
+
 Exposed Exposer::expose(CaptureSource& source, const FunctionSet& functions, const Mask& mask,
                         const PlanOptions& plan_options, const OutputFormat& format) {
   RenderPlan plan = make_plan(source, functions, mask, plan_options);
@@ -30,6 +35,7 @@ Exposed Exposer::expose(CaptureSource& source, const FunctionSet& functions, con
     // Kernels are loaded beside the first block.
     auto ready = std::async(std::launch::async, [&] {
       auto renderer = starting_.get();
+      renderer->hold(held_);
       renderer->prepare(plan, format);
       return renderer;
     });

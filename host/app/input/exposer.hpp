@@ -27,6 +27,9 @@ class Exposer {
   // thrown by the first exposure.
   explicit Exposer(const Options& options);
 
+  // Several pictures of this capture will be exposed: its blocks stay ready (Renderer::hold).
+  void hold(const CaptureSource& source);
+
   // Throws InputError where mask, functions and capture do not fit or a block is damaged, DeviceError
   // where the device fails.
   [[nodiscard]] Exposed expose(CaptureSource& source, const FunctionSet& functions, const Mask& mask,
@@ -39,6 +42,7 @@ class Exposer {
  private:
   std::future<std::unique_ptr<Renderer>> starting_;
   std::unique_ptr<Renderer> renderer_;
+  const CaptureSource* held_ = nullptr;
 };
 
 }  // namespace nutik::app

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "app/input/memory_budget.hpp"
 #include "app/output/console.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -28,6 +29,7 @@ std::unique_ptr<Renderer> choose_renderer(const Options& options) {
   OpenClOptions opencl;
   opencl.device = choose_device(devices, wanted);
   if (options.precision.value_or("auto") != "auto") opencl.precision = parse_precision(*options.precision);
+  opencl.memory_bytes = MemoryBudget::from(options).rendering_bytes();
   opencl.cache_folder = default_cache_folder();
   if (!options.quiet) opencl.announce = print_note;
   return std::make_unique<OpenClRenderer>(opencl);

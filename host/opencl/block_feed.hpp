@@ -1,0 +1,108 @@
+// Brings the blocks of an exposure to where the kernel reads them, while it still reads those before.
+//
+//   in:      planned blocks, in time order, and the capture they are blocks of
+//   out:     chunks: blocks in one buffer, for one launch
+//   always:  copies of blocks take no more than two chunks (one block at least each); those of a capture that
+//            is held stay besides, up to a limit, and are not read again. Blocks that lie in the host's
+//            memory already, where the device reads it too, are not copied at all.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <future>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "imev/capture_source.hpp"
+#include "opencl/device.hpp"
+#include "opencl/kernel_layout.hpp"
+#include "opencl/opencl_api.hpp"
+#include "render/render_plan.hpp"
+#include "system/page_buffer.hpp"
+
+namespace nutik {
+
+struct FeedLimits {
+  std::uint64_t chunk_bytes;
+  std::uint64_t held_bytes;  // of a held capture
+};
+
+class BlockFeed {
+ public:
+  struct Chunk {
+    cl::Buffer payload;
+    std::vector<BlockEntry> entries;
+    std::uint64_t payload_bytes = 0;  // of the blocks, without what lies between them
+  };
+
+  BlockFeed(cl::Context context, const cl::Device& device, const DeviceInfo& info, const FeedLimits& limits);
+
+  // Blocks of this capture stay once they have been read, until another is held; null: of none. It must
+  // live that long.
+  void hold(const CaptureSource* source);
+
+  // `plan` and `source` must live until the last chunk has been taken, or the next start.
+  void start(const RenderPlan& plan, CaptureSource& source);
+
+  // The next chunk, in time order; nothing after the last. Whoever asks has no use for the chunk before
+  // any more. Throws InputError for a damaged block, DeviceError for one that the device cannot hold.
+  [[nodiscard]] std::optional<Chunk> next();
+
+  // What blocks take on the device now.
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  // Memory that blocks are read into, one behind the other.
+  struct Slab {
+    PageBuffer host;    // where the device reads the host's memory
+    cl::Buffer device;  // where it does not
+    std::uint64_t capacity = 0;
+    std::uint64_t used = 0;
+  };
+  struct Place {
+    Slab* slab;
+    std::uint64_t offset;
+    std::uint64_t bytes;
+  };
+
+  [[nodiscard]] bool holds(const PlannedBlock& planned) const { return held_.contains(planned.block); }
+  std::uint64_t prepared_bytes(const PlannedBlock& planned);
+  void check_size(const PlannedBlock& planned, std::uint64_t bytes) const;
+  BlockEntry entry(std::uint64_t offset) const;
+
+  Chunk in_place_chunk();
+  Chunk held_chunk();
+  Chunk read_chunk();
+  Chunk next_chunk();
+  Slab& slab_for(std::uint64_t bytes, bool& stays);
+  void make_room(Slab& slab, std::uint64_t bytes);
+  Place read_block(Slab& slab, const PlannedBlock& planned, std::uint64_t bytes);
+  cl::Buffer buffer_of(Slab& slab) const;
+
+  cl::Context context_;
+  DeviceInfo info_;
+  FeedLimits limits_;
+  cl::CommandQueue copies_;  // its own, so that copying goes on while the kernel runs
+
+  const RenderPlan* plan_ = nullptr;
+  CaptureSource* source_ = nullptr;
+  std::size_t next_ = 0;             // planned block
+  std::uint64_t pending_bytes_ = 0;  // of a block that was prepared and did not fit the chunk before
+  std::uint64_t in_place_bytes_ = 0;
+  std::uint64_t bytes_ = 0;
+
+  std::array<Slab, 2> passing_;  // used in turns
+  std::size_t turn_ = 0;
+  PageBuffer upload_memory_;
+
+  const CaptureSource* held_source_ = nullptr;
+  std::vector<std::unique_ptr<Slab>> held_slabs_;
+  std::unordered_map<std::uint64_t, Place> held_;  // by block of the capture
+  std::uint64_t held_bytes_ = 0;
+
+  std::future<Chunk> reading_;  // ahead
+};
+
+}  // namespace nutik

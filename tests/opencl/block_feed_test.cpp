@@ -1,0 +1,158 @@
+// How blocks get to the device: in chunks, ahead of the kernel, and once only where their capture is held.
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "capture/error.hpp"
+#include "opencl/opencl_renderer.hpp"
+#include "support/random_case.hpp"
+#include "support/rendering.hpp"
+
+namespace nutik {
+namespace {
+
+using test::RandomCase;
+
+// A capture that counts how often its blocks are read, and may have a damaged one.
+class CountingCapture final : public CaptureSource {
+ public:
+  explicit CountingCapture(MemoryCapture& capture) : capture_(capture) {}
+
+  [[nodiscard]] const CaptureFormat& format() const override { return capture_.format(); }
+  [[nodiscard]] const Timeline& timeline() const override { return capture_.timeline(); }
+  [[nodiscard]] std::uint64_t block_count() const override { return capture_.block_count(); }
+  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
+    return capture_.block_extent(block);
+  }
+  std::uint64_t prepare(std::uint64_t block) override {
+    if (block == damaged) throw InputError("damaged");
+    return capture_.prepare(block);
+  }
+  void read(std::uint64_t block, std::span<std::byte> into) override {
+    ++reads;
+    capture_.read(block, into);
+  }
+
+  std::atomic<std::uint64_t> reads = 0;
+  std::uint64_t damaged = ~std::uint64_t{0};
+
+ private:
+  MemoryCapture& capture_;
+};
+
+// A capture of 90 samples in blocks of 4, and functions that need different parts of it.
+struct Scene {
+  Scene() {
+    test::Random random(77);
+    format.shape = {21, 13, 3};
+    timeline = Timeline::constant({100, 1}, Timeline::kFullShutter, 90);
+    capture.emplace(format, timeline, test::random_rasters(random, format, 90), 4);
+  }
+  // From sample `first` up to `last`.
+  [[nodiscard]] RenderPlan plan(std::int64_t first, std::int64_t last) {
+    FunctionSet functions;
+    functions.emplace(0, GainFunction::boxcar(first * 10'000'000, last * 10'000'000));
+    return make_plan(*capture, functions, Mask::uniform(21, 13, 0), {});
+  }
+
+  CaptureFormat format;
+  Timeline timeline = Timeline::constant({1, 1}, Timeline::kFullShutter, 1);
+  std::optional<MemoryCapture> capture;
+};
+
+constexpr OutputFormat kLight{ValueType::light64, 0};
+
+std::vector<std::byte> render(OpenClRenderer& renderer, const RenderPlan& plan, CaptureSource& source) {
+  return renderer.render(plan, source, kLight).bytes;
+}
+
+TEST(BlockFeed, ReadsBlocksOfAHeldCaptureOnce) {
+  Scene scene;
+  CountingCapture counted(*scene.capture);
+  OpenClRenderer plain(test::renderer_options(Precision::double_));
+  OpenClRenderer holding(test::renderer_options(Precision::double_));
+  holding.hold(&counted);
+  const auto expect_same = [&](std::int64_t first, std::int64_t last, std::uint64_t reads) {
+    const RenderPlan plan = scene.plan(first, last);
+    const std::uint64_t before = counted.reads;
+    EXPECT_EQ(render(holding, plan, counted), render(plain, plan, *scene.capture)) << first << " … " << last;
+    EXPECT_EQ(counted.reads - before, reads) << first << " … " << last;
+  };
+  expect_same(40, 60, 5);  // blocks 10 … 14
+  expect_same(40, 60, 0);
+  expect_same(44, 56, 0);
+  expect_same(20, 72, 13 - 5);  // 5 … 17
+  expect_same(0, 90, 23 - 13);
+  expect_same(0, 90, 0);
+  holding.hold(&counted);
+  expect_same(0, 90, 23);
+  holding.hold(nullptr);
+  expect_same(0, 90, 23);
+  expect_same(0, 90, 23);
+}
+
+TEST(BlockFeed, HoldsNoMoreThanItsMemory) {
+  Scene scene;
+  CountingCapture counted(*scene.capture);
+  const RenderPlan plan = scene.plan(0, 90);
+  OpenClRenderer plain(test::renderer_options(Precision::double_));
+  const std::vector<std::byte> expected = render(plain, plan, *scene.capture);
+  std::uint64_t block_bytes = 0;
+  for (std::uint64_t block = 0; block < counted.block_count(); ++block) {
+    block_bytes = std::max(block_bytes, counted.prepare(block));
+  }
+  for (const std::uint64_t held_blocks : {0u, 1u, 5u, 22u}) {
+    OpenClOptions options = test::renderer_options(Precision::double_);
+    options.chunk_bytes = 1;  // a block each
+    options.memory_bytes = std::max<std::uint64_t>(2 * held_blocks * (block_bytes + 64), 1);
+    OpenClRenderer renderer(options);
+    renderer.hold(&counted);
+    EXPECT_EQ(render(renderer, plan, counted), expected);
+    EXPECT_EQ(renderer.statistics().launches, 23u);
+    const std::uint64_t before = counted.reads;
+    EXPECT_EQ(render(renderer, plan, counted), expected);
+    EXPECT_LE(counted.reads - before, 23 - held_blocks);
+    EXPECT_GT(counted.reads, before);  // all of them are more than it may hold
+  }
+}
+
+TEST(BlockFeed, ReadsInChunksOfAnySize) {
+  Scene scene;
+  const RenderPlan plan = scene.plan(3, 88);
+  OpenClRenderer plain(test::renderer_options(Precision::double_));
+  const std::vector<std::byte> expected = render(plain, plan, *scene.capture);
+  std::uint64_t launches = plan.blocks.size() + 1;
+  for (const std::uint64_t chunk_bytes : {1u, 8'000u, 30'000u, 1'000'000u}) {
+    OpenClOptions options = test::renderer_options(Precision::double_);
+    options.chunk_bytes = chunk_bytes;
+    OpenClRenderer renderer(options);
+    EXPECT_EQ(render(renderer, plan, *scene.capture), expected) << chunk_bytes;
+    EXPECT_LT(renderer.statistics().launches, launches) << chunk_bytes;
+    launches = renderer.statistics().launches;
+    EXPECT_EQ(renderer.statistics().blocks, plan.blocks.size());
+  }
+  EXPECT_EQ(launches, 1u);
+}
+
+// What was read ahead for an exposure that failed is not taken for the next one's.
+TEST(BlockFeed, RecoversFromADamagedBlock) {
+  Scene scene;
+  CountingCapture counted(*scene.capture);
+  OpenClRenderer plain(test::renderer_options(Precision::double_));
+  for (const bool holds : {false, true}) {
+    OpenClOptions options = test::renderer_options(Precision::double_);
+    options.chunk_bytes = 1;
+    OpenClRenderer renderer(options);
+    for (const std::uint64_t damaged : {0u, 1u, 7u, 22u}) {
+      if (holds) renderer.hold(&counted);
+      counted.damaged = damaged;
+      EXPECT_THROW(static_cast<void>(render(renderer, scene.plan(0, 90), counted)), InputError) << damaged;
+      counted.damaged = ~std::uint64_t{0};
+      const RenderPlan plan = scene.plan(10, 50);
+      EXPECT_EQ(render(renderer, plan, counted), render(plain, plan, *scene.capture)) << damaged;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nutik
