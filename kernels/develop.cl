@@ -1,9 +1,11 @@
-// Develops a picture: sums to light, light to codes, tiles to rows of pixels.
+// Develops a picture: sums to codes, tiles to rows of pixels.
 //
-//   in:    sums [tile][channel][64] of expose.cl
-//   out:   an interleaved raster of width × height pixels
+//   in:    sums [tile][channel][plane][64] of expose.cl
+//   out:   an interleaved raster of width × height pixels: codes, or the sums as they are, which the host turns
+//          into light
 //   items: as in expose.cl; NUTIK_LANES pixels at a time, at most a row of a tile. A tile's padding is not
 //          written
+#include "arithmetic.clh"
 #include "items.clh"
 
 #ifndef NUTIK_CHANNELS
@@ -20,13 +22,6 @@ typedef uchar raster_code;
 #else
 typedef ushort raster_code;
 #endif
-
-// What turns the sums of one function into light: light = sum · first · second. Two factors, because
-// 2^exponent alone may be outside single precision where the product with the sum is not.
-typedef struct {
-  real first;
-  real second;
-} LightScale;
 
 // Where NUTIK_LANES pixels lie.
 typedef struct {
@@ -48,50 +43,30 @@ NUTIK_INLINE Pixels pixels_at(const size_t tile, const uint lane, const uint wid
   return pixels;
 }
 
-NUTIK_INLINE reals light_at(global const real* restrict sums, global const LightScale* restrict scales,
-                            global const uchar* restrict function_of_lane, const Pixels* pixels,
-                            const uint channel) {
-  const uints functions = NUTIK_TO_UINTS(
-      NUTIK_LOAD(function_of_lane + pixels->tile * NUTIK_TILE_PIXELS + pixels->lane));
-  const reals sum =
-      NUTIK_LOAD(sums + (pixels->tile * NUTIK_CHANNELS + channel) * NUTIK_TILE_PIXELS + pixels->lane);
-  global const real* factors = (global const real*)scales;
-  return sum * gather(factors, functions * 2) * gather(factors, functions * 2 + 1);
-}
-
 // The codes whose intervals of light hold `light`: the largest c with thresholds[c] <= light. Saturates at
-// 0 and at the white code. `guesses` has for each of guess_count equal steps of the square root of light
-// the right code or one below it; thresholds[white + 1] is infinite.
-NUTIK_INLINE uints codes_of(const reals light, global const real* restrict thresholds,
+// 0 and at the white code. thresholds[0], which nothing is compared with, holds what white is on the scale of
+// the others; thresholds[white code + 1] is beyond all light. `guesses` has for each of guess_count equal steps
+// of the square root of light the right code or one below it.
+NUTIK_INLINE uints codes_of(const Lights light, global const Threshold* restrict thresholds,
                             global const uint* restrict guesses, const uint guess_count) {
-  const reals inside = clamp(light, (reals)(0), (reals)(1));  // of a NaN: undefined, but within the table
-  const uints step = min(NUTIK_JOIN(convert_, NUTIK_VECTOR(uint))(sqrt(inside) * guess_count),
-                         (uints)(guess_count - 1));
+  const reals root = sqrt(share_of_white(light, thresholds[0]));
+  const uints step = min(NUTIK_TO_UINTS(root * guess_count), (uints)(guess_count - 1));
   const uints guess = gather_uint(guesses, step);
-  return guess + NUTIK_ONE_WHERE(gather(thresholds, guess + 1) <= inside);
+  return guess + one_where_reached(thresholds, guess + 1, light);
 }
 
-NUTIK_INLINE void write_light(const Pixels* pixels, global const real* restrict sums,
-                              global const LightScale* restrict scales,
-                              global const uchar* restrict function_of_lane, global real* restrict raster) {
-  for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
-    real light[NUTIK_LANES];
-    NUTIK_STORE(light_at(sums, scales, function_of_lane, pixels, channel), light);
-    for (uint i = 0; i < pixels->count; ++i) {
-      raster[(pixels->raster + i) * NUTIK_CHANNELS + channel] = light[i];
-    }
-  }
-}
-
-NUTIK_INLINE void write_codes(const Pixels* pixels, global const real* restrict sums,
+NUTIK_INLINE void write_codes(const Pixels* pixels, global const Sum* restrict sums,
                               global const LightScale* restrict scales,
                               global const uchar* restrict function_of_lane,
-                              global const real* restrict thresholds, global const uint* restrict guesses,
+                              global const Threshold* restrict thresholds, global const uint* restrict guesses,
                               const uint guess_count, global raster_code* restrict raster) {
+  const uints functions = NUTIK_TO_UINTS(
+      NUTIK_LOAD(function_of_lane + pixels->tile * NUTIK_TILE_PIXELS + pixels->lane));
   uint codes[NUTIK_CHANNELS][NUTIK_LANES];
 #pragma unroll
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
-    const reals light = light_at(sums, scales, function_of_lane, pixels, channel);
+    const Sums sum = load_sums(sums + sums_at(pixels->tile, NUTIK_CHANNELS, channel, pixels->lane));
+    const Lights light = developed(sum, scales, functions, thresholds[0]);
     NUTIK_STORE(codes_of(light, thresholds, guesses, guess_count), codes[channel]);
   }
   for (uint i = 0; i < pixels->count; ++i) {
@@ -102,22 +77,34 @@ NUTIK_INLINE void write_codes(const Pixels* pixels, global const real* restrict 
   }
 }
 
-kernel void develop_light(global const real* restrict sums, global const LightScale* restrict scales,
-                          global const uchar* restrict function_of_lane, const uint width,
-                          const uint height, const ulong tile_count, global real* restrict raster) {
-  const Item item = item_of(get_global_id(0), tile_count);
-  for (size_t tile = item.first_tile; tile < item.last_tile; ++tile) {
-    for (uint lane = item.lane; lane < item.lane + NUTIK_ITEM_PIXELS; lane += NUTIK_LANES) {
-      const Pixels pixels = pixels_at(tile, lane, width, height);
-      write_light(&pixels, sums, scales, function_of_lane, raster);
+// raster: [pixel][channel][plane]
+NUTIK_INLINE void write_sums(const Pixels* pixels, global const Sum* restrict sums, global Sum* restrict raster) {
+  for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
+    for (uint plane = 0; plane < NUTIK_SUM_PLANES; ++plane) {
+      global const Sum* from = sums + sums_at(pixels->tile, NUTIK_CHANNELS, channel, pixels->lane) +
+                               plane * NUTIK_TILE_PIXELS;
+      for (uint i = 0; i < pixels->count; ++i) {
+        raster[((pixels->raster + i) * NUTIK_CHANNELS + channel) * NUTIK_SUM_PLANES + plane] = from[i];
+      }
     }
   }
 }
 
-kernel void develop_codes(global const real* restrict sums, global const LightScale* restrict scales,
+kernel void develop_sums(global const Sum* restrict sums, const uint width, const uint height,
+                         const ulong tile_count, global Sum* restrict raster) {
+  const Item item = item_of(get_global_id(0), tile_count);
+  for (size_t tile = item.first_tile; tile < item.last_tile; ++tile) {
+    for (uint lane = item.lane; lane < item.lane + NUTIK_ITEM_PIXELS; lane += NUTIK_LANES) {
+      const Pixels pixels = pixels_at(tile, lane, width, height);
+      write_sums(&pixels, sums, raster);
+    }
+  }
+}
+
+kernel void develop_codes(global const Sum* restrict sums, global const LightScale* restrict scales,
                           global const uchar* restrict function_of_lane, const uint width,
                           const uint height, const ulong tile_count,
-                          global const real* restrict thresholds, global const uint* restrict guesses,
+                          global const Threshold* restrict thresholds, global const uint* restrict guesses,
                           const uint guess_count, global raster_code* restrict raster) {
   const Item item = item_of(get_global_id(0), tile_count);
   for (size_t tile = item.first_tile; tile < item.last_tile; ++tile) {

@@ -1,8 +1,8 @@
 // Exposes pixels: the integral of light times gain, from change records and boundary tables.
 //
 //   in:    a chunk of blocks (layout: host/imev/block.hpp), the packed tables, each pixel's function
-//   out:   sums [tile][channel][64]: Σ_k v_k w_k so far, in scaled gain; added to what is there, or
-//          stored where `first` is set
+//   out:   sums [tile][channel][plane][64]: Σ_k v_k w_k so far, in scaled gain; added to what is there,
+//          or stored where `first` is set
 //   items: see items.clh
 #include "items.clh"
 #include "tiles.clh"
@@ -12,26 +12,25 @@ NUTIK_INLINE TileEntry tile_entry(global const uchar* restrict payload, const si
 }
 
 // Adds a block's sums to the picture's, which start with the first block.
-NUTIK_INLINE void add_sums(global real* restrict sums, const size_t tile, const uint lane,
-                           const reals* block_sums, const bool is_start) {
+NUTIK_INLINE void add_sums(global Sum* restrict sums, const size_t tile, const uint lane,
+                           const Sums* block_sums, const bool is_start) {
 #pragma unroll
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
 #pragma unroll
     for (uint group = 0; group < NUTIK_GROUPS; ++group) {
-      global real* to =
-          sums + (tile * NUTIK_CHANNELS + channel) * NUTIK_TILE_PIXELS + lane + group * NUTIK_LANES;
-      const reals sum = block_sums[channel * NUTIK_GROUPS + group];
-      NUTIK_STORE(is_start ? sum : NUTIK_LOAD(to) + sum, to);
+      global Sum* to = sums + sums_at(tile, NUTIK_CHANNELS, channel, lane + group * NUTIK_LANES);
+      const Sums sum = block_sums[channel * NUTIK_GROUPS + group];
+      store_sums(is_start ? sum : add(load_sums(to), sum), to);
     }
   }
 }
 
 kernel void expose(global const uchar* restrict chunk, global const BlockEntry* restrict blocks,
                    const uint block_count, global const SampleSpan* restrict spans,
-                   global const real* restrict weights, global const real* restrict boundaries,
+                   global const Weight* restrict weights, global const Weight* restrict boundaries,
                    const uint function_count, global const ushort* restrict function_of_tile,
                    global const uchar* restrict function_of_lane,
-                   global const real* restrict transfer, global real* restrict sums,
+                   global const Light* restrict transfer, global Sum* restrict sums,
                    const ulong tile_count, const uint first) {
   const Item item = item_of(get_global_id(0), tile_count);
   const uint lane = item.lane;
@@ -59,9 +58,9 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
       region.function = function_of_tile[tile];
       region.is_uniform = region.function != NUTIK_MIXED_FUNCTIONS;
 #endif
-      reals sums_of_block[NUTIK_ITEM_VECTORS];
+      Sums sums_of_block[NUTIK_ITEM_VECTORS];
 #pragma unroll
-      for (uint i = 0; i < NUTIK_ITEM_VECTORS; ++i) sums_of_block[i] = 0;
+      for (uint i = 0; i < NUTIK_ITEM_VECTORS; ++i) sums_of_block[i] = zero();
       // Written twice so that the compiler sees which one it compiles.
       if (region.is_uniform) {
         region.is_uniform = true;

@@ -1,4 +1,4 @@
-// The host's side of kernels/layout.clh and of the structures that develop.cl reads.
+// The host's side of kernels/layout.clh and of the structures of kernels/arithmetic.clh.
 #pragma once
 
 #include <cstddef>
@@ -24,12 +24,28 @@ static_assert(kBlockAlignment == 64 && kTilePixels == 64);
 // In function_of_tile: the tile's pixels have several functions.
 inline constexpr std::uint16_t kMixedFunctions = 0xFFFF;
 
-// What turns the sums of one function into light. Mirrors LightScale in kernels/develop.cl.
+// What brings the sums of one function onto the scale of the thresholds. Mirrors LightScale in
+// kernels/floating.clh and kernels/compensated.clh …
 template <typename Real>
 struct LightScale {
   Real first;
   Real second;
 };
-static_assert(sizeof(LightScale<float>) == 2 * sizeof(float) && sizeof(LightScale<double>) == 2 * sizeof(double));
+static_assert(sizeof(LightScale<float>) == 2 * sizeof(float) &&
+              sizeof(LightScale<double>) == 2 * sizeof(double));
+
+// … and in kernels/fixed.clh.
+struct FixedLightScale {
+  std::uint32_t left;
+  std::uint32_t right;
+};
+static_assert(sizeof(FixedLightScale) == 8);
+
+// Mirrors Pair in kernels/compensated.clh.
+struct FloatPair {
+  float high;
+  float low;
+};
+static_assert(sizeof(FloatPair) == 8);
 
 }  // namespace nutik

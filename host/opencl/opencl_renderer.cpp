@@ -1,15 +1,15 @@
 #include "opencl/opencl_renderer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
-#include <cmath>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "opencl/code_search.hpp"
 #include "opencl/function_map.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "opencl/kernel_sources.hpp"
+#include "opencl/kernel_tables.hpp"
 #include "opencl/light_pieces.hpp"
 #include "opencl/light_source.hpp"
 #include "opencl/opencl_api.hpp"
@@ -19,14 +19,6 @@
 
 namespace nutik {
 
-Precision parse_precision(std::string_view text) {
-  if (text == "single") return Precision::single_;
-  if (text == "double") return Precision::double_;
-  throw UsageError(format("precision '{}' is not known; choose single or double", text));
-}
-
-std::string to_text(Precision precision) { return precision == Precision::single_ ? "single" : "double"; }
-
 namespace {
 
 constexpr std::uint64_t kDefaultChunkBytes = 1ull << 30;
@@ -35,42 +27,37 @@ constexpr std::uint64_t kPageBytes = 4096;
 using ExposeKernel =
     cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint,
                       cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong, cl_uint>;
-using DevelopLightKernel =
-    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_ulong, cl::Buffer>;
+using DevelopSumsKernel = cl::KernelFunctor<cl::Buffer, cl_uint, cl_uint, cl_ulong, cl::Buffer>;
 using DevelopCodesKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_ulong,
                                              cl::Buffer, cl::Buffer, cl_uint, cl::Buffer>;
 
-template <typename Real>
-std::vector<Real> converted(const std::vector<double>& values) {
-  return {values.begin(), values.end()};
-}
-
-// light = sum · 2^exponent / white (the last for linear codes only), as two factors that are finite.
-template <typename Real>
-std::vector<LightScale<Real>> light_scales(const RenderPlan& plan) {
-  const double code_light = plan.capture.transfer.is_linear() ? 1.0 / plan.capture.white_code : 1.0;
-  std::vector<LightScale<Real>> scales;
-  for (const PlannedFunction& function : plan.functions) {
-    const int half = function.summary.exponent / 2;
-    scales.push_back({static_cast<Real>(std::scalbn(code_light, half)),
-                      static_cast<Real>(std::scalbn(1.0, function.summary.exponent - half))});
-    if (!std::isfinite(scales.back().first) || !std::isfinite(scales.back().second)) {
-      throw UsageError(
-          format("M{} has gains beyond 2^{}, more than single precision holds; use --precision "
-                 "double",
-                 function.tag, function.summary.exponent));
-    }
-  }
-  return scales;
-}
-
 // Whether fma() is the device's own. Devices that would emulate it do not report it, and a CPU's emulation
 // is 20 times slower than rounding twice.
-bool has_fma(const cl::Device& device, bool single) {
-  const cl_device_fp_config config =
-      single ? device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() : device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>();
-  return (config & CL_FP_FMA) != 0;
+bool has_fma(const cl::Device& device, Precision precision) {
+  switch (precision) {
+    case Precision::single_:
+    case Precision::compensated: return (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_FMA) != 0;
+    case Precision::double_: return (device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() & CL_FP_FMA) != 0;
+    case Precision::fixed: break;
+  }
+  return false;
 }
+
+const char* kernel_name_of(Precision precision) {
+  switch (precision) {
+    case Precision::single_: return "NUTIK_SINGLE";
+    case Precision::compensated: return "NUTIK_COMPENSATED";
+    case Precision::double_: return "NUTIK_DOUBLE";
+    case Precision::fixed: return "NUTIK_FIXED";
+  }
+  return "";
+}
+
+// How one picture is computed.
+struct Work {
+  Precision precision;
+  WorkShape shape;
+};
 
 // Buffers made in a scope no longer count when it ends.
 class HeldBytes {
@@ -87,15 +74,21 @@ class HeldBytes {
 
 }  // namespace
 
+std::span<const Precision> precisions_of(const DeviceInfo& device) {
+  static constexpr std::array kWithDouble{Precision::single_, Precision::double_, Precision::fixed,
+                                          Precision::compensated};
+  static constexpr std::array kWithoutDouble{Precision::single_, Precision::fixed, Precision::compensated};
+  if (device.has_double) return kWithDouble;
+  return kWithoutDouble;
+}
+
 class OpenClRenderer::Implementation {
  public:
   explicit Implementation(const OpenClOptions& options)
-      : options_(options),
-        device_(pick_device(options)),
-        info_(describe_device(device_)),
-        shape_(work_shape(options, info_)) {
+      : options_(options), device_(pick_device(options)), info_(describe_device(device_)) {
     if (options.precision == Precision::double_ && !info_.has_double) {
-      throw DeviceError(format("{} has no double precision; use --precision single", info_.name));
+      throw DeviceError(
+          format("{} has no double precision; use --precision auto, compensated or fixed", info_.name));
     }
     context_ = cl::Context(device_);
     queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
@@ -108,20 +101,33 @@ class OpenClRenderer::Implementation {
 
   [[nodiscard]] const std::string& name() const { return info_.name; }
   [[nodiscard]] const RenderStatistics& statistics() const { return statistics_; }
+  [[nodiscard]] const PrecisionChoice& choice() const { return choice_; }
+
+  // Said only of what the program chose: a person who asks for an arithmetic gets it.
+  [[nodiscard]] std::string warning() const {
+    if (options_.precision || choice_.is_right_enough()) return {};
+    return format("no arithmetic of {} is sure to be right to {} of a code here; {} is the closest: {}",
+                  info_.name, kMostSteps, to_text(choice_.precision()),
+                  error_text(choice_.bound.worst, output_));
+  }
+
   [[nodiscard]] std::string report() const {
     const double megabytes = static_cast<double>(statistics_.payload_bytes) * 1e-6;
     return format(
-        "{} precision; {} blocks of {:.1f} MB made ready in {:.1f} ms, read by the kernel in {:.1f} ms "
-        "({:.1f} GB/s); codes or light in {:.1f} ms; at most {:.1f} MB on the device",
-        to_text(options_.precision), statistics_.blocks, megabytes, statistics_.read_ms,
-        statistics_.expose_ms, statistics_.expose_ms > 0 ? megabytes / statistics_.expose_ms : 0.0,
-        statistics_.develop_ms, static_cast<double>(statistics_.device_bytes) * 1e-6);
+               "{} precision; {} blocks of {:.1f} MB made ready in {:.1f} ms, read by the kernel in {:.1f} "
+               "ms "
+               "({:.1f} GB/s); codes or light in {:.1f} ms; at most {:.1f} MB on the device",
+               to_text(choice_.precision()), statistics_.blocks, megabytes, statistics_.read_ms,
+               statistics_.expose_ms, statistics_.expose_ms > 0 ? megabytes / statistics_.expose_ms : 0.0,
+               statistics_.develop_ms, static_cast<double>(statistics_.device_bytes) * 1e-6) +
+           choice_text();
   }
 
   void prepare(const RenderPlan& plan, const OutputFormat& output) {
     try {
-      if (!plan.blocks.empty()) expose_program(plan, light_source_for(plan));
-      develop_program(plan, output);
+      const Work work = work_for(choose(plan, output).precision());
+      if (!plan.blocks.empty()) expose_program(work, plan, light_source_for(work, plan));
+      develop_program(work, plan, output);
     } catch (const cl::Error& error) {
       throw DeviceError(describe(error, format("{} failed", info_.name)));
     }
@@ -129,8 +135,19 @@ class OpenClRenderer::Implementation {
 
   Picture render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
     try {
-      return options_.precision == Precision::single_ ? render_as<float>(plan, source, output)
-                                                      : render_as<double>(plan, source, output);
+      statistics_ = {};
+      held_bytes_ = 0;
+      pending_bytes_ = 0;  // a render that failed may have left some
+      output_ = output;
+      choice_ = choose(plan, output);
+      const Work work = work_for(choice_.precision());
+      const FunctionMap map = map_functions(plan);
+      const cl::Buffer function_of_lane = upload(map.of_lane);
+      const cl::Buffer sums = expose(work, plan, source, map, function_of_lane);
+      Picture picture = holds_codes(output.type) ? develop_codes(work, plan, output, sums, function_of_lane)
+                                                 : develop_light(work, plan, output, sums);
+      programs_->save_new_binaries();
+      return picture;
     } catch (const cl::Error& error) {
       throw DeviceError(describe(error, format("{} failed", info_.name)));
     }
@@ -145,17 +162,23 @@ class OpenClRenderer::Implementation {
     return devices[options.device];
   }
 
-  template <typename Real>
-  Picture render_as(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
-    statistics_ = {};
-    held_bytes_ = 0;
-    pending_bytes_ = 0;  // a render that failed may have left some
-    const FunctionMap map = map_functions(plan);
-    const cl::Buffer function_of_lane = upload(map.of_lane);
-    const cl::Buffer sums = expose<Real>(plan, source, map, function_of_lane);
-    Picture picture = develop<Real>(plan, output, sums, function_of_lane);
-    programs_->save_new_binaries();
-    return picture;
+  [[nodiscard]] PrecisionChoice choose(const RenderPlan& plan, const OutputFormat& output) const {
+    if (options_.precision) return choose_precision(plan, output, std::array{*options_.precision});
+    return choose_precision(plan, output, precisions_of(info_));
+  }
+
+  [[nodiscard]] Work work_for(Precision precision) const {
+    return {precision, work_shape(options_, precision, info_)};
+  }
+
+  // A line of its own: what the arithmetic may err by, and what faster ones would have.
+  [[nodiscard]] std::string choice_text() const {
+    std::string text =
+        format("\n{}: {}", to_text(choice_.precision()), error_text(choice_.bound.worst, output_));
+    for (const ErrorBound& bound : choice_.rejected) {
+      text += format("; not {}: {}", to_text(bound.precision), error_text(bound.worst, output_));
+    }
+    return text;
   }
 
   // A read-only buffer with these values. Never of no bytes: OpenCL has no such thing.
@@ -185,38 +208,38 @@ class OpenClRenderer::Implementation {
     statistics_.device_bytes = std::max(statistics_.device_bytes, held_bytes_);
   }
 
-  [[nodiscard]] std::string common_options(const RenderPlan& plan) const {
-    const bool single = options_.precision == Precision::single_;
+  [[nodiscard]] std::string common_options(const Work& work, const RenderPlan& plan) const {
     return format("-cl-std=CL1.2 -DNUTIK_PRECISION={} -DNUTIK_HAS_FMA={} -DNUTIK_CHANNELS={}",
-                  single ? "NUTIK_SINGLE" : "NUTIK_DOUBLE", has_fma(device_, single) ? 1 : 0,
+                  kernel_name_of(work.precision), has_fma(device_, work.precision) ? 1 : 0,
                   plan.capture.shape.channels);
   }
 
-  [[nodiscard]] LightSource light_source_for(const RenderPlan& plan) const {
-    const bool permutes = shape_.lanes == kLightPieces && info_.native_float_lanes >= kLightPieces;
-    return light_source(plan.capture, options_.precision, permutes);
+  [[nodiscard]] LightSource light_source_for(const Work& work, const RenderPlan& plan) const {
+    const bool permutes = work.shape.lanes == kLightPieces && info_.native_float_lanes >= kLightPieces;
+    return light_source(plan.capture, work.precision, permutes);
   }
 
-  cl::Program expose_program(const RenderPlan& plan, const LightSource& light) {
+  cl::Program expose_program(const Work& work, const RenderPlan& plan, const LightSource& light) {
     return programs_->get(
         "expose", kExposeSource,
         format("{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
                "-DNUTIK_LANES={}",
-               common_options(plan), plan.capture.code_bytes, light.kind, shape_.item_pixels,
-               shape_.item_tiles, shape_.lanes));
+               common_options(work, plan), plan.capture.code_bytes, light.kind, work.shape.item_pixels,
+               work.shape.item_tiles, work.shape.lanes));
   }
 
-  cl::Program develop_program(const RenderPlan& plan, const OutputFormat& output) {
+  cl::Program develop_program(const Work& work, const RenderPlan& plan, const OutputFormat& output) {
     const std::size_t raster_bytes = holds_codes(output.type) ? value_bytes(output.type) : 1;
     return programs_->get("develop", kDevelopSource,
                           format("{} -DNUTIK_CODE_BYTES=1 -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
                                  "-DNUTIK_LANES={} -DNUTIK_RASTER_BYTES={}",
-                                 common_options(plan), shape_.item_pixels, shape_.item_tiles,
-                                 std::min(shape_.lanes, kTileSide), raster_bytes));
+                                 common_options(work, plan), work.shape.item_pixels, work.shape.item_tiles,
+                                 std::min(work.shape.lanes, kTileSide), raster_bytes));
   }
 
-  [[nodiscard]] cl::EnqueueArgs items(std::uint64_t count) {
-    const std::uint64_t group = shape_.group_items;
+  [[nodiscard]] cl::EnqueueArgs items(const WorkShape& shape, std::uint64_t tile_count) {
+    const std::uint64_t group = shape.group_items;
+    const std::uint64_t count = shape.items(tile_count);
     return {queue_, cl::NDRange((count + group - 1) / group * group), cl::NDRange(group)};
   }
 
@@ -227,36 +250,37 @@ class OpenClRenderer::Implementation {
   }
 
   // Σ_k v_k w_k of every pixel, tile-major.
-  template <typename Real>
-  cl::Buffer expose(const RenderPlan& plan, CaptureSource& source, const FunctionMap& map,
+  cl::Buffer expose(const Work& work, const RenderPlan& plan, CaptureSource& source, const FunctionMap& map,
                     const cl::Buffer& function_of_lane) {
     const TileGrid grid(plan.capture.shape);
-    const std::uint64_t sum_bytes =
-        grid.tile_count() * plan.capture.shape.channels * kTilePixels * sizeof(Real);
-    cl::Buffer sums = allocate(sum_bytes, CL_MEM_READ_WRITE);
+    const std::uint64_t bytes =
+        grid.tile_count() * plan.capture.shape.channels * kTilePixels * sum_bytes(work.precision);
+    cl::Buffer sums = allocate(bytes, CL_MEM_READ_WRITE);
     if (plan.blocks.empty()) {
-      queue_.enqueueFillBuffer(sums, Real{0}, 0, sum_bytes);
+      queue_.enqueueFillBuffer(sums, std::uint8_t{0}, 0, bytes);  // 0 in every arithmetic
       return sums;
     }
     const HeldBytes scope(held_bytes_);  // of what is not the picture
-    const LightSource light = light_source_for(plan);
-    ExposeKernel kernel(expose_program(plan, light), "expose");
+    const LightSource light = light_source_for(work, plan);
+    ExposeKernel kernel(expose_program(work, plan, light), "expose");
 
-    const cl::Buffer weights = upload(converted<Real>(plan.weights));
-    const cl::Buffer boundaries = upload(converted<Real>(plan.boundaries));
+    const ExposureTables tables = exposure_tables(plan, work.precision, light);
+    const cl::Buffer weights = upload(tables.weights);
+    const cl::Buffer boundaries = upload(tables.boundaries);
     const cl::Buffer spans = upload(plan.spans);
     const cl::Buffer function_of_tile = upload(map.of_tile);
-    const cl::Buffer transfer = upload(converted<Real>(light.values));
+    const cl::Buffer transfer = upload(tables.light);
 
     bool first = true;
     for (std::size_t b = 0; b < plan.blocks.size();) {
       const HeldBytes chunk_scope(held_bytes_);
       const auto start = std::chrono::steady_clock::now();
-      const Chunk chunk = next_chunk(plan, source, b);
+      Chunk chunk = next_chunk(plan, source, b);
+      if (options_.last_block_first) std::reverse(chunk.entries.begin(), chunk.entries.end());
       statistics_.read_ms +=
           std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
       const cl::Buffer entries = upload(chunk.entries);
-      const cl::Event event = kernel(items(shape_.items(grid.tile_count())), chunk.payload, entries,
+      const cl::Event event = kernel(items(work.shape, grid.tile_count()), chunk.payload, entries,
                                      static_cast<cl_uint>(chunk.entries.size()), spans, weights, boundaries,
                                      static_cast<cl_uint>(plan.function_count()), function_of_tile,
                                      function_of_lane, transfer, sums, grid.tile_count(), first ? 1u : 0u);
@@ -330,39 +354,34 @@ class OpenClRenderer::Implementation {
     return chunk;
   }
 
-  template <typename Real>
-  Picture develop(const RenderPlan& plan, const OutputFormat& output, const cl::Buffer& sums,
-                  const cl::Buffer& function_of_lane) {
+  Picture develop_light(const Work& work, const RenderPlan& plan, const OutputFormat& output,
+                        const cl::Buffer& sums) {
     const Shape& shape = plan.capture.shape;
-    const bool codes = holds_codes(output.type);
-    const cl::Program program = develop_program(plan, output);
-    const cl::Buffer scales = upload(light_scales<Real>(plan));
     const std::uint64_t tile_count = TileGrid(shape).tile_count();
-    const std::uint64_t item_count = shape_.items(tile_count);
-    Picture picture(shape, output.type, output.white_code);
-    if (!codes) {
-      const cl::Buffer raster = allocate(shape.value_count() * sizeof(Real), CL_MEM_WRITE_ONLY);
-      DevelopLightKernel kernel(program, "develop_light");
-      const cl::Event event = kernel(items(item_count), sums, scales, function_of_lane, shape.width,
-                                     shape.height, tile_count, raster);
-      std::vector<Real> light(shape.value_count());
-      queue_.enqueueReadBuffer(raster, CL_TRUE, 0, light.size() * sizeof(Real), light.data());
-      statistics_.develop_ms = milliseconds(event);
-      if (output.type == ValueType::light32) {
-        std::transform(light.begin(), light.end(), picture.values<float>().begin(),
-                       [](Real value) { return static_cast<float>(value); });
-      } else {
-        std::copy(light.begin(), light.end(), picture.values<double>().begin());
-      }
-      return picture;
-    }
-    const CodeSearch<Real> search = code_search<Real>(plan.capture.transfer, output.white_code);
-    const cl::Buffer raster = allocate(picture.bytes.size(), CL_MEM_WRITE_ONLY);
-    DevelopCodesKernel kernel(program, "develop_codes");
+    Bytes of_sums(shape.value_count() * sum_bytes(work.precision));
+    const cl::Buffer raster = allocate(of_sums.size(), CL_MEM_WRITE_ONLY);
+    DevelopSumsKernel kernel(develop_program(work, plan, output), "develop_sums");
     const cl::Event event =
-        kernel(items(item_count), sums, scales, function_of_lane, shape.width, shape.height, tile_count,
-               upload(search.thresholds), upload(search.guesses), static_cast<cl_uint>(search.guesses.size()),
-               raster);
+        kernel(items(work.shape, tile_count), sums, shape.width, shape.height, tile_count, raster);
+    queue_.enqueueReadBuffer(raster, CL_TRUE, 0, of_sums.size(), of_sums.data());
+    statistics_.develop_ms = milliseconds(event);
+    Picture picture(shape, output.type, output.white_code);
+    store_light(plan, work.precision, of_sums, picture);
+    return picture;
+  }
+
+  Picture develop_codes(const Work& work, const RenderPlan& plan, const OutputFormat& output,
+                        const cl::Buffer& sums, const cl::Buffer& function_of_lane) {
+    const Shape& shape = plan.capture.shape;
+    const std::uint64_t tile_count = TileGrid(shape).tile_count();
+    const CodeTables tables = code_tables(plan, work.precision, output.white_code);
+    Picture picture(shape, output.type, output.white_code);
+    const cl::Buffer raster = allocate(picture.bytes.size(), CL_MEM_WRITE_ONLY);
+    DevelopCodesKernel kernel(develop_program(work, plan, output), "develop_codes");
+    const cl::Event event =
+        kernel(items(work.shape, tile_count), sums, upload(tables.scales), function_of_lane, shape.width,
+               shape.height, tile_count, upload(tables.thresholds), upload(tables.guesses),
+               static_cast<cl_uint>(tables.guesses.size()), raster);
     queue_.enqueueReadBuffer(raster, CL_TRUE, 0, picture.bytes.size(), picture.bytes.data());
     statistics_.develop_ms = milliseconds(event);
     return picture;
@@ -371,7 +390,6 @@ class OpenClRenderer::Implementation {
   OpenClOptions options_;
   cl::Device device_;
   DeviceInfo info_;
-  WorkShape shape_;
   cl::Context context_;
   cl::CommandQueue queue_;
   std::unique_ptr<ProgramStore> programs_;
@@ -380,6 +398,8 @@ class OpenClRenderer::Implementation {
   std::uint64_t pending_bytes_ = 0;  // of a block that was prepared and did not fit the chunk before
   std::uint64_t held_bytes_ = 0;
   RenderStatistics statistics_;
+  OutputFormat output_;     // of the last picture
+  PrecisionChoice choice_;  // likewise
 };
 
 OpenClRenderer::OpenClRenderer(const OpenClOptions& options) {
@@ -403,6 +423,10 @@ Picture OpenClRenderer::render(const RenderPlan& plan, CaptureSource& source, co
 std::string OpenClRenderer::name() const { return implementation_->name(); }
 
 std::string OpenClRenderer::report() const { return implementation_->report(); }
+
+std::string OpenClRenderer::warning() const { return implementation_->warning(); }
+
+const PrecisionChoice& OpenClRenderer::choice() const { return implementation_->choice(); }
 
 const RenderStatistics& OpenClRenderer::statistics() const { return implementation_->statistics(); }
 

@@ -5,21 +5,23 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
-#include <string_view>
 
+#include "opencl/device.hpp"
+#include "render/precision_choice.hpp"
 #include "render/renderer.hpp"
 
 namespace nutik {
 
-enum class Precision { single_, double_ };
-Precision parse_precision(std::string_view text);  // `single` or `double`; throws UsageError
-std::string to_text(Precision precision);
+// The arithmetics that a device has, the fastest first (docs/performance.md): what choose_precision() takes.
+[[nodiscard]] std::span<const Precision> precisions_of(const DeviceInfo& device);
 
 struct OpenClOptions {
-  std::size_t device = 0;  // index into list_devices()
-  Precision precision = Precision::double_;
-  std::filesystem::path cache_folder;                        // of built kernels; empty: none
+  std::size_t device = 0;              // index into list_devices()
+  std::optional<Precision> precision;  // none: the fastest that is right enough, chosen for each picture
+  std::filesystem::path cache_folder;  // of built kernels; empty: none
   std::function<void(const std::string& message)> announce;  // told what takes long; may be empty
 
   // How the work is cut. 0 leaves it to the device; the picture does not depend on it beyond rounding.
@@ -28,6 +30,7 @@ struct OpenClOptions {
   std::uint32_t lanes = 0;        // of them that it works on at a time: 1, 4, 8 or 16
   std::uint32_t group_items = 0;  // work-items in a work-group
   std::uint64_t chunk_bytes = 0;  // payload that is on the device at a time
+  bool last_block_first = false;  // within a chunk: sums of whole numbers do not depend on it
 };
 
 // What the last render did.
@@ -52,7 +55,11 @@ class OpenClRenderer final : public Renderer {
                                const OutputFormat& output) override;
   [[nodiscard]] std::string name() const override;
   [[nodiscard]] std::string report() const override;
+  [[nodiscard]] std::string warning() const override;
   [[nodiscard]] const RenderStatistics& statistics() const;
+
+  // The arithmetic of the last render, its error bound, and what was not taken for it.
+  [[nodiscard]] const PrecisionChoice& choice() const;
 
  private:
   class Implementation;

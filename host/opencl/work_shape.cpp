@@ -5,10 +5,11 @@
 
 namespace nutik {
 
-WorkShape work_shape(const OpenClOptions& options, const DeviceInfo& device) {
+WorkShape work_shape(const OpenClOptions& options, Precision precision, const DeviceInfo& device) {
   WorkShape shape{1, 1, 1, 64};
   if (device.kind == DeviceKind::cpu) {
-    shape = {kTilePixels, 16, options.precision == Precision::single_ ? 16u : 8u, 1};
+    const bool is_of_floats = precision == Precision::single_ || precision == Precision::compensated;
+    shape = {kTilePixels, 16, is_of_floats ? 16u : 8u, 1};
   }
   if (options.item_pixels != 0) shape.item_pixels = options.item_pixels;
   if (options.item_tiles != 0) shape.item_tiles = options.item_tiles;

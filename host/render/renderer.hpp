@@ -32,8 +32,11 @@ class Renderer {
   // What does the work, as a person would call it: a device's name, "scalar reference".
   [[nodiscard]] virtual std::string name() const = 0;
 
-  // What the last render did and took, in a line for a person; empty where there is nothing to say.
+  // What the last render did and took, in lines for a person; empty where there is nothing to say.
   [[nodiscard]] virtual std::string report() const { return {}; }
+
+  // What is doubtful about the last picture, a whole sentence; empty where nothing is.
+  [[nodiscard]] virtual std::string warning() const { return {}; }
 };
 
 }  // namespace nutik

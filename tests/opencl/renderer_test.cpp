@@ -27,14 +27,14 @@ TEST(OpenClRenderer, AgreesWithTheReferenceInDouble) {
     const Picture light = renderer.render(plan, capture, {ValueType::light64, 0});
     const Picture expected = reference.render(plan, capture, {ValueType::light64, 0});
     const Difference difference = test::difference_of(plan, light, expected);
-    const double light_bound = test::bound_of(plan, Precision::double_);
-    ASSERT_LE(light_bound, test::kDoubleAgainstReference) << random.text();
-    ASSERT_LE(difference.worst, light_bound)
+    const Difference share = test::share_of_bound(plan, Precision::double_, light, expected);
+    ASSERT_LE(difference.worst, test::kDoubleAgainstReference) << random.text();
+    ASSERT_LE(share.worst, 1.0)
         << random.text() << ", value " << difference.value << ": " << light.values<double>()[difference.value]
         << " and " << expected.values<double>()[difference.value]
         << "; rerun: opencl_tests --gtest_filter=*Reference*";
     worst = std::max(worst, difference.worst);
-    tightest = std::max(tightest, difference.worst / light_bound);
+    tightest = std::max(tightest, share.worst);
 
     // The same 8-bit codes, but for light within that bound of a rounding edge.
     const Picture picture = renderer.render(plan, capture, {ValueType::code8, 255});
@@ -85,9 +85,9 @@ TEST(OpenClRenderer, DoesNotDependOnHowTheWorkIsCut) {
       MemoryCapture capture = random.encode();
       const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
       const Difference difference =
-          test::difference_of(plan, renderer.render(plan, capture, {ValueType::light64, 0}),
-                              reference.render(plan, capture, {ValueType::light64, 0}));
-      ASSERT_LE(difference.worst, test::bound_of(plan, Precision::double_))
+          test::share_of_bound(plan, Precision::double_, renderer.render(plan, capture, {ValueType::light64, 0}),
+                               reference.render(plan, capture, {ValueType::light64, 0}));
+      ASSERT_LE(difference.worst, 1.0)
           << random.text() << ", " << cut.item_pixels << " pixels of " << cut.item_tiles
           << " tiles an item in " << cut.lanes << " lanes, value " << difference.value;
     }
@@ -138,9 +138,9 @@ TEST(OpenClRenderer, ReadsBlocksOfAnyLength) {
       }
       const RenderPlan plan = make_plan(capture, functions, mask, {});
       const Difference difference =
-          test::difference_of(plan, renderer.render(plan, capture, {ValueType::light64, 0}),
-                              reference.render(plan, capture, {ValueType::light64, 0}));
-      ASSERT_LE(difference.worst, test::bound_of(plan, Precision::double_))
+          test::share_of_bound(plan, Precision::double_, renderer.render(plan, capture, {ValueType::light64, 0}),
+                               reference.render(plan, capture, {ValueType::light64, 0}));
+      ASSERT_LE(difference.worst, 1.0)
           << "blocks of " << block_samples << ", tiles " << to_text(policy) << ", value " << difference.value;
     }
   }

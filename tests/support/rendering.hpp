@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "opencl/opencl_renderer.hpp"
 #include "render/render_plan.hpp"
@@ -13,7 +14,7 @@
 
 namespace nutik::test {
 
-inline OpenClOptions renderer_options(Precision precision) {
+inline OpenClOptions renderer_options(std::optional<Precision> precision) {
   OpenClOptions options;
   options.precision = precision;
   options.cache_folder = std::filesystem::temp_directory_path() / "nutik-test-kernels";
@@ -43,15 +44,24 @@ inline Difference difference_of(const RenderPlan& plan, const Picture& a, const 
   return difference;
 }
 
-// The derived bound of kernel_against_reference() for this plan.
-inline double bound_of(const RenderPlan& plan, Precision precision) {
-  std::uint64_t longest = 0;
-  for (const PlannedBlock& block : plan.blocks) {
-    longest = std::max<std::uint64_t>(longest, block.extent.sample_count);
+// The same, in what error_bound() promises for each value's function: at most 1.
+inline Difference share_of_bound(const RenderPlan& plan, const ErrorBound& bound, const Picture& a,
+                                 const Picture& b) {
+  Difference difference;
+  for (std::uint64_t i = 0; i < a.shape.value_count(); ++i) {
+    const double light = std::fabs(a.values<double>()[i] - b.values<double>()[i]);
+    const std::size_t function = plan.function_of_pixel[i / plan.capture.shape.channels];
+    double share = light == 0.0 ? 0.0 : light / bound.functions[function].light;
+    if (std::isnan(share)) share = INFINITY;
+    if (share > difference.worst) difference = {share, i};
   }
-  const bool is_single = precision == Precision::single_;
-  return kernel_against_reference(is_single ? kRoundoff32 : kRoundoff64, longest, plan.blocks.size(),
-                                  is_single ? single_light_error(plan.capture.transfer) : 0.0);
+  return difference;
+}
+
+// The same of a precision, for pictures of light64.
+inline Difference share_of_bound(const RenderPlan& plan, Precision precision, const Picture& a,
+                                 const Picture& b) {
+  return share_of_bound(plan, error_bound(plan, precision, {ValueType::light64, 0}), a, b);
 }
 
 }  // namespace nutik::test

@@ -1,0 +1,45 @@
+// What the kernels read and write beside the capture, in the arithmetic of a precision: the host's side of
+// kernels/floating.clh, compensated.clh and fixed.clh.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "opencl/light_source.hpp"
+#include "render/precision.hpp"
+#include "render/renderer.hpp"
+
+namespace nutik {
+
+using Bytes = std::vector<std::byte>;
+
+// Of a pixel's sum in one channel, all its planes.
+inline constexpr std::size_t sum_bytes(Precision precision) {
+  return precision == Precision::single_ ? 4 : 8;
+}
+
+struct ExposureTables {
+  Bytes weights;     // Weight [row][function]
+  Bytes boundaries;  // likewise
+  Bytes light;       // Light of every code, or a curve
+};
+[[nodiscard]] ExposureTables exposure_tables(const RenderPlan& plan, Precision precision,
+                                             const LightSource& light);
+
+struct CodeTables {
+  Bytes scales;  // LightScale [function]
+  Bytes
+      thresholds;  // Threshold: what white is, the least light of code 1 … white code, then more than any light
+  std::vector<std::uint32_t> guesses;
+};
+// Throws UsageError where the codes lie too close together (code_search.hpp).
+[[nodiscard]] CodeTables code_tables(const RenderPlan& plan, Precision precision, std::uint32_t white_code);
+
+// The light of `raster`, sums [pixel][channel][plane] as develop_sums writes them, into a picture of light32 or
+// light64. Done by the host in double, so that it is the same for every device.
+void store_light(const RenderPlan& plan, Precision precision, std::span<const std::byte> raster,
+                 Picture& picture);
+
+}  // namespace nutik

@@ -1,0 +1,45 @@
+// How far a picture may be from the exact one: known from the packed tables, before anything is launched.
+//
+//   in:      a plan, an arithmetic, the format that the picture will have
+//   out:     for each planned function, and over all of them, the most that light may err by before it is
+//            rounded to the format, and how many of the format's steps that is
+//   always:  holds for every capture with these tables, whatever kind its tiles are of and however the work is
+//            cut, on every device that rounds as IEEE 754 says; infinite where nothing can be promised.
+//            Derived in docs/accuracy.md.
+//
+// What the bound covers: weights and boundaries, their rounding to the kernel's tables, codes to light, products
+// and sums, sums to light, the thresholds between codes; and 30 u₆₄ S for the reference, so that it also holds
+// against a picture of the reference.
+#pragma once
+
+#include <vector>
+
+#include "render/precision.hpp"
+#include "render/renderer.hpp"
+
+namespace nutik {
+
+struct PictureError {
+  // In light, where 1 is white.
+  double light = 0.0;
+  // In codes for pictures of codes: how far the light may lie from its place on the scale of codes, before it
+  // is rounded to one. For floating point in units of format_step().
+  double steps = 0.0;
+};
+
+struct ErrorBound {
+  Precision precision = Precision::single_;
+  std::vector<PictureError> functions;  // by planned function
+  PictureError worst;                   // the largest of each
+};
+
+[[nodiscard]] ErrorBound error_bound(const RenderPlan& plan, Precision precision, const OutputFormat& output);
+
+// What a step of floating point is, in S = ∫|g|/D of the function: 2^-23 for light32, the most that floats lie
+// apart below S; for light64 2e-12, so that half a step is what the arithmetic in double promises.
+[[nodiscard]] double format_step(ValueType type);
+
+// The most by which code = white · fraction_of(light) changes where light of [0, 1] changes by `light`.
+[[nodiscard]] double code_error(const Transfer& transfer, std::uint32_t white_code, double light);
+
+}  // namespace nutik
