@@ -4,15 +4,16 @@
 namespace nutik::test {
 namespace {
 
-// Half of code c and half of code c + 1: the light lies on the edge between them.
+// Half of code c and half of code c + 1, for every code c: the light lies on the edge between them.
 HardCase on_rounding_edges() {
-  const CaptureFormat capture = format_of({16, 16, 1}, Transfer::linear());
+  const CaptureFormat capture = format_of({64, 64, 1}, Transfer::linear(), 4095);
   const Timeline timeline = Timeline::constant({50, 1}, Timeline::kFullShutter, 2);
   FunctionSet functions = number({GainFunction::boxcar(0, timeline.duration_ns())});
   const DrawSample sample = [capture](std::uint64_t k) {
     std::vector<std::byte> raster(capture.sample_bytes());
-    for (std::uint32_t i = 0; i < 256; ++i)
-      set_code(capture, raster, i, std::min<std::uint32_t>(255, i + static_cast<std::uint32_t>(k)));
+    for (std::uint32_t i = 0; i < 4096; ++i) {
+      set_code(capture, raster, i, std::min(capture.white_code, i + static_cast<std::uint32_t>(k)));
+    }
     return raster;
   };
   Mask mask = take_turns(capture.shape, functions);
