@@ -1,8 +1,10 @@
 // Every arithmetic that the device has, on hard cases and on random ones: within its computed bound of the
 // reference, whatever kind tiles are of and however long blocks are.
 //
-//   NUTIK_TEST_PICTURES=folder    keeps the pictures of `fixed`, to be compared with another device's
-//                                 (tools/check_kernels)
+// For tools/check_kernels, which runs these under a simulator:
+//
+//   NUTIK_TEST_RENDER=fixed,codes     only this arithmetic, and only codes or light: one render in a process
+//   NUTIK_TEST_PICTURES=folder        keeps the pictures of `fixed`, to be compared with another device's
 #include "support/hard_cases.hpp"
 
 #include <gtest/gtest.h>
@@ -14,6 +16,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <string_view>
 
 #include "capture/format.hpp"
 #include "render/reference_renderer.hpp"
@@ -29,11 +32,20 @@ using test::HardCase;
 using test::NamedHardCase;
 using test::RandomCase;
 
+// What NUTIK_TEST_RENDER leaves to be rendered.
+bool is_wanted(std::string_view name) {
+  const char* wanted = std::getenv("NUTIK_TEST_RENDER");
+  if (wanted == nullptr) return true;
+  const std::string list = std::string(",") + wanted + ",";
+  return list.find("," + std::string(name) + ",") != std::string::npos;
+}
+
 // A renderer for each arithmetic that the device has.
 class Renderers {
  public:
   Renderers() {
     for (const Precision precision : precisions_of(list_devices().front())) {
+      if (!is_wanted(to_text(precision))) continue;
       precisions_.push_back(precision);
       renderers_.emplace(precision, std::make_unique<OpenClRenderer>(test::renderer_options(precision)));
     }
@@ -86,25 +98,7 @@ Scene scene_of(const HardCase& hard, std::uint32_t block_samples, TilePolicy pol
           }};
 }
 
-// One arithmetic against the reference's light, in light and in codes. Returns the worst difference in light.
-Difference expect_within_bound(const Scene& scene, const RenderPlan& plan, const Picture& expected,
-                               OpenClRenderer& renderer, Precision precision, const std::string& what) {
-  const OutputFormat as_light{ValueType::light64, 0};
-  const OutputFormat as_codes = own_codes(plan.capture);
-  const Picture light = scene.render(renderer, plan, as_light);
-  const Difference share =
-      test::share_of_bound(plan, error_bound(plan, precision, as_light), light, expected);
-  EXPECT_LE(share.worst, 1.0) << what << ", " << to_text(precision) << ", value " << share.value << ": "
-                              << light.values<double>()[share.value] << " and "
-                              << expected.values<double>()[share.value];
-  const Picture codes = scene.render(renderer, plan, as_codes);
-  const Difference steps = share_of_steps(plan, error_bound(plan, precision, as_codes), codes, expected);
-  EXPECT_LE(steps.worst, 1.0) << what << ", " << to_text(precision) << ", value " << steps.value << ": code "
-                              << code_of(codes, steps.value) << " for light "
-                              << expected.values<double>()[steps.value];
-  return share;
-}
-
+// Keeps a picture that must be the same on every device.
 void keep(const Picture& picture, const std::string& name) {
   const char* folder = std::getenv("NUTIK_TEST_PICTURES");
   if (folder == nullptr) return;
@@ -112,6 +106,33 @@ void keep(const Picture& picture, const std::string& name) {
   file.write(reinterpret_cast<const char*>(picture.bytes.data()),
              static_cast<std::streamsize>(picture.bytes.size()));
   ASSERT_TRUE(file.good()) << name << " cannot be written to " << folder;
+}
+
+// One arithmetic against the reference's light, in light and in codes. Returns the worst difference in light, as a
+// share of the bound.
+double expect_within_bound(const Scene& scene, const RenderPlan& plan, const Picture& expected,
+                           OpenClRenderer& renderer, Precision precision, const std::string& name,
+                           const std::string& rerun) {
+  Difference share;
+  if (is_wanted("light")) {
+    const OutputFormat output{ValueType::light64, 0};
+    const Picture light = scene.render(renderer, plan, output);
+    share = test::share_of_bound(plan, error_bound(plan, precision, output), light, expected);
+    EXPECT_LE(share.worst, 1.0) << name << ", " << to_text(precision) << ", value " << share.value << ": "
+                                << light.values<double>()[share.value] << " and "
+                                << expected.values<double>()[share.value] << "; rerun: " << rerun;
+    if (precision == Precision::fixed) keep(light, name + ".light");
+  }
+  if (is_wanted("codes")) {
+    const OutputFormat output = own_codes(plan.capture);
+    const Picture codes = scene.render(renderer, plan, output);
+    const Difference steps = share_of_steps(plan, error_bound(plan, precision, output), codes, expected);
+    EXPECT_LE(steps.worst, 1.0) << name << ", " << to_text(precision) << ", value " << steps.value
+                                << ": code " << code_of(codes, steps.value) << " for light "
+                                << expected.values<double>()[steps.value] << "; rerun: " << rerun;
+    if (precision == Precision::fixed) keep(codes, name + ".codes");
+  }
+  return share.worst;
 }
 
 class HardCases : public testing::TestWithParam<NamedHardCase> {};
@@ -125,14 +146,9 @@ TEST_P(HardCases, StayWithinTheBoundOfEveryPrecision) {
   std::printf("%s (%s):", GetParam().name, GetParam().reason);
   Renderers renderers;
   for (const Precision precision : renderers.precisions()) {
-    OpenClRenderer& renderer = renderers.of(precision);
-    const Difference share =
-        expect_within_bound(scene, plan, expected, renderer, precision, "rerun: " + test::rerun());
-    std::printf(" %s %.3g", to_text(precision).c_str(), share.worst);
-    if (precision == Precision::fixed) {
-      keep(scene.render(renderer, plan, {ValueType::light64, 0}), std::string(GetParam().name) + ".light64");
-      keep(scene.render(renderer, plan, own_codes(plan.capture)), std::string(GetParam().name) + ".codes");
-    }
+    const double share = expect_within_bound(scene, plan, expected, renderers.of(precision), precision,
+                                             GetParam().name, test::rerun());
+    std::printf(" %s %.3g", to_text(precision).c_str(), share);
   }
   std::printf(" of the bound\n");
 }
@@ -250,11 +266,14 @@ TEST(RandomCases, StayWithinTheBoundOfEveryPrecision) {
     ReferenceRenderer reference;
     const Picture expected = scene.render(reference, plan, {ValueType::light64, 0});
     for (const Precision precision : renderers.precisions()) {
-      const Difference share = expect_within_bound(scene, plan, expected, renderers.of(precision), precision,
-                                                   random.text() + "; rerun: " + test::rerun(seed));
-      worst[precision] = std::max(worst[precision], share.worst);
+      const double share = expect_within_bound(scene, plan, expected, renderers.of(precision), precision,
+                                               format("Seed{}", seed), test::rerun(seed));
+      worst[precision] = std::max(worst[precision], share);
     }
-    if (testing::Test::HasFailure()) break;
+    if (testing::Test::HasFailure()) {
+      std::printf("%s\n", random.text().c_str());
+      break;
+    }
   }
   for (const auto& [precision, share] : worst) {
     std::printf("%s: at most %.3g of its bound\n", to_text(precision).c_str(), share);
