@@ -4,6 +4,7 @@
 // For tools/check_kernels, which runs these under a simulator:
 //
 //   NUTIK_TEST_RENDER=fixed,codes     only this arithmetic, and only codes or light: one render in a process
+//   NUTIK_TEST_LARGEST=n              of the random cases only those of at most n values in all samples
 //   NUTIK_TEST_PICTURES=folder        keeps the pictures of `fixed`, to be compared with another device's
 #include "support/hard_cases.hpp"
 
@@ -253,10 +254,13 @@ TEST(RandomCases, StayWithinTheBoundOfEveryPrecision) {
                                       {1, 1, 255, Transfer::gamma(2.2)},
                                       {3, 1, 255, Transfer::bt709()}};
   const test::Seeds seeds = test::seeds(10'000, 60);
+  const char* limit = std::getenv("NUTIK_TEST_LARGEST");
+  const std::uint64_t largest = limit == nullptr ? UINT64_MAX : std::stoull(limit);
   Renderers renderers;
   std::map<Precision, double> worst;
   for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
     const RandomCase random(seed, formats[seed % std::size(formats)]);
+    if (random.capture.shape.value_count() * random.timeline.sample_count() > largest) continue;
     MemoryCapture capture = random.encode();
     const Scene scene{[&] { return make_plan(capture, random.functions, random.mask, {}); },
                       [&](Renderer& renderer, const RenderPlan& plan, const OutputFormat& output) {

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <ostream>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,8 @@ struct NamedHardCase {
   const char* name;
   const char* reason;
   HardCase (*make)();
+
+  friend std::ostream& operator<<(std::ostream& out, const NamedHardCase& hard) { return out << hard.reason; }
 };
 
 [[nodiscard]] std::span<const NamedHardCase> hard_cases();
