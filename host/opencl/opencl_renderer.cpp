@@ -210,8 +210,8 @@ class OpenClRenderer::Implementation {
 
   [[nodiscard]] std::string common_options(const Work& work, const RenderPlan& plan) const {
     return format("-cl-std=CL1.2 -DNUTIK_PRECISION={} -DNUTIK_HAS_FMA={} -DNUTIK_CHANNELS={}",
-                  kernel_name_of(work.precision), has_fma(device_, work.precision) ? 1 : 0,
-                  plan.capture.shape.channels);
+                  kernel_name_of(work.precision),
+                  options_.use_fma && has_fma(device_, work.precision) ? 1 : 0, plan.capture.shape.channels);
   }
 
   [[nodiscard]] LightSource light_source_for(const Work& work, const RenderPlan& plan) const {

@@ -29,6 +29,7 @@ struct OpenClOptions {
   std::uint32_t item_tiles = 0;   // tiles in a row that a work-item owns pixels of
   std::uint32_t lanes = 0;        // of them that it works on at a time: 1, 4, 8 or 16
   std::uint32_t group_items = 0;  // work-items in a work-group
+  bool use_fma = true;            // false: as on a device that does not fuse multiplication and addition
   std::uint64_t chunk_bytes = 0;  // payload that is on the device at a time
   bool last_block_first = false;  // within a chunk: sums of whole numbers do not depend on it
 };

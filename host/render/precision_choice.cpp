@@ -1,6 +1,7 @@
 #include "render/precision_choice.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "capture/format.hpp"
 
@@ -15,7 +16,7 @@ PrecisionChoice choose_precision(const RenderPlan& plan, const OutputFormat& out
     rejected.push_back(std::move(bound));
   }
   const auto best = std::min_element(rejected.begin(), rejected.end(), [](const auto& a, const auto& b) {
-    return a.worst.steps < b.worst.steps;
+    return std::pair(a.worst.steps, a.worst.light) < std::pair(b.worst.steps, b.worst.light);
   });
   ErrorBound bound = std::move(*best);
   rejected.erase(best);

@@ -1,4 +1,5 @@
-// The OpenCL renderer against the reference, on random captures, functions and masks.
+// The OpenCL renderer however captures are stored and the work is cut. Its arithmetics against the reference:
+// precisions_test.cpp.
 #include "opencl/opencl_renderer.hpp"
 
 #include <gtest/gtest.h>
@@ -14,49 +15,6 @@ namespace {
 
 using test::Difference;
 using test::RandomCase;
-
-TEST(OpenClRenderer, AgreesWithTheReferenceInDouble) {
-  OpenClRenderer renderer(test::renderer_options(Precision::double_));
-  ReferenceRenderer reference;
-  double worst = 0.0, tightest = 0.0;
-  std::uint64_t codes = 0, differing = 0;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    const RandomCase random(seed);
-    MemoryCapture capture = random.encode();
-    const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-    const Picture light = renderer.render(plan, capture, {ValueType::light64, 0});
-    const Picture expected = reference.render(plan, capture, {ValueType::light64, 0});
-    const Difference difference = test::difference_of(plan, light, expected);
-    const Difference share = test::share_of_bound(plan, Precision::double_, light, expected);
-    ASSERT_LE(difference.worst, test::kDoubleAgainstReference) << random.text();
-    ASSERT_LE(share.worst, 1.0)
-        << random.text() << ", value " << difference.value << ": " << light.values<double>()[difference.value]
-        << " and " << expected.values<double>()[difference.value]
-        << "; rerun: opencl_tests --gtest_filter=*Reference*";
-    worst = std::max(worst, difference.worst);
-    tightest = std::max(tightest, share.worst);
-
-    // The same 8-bit codes, but for light within that bound of a rounding edge.
-    const Picture picture = renderer.render(plan, capture, {ValueType::code8, 255});
-    const Picture expected_picture = reference.render(plan, capture, {ValueType::code8, 255});
-    const auto thresholds = plan.capture.transfer.code_thresholds(255);
-    for (std::uint64_t i = 0; i < picture.shape.value_count(); ++i) {
-      ++codes;
-      const std::uint8_t a = picture.values<std::uint8_t>()[i];
-      const std::uint8_t b = expected_picture.values<std::uint8_t>()[i];
-      if (a == b) continue;
-      ++differing;
-      const double edge = thresholds[std::max(a, b)];
-      const double bound = test::kDoubleAgainstReference * test::scale_of(plan, i);
-      ASSERT_LE(std::fabs(expected.values<double>()[i] - edge), bound) << random.text() << ", value " << i;
-      ASSERT_EQ(std::abs(a - b), 1) << random.text() << ", value " << i;
-    }
-  }
-  std::printf(
-      "worst difference: %.3g of ∫|g|/D, %.3g of its bound; %llu of %llu codes differ, all at "
-      "rounding edges\n",
-      worst, tightest, static_cast<unsigned long long>(differing), static_cast<unsigned long long>(codes));
-}
 
 // However the work is cut, the picture is the same within the bound: pixels of an item in one
 // vector or in several, tiles of an item, work-groups that do not divide the picture, blocks read one
@@ -84,9 +42,9 @@ TEST(OpenClRenderer, DoesNotDependOnHowTheWorkIsCut) {
       const RandomCase random(seed, formats[seed % std::size(formats)]);
       MemoryCapture capture = random.encode();
       const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-      const Difference difference =
-          test::share_of_bound(plan, Precision::double_, renderer.render(plan, capture, {ValueType::light64, 0}),
-                               reference.render(plan, capture, {ValueType::light64, 0}));
+      const Difference difference = test::share_of_bound(
+          plan, Precision::double_, renderer.render(plan, capture, {ValueType::light64, 0}),
+          reference.render(plan, capture, {ValueType::light64, 0}));
       ASSERT_LE(difference.worst, 1.0)
           << random.text() << ", " << cut.item_pixels << " pixels of " << cut.item_tiles
           << " tiles an item in " << cut.lanes << " lanes, value " << difference.value;
@@ -137,9 +95,9 @@ TEST(OpenClRenderer, ReadsBlocksOfAnyLength) {
         mask.tags[pixel] = static_cast<std::uint8_t>(random.whole(0, 1));
       }
       const RenderPlan plan = make_plan(capture, functions, mask, {});
-      const Difference difference =
-          test::share_of_bound(plan, Precision::double_, renderer.render(plan, capture, {ValueType::light64, 0}),
-                               reference.render(plan, capture, {ValueType::light64, 0}));
+      const Difference difference = test::share_of_bound(
+          plan, Precision::double_, renderer.render(plan, capture, {ValueType::light64, 0}),
+          reference.render(plan, capture, {ValueType::light64, 0}));
       ASSERT_LE(difference.worst, 1.0)
           << "blocks of " << block_samples << ", tiles " << to_text(policy) << ", value " << difference.value;
     }

@@ -115,11 +115,11 @@ TEST(SinglePrecision, StaysWithinItsBoundOfTheReference) {
         const Picture light = renderer.render(plan, capture, {ValueType::light64, 0});
         const Difference difference = test::difference_of(plan, light, expected);
         const Difference share = test::share_of_bound(plan, Precision::single_, light, expected);
-        ASSERT_LE(share.worst, 1.0)
-            << random.text() << ", here in blocks of " << block_samples << ", tiles " << to_text(policy)
-            << ", value " << difference.value << ": " << light.values<double>()[difference.value] << " and "
-            << expected.values<double>()[difference.value]
-            << "; rerun: opencl_tests --gtest_filter=SinglePrecision*Reference";
+        ASSERT_LE(share.worst, 1.0) << random.text() << ", here in blocks of " << block_samples << ", tiles "
+                                    << to_text(policy) << ", value " << difference.value << ": "
+                                    << light.values<double>()[difference.value] << " and "
+                                    << expected.values<double>()[difference.value]
+                                    << "; rerun: opencl_tests --gtest_filter=SinglePrecision*Reference";
         worst = std::max(worst, difference.worst);
         tightest = std::max(tightest, share.worst);
       }

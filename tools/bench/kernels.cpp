@@ -164,10 +164,7 @@ int run(const Settings& settings) {
               static_cast<unsigned long long>(settings.samples), settings.runs);
 
   std::vector<Case> cases;
-  const std::vector<Precision> precisions = device.has_double
-                                                ? std::vector{Precision::single_, Precision::double_}
-                                                : std::vector{Precision::single_};
-  for (const Precision precision : precisions) {
+  for (const Precision precision : precisions_of(device)) {
     for (const Transfer transfer : {Transfer::linear(), Transfer::srgb()}) {
       for (const Content content : {Content::dense, Content::rows, Content::records, Content::still}) {
         cases.push_back({content, precision, transfer, 1, Regions::uniform});
@@ -197,7 +194,7 @@ int run(const Settings& settings) {
                                            : device_copy_bandwidth(settings.device, memory.size() / 2);
     return last_limit;
   };
-  std::printf("%-8s %-7s %-7s %-5s %-11s %9s %8s %8s %7s %9s %10s\n", "tiles", "prec.", "light", "bits",
+  std::printf("%-8s %-11s %-7s %-5s %-11s %9s %8s %8s %7s %9s %10s\n", "tiles", "prec.", "light", "bits",
               "regions", "expose ms", "GB/s", "limit", "share", "dev. ms", "worst / S");
   std::ofstream csv(settings.csv);
   csv << "device,tiles,precision,light,bits,regions,expose_ms,bytes,gb_per_s,limit_gb_per_s,develop_ms,"
@@ -222,7 +219,7 @@ int run(const Settings& settings) {
     const Measurement measured = measure(renderer, plan, capture, settings.runs);
     const double limit = (limit_before + measure_limit(capture)) / 2;
     const double rate = static_cast<double>(measured.bytes) / measured.expose_ms * 1e3;
-    std::printf("%-8s %-7s %-7s %-5u %-11s %9.2f %8.2f %8.1f %7.2f %9.2f %10.2g\n", name_of(one.content),
+    std::printf("%-8s %-11s %-7s %-5u %-11s %9.2f %8.2f %8.1f %7.2f %9.2f %10.2g\n", name_of(one.content),
                 to_text(one.precision).c_str(), one.transfer.text().c_str(), one.code_bytes * 8,
                 name_of(one.regions), measured.expose_ms, rate * 1e-9, limit * 1e-9, rate / limit,
                 measured.develop_ms, worst);

@@ -1,0 +1,96 @@
+// `auto`: no more arithmetic than the picture needs, and no less.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/reference_renderer.hpp"
+#include "support/random_case.hpp"
+#include "support/rendering.hpp"
+
+namespace nutik {
+namespace {
+
+// 240 samples at 240 a second, sRGB of 8 bits: random codes, moving or still.
+MemoryCapture clip(bool is_still = false) {
+  CaptureFormat format;
+  format.shape = {24, 16, 3};
+  test::Random random(11);
+  test::Rasters rasters = test::random_rasters(random, format, 240);
+  if (is_still) std::fill(rasters.begin(), rasters.end(), rasters.front());
+  return {format, Timeline::constant({240, 1}, Timeline::kFullShutter, 240), rasters, 64};
+}
+
+// Half a second of `gain`, then half a second that leaves a still gain of 1.
+FunctionSet nearly_nothing_of(double gain) {
+  return {{0, GainFunction({{500'000'000, gain}, {500'000'000, 2 - gain}})}};
+}
+
+int worst_code_difference(const Picture& a, const Picture& b) {
+  int worst = 0;
+  for (std::uint64_t i = 0; i < a.shape.value_count(); ++i) {
+    worst = std::max(worst, std::abs(a.values<std::uint8_t>()[i] - b.values<std::uint8_t>()[i]));
+  }
+  return worst;
+}
+
+TEST(AutoPrecision, TakesSingleForOrdinaryExposuresOf8Bits) {
+  MemoryCapture capture = clip();
+  OpenClRenderer renderer(test::renderer_options(std::nullopt));
+  for (const GainFunction& function :
+       {GainFunction::boxcar(0, 1'000'000'000), GainFunction::boxcar(100'000'000, 104'000'000),
+        GainFunction({{0, 0.0}, {200'000'000, 1.0}, {300'000'000, -0.5}, {400'000'000, 0.0}})}) {
+    const RenderPlan plan = make_plan(capture, {{0, function}}, Mask::uniform(24, 16, 0), {});
+    const Picture picture = renderer.render(plan, capture, {ValueType::code8, 255});
+    EXPECT_EQ(renderer.choice().precision(), Precision::single_)
+        << error_text(renderer.choice().bound.worst, {ValueType::code8, 255});
+    EXPECT_TRUE(renderer.warning().empty());
+    const Picture expected = ReferenceRenderer().render(plan, capture, {ValueType::code8, 255});
+    EXPECT_LE(worst_code_difference(picture, expected), 1);
+  }
+}
+
+// ∫g is a billionth of ∫|g|: of a still scene hardly anything is left, and that is the picture.
+TEST(AutoPrecision, TakesMoreWhereSingleIsWrong) {
+  MemoryCapture capture = clip(true);
+  const RenderPlan plan = make_plan(capture, nearly_nothing_of(1e9), Mask::uniform(24, 16, 0), {});
+  EXPECT_NEAR(plan.functions[0].summary.still_gain(), 1.0, 1e-6);
+  const OutputFormat codes{ValueType::code8, 255};
+  const Picture expected = ReferenceRenderer().render(plan, capture, codes);
+  OpenClRenderer chosen(test::renderer_options(std::nullopt));
+  OpenClRenderer single(test::renderer_options(Precision::single_));
+  EXPECT_GT(worst_code_difference(single.render(plan, capture, codes), expected), 1);
+  EXPECT_LE(worst_code_difference(chosen.render(plan, capture, codes), expected), 1);
+  EXPECT_NE(chosen.choice().precision(), Precision::single_);
+  EXPECT_TRUE(chosen.choice().is_right_enough());
+  ASSERT_FALSE(chosen.choice().rejected.empty());
+  EXPECT_EQ(chosen.choice().rejected.front().precision, Precision::single_);
+  EXPECT_NE(chosen.report().find("not single: light within"), std::string::npos) << chosen.report();
+}
+
+// What costs more than the format can show is left out; what a finer format shows is not.
+TEST(AutoPrecision, DependsOnTheFormat) {
+  MemoryCapture capture = clip();
+  const RenderPlan plan =
+      make_plan(capture, {{0, GainFunction::boxcar(0, 1'000'000'000)}}, Mask::uniform(24, 16, 0), {});
+  const auto chosen = [&](const OutputFormat& output) {
+    return choose_precision(plan, output, precisions_of(list_devices().front())).precision();
+  };
+  EXPECT_EQ(chosen({ValueType::code8, 255}), Precision::single_);
+  EXPECT_NE(chosen({ValueType::code16, 65'535}), Precision::single_);
+  EXPECT_NE(chosen({ValueType::light32, 0}), Precision::single_);
+}
+
+TEST(AutoPrecision, SaysWhereNoArithmeticIsRightEnough) {
+  MemoryCapture capture = clip();
+  const RenderPlan plan = make_plan(capture, nearly_nothing_of(1e15), Mask::uniform(24, 16, 0), {});
+  OpenClRenderer renderer(test::renderer_options(std::nullopt));
+  static_cast<void>(renderer.render(plan, capture, {ValueType::code8, 255}));
+  EXPECT_FALSE(renderer.choice().is_right_enough());
+  for (const ErrorBound& bound : renderer.choice().rejected) {
+    EXPECT_LE(renderer.choice().bound.worst.steps, bound.worst.steps) << to_text(bound.precision);
+  }
+  EXPECT_NE(renderer.warning().find("is the closest"), std::string::npos) << renderer.warning();
+}
+
+}  // namespace
+}  // namespace nutik

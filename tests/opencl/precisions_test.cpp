@@ -1,0 +1,200 @@
+// Every arithmetic that the device has, against the reference: within its bound, in light and in codes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "capture/format.hpp"
+#include "render/reference_renderer.hpp"
+#include "support/precision_check.hpp"
+#include "support/random_case.hpp"
+#include "support/rendering.hpp"
+#include "support/seeds.hpp"
+
+namespace nutik {
+namespace {
+
+using test::RandomCase;
+
+class Precisions : public testing::Test {
+ protected:
+  ~Precisions() override { check_.print(); }
+
+  static void check(test::PrecisionCheck& check, const RenderPlan& plan, CaptureSource& capture,
+                    const std::string& what, const std::string& rerun = test::rerun()) {
+    check.check(
+        plan,
+        [&](Renderer& renderer, const OutputFormat& output) {
+          return renderer.render(plan, capture, output);
+        },
+        what, rerun);
+  }
+
+  test::PrecisionCheck check_;
+};
+
+// NUTIK_TEST_CASES=10000 is the full run; docs/accuracy.md says what it measured. NUTIK_TEST_LARGEST=n leaves out
+// cases of more than n values in all samples together: for tools/check_kernels.
+TEST_F(Precisions, StayWithinTheirBoundsOnRandomCases) {
+  const char* limit = std::getenv("NUTIK_TEST_LARGEST");
+  const std::uint64_t largest = limit == nullptr ? UINT64_MAX : std::stoull(limit);
+  const test::Seeds seeds = test::seeds(0, 300);
+  for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
+    const RandomCase random(seed);
+    if (random.capture.shape.value_count() * random.timeline.sample_count() > largest) continue;
+    MemoryCapture capture = random.encode();
+    const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+    check(check_, plan, capture, format("Seed{}", seed), test::rerun(seed));
+    if (HasFailure()) FAIL() << random.text();
+  }
+}
+
+// 128 samples at 100 a second in two blocks, random 8-bit codes or a still scene.
+MemoryCapture clip_of(const Transfer& transfer, bool is_still, TilePolicy policy = TilePolicy::automatic) {
+  CaptureFormat format;
+  format.shape = {19, 9, 1};
+  format.transfer = transfer;
+  test::Random random(7);
+  test::Rasters rasters = test::random_rasters(random, format, 128);
+  if (is_still) std::fill(rasters.begin(), rasters.end(), rasters.front());
+  return {format, Timeline::constant({100, 1}, Timeline::kFullShutter, 128), rasters, 64, policy};
+}
+
+// `gain` up to the middle of clip_of(), then one that leaves `rest` of it in the mean.
+GainFunction cancelling(double gain, double rest) {
+  const std::int64_t middle_ns = 640'000'000;
+  return GainFunction({{middle_ns, gain}, {middle_ns, 2 * rest - gain}});
+}
+
+TEST_F(Precisions, StayWithinTheirBoundsWhereSumsCancel) {
+  for (const Transfer& transfer : {Transfer::srgb(), Transfer::linear()}) {
+    for (const bool is_still : {true, false}) {
+      for (const TilePolicy policy : {TilePolicy::dense, TilePolicy::records}) {
+        MemoryCapture capture = clip_of(transfer, is_still, policy);
+        for (const double gain : {1e3, 1e6, 1e9, 1e12}) {
+          const RenderPlan plan =
+              make_plan(capture, {{0, cancelling(gain, 1.0)}}, Mask::uniform(19, 9, 0), {});
+          check(check_, plan, capture,
+                format("gains of ±{}, {}, {}, tiles {}", gain, transfer.text(), is_still ? "still" : "moving",
+                       to_text(policy)));
+          if (HasFailure()) return;
+        }
+      }
+    }
+  }
+}
+
+// Where a device does not fuse, products round twice and pairs are multiplied by halves.
+TEST_F(Precisions, OfFloatsStayWithinTheirBoundsWithoutFusedProducts) {
+  test::PrecisionCheck without_fma(false);
+  MemoryCapture capture = clip_of(Transfer::srgb(), false, TilePolicy::records);
+  for (const double gain : {1.0, 1e6}) {
+    const RenderPlan plan = make_plan(capture, {{0, cancelling(gain, 0.3)}}, Mask::uniform(19, 9, 0), {});
+    check(without_fma, plan, capture, format("gains of ±{} without fma", gain));
+    if (HasFailure()) return;
+  }
+}
+
+// Gains far beyond what floats hold, and far below; both at once, in functions beside each other.
+TEST_F(Precisions, HoldGainsOfAnySize) {
+  MemoryCapture capture = clip_of(Transfer::srgb(), false);
+  FunctionSet functions;
+  std::uint8_t tag = 0;
+  for (const double gain : {1.0, -1e300, 1e80, 1e39, 1e20, -1e-20, 1e-40, 1e-80, 1e-300, 5e-324}) {
+    functions.emplace(tag++, GainFunction({{0, gain}, {700'000'000, gain / 2}}));
+  }
+  functions.emplace(tag++, GainFunction({{100'000'000, 1e6}, {400'000'000, 1e-6}, {900'000'000, -1e-6}}));
+  Mask mask = Mask::uniform(19, 9, 0);
+  for (std::size_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
+    mask.tags[pixel] = static_cast<std::uint8_t>(pixel % tag);
+  }
+  const RenderPlan plan = make_plan(capture, functions, mask, {});
+  check(check_, plan, capture, "gains of all sizes");
+}
+
+// A bound that is never nearly met would say nothing. Gains of one sign, up to 1000 samples.
+TEST_F(Precisions, BoundOfSingleIsUseful) {
+  test::Random random(77);
+  std::vector<double> shares;
+  for (int i = 0; i < 60; ++i) {
+    CaptureFormat format;
+    format.shape = {16, 16, 1};
+    format.transfer = i % 2 == 0 ? Transfer::srgb() : Transfer::linear();
+    const auto samples = static_cast<std::uint64_t>(std::exp(random.real(0.0, std::log(1001.0))));
+    const test::Rasters rasters = test::random_rasters(random, format, samples);
+    MemoryCapture capture(format, test::random_timeline(random, samples), rasters, 64);
+    std::vector<ControlPoint> points;
+    for (std::int64_t point = 0; point < 5; ++point) {
+      points.push_back({capture.timeline().duration_ns() * point / 5, random.real(0.1, 2.0)});
+    }
+    if (points[1].time_ns == 0) points.resize(1);  // a timeline of some nanoseconds
+    const RenderPlan plan = make_plan(capture, {{0, GainFunction(points)}}, Mask::uniform(16, 16, 0), {});
+    const Picture light = check_.of(Precision::single_).render(plan, capture, {ValueType::light64, 0});
+    const Picture expected = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
+    shares.push_back(test::share_of_bound(plan, Precision::single_, light, expected).worst);
+    ASSERT_LE(shares.back(), 1.0) << samples << " samples, case " << i;
+  }
+  std::sort(shares.begin(), shares.end());
+  const double median = shares[shares.size() / 2];
+  std::printf("measured / bound of single: median %.3g, %.3g … %.3g\n", median, shares.front(),
+              shares.back());
+  EXPECT_GE(median, 0.01);
+}
+
+// The same bytes whatever the size of work-groups, vectors and items, the order and length of blocks, the kind
+// of tiles: codes and light.
+TEST(FixedPoint, GivesTheSameBytesHoweverTheWorkIsCut) {
+  struct Shape {
+    std::uint32_t item_pixels, item_tiles, lanes;
+  };
+  CaptureFormat format;
+  format.shape = {43, 21, 3};
+  test::Random random(5);
+  const Timeline timeline = test::random_timeline(random, 150);
+  const test::Rasters rasters = test::random_rasters(random, format, 150);
+  FunctionSet functions;
+  for (std::uint8_t tag = 0; tag < 3; ++tag) functions.emplace(tag, test::random_function(random, timeline));
+  Mask mask = Mask::uniform(43, 21, 0);
+  for (std::size_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
+    mask.tags[pixel] = static_cast<std::uint8_t>(pixel % 43 < 20 ? 0 : random.whole(0, 2));
+  }
+  Picture first_codes, first_light;
+  int combinations = 0;
+  for (const Shape& shape : {Shape{64, 16, 8}, {1, 1, 1}, {16, 3, 4}, {64, 1, 16}}) {
+    for (const auto& [group_items, chunk_bytes, last_first] : {std::tuple{1u, std::uint64_t{0}, false},
+                                                               {7u, std::uint64_t{1}, false},
+                                                               {64u, std::uint64_t{0}, true}}) {
+      OpenClOptions options = test::renderer_options(Precision::fixed);
+      options.item_pixels = shape.item_pixels;
+      options.item_tiles = shape.item_tiles;
+      options.lanes = shape.lanes;
+      options.group_items = group_items;
+      options.chunk_bytes = chunk_bytes;
+      options.last_block_first = last_first;
+      OpenClRenderer renderer(options);
+      for (const auto& [block_samples, policy] : {std::pair{1u, TilePolicy::dense},
+                                                  {17u, TilePolicy::rows},
+                                                  {64u, TilePolicy::automatic},
+                                                  {300u, TilePolicy::records}}) {
+        MemoryCapture capture(format, timeline, rasters, block_samples, policy);
+        const RenderPlan plan = make_plan(capture, functions, mask, {});
+        const Picture codes = renderer.render(plan, capture, {ValueType::code8, 255});
+        const Picture light = renderer.render(plan, capture, {ValueType::light64, 0});
+        if (combinations++ == 0) {
+          first_codes = codes;
+          first_light = light;
+        }
+        const std::string what = nutik::format(
+            "{} pixels of {} tiles in {} lanes, groups of {}, chunks of {}, blocks of {}{}, tiles {}",
+            shape.item_pixels, shape.item_tiles, shape.lanes, group_items, chunk_bytes, block_samples,
+            last_first ? " from the last" : "", to_text(policy));
+        ASSERT_TRUE(codes.bytes == first_codes.bytes) << what;
+        ASSERT_TRUE(light.bytes == first_light.bytes) << what;
+      }
+    }
+  }
+  std::printf("%d combinations, the same bytes\n", combinations);
+}
+
+}  // namespace
+}  // namespace nutik

@@ -1,0 +1,147 @@
+// Error bounds and scales of whole numbers, from tables alone.
+#include "render/error_bound.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/fixed_scale.hpp"
+#include "render/precision_choice.hpp"
+#include "support/random_case.hpp"
+
+namespace nutik {
+namespace {
+
+using test::RandomCase;
+
+constexpr OutputFormat kLight{ValueType::light64, 0};
+
+TEST(ErrorBound, ShrinksWithBetterArithmetic) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const RandomCase random(seed);
+    const MemoryCapture capture = random.encode();
+    const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+    const ErrorBound single = error_bound(plan, Precision::single_, kLight);
+    const ErrorBound fixed = error_bound(plan, Precision::fixed, kLight);
+    const ErrorBound compensated = error_bound(plan, Precision::compensated, kLight);
+    const ErrorBound real64 = error_bound(plan, Precision::double_, kLight);
+    for (std::size_t f = 0; f < plan.functions.size(); ++f) {
+      if (plan.functions[f].summary.support_ns == 0) {
+        EXPECT_EQ(single.functions[f].light, 0.0) << random.text();
+        continue;
+      }
+      EXPECT_LT(fixed.functions[f].light, single.functions[f].light) << random.text();
+      EXPECT_LT(compensated.functions[f].light, single.functions[f].light) << random.text();
+      EXPECT_LT(real64.functions[f].light, compensated.functions[f].light) << random.text();
+      EXPECT_LE(single.functions[f].light, single.worst.light);
+    }
+  }
+}
+
+// 12.92 and 4.5 codes of error for each of light at the dark end; all of it where light may be anything.
+TEST(ErrorBound, CodesErrMostInTheDark) {
+  EXPECT_NEAR(code_error(Transfer::srgb(), 255, 1e-6), 255 * 12.92e-6, 1e-12);
+  EXPECT_NEAR(code_error(Transfer::bt709(), 65'535, 1e-6), 65'535 * 4.5e-6, 1e-9);
+  EXPECT_NEAR(code_error(Transfer::linear(), 4095, 1e-3), 4.095, 1e-9);
+  EXPECT_NEAR(code_error(Transfer::gamma(2.0), 255, 1e-4), 2.55, 1e-9);
+  EXPECT_NEAR(code_error(Transfer::gamma(0.5), 255, 1e-4), 255 * (1 - 0.9999 * 0.9999), 1e-9);
+  EXPECT_EQ(code_error(Transfer::srgb(), 255, 2.0), 255);
+  EXPECT_EQ(code_error(Transfer::srgb(), 255, NAN), 255);
+  EXPECT_NEAR(code_error(Transfer::srgb(), 255, 0.0), 0.0, 1e-12);
+}
+
+// Whatever the sizes of gains: no sum of light and weights leaves 62 bits, and none stays far below.
+TEST(FixedScale, FillsTheSumsAndNeverOverflows) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    RandomCase random(seed);
+    test::Random sizes(seed);
+    for (auto& [tag, function] : random.functions) {
+      std::vector<ControlPoint> points(function.points().begin(), function.points().end());
+      for (ControlPoint& point : points)
+        point.gain = std::scalbn(point.gain, static_cast<int>(sizes.whole(-900, 900)));
+      function = GainFunction(std::move(points));
+    }
+    const MemoryCapture capture = random.encode();
+    const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+    const FixedScale scale = fixed_scale(plan);
+    const FixedTables tables = fixed_tables(plan, scale);
+    for (std::size_t f = 0; f < plan.functions.size(); ++f) {
+      long double magnitude = 0, exact = 0;
+      for (std::size_t at = f; at < tables.weights.size(); at += plan.function_count()) {
+        magnitude += std::abs(tables.weights[at]);
+        exact += std::fabs(plan.weights[at]);
+      }
+      const long double largest = magnitude * static_cast<long double>(scale.white_light);
+      ASSERT_LE(largest, 0x1p62L) << random.text();
+      if (exact > 0) {
+        ASSERT_GE(largest, 0x1p59L) << random.text();
+      }
+    }
+  }
+}
+
+// Weights come from boundaries that are rounded once for the whole capture.
+TEST(FixedScale, TablesDoNotDependOnBlocks) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const RandomCase random(seed);
+    std::vector<std::vector<std::int64_t>> weights_by_function;
+    for (const std::uint32_t block_samples : {1u, 7u, 64u, 1000u}) {
+      const MemoryCapture capture = random.encode(block_samples, TilePolicy::dense);
+      const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+      const FixedTables tables = fixed_tables(plan, fixed_scale(plan));
+      std::vector<std::vector<std::int64_t>> weights(plan.function_count());
+      for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
+        const PlannedBlock& block = plan.blocks[b];
+        for (std::size_t f = 0; f < plan.function_count(); ++f) {
+          for (std::uint32_t k = 0; k < block.extent.sample_count; ++k) {
+            const std::uint64_t at = (block.table_row + k) * plan.function_count() + f;
+            ASSERT_EQ(tables.weights[at],
+                      tables.boundaries[at + plan.function_count()] - tables.boundaries[at]);
+            if (tables.weights[at] != 0) weights[f].push_back(tables.weights[at]);
+          }
+          ASSERT_EQ(tables.boundaries[block.table_row * plan.function_count() + f], 0);
+        }
+      }
+      if (weights_by_function.empty()) weights_by_function = weights;
+      ASSERT_EQ(weights, weights_by_function) << random.text() << ", here in blocks of " << block_samples;
+    }
+  }
+}
+
+TEST(PrecisionChoice, TakesTheFirstThatIsRightEnoughElseTheBest) {
+  CaptureFormat format;
+  format.shape = {1, 1, 1};
+  const test::Rasters rasters(100, std::vector<std::byte>(1, std::byte{90}));
+  const MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100), rasters, 64);
+  const auto choose = [&](double gain, const OutputFormat& output, std::vector<Precision> available) {
+    const GainFunction function({{640'000'000, gain}, {640'000'000, 2 - gain}});
+    return choose_precision(make_plan(capture, {{0, function}}, Mask::uniform(1, 1, 0), {}), output,
+                            available);
+  };
+  const std::vector<Precision> all{Precision::single_, Precision::double_, Precision::fixed,
+                                   Precision::compensated};
+  const std::vector<Precision> without_double{Precision::single_, Precision::fixed, Precision::compensated};
+  const OutputFormat codes{ValueType::code8, 255};
+  EXPECT_EQ(choose(1.0, codes, all).precision(), Precision::single_);
+  EXPECT_TRUE(choose(1.0, codes, all).rejected.empty());
+  EXPECT_EQ(choose(1e4, codes, all).precision(), Precision::double_);
+  EXPECT_EQ(choose(1e4, codes, without_double).precision(), Precision::fixed);
+  EXPECT_EQ(choose(1e7, codes, without_double).precision(), Precision::compensated);
+  EXPECT_EQ(choose(1.0, {ValueType::light32, 0}, all).precision(), Precision::double_);
+  EXPECT_EQ(choose(1.0, kLight, all).precision(), Precision::double_);
+  const PrecisionChoice none = choose(1e18, codes, all);
+  EXPECT_EQ(none.precision(), Precision::double_);
+  EXPECT_FALSE(none.is_right_enough());
+  EXPECT_EQ(none.rejected.size(), 3u);
+}
+
+TEST(PrecisionChoice, SaysWhatItMayErrBy) {
+  EXPECT_EQ(error_text({3.1e-7, 0.0102}, {ValueType::code8, 255}),
+            "light within 3.1e-07, 0.01 of an 8-bit code");
+  EXPECT_EQ(error_text({3.1e-7, 0.2625}, {ValueType::code16, 65'535}),
+            "light within 3.1e-07, 0.26 of a code of white 65535");
+  EXPECT_EQ(error_text({1e-13, 0.1}, kLight), "light within 1e-13");
+}
+
+}  // namespace
+}  // namespace nutik
