@@ -27,8 +27,8 @@ Exact rounding(const Exact& scale, const Exact& least) {
 }
 const Exact kLeastDouble(std::numeric_limits<double>::denorm_min());
 
-// Turning light into a code by the inverse of the transfer function, whose slope is at most 2.3 where light
-// is not 0, costs a few roundings of the code's own scale.
+// A code is light put through the inverse of the transfer function, which costs a few roundings on the codes' own
+// scale. On that of light it is 2.3 times as much at most: no transfer function here is steeper.
 constexpr double kInverseRoundings = 16 * test::kRoundoff64;
 
 class ReferenceOnHardCases : public testing::TestWithParam<NamedHardCase> {};

@@ -5,8 +5,8 @@
 //   make()    the case itself; cheap but for its rasters, which are drawn one at a time
 //
 // Every renderer and every arithmetic is held to them (tests/render/hard_cases_test.cpp,
-// tests/opencl/hard_cases_test.cpp, tests/opencl/simulator_test.cpp). All captures are lossless: what pixels hold
-// is what was drawn.
+// tests/opencl/hard_cases_test.cpp, tools/check_kernels). All captures are lossless: what pixels hold is what was
+// drawn.
 #pragma once
 
 #include <cstdint>
