@@ -13,21 +13,6 @@ namespace {
 
 using test::Exact;
 
-double units(const Exact& error, const Exact& scale) {
-  return scale == 0 ? (error == 0 ? 0.0 : INFINITY)
-                    : std::fabs((error / scale).convert_to<double>()) / test::kRoundoff64;
-}
-
-// ∫ ĝ φ_k, ĝ being the line between |g| at the ends of each piece: what errors are in proportion to.
-Exact magnitude_ns(const std::vector<test::ExactStretch>& gain, const Timeline& timeline, std::uint64_t k) {
-  std::vector<test::ExactStretch> magnitude = gain;
-  for (test::ExactStretch& stretch : magnitude) {
-    if (stretch.begin < 0) stretch.begin = -stretch.begin;
-    if (stretch.end < 0) stretch.end = -stretch.end;
-  }
-  return test::exact_weight_ns(magnitude, timeline, k);
-}
-
 TEST(WeightSweep, PacksWhatExactArithmeticSays) {
   double worst = 0.0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
@@ -38,6 +23,8 @@ TEST(WeightSweep, PacksWhatExactArithmeticSays) {
     const GainSummary summary = summarize(function, timeline.duration_ns());
     if (summary.support_ns == 0) continue;
     const auto gain = test::exact_gain(function, timeline.duration_ns());
+    const auto magnitudes = test::magnitude_of(gain);
+    const Exact unit = Exact(std::scalbn(1.0, summary.exponent)) * summary.support_ns;
 
     WeightSweep sweep(function, summary, timeline.duration_ns());
     const std::vector<SampleTimes> times = timeline.times({0, count});
@@ -47,16 +34,13 @@ TEST(WeightSweep, PacksWhatExactArithmeticSays) {
     Exact boundary = 0, magnitude = 0;
     for (std::uint64_t k = 0; k < count; ++k) {
       const Exact exact = test::exact_weight_ns(gain, timeline, k);
-      const Exact scale = magnitude_ns(gain, timeline, k);
-      const double error =
-          units(Exact(std::scalbn(weights[k], summary.exponent)) - exact / summary.support_ns,
-                scale / summary.support_ns);
+      const Exact scale = test::exact_weight_ns(magnitudes, timeline, k);
+      const double error = test::error_in(scale / unit, weights[k], exact / unit) / test::kRoundoff64;
       EXPECT_LE(error, test::kWeightRoundings) << "seed " << seed << ", sample " << k;
       worst = std::max(worst, error);
       boundary += exact;
       magnitude += scale;
-      EXPECT_LE(units(Exact(std::scalbn(boundaries[k + 1], summary.exponent)) - boundary / summary.support_ns,
-                      magnitude / summary.support_ns),
+      EXPECT_LE(test::error_in(magnitude / unit, boundaries[k + 1], boundary / unit) / test::kRoundoff64,
                 test::kWeightRoundings + 1)
           << "seed " << seed << ", boundary " << k + 1;
     }

@@ -1,111 +1,51 @@
 // Every arithmetic that the device has, against the reference: within its bound, in light and in codes.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <map>
-#include <memory>
 
 #include "capture/format.hpp"
 #include "render/reference_renderer.hpp"
+#include "support/precision_check.hpp"
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
+#include "support/seeds.hpp"
 
 namespace nutik {
 namespace {
 
-using test::Difference;
 using test::RandomCase;
 
-// A number from the environment, or what the test takes without.
-std::uint64_t number_of(const char* name, std::uint64_t usual) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : usual;
-}
-
-// One renderer for each arithmetic, and the worst that was seen of it.
 class Precisions : public testing::Test {
  protected:
-  struct Seen {
-    std::unique_ptr<OpenClRenderer> renderer;
-    double worst = 0.0;     // in S
-    double tightest = 0.0;  // of the bound
-  };
+  ~Precisions() override { check_.print(); }
 
-  Precisions() { start(precisions_of(list_devices().front()), true); }
-
-  void start(std::span<const Precision> precisions, bool use_fma) {
-    seen_.clear();
-    for (const Precision precision : precisions) {
-      OpenClOptions options = test::renderer_options(precision);
-      options.use_fma = use_fma;
-      seen_[precision].renderer = std::make_unique<OpenClRenderer>(options);
-    }
+  static void check(test::PrecisionCheck& check, const RenderPlan& plan, CaptureSource& capture,
+                    const std::string& what, const std::string& rerun = test::rerun()) {
+    check.check(
+        plan,
+        [&](Renderer& renderer, const OutputFormat& output) {
+          return renderer.render(plan, capture, output);
+        },
+        what, rerun);
   }
 
-  ~Precisions() override {
-    for (const auto& [precision, seen] : seen_) {
-      if (seen.worst == 0.0) continue;
-      std::printf("%-11s worst difference %.3g of ∫|g|/D, %.3g of its bound\n", to_text(precision).c_str(),
-                  seen.worst, seen.tightest);
-    }
-  }
-
-  // Light within the bound, and codes no further from where the reference puts them than half a code and the
-  // bound in codes. `what` says what was rendered and how to do it again.
-  void check(const RenderPlan& plan, CaptureSource& capture, const OutputFormat& codes,
-             const std::string& what) {
-    const Picture expected = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
-    for (auto& [precision, seen] : seen_) {
-      const Picture light = seen.renderer->render(plan, capture, {ValueType::light64, 0});
-      const ErrorBound& bound = seen.renderer->choice().bound;
-      const Difference share = test::share_of_bound(plan, bound, light, expected);
-      ASSERT_LE(share.worst, 1.0) << to_text(precision) << ", value " << share.value << ": "
-                                  << light.values<double>()[share.value] << " and "
-                                  << expected.values<double>()[share.value] << ", " << what;
-      seen.tightest = std::max(seen.tightest, share.worst);
-      const double difference = test::difference_of(plan, light, expected).worst;
-      if (precision == Precision::double_) {
-        ASSERT_LE(difference, test::kDoubleAgainstReference) << what;
-      }
-      seen.worst = std::max(seen.worst, difference);
-
-      const Picture picture = seen.renderer->render(plan, capture, codes);
-      const std::vector<PictureError>& errors = seen.renderer->choice().bound.functions;
-      for (std::uint64_t i = 0; i < expected.shape.value_count(); ++i) {
-        const double inside = std::clamp(expected.values<double>()[i], 0.0, 1.0);
-        const double exact = plan.capture.transfer.fraction_of(inside) * codes.white_code;
-        const double code = codes.type == ValueType::code8 ? picture.values<std::uint8_t>()[i]
-                                                           : picture.values<std::uint16_t>()[i];
-        const double steps = errors[plan.function_of_pixel[i / plan.capture.shape.channels]].steps;
-        // fraction_of() and the thresholds are inverse to each other to some units of the last place.
-        ASSERT_LE(std::fabs(code - exact), 0.5 + steps + 1e-9 * codes.white_code)
-            << to_text(precision) << ", value " << i << ", " << what;
-      }
-    }
-  }
-
-  std::map<Precision, Seen> seen_;
+  test::PrecisionCheck check_;
 };
 
-OutputFormat codes_like(const CaptureFormat& capture) {
-  return {capture.code_bytes == 1 ? ValueType::code8 : ValueType::code16, capture.white_code};
-}
-
-// NUTIK_CASES=10000 is the full run; docs/accuracy.md says what it measured.
+// NUTIK_TEST_CASES=10000 is the full run; docs/accuracy.md says what it measured. NUTIK_TEST_LARGEST=n leaves out
+// cases of more than n values in all samples together: for tools/check_kernels.
 TEST_F(Precisions, StayWithinTheirBoundsOnRandomCases) {
-  const std::uint64_t first = number_of("NUTIK_FIRST_CASE", 0);
-  const std::uint64_t count = number_of("NUTIK_CASES", 300);
-  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+  const char* limit = std::getenv("NUTIK_TEST_LARGEST");
+  const std::uint64_t largest = limit == nullptr ? UINT64_MAX : std::stoull(limit);
+  const test::Seeds seeds = test::seeds(0, 300);
+  for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
     const RandomCase random(seed);
+    if (random.capture.shape.value_count() * random.timeline.sample_count() > largest) continue;
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-    check(
-        plan, capture, codes_like(random.capture),
-        format("{}; rerun: NUTIK_FIRST_CASE={} NUTIK_CASES=1 opencl_tests --gtest_filter=Precisions.*Random*",
-               random.text(), seed));
-    if (HasFatalFailure()) return;
+    check(check_, plan, capture, format("Seed{}", seed), test::rerun(seed));
+    if (HasFailure()) FAIL() << random.text();
   }
 }
 
@@ -134,10 +74,10 @@ TEST_F(Precisions, StayWithinTheirBoundsWhereSumsCancel) {
         for (const double gain : {1e3, 1e6, 1e9, 1e12}) {
           const RenderPlan plan =
               make_plan(capture, {{0, cancelling(gain, 1.0)}}, Mask::uniform(19, 9, 0), {});
-          check(plan, capture, {ValueType::code8, 255},
+          check(check_, plan, capture,
                 format("gains of ±{}, {}, {}, tiles {}", gain, transfer.text(), is_still ? "still" : "moving",
                        to_text(policy)));
-          if (HasFatalFailure()) return;
+          if (HasFailure()) return;
         }
       }
     }
@@ -146,12 +86,12 @@ TEST_F(Precisions, StayWithinTheirBoundsWhereSumsCancel) {
 
 // Where a device does not fuse, products round twice and pairs are multiplied by halves.
 TEST_F(Precisions, OfFloatsStayWithinTheirBoundsWithoutFusedProducts) {
-  start(std::array{Precision::single_, Precision::compensated}, false);
+  test::PrecisionCheck without_fma(false);
   MemoryCapture capture = clip_of(Transfer::srgb(), false, TilePolicy::records);
   for (const double gain : {1.0, 1e6}) {
     const RenderPlan plan = make_plan(capture, {{0, cancelling(gain, 0.3)}}, Mask::uniform(19, 9, 0), {});
-    check(plan, capture, {ValueType::code8, 255}, format("gains of ±{} without fma", gain));
-    if (HasFatalFailure()) return;
+    check(without_fma, plan, capture, format("gains of ±{} without fma", gain));
+    if (HasFailure()) return;
   }
 }
 
@@ -169,7 +109,7 @@ TEST_F(Precisions, HoldGainsOfAnySize) {
     mask.tags[pixel] = static_cast<std::uint8_t>(pixel % tag);
   }
   const RenderPlan plan = make_plan(capture, functions, mask, {});
-  check(plan, capture, {ValueType::code8, 255}, "gains of all sizes");
+  check(check_, plan, capture, "gains of all sizes");
 }
 
 // A bound that is never nearly met would say nothing. Gains of one sign, up to 1000 samples.
@@ -189,7 +129,7 @@ TEST_F(Precisions, BoundOfSingleIsUseful) {
     }
     if (points[1].time_ns == 0) points.resize(1);  // a timeline of some nanoseconds
     const RenderPlan plan = make_plan(capture, {{0, GainFunction(points)}}, Mask::uniform(16, 16, 0), {});
-    const Picture light = seen_[Precision::single_].renderer->render(plan, capture, {ValueType::light64, 0});
+    const Picture light = check_.of(Precision::single_).render(plan, capture, {ValueType::light64, 0});
     const Picture expected = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
     shares.push_back(test::share_of_bound(plan, Precision::single_, light, expected).worst);
     ASSERT_LE(shares.back(), 1.0) << samples << " samples, case " << i;

@@ -6,62 +6,32 @@
 #include "capture/error.hpp"
 #include "render/reference_renderer.hpp"
 #include "support/bounds.hpp"
-#include "support/exact.hpp"
+#include "support/exact_exposure.hpp"
 #include "support/random_case.hpp"
+#include "support/seeds.hpp"
 
 namespace nutik {
 namespace {
 
-using test::Exact;
 using test::RandomCase;
-
-// Exact light of one value: Σ_k v_k ∫ g φ_k / D over the held codes.
-Exact exact_light(const RandomCase& random, const std::vector<Exact>& weights, std::int64_t support_ns,
-                  const std::vector<double>& held_light) {
-  if (support_ns == 0) return 0;
-  Exact sum = 0;
-  for (std::size_t k = 0; k < weights.size(); ++k) sum += weights[k] * Exact(held_light[k]);
-  static_cast<void>(random);
-  return sum / support_ns;
-}
 
 TEST(Reference, StaysWithinAFewUlpOfExactArithmetic) {
   double worst = 0.0;
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  const test::Seeds seeds = test::seeds(0, 60);
+  for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
     RandomCase random(seed);
     random.capture.noise.tolerance = 0;  // held codes are the source's
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
-    std::vector<std::vector<Exact>> weights;
-    std::vector<test::ExactSummary> summaries;
-    for (const PlannedFunction& planned : plan.functions) {
-      const auto gain = test::exact_gain(planned.function, plan.duration_ns);
-      summaries.push_back(test::exact_summary(gain));
-      weights.emplace_back();
-      for (std::uint64_t k = 0; k < random.rasters.size(); ++k) {
-        weights.back().push_back(test::exact_weight_ns(gain, random.timeline, k));
-      }
-    }
-    test::Random draw(seed);
-    for (int i = 0; i < 12; ++i) {
-      const auto value = static_cast<std::uint64_t>(
-          draw.whole(0, static_cast<std::int64_t>(picture.shape.value_count()) - 1));
-      const std::size_t f = plan.function_of_pixel[value / picture.shape.channels];
-      std::vector<double> light;
-      for (const auto& raster : random.rasters) {
-        light.push_back(random.capture.transfer.light_of(
-            static_cast<double>(test::code_at(random.capture, raster, value)) / random.capture.white_code));
-      }
-      const Exact exact = exact_light(random, weights[f], summaries[f].support_ns, light);
+    const test::ExactExposure exact(plan, random.timeline,
+                                    [&](std::uint64_t k) { return random.rasters[k]; });
+    for (const std::uint64_t value : test::values_to_compare(plan, 12, seed)) {
       const double rendered = picture.values<double>()[value];
-      if (summaries[f].support_ns == 0) {
-        EXPECT_EQ(rendered, 0.0);
-        continue;
-      }
-      const Exact error = Exact(rendered) - exact;
-      const double units = std::fabs((error / summaries[f].scale()).convert_to<double>()) / test::kRoundoff64;
-      EXPECT_LE(units, test::kReferenceRoundings) << random.text() << ", value " << value;
+      const double units =
+          test::error_in(exact.summary(value).scale(), rendered, exact.light(value)) / test::kRoundoff64;
+      EXPECT_LE(units, test::kReferenceRoundings)
+          << random.text() << ", value " << value << "; rerun: " << test::rerun(seed);
       worst = std::max(worst, units);
     }
   }

@@ -1,6 +1,7 @@
 #include "support/exact.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace nutik::test {
 namespace {
@@ -8,6 +9,13 @@ namespace {
 Exact magnitude(const Exact& value) { return value < 0 ? Exact(-value) : value; }
 
 }  // namespace
+
+double error_in(const Exact& scale, double value, const Exact& exact) {
+  if (!std::isfinite(value)) return INFINITY;
+  const Exact error = Exact(value) - exact;
+  if (scale == 0) return error == 0 ? 0.0 : INFINITY;
+  return std::fabs(Exact(error / scale).convert_to<double>());
+}
 
 std::vector<ExactStretch> exact_gain(const GainFunction& function, std::int64_t duration_ns) {
   std::vector<ExactStretch> stretches;
@@ -30,12 +38,17 @@ std::vector<ExactStretch> exact_gain(const GainFunction& function, std::int64_t 
   return stretches;
 }
 
+std::vector<ExactStretch>::const_iterator first_stretch_after(const std::vector<ExactStretch>& stretches,
+                                                              std::int64_t time_ns) {
+  return std::partition_point(stretches.begin(), stretches.end(),
+                              [&](const ExactStretch& stretch) { return stretch.end_ns <= time_ns; });
+}
+
 Exact integrate_product(const std::vector<ExactStretch>& a, const std::vector<ExactStretch>& b) {
   Exact sum = 0;
-  auto first = b.begin();
   for (const ExactStretch& left : a) {
-    while (first != b.end() && first->end_ns <= left.begin_ns) ++first;
-    for (auto right = first; right != b.end() && right->begin_ns < left.end_ns; ++right) {
+    for (auto right = first_stretch_after(b, left.begin_ns);
+         right != b.end() && right->begin_ns < left.end_ns; ++right) {
       const std::int64_t from = std::max(left.begin_ns, right->begin_ns);
       const std::int64_t to = std::min(left.end_ns, right->end_ns);
       if (from >= to || left.is_zero() || right->is_zero()) continue;
@@ -57,12 +70,22 @@ ExactSummary exact_summary(const std::vector<ExactStretch>& gain) {
     summary.integral_ns += Exact(length) * (stretch.begin + stretch.end) / 2;
     const Exact begin = magnitude(stretch.begin);
     const Exact end = magnitude(stretch.end);
-    const bool crosses = stretch.begin * stretch.end < 0;
-    summary.absolute_integral_ns +=
-        crosses ? Exact(Exact(length) * (begin * begin + end * end) / (2 * (begin + end)))
-                : Exact(Exact(length) * (begin + end) / 2);
+    if (stretch.begin * stretch.end < 0) {  // two triangles
+      const Exact triangles = Exact(length) * (begin * begin + end * end) / (2 * (begin + end));
+      summary.absolute_integral_ns += Exact(boost::multiprecision::cpp_bin_float_100(triangles));
+    } else {
+      summary.absolute_integral_ns += Exact(length) * (begin + end) / 2;
+    }
   }
   return summary;
+}
+
+std::vector<ExactStretch> magnitude_of(std::vector<ExactStretch> gain) {
+  for (ExactStretch& stretch : gain) {
+    stretch.begin = magnitude(stretch.begin);
+    stretch.end = magnitude(stretch.end);
+  }
+  return gain;
 }
 
 std::vector<ExactStretch> exact_hat(const Timeline& timeline, std::uint64_t k) {

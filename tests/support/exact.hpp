@@ -4,6 +4,7 @@
 // for the product of two straight lines.
 #pragma once
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
 #include <vector>
@@ -14,6 +15,9 @@
 namespace nutik::test {
 
 using Exact = boost::multiprecision::cpp_rational;
+
+// How far a double is from the exact value, in `scale`; infinite for what is not a number.
+[[nodiscard]] double error_in(const Exact& scale, double value, const Exact& exact);
 
 // A straight stretch of a function of time.
 struct ExactStretch {
@@ -31,16 +35,26 @@ struct ExactStretch {
 // The gain function on the domain [0, duration_ns].
 [[nodiscard]] std::vector<ExactStretch> exact_gain(const GainFunction& function, std::int64_t duration_ns);
 
+// The first of stretches in time order that ends after a time.
+[[nodiscard]] std::vector<ExactStretch>::const_iterator first_stretch_after(
+    const std::vector<ExactStretch>& stretches, std::int64_t time_ns);
+
 // ∫ of the product of two functions that are straight on each of their stretches.
 [[nodiscard]] Exact integrate_product(const std::vector<ExactStretch>& a, const std::vector<ExactStretch>& b);
 
 struct ExactSummary {
-  Exact integral_ns;                                                               // ∫g
-  Exact absolute_integral_ns;                                                      // ∫|g|
-  std::int64_t support_ns = 0;                                                     // D
-  [[nodiscard]] Exact scale() const { return absolute_integral_ns / support_ns; }  // S
+  Exact integral_ns;            // ∫g
+  Exact absolute_integral_ns;   // ∫|g|
+  std::int64_t support_ns = 0;  // D
+  // S; 0 where D is 0.
+  [[nodiscard]] Exact scale() const {
+    return support_ns == 0 ? Exact(0) : Exact(absolute_integral_ns / support_ns);
+  }
 };
 [[nodiscard]] ExactSummary exact_summary(const std::vector<ExactStretch>& gain);
+
+// The line between |g| at the ends of each stretch: ĝ, what errors of weights are in proportion to.
+[[nodiscard]] std::vector<ExactStretch> magnitude_of(std::vector<ExactStretch> gain);
 
 // Sample k's own hat on the timeline.
 [[nodiscard]] std::vector<ExactStretch> exact_hat(const Timeline& timeline, std::uint64_t k);

@@ -5,17 +5,29 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <string>
 
+#include "capture/error.hpp"
 #include "opencl/opencl_renderer.hpp"
 #include "render/render_plan.hpp"
 #include "support/bounds.hpp"
 
 namespace nutik::test {
 
+// NUTIK_TEST_SHAPE=pixels,tiles,lanes,group cuts the work another way than suits the device (OpenClOptions): GPUs'
+// way on a CPU, say.
 inline OpenClOptions renderer_options(std::optional<Precision> precision) {
   OpenClOptions options;
+  if (const char* shape = std::getenv("NUTIK_TEST_SHAPE")) {
+    if (std::sscanf(shape, "%u,%u,%u,%u", &options.item_pixels, &options.item_tiles, &options.lanes,
+                    &options.group_items) != 4) {
+      throw UsageError(std::string("NUTIK_TEST_SHAPE is not pixels,tiles,lanes,group: ") + shape);
+    }
+  }
   options.precision = precision;
   options.cache_folder = std::filesystem::temp_directory_path() / "nutik-test-kernels";
   return options;

@@ -1,0 +1,134 @@
+// Every arithmetic that the device has, on hard cases: within its computed bound of the reference, whatever kind
+// tiles are of and however long blocks are.
+#include "support/hard_cases.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "render/reference_renderer.hpp"
+#include "support/precision_check.hpp"
+#include "support/rendering.hpp"
+#include "support/seeds.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Difference;
+using test::HardCase;
+using test::NamedHardCase;
+
+// A case with its blocks and tiles as they are, or laid out another way.
+struct Layout {
+  const HardCase& hard;
+  std::uint32_t block_samples;
+  TilePolicy policy;
+
+  explicit Layout(const HardCase& each)
+      : hard(each), block_samples(each.block_samples), policy(each.policy) {}
+  Layout(const HardCase& each, std::uint32_t samples, TilePolicy tiles)
+      : hard(each), block_samples(samples), policy(tiles) {}
+
+  [[nodiscard]] RenderPlan plan() const {
+    return make_plan(hard.open(block_samples, policy), hard.functions, hard.mask, {});
+  }
+  [[nodiscard]] Picture render(Renderer& renderer, const RenderPlan& plan, const OutputFormat& output) const {
+    StreamingCapture capture = hard.open(block_samples, policy);
+    return renderer.render(plan, capture, output);
+  }
+};
+
+class HardCases : public testing::TestWithParam<NamedHardCase> {
+ protected:
+  const HardCase hard_ = GetParam().make();
+};
+
+TEST_P(HardCases, StayWithinTheBoundOfEveryPrecision) {
+  const Layout layout(hard_);
+  const RenderPlan plan = layout.plan();
+  test::PrecisionCheck check;
+  check.check(
+      plan,
+      [&](Renderer& renderer, const OutputFormat& output) { return layout.render(renderer, plan, output); },
+      GetParam().name, test::rerun());
+  std::printf("%s\n", GetParam().reason);
+  check.print();
+}
+
+// What is chosen keeps the format within half a step beside its own rounding, or says that nothing does.
+TEST_P(HardCases, AreRightInTheArithmeticThatIsChosen) {
+  const Layout layout(hard_);
+  const RenderPlan plan = layout.plan();
+  const OutputFormat output = test::codes_like(plan.capture);
+  OpenClRenderer renderer(test::renderer_options({}));
+  const Picture codes = layout.render(renderer, plan, output);
+  const PrecisionChoice& choice = renderer.choice();
+  std::printf("%s, within %.3g codes\n", to_text(choice.precision()).c_str(), choice.bound.worst.steps);
+  if (!choice.is_right_enough()) {
+    EXPECT_FALSE(renderer.warning().empty());
+    return;
+  }
+  ReferenceRenderer reference;
+  const Picture expected = layout.render(reference, plan, output);
+  for (std::uint64_t i = 0; i < codes.shape.value_count(); ++i) {
+    const auto code = [&](const Picture& picture) {
+      return output.type == ValueType::code8 ? picture.values<std::uint8_t>()[i]
+                                             : picture.values<std::uint16_t>()[i];
+    };
+    ASSERT_LE(std::abs(code(codes) - code(expected)), 1)
+        << to_text(choice.precision()) << ", value " << i << "; rerun: " << test::rerun();
+  }
+}
+
+// Tiles of any kind in blocks of any length hold the same capture: the same bytes in whole numbers, within the
+// bound otherwise.
+TEST_P(HardCases, DoNotDependOnTilesOrBlocks) {
+  const OutputFormat as_light{ValueType::light64, 0};
+  const Layout usual(hard_, 64, TilePolicy::automatic);
+  const RenderPlan plan = usual.plan();
+  ReferenceRenderer reference;
+  const Picture expected = usual.render(reference, plan, as_light);
+  constexpr std::pair<std::uint32_t, TilePolicy> kLayouts[] = {
+      {1, TilePolicy::automatic}, {2, TilePolicy::records},  {7, TilePolicy::rows},
+      {64, TilePolicy::dense},    {64, TilePolicy::records}, {300, TilePolicy::automatic}};
+  test::PrecisionCheck renderers;
+  for (const Precision precision : renderers.precisions()) {
+    OpenClRenderer& renderer = renderers.of(precision);
+    const Picture first = usual.render(renderer, plan, as_light);
+    for (const auto& [block_samples, policy] : kLayouts) {
+      const Layout other(hard_, block_samples, policy);
+      const RenderPlan other_plan = other.plan();
+      const Picture light = other.render(renderer, other_plan, as_light);
+      const Difference share = test::share_of_bound(other_plan, precision, light, expected);
+      ASSERT_LE(share.worst, 1.0) << to_text(precision) << ", blocks of " << block_samples << ", tiles "
+                                  << to_text(policy) << ", value " << share.value
+                                  << "; rerun: " << test::rerun();
+      if (precision != Precision::fixed) continue;
+      ASSERT_TRUE(light.bytes == first.bytes)
+          << "blocks of " << block_samples << ", tiles " << to_text(policy) << "; rerun: " << test::rerun();
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, HardCases, testing::ValuesIn(test::hard_cases().begin(), test::hard_cases().end()),
+                         [](const auto& instance) { return instance.param.name; });
+
+TEST(TilesOfAllKinds, AreInTheCaseOfThatName) {
+  const auto cases = test::hard_cases();
+  const auto named = std::ranges::find_if(
+      cases, [](const NamedHardCase& each) { return std::string(each.name) == "TilesOfAllKinds"; });
+  ASSERT_NE(named, cases.end());
+  const HardCase hard = named->make();
+  StreamingCapture capture = hard.open();
+  std::vector<std::byte> payload(capture.prepare(0));
+  capture.read(0, payload);
+  const BlockView block(hard.capture, capture.block_extent(0), payload);
+  std::vector<TileKind> kinds;
+  for (std::uint64_t tile = 0; tile < 4; ++tile) {
+    kinds.push_back(block.geometry().kind_of(block.entry(tile)));
+  }
+  EXPECT_EQ(kinds, (std::vector{TileKind::still, TileKind::rows, TileKind::dense, TileKind::records}));
+}
+
+}  // namespace
+}  // namespace nutik

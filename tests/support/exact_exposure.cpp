@@ -1,0 +1,73 @@
+#include "support/exact_exposure.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "support/random_case.hpp"
+
+namespace nutik::test {
+namespace {
+
+// Whether g is not 0 somewhere within sample k's reach.
+bool is_reached(const std::vector<ExactStretch>& gain, const Timeline& timeline, std::uint64_t k) {
+  const std::int64_t begin_ns = timeline.reach_begin_ns(k);
+  const std::int64_t end_ns = timeline.reach_end_ns(k);
+  for (auto stretch = first_stretch_after(gain, begin_ns); stretch != gain.end(); ++stretch) {
+    if (stretch->begin_ns >= end_ns) return false;
+    if (!stretch->is_zero()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+ExactExposure::ExactExposure(const RenderPlan& plan, const Timeline& timeline, const DrawSample& sample)
+    : plan_(plan) {
+  for (const PlannedFunction& planned : plan.functions) {
+    const std::vector<ExactStretch> gain = exact_gain(planned.function, plan.duration_ns);
+    Function& function = functions_.emplace_back();
+    function.summary = exact_summary(gain);
+    for (std::uint64_t k = 0; k < timeline.sample_count(); ++k) {
+      if (!is_reached(gain, timeline, k)) continue;
+      function.weights_ns.emplace_back(k, exact_weight_ns(gain, timeline, k));
+      if (!rasters_.contains(k)) rasters_.emplace(k, sample(k));
+    }
+  }
+}
+
+Exact ExactExposure::light(std::uint64_t i) const {
+  const Function& function = functions_[function_of(i)];
+  if (function.summary.support_ns == 0) return 0;
+  Exact sum = 0;
+  for (const auto& [k, weight_ns] : function.weights_ns) {
+    const double fraction =
+        static_cast<double>(code_at(plan_.capture, rasters_.at(k), i)) / plan_.capture.white_code;
+    sum += weight_ns * Exact(plan_.capture.transfer.light_of(fraction));
+  }
+  return sum / function.summary.support_ns;
+}
+
+std::vector<std::uint64_t> values_to_compare(const RenderPlan& plan, std::size_t most, std::uint64_t seed) {
+  const std::uint64_t count = plan.capture.shape.value_count();
+  std::set<std::uint64_t> values;
+  if (count <= most) {
+    for (std::uint64_t i = 0; i < count; ++i) values.insert(i);
+    return {values.begin(), values.end()};
+  }
+  const std::uint32_t channels = plan.capture.shape.channels;
+  std::vector<std::size_t> left(plan.function_count(),
+                                std::max<std::size_t>(1, most / plan.function_count()));
+  for (std::uint64_t pixel = 0; pixel < plan.function_of_pixel.size(); ++pixel) {
+    std::size_t& wanted = left[plan.function_of_pixel[pixel]];
+    if (wanted == 0) continue;
+    --wanted;
+    values.insert(pixel * channels + pixel % channels);
+  }
+  Random random(seed);
+  for (std::size_t i = 0; i < most; ++i) {
+    values.insert(static_cast<std::uint64_t>(random.whole(0, static_cast<std::int64_t>(count) - 1)));
+  }
+  return {values.begin(), values.end()};
+}
+
+}  // namespace nutik::test

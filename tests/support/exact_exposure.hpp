@@ -1,0 +1,49 @@
+// What a picture is, in exact rational arithmetic: Σ_k v_k ∫ g φ_k / D for the values asked for.
+//
+//   in:      a plan (its functions and which pixel has which; none of its tables), the timeline, and the
+//            codes that each sample holds
+//   exact:   everything but the light of a code, which is the transfer function's in double, as it is
+//            for the reference
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "render/render_plan.hpp"
+#include "support/exact.hpp"
+#include "support/hard_cases.hpp"
+
+namespace nutik::test {
+
+class ExactExposure {
+ public:
+  ExactExposure(const RenderPlan& plan, const Timeline& timeline, const DrawSample& sample);
+
+  // Of value i of the picture; 0 where D is 0.
+  [[nodiscard]] Exact light(std::uint64_t i) const;
+  // Of value i's function.
+  [[nodiscard]] const ExactSummary& summary(std::uint64_t i) const {
+    return functions_[function_of(i)].summary;
+  }
+  [[nodiscard]] std::size_t function_of(std::uint64_t i) const {
+    return plan_.function_of_pixel[i / plan_.capture.shape.channels];
+  }
+
+ private:
+  struct Function {
+    ExactSummary summary;
+    std::vector<std::pair<std::uint64_t, Exact>> weights_ns;  // by sample; those that are not 0
+  };
+
+  const RenderPlan& plan_;
+  std::vector<Function> functions_;
+  std::map<std::uint64_t, std::vector<std::byte>> rasters_;  // of the samples that some weight needs
+};
+
+// Values of a picture to compare: all of them where there are at most `most`, else some of every function
+// and as many more, drawn with `seed`.
+[[nodiscard]] std::vector<std::uint64_t> values_to_compare(const RenderPlan& plan, std::size_t most,
+                                                           std::uint64_t seed);
+
+}  // namespace nutik::test

@@ -1,0 +1,100 @@
+#include "support/hard_cases/parts.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace nutik::test {
+
+StreamingCapture HardCase::open(std::uint32_t samples, TilePolicy tiles) const {
+  const SampleRange needed = needed_samples(timeline, functions, mask, {});
+  const auto read = [draw = sample, first = needed.first / samples * samples, count = timeline.sample_count(),
+                     k = std::uint64_t{0}](std::span<std::byte> raster) mutable {
+    if (k == count) return false;
+    if (k >= first) std::ranges::copy(draw(k), raster.begin());  // what lies before is not kept
+    ++k;
+    return true;
+  };
+  return {capture, timeline, needed, samples, tiles, read};
+}
+
+std::span<const NamedHardCase> hard_cases() {
+  static const std::vector<NamedHardCase> all = [] {
+    std::vector<NamedHardCase> cases;
+    for (const auto& part : {hard_times(), hard_gains(), hard_captures()}) {
+      std::ranges::copy(part, std::back_inserter(cases));
+    }
+    return cases;
+  }();
+  return all;
+}
+
+CaptureFormat format_of(Shape shape, Transfer transfer, std::uint32_t white_code) {
+  CaptureFormat format;
+  format.shape = shape;
+  format.code_bytes = white_code > 255 ? 2 : 1;
+  format.white_code = white_code;
+  format.transfer = transfer;
+  return format;
+}
+
+FunctionSet number(std::vector<GainFunction> functions) {
+  FunctionSet set;
+  for (GainFunction& function : functions) {
+    set.emplace(static_cast<std::uint8_t>(set.size()), std::move(function));
+  }
+  return set;
+}
+
+Mask take_turns(const Shape& shape, const FunctionSet& functions) {
+  Mask mask = Mask::uniform(shape.width, shape.height, 0);
+  for (std::size_t i = 0; i < mask.tags.size(); ++i) {
+    mask.tags[i] = static_cast<std::uint8_t>(i % functions.size());
+  }
+  return mask;
+}
+
+namespace {
+
+// 64 bits without pattern for each number: SplitMix64's output function.
+std::uint64_t scramble(std::uint64_t number) {
+  std::uint64_t bits = (number + 1) * 0x9E37'79B9'7F4A'7C15;
+  bits = (bits ^ (bits >> 30)) * 0xBF58'476D'1CE4'E5B9;
+  bits = (bits ^ (bits >> 27)) * 0x94D0'49BB'1331'11EB;
+  return bits ^ (bits >> 31);
+}
+
+}  // namespace
+
+DrawSample noise(const CaptureFormat& capture) {
+  return [capture](std::uint64_t k) {
+    const std::uint64_t values = capture.shape.value_count();
+    std::vector<std::byte> raster(capture.sample_bytes());
+    for (std::uint64_t i = 0; i < values; ++i) {
+      const std::uint64_t bits = scramble(k * values + i);
+      set_code(capture, raster, i, static_cast<std::uint32_t>(bits % (capture.white_code + 1)));
+    }
+    return raster;
+  };
+}
+
+DrawSample still(const CaptureFormat& capture) {
+  return [capture](std::uint64_t) {
+    std::vector<std::byte> raster(capture.sample_bytes());
+    for (std::uint64_t i = 0; i < capture.shape.value_count(); ++i) {
+      set_code(capture, raster, i, static_cast<std::uint32_t>(i * 37 % (capture.white_code + 1)));
+    }
+    return raster;
+  };
+}
+
+HardCase noisy_case(const CaptureFormat& capture, Timeline timeline, std::vector<GainFunction> functions) {
+  FunctionSet set = number(std::move(functions));
+  Mask mask = take_turns(capture.shape, set);
+  return {capture, std::move(timeline), noise(capture), std::move(set), std::move(mask)};
+}
+
+GainFunction pulse(std::int64_t time_ns, double gain) {
+  return GainFunction({{time_ns - 1, 0.0}, {time_ns, gain}, {time_ns + 1, 0.0}});
+}
+
+}  // namespace nutik::test

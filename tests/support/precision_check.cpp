@@ -1,0 +1,115 @@
+#include "support/precision_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "render/reference_renderer.hpp"
+#include "support/rendering.hpp"
+
+namespace nutik::test {
+namespace {
+
+// What NUTIK_TEST_RENDER leaves to be rendered.
+bool is_wanted(const std::string& name) {
+  const char* wanted = std::getenv("NUTIK_TEST_RENDER");
+  return wanted == nullptr || ("," + std::string(wanted) + ",").find("," + name + ",") != std::string::npos;
+}
+
+void keep(const Picture& picture, const std::string& name) {
+  const char* folder = std::getenv("NUTIK_TEST_PICTURES");
+  if (folder == nullptr) return;
+  std::ofstream file(std::filesystem::path(folder) / name, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(picture.bytes.data()),
+             static_cast<std::streamsize>(picture.bytes.size()));
+  ASSERT_TRUE(file.good()) << name << " cannot be written to " << folder;
+}
+
+double code_of(const Picture& picture, std::uint64_t i) {
+  return picture.type == ValueType::code8 ? picture.values<std::uint8_t>()[i]
+                                          : picture.values<std::uint16_t>()[i];
+}
+
+// How far codes lie from where `light` lies on their scale, beyond the half that rounding costs: at most 1, in what
+// error_bound() allows each value's function. The place on the scale is itself computed to 32 u₆₄.
+Difference share_of_steps(const RenderPlan& plan, const ErrorBound& bound, const Picture& codes,
+                          const Picture& light) {
+  Difference difference;
+  for (std::uint64_t i = 0; i < codes.shape.value_count(); ++i) {
+    const double inside = std::clamp(light.values<double>()[i], 0.0, 1.0);
+    const double place = plan.capture.transfer.fraction_of(inside) * codes.white_code;
+    const std::size_t function = plan.function_of_pixel[i / codes.shape.channels];
+    const double allowed = bound.functions[function].steps + 32 * kRoundoff64 * codes.white_code;
+    const double share = (std::fabs(code_of(codes, i) - place) - 0.5) / allowed;
+    if (share > difference.worst) difference = {share, i};
+  }
+  return difference;
+}
+
+}  // namespace
+
+OutputFormat codes_like(const CaptureFormat& capture) {
+  return {capture.code_bytes == 1 ? ValueType::code8 : ValueType::code16, capture.white_code};
+}
+
+PrecisionCheck::PrecisionCheck(bool use_fma) {
+  for (const Precision precision : precisions_of(list_devices().front())) {
+    if (!is_wanted(to_text(precision))) continue;
+    OpenClOptions options = renderer_options(precision);
+    options.use_fma = use_fma;
+    seen_[precision].renderer = std::make_unique<OpenClRenderer>(options);
+  }
+}
+
+std::vector<Precision> PrecisionCheck::precisions() const {
+  std::vector<Precision> precisions;
+  for (const auto& [precision, seen] : seen_) precisions.push_back(precision);
+  return precisions;
+}
+
+void PrecisionCheck::check(const RenderPlan& plan, const Render& render, const std::string& name,
+                           const std::string& rerun) {
+  ReferenceRenderer reference;
+  const Picture expected = render(reference, {ValueType::light64, 0});
+  for (auto& [precision, seen] : seen_) {
+    SCOPED_TRACE(name + " in " + to_text(precision) + "; rerun: " + rerun);
+    if (is_wanted("light")) {
+      const Picture light = render(*seen.renderer, {ValueType::light64, 0});
+      const Difference share = share_of_bound(plan, precision, light, expected);
+      EXPECT_LE(share.worst, 1.0) << "of the bound, at value " << share.value << ": "
+                                  << light.values<double>()[share.value] << " and "
+                                  << expected.values<double>()[share.value];
+      const Difference difference = difference_of(plan, light, expected);
+      // Beside gains that are not normal numbers the last place is more than that.
+      const bool is_normal = scale_of(plan, difference.value) > 0x1p-900;
+      if (precision == Precision::double_ && is_normal) {
+        EXPECT_LE(difference.worst, kDoubleAgainstReference);
+      }
+      seen.worst = std::max(seen.worst, difference.worst);
+      seen.tightest = std::max(seen.tightest, share.worst);
+      if (precision == Precision::fixed) keep(light, name + ".light");
+    }
+    if (is_wanted("codes")) {
+      const OutputFormat output = codes_like(plan.capture);
+      const Picture codes = render(*seen.renderer, output);
+      const Difference steps = share_of_steps(plan, error_bound(plan, precision, output), codes, expected);
+      EXPECT_LE(steps.worst, 1.0) << "of the bound, at value " << steps.value << ": code "
+                                  << code_of(codes, steps.value) << " for light "
+                                  << expected.values<double>()[steps.value];
+      if (precision == Precision::fixed) keep(codes, name + ".codes");
+    }
+  }
+}
+
+void PrecisionCheck::print() const {
+  for (const auto& [precision, seen] : seen_) {
+    std::printf("%-11s worst difference %.3g of ∫|g|/D, %.3g of its bound\n", to_text(precision).c_str(),
+                seen.worst, seen.tightest);
+  }
+}
+
+}  // namespace nutik::test
