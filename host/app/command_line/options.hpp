@@ -39,6 +39,7 @@ struct Options {
   std::optional<std::string> block_samples;
   std::optional<std::string> activity;
 
+  bool json = false;
   bool quiet = false;
   bool verbose = false;
 };
