@@ -46,6 +46,9 @@ class Parser {
       return std::move(file_);
     }
     while (at_ < text_.size()) parse_line();
+    for (const auto& [tag, line] : first_lines_) {
+      if (!file_.functions.contains(tag)) file_.broken.insert(tag);
+    }
     if (first_lines_.empty() && !file_.has_errors()) {
       const std::string_view view = text_.view();
       const bool is_one_line = view.find('\n') + 1 == view.size() && view.find('\r') < view.size();

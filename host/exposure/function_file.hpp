@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,7 @@ struct FileFunction {
 
 struct FunctionFile {
   std::map<std::uint8_t, FileFunction> functions;  // by mask value
+  std::set<std::uint8_t> broken;                    // mask values whose functions have errors
   Diagnostics diagnostics;
 
   [[nodiscard]] bool has_errors() const { return diagnostics.count(Diagnostic::Severity::error) > 0; }

@@ -24,6 +24,8 @@ struct Options {
   std::optional<std::string> exposure;
   std::optional<std::string> unmapped;
   std::optional<std::string> live;
+  std::optional<std::string> pixel;
+  std::optional<std::string> tag;
 
   // How it is computed.
   std::optional<std::string> renderer;
