@@ -33,8 +33,9 @@ std::vector<Option> output_options() {
       flag(0, "json", kGroup, "print the result as one JSON object, for scripts", kAnswersInJson,
            &Options::json),
       flag('q', "quiet", kGroup, "no progress bar and no summary", kAllCommands, &Options::quiet),
-      flag('v', "verbose", kGroup, "also say in which precision, how fast and with how much memory", kExposes,
-           &Options::verbose),
+      flag('v', "verbose", kGroup,
+           "say more: in which precision, how fast and with how much memory; every step of a trace",
+           kExposes | bit(Id::trace), &Options::verbose),
   };
 }
 

@@ -17,7 +17,7 @@ namespace {
 using plot::Point;
 
 constexpr std::uint32_t kWidth = 1120;
-constexpr std::uint32_t kHeight = 820;
+constexpr std::uint32_t kHeight = 796;
 constexpr double kLeft = 92;
 constexpr double kRight = 28;
 constexpr double kTop = 78;
@@ -104,6 +104,22 @@ plot::Extent extent_of(std::span<const std::vector<Point>> lines) {
   return plot::extent_with_zero(low, high);
 }
 
+// As large as fits, without its beginning where it would be too small: of a long path that says least.
+void draw_heading(plot::Canvas& canvas, std::string heading) {
+  constexpr double kLargest = 16, kLeast = 10;
+  const double room = kWidth - kLeft - kRight;
+  plot::TextStyle style{.size = kLargest, .bold = true};
+  style.size = std::max(kLeast, std::min(kLargest, kLargest * room / canvas.text_width(heading, style)));
+  if (canvas.text_width(heading, style) > room) {
+    while (!heading.empty() && canvas.text_width("…" + heading, style) > room) {
+      heading.erase(0, 1);
+      while (!heading.empty() && (static_cast<unsigned char>(heading[0]) & 0xC0) == 0x80) heading.erase(0, 1);
+    }
+    heading.insert(0, "…");
+  }
+  canvas.text({kLeft, 30}, heading, style);
+}
+
 // `red green blue`, each in its colour, at the right above a graph.
 void draw_legend(plot::Canvas& canvas, const plot::Box& box, const Trace& trace) {
   double right = box.right();
@@ -125,7 +141,7 @@ Picture trace_picture(const Trace& trace, const PlannedFunction& function, const
   const Lines lines(trace, range);
   const GainSummary& summary = function.summary;
   plot::Canvas canvas(kWidth, kHeight);
-  canvas.text({kLeft, 30}, heading, {.size = 16, .bold = true});
+  draw_heading(canvas, heading);
 
   const plot::Extent time{static_cast<double>(range.begin_ns), static_cast<double>(range.end_ns)};
   const plot::Ticks time_ticks = plot::time_ticks(range.begin_ns, range.end_ns, kTimeTicks);
@@ -143,7 +159,9 @@ Picture trace_picture(const Trace& trace, const PlannedFunction& function, const
   };
 
   const std::span<const std::vector<Point>> light(lines.light.data(), trace.channels);
-  plot::Graph light_graph = open_graph(extent_of(light), "light of the pixel", "light (white = 1)", false);
+  plot::Graph light_graph =
+      open_graph(extent_of(light), trace.pixel_count == 1 ? "light of the pixel" : "mean light of the region",
+                 "light (white = 1)", false);
   for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
     light_graph.line(light[channel], {.colour = channel_colour(trace, channel), .width = 1.5});
   }
