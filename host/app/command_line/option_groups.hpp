@@ -20,8 +20,9 @@ inline constexpr OptionGroup kOptionGroups[] = {source_options, exposure_options
 inline constexpr CommandSet kAllCommands = ~CommandSet{0};
 // Those that read a clip, and so take what describes it.
 inline constexpr CommandSet kReadsClips =
-    bit(CommandId::encode) | bit(CommandId::expose) | bit(CommandId::check) | bit(CommandId::trace);
-// Those of them that turn it into a capture, or write something at all.
+    bit(CommandId::encode) | bit(CommandId::expose) | bit(CommandId::batch) | bit(CommandId::check) |
+    bit(CommandId::trace);
+// Those of them that turn it into a capture, or expose it.
 inline constexpr CommandSet kEncodesClips = kReadsClips & ~bit(CommandId::check);
 // Those that expose pictures with gain functions and a mask.
 inline constexpr CommandSet kExposesFunctions = bit(CommandId::expose);
@@ -31,7 +32,7 @@ inline constexpr CommandSet kTakesFunctions = kTakesExposures | bit(CommandId::c
 // Those that print for a script where they are told to.
 inline constexpr CommandSet kAnswersInJson = bit(CommandId::check) | bit(CommandId::trace);
 // Those that expose pictures at all, and so take what says how that is computed.
-inline constexpr CommandSet kExposes = kExposesFunctions;
+inline constexpr CommandSet kExposes = kExposesFunctions | bit(CommandId::batch);
 
 // A row with a value, for the member of Options that holds it.
 [[nodiscard]] inline Option valued(char short_name, std::string_view long_name, std::string_view value,
