@@ -41,6 +41,21 @@ std::span<const Command> commands() {
        "nutik-cl batch exposures.txt clip.tik\n"
        "printf '%s\\n' '--start 0s --exposure 10ms a.png' '-k trail.fn b.png' | nutik-cl batch - clip.tik",
        run_batch},
+      {Id::check, "check", "[CAPTURE.tik|CLIP]",
+       "Say everything that is wrong or suspicious about a function file, a mask and a capture, and what "
+       "each function comes to.",
+       "nutik-cl check -k regions.fn\n"
+       "nutik-cl check -m regions.pgm -k regions.fn clip.tik\n"
+       "nutik-cl check --json -m regions.pgm -k regions.fn clip.tik",
+       run_check},
+      {Id::trace, "trace", "CAPTURE.tik|CLIP [TRACE.csv|TRACE.png]",
+       "Follow one pixel, or the mean of a region, through an exposure: its light, the gain, and what they "
+       "add from edge to edge.",
+       "nutik-cl trace --pixel 320,180 -k trail.fn clip.tik\n"
+       "nutik-cl trace --pixel 320,180 -m regions.pgm -k regions.fn clip.tik trace.png\n"
+       "nutik-cl trace --tag 128 -m regions.pgm -k regions.fn clip.tik -o trace.csv\n"
+       "nutik-cl trace --pixel 0,0 --start 0.4s --exposure 10ms clip.tik",
+       run_trace},
   };
   return table;
 }

@@ -20,9 +20,17 @@ inline constexpr OptionGroup kOptionGroups[] = {source_options, exposure_options
 inline constexpr CommandSet kAllCommands = ~CommandSet{0};
 // Those that read a clip, and so take what describes it.
 inline constexpr CommandSet kReadsClips =
-    bit(CommandId::encode) | bit(CommandId::expose) | bit(CommandId::batch);
+    bit(CommandId::encode) | bit(CommandId::expose) | bit(CommandId::batch) | bit(CommandId::check) |
+    bit(CommandId::trace);
+// Those of them that turn it into a capture, or expose it.
+inline constexpr CommandSet kEncodesClips = kReadsClips & ~bit(CommandId::check);
 // Those that expose pictures with gain functions and a mask.
 inline constexpr CommandSet kExposesFunctions = bit(CommandId::expose);
+// Those that follow an exposure, or look at functions and masks alone.
+inline constexpr CommandSet kTakesExposures = kExposesFunctions | bit(CommandId::trace);
+inline constexpr CommandSet kTakesFunctions = kTakesExposures | bit(CommandId::check);
+// Those that print for a script where they are told to.
+inline constexpr CommandSet kAnswersInJson = bit(CommandId::check) | bit(CommandId::trace);
 // Those that expose pictures at all, and so take what says how that is computed.
 inline constexpr CommandSet kExposes = kExposesFunctions | bit(CommandId::batch);
 

@@ -24,6 +24,8 @@ struct Options {
   std::optional<std::string> exposure;
   std::optional<std::string> unmapped;
   std::optional<std::string> live;
+  std::optional<std::string> pixel;
+  std::optional<std::string> tag;
 
   // How it is computed.
   std::optional<std::string> renderer;
@@ -40,6 +42,7 @@ struct Options {
   std::optional<std::string> block_samples;
   std::optional<std::string> activity;
 
+  bool json = false;
   bool quiet = false;
   bool verbose = false;
 };

@@ -11,5 +11,7 @@ int run_info(const Options& options);
 int run_devices(const Options& options);
 int run_recover(const Options& options);
 int run_batch(const Options& options);
+int run_check(const Options& options);
+int run_trace(const Options& options);
 
 }  // namespace nutik::app
