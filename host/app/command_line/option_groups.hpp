@@ -46,4 +46,11 @@ inline constexpr CommandSet kExposes = kExposesFunctions;
           }};
 }
 
+// A row that may be given again and again: what it says stands in Options::said alone. `value` is empty for
+// a flag.
+[[nodiscard]] inline Option step(std::string_view long_name, std::string_view value, std::string_view group,
+                                 std::string_view help, CommandSet commands) {
+  return {0, long_name, value, group, help, commands, {}, commands};
+}
+
 }  // namespace nutik::app

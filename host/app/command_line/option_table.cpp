@@ -11,6 +11,10 @@ std::string Option::display_name() const {
   return short_name != 0 ? std::string{'-', short_name} : "--" + std::string(long_name);
 }
 
+std::size_t Option::word_count() const {
+  return value.empty() ? 0 : 1 + static_cast<std::size_t>(std::count(value.begin(), value.end(), ' '));
+}
+
 std::span<const Option> options() {
   static const std::vector<Option> table = [] {
     std::vector<Option> all;

@@ -14,11 +14,16 @@ namespace nutik::app {
 struct Option {
   char short_name;  // 0: none
   std::string_view long_name;
-  std::string_view value;  // as in help; empty: a flag
+  std::string_view value;  // as in help, a word for each that is needed; empty: a flag
   std::string_view group;
   std::string_view help;
   CommandSet commands;
+  // For an option of one value. What an option of several was given stands in Options::said alone.
   std::function<void(Options& options, const std::string& value)> set;
+  CommandSet repeated_by = 0;  // the commands that take it more than once
+
+  // How many words its value takes.
+  [[nodiscard]] std::size_t word_count() const;
 
   // `-f`, or `--fps` where it has no short name.
   [[nodiscard]] std::string display_name() const;

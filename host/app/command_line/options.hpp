@@ -3,12 +3,20 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nutik::app {
 
+// An option by its long name, and its value's words.
+struct Said {
+  std::string_view option;
+  std::vector<std::string> words;
+};
+
 struct Options {
   std::vector<std::string> operands;
+  std::vector<Said> said;  // every option, in the order of the command line
 
   // The source clip.
   std::optional<std::string> fps;
