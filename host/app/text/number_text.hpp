@@ -1,0 +1,22 @@
+// Numbers as people write them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nutik::app {
+
+// A whole number of low … high. Throws UsageError naming `what`.
+[[nodiscard]] std::uint32_t parse_whole_number(std::string_view text, std::string_view what,
+                                               std::uint32_t low, std::uint32_t high);
+
+// A finite decimal number; empty where the text is none.
+[[nodiscard]] std::optional<double> parse_number(std::string_view text);
+
+// Numbers between commas: `10,20.5,-3`. Throws UsageError naming `what` and the part that is none.
+[[nodiscard]] std::vector<double> parse_numbers(std::string_view text, std::string_view what);
+
+}  // namespace nutik::app
