@@ -47,6 +47,7 @@ struct Options {
   std::optional<std::string> block_samples;
   std::optional<std::string> activity;
 
+  bool json = false;
   bool quiet = false;
   bool verbose = false;
 };

@@ -1,0 +1,97 @@
+// A sheet to draw on: text, lines, areas and pictures, smooth at their edges. Cairo's only user.
+//
+//   units:   pixels from the top left; y grows downwards; 0.5 is the middle of the first pixel
+//   always:  what lies outside the sheet is left out; text is UTF-8
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "capture/picture.hpp"
+#include "plot/colour.hpp"
+
+namespace nutik::plot {
+
+struct Point {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+struct Box {
+  double x = 0.0;
+  double y = 0.0;
+  double width = 0.0;
+  double height = 0.0;
+
+  [[nodiscard]] double right() const { return x + width; }
+  [[nodiscard]] double bottom() const { return y + height; }
+};
+
+// Which part of a text lies at its point.
+enum class Align { left, centre, right };
+enum class Rise { top, middle, baseline, bottom };
+
+struct TextStyle {
+  double size = 13.0;  // of the font, in pixels
+  Colour colour = kText;
+  Align align = Align::left;
+  Rise rise = Rise::baseline;
+  bool bold = false;
+  bool upwards = false;  // turned by 90 degrees, read from below
+};
+
+struct LineStyle {
+  Colour colour = kText;
+  double width = 1.0;
+  bool dashed = false;
+};
+
+class Canvas {
+ public:
+  // Throws UsageError where the sheet would pass 32767 pixels on a side, Cairo's limit.
+  Canvas(std::uint32_t width, std::uint32_t height, Colour background = kWhite);
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  [[nodiscard]] std::uint32_t width() const { return width_; }
+  [[nodiscard]] std::uint32_t height() const { return height_; }
+
+  void line(std::span<const Point> points, const LineStyle& style);
+  void fill(std::span<const Point> polygon, Colour colour);
+  void fill(const Box& box, Colour colour);
+  void frame(const Box& box, const LineStyle& style);  // its outline, inside the box
+
+  void text(Point at, std::string_view text, const TextStyle& style = {});
+  // How wide a line of text is.
+  [[nodiscard]] double text_width(std::string_view text, const TextStyle& style = {}) const;
+
+  // A picture of 8-bit codes, grey or colour, scaled to the box. Its aspect is the caller's care.
+  void picture(const Box& box, const Picture& picture);
+
+  // Until the returned object goes, nothing is drawn outside the box.
+  class Clip {
+   public:
+    explicit Clip(Canvas& canvas, const Box& box);
+    ~Clip();
+    Clip(const Clip&) = delete;
+    Clip& operator=(const Clip&) = delete;
+
+   private:
+    Canvas& canvas_;
+  };
+
+  // What was drawn: 8-bit colour.
+  [[nodiscard]] Picture finished() const;
+
+ private:
+  struct Sheet;
+
+  std::uint32_t width_;
+  std::uint32_t height_;
+  std::unique_ptr<Sheet> sheet_;
+};
+
+}  // namespace nutik::plot

@@ -1,0 +1,106 @@
+// What is drawn lies where its numbers say, in its colour.
+#include "plot/graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "capture/error.hpp"
+
+namespace nutik::plot {
+namespace {
+
+std::uint32_t rgb_at(const Picture& picture, std::uint32_t x, std::uint32_t y) {
+  const auto codes =
+      picture.values<std::uint8_t>().subspan((std::uint64_t{y} * picture.shape.width + x) * 3, 3);
+  return static_cast<std::uint32_t>(codes[0] << 16 | codes[1] << 8 | codes[2]);
+}
+
+// Pixels that are not of the background.
+std::uint64_t marked(const Picture& picture) {
+  std::uint64_t count = 0;
+  for (std::uint32_t y = 0; y < picture.shape.height; ++y) {
+    for (std::uint32_t x = 0; x < picture.shape.width; ++x) count += rgb_at(picture, x, y) != 0xffffff;
+  }
+  return count;
+}
+
+TEST(Canvas, FillsWholePixels) {
+  Canvas canvas(20, 10);
+  canvas.fill(Box{3, 2, 5, 4}, Colour::of(0x123456));
+  const Picture picture = canvas.finished();
+  EXPECT_EQ(picture.shape, (Shape{20, 10, 3}));
+  EXPECT_EQ(rgb_at(picture, 3, 2), 0x123456u);
+  EXPECT_EQ(rgb_at(picture, 7, 5), 0x123456u);
+  EXPECT_EQ(marked(picture), 20u);
+}
+
+TEST(Canvas, ShowsAPictureWhereItWasPut) {
+  Picture small({2, 1, 1}, ValueType::code8, 255);
+  small.values<std::uint8_t>()[0] = 10;
+  small.values<std::uint8_t>()[1] = 200;
+  Canvas canvas(8, 4);
+  canvas.picture(Box{2, 1, 2, 1}, small);
+  const Picture picture = canvas.finished();
+  EXPECT_EQ(rgb_at(picture, 2, 1), 0x0a0a0au);
+  EXPECT_EQ(rgb_at(picture, 3, 1), 0xc8c8c8u);
+  EXPECT_EQ(marked(picture), 2u);
+}
+
+TEST(Canvas, ClipsUntilTold) {
+  Canvas canvas(10, 10);
+  {
+    const Canvas::Clip clip(canvas, Box{0, 0, 4, 10});
+    canvas.fill(Box{0, 0, 10, 10}, kText);
+  }
+  EXPECT_EQ(marked(canvas.finished()), 40u);
+  canvas.fill(Box{0, 0, 10, 10}, kText);
+  EXPECT_EQ(marked(canvas.finished()), 100u);
+}
+
+TEST(Canvas, WritesText) {
+  Canvas canvas(200, 40);
+  const TextStyle style{.size = 20};
+  EXPECT_GT(canvas.text_width("MMMM", style), 2 * canvas.text_width("MM", style) - 1);
+  EXPECT_LT(canvas.text_width("ii", style), canvas.text_width("MM", style));
+  canvas.text({100, 20}, "µs", style);
+  EXPECT_GT(marked(canvas.finished()), 20u);
+}
+
+TEST(Canvas, RefusesASheetThatNoneCanBe) {
+  EXPECT_THROW(Canvas(40'000, 10), UsageError);
+  EXPECT_THROW(Canvas(0, 10), UsageError);
+}
+
+TEST(Graph, PlacesValues) {
+  Canvas canvas(100, 60);
+  const Graph graph(canvas, Box{10, 5, 80, 40}, {0, 8}, {-1, 1});
+  EXPECT_EQ(graph.place({0, -1}).x, 10);
+  EXPECT_EQ(graph.place({0, -1}).y, 45);
+  EXPECT_EQ(graph.place({8, 1}).x, 90);
+  EXPECT_EQ(graph.place({2, 0}).y, 25);
+}
+
+TEST(Graph, AreasHaveAColourOnEachSideOfZero) {
+  Canvas canvas(100, 60);
+  Graph graph(canvas, Box{10, 10, 80, 40}, {0, 2}, {-1, 1});
+  graph.area(std::array{Point{0, 1}, Point{1, 1}, Point{1, -5}, Point{2, -5}}, kPositive, kNegative);
+  const Picture picture = canvas.finished();
+  EXPECT_EQ(rgb_at(picture, 20, 20), 0x0060a8u);
+  EXPECT_EQ(rgb_at(picture, 70, 40), 0xc85000u);
+  EXPECT_EQ(rgb_at(picture, 20, 40), 0xffffffu);
+  EXPECT_EQ(rgb_at(picture, 70, 20), 0xffffffu);
+  EXPECT_EQ(rgb_at(picture, 70, 55), 0xffffffu);  // cut at the box
+}
+
+TEST(Graph, AnAxisHasZeroAndIsNeverEmpty) {
+  for (const auto& [low, high] : {std::pair{0.0, 0.0}, {3.0, 5.0}, {-5.0, -3.0}, {-1.0, 2.0}}) {
+    const Extent extent = extent_with_zero(low, high);
+    EXPECT_LT(extent.low, extent.high);
+    EXPECT_LE(extent.low, std::min(low, 0.0));
+    EXPECT_GE(extent.high, std::max(high, 0.0));
+  }
+}
+
+}  // namespace
+}  // namespace nutik::plot
