@@ -10,20 +10,32 @@ namespace nutik::app {
 
 [[nodiscard]] std::vector<Option> source_options();
 [[nodiscard]] std::vector<Option> exposure_options();
+[[nodiscard]] std::vector<Option> mask_options();
+[[nodiscard]] std::vector<Option> moment_options();
 [[nodiscard]] std::vector<Option> computing_options();
 [[nodiscard]] std::vector<Option> output_options();
 
 using OptionGroup = std::vector<Option> (*)();
-inline constexpr OptionGroup kOptionGroups[] = {source_options, exposure_options, computing_options,
-                                                output_options};
+inline constexpr OptionGroup kOptionGroups[] = {source_options, exposure_options,  mask_options,
+                                                moment_options, computing_options, output_options};
 
 inline constexpr CommandSet kAllCommands = ~CommandSet{0};
 // Those that read a clip, and so take what describes it.
-inline constexpr CommandSet kReadsClips = bit(CommandId::encode) | bit(CommandId::expose);
+inline constexpr CommandSet kReadsClips = bit(CommandId::encode) | bit(CommandId::expose) |
+                                          bit(CommandId::mask) | bit(CommandId::contact) |
+                                          bit(CommandId::activity) | bit(CommandId::sweep);
 // Those that expose pictures with gain functions and a mask.
-inline constexpr CommandSet kExposesFunctions = bit(CommandId::expose);
+inline constexpr CommandSet kExposesFunctions = bit(CommandId::expose) | bit(CommandId::sweep);
+// Those that expose a plain interval.
+inline constexpr CommandSet kExposesIntervals =
+    kExposesFunctions | bit(CommandId::mask) | bit(CommandId::contact);
 // Those that expose pictures at all, and so take what says how that is computed.
-inline constexpr CommandSet kExposes = kExposesFunctions;
+inline constexpr CommandSet kExposes = kExposesIntervals;
+// Those that lay pictures out on a sheet.
+inline constexpr CommandSet kMakesSheets = bit(CommandId::contact) | bit(CommandId::sweep);
+// Those that can answer in JSON.
+inline constexpr CommandSet kAnswersInJson =
+    bit(CommandId::mask) | bit(CommandId::contact) | bit(CommandId::activity) | bit(CommandId::sweep);
 
 // A row with a value, for the member of Options that holds it.
 [[nodiscard]] inline Option valued(char short_name, std::string_view long_name, std::string_view value,

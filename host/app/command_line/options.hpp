@@ -47,6 +47,24 @@ struct Options {
   std::optional<std::string> block_samples;
   std::optional<std::string> activity;
 
+  // Masks.
+  std::optional<std::string> tag;  // the last of several
+  std::optional<std::string> by;
+  std::optional<std::string> base;
+  std::optional<std::string> size;
+  std::optional<std::string> preview;
+
+  // Many exposures on a sheet, and changes over time.
+  std::optional<std::string> every;
+  std::optional<std::string> columns;
+  std::optional<std::string> width;
+  std::optional<std::string> shift;
+  std::optional<std::string> scale_gain;
+  std::optional<std::string> stretch;
+  std::optional<std::string> each;
+  std::optional<std::string> csv;
+  std::optional<std::string> map;
+
   bool json = false;
   bool quiet = false;
   bool verbose = false;

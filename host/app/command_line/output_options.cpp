@@ -16,7 +16,7 @@ std::vector<Option> output_options() {
              kReadsClips | bit(Id::recover), &Options::output),
       valued(0, "depth", "BITS", kGroup,
              "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
-             kExposes, &Options::depth),
+             bit(Id::expose), &Options::depth),
       valued(
           0, "codec", "NAME", kGroup,
           "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",
@@ -30,9 +30,10 @@ std::vector<Option> output_options() {
              "also write how often each pixel changes, as a grey picture: black never, white most often, "
              "between them sRGB",
              bit(Id::info), &Options::activity),
+      flag(0, "json", kGroup, "answer with one JSON object, for scripts", kAnswersInJson, &Options::json),
       flag('q', "quiet", kGroup, "no progress bar and no summary", kAllCommands, &Options::quiet),
-      flag('v', "verbose", kGroup, "also say in which precision, how fast and with how much memory", kExposes,
-           &Options::verbose),
+      flag('v', "verbose", kGroup, "also say in which precision, how fast and with how much memory",
+           kExposes & ~bit(Id::mask), &Options::verbose),
   };
 }
 

@@ -23,6 +23,30 @@ bool is_picture_content(std::string_view bytes) {
          !is_tik_content(std::string(bytes));
 }
 
+// Text with a comma in its first line.
+bool is_table_content(std::string_view bytes) {
+  const std::string_view line = bytes.substr(0, bytes.find('\n'));
+  return line.find(',') != std::string_view::npos && line.find('\0') == std::string_view::npos;
+}
+
+bool is_content_of(OutputKind kind, const std::string& bytes) {
+  switch (kind) {
+    case OutputKind::tik: return is_tik_content(bytes);
+    case OutputKind::picture: return is_picture_content(bytes);
+    case OutputKind::table: return is_table_content(bytes);
+  }
+  return false;
+}
+
+const char* name_of(OutputKind kind) {
+  switch (kind) {
+    case OutputKind::tik: return ".tik file";
+    case OutputKind::picture: return "picture";
+    case OutputKind::table: return "table";
+  }
+  return "";
+}
+
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;
   if (std::filesystem::equivalent(a, b, error)) return true;
@@ -68,16 +92,18 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   if (kind == OutputKind::picture && !is_picture_name(output)) {
     throw UsageError(format("{}: pictures are written as .png, .tif, .ppm, .pgm or .pfm", name));
   }
+  if (kind == OutputKind::table && output.extension() != ".csv") {
+    throw UsageError(format("{}: tables are written as .csv, or as - to standard output", name));
+  }
   std::error_code error;
   if (!std::filesystem::exists(output, error)) return;
   if (std::filesystem::is_directory(output, error)) {
     throw UsageError(format("{} is a folder; name a file in it", name));
   }
   const std::string bytes = first_bytes(output);
-  const bool same_kind = kind == OutputKind::tik ? is_tik_content(bytes) : is_picture_content(bytes);
-  if (!bytes.empty() && !same_kind) {
-    throw UsageError(format("{} exists and is no {}; it is not replaced. Choose another name", name,
-                            kind == OutputKind::tik ? ".tik file" : "picture"));
+  if (!bytes.empty() && !is_content_of(kind, bytes)) {
+    throw UsageError(
+        format("{} exists and is no {}; it is not replaced. Choose another name", name, name_of(kind)));
   }
 }
 
