@@ -54,7 +54,7 @@ Picture activity_chart(const std::string& heading, const Timeline& timeline,
   const plot::Extent percent{0.0, most > 0.0 ? 1.18 * most : 1.0};
   plot::Graph graph(canvas, kBox, {0.0, static_cast<double>(end_ns)}, percent);
   const plot::Ticks times = plot::time_ticks(0, end_ns, 12);
-  const plot::Ticks shares = plot::number_ticks(percent.low, percent.high, 5);
+  const plot::Ticks shares = plot::number_ticks(percent.low, percent.high, 8);
   graph.grid(times, shares);
   if (moments) {
     mark(canvas, graph, timeline, moments->quietest.samples, kQuiet, "quietest");

@@ -19,12 +19,17 @@ constexpr std::uint32_t kLargestSide = 32'767;
 constexpr double kUsualCell = 240.0;
 constexpr double kUsualAspect = 1.5;  // of the whole sheet
 
-// As many columns as give a sheet of the usual aspect, unless that makes the pictures too small to see.
+// As many columns as give a sheet of the usual aspect, or nearly as many where these leave no row short; fewer
+// where pictures would be too small to see.
 std::uint32_t usual_columns(const Shape& picture, std::uint32_t count, std::uint32_t width) {
   const double aspect = static_cast<double>(picture.width) / picture.height;
   const double wanted = std::ceil(std::sqrt(count * kUsualAspect / aspect));
   const double most = std::max(1.0, std::floor(width / std::min<double>(kUsualCell, picture.width + kGap)));
-  return static_cast<std::uint32_t>(std::clamp(wanted, 1.0, std::min<double>(most, count)));
+  const auto columns = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, std::min<double>(most, count)));
+  for (const std::uint32_t near : {columns, columns + 1, columns - 1}) {
+    if (near > 1 && near <= most && count % near == 0) return near;
+  }
+  return columns;
 }
 
 }  // namespace

@@ -197,8 +197,8 @@ int run_activity(const Options& options) {
   } else if (!options.quiet) {
     report_text(name, timeline, activity, moments);
     if (moments) {
-      print_line(format("try: nutik-cl contact --start {}f --every 1f {} sheet.png",
-                        moments->busiest.samples.first, name));
+      print_line(format("try: nutik-cl --start {}f --exposure {}f {} quiet.png",
+                        moments->quietest.samples.first, moments->quietest.samples.size(), name));
     }
   }
   if (!options.quiet) {

@@ -1,6 +1,10 @@
 // Exposures for a sheet: one capture, one mask, ever other functions.
 #pragma once
 
+#include <filesystem>
+#include <span>
+#include <string>
+
 #include "app/input/exposer.hpp"
 #include "sheet/contact_sheet.hpp"
 

@@ -130,6 +130,7 @@ std::string SweepRange::label(std::uint64_t number) const {
     case SweepParameter::stretch: return format("length × {}", at.text());
     case SweepParameter::shift: break;
   }
+  if (at.numerator == 0) return "as it is";
   const char* sign = at.numerator < 0 ? "−" : "+";
   const Rational distance{at.numerator < 0 ? -at.numerator : at.numerator, at.denominator};
   if (unit_ns == 0) return format("{}{} f", sign, distance.text());

@@ -26,7 +26,7 @@ struct SweepRange {
   [[nodiscard]] std::uint64_t count() const;
   // The value with a number of 0 … count() - 1, exactly.
   [[nodiscard]] Rational value(std::uint64_t number) const;
-  // `+0.1 s`, `gain x 0.5`.
+  // `+100 ms`, `−3 f`, `gain × 0.5`; `as it is` where nothing is shifted.
   [[nodiscard]] std::string label(std::uint64_t number) const;
 };
 
