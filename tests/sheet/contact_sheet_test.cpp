@@ -15,8 +15,8 @@ TEST(SheetLayout, FitsItsWidthAndEnlargesNothing) {
       EXPECT_GE(layout.columns * layout.rows, count);
       EXPECT_LT(layout.columns * (layout.rows - 1), count) << "an empty row";
       EXPECT_LE(layout.cell_width, std::max(shape.width, 2 * kNarrowestCell));
-      EXPECT_NEAR(layout.cell_height, layout.cell_width * double(shape.height) / shape.width,
-                  0.5 + 1e-9 + (layout.cell_height == 1));
+      const double exact = layout.cell_width * static_cast<double>(shape.height) / shape.width;
+      EXPECT_NEAR(layout.cell_height, std::max(1.0, exact), 0.5);
     }
   }
   EXPECT_EQ(lay_out({640, 360, 3}, 24, {}).columns, 6u);  // no row is short

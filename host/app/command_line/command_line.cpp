@@ -163,12 +163,11 @@ Options parse_options(const Command& command, std::vector<std::string> words) {
     };
     if (option.value.empty()) {
       app.add_flag_callback(names, [take] { take({}); })->trigger_on_parse();
-    } else if (option.word_count() == 1) {
-      app.add_option_function<std::string>(names, [take](const std::string& value) { take({value}); })
-          ->trigger_on_parse();
     } else {
       app.add_option_function<std::vector<std::string>>(names, take)
-          ->expected(static_cast<int>(option.word_count()))
+          ->type_size(static_cast<int>(option.word_count()))
+          ->expected(1)
+          ->allow_extra_args(false)
           ->trigger_on_parse();
     }
   }
