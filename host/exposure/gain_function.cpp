@@ -87,6 +87,28 @@ GainFunction GainFunction::scaled(double factor) const {
   return GainFunction(std::move(points));
 }
 
+GainFunction GainFunction::stretched(Rational factor, std::int64_t fixed_ns) const {
+  if (factor.numerator <= 0) throw std::logic_error("a function cannot be stretched to nothing");
+  std::vector<ControlPoint> points;
+  for (const ControlPoint& point : points_) {
+    // The product fits 128 bits; that its quotient fits 64 has to be seen before it is rounded to them.
+    const int128 product = (static_cast<int128>(point.time_ns) - fixed_ns) * factor.numerator;
+    const auto lies_outside = [](int128 time) { return time > kLargestTimeNs || time < -kLargestTimeNs; };
+    const bool is_outside = lies_outside(product / factor.denominator + fixed_ns);
+    const std::int64_t time_ns = is_outside ? 0 : round_half_up(product, factor.denominator) + fixed_ns;
+    if (is_outside || lies_outside(time_ns)) {
+      throw InputError(format(
+          "a control point at {} ns stretched by {} about {} ns lies outside what times can be (±{} ns)",
+          point.time_ns, factor.text(), fixed_ns, kLargestTimeNs));
+    }
+    // Of three at one time the one in the middle has no say.
+    const std::size_t count = points.size();
+    if (count >= 2 && points[count - 2].time_ns == time_ns) points.pop_back();
+    points.push_back({time_ns, point.gain});
+  }
+  return GainFunction(std::move(points));
+}
+
 std::vector<GainPiece> GainFunction::pieces(std::int64_t duration_ns) const {
   std::vector<GainPiece> pieces;
   pieces.reserve(points_.size() + 1);

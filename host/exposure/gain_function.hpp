@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "capture/rational.hpp"
+
 namespace nutik {
 
 // No time lies further from the start of a capture (126 years), so that differences of times fit.
@@ -63,6 +65,11 @@ class GainFunction {
   [[nodiscard]] GainFunction shifted(std::int64_t by_ns) const;
   [[nodiscard]] GainFunction scaled(double factor) const;
 
+  // The same function `factor` times as long, `fixed_ns` staying where it is; factor > 0. Times are rounded
+  // to whole nanoseconds. Where control points fall together the function jumps there, from the gain of the
+  // first of them to that of the last. Throws InputError where a time leaves the range of numbers.
+  [[nodiscard]] GainFunction stretched(Rational factor, std::int64_t fixed_ns) const;
+
   friend bool operator==(const GainFunction&, const GainFunction&) = default;
 
  private:
@@ -86,7 +93,7 @@ struct GainSummary {
   bool reaches_before_capture = false;
   bool reaches_after_capture = false;
   bool exposes_from_the_start = false;  // held at a gain that is not zero from the capture's start on
-  bool exposes_to_the_end = false;  // held at a gain that is not zero up to the end of the capture
+  bool exposes_to_the_end = false;      // held at a gain that is not zero up to the end of the capture
 
   // What a still scene is multiplied by: ∫g / D; 0 where D is 0.
   [[nodiscard]] double still_gain() const;

@@ -1,6 +1,7 @@
 // Masks: which gain function each pixel is exposed with.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -26,6 +27,13 @@ struct Mask {
   static Mask from_picture(const Picture& picture) {
     const auto codes = picture.values<std::uint8_t>();
     return {picture.shape.width, picture.shape.height, {codes.begin(), codes.end()}};
+  }
+
+  // The same picture again.
+  [[nodiscard]] Picture to_picture() const {
+    Picture picture({width, height, 1}, ValueType::code8, 255);
+    std::copy(tags.begin(), tags.end(), picture.values<std::uint8_t>().begin());
+    return picture;
   }
 
   // How many pixels have each tag.

@@ -1,4 +1,4 @@
-// How often each pixel of a capture changes.
+// How often each pixel of a capture changes, and how many change at each sample.
 #pragma once
 
 #include <cstdint>
@@ -9,21 +9,36 @@
 
 namespace nutik {
 
+// What counts as a change.
+struct ActivityOptions {
+  // Differences of up to this many codes, of every channel, are none: for noise that the capture kept.
+  std::uint32_t ignored_codes = 0;
+  std::vector<std::uint8_t> counted;  // a 1 for each pixel that counts, row-major; empty: all of them
+};
+
 // Counts, block after block, the samples at which a pixel holds other codes than at the sample before;
 // also where a block begins, though that is no change record.
 class Activity {
  public:
-  explicit Activity(const CaptureFormat& capture);
+  explicit Activity(const CaptureFormat& capture, ActivityOptions options = {});
 
   // Adds the next block; blocks must come in order, all of them.
   void add(const BlockView& block);
 
   // Changes of every pixel, row-major.
   [[nodiscard]] const std::vector<std::uint64_t>& changes() const { return changes_; }
+  // How many pixels changed at each sample of the blocks so far; none at the first.
+  [[nodiscard]] const std::vector<std::uint64_t>& changed_pixels() const { return changed_pixels_; }
+  // How many pixels count.
+  [[nodiscard]] std::uint64_t pixel_count() const;
 
  private:
+  [[nodiscard]] bool is_change(const ChangeRecord& before, const ChangeRecord& after) const;
+
   Shape shape_;
+  ActivityOptions options_;
   std::vector<std::uint64_t> changes_;
+  std::vector<std::uint64_t> changed_pixels_;
   std::vector<ChangeRecord> last_;  // what each pixel held at the end of the block before; empty at first
 };
 

@@ -140,5 +140,29 @@ TEST(GainFunction, RefusesToLeaveTheRangeOfNumbers) {
   EXPECT_THROW(static_cast<void>(function.scaled(1e10)), InputError);
 }
 
+TEST(GainFunction, IsStretchedAboutAPlaceThatStays) {
+  const GainFunction function = parse("M0 [0:0], [100:1], [300:1], [301:0]");
+  EXPECT_EQ(function.stretched({2, 1}, 100), parse("M0 [-100:0], [100:1], [500:1], [502:0]"));
+  EXPECT_EQ(function.stretched({1, 1}, 12'345), function);
+  EXPECT_EQ(function.stretched({3, 2}, 0).stretched({2, 3}, 0), function);  // exact where nothing is rounded
+}
+
+TEST(GainFunction, JumpsWhereStretchingBringsPointsTogether) {
+  // 100 and 101 and 102 fall on 10: from the first's gain to the last's, whatever the middle one says.
+  const GainFunction shrunk = parse("M0 [0:0], [100:1], [101:7], [102:3], [200:0]").stretched({1, 10}, 0);
+  EXPECT_EQ(shrunk, GainFunction({{0, 0}, {10, 1}, {10, 3}, {20, 0}}));
+  const GainFunction all = parse("M0 [1:4], [2:5], [3:6], [4:7]").stretched({1, 1000}, 0);
+  EXPECT_EQ(all, GainFunction({{0, 4}, {0, 7}}));
+}
+
+TEST(GainFunction, RefusesToStretchOutOfTheRangeOfTimes) {
+  const GainFunction late = parse("M0 [0:1], [4000000000000000000:0]");
+  EXPECT_THROW(static_cast<void>(late.stretched({2, 1}, 0)), InputError);
+  EXPECT_THROW(static_cast<void>(late.stretched({999'999'999, 1}, 0)), InputError);
+  EXPECT_THROW(static_cast<void>(late.stretched({999'999'999, 1}, 4'000'000'000'000'000'000)), InputError);
+  EXPECT_EQ(late.stretched({1, 2}, 0), parse("M0 [0:1], [2000000000000000000:0]"));
+  EXPECT_THROW(static_cast<void>(late.stretched({0, 1}, 0)), std::logic_error);
+}
+
 }  // namespace
 }  // namespace nutik

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "imev/activity.hpp"
+#include "imev/activity_moments.hpp"
 #include "imev/capture_source.hpp"
 #include "support/random_case.hpp"
 
@@ -38,6 +39,72 @@ TEST(Activity, CountsChangesWhereverBlocksBegin) {
       }
     }
   }
+}
+
+// What ought to be counted at a sample: pixels of which a channel differs by more than `ignored`.
+std::uint64_t changed_pixels(const RandomCase& random, std::size_t sample, std::uint32_t ignored,
+                             const std::vector<std::uint8_t>& counted) {
+  const std::uint32_t channels = random.capture.shape.channels;
+  std::uint64_t count = 0;
+  for (std::uint64_t pixel = 0; pixel < random.capture.shape.pixel_count(); ++pixel) {
+    bool differs = false;
+    for (std::uint64_t value = pixel * channels; value < (pixel + 1) * channels; ++value) {
+      const auto now = static_cast<int>(test::code_at(random.capture, random.rasters[sample], value));
+      const auto before = static_cast<int>(test::code_at(random.capture, random.rasters[sample - 1], value));
+      differs |= std::abs(now - before) > static_cast<int>(ignored);
+    }
+    count += differs && (counted.empty() || counted[pixel] != 0) ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(Activity, CountsThePixelsThatChangeAtASample) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    RandomCase random(seed);
+    random.capture.noise.tolerance = 0;
+    test::Random draw(seed);
+    ActivityOptions options;
+    options.ignored_codes = draw.chance(0.5) ? 0 : random.capture.white_code / 4;
+    if (draw.chance(0.5)) {
+      options.counted.resize(random.capture.shape.pixel_count());
+      for (std::uint8_t& counted : options.counted) counted = draw.chance(0.5) ? 1 : 0;
+    }
+    const MemoryCapture capture = random.encode();
+    Activity activity(random.capture, options);
+    for (std::uint64_t block = 0; block < capture.block_count(); ++block) activity.add(capture.view(block));
+    ASSERT_EQ(activity.changed_pixels().size(), random.rasters.size());
+    EXPECT_EQ(activity.changed_pixels()[0], 0u);
+    for (std::size_t k = 1; k < random.rasters.size(); ++k) {
+      ASSERT_EQ(activity.changed_pixels()[k],
+                changed_pixels(random, k, options.ignored_codes, options.counted))
+          << random.text() << ", sample " << k << ", ignored " << options.ignored_codes;
+    }
+  }
+}
+
+TEST(ActivityMoments, AreTheBusiestAndTheQuietestStretch) {
+  std::vector<std::uint64_t> changes(100, 50);  // stretches of 5 samples
+  changes[0] = 0;                               // has no change and lies in no stretch
+  changes[30] = 90;
+  for (std::size_t k = 70; k < 75; ++k) changes[k] = 60;
+  for (std::size_t k = 40; k < 45; ++k) changes[k] = 2;
+  const auto moments = activity_moments(changes);
+  ASSERT_TRUE(moments);
+  EXPECT_EQ(moments->busiest_sample, 30u);
+  EXPECT_EQ(moments->busiest.samples, (SampleRange{70, 75}));
+  EXPECT_EQ(moments->busiest.changes, 300u);
+  EXPECT_EQ(moments->quietest.samples, (SampleRange{40, 45}));
+  EXPECT_EQ(moments->quietest.changes, 10u);
+}
+
+TEST(ActivityMoments, AreNoneWhereThereIsNothingToTellApart) {
+  EXPECT_FALSE(activity_moments(std::vector<std::uint64_t>(50, 0)));
+  EXPECT_FALSE(activity_moments(std::vector<std::uint64_t>{0, 9}));
+  EXPECT_FALSE(activity_moments(std::vector<std::uint64_t>{}));
+  const auto shortest = activity_moments(std::vector<std::uint64_t>{0, 9, 3});
+  ASSERT_TRUE(shortest);
+  EXPECT_EQ(shortest->busiest.samples, (SampleRange{1, 2}));
+  EXPECT_EQ(shortest->quietest.samples, (SampleRange{2, 3}));
 }
 
 TEST(Activity, MapIsBlackWhereNothingChangesAndWhiteWhereMostDoes) {

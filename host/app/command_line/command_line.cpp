@@ -39,17 +39,16 @@ Scan scan(std::span<const std::string> words) {
   scan.operands_end = words.size();
   const auto take = [&](const Option* option, const std::string& word, bool has_value, std::size_t& i) {
     if (option == nullptr) fail_unknown_option(word);
-    if (!option->value.empty() && scan.has(option->long_name)) {
-      throw UsageError(format("{} is given twice", option->display_name()));
-    }
     scan.options.push_back(option);
     if (option->value.empty()) {
       if (has_value) throw UsageError(format("{} takes no value", option->display_name()));
       return;
     }
-    if (has_value) return;
-    if (++i >= words.size()) {
-      throw UsageError(format("{} needs a value: {} {}", word, word, option->value));
+    i += option->word_count() - (has_value ? 1 : 0);
+    if (i >= words.size()) {
+      const std::string name = word.substr(0, word.find('='));
+      throw UsageError(format("{} needs {}: {} {}", name,
+                              option->word_count() == 1 ? "a value" : "more words", name, option->value));
     }
   };
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -130,15 +129,21 @@ const Command& shorthand(const Scan& scan, std::span<const std::string> words) {
 }
 
 void check_options(const Scan& scan, const Command& command) {
-  for (const Option* option : scan.options) {
-    if ((option->commands & bit(command.id)) != 0) continue;
-    std::string takers;
-    for (const Command& other : commands()) {
-      if ((option->commands & bit(other.id)) == 0) continue;
-      takers += format("{}{}", takers.empty() ? "" : ", ", other.name);
+  for (auto said = scan.options.begin(); said != scan.options.end(); ++said) {
+    const Option* option = option_of(command, (*said)->long_name);
+    if (option == nullptr) {
+      std::string takers;
+      for (const Command& other : commands()) {
+        if (option_of(other, (*said)->long_name) == nullptr) continue;
+        takers += format("{}{}", takers.empty() ? "" : ", ", other.name);
+      }
+      throw UsageError(format("{} does not go with {}; it is an option of: {}", (*said)->display_name(),
+                              command.name, takers));
     }
-    throw UsageError(format("{} does not go with {}; it is an option of: {}", option->display_name(),
-                            command.name, takers));
+    if (!option->value.empty() && !option->is_repeatable &&
+        std::find(scan.options.begin(), said, *said) != said) {
+      throw UsageError(format("{} is given twice", option->display_name()));
+    }
   }
 }
 
@@ -151,11 +156,19 @@ Options parse_options(const Command& command, std::vector<std::string> words) {
     if ((option.commands & bit(command.id)) == 0) continue;
     const std::string names = (option.short_name != 0 ? std::string{'-', option.short_name} + "," : "") +
                               "--" + std::string(option.long_name);
+    // Each time it is met, so that Options::said has the order of the command line.
+    const auto take = [&parsed, &option](const std::vector<std::string>& values) {
+      parsed.said.push_back({option.long_name, values});
+      if (option.set) option.set(parsed, values.empty() ? std::string() : values.front());
+    };
     if (option.value.empty()) {
-      app.add_flag_callback(names, [&parsed, &option] { option.set(parsed, {}); });
+      app.add_flag_callback(names, [take] { take({}); })->trigger_on_parse();
     } else {
-      app.add_option_function<std::string>(
-          names, [&parsed, &option](const std::string& value) { option.set(parsed, value); });
+      app.add_option_function<std::vector<std::string>>(names, take)
+          ->type_size(static_cast<int>(option.word_count()))
+          ->expected(1)
+          ->allow_extra_args(false)
+          ->trigger_on_parse();
     }
   }
   app.add_option("operands", parsed.operands);

@@ -56,6 +56,34 @@ std::span<const Command> commands() {
        "nutik-cl trace --tag 128 -m regions.pgm -k regions.fn clip.tik -o trace.csv\n"
        "nutik-cl trace --pixel 0,0 --start 0.4s --exposure 10ms clip.tik",
        run_trace},
+      {Id::mask, "mask", "[CAPTURE.tik|CLIP] [MASK.pgm]",
+       "Make a mask from shapes, from pictures and from what moves, without an image editor.",
+       "nutik-cl mask --moving clip.tik mask.pgm --preview preview.png\n"
+       "nutik-cl mask --moving --smooth 2 --largest --grow 4 clip.tik mask.pgm\n"
+       "nutik-cl mask --tag 128 --changed-between 0.3s 0.5s --tag 255 --ellipse 320,180,60,40 clip.tik -o "
+       "mask.pgm\n"
+       "nutik-cl mask --difference empty.png full.png --by 24 -o mask.pgm\n"
+       "nutik-cl mask --size 640x360 --tag 64 --rectangle 0,0,320,360 -o halves.pgm",
+       run_mask},
+      {Id::contact, "contact", "CAPTURE.tik|CLIP [SHEET.png]",
+       "Lay out exposures of a capture, one after another, on a labelled sheet: to find the moment.",
+       "nutik-cl contact clip.tik\n"
+       "nutik-cl contact --every 0.2s --exposure 10ms clip.tik sheet.png\n"
+       "nutik-cl contact --start 0.4s --every 5f --columns 6 --width 2400 clip.tik -o sheet.png",
+       run_contact},
+      {Id::activity, "activity", "CAPTURE.tik|CLIP [CHART.png]",
+       "Say when a capture changes and when it is quiet: as text, table, chart and map.",
+       "nutik-cl activity clip.tik\n"
+       "nutik-cl activity --csv activity.csv --map where.png clip.tik chart.png\n"
+       "nutik-cl activity -m mask.pgm --tag 128 --csv - clip.tik",
+       run_activity},
+      {Id::sweep, "sweep", "CAPTURE.tik|CLIP [SHEET.png]",
+       "Expose with the same functions again and again, each time later, stronger or longer, on a labelled "
+       "sheet.",
+       "nutik-cl sweep -k file.fn -m mask.pgm --shift 0..1s/0.1s clip.tik\n"
+       "nutik-cl sweep -k trail.fn --scale-gain 0.5..2/0.25 --stretch 0.5..2/0.5 clip.tik sheet.png\n"
+       "nutik-cl sweep --start 0.4s --exposure 10ms --shift 0..50f/5f --each moment-%02d.png clip.tik",
+       run_sweep},
   };
   return table;
 }

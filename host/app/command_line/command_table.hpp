@@ -9,7 +9,20 @@
 
 namespace nutik::app {
 
-enum class CommandId { encode, expose, info, devices, recover, batch, check, trace };
+enum class CommandId {
+  encode,
+  expose,
+  info,
+  devices,
+  recover,
+  batch,
+  check,
+  trace,
+  mask,
+  contact,
+  activity,
+  sweep
+};
 
 struct Command {
   CommandId id;
@@ -23,6 +36,11 @@ struct Command {
 // Commands that an option belongs to, as bits.
 using CommandSet = std::uint32_t;
 [[nodiscard]] constexpr CommandSet bit(CommandId id) { return 1u << static_cast<unsigned>(id); }
+
+template <typename... Ids>
+[[nodiscard]] constexpr CommandSet set_of(Ids... ids) {
+  return (bit(ids) | ...);
+}
 
 [[nodiscard]] std::span<const Command> commands();
 [[nodiscard]] const Command& command(CommandId id);

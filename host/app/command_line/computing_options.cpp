@@ -16,14 +16,16 @@ std::vector<Option> computing_options() {
              "OpenCL device by number or part of its name; NUTIK_DEVICE does the same (default: the first "
              "GPU, else the first device)",
              kExposes, &Options::device),
-      valued(0, "precision", "NAME", kGroup,
-             "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is "
-             "sure to be right to half a code, or to half a float's step (default: auto; see -v)",
-             kExposes, &Options::precision),
-      valued(0, "memory", "SIZE", kGroup,
-             "what pictures and blocks may take: 500MB, 2GB, 1GiB; libraries take some 150 MB besides (default: "
-             "half of the machine's)",
-             kReadsClips | kExposes, &Options::memory),
+      valued(
+          0, "precision", "NAME", kGroup,
+          "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is "
+          "sure to be right to half a code, or to half a float's step (default: auto; see -v)",
+          kExposes, &Options::precision),
+      valued(
+          0, "memory", "SIZE", kGroup,
+          "what pictures and blocks may take: 500MB, 2GB, 1GiB; libraries take some 150 MB besides (default: "
+          "half of the machine's)",
+          kReadsClips | kExposes, &Options::memory),
   };
 }
 

@@ -10,29 +10,38 @@ namespace nutik::app {
 
 [[nodiscard]] std::vector<Option> source_options();
 [[nodiscard]] std::vector<Option> exposure_options();
+[[nodiscard]] std::vector<Option> mask_options();
+[[nodiscard]] std::vector<Option> moment_options();
 [[nodiscard]] std::vector<Option> computing_options();
 [[nodiscard]] std::vector<Option> output_options();
 
 using OptionGroup = std::vector<Option> (*)();
-inline constexpr OptionGroup kOptionGroups[] = {source_options, exposure_options, computing_options,
-                                                output_options};
+inline constexpr OptionGroup kOptionGroups[] = {source_options, exposure_options,  mask_options,
+                                                moment_options, computing_options, output_options};
 
 inline constexpr CommandSet kAllCommands = ~CommandSet{0};
 // Those that read a clip, and so take what describes it.
 inline constexpr CommandSet kReadsClips =
-    bit(CommandId::encode) | bit(CommandId::expose) | bit(CommandId::batch) | bit(CommandId::check) |
-    bit(CommandId::trace);
+    set_of(CommandId::encode, CommandId::expose, CommandId::batch, CommandId::check, CommandId::trace,
+           CommandId::mask, CommandId::contact, CommandId::activity, CommandId::sweep);
 // Those of them that turn it into a capture, or expose it.
-inline constexpr CommandSet kEncodesClips = kReadsClips & ~bit(CommandId::check);
-// Those that expose pictures with gain functions and a mask.
-inline constexpr CommandSet kExposesFunctions = bit(CommandId::expose);
-// Those that follow an exposure, or look at functions and masks alone.
-inline constexpr CommandSet kTakesExposures = kExposesFunctions | bit(CommandId::trace);
-inline constexpr CommandSet kTakesFunctions = kTakesExposures | bit(CommandId::check);
-// Those that print for a script where they are told to.
-inline constexpr CommandSet kAnswersInJson = bit(CommandId::check) | bit(CommandId::trace);
-// Those that expose pictures at all, and so take what says how that is computed.
-inline constexpr CommandSet kExposes = kExposesFunctions | bit(CommandId::batch);
+inline constexpr CommandSet kEncodesClips = kReadsClips & ~set_of(CommandId::check);
+// Those that take gain functions.
+inline constexpr CommandSet kTakesFunctions =
+    set_of(CommandId::expose, CommandId::check, CommandId::trace, CommandId::sweep);
+inline constexpr CommandSet kTakesMasks = kTakesFunctions | set_of(CommandId::activity);
+// Those that take a plain interval.
+inline constexpr CommandSet kTakesIntervals =
+    set_of(CommandId::expose, CommandId::trace, CommandId::mask, CommandId::contact, CommandId::sweep);
+// Those that expose pictures, and so take what says how that is computed.
+inline constexpr CommandSet kExposes =
+    set_of(CommandId::expose, CommandId::batch, CommandId::mask, CommandId::contact, CommandId::sweep);
+// Those that lay pictures out on a sheet.
+inline constexpr CommandSet kMakesSheets = set_of(CommandId::contact, CommandId::sweep);
+// Those that can answer in JSON.
+inline constexpr CommandSet kAnswersInJson =
+    set_of(CommandId::check, CommandId::trace, CommandId::mask, CommandId::contact, CommandId::activity,
+           CommandId::sweep);
 
 // A row with a value, for the member of Options that holds it.
 [[nodiscard]] inline Option valued(char short_name, std::string_view long_name, std::string_view value,
@@ -53,6 +62,13 @@ inline constexpr CommandSet kExposes = kExposesFunctions | bit(CommandId::batch)
   return {short_name, long_name, {}, group, help, commands, [member](Options& options, const std::string&) {
             options.*member = true;
           }};
+}
+
+// A row that may be given again and again: what it says stands in Options::said alone. `value` is empty for
+// a flag.
+[[nodiscard]] inline Option step(std::string_view long_name, std::string_view value, std::string_view group,
+                                 std::string_view help, CommandSet commands) {
+  return {0, long_name, value, group, help, commands, {}, true};
 }
 
 }  // namespace nutik::app

@@ -11,6 +11,10 @@ std::string Option::display_name() const {
   return short_name != 0 ? std::string{'-', short_name} : "--" + std::string(long_name);
 }
 
+std::size_t Option::word_count() const {
+  return value.empty() ? 0 : 1 + static_cast<std::size_t>(std::count(value.begin(), value.end(), ' '));
+}
+
 std::span<const Option> options() {
   static const std::vector<Option> table = [] {
     std::vector<Option> all;
@@ -25,6 +29,13 @@ std::span<const Option> options() {
 const Option* find_option(std::string_view long_name) {
   const auto found = std::find_if(options().begin(), options().end(),
                                   [&](const Option& option) { return option.long_name == long_name; });
+  return found == options().end() ? nullptr : &*found;
+}
+
+const Option* option_of(const Command& command, std::string_view long_name) {
+  const auto found = std::find_if(options().begin(), options().end(), [&](const Option& option) {
+    return option.long_name == long_name && (option.commands & bit(command.id)) != 0;
+  });
   return found == options().end() ? nullptr : &*found;
 }
 

@@ -14,11 +14,16 @@ namespace nutik::app {
 struct Option {
   char short_name;  // 0: none
   std::string_view long_name;
-  std::string_view value;  // as in help; empty: a flag
+  std::string_view value;  // as in help, a word for each that is needed; empty: a flag
   std::string_view group;
   std::string_view help;
   CommandSet commands;
+  // For an option of one value. What an option of several was given stands in Options::said alone.
   std::function<void(Options& options, const std::string& value)> set;
+  bool is_repeatable = false;
+
+  // How many words its value takes.
+  [[nodiscard]] std::size_t word_count() const;
 
   // `-f`, or `--fps` where it has no short name.
   [[nodiscard]] std::string display_name() const;
@@ -26,8 +31,11 @@ struct Option {
 
 // Group by group, as help shows them.
 [[nodiscard]] std::span<const Option> options();
-// By `--fps` or `-f` without its dashes; null where there is none.
+// By `--fps` or `-f` without its dashes; null where there is none. Several rows may share a name, for commands
+// that mean different things by it: as many words belong to it in each.
 [[nodiscard]] const Option* find_option(std::string_view long_name);
 [[nodiscard]] const Option* find_option(char short_name);
+// The row of that name for this command.
+[[nodiscard]] const Option* option_of(const Command& command, std::string_view long_name);
 
 }  // namespace nutik::app

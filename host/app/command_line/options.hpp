@@ -3,12 +3,20 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nutik::app {
 
+// An option by its long name, and its value's words.
+struct Said {
+  std::string_view option;
+  std::vector<std::string> words;
+};
+
 struct Options {
   std::vector<std::string> operands;
+  std::vector<Said> said;  // every option, in the order of the command line
 
   // The source clip.
   std::optional<std::string> fps;
@@ -41,6 +49,23 @@ struct Options {
   std::optional<std::string> tiles;
   std::optional<std::string> block_samples;
   std::optional<std::string> activity;
+
+  // Masks.
+  std::optional<std::string> by;
+  std::optional<std::string> base;
+  std::optional<std::string> size;
+  std::optional<std::string> preview;
+
+  // Many exposures on a sheet, and changes over time.
+  std::optional<std::string> every;
+  std::optional<std::string> columns;
+  std::optional<std::string> width;
+  std::optional<std::string> shift;
+  std::optional<std::string> scale_gain;
+  std::optional<std::string> stretch;
+  std::optional<std::string> each;
+  std::optional<std::string> csv;
+  std::optional<std::string> map;
 
   bool json = false;
   bool quiet = false;

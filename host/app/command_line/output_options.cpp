@@ -16,7 +16,7 @@ std::vector<Option> output_options() {
              bit(Id::encode) | kTakesExposures | bit(Id::recover), &Options::output),
       valued(0, "depth", "BITS", kGroup,
              "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
-             kExposesFunctions, &Options::depth),
+             bit(Id::expose), &Options::depth),
       valued(
           0, "codec", "NAME", kGroup,
           "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",
@@ -30,12 +30,11 @@ std::vector<Option> output_options() {
              "also write how often each pixel changes, as a grey picture: black never, white most often, "
              "between them sRGB",
              bit(Id::info), &Options::activity),
-      flag(0, "json", kGroup, "print the result as one JSON object, for scripts", kAnswersInJson,
-           &Options::json),
+      flag(0, "json", kGroup, "answer with one JSON object, for scripts", kAnswersInJson, &Options::json),
       flag('q', "quiet", kGroup, "no progress bar and no summary", kAllCommands, &Options::quiet),
       flag('v', "verbose", kGroup,
            "say more: in which precision and why, how fast and with how much memory; every step of a trace",
-           kExposes | bit(Id::trace), &Options::verbose),
+           (kExposes & ~bit(Id::mask)) | bit(Id::trace), &Options::verbose),
   };
 }
 

@@ -13,5 +13,9 @@ int run_recover(const Options& options);
 int run_batch(const Options& options);
 int run_check(const Options& options);
 int run_trace(const Options& options);
+int run_mask(const Options& options);
+int run_contact(const Options& options);
+int run_activity(const Options& options);
+int run_sweep(const Options& options);
 
 }  // namespace nutik::app

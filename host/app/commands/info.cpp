@@ -10,6 +10,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/activity.hpp"
+#include "imev/each_block.hpp"
 #include "media/picture_writer.hpp"
 #include "tik/reader.hpp"
 
@@ -34,13 +35,7 @@ struct TileTally {
 
 void write_activity(tik::Reader& reader, const std::string& path) {
   Activity activity(reader.format());
-  PageBuffer payload;
-  for (std::uint64_t block = 0; block < reader.block_count(); ++block) {
-    const std::uint64_t bytes = reader.prepare(block);
-    payload.reserve(bytes);
-    reader.read(block, payload.first(bytes));
-    activity.add(BlockView(reader.format(), reader.block_extent(block), payload.first(bytes)));
-  }
+  for_each_block(reader, [&](const BlockView& block) { activity.add(block); });
   write_picture(path, activity_map(reader.format().shape, activity.changes()));
   print_line(format("  activity    {}: black never changes, white {} times", path,
                     *std::ranges::max_element(activity.changes())));

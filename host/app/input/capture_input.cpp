@@ -1,7 +1,6 @@
 #include "app/input/capture_input.hpp"
 
-#include <charconv>
-
+#include "app/text/number_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "system/mapped_file.hpp"
@@ -13,16 +12,6 @@ namespace {
 // Rates up to this are what players show; a clip filmed faster often says one of them.
 constexpr double kHighestPlaybackRate = 60.0;
 
-std::uint32_t parse_count(const std::string& text, std::string_view what, std::uint32_t low,
-                          std::uint32_t high) {
-  std::uint32_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < low || value > high) {
-    throw UsageError(format("{} '{}' is no whole number of {} … {}", what, text, low, high));
-  }
-  return value;
-}
-
 RawVideo parse_raw_video(const std::string& text) {
   const auto cross = text.find('x');
   const auto colon = text.find(':');
@@ -33,8 +22,8 @@ RawVideo parse_raw_video(const std::string& text) {
                text));
   }
   constexpr std::uint32_t kLargestSide = 65'536;
-  return {parse_count(text.substr(0, cross), "width", 1, kLargestSide),
-          parse_count(text.substr(cross + 1, colon - cross - 1), "height", 1, kLargestSide),
+  return {parse_whole_number(text.substr(0, cross), "width", 1, kLargestSide),
+          parse_whole_number(text.substr(cross + 1, colon - cross - 1), "height", 1, kLargestSide),
           text.substr(colon + 1)};
 }
 
@@ -52,13 +41,15 @@ SourceOptions SourceOptions::from(const Options& options) {
     source.shutter_angle = Rational::parse(*options.shutter_angle, "shutter angle");
     source.angle_was_stated = true;
   }
-  if (options.white) source.clip.white_code = parse_count(*options.white, "white code", 1, 65'535);
+  if (options.white) source.clip.white_code = parse_whole_number(*options.white, "white code", 1, 65'535);
   if (options.raw) source.clip.raw = parse_raw_video(*options.raw);
   if (options.transfer) source.clip.transfer = Transfer::parse(*options.transfer);
-  if (options.tolerance) source.noise.tolerance = parse_count(*options.tolerance, "tolerance", 0, 65'535);
+  if (options.tolerance)
+    source.noise.tolerance = parse_whole_number(*options.tolerance, "tolerance", 0, 65'535);
   if (options.tiles) source.tiles = parse_tile_policy(*options.tiles);
   if (options.block_samples) {
-    source.block_samples = parse_count(*options.block_samples, "block length", 1, kLargestBlockSamples);
+    source.block_samples =
+        parse_whole_number(*options.block_samples, "block length", 1, kLargestBlockSamples);
   }
   source.memory = MemoryBudget::from(options);
   // Made here so that a senseless rate or angle is refused before anything is opened.

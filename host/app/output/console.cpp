@@ -15,6 +15,10 @@ void write_line(std::FILE* stream, const char* before, const std::string& text) 
 }  // namespace
 
 void print_line(const std::string& text) { write_line(stdout, "", text); }
+void print_text(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fflush(stdout);
+}
 void print_warning(const std::string& text) { write_line(stderr, "warning: ", text); }
 void print_error(const std::string& text) { write_line(stderr, "nutik-cl: ", text); }
 void print_note(const std::string& text) { write_line(stderr, "", text); }

@@ -103,6 +103,18 @@ Exposure plain_interval(std::string_view start, std::string_view exposure, const
   return interval;
 }
 
+std::uint64_t sample_at(std::string_view text, std::string_view what, const Timeline& timeline) {
+  const TimeText time = TimeText::parse(text, what);
+  if (time.counts_samples()) return existing_sample(whole_samples(time, what), timeline);
+  const std::int64_t time_ns = time.nanoseconds();
+  if (time_ns < 0 || time_ns > timeline.duration_ns()) {
+    throw UsageError(format("{} {} lies outside the capture, which lasts {}", what, text,
+                            duration_text(timeline.duration_ns())));
+  }
+  const std::int64_t inside_ns = std::min(time_ns, timeline.duration_ns() - 1);
+  return timeline.samples_reaching(inside_ns, inside_ns + 1).first;
+}
+
 std::string duration_text(std::int64_t nanoseconds) {
   const auto value = static_cast<double>(nanoseconds);
   if (nanoseconds < 1000) return format("{} ns", nanoseconds);

@@ -28,6 +28,10 @@ struct TimeText {
 // exactly what the camera exposed; `3f` after a start at 0.4s is as long as three periods there.
 Exposure plain_interval(std::string_view start, std::string_view exposure, const Timeline& timeline);
 
+// The picture at a time: `37f`, or the last whose exposure begins no later than the time. Throws UsageError
+// naming `what` where the time lies outside the capture.
+[[nodiscard]] std::uint64_t sample_at(std::string_view text, std::string_view what, const Timeline& timeline);
+
 // `12.5 ms`, `1.25 s`: a length for people, with up to four digits.
 [[nodiscard]] std::string duration_text(std::int64_t nanoseconds);
 

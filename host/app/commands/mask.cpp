@@ -1,0 +1,221 @@
+#include <algorithm>
+
+#include "app/commands/commands.hpp"
+#include "app/input/capture_input.hpp"
+#include "app/input/exposer.hpp"
+#include "app/input/mask_maker.hpp"
+#include "app/input/opened_capture.hpp"
+#include "app/output/json.hpp"
+#include "app/output/output_name.hpp"
+#include "app/text/time_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/mask_reader.hpp"
+#include "media/picture_writer.hpp"
+#include "media/still_sequence.hpp"
+#include "sheet/mask_overlay.hpp"
+
+namespace nutik::app {
+namespace {
+
+// What the command line asks for, before anything large is read.
+struct MaskRequest {
+  std::vector<MaskStep> steps;
+  std::optional<std::string> capture;
+  std::filesystem::path output;
+  std::vector<std::string> inputs;  // that no output may replace
+};
+
+// What a mask's size follows from, and which it is.
+struct StatedSize {
+  std::string source;
+  MaskSize size;
+};
+
+bool is_mask_name(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".pgm" || extension == ".png" || extension == ".PGM" || extension == ".PNG";
+}
+
+MaskRequest request_of(const Options& options) {
+  MaskRequest request;
+  request.steps = mask_steps(options);
+  if (!options.operands.empty()) {
+    request.capture = options.operands.front();
+    const bool is_output = !options.output && options.operands.size() == 1 &&
+                           is_mask_name(*request.capture) && !std::filesystem::exists(*request.capture);
+    if (is_output) {
+      throw UsageError(format("'{}' stands where a capture or clip is read; to write it: -o {}",
+                              *request.capture, *request.capture));
+    }
+    request.output = stated_output(options.output, options.operands, "mask")
+                         .value_or(sequence_name(*request.capture) + "-mask.pgm");
+    request.inputs.push_back(*request.capture);
+  } else if (options.output && !options.output->empty()) {
+    request.output = *options.output;
+  } else {
+    throw UsageError("the output is missing: nutik-cl mask --moving clip.tik mask.pgm");
+  }
+  if (request.steps.empty() && !options.base) {
+    throw UsageError(
+        "what is the mask made of? Add a step: --moving, or --rectangle 100,50,200,120 for example");
+  }
+  for (const MaskStep& step : request.steps) {
+    if (step.reads_capture() && !request.capture) {
+      throw UsageError(format("{} needs a capture or a clip: nutik-cl mask … clip.tik -o {}", step.option,
+                              request.output.string()));
+    }
+    for (const std::string& file : step.picture_files()) request.inputs.push_back(file);
+  }
+  if (options.base) request.inputs.push_back(*options.base);
+  if (!is_mask_name(request.output)) {
+    throw UsageError(
+        format("{}: masks are written as .pgm or .png, which keep every tag", request.output.string()));
+  }
+  check_output(request.output, OutputKind::picture, request.inputs);
+  if (options.preview) {
+    std::vector<std::string> inputs = request.inputs;
+    inputs.push_back(request.output.string());
+    check_output(*options.preview, OutputKind::picture, inputs);
+  } else if (options.start || options.exposure) {
+    throw UsageError("--start and --exposure say what --preview shows; add --preview picture.png");
+  }
+  return request;
+}
+
+// The mask that steps are painted on: of the size that everything stated agrees on.
+Mask base_of(const Options& options, const MaskRequest& request, const CaptureSource* capture) {
+  std::vector<StatedSize> sizes;
+  std::optional<Mask> base;
+  if (options.size) sizes.push_back({"--size", parse_mask_size(*options.size)});
+  if (capture != nullptr) {
+    sizes.push_back({*request.capture, {capture->format().shape.width, capture->format().shape.height}});
+  }
+  if (options.base) {
+    base = Mask::from_picture(read_mask(*options.base));
+    sizes.push_back({*options.base, {base->width, base->height}});
+  }
+  for (const MaskStep& step : request.steps) {
+    if (!sizes.empty()) break;
+    for (const std::string& file : step.picture_files()) {
+      const Shape shape = read_picture(file).shape;
+      sizes.push_back({file, {shape.width, shape.height}});
+    }
+  }
+  if (sizes.empty()) {
+    throw UsageError("how large is the mask? Name the capture it is for, or say --size 640x360");
+  }
+  for (const StatedSize& other : sizes) {
+    if (other.size == sizes.front().size) continue;
+    throw UsageError(format("{} is {} x {}, {} is {} x {}: the sizes must agree", sizes.front().source,
+                            sizes.front().size.width, sizes.front().size.height, other.source,
+                            other.size.width, other.size.height));
+  }
+  return base ? *base : Mask::uniform(sizes.front().size.width, sizes.front().size.height, 0);
+}
+
+// What the mask is laid over: an exposure of the capture, all of it where none was asked for; else a picture
+// that the mask was made from, else plain grey.
+Picture backdrop(const Options& options, const MaskRequest& request, const Mask& mask,
+                 CaptureSource* capture) {
+  if (capture == nullptr) {
+    if (options.start || options.exposure) {
+      throw UsageError("--start and --exposure need a capture: nutik-cl mask … clip.tik");
+    }
+    for (const MaskStep& step : request.steps) {
+      for (const std::string& file : step.picture_files()) return read_picture(file);
+    }
+    Picture grey({mask.width, mask.height, 1}, ValueType::code8, 255);
+    std::fill(grey.bytes.begin(), grey.bytes.end(), std::byte{200});
+    return grey;
+  }
+  const Timeline& timeline = capture->timeline();
+  Exposure interval{0, timeline.duration_ns()};
+  if (options.exposure) {
+    interval = plain_interval(options.start.value_or("0s"), *options.exposure, timeline);
+  } else if (options.start) {
+    const std::uint64_t sample = sample_at(*options.start, "start", timeline);
+    interval = {timeline.start_ns(sample), timeline.end_ns(sample)};
+  }
+  Exposer exposer(options);
+  const CaptureFormat& format = capture->format();
+  FunctionSet functions;
+  functions.emplace(0, GainFunction::boxcar(interval.start_ns, interval.end_ns));
+  PlanOptions plan_options;
+  plan_options.function_name = "the preview's exposure";
+  return exposer
+      .expose(*capture, functions, Mask::uniform(mask.width, mask.height, 0), plan_options,
+              {format.code_bytes == 1 ? ValueType::code8 : ValueType::code16, format.white_code})
+      .picture;
+}
+
+double percent_of(std::uint64_t pixels, const Mask& mask) {
+  return 100.0 * static_cast<double>(pixels) / static_cast<double>(mask.tags.size());
+}
+
+void report_text(const MaskRequest& request, const Mask& mask, const std::vector<StepReport>& steps) {
+  const auto counts = mask.pixels_per_tag();
+  print_line(format("{}: {} x {}, {} tags", request.output.string(), mask.width, mask.height,
+                    kMaskValues - std::count(counts.begin(), counts.end(), 0u)));
+  for (const StepReport& step : steps) {
+    print_line(format("  {:<18} M{:<4}{:>10} pixels {:6.2f} %{}", step.option, step.tag, step.pixel_count,
+                      percent_of(step.pixel_count, mask),
+                      step.by_codes ? format(", by more than {} codes", *step.by_codes) : ""));
+  }
+  print_line("the mask");
+  for (std::size_t tag = 0; tag < counts.size(); ++tag) {
+    if (counts[tag] == 0) continue;
+    print_line(format("  {:<18} M{:<4}{:>10} pixels {:6.2f} %", "", tag, counts[tag],
+                      percent_of(counts[tag], mask)));
+  }
+}
+
+void report_json(const MaskRequest& request, const Mask& mask, const std::vector<StepReport>& steps) {
+  Json json{{"mask", request.output.string()}, {"width", mask.width}, {"height", mask.height}};
+  json["steps"] = Json::array();
+  for (const StepReport& step : steps) {
+    Json entry{{"step", step.option}, {"tag", step.tag}, {"pixel_count", step.pixel_count}};
+    if (step.by_codes) entry["more_than_codes"] = *step.by_codes;
+    json["steps"].push_back(std::move(entry));
+  }
+  json["tags"] = Json::array();
+  const auto counts = mask.pixels_per_tag();
+  for (std::size_t tag = 0; tag < counts.size(); ++tag) {
+    if (counts[tag] != 0) json["tags"].push_back({{"tag", tag}, {"pixel_count", counts[tag]}});
+  }
+  print_json(json);
+}
+
+}  // namespace
+
+int run_mask(const Options& options) {
+  const MaskRequest request = request_of(options);
+  std::optional<OpenedCapture> opened;
+  if (request.capture) opened.emplace(*request.capture, options);
+  CaptureSource* capture = opened ? &opened->reader() : nullptr;
+
+  MaskMaker maker(base_of(options, request, capture), capture);
+  for (const MaskStep& step : request.steps) {
+    maker.add(step);
+    if (maker.reports().back().pixel_count == 0) {
+      print_warning(format("{} for M{} selects no pixel", step.option, step.tag));
+    }
+  }
+  const Mask& mask = maker.mask();
+  if (options.preview) {
+    const Transfer transfer = capture != nullptr ? capture->format().transfer : Transfer::srgb();
+    write_picture(*options.preview,
+                  sheet::mask_overlay(mask, backdrop(options, request, mask, capture), transfer));
+  }
+  write_picture(request.output, mask.to_picture());
+  if (options.json) {
+    report_json(request, mask, maker.reports());
+  } else if (!options.quiet) {
+    report_text(request, mask, maker.reports());
+  } else if (!options.output && options.operands.size() < 2) {
+    print_line(request.output.string());  // a name that nobody gave
+  }
+  return 0;
+}
+
+}  // namespace nutik::app

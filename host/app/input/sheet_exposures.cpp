@@ -1,0 +1,50 @@
+#include "app/input/sheet_exposures.hpp"
+
+#include "app/output/output_name.hpp"
+#include "app/text/number_text.hpp"
+#include "media/picture_writer.hpp"
+#include "media/still_sequence.hpp"
+
+namespace nutik::app {
+namespace {
+
+constexpr std::uint32_t kLargestSheet = 32'767;
+
+}  // namespace
+
+sheet::SheetWishes sheet_wishes(const Options& options) {
+  sheet::SheetWishes wishes;
+  if (options.columns) wishes.columns = parse_whole_number(*options.columns, "--columns", 1, 1000);
+  if (options.width) wishes.width = parse_whole_number(*options.width, "--width", 100, kLargestSheet);
+  return wishes;
+}
+
+void check_sheet_output(const std::filesystem::path& output, std::span<const std::string> inputs) {
+  check_output(output, OutputKind::picture, inputs);
+  constexpr std::uint32_t kColour = 3;
+  static_cast<void>(value_type_for(output, Depth::bits8, ValueType::code8, kColour));
+}
+
+std::filesystem::path sheet_output(const Options& options, const std::string& command,
+                                   const std::string& suffix) {
+  const auto stated = stated_output(options.output, options.operands, command);
+  return stated.value_or(sequence_name(options.operands.front()) + "-" + suffix + ".png");
+}
+
+SheetExposures::SheetExposures(const Options& options, CaptureSource& capture, Mask mask,
+                               PlanOptions plan_options)
+    : capture_(capture),
+      mask_(std::move(mask)),
+      plan_options_(std::move(plan_options)),
+      transfer_(capture.format().transfer),
+      exposer_(options) {
+  if (options.transfer) plan_options_.transfer = transfer_ = Transfer::parse(*options.transfer);
+}
+
+Exposed SheetExposures::expose(const FunctionSet& functions) {
+  const CaptureFormat& format = capture_.format();
+  return exposer_.expose(capture_, functions, mask_, plan_options_,
+                         {format.code_bytes == 1 ? ValueType::code8 : ValueType::code16, format.white_code});
+}
+
+}  // namespace nutik::app

@@ -1,0 +1,105 @@
+#include "mask/code_span.hpp"
+
+#include <algorithm>
+
+namespace nutik {
+namespace {
+
+// Calls use(value, code) for each value of a picture of codes.
+template <typename Use>
+void for_each_code(const Picture& picture, Use use) {
+  const auto visit = [&](const auto& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) use(i, std::uint32_t{values[i]});
+  };
+  if (picture.type == ValueType::code8) {
+    visit(picture.values<std::uint8_t>());
+  } else {
+    visit(picture.values<std::uint16_t>());
+  }
+}
+
+}  // namespace
+
+CodeSpan::CodeSpan(const CaptureFormat& capture, SampleRange samples)
+    : capture_(capture),
+      samples_(samples),
+      least_(capture.shape.value_count(), 0xFFFF),
+      most_(capture.shape.value_count(), 0) {}
+
+void CodeSpan::add(const BlockView& block) {
+  const SampleRange held = block.extent().range();
+  if (held.last <= samples_.first || held.first >= samples_.last) return;
+  const TileGrid grid(capture_.shape);
+  const std::uint32_t channels = capture_.shape.channels;
+  std::vector<ChangeRecord> history;
+  std::uint64_t pixel = 0;
+  for (std::uint32_t y = 0; y < capture_.shape.height; ++y) {
+    for (std::uint32_t x = 0; x < capture_.shape.width; ++x, ++pixel) {
+      block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);
+      for (std::size_t r = 0; r < history.size(); ++r) {
+        const std::uint64_t from = held.first + history[r].sample;
+        const std::uint64_t until = r + 1 < history.size() ? held.first + history[r + 1].sample : held.last;
+        if (until <= samples_.first || from >= samples_.last) continue;
+        for (std::uint32_t channel = 0; channel < channels; ++channel) {
+          std::uint16_t& least = least_[pixel * channels + channel];
+          std::uint16_t& most = most_[pixel * channels + channel];
+          least = std::min(least, history[r].codes[channel]);
+          most = std::max(most, history[r].codes[channel]);
+        }
+      }
+    }
+  }
+}
+
+std::vector<std::uint32_t> CodeSpan::spans() const {
+  const std::uint32_t channels = capture_.shape.channels;
+  std::vector<std::uint32_t> spans(capture_.shape.pixel_count());
+  for (std::size_t value = 0; value < least_.size(); ++value) {
+    std::uint32_t& span = spans[value / channels];
+    span = std::max<std::uint32_t>(span, most_[value] < least_[value] ? 0u : most_[value] - least_[value]);
+  }
+  return spans;
+}
+
+std::vector<std::uint32_t> differences(const Picture& a, const Picture& b) {
+  std::vector<std::uint32_t> codes(a.shape.value_count());
+  for_each_code(a, [&](std::size_t i, std::uint32_t code) { codes[i] = code; });
+  std::vector<std::uint32_t> spans(a.shape.pixel_count());
+  for_each_code(b, [&](std::size_t i, std::uint32_t code) {
+    std::uint32_t& span = spans[i / a.shape.channels];
+    span = std::max(span, code < codes[i] ? codes[i] - code : code - codes[i]);
+  });
+  return spans;
+}
+
+std::uint32_t usual_noise(std::vector<std::uint32_t> spans, std::uint32_t white_code) {
+  const auto quarter = spans.begin() + static_cast<std::ptrdiff_t>(spans.size() / 4);
+  std::nth_element(spans.begin(), quarter, spans.end());
+  return std::max(2 * *quarter, white_code / 16);
+}
+
+Region spanning_more(const Shape& shape, std::span<const std::uint32_t> spans, std::uint32_t codes) {
+  Region region = Region::none(shape.width, shape.height);
+  std::transform(spans.begin(), spans.end(), region.inside.begin(),
+                 [&](std::uint32_t span) { return static_cast<std::uint8_t>(span > codes); });
+  return region;
+}
+
+Region between(const Picture& picture, double low, double high) {
+  constexpr double kLuma[3] = {0.2126, 0.7152, 0.0722};
+  Region region = Region::none(picture.shape.width, picture.shape.height);
+  const std::uint32_t channels = picture.shape.channels;
+  double brightness = 0.0;
+  for_each_code(picture, [&](std::size_t i, std::uint32_t code) {
+    const std::size_t channel = i % channels;
+    if (channel == 0) brightness = 0.0;
+    brightness += channels == 1 ? code : kLuma[channel] * code;
+    if (channel + 1 < channels) return;
+    // A colour's three products may miss the code of a grey by rounding.
+    constexpr double kRounding = 1e-6;
+    region.inside[i / channels] = brightness >= low - kRounding && brightness <= high + kRounding ? 1 : 0;
+  });
+  return region;
+}
+
+}  // namespace nutik

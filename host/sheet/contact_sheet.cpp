@@ -1,0 +1,89 @@
+#include "sheet/contact_sheet.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "plot/fitted_text.hpp"
+#include "sheet/thumbnail.hpp"
+
+namespace nutik::sheet {
+namespace {
+
+constexpr std::uint32_t kMargin = 12;
+constexpr std::uint32_t kGap = 8;
+constexpr std::uint32_t kLabelHeight = 20;  // below each picture
+constexpr std::uint32_t kHeadingHeight = 26;
+constexpr std::uint32_t kLargestSide = 32'767;
+constexpr double kUsualCell = 240.0;
+constexpr double kUsualAspect = 1.5;  // of the whole sheet
+
+// As many columns as give a sheet of the usual aspect, or nearly as many where these leave no row short; fewer
+// where pictures would be too small to see.
+std::uint32_t usual_columns(const Shape& picture, std::uint32_t count, std::uint32_t width) {
+  const double aspect = static_cast<double>(picture.width) / picture.height;
+  const double wanted = std::ceil(std::sqrt(count * kUsualAspect / aspect));
+  const double most = std::max(1.0, std::floor(width / std::min<double>(kUsualCell, picture.width + kGap)));
+  const auto columns = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, std::min<double>(most, count)));
+  for (const std::uint32_t near : {columns, columns + 1, columns - 1}) {
+    if (near > 1 && near <= most && count % near == 0) return near;
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::uint32_t SheetLayout::width() const { return 2 * kMargin + columns * cell_width + (columns - 1) * kGap; }
+std::uint32_t SheetLayout::height() const {
+  return 2 * kMargin + kHeadingHeight + rows * (cell_height + kLabelHeight) + (rows - 1) * kGap;
+}
+
+SheetLayout lay_out(const Shape& picture, std::uint32_t count, const SheetWishes& wishes) {
+  const std::uint32_t width = wishes.width.value_or(kUsualWidth);
+  SheetLayout layout;
+  layout.columns = std::min(wishes.columns.value_or(usual_columns(picture, count, width)), count);
+  layout.rows = (count + layout.columns - 1) / layout.columns;
+  const std::int64_t room = std::int64_t{width} - 2 * kMargin - std::int64_t{layout.columns - 1} * kGap;
+  const std::int64_t cell = room / layout.columns;
+  if (cell < kNarrowestCell) {
+    throw UsageError(format(
+        "{} pictures beside each other in {} pixels would be {} wide; at least {} are needed: choose fewer "
+        "--columns or a larger --width",
+        layout.columns, width, std::max<std::int64_t>(cell, 0), kNarrowestCell));
+  }
+  layout.cell_width = static_cast<std::uint32_t>(cell);
+  if (!wishes.width) {
+    layout.cell_width = std::min(layout.cell_width, std::max(picture.width, 2 * kNarrowestCell));
+  }
+  const double height = std::round(static_cast<double>(layout.cell_width) * picture.height / picture.width);
+  layout.cell_height = static_cast<std::uint32_t>(std::clamp(height, 1.0, double{kLargestSide}));
+  const double total = static_cast<double>(layout.rows) * (layout.cell_height + kLabelHeight + kGap);
+  if (total > kLargestSide - 2 * kMargin - kHeadingHeight) {
+    throw UsageError(format(
+        "{} rows of pictures {} pixels high pass the {} that a sheet can have; make fewer pictures, or "
+        "smaller ones with more --columns or a smaller --width",
+        layout.rows, layout.cell_height, kLargestSide));
+  }
+  return layout;
+}
+
+ContactSheet::ContactSheet(const SheetLayout& layout, const std::string& heading)
+    : layout_(layout), canvas_(layout.width(), layout.height()) {
+  const plot::TextStyle style{.size = 15.0, .rise = plot::Rise::top, .bold = true};
+  canvas_.text({kMargin, kMargin - 3.0},
+               plot::fitted(canvas_, heading, layout.width() - 2.0 * kMargin, style), style);
+}
+
+void ContactSheet::add(const std::string& label, const Picture& picture, const Transfer& transfer) {
+  const std::uint32_t column = count_ % layout_.columns, row = count_ / layout_.columns;
+  ++count_;
+  const plot::Box box{kMargin + column * (layout_.cell_width + double{kGap}),
+                      kMargin + kHeadingHeight + row * (layout_.cell_height + kLabelHeight + double{kGap}),
+                      double(layout_.cell_width), double(layout_.cell_height)};
+  canvas_.picture(box, thumbnail(picture, transfer, layout_.cell_width, layout_.cell_height));
+  const plot::TextStyle style{.size = 13.0, .rise = plot::Rise::top};
+  canvas_.text({box.x, box.bottom() + 2.0}, plot::fitted(canvas_, label, box.width, style), style);
+}
+
+}  // namespace nutik::sheet

@@ -1,0 +1,151 @@
+#include "sheet/mask_overlay.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "capture/format.hpp"
+#include "mask/distance.hpp"
+#include "mask/region.hpp"
+#include "plot/canvas.hpp"
+#include "sheet/thumbnail.hpp"
+
+namespace nutik::sheet {
+namespace {
+
+constexpr std::uint32_t kNarrowest = 480;  // in which a legend can be read
+constexpr double kTint = 0.5;
+constexpr std::size_t kColours = plot::kPalette.size() - 1;  // without black, which shadows have
+constexpr double kMargin = 10.0;
+constexpr double kLegendLine = 22.0;
+constexpr double kSwatch = 14.0;
+constexpr std::size_t kMostInLegend = 60;
+
+struct Tag {
+  std::uint8_t tag = 0;
+  std::uint64_t pixel_count = 0;
+  plot::Colour colour;
+};
+
+std::vector<Tag> tags_of(const Mask& mask) {
+  const auto counts = mask.pixels_per_tag();
+  std::vector<Tag> tags;
+  std::size_t colour = 0;
+  for (std::uint32_t tag = 0; tag < kMaskValues; ++tag) {
+    if (counts[tag] == 0) continue;
+    tags.push_back({static_cast<std::uint8_t>(tag), counts[tag],
+                    tag == 0 ? plot::kWhite : plot::kPalette[colour++ % kColours]});
+  }
+  return tags;
+}
+
+// The picture in its own colours where the tag is 0, else in grey with the tag's colour over it, which covers
+// all at the border of a region.
+Picture tinted(const Mask& mask, const std::vector<Tag>& tags, const Picture& enlarged, std::uint32_t zoom) {
+  std::array<plot::Colour, kMaskValues> colours{};
+  for (const Tag& tag : tags) colours[tag.tag] = tag.colour;
+  Picture result({enlarged.shape.width, enlarged.shape.height, 3}, ValueType::code8, 255);
+  const auto codes = result.values<std::uint8_t>();
+  const auto source = enlarged.values<std::uint8_t>();
+  const std::uint32_t width = result.shape.width, height = result.shape.height;
+  const std::uint32_t channels = enlarged.shape.channels;
+  const auto tag_at = [&](std::uint32_t x, std::uint32_t y) {
+    return mask.tags[std::size_t{y / zoom} * mask.width + x / zoom];
+  };
+  for (std::uint32_t y = 0; y < height; ++y) {
+    for (std::uint32_t x = 0; x < width; ++x) {
+      const std::size_t pixel = std::size_t{y} * width + x;
+      const std::uint8_t tag = tag_at(x, y);
+      const bool is_border =
+          (x > 0 && tag_at(x - 1, y) != tag) || (x + 1 < width && tag_at(x + 1, y) != tag) ||
+          (y > 0 && tag_at(x, y - 1) != tag) || (y + 1 < height && tag_at(x, y + 1) != tag);
+      const auto code = [&](std::uint32_t channel) {
+        return static_cast<double>(source[pixel * channels + std::min(channel, channels - 1)]);
+      };
+      const double grey = 0.2126 * code(0) + 0.7152 * code(1) + 0.0722 * code(2);
+      const std::array<double, 3> colour{colours[tag].red, colours[tag].green, colours[tag].blue};
+      for (std::uint32_t channel = 0; channel < 3; ++channel) {
+        const double tint = is_border ? 1.0 : kTint;
+        const double value = tag == 0 ? code(channel) : (1.0 - tint) * grey + tint * 255 * colour[channel];
+        codes[pixel * 3 + channel] = static_cast<std::uint8_t>(std::lround(value));
+      }
+    }
+  }
+  return result;
+}
+
+// The tag's number at the pixel of its region that lies furthest from all others, if there is room.
+void number_region(plot::Canvas& canvas, const Mask& mask, const Tag& tag, std::uint32_t zoom) {
+  Region outside = Region::none(mask.width, mask.height);
+  std::transform(mask.tags.begin(), mask.tags.end(), outside.inside.begin(),
+                 [&](std::uint8_t other) { return static_cast<std::uint8_t>(other != tag.tag); });
+  const std::vector<std::uint64_t> distances = squared_distances(outside);
+  const auto widest =
+      static_cast<std::size_t>(std::max_element(distances.begin(), distances.end()) - distances.begin());
+  const plot::TextStyle style{
+      .size = 13.0, .align = plot::Align::centre, .rise = plot::Rise::middle, .bold = true};
+  const std::string text = format("M{}", tag.tag);
+  const plot::Box plate{0, 0, canvas.text_width(text, style) + 8, 18};
+  if (distances[widest] != kFarAway &&
+      std::sqrt(static_cast<double>(distances[widest])) * zoom < plate.height)
+    return;
+  const double x = std::clamp((static_cast<double>(widest % mask.width) + 0.5) * zoom, plate.width / 2,
+                              static_cast<double>(mask.width) * zoom - plate.width / 2);
+  const double y = std::clamp((static_cast<double>(widest / mask.width) + 0.5) * zoom, plate.height / 2,
+                              static_cast<double>(mask.height) * zoom - plate.height / 2);
+  canvas.fill(plot::Box{x - plate.width / 2, y - plate.height / 2, plate.width, plate.height}, plot::kWhite);
+  canvas.text({x, y}, text, style);
+}
+
+std::vector<std::string> legend_of(const std::vector<Tag>& tags, std::uint64_t pixel_count) {
+  std::vector<std::string> legend;
+  for (const Tag& tag : tags) {
+    if (legend.size() == kMostInLegend) {
+      legend.push_back(format("and {} more tags", tags.size() - kMostInLegend));
+      break;
+    }
+    legend.push_back(format("M{}  {} pixels, {:.3g} %", tag.tag, tag.pixel_count,
+                            100.0 * static_cast<double>(tag.pixel_count) / static_cast<double>(pixel_count)));
+  }
+  return legend;
+}
+
+}  // namespace
+
+Picture mask_overlay(const Mask& mask, const Picture& picture, const Transfer& transfer) {
+  const std::uint32_t zoom = std::max(1u, (kNarrowest + mask.width - 1) / mask.width);
+  const std::uint32_t width = mask.width * zoom, height = mask.height * zoom;
+  const std::vector<Tag> tags = tags_of(mask);
+  const std::vector<std::string> legend = legend_of(tags, picture.shape.pixel_count());
+
+  double widest = 0.0;
+  const plot::Canvas ruler(1, 1);
+  for (const std::string& line : legend) widest = std::max(widest, ruler.text_width(line));
+  const double column = kSwatch + 6 + widest + 24;
+  const auto columns =
+      std::max<std::size_t>(1, static_cast<std::size_t>((width - 2 * kMargin + 24) / column));
+  const std::size_t lines = (legend.size() + columns - 1) / columns;
+  const auto legend_height =
+      static_cast<std::uint32_t>(2 * kMargin + static_cast<double>(lines) * kLegendLine);
+
+  plot::Canvas canvas(width, height + legend_height);
+  canvas.picture(plot::Box{0, 0, double(width), double(height)},
+                 tinted(mask, tags, thumbnail(picture, transfer, width, height), zoom));
+  for (const Tag& tag : tags) {
+    if (tag.tag != 0) number_region(canvas, mask, tag, zoom);
+  }
+  for (std::size_t i = 0; i < legend.size(); ++i) {
+    const double x = kMargin + static_cast<double>(i % columns) * column;
+    const double y = height + kMargin + (static_cast<double>(i / columns) + 0.5) * kLegendLine;
+    if (i < tags.size() && i < kMostInLegend) {
+      const plot::Box swatch{x, y - kSwatch / 2, kSwatch, kSwatch};
+      canvas.fill(swatch, tags[i].colour);
+      canvas.frame(swatch, {.colour = plot::kNote});
+    }
+    canvas.text({x + kSwatch + 6, y}, legend[i], {.rise = plot::Rise::middle});
+  }
+  return canvas.finished();
+}
+
+}  // namespace nutik::sheet

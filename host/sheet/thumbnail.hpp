@@ -1,0 +1,13 @@
+// Small pictures of large ones.
+#pragma once
+
+#include "capture/picture.hpp"
+
+namespace nutik::sheet {
+
+// A picture of codes at another size, as 8-bit sRGB: each pixel has the mean light of the area that it covers,
+// so that fine bright patterns keep their brightness. Channels stay as they are.
+[[nodiscard]] Picture thumbnail(const Picture& picture, const Transfer& transfer, std::uint32_t width,
+                                std::uint32_t height);
+
+}  // namespace nutik::sheet

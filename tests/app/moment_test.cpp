@@ -1,0 +1,257 @@
+// Contact sheets, activity and sweeps as a user makes them.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "support/moving_square.hpp"
+#include "support/program.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+using test::MovingSquare;
+using test::ProgramResult;
+
+class Moment : public testing::Test {
+ protected:
+  void SetUp() override {
+    scene_.write(scratch_);
+    ASSERT_EQ(run({"-f", "100", "frames", "clip.tik"}).status, 0);
+  }
+
+  ProgramResult run(const std::vector<std::string>& words) const {
+    return test::run_program(words, scratch_.folder());
+  }
+  nlohmann::json json_of(std::vector<std::string> words) const {
+    words.push_back("--json");
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return nlohmann::json::parse(result.out);
+  }
+  [[nodiscard]] cv::Mat picture(std::string_view name) const {
+    return cv::imread((scratch_ / name).string(), cv::IMREAD_UNCHANGED);
+  }
+  [[nodiscard]] std::string file(std::string_view name) const { return test::read_file(scratch_ / name); }
+
+  void expect_refused(const std::vector<std::string>& words, int status, std::string_view part) const {
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.status, status) << result.err;
+    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in: " << result.err;
+    EXPECT_EQ(result.out, "");
+  }
+
+  // Pixels that differ between two neighbouring pictures by more than `ignored` codes.
+  [[nodiscard]] int changed_pixels(std::size_t sample, int ignored) const {
+    int count = 0;
+    for (std::size_t i = 0; i < scene_.pictures[sample].size(); ++i) {
+      count += std::abs(scene_.pictures[sample][i] - scene_.pictures[sample - 1][i]) > ignored ? 1 : 0;
+    }
+    return count;
+  }
+
+  test::Scratch scratch_;
+  MovingSquare scene_;
+};
+
+TEST_F(Moment, ContactSheetShowsEveryPictureOfAShortCapture) {
+  const auto json = json_of({"contact", "clip.tik"});
+  EXPECT_EQ(json["sheet"], "clip-contact.png");
+  ASSERT_EQ(json["exposures"].size(), 20u);
+  EXPECT_EQ(json["exposures"][3], nlohmann::json::parse(R"({"start_ns":30000000,"end_ns":40000000})"));
+  // A picture of 96 pixels keeps its size, one picture's exposure its codes: the first lies at (12, 38).
+  const cv::Mat sheet = picture("clip-contact.png");
+  ASSERT_EQ(sheet.channels(), 3);
+  const auto columns = json["columns"].get<int>();
+  for (int k = 0; k < 20; ++k) {
+    const int left = 12 + k % columns * (96 + 8), top = 38 + k / columns * (48 + 20 + 8);
+    for (int y = 0; y < 48; ++y) {
+      for (int x = 0; x < 96; ++x) {
+        ASSERT_EQ(sheet.at<cv::Vec3b>(top + y, left + x)[1],
+                  scene_.pictures[std::size_t(k)][std::size_t(y * 96 + x)])
+            << "picture " << k << " at " << x << ", " << y;
+      }
+    }
+  }
+}
+
+TEST_F(Moment, ContactSheetTakesTimesOfAnyKind) {
+  EXPECT_EQ(json_of({"contact", "--every", "0.04s", "--exposure", "10ms", "clip.tik"})["exposures"],
+            json_of({"contact", "--every", "4f", "clip.tik"})["exposures"]);
+  const auto thirds =
+      json_of({"contact", "--every", "1/30s", "--exposure", "1ms", "--start", "50ms", "clip.tik"});
+  ASSERT_EQ(thirds["exposures"].size(), 5u);
+  EXPECT_EQ(thirds["exposures"][1]["start_ns"], 83'333'333);
+  EXPECT_EQ(thirds["exposures"][4]["end_ns"], 184'333'333);
+  // The last is cut at the capture's end.
+  EXPECT_EQ(
+      json_of({"contact", "--every", "0.15s", "--exposure", "1s", "clip.tik"})["exposures"][1]["end_ns"],
+      200'000'000);
+  const auto later =
+      json_of({"contact", "--start", "10f", "--every", "5f", "--columns", "1", "clip.tik", "x.ppm"});
+  EXPECT_EQ(later["exposures"].size(), 2u);
+  EXPECT_EQ(later["rows"], 2);
+  EXPECT_EQ(picture("x.ppm").rows, 2 * 12 + 26 + 2 * (48 + 20) + 8);
+}
+
+TEST_F(Moment, ContactSheetRefusesWhatMakesNoSense) {
+  expect_refused({"contact"}, 2, "an input is missing");
+  expect_refused({"contact", "--every", "1us", "clip.tik"}, 2,
+                 "makes 200000 pictures and a sheet holds 400; take --every 0.001s or more");
+  expect_refused({"contact", "--every", "0s", "clip.tik"}, 2, "--every '0s' is not longer than nothing");
+  expect_refused({"contact", "--every", "1.5f", "clip.tik"}, 2, "is not a whole number of pictures");
+  expect_refused({"contact", "--every", "often", "clip.tik"}, 2, "--every 'often' is no time");
+  expect_refused({"contact", "--start", "3s", "clip.tik"}, 2, "outside the capture, which lasts 200 ms");
+  expect_refused({"contact", "--columns", "0", "clip.tik"}, 2, "--columns '0' is no whole number");
+  expect_refused({"contact", "--columns", "20", "--width", "300", "clip.tik"}, 2, "choose fewer --columns");
+  expect_refused({"contact", "clip.tik", "sheet.pgm"}, 2, "sheet.pgm holds grey pictures only");
+  expect_refused({"contact", "clip.tik", "sheet.pfm"}, 2, "sheet.pfm holds floating point only");
+  expect_refused({"contact", "clip.tik", "clip.tik"}, 2, "is also an input");
+  expect_refused({"contact", "-f", "100", "clip.tik"}, 2, "--fps describes a clip");
+}
+
+TEST_F(Moment, ActivityCountsChangesAtEachSample) {
+  for (const int ignored : {0, 8}) {
+    const ProgramResult result = run({"activity", "--csv", "-", "--by", std::to_string(ignored), "clip.tik"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    std::istringstream lines(result.out);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "sample,start_ns,end_ns,changed_pixels,changed_share");
+    for (std::size_t k = 0; k < 20; ++k) {
+      const int changes = k == 0 ? 0 : changed_pixels(k, ignored);
+      // Two columns in front of the square, two behind it.
+      if (ignored > 0) {
+        EXPECT_EQ(changes, k > 0 && k <= 12 ? 32 : 0);
+      }
+      std::getline(lines, line);
+      const std::string start = std::to_string(k) + "," + std::to_string(k * 10'000'000) + "," +
+                                std::to_string((k + 1) * 10'000'000) + "," + std::to_string(changes) + ",";
+      ASSERT_TRUE(line.starts_with(start)) << line;
+      EXPECT_NEAR(std::stod(line.substr(start.size())), changes / 4608.0, 1e-9);
+    }
+    EXPECT_FALSE(std::getline(lines, line)) << line;
+  }
+}
+
+TEST_F(Moment, ActivitySaysWhereItIsQuiet) {
+  const auto json = json_of({"activity", "--by", "8", "clip.tik"});
+  EXPECT_EQ(json["busiest"]["first_sample"], 1);
+  EXPECT_EQ(json["quietest"]["first_sample"], 13);
+  EXPECT_EQ(json["quietest"]["mean_changed_share"], 0.0);
+  EXPECT_EQ(json["samples"].size(), 20u);
+  EXPECT_EQ(json["samples"][5]["changed_pixels"], 32);
+  const ProgramResult text = run({"activity", "--by", "8", "clip.tik"});
+  EXPECT_NE(text.out.find("quietest      130 ms to 140 ms (13f to 13f), 0 % of pixels"), std::string::npos)
+      << text.out;
+  EXPECT_NE(text.out.find("try: nutik-cl --start 13f --exposure 1f clip.tik quiet.png"), std::string::npos)
+      << text.out;
+  EXPECT_NE(run({"activity", "--by", "200", "clip.tik"}).out.find("nothing changes"), std::string::npos);
+}
+
+TEST_F(Moment, ActivityOfARegion) {
+  ASSERT_EQ(run({"mask", "--tag", "7", "--rectangle", "0,20,20,8", "--tag", "9", "--rectangle", "40,0,10,10",
+                 "clip.tik", "mask.pgm"})
+                .status,
+            0);
+  const auto region = json_of({"activity", "--by", "8", "-m", "mask.pgm", "--tag", "7", "clip.tik"});
+  EXPECT_EQ(region["counted_pixels"], 160);
+  EXPECT_EQ(region["samples"][1]["changed_pixels"], 32);  // from 4 to 14
+  EXPECT_EQ(region["samples"][8]["changed_pixels"], 16);  // only its tail, from 18 to 20
+  EXPECT_EQ(region["samples"][11]["changed_pixels"], 0);
+  EXPECT_EQ(json_of({"activity", "-m", "mask.pgm", "clip.tik"})["counted_pixels"], 260);  // every tag but 0
+  expect_refused({"activity", "-m", "mask.pgm", "--tag", "8", "clip.tik"}, 3,
+                 "mask.pgm has no pixel with tag 8");
+  expect_refused({"activity", "--tag", "8", "clip.tik"}, 2, "add -m mask.pgm");
+}
+
+TEST_F(Moment, ActivityWritesTableChartAndMap) {
+  ASSERT_EQ(run({"activity", "--csv", "a.csv", "--map", "map.png", "clip.tik", "chart.png"}).status, 0);
+  EXPECT_EQ(file("a.csv"), run({"activity", "--csv", "-", "clip.tik"}).out);
+  EXPECT_EQ(picture("chart.png").cols, 1200);
+  ASSERT_EQ(run({"info", "--activity", "same.png", "clip.tik"}).status, 0);
+  EXPECT_EQ(file("map.png"), file("same.png"));
+  EXPECT_EQ(run({"activity", "--csv", "a.csv", "clip.tik"}).status, 0);  // replaces its own kind
+  scratch_.write("notes.csv", "my notes");
+  expect_refused({"activity", "--csv", "notes.csv", "clip.tik"}, 2, "notes.csv exists and is no table");
+  expect_refused({"activity", "--csv", "a.txt", "clip.tik"}, 2, "tables are written as .csv");
+  expect_refused({"activity", "--csv", "-", "--json", "clip.tik"}, 2, "both go to standard output");
+  expect_refused({"activity", "--map", "x.png", "clip.tik", "x.png"}, 2, "is also an input");
+  expect_refused({"activity", "--by", "few", "clip.tik"}, 2, "--by 'few' is no whole number");
+}
+
+TEST_F(Moment, SweepExposesEachShift) {
+  const auto json = json_of({"sweep", "--start", "0s", "--exposure", "10ms", "--shift", "0..50ms/10ms",
+                             "--each", "s%d.png", "clip.tik"});
+  ASSERT_EQ(json["pictures"].size(), 6u);
+  EXPECT_EQ(json["pictures"][3], nlohmann::json::parse(R"({"shift_ns":30000000,"file":"s3.png"})"));
+  for (const int k : {0, 3, 5}) {
+    ASSERT_EQ(
+        run({"--start", std::to_string(10 * k) + "ms", "--exposure", "10ms", "clip.tik", "alone.png"}).status,
+        0);
+    EXPECT_EQ(file("s" + std::to_string(k) + ".png"), file("alone.png")) << k;
+  }
+  EXPECT_EQ(json["sheet"], "clip-0s-10ms-sweep.png");
+  EXPECT_FALSE(picture("clip-0s-10ms-sweep.png").empty());
+  const auto pictures = json_of({"sweep", "--start", "9f", "--exposure", "1f", "--shift", "-5f..5f/5f",
+                                 "--each", "p%d.png", "clip.tik"});
+  EXPECT_EQ(pictures["pictures"][0]["shift_samples"], -5);
+  ASSERT_EQ(run({"--start", "4f", "--exposure", "1f", "clip.tik", "alone.png"}).status, 0);
+  EXPECT_EQ(file("p0.png"), file("alone.png"));
+}
+
+TEST_F(Moment, SweepVariesGainAndLength) {
+  scratch_.write("f.fn", "M0 [0:0], [20000000:0], [40000000:1], [40000001:0]\n");
+  const auto json = json_of({"sweep", "-k", "f.fn", "--scale-gain", "0.5..1.5/0.5", "--stretch", "1..2/1",
+                             "--each", "v%02d.png", "clip.tik", "sheet.png"});
+  EXPECT_EQ(json["columns"], 3);
+  EXPECT_EQ(json["rows"], 2);
+  ASSERT_EQ(json["pictures"].size(), 6u);
+  EXPECT_EQ(json["pictures"][5],
+            nlohmann::json::parse(R"({"gain_factor":1.5,"stretch_factor":2.0,"file":"v05.png"})"));
+  // It begins to expose at 20 ms, which stays.
+  scratch_.write("last.fn", "M0 [-20000000:0], [20000000:0], [60000000:1.5], [60000002:0]\n");
+  ASSERT_EQ(run({"-k", "last.fn", "clip.tik", "alone.png"}).status, 0);
+  EXPECT_EQ(file("v05.png"), file("alone.png"));
+  ASSERT_EQ(run({"-k", "f.fn", "clip.tik", "alone.png"}).status, 0);
+  EXPECT_EQ(file("v01.png"), file("alone.png"));
+}
+
+TEST_F(Moment, SweepWarnsOnceOfWhatLiesOutside) {
+  const ProgramResult result =
+      run({"sweep", "--start", "0.15s", "--exposure", "40ms", "--shift", "0..0.1s/20ms", "clip.tik"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("warning: +20 ms and 4 more: "), std::string::npos) << result.err;
+}
+
+TEST_F(Moment, SweepRefusesWhatMakesNoSense) {
+  const std::vector<std::string> exposure{"sweep", "--start", "0s", "--exposure", "1f", "clip.tik"};
+  const auto refused = [&](std::vector<std::string> more, std::string_view part) {
+    more.insert(more.begin(), exposure.begin(), exposure.end());
+    expect_refused(more, 2, part);
+  };
+  refused({}, "what is varied? Add --shift 0..1s/0.1s");
+  refused({"--shift", "1s"}, "--shift '1s' is no range; write FROM..TO/STEP: 0..1s/0.1s");
+  refused({"--shift", "0..1/0.1s"}, "'1' is no time");
+  refused({"--shift", "0..5f/0.1s"}, "mixes times and pictures");
+  refused({"--shift", "0..5f/0.5f"}, "0.5f is not a whole number of pictures");
+  refused({"--shift", "1s..0s/0.1s"}, "FROM must not be above TO, STEP must be above 0");
+  refused({"--shift", "0..1s/0s"}, "STEP must be above 0");
+  refused({"--shift", "0..1s/1ms"},
+          "a sheet holds 400 pictures and this sweep makes 1001; take a larger STEP");
+  refused({"--shift", "0..29f/1f", "--scale-gain", "1..2/0.05"}, "makes 30 x 21; take a larger STEP");
+  refused({"--stretch", "0..1/0.5"}, "a function cannot be made 0 times as long");
+  refused({"--stretch", "1..2/0.1234567"}, "too many digits");
+  refused({"--shift", "0..1f/1f", "--stretch", "1..2/1", "--scale-gain", "1..2/1"},
+          "three parameters do not fit a sheet");
+  refused({"--shift", "0..1f/1f", "--stretch", "1..2/1", "--columns", "3"}, "leave out --columns");
+  refused({"--shift", "0..1f/1f", "--each", "same.png"}, "has no place for a number; write name%02d.png");
+  refused({"--shift", "0..1f/1f", "--each", "x%d.gif"}, "pictures are written as .png");
+  expect_refused({"sweep", "--shift", "0..1f/1f", "clip.tik"}, 2, "an exposure needs a plain interval");
+  expect_refused({"sweep", "--shift", "0..1f/1f"}, 2, "an input is missing");
+}
+
+}  // namespace
+}  // namespace nutik
