@@ -38,15 +38,21 @@ class Layout:
         return [graphs[i : i + step] for i in range(0, len(graphs), step)]
 
 
-def legend_entries(backdrops):
-    """What the colours of a page mean."""
+def legend_entries(graphs, backdrops):
+    """What the colours of a page mean, as far as they are used."""
     entries = []
     for sign, name in SIGN_NAMES.items():
+        if not any(has_sign(graph.function, sign) for graph in graphs):
+            continue
         hatch = 2 * HATCHES[sign] if HATCHES[sign] else None  # denser: the patch is small
         entries.append(Patch(color=LINE_COLOURS[sign], alpha=AREA_OPACITY + 0.1, hatch=hatch, label=name))
     entries.append(Line2D([], [], color=LINE_COLOURS[0], ls=HELD_DASHES, lw=1.3, label="held"))
     entries.append(Line2D([], [], color=LIVE_COLOUR, lw=LIVE_WIDTH, label="live interval"))
     return entries + [entry for backdrop in backdrops for entry in backdrop.legend]
+
+
+def has_sign(function, sign):
+    return max(sign * gain for gain in (min(function.gains), max(function.gains))) > 0
 
 
 def draw_page(figure, graphs, height, view, title, backdrops):
@@ -56,7 +62,7 @@ def draw_page(figure, graphs, height, view, title, backdrops):
     left = LEFT / PAGE_WIDTH
     width = 1 - left - (RIGHT + sum(backdrop.right for backdrop in backdrops)) / PAGE_WIDTH
     figure.text(left, 1 - TITLE / page_height, title, fontsize=11, parse_math=False)
-    entries = legend_entries(backdrops)
+    entries = legend_entries(graphs, backdrops)
     place = {"loc": "lower left", "bbox_to_anchor": (left, 1 - LEGEND / page_height)}
     gaps = {"borderpad": 0, "borderaxespad": 0, "handletextpad": 0.5, "columnspacing": 1.5}
     figure.legend(handles=entries, ncol=len(entries), fontsize=8, frameon=False, **place, **gaps)
