@@ -14,7 +14,7 @@ import numpy as np
 from fnplot.errors import InputError, OutputError, PlotterError
 from fnplot.gain_function import LARGEST_TIME_NS
 
-FOOTER = struct.Struct("<4Qq72x8s")  # samples, blocks, two offsets, end of the capture in ns; magic
+FOOTER = struct.Struct("<4Qq80x8s")  # samples, blocks, two offsets, end of the capture in ns; magic
 FOOTER_MAGIC = b"TIKend 0"
 COLUMNS = ("start_ns", "end_ns", "changed_share")
 

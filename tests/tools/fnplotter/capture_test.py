@@ -38,7 +38,7 @@ def stand_in(count, exposure=1_000_000):
 
 def write_capture(count, name="clip.tik", duration_ns=CAPTURE_NS, magic=b"TIKend 0"):
     """The ends of a capture: what the plotter itself reads of it."""
-    footer = struct.pack("<4Qq72x8s", count, 1, 64, 0, duration_ns, magic)
+    footer = struct.pack("<4Qq80x8s", count, 1, 64, 0, duration_ns, magic)
     return write(name, b"P5\n# TIK 0\n1 1\n255\n\0\n" + footer)
 
 
