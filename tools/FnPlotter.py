@@ -146,21 +146,21 @@ def title_of(file_name):
 def page_drawings(functions, pixels, options):
     """What draws each page, called with the figure to draw on."""
     try:
-        from fnplot import backdrops, capture, graphs, pages, view
+        from fnplot import backdrops, graphs, pages
+        from fnplot.capture import read_capture
+        from fnplot.view import make_view
     except ImportError as error:
         way_out = "on Debian: apt install python3-matplotlib"
         raise OutputError(f"Matplotlib cannot be loaded ({error}); {way_out}") from None
 
     used = functions_in_use(functions, pixels, options.file, options.mask) if pixels else functions
     share = {tag: count / sum(pixels.values()) for tag, count in pixels.items()} if pixels else {}
-    duration_ns, behind = options.duration, [backdrops.OutsideCapture()]
-    clip = None
-    if options.capture:
-        clip = capture.read_capture(options.capture, options.program or find_program())
-        duration_ns = clip.duration_ns
-    drawn = view.make_view(functions.values(), duration_ns, options.zoom)
-    if clip:
-        behind += [backdrops.SampleGrid(clip, drawn), backdrops.Activity(clip, drawn)]
+    capture = read_capture(options.capture, options.program or find_program()) if options.capture else None
+    duration_ns = capture.duration_ns if capture else options.duration
+    view = make_view(functions.values(), duration_ns, options.zoom)
+    behind = [backdrops.OutsideCapture()]
+    if capture:
+        behind += [backdrops.SampleGrid(capture, view), backdrops.Activity(capture, view)]
     page_height = FILE_PAGE_HEIGHT if options.output else WINDOW_PAGE_HEIGHT
     layout = pages.Layout.fitting(len(used), options.per_page, page_height)
     sheets = layout.paginate([graphs.Graph(tag, used[tag], share.get(tag)) for tag in sorted(used)])
@@ -169,7 +169,7 @@ def page_drawings(functions, pixels, options):
     for number, sheet in enumerate(sheets, start=1):
         title = f"{name}, page {number} of {len(sheets)}" if len(sheets) > 1 else name
         page = {"graphs": sheet, "height": layout.graph_height, "title": title}
-        drawings.append(partial(pages.draw_page, view=drawn, backdrops=behind, **page))
+        drawings.append(partial(pages.draw_page, view=view, backdrops=behind, **page))
     return drawings
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares FnPlotter.py's reading of function files with the program's, on the shared corpus and on mutations of it.
+"""Compares FnPlotter.py's reading of function files with the program's, on the corpus and mutations of it.
 
     fuzz_functions.py --reader build/tests/read_functions --tools tools --corpus tests/corpus/functions
                       [--count 400] [--seed 1]
@@ -23,10 +23,11 @@ DURATIONS_NS = (1, 1000, 410_000_001, 3_000_000_000, 4_000_000_000_000_000_000)
 PIECES = (
     *("M0", "M7", "M128", "M255", "M256", "M", "m1", "[0:1]", "[5:0]", "[10:-0.5]", "[1000000000:1]"),
     *("[", "]", "{", "}", ",", ":", "#", " ", "\t", "\v", "\f", "\n", "\r", "\r\n", "\n\n", "\0", ";", "'"),
-    *("-", "+", ".", "e", "E", "0", "9", "1e9", "1e400", "1e-400", "inf", "nan(1)", "0x10", "10ms", "0,5", "5%"),
+    *("-", "+", ".", "e", "E", "0", "9", "1e9", "1e400", "1e-400"),
+    *("inf", "nan(1)", "0x10", "10ms", "0,5", "5%"),
     *("9223372036854775808", "4000000000000000000", "4000000000000000001", "-4000000000000000000", "1" * 50),
     *("# }", "# M1 [0:1]", "\ufeff", "\u00a0", "\u2212", "\u00b5s", "\u200b", "é", "€", "😀", "\U000e0001"),
-    *(b"\xef\xbb", b"\xbf", b"\xff", b"\xe9", b"\xed\xa0\x80", b"\xf4\x90\x80\x80", b"\x85", b"\x1c", b"\x1b"),
+    *(b"\xef\xbb", b"\xbf", b"\xff", b"\xe9", b"\xed\xa0\x80", b"\xf4\x90\x80\x80", b"\x85", b"\x1c"),
 )
 
 
@@ -191,7 +192,8 @@ def main():
         content = mutator.file()
         compare(f"mutation {number} of seed {options.seed}", content, mutator.draw.choice(DURATIONS_NS))
     status = program.close()
-    print(f"{len(corpus)} files and {options.count} mutations of seed {options.seed}: {disagreements} disagreements")
+    compared = f"{len(corpus)} files and {options.count} mutations of seed {options.seed}"
+    print(f"{compared}: {disagreements} disagreements")
     return 1 if disagreements or status or not corpus else 0
 
 

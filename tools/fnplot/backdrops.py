@@ -1,7 +1,8 @@
 """What lies behind the functions: what is not capture, the samples, and how much changes at each of them.
 
-A backdrop draws itself behind a graph (`draw(axes, view)`) and has entries of the legend (`legend`). `right` is
-the width that it needs right of the graphs, in inches; `shows_samples` says that its lines stand for samples.
+A backdrop draws itself behind a graph (`draw(axes, view)`) and has entries of the legend (`legend`). `right`
+is the width that it needs right of the graphs, in inches; `shows_samples` says that its lines stand for
+samples.
 """
 
 import numpy as np

@@ -43,7 +43,7 @@ class Diagnostics:
         self.counts = {"mistake": 0, "warning": 0}  # all of them, also those that are not shown
 
     def add(self, place, message, is_warning, excerpt_of_place):
-        """`excerpt_of_place` is called for those that are kept. Of several at one place the first added is first."""
+        """Of several at one place the first added is first; excerpts are only made of what is kept."""
         kind = "warning" if is_warning else "mistake"
         self.counts[kind] += 1
         if self.counts[kind] > MOST_SHOWN:
@@ -56,7 +56,7 @@ class Diagnostics:
         insort_right(self.shown, diagnostic, key=lambda other: other.place)
 
     def report(self, file_name):
-        """Those of both severities, one below the other, and how many more there are. Empty where there are none."""
+        """Those that are shown, one below the other, and how many more there are; empty where none are."""
         texts = [diagnostic.text(file_name) for diagnostic in self.shown]
         for kind, count in self.counts.items():
             if count > MOST_SHOWN:

@@ -165,7 +165,7 @@ def draw_graph(axes, graph, view, backdrops):
     gain_axis = GainAxis(graph.function, view)
     axes.set_xlim(view.axis.coordinate(view.begin_ns), view.axis.coordinate(view.end_ns))
     axes.set_ylim(*gain_axis.limits)
-    axes.set_title("", y=1.0)  # in its place: where a title may go, each drawing looks for room above all else
+    axes.set_title("", y=1.0)  # else each drawing searches for room for it: a fifth of the time
     axes.set_ylabel(gain_axis.label, fontsize=8)
     axes.tick_params(labelsize=8)
     axes.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10]))

@@ -1,11 +1,12 @@
 """Writes pages to files, or shows them in windows.
 
 A page is given as a function that draws it on a figure. Files appear whole or not at all: they are written
-under temporary names beside their own, and renamed when all are there.
+in a folder of their own and moved to their places when all are there.
 """
 
 import os
-from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from fnplot.errors import OutputError
 
@@ -19,20 +20,8 @@ def page_names(output, count):
     if count == 1:
         return [output]
     digits = len(str(count))
-    return [output.with_name(f"{output.stem}-{page:0{digits}}{output.suffix}") for page in range(1, count + 1)]
-
-
-@contextmanager
-def temporary_names(names):
-    """Names to write to, which become `names` at the end unless an error ends it early."""
-    temporary = [name.with_name(f".{os.getpid()}-{name.name}"[-200:]) for name in names]
-    try:
-        yield temporary
-        for written, name in zip(temporary, names):
-            os.replace(written, name)
-    finally:
-        for written in temporary:
-            written.unlink(missing_ok=True)
+    pages = range(1, count + 1)
+    return [output.with_name(f"{output.stem}-{page:0{digits}}{output.suffix}") for page in pages]
 
 
 def write_pages(drawings, output):
@@ -48,14 +37,17 @@ def write_pages(drawings, output):
     kind = output.suffix.lower()
     names = [output] if kind == ".pdf" else page_names(output, len(drawings))
     try:
-        with temporary_names(names) as temporary:
+        with TemporaryDirectory(prefix=".", dir=output.parent) as folder:
+            written = [Path(folder) / f"{page}{kind}" for page in range(len(names))]
             if kind == ".pdf":
-                with PdfPages(temporary[0]) as document:
+                with PdfPages(written[0]) as document:
                     for drawing in drawings:
                         document.savefig(drawn(drawing))
             else:
-                for drawing, name in zip(drawings, temporary):
-                    drawn(drawing).savefig(name, format=kind[1:], dpi=PNG_DOTS_PER_INCH)
+                for drawing, page in zip(drawings, written):
+                    drawn(drawing).savefig(page, dpi=PNG_DOTS_PER_INCH)
+            for page, name in zip(written, names):
+                os.replace(page, name)
     except OSError as error:
         raise OutputError(f"{output} cannot be written: {error.strerror or error}") from None
 

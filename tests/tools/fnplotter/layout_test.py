@@ -70,7 +70,8 @@ def awkward_page(count, page_height, duration_ns, samples=None):
 
 def text_boxes(figure):
     """All texts of a page, and the pixels they cover."""
-    texts = figure.texts + figure.legends[0].get_texts() + [text for axes in figure.axes for text in texts_of(axes)]
+    texts = figure.texts + figure.legends[0].get_texts()
+    texts += [text for axes in figure.axes for text in texts_of(axes)]
     return [(text.get_text(), text.get_window_extent()) for text in texts if text.get_text()]
 
 

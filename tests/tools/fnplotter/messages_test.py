@@ -85,7 +85,8 @@ class Mistakes(unittest.TestCase):
         folder.mkdir(exist_ok=True)
         (folder / "matplotlib.py").write_text("raise ImportError('it is not here')\n", encoding="utf-8")
         words = "Matplotlib cannot be loaded (it is not here); on Debian: apt install python3-matplotlib"
-        self.check([paths.corpus / "figure04.fn", "-o", paths.work / "none.png"], 5, words, PYTHONPATH=str(folder))
+        arguments = [paths.corpus / "figure04.fn", "-o", paths.work / "none.png"]
+        self.check(arguments, 5, words, PYTHONPATH=str(folder))
 
     def test_help_has_examples(self):
         result = run("--help")
