@@ -21,6 +21,7 @@ from fnplot.palette import (
 )
 
 LEAST_SAMPLE = 1 / 200  # of a graph's width: narrower samples are not drawn one by one
+HIGHEST_ACTIVITY = 0.5  # of a graph's height: functions and exposures are seen above it
 LEAST_SPACE = 1 / 100  # of a graph's width, between lines that stand for many samples
 
 
@@ -107,7 +108,7 @@ class Activity:
         self.highest = float(np.max(y, initial=0.0)) or 1.0
 
     def draw(self, axes, view):
-        top = 1.1 * self.highest
+        top = self.highest / HIGHEST_ACTIVITY
         height = self.y / top
         across = axes.get_xaxis_transform()  # x in coordinates, y in heights of the graph
         look = {"color": ACTIVITY_COLOUR, "alpha": ACTIVITY_OPACITY, "lw": 0, "zorder": 0.7}
