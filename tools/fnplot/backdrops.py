@@ -10,7 +10,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from fnplot.curve import thinned
 from fnplot.palette import (
     ACTIVITY_COLOUR,
     ACTIVITY_OPACITY,
@@ -21,6 +20,7 @@ from fnplot.palette import (
 )
 
 LEAST_SAMPLE = 1 / 200  # of a graph's width: narrower samples are not drawn one by one
+MOST_STEPS = 1024
 HIGHEST_ACTIVITY = 0.5  # of a graph's height: functions and exposures are seen above it
 LEAST_SPACE = 1 / 100  # of a graph's width, between lines that stand for many samples
 
@@ -75,11 +75,10 @@ class SampleGrid:
     def legend_entry(self):
         count = len(self.capture)
         if self.step == 1:
-            return Patch(
-                facecolor=EXPOSURE_COLOUR, edgecolor=SAMPLE_COLOUR, label=f"exposures of the {count} samples"
-            )
-        every = f"{self.step}{'nd' if self.step == 2 else 'th'}"
-        return Line2D([], [], color=SAMPLE_COLOUR, lw=0.8, label=f"every {every} of {count} samples")
+            label = "exposure of the one sample" if count == 1 else f"exposures of the {count} samples"
+            return Patch(facecolor=EXPOSURE_COLOUR, edgecolor=SAMPLE_COLOUR, label=label)
+        every = f"every {self.step}{'nd' if self.step == 2 else 'th'}" if self.step < count else "the first"
+        return Line2D([], [], color=SAMPLE_COLOUR, lw=0.8, label=f"{every} of {count} samples")
 
     def draw(self, axes, view):
         across = axes.get_xaxis_transform()  # x in coordinates, y in heights of the graph
@@ -93,7 +92,10 @@ class SampleGrid:
 
 
 class Activity:
-    """The share of pixels that change at each sample, as steps on an axis of its own at the right."""
+    """The share of pixels that change at each sample, as steps on an axis of its own at the right.
+
+    Of many samples a step stands for several, and is as high as the highest of them.
+    """
 
     right = 0.6
     shows_samples = False
@@ -101,11 +103,14 @@ class Activity:
 
     def __init__(self, capture, view):
         samples = samples_in(capture, view)
-        edges_ns = np.append(capture.starts_ns, capture.duration_ns)[samples.start : samples.stop + 1]
-        x = np.repeat(view.axis.coordinates(edges_ns), 2)[1:-1]
-        y = np.repeat(100 * capture.changed[samples.start : samples.stop], 2)
-        self.x, self.y = thinned(x, y)
-        self.highest = float(np.max(y, initial=0.0)) or 1.0
+        step = max(1, -(-len(samples) // MOST_STEPS))
+        edges_ns = np.append(capture.starts_ns, capture.duration_ns)
+        edges_ns = np.append(edges_ns[samples.start : samples.stop : step], edges_ns[samples.stop])
+        changed = capture.changed[samples.start : samples.stop]
+        highest = np.maximum.reduceat(changed, np.arange(0, len(changed), step)) if samples else changed
+        self.x = np.repeat(view.axis.coordinates(edges_ns), 2)[1:-1]
+        self.y = np.repeat(100 * highest, 2)
+        self.highest = float(np.max(self.y, initial=0.0)) or 1.0
 
     def draw(self, axes, view):
         top = self.highest / HIGHEST_ACTIVITY

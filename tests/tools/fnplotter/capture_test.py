@@ -77,6 +77,35 @@ class Captures(unittest.TestCase):
         )
         self.assertAlmostEqual(quarter / half, 0.5, delta=0.05)
 
+    def test_of_many_changes_the_highest_are_drawn(self):
+        import numpy as np
+        from fnplot.backdrops import Activity
+        from fnplot.capture import Capture
+        from fnplot.view import View
+
+        count = 5000
+        starts_ns = np.arange(count) * 10
+        changed = np.zeros(count)
+        changed[[0, 1234, 4999]] = 0.5, 0.25, 0.125
+        clip = Capture(count * 10, starts_ns, starts_ns + 5, changed)
+        for window in ((-10, 50_010), (12_300, 12_400), (-20, -10), (60_000, 70_000)):
+            view = View(*window, 0, count * 10, count * 10)
+            activity = Activity(clip, view)
+            steps = list(zip(activity.x[::2], activity.x[1::2], activity.y[::2], activity.y[1::2]))
+            for sample in range(max(0, window[0] // 10), min(count, window[1] // 10)):
+                time = view.axis.coordinate(int(starts_ns[sample]))
+                within = [step for step in steps if step[0] <= time < step[1]]
+                self.assertEqual(len(within), 1)
+                self.assertGreaterEqual(within[0][2], 100 * changed[sample])
+            self.assertEqual(activity.y[::2].tolist(), activity.y[1::2].tolist())
+            visible = changed[max(0, window[0] // 10) : max(0, window[1] // 10)]
+            if visible.any():
+                self.assertEqual(max(activity.y), 100 * visible.max())
+
+    def test_a_legend_for_one_sample_and_for_none(self):
+        self.assertIn("exposure of the one sample", self.texts(1, "one.svg"))
+        self.assertIn("the first of 3 samples", self.texts(3, "far.svg", "--zoom=-1000h..1000h"))
+
     def test_changes_have_an_axis_of_their_own(self):
         texts = self.texts(30, "changes.svg")
         self.assertLessEqual({"pixels that change", "change", "0 %", "5 %"}, set(texts))
