@@ -3,6 +3,7 @@
 
 import argparse
 import os
+import shutil
 import sys
 from functools import partial
 from pathlib import Path
@@ -10,23 +11,24 @@ from pathlib import Path
 from fnplot.errors import InputError, OutputError, PlotterError, UsageError
 from fnplot.function_file import parse_functions
 from fnplot.mask import ranges_text, read_mask
+from fnplot.output import FORMATS, show_pages, write_pages
 from fnplot.times import parse_time
 
-FORMATS = (".png", ".svg", ".pdf")
-PNG_DOTS_PER_INCH = 120
 LONGEST_TITLE = 50  # characters
-FILE_PAGE_HEIGHT, WINDOW_PAGE_HEIGHT = 10.0, 8.5  # inches
-BACKENDS_WITHOUT_WINDOWS = {"agg", "cairo", "pdf", "pgf", "ps", "svg", "template"}
+FILE_PAGE_HEIGHT, WINDOW_PAGE_HEIGHT = 11.5, 8.5  # inches
+GRAPHS_PER_PAGE, MOST_GRAPHS_PER_PAGE = 8, 32
 
 DESCRIPTION = """\
 Draws every function of a function file, one below the other on a common time axis: areas that add
-light in blue, areas that take it away in orange, held ends dashed, and in each graph's corner what the
-function comes to: D (how long it is not zero), its integral, and its still gain (what a still scene is
-multiplied by). Mistakes in the file are all reported, as file:line:column: message."""
+light in blue, areas that take it away hatched in orange, held ends dashed, the live interval as a bar.
+In each graph's corner stands what the function comes to: D (how long it is not zero), its integral, and
+its still gain (what a still scene is multiplied by). Mistakes in the file are all reported, as
+file:line:column: message."""
 
 EXAMPLES = """\
 examples:
   FnPlotter.py ball.fn                          open a window
+  FnPlotter.py ball.fn --capture clip.tik       with the capture's samples, and how much changes at each
   FnPlotter.py ball.fn --duration 3s            count what counts in a capture of 3 s
   FnPlotter.py ball.fn -o ball.png              write a picture (ball-1.png, ball-2.png ... where
                                                 there are more than 8 functions)
@@ -35,7 +37,7 @@ examples:
   FnPlotter.py ball.fn --zoom 399ms..411ms      look at 12 ms of it
 
 exit status: 0 drawn, 2 wrong usage, 3 mistakes in a file or no such file, 5 the plot cannot be drawn
-or written (Matplotlib is missing, there is no display, the folder does not exist)"""
+or written (Matplotlib or nutik-cl is missing, there is no display, the folder does not exist)"""
 
 
 def command_line():
@@ -49,8 +51,14 @@ def command_line():
     parser.add_argument("file", metavar="FILE.fn", help="the function file")
     parser.add_argument("-o", "--output", metavar="FILE", help="write a .png, .svg or .pdf, open no window")
     parser.add_argument("--duration", metavar="TIME", help="the capture's duration: 3s, 250ms, 1/100s")
+    capture_help = "a capture: draw its samples and how much changes, count what counts in it"
+    parser.add_argument("--capture", metavar="CLIP.tik", help=capture_help)
+    program_help = "nutik-cl, which --capture asks (default: the one in PATH, else in build/)"
+    parser.add_argument("--program", metavar="PATH", help=program_help)
     parser.add_argument("--mask", metavar="MASK", help="a mask (PGM or PNG): draw only the functions it uses")
     parser.add_argument("--zoom", metavar="FROM..TO", help="the time to draw; before 0: --zoom=-1ms..5ms")
+    per_page_help = f"functions to a page, 1 to {MOST_GRAPHS_PER_PAGE} (default: {GRAPHS_PER_PAGE})"
+    parser.add_argument("--per-page", metavar="N", default=str(GRAPHS_PER_PAGE), help=per_page_help)
     return parser
 
 
@@ -71,12 +79,28 @@ def parse_zoom(text):
     return zoom_ns
 
 
+def parse_per_page(text):
+    if not text.isascii() or not text.isdigit() or not 1 <= int(text[:9]) <= MOST_GRAPHS_PER_PAGE:
+        raise UsageError(f"--per-page '{text}' is no whole number 1 … {MOST_GRAPHS_PER_PAGE}")
+    return int(text)
+
+
+def find_program():
+    """nutik-cl where a user has it: installed, or built beside these tools."""
+    built = Path(__file__).resolve().parent.parent / "build" / "nutik-cl"
+    return shutil.which("nutik-cl") or (built if built.exists() else "nutik-cl")
+
+
 def check_output(output, inputs):
     if output.suffix.lower() not in FORMATS:
         raise UsageError(f"'{output}' is no .png, .svg or .pdf; these can be written")
     for name in inputs:
         if name and output.exists() and Path(name).exists() and output.samefile(name):
             raise UsageError(f"'{output}' is the input; write the plot to another file")
+
+
+def warn(message):
+    print(f"warning: {message}", file=sys.stderr)
 
 
 def read_functions(name):
@@ -86,10 +110,11 @@ def read_functions(name):
     except OSError as error:
         raise InputError(f"{name}: {error.strerror}") from None
     file = parse_functions(data)
-    if file.errors:
-        raise InputError("\n".join(diagnostic.text(name) for diagnostic in file.diagnostics))
-    for diagnostic in file.warnings:
-        print(diagnostic.text(name), file=sys.stderr)
+    report = file.diagnostics.report(name)
+    if file.has_errors:
+        raise InputError(f"{name} has mistakes:\n{report}")
+    if report:
+        print(report, file=sys.stderr)
     return file.functions
 
 
@@ -101,56 +126,14 @@ def functions_in_use(functions, pixels, file_name, mask_name):
     if unmapped:
         count = sum(pixels[tag] for tag in unmapped)
         values = ranges_text(unmapped)
-        print(f"{mask_name}: mask values without a function: {values} ({count} pixels)", file=sys.stderr)
+        warn(f"{mask_name}: mask values without a function: {values} ({count} pixels)")
     if not used:
         raise InputError(
             f"{mask_name} uses no function of {file_name}, which has functions for {ranges_text(functions)}"
         )
     if unused:
-        print(f"{mask_name}: functions that it does not use: {ranges_text(unused)}", file=sys.stderr)
+        warn(f"{mask_name}: functions that it does not use: {ranges_text(unused)}")
     return used
-
-
-def page_names(output, count):
-    """plot.png, or plot-1.png, plot-2.png … where there are several pages."""
-    if count == 1:
-        return [output]
-    return [output.with_name(f"{output.stem}-{page}{output.suffix}") for page in range(1, count + 1)]
-
-
-def write_pages(drawings, output):
-    """One file for each page, or one PDF of them all. A drawing is called with the figure to draw on."""
-    from matplotlib.backends.backend_pdf import PdfPages
-    from matplotlib.figure import Figure
-
-    def drawn(drawing):
-        figure = Figure()
-        drawing(figure)
-        return figure
-
-    try:
-        if output.suffix.lower() == ".pdf":
-            with PdfPages(output) as document:
-                for drawing in drawings:
-                    document.savefig(drawn(drawing))
-            return
-        for drawing, name in zip(drawings, page_names(output, len(drawings))):
-            drawn(drawing).savefig(name, dpi=PNG_DOTS_PER_INCH)
-    except OSError as error:
-        raise OutputError(f"{error.filename or output}: {error.strerror or error}") from None
-
-
-def show_pages(drawings):
-    """One window for each page, until all are closed."""
-    import matplotlib
-    from matplotlib import pyplot
-
-    matplotlib.rcParams["figure.max_open_warning"] = 0
-    for drawing in drawings:
-        drawing(pyplot.figure())
-    if matplotlib.get_backend().lower() in BACKENDS_WITHOUT_WINDOWS:
-        raise OutputError("there is no display to open a window on; write a file: -o plot.png")
-    pyplot.show()
 
 
 def title_of(file_name):
@@ -163,32 +146,44 @@ def title_of(file_name):
 def page_drawings(functions, pixels, options):
     """What draws each page, called with the figure to draw on."""
     try:
-        from fnplot import pages
+        from fnplot import backdrops, graphs, pages
+        from fnplot.capture import read_capture
+        from fnplot.view import make_view
     except ImportError as error:
         way_out = "on Debian: apt install python3-matplotlib"
         raise OutputError(f"Matplotlib cannot be loaded ({error}); {way_out}") from None
 
     used = functions_in_use(functions, pixels, options.file, options.mask) if pixels else functions
     share = {tag: count / sum(pixels.values()) for tag, count in pixels.items()} if pixels else {}
-    sheets = pages.paginate([pages.Graph(tag, used[tag], share.get(tag)) for tag in sorted(used)])
-    view = pages.make_view(functions.values(), options.duration, options.zoom)
-    height = pages.graph_height(len(sheets[0]), FILE_PAGE_HEIGHT if options.output else WINDOW_PAGE_HEIGHT)
+    capture = read_capture(options.capture, options.program or find_program()) if options.capture else None
+    duration_ns = capture.duration_ns if capture else options.duration
+    view = make_view(functions.values(), duration_ns, options.zoom)
+    behind = [backdrops.OutsideCapture()]
+    if capture:
+        behind += [backdrops.SampleGrid(capture, view), backdrops.Activity(capture, view)]
+    page_height = FILE_PAGE_HEIGHT if options.output else WINDOW_PAGE_HEIGHT
+    layout = pages.Layout.fitting(len(used), options.per_page, page_height)
+    sheets = layout.paginate([graphs.Graph(tag, used[tag], share.get(tag)) for tag in sorted(used)])
     name = title_of(options.file)
-    backdrops = [pages.outside_capture]
     drawings = []
     for number, sheet in enumerate(sheets, start=1):
         title = f"{name}, page {number} of {len(sheets)}" if len(sheets) > 1 else name
-        page = {"graphs": sheet, "height": height, "view": view, "title": title, "backdrops": backdrops}
-        drawings.append(partial(pages.draw_page, **page))
+        page = {"graphs": sheet, "height": layout.graph_height, "title": title}
+        drawings.append(partial(pages.draw_page, view=view, backdrops=behind, **page))
     return drawings
 
 
 def plot(options):
+    if options.duration and options.capture:
+        raise UsageError("--duration and --capture both say how long the capture is; use one")
+    if options.program and not options.capture:
+        raise UsageError("--program is for --capture, which is missing")
     options.duration = parse_duration(options.duration) if options.duration else None
     options.zoom = parse_zoom(options.zoom) if options.zoom else None
+    options.per_page = parse_per_page(options.per_page)
     options.output = Path(options.output) if options.output else None
     if options.output:
-        check_output(options.output, (options.file, options.mask))
+        check_output(options.output, (options.file, options.mask, options.capture))
     functions = read_functions(options.file)
     pixels = read_mask(options.mask) if options.mask else None
     drawings = page_drawings(functions, pixels, options)
@@ -203,7 +198,7 @@ def main():
     try:
         plot(options)
     except PlotterError as error:
-        print(error, file=sys.stderr)
+        print(f"FnPlotter.py: {error}", file=sys.stderr)
         return error.status
     return 0
 

@@ -120,7 +120,7 @@ double to_double(std::string_view written) {
   const auto point = std::min(written.find('.'), mark);
   const long exponent = mark < written.size() ? exponent_of(written.substr(mark + 1)) : 0;
   const long place = static_cast<long>(point) - static_cast<long>(first);
-  return exponent > -place ? HUGE_VAL : 0.0;
+  return exponent > -place ? HUGE_VAL : std::copysign(0.0, written.starts_with('-') ? -1.0 : 1.0);
 }
 
 // inf, infinity, nan and nan(…), in capitals or not.

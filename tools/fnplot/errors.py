@@ -2,9 +2,13 @@
 
 
 class PlotterError(Exception):
-    """A message for people; `status` is the exit status it ends the program with."""
+    """A message for people, and the exit status that the program ends with."""
 
     status = 1
+
+    def __init__(self, message, status=None):
+        super().__init__(message)
+        self.status = self.status if status is None else status
 
 
 class UsageError(PlotterError):

@@ -6,9 +6,11 @@ from decimal import Decimal
 from fractions import Fraction
 
 from fnplot.errors import UsageError
+from fnplot.gain_function import LARGEST_TIME_NS
 
-UNITS = (("s", 1_000_000_000), ("ms", 1_000_000), ("us", 1_000), ("ns", 1))
-NS_PER_UNIT = dict(UNITS) | {"µs": 1_000, "min": 60_000_000_000, "h": 3_600_000_000_000}
+UNITS = (("s", 1_000_000_000), ("ms", 1_000_000), ("µs", 1_000), ("ns", 1))
+NS_PER_UNIT = dict(UNITS) | {"us": 1_000, "min": 60_000_000_000, "h": 3_600_000_000_000}
+LENGTH_DIGITS = 10
 TIME_TEXT = re.compile(r"(-?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:/[0-9]+)?)([a-zµ]+)")
 
 
@@ -19,9 +21,12 @@ def parse_time(text, what):
         way_out = "write a number and a unit: 3s, 0.4s, 10ms, 250us, 1/100s"
         raise UsageError(f"{what} '{text}' is no time; {way_out}")
     try:
-        return math.floor(Fraction(match[1]) * NS_PER_UNIT[match[2]] + Fraction(1, 2))
+        time_ns = math.floor(Fraction(match[1]) * NS_PER_UNIT[match[2]] + Fraction(1, 2))
     except ZeroDivisionError:
         raise UsageError(f"{what} '{text}' divides by 0") from None
+    if abs(time_ns) > LARGEST_TIME_NS:
+        raise UsageError(f"{what} '{text}' is longer than 126 years")
+    return time_ns
 
 
 def unit_for(length_ns):
@@ -38,16 +43,17 @@ def number_text(number, digits):
 
 
 def length_text(length_ns):
-    """`83.331001 ms`, `1.01 s`, `0 s`: a length in the unit that fits, to ten digits."""
+    """`83.331001 ms`, `1.01 s`, `0 s`: a length in the unit that fits, to LENGTH_DIGITS."""
     if length_ns == 0:
         return "0 s"
-    name, unit_ns = unit_for(length_ns)
-    return f"{number_text(Fraction(length_ns) / unit_ns, 10)} {name}"
+    # What is rounded to 1000 ms is 1 s.
+    name, unit_ns = unit_for(length_ns * (1 + Fraction(1, 2 * 10**LENGTH_DIGITS)))
+    return f"{number_text(Fraction(length_ns) / unit_ns, LENGTH_DIGITS)} {name}"
 
 
 def exact_text(time_ns):
     """A time with all its digits, in the unit that fits: `1.000000001 s`."""
-    name, unit_ns = unit_for(time_ns)
+    name, unit_ns = unit_for(time_ns or UNITS[0][1])
     whole, rest = divmod(abs(time_ns), unit_ns)
     decimals = str(rest).zfill(len(str(unit_ns)) - 1).rstrip("0") if rest else ""
     return f"{'-' if time_ns < 0 else ''}{whole}{'.' if decimals else ''}{decimals} {name}"
@@ -77,8 +83,12 @@ class TimeAxis:
             self.origin_ns = roundest_time(begin_ns, end_ns)
 
     def coordinate(self, time_ns):
-        """The coordinate of a time (whole or a fraction)."""
+        """The coordinate of a time."""
         return float((time_ns - self.origin_ns) / self.unit_ns)
+
+    def coordinates(self, times_ns):
+        """The coordinates of an array of 64-bit times."""
+        return (times_ns - self.origin_ns) / self.unit_ns
 
     @property
     def label(self):

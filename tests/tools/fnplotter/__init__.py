@@ -1,0 +1,1 @@
+"""Tests of FnPlotter.py; check_fnplotter.py runs them."""

@@ -1,0 +1,70 @@
+"""What the tests share: where things are, running the plotter, and looking at what it drew."""
+
+import importlib.util
+import json
+import os
+import re
+import subprocess
+import sys
+import unittest
+import zlib
+from types import SimpleNamespace
+
+paths = SimpleNamespace(plotter=None, corpus=None, work=None)  # set by check_fnplotter.py
+
+CAPTURE_NS = 3_000_000_000
+
+needs_matplotlib = unittest.skipUnless(importlib.util.find_spec("matplotlib"), "Matplotlib is missing")
+
+
+def run(*arguments, **environment):
+    """FnPlotter.py with arguments, as a user would run it, without a display."""
+    displays = ("DISPLAY", "WAYLAND_DISPLAY")
+    variables = {name: value for name, value in os.environ.items() if name not in displays}
+    variables |= {"MPLCONFIGDIR": str(paths.work / "matplotlib"), "PYTHONIOENCODING": "utf-8"} | environment
+    command = [sys.executable, str(paths.plotter), *map(str, arguments)]
+    how = {"capture_output": True, "encoding": "utf-8", "timeout": 300, "check": False}
+    return subprocess.run(command, env=variables, **how)
+
+
+def write(name, content):
+    """A file in the work folder."""
+    path = paths.work / name
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return path
+
+
+def many_functions(count):
+    return "".join(f"M{tag} [0:0], [{tag + 1}:{tag}], [1000:0]\n" for tag in range(count))
+
+
+def expectations():
+    return json.loads((paths.corpus / "expected.json").read_text(encoding="utf-8"))
+
+
+def parsed(name):
+    from fnplot.function_file import parse_functions
+
+    return parse_functions((paths.corpus / name).read_bytes())
+
+
+def colour_count(path, colour):
+    """How many pixels of a picture have a colour."""
+    import numpy as np
+    from PIL import Image
+
+    with Image.open(path) as picture:
+        return int(np.all(np.asarray(picture.convert("RGB")) == colour, axis=-1).sum())
+
+
+def pdf_contents(path):
+    """The number of pages, and what they draw with."""
+    data = path.read_bytes()
+    streams = re.findall(rb"stream\r?\n(.*?)\r?\nendstream", data, re.DOTALL)
+    drawing = b""
+    for stream in streams:
+        try:
+            drawing += zlib.decompress(stream)
+        except zlib.error:
+            pass  # a stream that is not compressed
+    return len(re.findall(rb"/Type /Page\b", data)), " ".join(drawing.decode("latin-1").split())

@@ -1,0 +1,65 @@
+"""Writes pages to files, or shows them in windows.
+
+A page is given as a function that draws it on a figure. Files appear whole or not at all: they are written
+in a folder of their own and moved to their places when all are there.
+"""
+
+import os
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from fnplot.errors import OutputError
+
+FORMATS = (".png", ".svg", ".pdf")
+PNG_DOTS_PER_INCH = 120
+BACKENDS_WITHOUT_WINDOWS = {"agg", "cairo", "pdf", "pgf", "ps", "svg", "template"}
+
+
+def page_names(output, count):
+    """plot.png, or plot-01.png, plot-02.png … where there are several pages."""
+    if count == 1:
+        return [output]
+    digits = len(str(count))
+    pages = range(1, count + 1)
+    return [output.with_name(f"{output.stem}-{page:0{digits}}{output.suffix}") for page in pages]
+
+
+def write_pages(drawings, output):
+    """One file for each page, or one PDF of them all."""
+    from matplotlib.backends.backend_pdf import PdfPages
+    from matplotlib.figure import Figure
+
+    def drawn(drawing):
+        figure = Figure()
+        drawing(figure)
+        return figure
+
+    kind = output.suffix.lower()
+    names = [output] if kind == ".pdf" else page_names(output, len(drawings))
+    try:
+        with TemporaryDirectory(prefix=".", dir=output.parent) as folder:
+            written = [Path(folder) / f"{page}{kind}" for page in range(len(names))]
+            if kind == ".pdf":
+                with PdfPages(written[0]) as document:
+                    for drawing in drawings:
+                        document.savefig(drawn(drawing))
+            else:
+                for drawing, page in zip(drawings, written):
+                    drawn(drawing).savefig(page, dpi=PNG_DOTS_PER_INCH)
+            for page, name in zip(written, names):
+                os.replace(page, name)
+    except OSError as error:
+        raise OutputError(f"{output} cannot be written: {error.strerror or error}") from None
+
+
+def show_pages(drawings):
+    """One window for each page, until all are closed."""
+    import matplotlib
+    from matplotlib import pyplot
+
+    matplotlib.rcParams["figure.max_open_warning"] = 0
+    for drawing in drawings:
+        drawing(pyplot.figure())
+    if matplotlib.get_backend().lower() in BACKENDS_WITHOUT_WINDOWS:
+        raise OutputError("there is no display to open a window on; write a file: -o plot.png")
+    pyplot.show()
