@@ -6,6 +6,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "opencl/build_options.hpp"
 #include "opencl/function_map.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "opencl/kernel_sources.hpp"
@@ -14,11 +15,9 @@
 #include "opencl/light_source.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
-#include "opencl/work_shape.hpp"
 #include "system/page_buffer.hpp"
 
 namespace nutik {
-
 namespace {
 
 constexpr std::uint64_t kDefaultChunkBytes = 1ull << 30;
@@ -42,22 +41,6 @@ bool has_fma(const cl::Device& device, Precision precision) {
   }
   return false;
 }
-
-const char* kernel_name_of(Precision precision) {
-  switch (precision) {
-    case Precision::single_: return "NUTIK_SINGLE";
-    case Precision::compensated: return "NUTIK_COMPENSATED";
-    case Precision::double_: return "NUTIK_DOUBLE";
-    case Precision::fixed: return "NUTIK_FIXED";
-  }
-  return "";
-}
-
-// How one picture is computed.
-struct Work {
-  Precision precision;
-  WorkShape shape;
-};
 
 // Buffers made in a scope no longer count when it ends.
 class HeldBytes {
@@ -168,7 +151,8 @@ class OpenClRenderer::Implementation {
   }
 
   [[nodiscard]] Work work_for(Precision precision) const {
-    return {precision, work_shape(options_, precision, info_)};
+    return {precision, work_shape(options_, precision, info_),
+            options_.use_fma && has_fma(device_, precision)};
   }
 
   // A line of its own: what the arithmetic may err by, and what faster ones would have.
@@ -208,33 +192,17 @@ class OpenClRenderer::Implementation {
     statistics_.device_bytes = std::max(statistics_.device_bytes, held_bytes_);
   }
 
-  [[nodiscard]] std::string common_options(const Work& work, const RenderPlan& plan) const {
-    return format("-cl-std=CL1.2 -DNUTIK_PRECISION={} -DNUTIK_HAS_FMA={} -DNUTIK_CHANNELS={}",
-                  kernel_name_of(work.precision),
-                  options_.use_fma && has_fma(device_, work.precision) ? 1 : 0, plan.capture.shape.channels);
-  }
-
   [[nodiscard]] LightSource light_source_for(const Work& work, const RenderPlan& plan) const {
     const bool permutes = work.shape.lanes == kLightPieces && info_.native_float_lanes >= kLightPieces;
     return light_source(plan.capture, work.precision, permutes);
   }
 
   cl::Program expose_program(const Work& work, const RenderPlan& plan, const LightSource& light) {
-    return programs_->get(
-        "expose", kExposeSource,
-        format("{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
-               "-DNUTIK_LANES={}",
-               common_options(work, plan), plan.capture.code_bytes, light.kind, work.shape.item_pixels,
-               work.shape.item_tiles, work.shape.lanes));
+    return programs_->get("expose", kExposeSource, expose_options(work, plan.capture, light));
   }
 
   cl::Program develop_program(const Work& work, const RenderPlan& plan, const OutputFormat& output) {
-    const std::size_t raster_bytes = holds_codes(output.type) ? value_bytes(output.type) : 1;
-    return programs_->get("develop", kDevelopSource,
-                          format("{} -DNUTIK_CODE_BYTES=1 -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
-                                 "-DNUTIK_LANES={} -DNUTIK_RASTER_BYTES={}",
-                                 common_options(work, plan), work.shape.item_pixels, work.shape.item_tiles,
-                                 std::min(work.shape.lanes, kTileSide), raster_bytes));
+    return programs_->get("develop", kDevelopSource, develop_options(work, plan.capture, output));
   }
 
   [[nodiscard]] cl::EnqueueArgs items(const WorkShape& shape, std::uint64_t tile_count) {

@@ -20,6 +20,9 @@ constexpr double kDoubleRoundings = 26 + 30 + 16;
 // Light of a code in single precision by a curve or by pieces, for any white code and any device.
 constexpr double kCurveLight = 3.3e-7;
 
+// In u₆₄, what thresholds between codes err by before they are rounded to the kernel's table.
+constexpr double kThresholdRoundings = 16;
+
 // What doubles lose that are too small to be normal, in the reference and in the light of sums.
 constexpr double kSmallest = 16 * std::numeric_limits<double>::denorm_min();
 
@@ -181,7 +184,8 @@ ErrorBound error_bound(const RenderPlan& plan, Precision precision, const Output
           kRoundoff64 * (kDoubleRoundings * gain.absolute_integral_ns / static_cast<double>(gain.support_ns) +
                          course.boundaries);
       error.light = std::scalbn(sums + tables, gain.exponent) + kSmallest;
-      error.steps = in_steps(plan, gain, error.light, roundings.threshold, output);
+      error.steps =
+          in_steps(plan, gain, error.light, roundings.threshold + kThresholdRoundings * kRoundoff64, output);
     }
     bound.functions.push_back(error);
     bound.worst.light = std::max(bound.worst.light, error.light);

@@ -1,6 +1,7 @@
 #include "render/precision_choice.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "capture/format.hpp"
@@ -25,14 +26,14 @@ PrecisionChoice choose_precision(const RenderPlan& plan, const OutputFormat& out
 
 std::string error_text(const PictureError& error, const OutputFormat& output) {
   const std::string light = format("light within {:.2g}", error.light);
-  switch (output.type) {
-    case ValueType::code8: return format("{}, {:.2g} of an 8-bit code", light, error.steps);
-    case ValueType::code16:
-      return format("{}, {:.2g} of a code of white {}", light, error.steps, output.white_code);
-    case ValueType::light32: return format("{}, {:.2g} of a float's step at full light", light, error.steps);
-    case ValueType::light64: return light;
-  }
-  return light;
+  if (output.type == ValueType::light64) return light;
+  const bool is_power_of_two = std::has_single_bit(output.white_code + 1);
+  const std::string step = output.type == ValueType::light32 ? "step of a float"
+                           : is_power_of_two ? format("{}-bit code", std::bit_width(output.white_code))
+                                             : format("code of {}", output.white_code);
+  const bool is_eight = step.starts_with('8');
+  return error.steps < 1.0 ? format("{}, {:.2g} of a{} {}", light, error.steps, is_eight ? "n" : "", step)
+                           : format("{}, {:.3g} times a{} {}", light, error.steps, is_eight ? "n" : "", step);
 }
 
 }  // namespace nutik

@@ -138,8 +138,14 @@ TEST(PrecisionChoice, TakesTheFirstThatIsRightEnoughElseTheBest) {
 TEST(PrecisionChoice, SaysWhatItMayErrBy) {
   EXPECT_EQ(error_text({3.1e-7, 0.0102}, {ValueType::code8, 255}),
             "light within 3.1e-07, 0.01 of an 8-bit code");
-  EXPECT_EQ(error_text({3.1e-7, 0.2625}, {ValueType::code16, 65'535}),
-            "light within 3.1e-07, 0.26 of a code of white 65535");
+  EXPECT_EQ(error_text({3.4e-3, 34.12}, {ValueType::code8, 255}),
+            "light within 0.0034, 34.1 times an 8-bit code");
+  EXPECT_EQ(error_text({3.1e-7, 0.2625}, {ValueType::code16, 4095}),
+            "light within 3.1e-07, 0.26 of a 12-bit code");
+  EXPECT_EQ(error_text({3.1e-7, 0.2625}, {ValueType::code16, 1000}),
+            "light within 3.1e-07, 0.26 of a code of 1000");
+  EXPECT_EQ(error_text({1e-8, 0.17}, {ValueType::light32, 0}),
+            "light within 1e-08, 0.17 of a step of a float");
   EXPECT_EQ(error_text({1e-13, 0.1}, kLight), "light within 1e-13");
 }
 

@@ -1,0 +1,44 @@
+#include "opencl/build_options.hpp"
+
+#include <algorithm>
+
+#include "capture/format.hpp"
+
+namespace nutik {
+namespace {
+
+const char* kernel_name_of(Precision precision) {
+  switch (precision) {
+    case Precision::single_: return "NUTIK_SINGLE";
+    case Precision::compensated: return "NUTIK_COMPENSATED";
+    case Precision::double_: return "NUTIK_DOUBLE";
+    case Precision::fixed: return "NUTIK_FIXED";
+  }
+  return "";
+}
+
+std::string common_options(const Work& work, const CaptureFormat& capture) {
+  return format("-cl-std=CL1.2 -DNUTIK_PRECISION={} -DNUTIK_HAS_FMA={} -DNUTIK_CHANNELS={}",
+                kernel_name_of(work.precision), work.has_fma ? 1 : 0, capture.shape.channels);
+}
+
+}  // namespace
+
+std::string expose_options(const Work& work, const CaptureFormat& capture, const LightSource& light) {
+  return format(
+      "{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
+      "-DNUTIK_LANES={}",
+      common_options(work, capture), capture.code_bytes, light.kind, work.shape.item_pixels,
+      work.shape.item_tiles, work.shape.lanes);
+}
+
+std::string develop_options(const Work& work, const CaptureFormat& capture, const OutputFormat& output) {
+  const std::size_t raster_bytes = holds_codes(output.type) ? value_bytes(output.type) : 1;
+  return format(
+      "{} -DNUTIK_CODE_BYTES=1 -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} -DNUTIK_LANES={} "
+      "-DNUTIK_RASTER_BYTES={}",
+      common_options(work, capture), work.shape.item_pixels, work.shape.item_tiles,
+      std::min(work.shape.lanes, kTileSide), raster_bytes);
+}
+
+}  // namespace nutik

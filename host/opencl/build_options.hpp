@@ -1,0 +1,24 @@
+// The build-time constants of the kernels (kernels/*.cl) for one picture.
+#pragma once
+
+#include <string>
+
+#include "opencl/light_source.hpp"
+#include "opencl/work_shape.hpp"
+#include "render/renderer.hpp"
+
+namespace nutik {
+
+// How one picture is computed.
+struct Work {
+  Precision precision;
+  WorkShape shape;
+  bool has_fma;  // in the reals of the precision
+};
+
+[[nodiscard]] std::string expose_options(const Work& work, const CaptureFormat& capture,
+                                         const LightSource& light);
+[[nodiscard]] std::string develop_options(const Work& work, const CaptureFormat& capture,
+                                          const OutputFormat& output);
+
+}  // namespace nutik
