@@ -7,14 +7,16 @@ namespace nutik::test {
 
 StreamingCapture HardCase::open(std::uint32_t samples, TilePolicy tiles) const {
   const SampleRange needed = needed_samples(timeline, functions, mask, {});
-  const auto read = [draw = sample, first = needed.first / samples * samples, count = timeline.sample_count(),
-                     k = std::uint64_t{0}](std::span<std::byte> raster) mutable {
-    if (k == count) return false;
-    if (k >= first) std::ranges::copy(draw(k), raster.begin());  // what lies before is not kept
+  const auto next =
+      [draw = sample, first = needed.first / samples * samples, count = timeline.sample_count(),
+       k = std::uint64_t{0},
+       raster = std::vector<std::byte>(capture.sample_bytes())]() mutable -> std::span<const std::byte> {
+    if (k == count) return {};
+    if (k >= first) raster = draw(k);  // what lies before is not kept
     ++k;
-    return true;
+    return raster;
   };
-  return {capture, timeline, needed, samples, tiles, read};
+  return {capture, timeline, needed, samples, tiles, next};
 }
 
 std::span<const NamedHardCase> hard_cases() {
