@@ -31,8 +31,8 @@ std::vector<Option> output_options() {
              "between them sRGB",
              bit(Id::info), &Options::activity),
       flag('q', "quiet", kGroup, "no progress bar and no summary", kAllCommands, &Options::quiet),
-      flag('v', "verbose", kGroup, "also say in which precision and why, how fast and with how much memory", kExposes,
-           &Options::verbose),
+      flag('v', "verbose", kGroup, "also say in which precision and why, how fast and with how much memory",
+           kExposes, &Options::verbose),
   };
 }
 
