@@ -43,7 +43,8 @@ Exposed Exposer::expose(CaptureSource& source, const FunctionSet& functions, con
     renderer_ = ready.get();
   }
   Picture picture = renderer_->render(plan, source, format);
-  if (std::string warning = renderer_->warning(); !warning.empty()) plan.warnings.push_back(std::move(warning));
+  if (std::string warning = renderer_->warning(); !warning.empty())
+    plan.warnings.push_back(std::move(warning));
   return {std::move(plan), std::move(picture)};
 }
 
