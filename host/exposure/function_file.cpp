@@ -46,6 +46,9 @@ class Parser {
       return std::move(file_);
     }
     while (at_ < text_.size()) parse_line();
+    for (const auto& [tag, line] : first_lines_) {
+      if (!file_.functions.contains(tag)) file_.broken.insert(tag);
+    }
     if (first_lines_.empty() && !file_.has_errors()) {
       const std::string_view view = text_.view();
       const bool is_one_line = view.find('\n') + 1 == view.size() && view.find('\r') < view.size();
@@ -108,13 +111,15 @@ class Parser {
     brace_.reset();
     expect_line_end();
     if (!std::exchange(is_broken_, false)) {
-      file_.functions.emplace(tag, FileFunction{GainFunction(std::move(points)), text_.place_of(start)});
+      file_.functions.emplace(tag, FileFunction{GainFunction(std::move(points)), text_.place_of(start), start,
+                                                std::move(time_at_)});
     }
   }
 
   // The list up to (not including) the closing brace or the end of the line.
   std::vector<ControlPoint> parse_points() {
     std::vector<ControlPoint> points;
+    time_at_.clear();
     skip_space();
     if (at_list_end()) fail_without_points();
     for (;;) {
@@ -162,6 +167,7 @@ class Parser {
     if (!points.empty() && time_ns <= points.back().time_ns)
       note_disorder(time_at, points.back().time_ns, time_ns);
     points.push_back({time_ns, gain});
+    time_at_.push_back(time_at);
   }
 
   void note_disorder(std::size_t at, std::int64_t before_ns, std::int64_t time_ns) {
@@ -327,6 +333,7 @@ class Parser {
   std::optional<std::size_t> brace_;  // its opening brace, until it is closed
   bool is_braced_ = false;
   bool is_broken_ = false;  // it has an error that was noted
+  std::vector<std::size_t> time_at_;
 };
 
 }  // namespace

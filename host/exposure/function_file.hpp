@@ -8,10 +8,13 @@
 // The time this takes grows with the file's length and no faster, whatever is in it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "exposure/function_diagnostics.hpp"
 #include "exposure/gain_function.hpp"
@@ -20,11 +23,14 @@ namespace nutik {
 
 struct FileFunction {
   GainFunction function;
-  TextPlace place;  // of its `M`
+  TextPlace place;                   // of its `M`
+  std::size_t start_at = 0;          // the same, as an offset in the file's SourceText
+  std::vector<std::size_t> time_at;  // of the control points' times there
 };
 
 struct FunctionFile {
   std::map<std::uint8_t, FileFunction> functions;  // by mask value
+  std::set<std::uint8_t> broken;                    // mask values whose functions have errors
   Diagnostics diagnostics;
 
   [[nodiscard]] bool has_errors() const { return diagnostics.count(Diagnostic::Severity::error) > 0; }

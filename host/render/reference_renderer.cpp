@@ -5,18 +5,12 @@
 #include <vector>
 
 #include "imev/block.hpp"
-#include "render/edge_walk.hpp"
+#include "render/value_walk.hpp"
 #include "system/page_buffer.hpp"
 #include "system/parallel.hpp"
 
 namespace nutik {
 namespace {
-
-// Where the walk along one value (a channel of a pixel) has come to.
-struct Walk {
-  CompensatedSum sum;
-  double light = 0.0;  // at the end of the block before
-};
 
 class Reference {
  public:
@@ -32,6 +26,7 @@ class Reference {
 
   void add_block(const PlannedBlock& planned, const BlockView& block, bool follows_the_one_before) {
     const std::vector<SampleTimes> times = timeline_.times(planned.extent.range());
+    const WalkedBlock walked{times, follows_the_one_before, times.back().after_ns == plan_.duration_ns};
     std::vector<std::size_t> first_pieces;  // where each function's walk starts
     for (const GainWalk& gain : gains_) first_pieces.push_back(gain.piece_at(times.front().before_ns));
     parallel_for(grid_.rows(), [&](std::uint64_t tile_row) {
@@ -44,8 +39,7 @@ class Reference {
             return;  // padding
           }
           block.read_history(tile, lane, history);
-          walk_pixel(pixel, history, times, first_pieces[plan_.function_of_pixel[pixel]],
-                     follows_the_one_before);
+          walk_pixel(pixel, history, walked, first_pieces[plan_.function_of_pixel[pixel]]);
         });
       }
     });
@@ -53,53 +47,29 @@ class Reference {
 
   // Light of value i once all blocks were added.
   [[nodiscard]] double light(std::uint64_t i) const {
-    const GainWalk& gain = gains_[plan_.function_of_pixel[i / plan_.capture.shape.channels]];
-    if (gain.support_ns() == 0) return 0.0;
-    const double mean = walks_[i].sum.value() / static_cast<double>(gain.support_ns());
-    return std::scalbn(mean, gain.exponent());
+    return exposed_light(walks_[i].sum, gains_[plan_.function_of_pixel[i / plan_.capture.shape.channels]]);
   }
 
  private:
-  void walk_pixel(std::uint64_t pixel, const std::vector<ChangeRecord>& history,
-                  const std::vector<SampleTimes>& times, std::size_t first_piece,
-                  bool follows_the_one_before) {
+  void walk_pixel(std::uint64_t pixel, const std::vector<ChangeRecord>& history, const WalkedBlock& block,
+                  std::size_t first_piece) {
     const std::uint32_t channels = plan_.capture.shape.channels;
     const GainWalk& gain = gains_[plan_.function_of_pixel[pixel]];
     for (std::uint32_t channel = 0; channel < channels; ++channel) {
-      Walk& walk = walks_[pixel * channels + channel];
-      std::size_t piece = first_piece;
-      const auto expose = [&](const LightStretch& light) {
-        gain.for_each_interval(
-            light.begin_ns, light.end_ns, piece,
-            [&](std::int64_t begin_ns, std::int64_t end_ns, double gain0, double gain1) {
-              walk.sum.add(integrate_interval(static_cast<double>(end_ns - begin_ns), light.at(begin_ns),
-                                              light.at(end_ns), gain0, gain1));
-            });
+      const auto sample_of = [&](std::size_t r) { return history[r].sample; };
+      const auto light_of = [&](std::size_t r) {
+        return light_of_code(plan_.capture, history[r].codes[channel]);
       };
-
-      // The gap before the block's first sample, then each record: a ramp across the gap before it,
-      // then its constant light until the next record's gap, the block's end or the capture's end.
-      for (std::size_t r = 0; r < history.size(); ++r) {
-        const ChangeRecord& record = history[r];
-        const double light = plan_.capture.transfer.light_of(static_cast<double>(record.codes[channel]) /
-                                                             plan_.capture.white_code);
-        const SampleTimes& from = times[record.sample];
-        const bool has_before = r > 0 || follows_the_one_before;
-        expose({from.before_ns, from.start_ns, has_before ? walk.light : light, light});
-        const bool is_last = r + 1 == history.size();
-        const SampleTimes& until = is_last ? times.back() : times[history[r + 1].sample - 1];
-        const bool ends_capture = is_last && until.after_ns == plan_.duration_ns;
-        expose({from.start_ns, ends_capture ? until.after_ns : until.end_ns, light, light});
-        walk.light = light;
-      }
+      walk_block(walks_[pixel * channels + channel], gain, first_piece, block, history.size(), sample_of,
+                 light_of, [](const WalkStep&) {});
     }
   }
 
   const RenderPlan& plan_;
   const Timeline& timeline_;
   TileGrid grid_;
-  std::vector<GainWalk> gains_;  // by planned function
-  std::vector<Walk> walks_;      // by value
+  std::vector<GainWalk> gains_;   // by planned function
+  std::vector<ValueWalk> walks_;  // by value
 };
 
 template <typename Value>

@@ -6,57 +6,32 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "exposure/boundary_table.hpp"
+#include "exposure/function_check.hpp"
+#include "exposure/mask_check.hpp"
 
 namespace nutik {
 namespace {
 
 void check_mask(const Shape& shape, const Mask& mask) {
-  if (mask.width == shape.width && mask.height == shape.height) return;
-  const bool turned = mask.width == shape.height && mask.height == shape.width;
-  throw InputError(format("the mask is {} x {} pixels, the capture {} x {}; {}", mask.width, mask.height,
-                          shape.width, shape.height,
-                          turned ? "turn it by 90 degrees" : "both must have the same size"));
+  if (const std::string mistake = size_mistake(mask, shape); !mistake.empty()) throw InputError(mistake);
 }
 
 void check_mapped(const FunctionSet& functions, const std::array<std::uint64_t, kMaskValues>& pixels) {
-  std::string unmapped;
-  for (std::uint32_t tag = 0; tag < kMaskValues; ++tag) {
-    if (pixels[tag] == 0 || functions.contains(static_cast<std::uint8_t>(tag))) continue;
-    unmapped += format("{}{} ({} pixels)", unmapped.empty() ? "" : ", ", tag, pixels[tag]);
+  std::array<bool, kMaskValues> is_mapped{};
+  for (const auto& [tag, function] : functions) is_mapped[tag] = true;
+  if (const std::string mistake = unmapped_mistake(pixels, is_mapped); !mistake.empty()) {
+    throw InputError(mistake);
   }
-  if (unmapped.empty()) return;
-  throw InputError(
-      format("mask values without a function: {}; add a line M<value> for each, or expose "
-             "them to black with --unmapped zero",
-             unmapped));
 }
 
 void warn(RenderPlan& plan, const PlannedFunction& function, bool was_unmapped,
           const std::string& function_name) {
-  const GainSummary& summary = function.summary;
   const std::string name = function_name.empty() ? format("M{}", function.tag) : function_name;
-  const auto say = [&](const std::string& text) { plan.warnings.push_back(format("{}: {}", name, text)); };
-  const double seconds = static_cast<double>(plan.duration_ns) * 1e-9;
-  if (summary.support_ns == 0 && !was_unmapped) {
-    say(format("the function is zero everywhere in the capture (0 … {:.6g} s); its {} pixels are 0", seconds,
-               function.pixel_count));
+  for (const FunctionFinding& finding :
+       check_domain(function.function, function.summary, {.duration_ns = plan.duration_ns})) {
+    if (finding.kind == FunctionFinding::Kind::zero_everywhere && was_unmapped) continue;  // as it was asked
+    plan.warnings.push_back(format("{}: {}", name, finding.message));
   }
-  if (summary.reaches_before_capture) {
-    say("parts that are not zero lie before the capture's start and do not count");
-  }
-  if (summary.reaches_after_capture) {
-    say(format("parts that are not zero lie after the capture's end at {:.6g} s and do not count", seconds));
-  }
-  // One warning for both ends: a function that means to expose a moment is not zero on either side of it.
-  std::string held;
-  if (summary.exposes_from_the_start) {
-    held = format("the first gain, {}, holds from the start of the capture", function.function.first_gain());
-  }
-  if (summary.exposes_to_the_end) {
-    held += format("{}the last gain, {}, holds to the end of the capture at {:.6g} s", held.empty() ? "" : ", and ",
-                   function.function.last_gain(), seconds);
-  }
-  if (!held.empty()) say(held + "; put a gain of 0 beside it if it should not");
 }
 
 SampleRange live_samples(const GainSummary& summary, const Timeline& timeline, const PlanOptions& options) {

@@ -35,6 +35,23 @@ std::span<const Command> commands() {
       {Id::recover, "recover", "DAMAGED.tik WHOLE.tik",
        "Save the whole blocks of a .tik file that was cut off.", "nutik-cl recover damaged.tik -o whole.tik",
        run_recover},
+      {Id::check, "check", "[CAPTURE.tik|CLIP]",
+       "Say everything that is wrong or suspicious about a function file, a mask and a capture, and what "
+       "each "
+       "function comes to.",
+       "nutik-cl check -k regions.fn\n"
+       "nutik-cl check -m regions.pgm -k regions.fn clip.tik\n"
+       "nutik-cl check --json -m regions.pgm -k regions.fn clip.tik",
+       run_check},
+      {Id::trace, "trace", "CAPTURE.tik|CLIP [TRACE.csv|TRACE.png]",
+       "Follow one pixel, or the mean of a region, through an exposure: its light, the gain, and what they "
+       "add "
+       "from edge to edge.",
+       "nutik-cl trace --pixel 320,180 -k trail.fn clip.tik\n"
+       "nutik-cl trace --pixel 320,180 -m regions.pgm -k regions.fn clip.tik trace.png\n"
+       "nutik-cl trace --tag 128 -m regions.pgm -k regions.fn clip.tik -o trace.csv\n"
+       "nutik-cl trace --pixel 0,0 --start 0.4s --exposure 10ms clip.tik",
+       run_trace},
       {Id::mask, "mask", "[CAPTURE.tik|CLIP] [MASK.pgm]",
        "Make a mask from shapes, from pictures and from what moves, without an image editor.",
        "nutik-cl mask --moving clip.tik mask.pgm --preview preview.png\n"

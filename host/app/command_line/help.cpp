@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/output/console.hpp"
+#include "app/text/text_table.hpp"
 #include "capture/format.hpp"
 
 #ifndef NUTIK_VERSION
@@ -16,13 +17,6 @@ namespace {
 
 constexpr std::size_t kWidth = 100;
 constexpr std::size_t kOptionColumn = 32;
-
-// Length on a terminal: bytes that continue a UTF-8 character take no column.
-std::size_t columns(std::string_view text) {
-  std::size_t count = 0;
-  for (const char c : text) count += (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  return count;
-}
 
 // `text` in lines of at most kWidth, all but the first after `indent` blanks.
 std::string wrapped(std::string_view text, std::size_t indent) {

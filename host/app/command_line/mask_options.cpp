@@ -3,6 +3,7 @@
 namespace nutik::app {
 namespace {
 
+constexpr std::string_view kPixels = "Which pixels";
 constexpr std::string_view kRegions = "Regions, in this order: later ones lie over earlier ones";
 constexpr std::string_view kChanges = "Changes to the region before them";
 constexpr std::string_view kMask = "The mask";
@@ -18,10 +19,16 @@ Option repeated(Option option) {
 
 std::vector<Option> mask_options() {
   return {
-      repeated(valued(0, "tag", "N", kRegions,
+      repeated(valued(0, "tag", "N", kPixels,
                       "mask: the tag of the regions after it, 0 … 255 (default: 255); activity: count only "
-                      "pixels with this tag in the mask",
-                      kMaskOnly | bit(CommandId::activity), &Options::tag)),
+                      "pixels with this tag in the mask; trace: follow the mean of these",
+                      kMaskOnly | bit(CommandId::activity) | bit(CommandId::trace), &Options::tag)),
+      repeated(valued(
+          0, "by", "CODES", kPixels,
+          "changes up to this are none; mask: of the region before it, if that compares codes (default: "
+          "twice what a quarter of all pixels stay within, at least 1/16 of white); activity: at a "
+          "sample (default: 0)",
+          kMaskOnly | bit(CommandId::activity), &Options::by)),
       step("fill", {}, kRegions, "the whole picture", kMaskOnly),
       step("rectangle", "X,Y,W,H", kRegions, "from its top left corner, in pixels", kMaskOnly),
       step("ellipse", "X,Y,RX,RY", kRegions, "round its centre, with half its width and height", kMaskOnly),
@@ -38,12 +45,6 @@ std::vector<Option> mask_options() {
       step("still", {}, kRegions, "the others", kMaskOnly),
       step("changed-between", "TIME TIME", kRegions,
            "pixels that change from one time to another: 0.3s 0.5s, or 37f 52f", kMaskOnly),
-      repeated(valued(
-          0, "by", "CODES", kChanges,
-          "the least that is no change: for --moving, --still, --changed-between and --difference, "
-          "codes must differ by more (default: twice what a quarter of all pixels stay within, at least "
-          "1/16 of white); for activity, by more than this at a sample (default: 0)",
-          kMaskOnly | bit(CommandId::activity), &Options::by)),
       step("within", "X,Y,W,H", kChanges, "only its part in a rectangle", kMaskOnly),
       step("largest", {}, kChanges, "only its largest connected part", kMaskOnly),
       step("grow", "PIXELS", kChanges, "and all that is no further away than this", kMaskOnly),

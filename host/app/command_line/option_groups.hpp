@@ -21,21 +21,27 @@ inline constexpr OptionGroup kOptionGroups[] = {source_options, exposure_options
 
 inline constexpr CommandSet kAllCommands = ~CommandSet{0};
 // Those that read a clip, and so take what describes it.
-inline constexpr CommandSet kReadsClips = bit(CommandId::encode) | bit(CommandId::expose) |
-                                          bit(CommandId::mask) | bit(CommandId::contact) |
-                                          bit(CommandId::activity) | bit(CommandId::sweep);
+inline constexpr CommandSet kReadsClips =
+    bit(CommandId::encode) | bit(CommandId::expose) | bit(CommandId::check) | bit(CommandId::trace) |
+    bit(CommandId::mask) | bit(CommandId::contact) | bit(CommandId::activity) | bit(CommandId::sweep);
+// Those of them that turn it into a capture, or write something at all.
+inline constexpr CommandSet kEncodesClips = kReadsClips & ~bit(CommandId::check);
 // Those that expose pictures with gain functions and a mask.
 inline constexpr CommandSet kExposesFunctions = bit(CommandId::expose) | bit(CommandId::sweep);
 // Those that expose a plain interval.
 inline constexpr CommandSet kExposesIntervals =
     kExposesFunctions | bit(CommandId::mask) | bit(CommandId::contact);
+// Those that follow an exposure, or look at functions and masks alone.
+inline constexpr CommandSet kTakesExposures = kExposesFunctions | bit(CommandId::trace);
+inline constexpr CommandSet kTakesFunctions = kTakesExposures | bit(CommandId::check);
+// Those that print for a script where they are told to.
+inline constexpr CommandSet kAnswersInJson = bit(CommandId::check) | bit(CommandId::trace) |
+                                             bit(CommandId::mask) | bit(CommandId::contact) |
+                                             bit(CommandId::activity) | bit(CommandId::sweep);
 // Those that expose pictures at all, and so take what says how that is computed.
 inline constexpr CommandSet kExposes = kExposesIntervals;
 // Those that lay pictures out on a sheet.
 inline constexpr CommandSet kMakesSheets = bit(CommandId::contact) | bit(CommandId::sweep);
-// Those that can answer in JSON.
-inline constexpr CommandSet kAnswersInJson =
-    bit(CommandId::mask) | bit(CommandId::contact) | bit(CommandId::activity) | bit(CommandId::sweep);
 
 // A row with a value, for the member of Options that holds it.
 [[nodiscard]] inline Option valued(char short_name, std::string_view long_name, std::string_view value,

@@ -32,6 +32,8 @@ struct Options {
   std::optional<std::string> exposure;
   std::optional<std::string> unmapped;
   std::optional<std::string> live;
+  std::optional<std::string> pixel;
+  std::optional<std::string> tag;  // the last of several
 
   // How it is computed.
   std::optional<std::string> renderer;
@@ -48,7 +50,6 @@ struct Options {
   std::optional<std::string> activity;
 
   // Masks.
-  std::optional<std::string> tag;  // the last of several
   std::optional<std::string> by;
   std::optional<std::string> base;
   std::optional<std::string> size;

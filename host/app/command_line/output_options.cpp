@@ -13,7 +13,7 @@ std::vector<Option> output_options() {
   return {
       valued('o', "output", "FILE", kGroup,
              "where to write; without it the last operand, or a name made from the inputs",
-             kReadsClips | bit(Id::recover), &Options::output),
+             kEncodesClips | bit(Id::recover), &Options::output),
       valued(0, "depth", "BITS", kGroup,
              "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
              bit(Id::expose), &Options::depth),
@@ -22,18 +22,20 @@ std::vector<Option> output_options() {
           "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",
           bit(Id::encode), &Options::codec),
       valued(0, "tiles", "KIND", kGroup,
-             "auto, or all tiles as dense, rows or records, for experiments (default: auto)", kReadsClips,
+             "auto, or all tiles as dense, rows or records, for experiments (default: auto)", kEncodesClips,
              &Options::tiles),
       valued(0, "block-samples", "N", kGroup, "samples in a block (default: 64, fewer for large pictures)",
-             kReadsClips, &Options::block_samples),
+             kEncodesClips, &Options::block_samples),
       valued(0, "activity", "MAP.png", kGroup,
              "also write how often each pixel changes, as a grey picture: black never, white most often, "
              "between them sRGB",
              bit(Id::info), &Options::activity),
-      flag(0, "json", kGroup, "answer with one JSON object, for scripts", kAnswersInJson, &Options::json),
+      flag(0, "json", kGroup, "print the result as one JSON object, for scripts", kAnswersInJson,
+           &Options::json),
       flag('q', "quiet", kGroup, "no progress bar and no summary", kAllCommands, &Options::quiet),
-      flag('v', "verbose", kGroup, "also say in which precision, how fast and with how much memory",
-           kExposes & ~bit(Id::mask), &Options::verbose),
+      flag('v', "verbose", kGroup,
+           "say more: in which precision, how fast and with how much memory; every step of a trace",
+           (kExposes & ~bit(Id::mask)) | bit(Id::trace), &Options::verbose),
   };
 }
 

@@ -29,7 +29,7 @@ std::vector<Option> source_options() {
              "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le",
              kReadsClips, &Options::raw),
       valued(0, "tolerance", "CODES", kGroup,
-             "differences up to this many codes are no change; 0 keeps every one (default: 0)", kReadsClips,
+             "differences up to this many codes are no change; 0 keeps every one (default: 0)", kEncodesClips,
              &Options::tolerance),
   };
 }

@@ -14,5 +14,7 @@ int run_mask(const Options& options);
 int run_contact(const Options& options);
 int run_activity(const Options& options);
 int run_sweep(const Options& options);
+int run_check(const Options& options);
+int run_trace(const Options& options);
 
 }  // namespace nutik::app

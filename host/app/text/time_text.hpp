@@ -35,4 +35,7 @@ Exposure plain_interval(std::string_view start, std::string_view exposure, const
 // `12.5 ms`, `1.25 s`: a length for people, with up to four digits.
 [[nodiscard]] std::string duration_text(std::int64_t nanoseconds);
 
+// `750 ms`, `-1.01 s`: a time, or the integral of a gain over time, with up to six digits.
+[[nodiscard]] std::string integral_text(double nanoseconds);
+
 }  // namespace nutik::app

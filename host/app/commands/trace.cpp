@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "app/commands/commands.hpp"
+#include "app/input/exposure_request.hpp"
+#include "app/input/opened_capture.hpp"
+#include "app/output/console.hpp"
+#include "app/output/json.hpp"
+#include "app/output/output_name.hpp"
+#include "app/output/trace_picture.hpp"
+#include "app/text/number_text.hpp"
+#include "app/text/time_text.hpp"
+#include "app/text/trace_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/picture_writer.hpp"
+#include "render/trace.hpp"
+#include "system/output_file.hpp"
+
+namespace nutik::app {
+namespace {
+
+// What is followed: a pixel, or all pixels of a mask value.
+struct Traced {
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> pixel;
+  std::uint8_t tag = 0;
+
+  static Traced from(const Options& options) {
+    if (options.pixel.has_value() == options.tag.has_value()) {
+      throw UsageError("what should be followed? Either --pixel X,Y or --tag VALUE of a mask");
+    }
+    Traced traced;
+    if (options.tag) {
+      if (!options.mask) throw UsageError("--tag is a value of a mask; add -m mask.pgm");
+      traced.tag = static_cast<std::uint8_t>(parse_whole_number(*options.tag, "tag", 0, 255));
+      return traced;
+    }
+    const std::string& text = *options.pixel;
+    const auto comma = text.find(',');
+    if (comma == std::string::npos) {
+      throw UsageError(
+          format("pixel '{}' is no place; write its column and row from 0 on: --pixel 320,180", text));
+    }
+    constexpr std::uint32_t kLast = 65'535;
+    traced.pixel = {parse_whole_number(text.substr(0, comma), "pixel column", 0, kLast),
+                    parse_whole_number(text.substr(comma + 1), "pixel row", 0, kLast)};
+    return traced;
+  }
+
+  [[nodiscard]] Trace follow(const RenderPlan& plan, CaptureSource& source) const {
+    return pixel ? trace_pixel(plan, source, pixel->first, pixel->second) : trace_region(plan, source, tag);
+  }
+
+  [[nodiscard]] std::string text(const Trace& trace) const {
+    return pixel ? format("pixel {},{}", pixel->first, pixel->second)
+                 : format("mean of {} pixels with mask value {}", trace.pixel_count, tag);
+  }
+};
+
+bool is_table_name(const std::filesystem::path& path) { return path.extension() == ".csv"; }
+
+// What the light comes out as in a picture of the capture's own codes.
+std::string codes_text(const Trace& trace, const CaptureFormat& capture) {
+  std::string text;
+  for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
+    const double light = std::clamp(trace.light[channel], 0.0, 1.0);
+    text += format("{}{}", channel == 0 ? "" : " ",
+                   std::floor(capture.transfer.fraction_of(light) * capture.white_code + 0.5));
+  }
+  return text;
+}
+
+// `clip.tik, pixel 3,4, M128`; a plain interval has no mask value.
+std::string heading(const std::string& name, const Traced& traced, const Trace& trace,
+                    const PlannedFunction& function, bool plain) {
+  return format("{}, {}, {}", name, traced.text(trace), plain ? "the exposure" : format("M{}", function.tag));
+}
+
+void write_outputs(const std::filesystem::path& output, const Trace& trace, const PlannedFunction& function,
+                   const std::string& title) {
+  if (!is_table_name(output)) {
+    write_picture(output, trace_picture(trace, function, title));
+    return;
+  }
+  OutputFile file(output);
+  file.write(steps_csv(trace));
+  file.commit();
+}
+
+}  // namespace
+
+int run_trace(const Options& options) {
+  const auto output = stated_output(options.output, options.operands, "trace");
+  const std::string& input = options.operands.front();
+  const Traced traced = Traced::from(options);
+  const ExposureRequest request = ExposureRequest::from(options);
+  if (output) {
+    std::vector<std::string> inputs{input};
+    if (options.mask) inputs.push_back(*options.mask);
+    if (options.functions) inputs.push_back(*options.functions);
+    if (!is_table_name(*output) && !is_picture_name(*output)) {
+      throw UsageError(format("{}: traces are written as a table, .csv, or as a picture: .png, .tif or .ppm",
+                              output->string()));
+    }
+    check_output(*output, is_table_name(*output) ? OutputKind::table : OutputKind::picture, inputs);
+    constexpr std::uint32_t kColour = 3;
+    if (!is_table_name(*output)) {
+      static_cast<void>(value_type_for(*output, Depth::bits8, ValueType::code8, kColour));
+    }
+  }
+
+  OpenedCapture capture(input, options);
+  tik::Reader& reader = capture.reader();
+  const RenderPlan plan = make_plan(reader, request.functions(reader.timeline()),
+                                    request.mask(reader.format().shape), request.plan_options());
+  for (const std::string& warning : plan.warnings) print_warning(warning);
+  const Trace trace = traced.follow(plan, reader);
+  const PlannedFunction& function = plan.functions[trace.function];
+  const std::string title = heading(input, traced, trace, function, !options.functions);
+  if (output) {
+    if (trace.steps.empty() && !is_table_name(*output)) {
+      throw InputError(
+          format("{}: the function is zero everywhere in the capture; there is nothing to draw", title));
+    }
+    write_outputs(*output, trace, function, title);
+  }
+
+  if (options.json) {
+    Json json{{"capture", input}};
+    if (traced.pixel) {
+      json["x"] = traced.pixel->first;
+      json["y"] = traced.pixel->second;
+    }
+    json.update(trace_json(trace, function));
+    print_json(json);
+    return 0;
+  }
+  if (!output) print_line(steps_text(trace, function, options.verbose));
+  if (!options.quiet) {
+    const GainSummary& summary = function.summary;
+    print_line(format("{}{}: light {}, code {}; {} steps, D {}, ∫g {}", output ? output->string() + ": " : "",
+                      title, light_text(trace), codes_text(trace, plan.capture), trace.steps.size(),
+                      integral_text(static_cast<double>(summary.support_ns)),
+                      integral_text(std::scalbn(summary.integral_ns, summary.exponent))));
+    for (const std::string& note : capture.notes()) print_note(note);
+  }
+  return 0;
+}
+
+}  // namespace nutik::app

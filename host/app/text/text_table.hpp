@@ -1,0 +1,19 @@
+// Tables for people: columns that stand below each other.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nutik::app {
+
+// How many columns of a terminal a text takes: bytes that continue a UTF-8 character take none.
+[[nodiscard]] std::size_t columns(std::string_view text);
+
+// Rows of equal length, the first the heading; a letter of `alignment` for each column: l or r. Lines
+// without blanks at their ends and without a line end behind the last.
+[[nodiscard]] std::string table_text(const std::vector<std::vector<std::string>>& rows,
+                                     std::string_view alignment);
+
+}  // namespace nutik::app

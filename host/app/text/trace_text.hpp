@@ -1,0 +1,29 @@
+// A trace for people, for spreadsheets and for scripts.
+//
+// What a step adds, and the sum, are shown to people as shares of the exposure: integrals divided by D, so
+// that the last sum is the light of the picture. Tables and JSON have the integrals themselves.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "app/output/json.hpp"
+#include "render/trace.hpp"
+
+namespace nutik::app {
+
+// `red`, `green`, `blue`; `grey` where there is one channel.
+[[nodiscard]] const char* channel_name(const Trace& trace, std::uint32_t channel);
+// The exposure's light by channel: `0.2159 0.301 0.112`.
+[[nodiscard]] std::string light_text(const Trace& trace);
+
+// A row for each step. Unless all are wanted, the middle of a long run between two control points is folded
+// into one row.
+[[nodiscard]] std::string steps_text(const Trace& trace, const PlannedFunction& function, bool all);
+
+// begin_ns,end_ns,begin_gain,end_gain, then for each channel its begin_light, end_light, integral_ns and sum_ns.
+[[nodiscard]] std::string steps_csv(const Trace& trace);
+
+[[nodiscard]] Json trace_json(const Trace& trace, const PlannedFunction& function);
+
+}  // namespace nutik::app

@@ -1,0 +1,146 @@
+#include "exposure/function_check.hpp"
+
+#include <cmath>
+
+#include "capture/format.hpp"
+#include "exposure/mistyped_time.hpp"
+
+namespace nutik {
+namespace {
+
+using Kind = FunctionFinding::Kind;
+
+// A still gain this near to 0, in units of ∫|g| / D, or this far above 1, is one of rounding: the least
+// difference that a 16-bit picture shows is 15 times as much.
+constexpr double kRounding = 1e-6;
+
+// The first control point next to a part that is not zero and lies outside.
+template <typename IsOutside>
+std::optional<std::size_t> first_outside(const GainFunction& function, IsOutside is_outside) {
+  const auto points = function.points();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool is_live = points[i].gain != 0.0 || (i > 0 && points[i - 1].gain != 0.0) ||
+                         (i + 1 < points.size() && points[i + 1].gain != 0.0);
+    if (is_live && is_outside(points[i].time_ns)) return i;
+  }
+  return std::nullopt;
+}
+
+// One finding for both ends: a function that means to expose a moment is not zero on either side of it.
+std::optional<FunctionFinding> held_finding(const GainFunction& function, const GainSummary& summary,
+                                            const CheckedDomain& domain) {
+  const bool is_held_after = domain.is_capture ? summary.exposes_to_the_end : function.last_gain() != 0.0;
+  std::string held;
+  if (summary.exposes_from_the_start) {
+    held = format("the first gain, {}, holds from the start of the capture", function.first_gain());
+  }
+  if (is_held_after) {
+    held += format("{}the last gain, {}, holds to the end of the capture", held.empty() ? "" : ", and ",
+                   function.last_gain());
+    if (domain.is_capture) held += format(" at {:.6g} s", static_cast<double>(domain.duration_ns) * 1e-9);
+  }
+  if (held.empty()) return std::nullopt;
+  const std::size_t point = is_held_after ? function.points().size() - 1 : 0;
+  return FunctionFinding{Kind::held_gain, held + "; put a gain of 0 beside it if it should not", point};
+}
+
+std::optional<FunctionFinding> still_gain_finding(const GainSummary& summary) {
+  if (summary.support_ns == 0) return std::nullopt;
+  const double still_gain = summary.still_gain();
+  if (std::fabs(still_gain) <= kRounding * summary.error_scale()) {
+    return FunctionFinding{
+        Kind::still_gain_not_positive,
+        "the still gain is 0: its positive and negative parts cancel, so that whatever does "
+        "not move comes out black",
+        std::nullopt};
+  }
+  if (still_gain < 0.0) {
+    return FunctionFinding{
+        Kind::still_gain_not_positive,
+        format("the still gain is {:.6g}: whatever does not move comes out black; formats with floating "
+               "point keep light below 0",
+               still_gain),
+        std::nullopt};
+  }
+  if (still_gain > 1.0 + kRounding) {
+    return FunctionFinding{
+        Kind::still_gain_saturates,
+        format("the still gain is {:.6g}: whatever does not move and has more than {:.3g} % of white's "
+               "light comes out white; gains divided by {:.6g} keep it, or a format with floating point",
+               still_gain, 100.0 / still_gain, still_gain),
+        std::nullopt};
+  }
+  return std::nullopt;
+}
+
+FunctionFinding mistyped_finding(const GainFunction& function, const MistypedTime& mistyped) {
+  const ControlPoint& begin = function.points()[mistyped.ramp];
+  const ControlPoint& end = function.points()[mistyped.ramp + 1];
+  return {
+      Kind::mistyped_time,
+      format("time {} probably {}: it is likely {}, which makes the ramp from gain {} to {} a step of {} ns; "
+             "now it takes {:.6g} ms",
+             function.points()[mistyped.point].time_ns,
+             mistyped.is_digit_lost ? "has lost a digit" : "has a digit too many", mistyped.likely_ns,
+             begin.gain, end.gain, mistyped.step_ns, static_cast<double>(end.time_ns - begin.time_ns) * 1e-6),
+      mistyped.point};
+}
+
+}  // namespace
+
+std::string_view to_text(Kind kind) {
+  switch (kind) {
+    case Kind::zero_everywhere: return "zero_everywhere";
+    case Kind::before_capture: return "before_capture";
+    case Kind::after_capture: return "after_capture";
+    case Kind::held_gain: return "held_gain";
+    case Kind::still_gain_not_positive: return "still_gain_not_positive";
+    case Kind::still_gain_saturates: return "still_gain_saturates";
+    case Kind::mistyped_time: return "mistyped_time";
+  }
+  return {};
+}
+
+std::vector<FunctionFinding> check_domain(const GainFunction& function, const GainSummary& summary,
+                                          const CheckedDomain& domain) {
+  std::vector<FunctionFinding> findings;
+  const double seconds = static_cast<double>(domain.duration_ns) * 1e-9;
+  if (summary.support_ns == 0 && domain.is_capture) {
+    findings.push_back(
+        {Kind::zero_everywhere,
+         format("the function is zero everywhere in the capture (0 … {:.6g} s); its pixels are 0", seconds),
+         {}});
+  } else if (summary.support_ns == 0) {
+    findings.push_back({Kind::zero_everywhere, "the function is zero everywhere; its pixels are 0", {}});
+  }
+  if (summary.reaches_before_capture) {
+    findings.push_back({Kind::before_capture,
+                        "parts that are not zero lie before the capture's start and do not count",
+                        first_outside(function, [](std::int64_t time_ns) { return time_ns < 0; })});
+  }
+  if (summary.reaches_after_capture) {
+    findings.push_back(
+        {Kind::after_capture,
+         format("parts that are not zero lie after the capture's end at {:.6g} s and do not count", seconds),
+         first_outside(function, [&](std::int64_t time_ns) { return time_ns > domain.duration_ns; })});
+  }
+  if (auto held = held_finding(function, summary, domain)) findings.push_back(std::move(*held));
+  return findings;
+}
+
+std::vector<FunctionFinding> check_function(const GainFunction& function, const GainSummary& summary,
+                                            const CheckedDomain& domain) {
+  std::vector<FunctionFinding> findings = check_domain(function, summary, domain);
+  if (auto still_gain = still_gain_finding(summary)) findings.push_back(std::move(*still_gain));
+  for (const MistypedTime& mistyped : mistyped_times(function)) {
+    findings.push_back(mistyped_finding(function, mistyped));
+  }
+  return findings;
+}
+
+std::optional<double> still_stops(const GainSummary& summary) {
+  const double still_gain = summary.still_gain();
+  return still_gain > 0.0 ? std::optional(std::log2(still_gain)) : std::nullopt;
+}
+
+}  // namespace nutik

@@ -1,0 +1,155 @@
+#include "render/trace.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "render/value_walk.hpp"
+#include "system/page_buffer.hpp"
+
+namespace nutik {
+namespace {
+
+using Light = std::array<double, 3>;  // by channel
+
+// Light that holds from a sample of a block on.
+struct LightRecord {
+  std::uint32_t sample = 0;
+  Light light{};
+};
+
+// Walks along one pixel's light, or a mean of them, which a function of the blocks gives.
+using ReadLight = std::function<std::vector<LightRecord>(const BlockView& block)>;
+
+Trace trace(const RenderPlan& plan, CaptureSource& source, std::size_t function,
+            const ReadLight& read_light) {
+  Trace trace;
+  trace.channels = plan.capture.shape.channels;
+  trace.function = function;
+  const GainWalk gain(plan.functions[function].function.pieces(plan.duration_ns));
+  const auto unscaled = [&](double value) { return std::scalbn(value, gain.exponent()); };
+  std::array<ValueWalk, 3> walks;
+  PageBuffer payload;
+  for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
+    const PlannedBlock& planned = plan.blocks[b];
+    const std::uint64_t bytes = source.prepare(planned.block);
+    payload.reserve(bytes);
+    source.read(planned.block, payload.first(bytes));
+    const auto records = read_light(BlockView(plan.capture, planned.extent, payload.first(bytes)));
+    const std::vector<SampleTimes> times = source.timeline().times(planned.extent.range());
+    const bool follows = b > 0 && plan.blocks[b - 1].block + 1 == planned.block;
+    const WalkedBlock block{times, follows, times.back().after_ns == plan.duration_ns};
+    const std::size_t first_step = trace.steps.size();
+    for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
+      ValueWalk& walk = walks[channel];
+      std::size_t at = first_step;  // all channels have the same edges
+      walk_block(
+          walk, gain, gain.piece_at(times.front().before_ns), block, records.size(),
+          [&](std::size_t r) { return records[r].sample; },
+          [&](std::size_t r) { return records[r].light[channel]; },
+          [&](const WalkStep& step) {
+            if (at == trace.steps.size()) {
+              trace.steps.push_back(
+                  {step.begin_ns, step.end_ns, unscaled(step.begin_gain), unscaled(step.end_gain), {}});
+            }
+            trace.steps[at++].values[channel] = {step.begin_light, step.end_light, unscaled(step.integral),
+                                                 unscaled(walk.sum.value())};
+          });
+    }
+  }
+  for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
+    trace.light[channel] = exposed_light(walks[channel].sum, gain);
+  }
+  return trace;
+}
+
+// The sum of many pixels' light, sample by sample: where it starts in a block, and by how much it changes.
+class LightSum {
+ public:
+  explicit LightSum(const BlockExtent& extent)
+      : changes_(extent.sample_count), is_edge_(extent.sample_count) {}
+
+  void add(std::uint32_t sample, std::uint32_t channel, double change) {
+    changes_[sample][channel].add(change);
+    is_edge_[sample] = true;
+  }
+
+  [[nodiscard]] std::vector<LightRecord> mean(std::uint64_t count) const {
+    std::vector<LightRecord> records;
+    std::array<CompensatedSum, 3> sums;
+    for (std::uint32_t sample = 0; sample < changes_.size(); ++sample) {
+      if (!is_edge_[sample]) continue;
+      LightRecord record{sample, {}};
+      for (std::uint32_t channel = 0; channel < 3; ++channel) {
+        sums[channel].add(changes_[sample][channel].value());
+        record.light[channel] = sums[channel].value() / static_cast<double>(count);
+      }
+      records.push_back(record);
+    }
+    return records;
+  }
+
+ private:
+  std::vector<std::array<CompensatedSum, 3>> changes_;  // at sample 0 all of the light
+  std::vector<bool> is_edge_;
+};
+
+}  // namespace
+
+Trace trace_pixel(const RenderPlan& plan, CaptureSource& source, std::uint32_t x, std::uint32_t y) {
+  const Shape& shape = plan.capture.shape;
+  if (x >= shape.width || y >= shape.height) {
+    throw UsageError(format("there is no pixel {},{}: the picture has 0,0 … {},{}", x, y, shape.width - 1,
+                            shape.height - 1));
+  }
+  const TileGrid grid(shape);
+  const std::uint64_t pixel = std::uint64_t{y} * shape.width + x;
+  std::vector<ChangeRecord> history;
+  Trace result = trace(plan, source, plan.function_of_pixel[pixel], [&](const BlockView& block) {
+    block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);
+    std::vector<LightRecord> records;
+    for (const ChangeRecord& change : history) {
+      LightRecord record{change.sample, {}};
+      for (std::uint32_t channel = 0; channel < shape.channels; ++channel) {
+        record.light[channel] = light_of_code(plan.capture, change.codes[channel]);
+      }
+      records.push_back(record);
+    }
+    return records;
+  });
+  result.pixel_count = 1;
+  return result;
+}
+
+Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t tag) {
+  const auto planned = std::ranges::find(plan.functions, tag, &PlannedFunction::tag);
+  if (planned == plan.functions.end()) throw UsageError(format("no pixel of the mask has the value {}", tag));
+  const auto function = static_cast<std::size_t>(planned - plan.functions.begin());
+  const Shape& shape = plan.capture.shape;
+  const TileGrid grid(shape);
+  const std::vector<double> light_of = plan.capture.transfer.light_of_codes(plan.capture.white_code);
+  std::vector<ChangeRecord> history;
+  Trace result = trace(plan, source, function, [&](const BlockView& block) {
+    LightSum sum(block.extent());
+    for (std::uint64_t pixel = 0; pixel < shape.pixel_count(); ++pixel) {
+      if (plan.function_of_pixel[pixel] != function) continue;
+      const auto x = static_cast<std::uint32_t>(pixel % shape.width);
+      const auto y = static_cast<std::uint32_t>(pixel / shape.width);
+      block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);
+      for (std::uint32_t channel = 0; channel < shape.channels; ++channel) {
+        double before = 0.0;
+        for (const ChangeRecord& change : history) {
+          const double light = light_of[change.codes[channel]];
+          sum.add(change.sample, channel, light - before);
+          before = light;
+        }
+      }
+    }
+    return sum.mean(planned->pixel_count);
+  });
+  result.pixel_count = planned->pixel_count;
+  return result;
+}
+
+}  // namespace nutik

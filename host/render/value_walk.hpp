@@ -1,0 +1,84 @@
+// The walk along one value (a channel of a pixel) in time order, edge by edge: what the reference sums, and
+// what a trace shows.
+//
+// An edge is a change of the light (a record) or of the gain's slope (a control point). Between two edges
+// both run straight, and the exact integral of their product is added.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "capture/picture.hpp"
+#include "capture/timeline.hpp"
+#include "render/edge_walk.hpp"
+
+namespace nutik {
+
+// The light that a code of a capture stands for.
+[[nodiscard]] inline double light_of_code(const CaptureFormat& capture, std::uint32_t code) {
+  return capture.transfer.light_of(static_cast<double>(code) / capture.white_code);
+}
+
+// Where a walk has come to.
+struct ValueWalk {
+  CompensatedSum sum;  // ∫ light × scaled gain
+  double light = 0.0;  // at the end of the block before
+};
+
+// From one edge to the next. Gains are scaled as GainWalk has them.
+struct WalkStep {
+  std::int64_t begin_ns;
+  std::int64_t end_ns;
+  double begin_light;
+  double end_light;
+  double begin_gain;
+  double end_gain;
+  double integral;  // what it adds to the sum
+};
+
+// A block: when its samples were exposed, and whether the walk comes from the block before it.
+struct WalkedBlock {
+  std::span<const SampleTimes> times;
+  bool follows_the_one_before;
+  bool ends_capture;
+};
+
+// Walks through a block: the gap before its first sample, then each record: a ramp across the gap before
+// it, then its constant light until the next record's gap, the block's end or the capture's end. There are
+// `records` of them; sample_of(r) is the number in the block of the sample at which record r starts, 0 for
+// the first, light_of(r) its light. `piece` is gain.piece_at() of the block's first reach. Calls visit(step)
+// after each step has been added.
+template <typename SampleOf, typename LightOf, typename Visit>
+void walk_block(ValueWalk& walk, const GainWalk& gain, std::size_t piece, const WalkedBlock& block,
+                std::size_t records, SampleOf sample_of, LightOf light_of, Visit visit) {
+  const auto expose = [&](const LightStretch& light) {
+    gain.for_each_interval(
+        light.begin_ns, light.end_ns, piece,
+        [&](std::int64_t begin_ns, std::int64_t end_ns, double gain0, double gain1) {
+          WalkStep step{begin_ns, end_ns, light.at(begin_ns), light.at(end_ns), gain0, gain1, 0.0};
+          step.integral = integrate_interval(static_cast<double>(end_ns - begin_ns), step.begin_light,
+                                             step.end_light, gain0, gain1);
+          walk.sum.add(step.integral);
+          visit(step);
+        });
+  };
+  for (std::size_t r = 0; r < records; ++r) {
+    const double light = light_of(r);
+    const SampleTimes& from = block.times[sample_of(r)];
+    const bool has_before = r > 0 || block.follows_the_one_before;
+    expose({from.before_ns, from.start_ns, has_before ? walk.light : light, light});
+    const bool is_last = r + 1 == records;
+    const SampleTimes& until = is_last ? block.times.back() : block.times[sample_of(r + 1) - 1];
+    expose({from.start_ns, is_last && block.ends_capture ? until.after_ns : until.end_ns, light, light});
+    walk.light = light;
+  }
+}
+
+// What a walk to the end comes to: the light of the exposure, ∫ light × gain / D.
+[[nodiscard]] inline double exposed_light(const CompensatedSum& sum, const GainWalk& gain) {
+  if (gain.support_ns() == 0) return 0.0;
+  return std::scalbn(sum.value() / static_cast<double>(gain.support_ns()), gain.exponent());
+}
+
+}  // namespace nutik

@@ -1,0 +1,284 @@
+// nutik-cl check as a user meets it: everything at once, places, figures, exit status.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "support/program.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+using nlohmann::json;
+using test::ProgramResult;
+using test::Scratch;
+
+constexpr int kWidth = 120;
+constexpr int kHeight = 80;
+
+// A capture of 30 pictures of 120 × 80 pixels at 10 a second, 3 s, and a mask of three regions.
+class Check : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directory(scratch_ / "frames");
+    for (int k = 0; k < 30; ++k) {
+      const std::string name = "frames/" + std::to_string(100 + k) + ".pgm";
+      cv::imwrite((scratch_ / name).string(), cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar::all(8 * k)));
+    }
+    ASSERT_EQ(run({"-f", "10", "frames", "clip.tik"}).status, 0);
+    mask_ = cv::Mat::zeros(kHeight, kWidth, CV_8UC1);
+    cv::rectangle(mask_, {10, 10}, {39, 59}, cv::Scalar::all(128), cv::FILLED);
+    cv::circle(mask_, {80, 40}, 25, cv::Scalar::all(255), cv::FILLED);
+    save_mask();
+    scratch_.write("good.fn",
+                   "M0 [0:1], [1000000000:1], [1000000001:0]\n"
+                   "M128 [399999999:0], [400000000:1], [410000000:1], [410000001:0]\n"
+                   "M255 [999999999:0], [1000000000:0.5], [1200000000:0.5], [1200000001:0]\n");
+  }
+
+  void save_mask() const { cv::imwrite((scratch_ / "mask.pgm").string(), mask_); }
+  ProgramResult run(const std::vector<std::string>& words) const {
+    return test::run_program(words, scratch_.folder());
+  }
+  json findings(const std::vector<std::string>& inputs, int status) const {
+    std::vector<std::string> words{"check", "--json"};
+    words.insert(words.end(), inputs.begin(), inputs.end());
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.status, status) << result.out << result.err;
+    EXPECT_EQ(result.err, "");
+    return json::parse(result.out).at("findings");
+  }
+  // The kinds of what was found, in order.
+  std::vector<std::string> kinds(const std::vector<std::string>& inputs, int status) const {
+    std::vector<std::string> kinds;
+    for (const json& finding : findings(inputs, status)) kinds.push_back(finding.at("kind"));
+    return kinds;
+  }
+
+  using Kinds = std::vector<std::string>;
+  const std::vector<std::string> all_{"-m", "mask.pgm", "-k", "good.fn", "clip.tik"};
+  Scratch scratch_;
+  cv::Mat mask_;
+};
+
+TEST_F(Check, SaysWhatFunctionsComeTo) {
+  const ProgramResult result = run({"check", "-m", "mask.pgm", "-k", "good.fn", "clip.tik"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_NE(
+      result.out.find("good.fn: 3 functions; mask.pgm: 120 x 80; clip.tik: 120 x 80 grey, 30 samples, 3 s\n"),
+      std::string::npos)
+      << result.out;
+  EXPECT_NE(
+      result.out.find("M128        1500  400 ms … 410 ms   10 ms   10 ms           1      0        2\n"),
+      std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find("\nnothing wrong\n"), std::string::npos);
+
+  const ProgramResult script = run({"check", "--json", "-m", "mask.pgm", "-k", "good.fn", "clip.tik"});
+  const json figures = json::parse(script.out).at("functions").at(2);
+  EXPECT_EQ(figures.at("mask_value"), 255);
+  EXPECT_EQ(figures.at("pixels"), cv::countNonZero(mask_ == 255));
+  EXPECT_EQ(figures.at("live_start_ns"), 999'999'999);
+  EXPECT_EQ(figures.at("live_end_ns"), 1'200'000'001);
+  EXPECT_EQ(figures.at("nonzero_ns"), 200'000'002);
+  EXPECT_DOUBLE_EQ(figures.at("integral_ns"), 100'000'000.5);
+  EXPECT_NEAR(figures.at("still_gain"), 0.5, 1e-8);
+  EXPECT_NEAR(figures.at("stops"), -1.0, 1e-7);
+  EXPECT_EQ(figures.at("samples"), 4);  // 0.9 s … 1.3 s are four tenths
+}
+
+TEST_F(Check, SaysEverythingThatIsWrongAtOnce) {
+  scratch_.write(
+      "bad.fn",
+      "M0 [5:1], [5:0]\nM1{[0:0], [1:1], [100000000:1], [1000000002:-25], [1010000001:0]}\nM300 [0:1]\n");
+  cv::imwrite((scratch_ / "small.pgm").string(),
+              cv::Mat(kWidth / 2, kHeight / 2, CV_8UC1, cv::Scalar::all(7)));
+  std::string capture = test::read_file(scratch_ / "clip.tik");
+  // The last block's payload: in front of index and footer.
+  capture[capture.size() / 2] ^= 0x55;
+  scratch_.write("damaged.tik", capture);
+  const ProgramResult result = run({"check", "-m", "small.pgm", "-k", "bad.fn", "damaged.tik"});
+  EXPECT_EQ(result.status, 3);
+  for (const char* part :
+       {"bad.fn:1:12: time 5 stands twice", "\n    M0 [5:1], [5:0]\n               ^\n",
+        "bad.fn:3:2: mask value 300",
+        "bad.fn:2:19: warning: M1: time 100000000 probably has lost a digit: it is likely 1000000000",
+        "bad.fn:2:1: warning: M1: no pixel of small.pgm has the value 1",
+        "small.pgm: mask values without a function: 7 (2400 pixels)", "damaged.tik: "}) {
+    EXPECT_NE(result.out.find(part), std::string::npos) << "no '" << part << "' in:\n" << result.out;
+  }
+}
+
+TEST_F(Check, ADamagedBlockIsNamedAndTheRestIsChecked) {
+  std::string capture = test::read_file(scratch_ / "clip.tik");
+  // Uniform pictures pack to next to nothing: the one block lies behind the first picture.
+  const auto at = capture.find("NUTIKBLK");
+  const std::size_t block = at == std::string::npos ? 10'000 : at;
+  bool is_found = false;
+  for (std::size_t offset = block; offset < std::min(block + 4000, capture.size()) && !is_found;
+       offset += 16) {
+    std::string damaged = capture;
+    damaged[offset] = static_cast<char>(damaged[offset] ^ 0x55);
+    scratch_.write("damaged.tik", damaged);
+    const ProgramResult result = run({"check", "--json", "-m", "mask.pgm", "-k", "good.fn", "damaged.tik"});
+    if (result.status != 3) continue;
+    const json found = json::parse(result.out);
+    if (found.at("findings").at(0).at("kind") != "capture_block") continue;
+    is_found = true;
+    EXPECT_NE(
+        found.at("findings").at(0).at("message").get<std::string>().find("the block of samples 0 to 29"),
+        std::string::npos);
+    EXPECT_EQ(found.at("functions").at(0).at("samples"), 11);
+  }
+  EXPECT_TRUE(is_found);
+}
+
+TEST_F(Check, EachInputIsOptional) {
+  EXPECT_EQ(kinds({"-k", "good.fn"}, 0), Kinds{});
+  EXPECT_EQ(kinds({"-m", "mask.pgm"}, 0), Kinds{});
+  EXPECT_EQ(kinds({"clip.tik"}, 0), Kinds{});
+  EXPECT_EQ(kinds({"-k", "good.fn", "-f", "10", "frames"}, 0), Kinds{});
+  const ProgramResult alone = run({"check", "-k", "good.fn"});
+  EXPECT_NE(alone.out.find("good.fn: 3 functions; figures are for 0 … 1.2 s, not for a capture\n"),
+            std::string::npos)
+      << alone.out;
+  EXPECT_EQ(alone.out.find("pixels"), std::string::npos);
+  EXPECT_EQ(alone.out.find("samples"), std::string::npos);
+  const ProgramResult none = run({"check"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("what should be checked?"), std::string::npos);
+  const ProgramResult quiet = run({"check", "-q", "-k", "good.fn"});
+  EXPECT_EQ(quiet.out, "");
+}
+
+TEST_F(Check, WhatCannotBeReadIsOneFindingAmongOthers) {
+  EXPECT_EQ(kinds({"-m", "absent.pgm", "-k", "absent.fn", "absent.tik"}, 3),
+            (Kinds{"function_file", "mask_file", "capture"}));
+  const ProgramResult result = run({"check", "-m", "good.fn", "clip.tik"});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_NE(result.out.find("good.fn: is neither a PGM nor a PNG"), std::string::npos) << result.out;
+  scratch_.write("deep.pgm", "P2 2 1 4095\n0 4095\n");
+  EXPECT_NE(run({"check", "-m", "deep.pgm"}).out.find("16 bits"), std::string::npos);
+}
+
+TEST_F(Check, AFunctionThatNoPixelUses) {
+  EXPECT_EQ(kinds(all_, 0), Kinds{});
+  mask_.setTo(0, mask_ == 128);
+  save_mask();
+  const json found = findings(all_, 0);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].at("kind"), "unused_function");
+  EXPECT_EQ(found[0].at("mask_value"), 128);
+  EXPECT_EQ(found[0].at("line"), 2);
+}
+
+TEST_F(Check, MaskValuesWithoutAFunction) {
+  mask_.setTo(9, mask_ == 128);
+  save_mask();
+  EXPECT_EQ(kinds(all_, 3), (Kinds{"unused_function", "unmapped_mask_values"}));
+  std::vector<std::string> mapped = all_;
+  mapped.insert(mapped.end(), {"--unmapped", "zero"});
+  EXPECT_EQ(kinds(mapped, 0), Kinds{"unused_function"});
+  // A function with a mistake is there all the same.
+  scratch_.write("broken.fn", test::read_file(scratch_ / "good.fn") + "M9 [0:x]\n");
+  EXPECT_EQ(kinds({"-m", "mask.pgm", "-k", "broken.fn", "clip.tik"}, 3),
+            (Kinds{"function_file", "unused_function"}));
+}
+
+TEST_F(Check, MasksOfOtherSizes) {
+  const auto message = [&](const cv::Mat& mask) {
+    cv::imwrite((scratch_ / "other.pgm").string(), mask);
+    const json found = findings({"-m", "other.pgm", "-k", "good.fn", "clip.tik"}, 3);
+    EXPECT_EQ(found.at(0).at("kind"), "mask_size");
+    return found.at(0).at("message").get<std::string>();
+  };
+  cv::Mat turned, scaled;
+  cv::transpose(mask_, turned);
+  cv::resize(mask_, scaled, {}, 2, 2, cv::INTER_NEAREST);
+  EXPECT_NE(message(turned).find("80 x 120 pixels, the capture 120 x 80; turn it by 90 degrees"),
+            std::string::npos);
+  EXPECT_NE(message(scaled).find("; scale it to 120 x 80 without smoothing"), std::string::npos);
+  EXPECT_NE(message(mask_.colRange(0, 100)).find("; both must have the same size"), std::string::npos);
+}
+
+TEST_F(Check, SpecksOfTheBrush) {
+  mask_.at<std::uint8_t>(5, 60) = 128;
+  mask_.at<std::uint8_t>(5, 61) = 128;
+  save_mask();
+  const json found = findings(all_, 0);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].at("kind"), "mask_specks");
+  EXPECT_EQ(found[0].at("mask_value"), 128);
+  EXPECT_EQ(found[0].at("specks"), json::parse(R"([{"x": 60, "y": 5, "pixels": 2}])"));
+  EXPECT_NE(found[0].at("message").get<std::string>().find("at 60,5 (2 pixels)"), std::string::npos);
+}
+
+TEST_F(Check, MasksThatWereSmoothedOrKeptAsJpeg) {
+  const auto blended = [&](const cv::Mat& mask) {
+    cv::imwrite((scratch_ / "mask.pgm").string(), mask);
+    std::size_t count = 0;
+    for (const json& finding : findings(all_, 3)) {
+      if (finding.at("kind") == "blended_mask_values") count += finding.at("values").size();
+    }
+    return count;
+  };
+  cv::Mat smooth;
+  cv::GaussianBlur(mask_, smooth, {3, 3}, 0.6);
+  EXPECT_GT(blended(smooth), 5u);
+  for (const int quality : {95, 85}) {
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(".jpg", mask_, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
+    const cv::Mat damaged = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+    std::vector<bool> is_new(256);
+    for (int i = 0; i < kWidth * kHeight; ++i) is_new[damaged.data[i]] = true;
+    const auto values = std::count(is_new.begin(), is_new.end(), true) - 3;
+    ASSERT_GT(values, 10);
+    // Some of what JPEG leaves lies in flat patches, where nothing tells it from paint but that it has no
+    // function.
+    EXPECT_GT(blended(damaged), static_cast<std::size_t>(values) / 2) << values << " at quality " << quality;
+  }
+}
+
+TEST_F(Check, TheFiguresOfThePaper) {
+  const auto figure = [&](const std::string& name) {
+    scratch_.write(name + ".fn", test::read_file(std::filesystem::path(NUTIK_TEST_CORPUS) / (name + ".fn")));
+    return kinds({"-k", name + ".fn", "clip.tik"}, 0);
+  };
+  EXPECT_EQ(figure("figure04"), Kinds{});
+  EXPECT_EQ(figure("figure07"), Kinds{});
+  EXPECT_EQ(figure("figure14-restored"), Kinds{});
+  EXPECT_EQ(figure("figure16"), Kinds{});
+  EXPECT_EQ(figure("figure14"), (Kinds{"still_gain_not_positive", "mistyped_time"}));
+}
+
+TEST_F(Check, ManyFindingsOfOneKindAreCounted) {
+  std::string text;
+  for (int tag = 0; tag < 30; ++tag) text += "M" + std::to_string(tag) + " [0:1], [5:0], [6:1]\n";
+  scratch_.write("many.fn", text);
+  const ProgramResult result = run({"check", "-k", "many.fn"});
+  EXPECT_NE(result.out.find("many.fn: and 10 more like these (held_gain); --json lists all"),
+            std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find("\n30 warnings\n"), std::string::npos);
+  EXPECT_EQ(kinds({"-k", "many.fn"}, 0).size(), 30u);
+}
+
+TEST_F(Check, RefusesWhatMakesNoSense) {
+  for (const auto& [words, part] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"check", "clip.tik", "clip.tik"}, "is one file too many"},
+           {{"check", "-k", "good.fn", "--unmapped", "black"}, "the only choice is --unmapped zero"},
+           {{"check", "-k", "good.fn", "-o", "x.txt"}, "-o does not go with check"},
+           {{"check", "-f", "10", "clip.tik"}, "--fps describes a clip"}}) {
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.status, 2) << result.out;
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace nutik

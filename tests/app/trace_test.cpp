@@ -1,0 +1,185 @@
+// nutik-cl trace as a user meets it: figures worked out by hand, tables, pictures, the reference's value.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "support/program.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+using nlohmann::json;
+using test::ProgramResult;
+using test::Scratch;
+
+// Four pictures of 10 ms each. The left half has light 0.2, 0.4, 0.4, 0.8, the right one 0.6 at all times.
+class TraceCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directory(scratch_ / "frames");
+    const int codes[] = {51, 102, 102, 204};
+    for (int k = 0; k < 4; ++k) {
+      cv::Mat picture(6, 8, CV_8UC1, cv::Scalar::all(codes[k]));
+      picture.colRange(4, 8) = 153;
+      cv::imwrite((scratch_ / ("frames/" + std::to_string(k) + ".pgm")).string(), picture);
+    }
+    ASSERT_EQ(run({"-f", "100", "--transfer", "linear", "frames", "clip.tik"}).status, 0);
+    cv::Mat mask(6, 8, CV_8UC1, cv::Scalar::all(0));
+    mask.colRange(2, 6) = 9;  // half of it over each half of the picture
+    cv::imwrite((scratch_ / "mask.pgm").string(), mask);
+    scratch_.write("f.fn", "M0 [0:1], [10000000:0]\nM9 [0:1], [40000000:1]\n");
+  }
+
+  ProgramResult run(const std::vector<std::string>& words) const {
+    return test::run_program(words, scratch_.folder());
+  }
+  ProgramResult done(const std::vector<std::string>& words) const {
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result;
+  }
+  void expect_refused(const std::vector<std::string>& words, int status, std::string_view part) const {
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.status, status) << result.err;
+    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in: " << result.err;
+  }
+
+  Scratch scratch_;
+};
+
+TEST_F(TraceCommand, ByHand) {
+  const ProgramResult result =
+      done({"trace", "--pixel", "3,2", "--start", "5ms", "--exposure", "20ms", "clip.tik"});
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out,
+            " from ns     to ns  gain  light      adds  sum\n"
+            "       0   5000000  0     0.2        0     0\n"
+            " 5000000  10000000  1     0.2        0.05  0.05\n"
+            "10000000  25000000  1     0.4        0.3   0.35\n"
+            "25000000  40000000  0     (2 steps)  0     0.35\n"
+            "clip.tik, pixel 3,2, the exposure: light 0.35, code 89; 5 steps, D 20 ms, ∫g 20 ms\n");
+}
+
+TEST_F(TraceCommand, ATableOfTheIntegrals) {
+  done({"trace", "--pixel", "3,2", "--start", "5ms", "--exposure", "20ms", "clip.tik", "trace.csv"});
+  std::istringstream table(test::read_file(scratch_ / "trace.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(
+      line,
+      "begin_ns,end_ns,begin_gain,end_gain,grey_begin_light,grey_end_light,grey_integral_ns,grey_sum_ns");
+  const std::vector<std::vector<double>> wanted{{0, 5e6, 0, 0, 0.2, 0.2, 0, 0},
+                                                {5e6, 10e6, 1, 1, 0.2, 0.2, 1e6, 1e6},
+                                                {10e6, 25e6, 1, 1, 0.4, 0.4, 6e6, 7e6},
+                                                {25e6, 30e6, 0, 0, 0.4, 0.4, 0, 7e6},
+                                                {30e6, 40e6, 0, 0, 0.8, 0.8, 0, 7e6}};
+  for (const auto& row : wanted) {
+    ASSERT_TRUE(std::getline(table, line));
+    std::istringstream cells(line);
+    for (const double number : row) {
+      std::string cell;
+      ASSERT_TRUE(std::getline(cells, cell, ','));
+      EXPECT_DOUBLE_EQ(std::stod(cell), number) << line;
+    }
+  }
+  EXPECT_FALSE(std::getline(table, line));
+}
+
+TEST_F(TraceCommand, ARegionsMeanAsJson) {
+  const ProgramResult result =
+      done({"trace", "--json", "--tag", "9", "-m", "mask.pgm", "-k", "f.fn", "clip.tik"});
+  const json trace = json::parse(result.out);
+  EXPECT_EQ(trace.at("pixels"), 24);
+  EXPECT_EQ(trace.at("mask_value"), 9);
+  // The mean of 0.2, 0.4, 0.4, 0.8 and 0.6: 0.4, 0.5, 0.5, 0.7.
+  ASSERT_EQ(trace.at("steps").size(), 3u);
+  EXPECT_DOUBLE_EQ(trace.at("steps")[0].at("values")[0].at("begin_light"), 0.4);
+  EXPECT_DOUBLE_EQ(trace.at("steps")[1].at("values")[0].at("begin_light"), 0.5);
+  EXPECT_DOUBLE_EQ(trace.at("steps")[2].at("values")[0].at("end_light"), 0.7);
+  EXPECT_DOUBLE_EQ(trace.at("light")[0], 0.525);
+  EXPECT_FALSE(trace.contains("x"));
+}
+
+TEST_F(TraceCommand, ItsLightIsTheReferencesPixel) {
+  done({"--renderer", "reference", "-m", "mask.pgm", "-k", "f.fn", "clip.tik", "reference.pfm"});
+  const cv::Mat picture = cv::imread((scratch_ / "reference.pfm").string(), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(picture.type(), CV_32FC1);
+  for (const auto& [x, y] : {std::pair{0, 0}, {3, 2}, {5, 5}, {7, 1}}) {
+    const ProgramResult result =
+        done({"trace", "--json", "--pixel", std::to_string(x) + "," + std::to_string(y), "-m", "mask.pgm",
+              "-k", "f.fn", "clip.tik"});
+    const json trace = json::parse(result.out);
+    EXPECT_EQ(trace.at("x"), x);
+    EXPECT_EQ(static_cast<float>(trace.at("light")[0].get<double>()), picture.at<float>(y, x));
+  }
+}
+
+TEST_F(TraceCommand, AClipIsTracedAsItsCapture) {
+  const std::vector<std::string> what{"--pixel", "3,2", "--start", "5ms", "--exposure", "20ms"};
+  std::vector<std::string> words{"trace", "-f", "100", "--transfer", "linear", "frames"};
+  words.insert(words.end(), what.begin(), what.end());
+  EXPECT_NE(done(words).out.find("frames, pixel 3,2, the exposure: light 0.35,"), std::string::npos);
+}
+
+TEST_F(TraceCommand, LongRunsAreFoldedUnlessAllIsWanted) {
+  std::filesystem::create_directory(scratch_ / "long");
+  for (int k = 0; k < 50; ++k) {
+    cv::imwrite((scratch_ / ("long/" + std::to_string(100 + k) + ".pgm")).string(),
+                cv::Mat(2, 2, CV_8UC1, cv::Scalar::all(5 * k)));
+  }
+  done({"-f", "100", "long", "long.tik"});
+  const std::vector<std::string> words{"trace", "--pixel",    "0,0",   "--start",
+                                       "0s",    "--exposure", "400ms", "long.tik"};
+  const std::string folded = done(words).out;
+  EXPECT_NE(folded.find("(36 steps)"), std::string::npos) << folded;  // of 40, without two at each end
+  EXPECT_NE(folded.find("(10 steps)"), std::string::npos) << folded;  // where the gain is 0
+  EXPECT_EQ(std::count(folded.begin(), folded.end(), '\n'), 1 + 5 + 1 + 1);
+  std::vector<std::string> all = words;
+  all.push_back("-v");
+  const std::string whole = done(all).out;
+  EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), 1 + 50 + 1);
+}
+
+TEST_F(TraceCommand, APicture) {
+  const ProgramResult result =
+      done({"trace", "--tag", "9", "-m", "mask.pgm", "-k", "f.fn", "clip.tik", "trace.png"});
+  EXPECT_NE(result.out.find("trace.png: clip.tik, mean of 24 pixels with mask value 9, M9: light 0.525,"),
+            std::string::npos)
+      << result.out;
+  const cv::Mat picture = cv::imread((scratch_ / "trace.png").string(), cv::IMREAD_COLOR);
+  ASSERT_FALSE(picture.empty());
+  // Gains are above 0 everywhere: blue areas, no orange ones.
+  cv::Mat blue, orange;
+  cv::inRange(picture, cv::Scalar(233, 202, 158), cv::Scalar(233, 202, 158), blue);
+  cv::inRange(picture, cv::Scalar(134, 192, 253), cv::Scalar(134, 192, 253), orange);
+  EXPECT_GT(cv::countNonZero(blue), 100'000);
+  EXPECT_EQ(cv::countNonZero(orange), 0);
+}
+
+TEST_F(TraceCommand, RefusesWhatMakesNoSense) {
+  expect_refused({"trace", "-k", "f.fn", "-m", "mask.pgm", "clip.tik"}, 2,
+                 "Either --pixel X,Y or --tag VALUE");
+  expect_refused({"trace", "--pixel", "1,1", "--tag", "0", "-k", "f.fn", "-m", "mask.pgm", "clip.tik"}, 2,
+                 "Either --pixel X,Y or --tag VALUE");
+  expect_refused({"trace", "--tag", "0", "--exposure", "1ms", "clip.tik"}, 2, "--tag is a value of a mask");
+  expect_refused({"trace", "--tag", "5", "-k", "f.fn", "-m", "mask.pgm", "clip.tik"}, 2,
+                 "no pixel of the mask has the value 5");
+  expect_refused({"trace", "--pixel", "8,0", "--exposure", "1ms", "clip.tik"}, 2,
+                 "there is no pixel 8,0: the picture has 0,0 … 7,5");
+  expect_refused({"trace", "--pixel", "3", "--exposure", "1ms", "clip.tik"}, 2, "--pixel 320,180");
+  expect_refused({"trace", "--pixel", "3,x", "--exposure", "1ms", "clip.tik"}, 2,
+                 "pixel row 'x' is no whole number");
+  expect_refused({"trace", "--pixel", "0,0", "clip.tik"}, 2, "an exposure needs");
+  expect_refused({"trace", "--pixel", "0,0"}, 2, "an input is missing");
+  expect_refused({"trace", "--pixel", "0,0", "--exposure", "1ms", "clip.tik", "x.txt"}, 2,
+                 "traces are written as a table, .csv, or as a picture");
+  expect_refused({"trace", "--pixel", "0,0", "--exposure", "1ms", "clip.tik", "x.pfm"}, 2, "x.pfm");
+  expect_refused({"trace", "--pixel", "0,0", "-k", "f.fn", "-m", "mask.pgm", "clip.tik", "-o", "mask.pgm"}, 2,
+                 "is also an input");
+}
+
+}  // namespace
+}  // namespace nutik

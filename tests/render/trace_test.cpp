@@ -1,0 +1,129 @@
+// A trace is the reference's walk: it comes to the same bits, and its steps to the sum.
+#include "render/trace.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "capture/error.hpp"
+#include "render/reference_renderer.hpp"
+#include "support/bounds.hpp"
+#include "support/random_case.hpp"
+
+namespace nutik {
+namespace {
+
+using test::RandomCase;
+
+TEST(Trace, EqualsTheReferenceToTheLastBit) {
+  std::uint64_t compared = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const RandomCase random(seed);
+    SCOPED_TRACE(random.text());
+    MemoryCapture capture = random.encode();
+    const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+    const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
+    test::Random draw(seed);
+    for (int i = 0; i < 10; ++i) {
+      const auto x = static_cast<std::uint32_t>(draw.whole(0, picture.shape.width - 1));
+      const auto y = static_cast<std::uint32_t>(draw.whole(0, picture.shape.height - 1));
+      const Trace trace = trace_pixel(plan, capture, x, y);
+      ASSERT_EQ(trace.channels, picture.shape.channels);
+      for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
+        const double reference =
+            picture.values<double>()[(std::uint64_t{y} * picture.shape.width + x) * trace.channels + channel];
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(trace.light[channel]), std::bit_cast<std::uint64_t>(reference))
+            << "pixel " << x << "," << y << ": " << trace.light[channel] << " and " << reference;
+        ++compared;
+      }
+    }
+  }
+  RecordProperty("compared", std::to_string(compared));
+}
+
+TEST(Trace, StepsFollowEachOtherAndAddUp) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const RandomCase random(seed);
+    SCOPED_TRACE(random.text());
+    MemoryCapture capture = random.encode();
+    PlanOptions all;
+    all.live_all = true;
+    const RenderPlan plan = make_plan(capture, random.functions, random.mask, all);
+    const Trace trace = trace_pixel(plan, capture, 0, 0);
+    ASSERT_FALSE(trace.steps.empty());
+    EXPECT_EQ(trace.steps.front().begin_ns, 0);
+    EXPECT_EQ(trace.steps.back().end_ns, plan.duration_ns);
+    const PlannedFunction& planned = plan.functions[trace.function];
+    double sum = 0.0, absolute = 0.0;
+    for (std::size_t i = 0; i < trace.steps.size(); ++i) {
+      const TraceStep& step = trace.steps[i];
+      ASSERT_LT(step.begin_ns, step.end_ns);
+      if (i > 0) {
+        ASSERT_EQ(step.begin_ns, trace.steps[i - 1].end_ns);
+      }
+      // Gain and light by Simpson's rule, which is exact for their product.
+      const auto length = static_cast<double>(step.end_ns - step.begin_ns);
+      const TraceStep::Value& value = step.values[0];
+      const double middle = (step.begin_gain + step.end_gain) / 2 * (value.begin_light + value.end_light) / 2;
+      const double simpson =
+          length / 6 * (step.begin_gain * value.begin_light + 4 * middle + step.end_gain * value.end_light);
+      const double scale =
+          length * std::max(std::fabs(step.begin_gain), std::fabs(step.end_gain));  // light is at most 1
+      EXPECT_NEAR(value.integral_ns, simpson, 20 * test::kRoundoff64 * scale);
+      sum += value.integral_ns;
+      absolute += std::fabs(value.integral_ns);
+      EXPECT_NEAR(value.sum_ns, sum, static_cast<double>(i + 2) * test::kRoundoff64 * absolute);
+    }
+    if (planned.summary.support_ns == 0) continue;
+    EXPECT_EQ(trace.light[0],
+              trace.steps.back().values[0].sum_ns / static_cast<double>(planned.summary.support_ns));
+  }
+}
+
+TEST(Trace, ARegionIsTheMeanOfItsPixels) {
+  double worst = 0.0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const RandomCase random(seed);
+    SCOPED_TRACE(random.text());
+    MemoryCapture capture = random.encode();
+    const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+    const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
+    for (std::size_t f = 0; f < plan.functions.size(); ++f) {
+      const PlannedFunction& planned = plan.functions[f];
+      const Trace trace = trace_region(plan, capture, planned.tag);
+      EXPECT_EQ(trace.pixel_count, planned.pixel_count);
+      for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
+        double sum = 0.0;
+        for (std::uint64_t pixel = 0; pixel < picture.shape.pixel_count(); ++pixel) {
+          if (plan.function_of_pixel[pixel] == f) {
+            sum += picture.values<double>()[pixel * trace.channels + channel];
+          }
+        }
+        const double scale = planned.summary.error_scale();
+        const double mean = sum / static_cast<double>(planned.pixel_count);
+        // Both walks err as the reference may; the plain sum above by a rounding a pixel; the mean light
+        // by a few of its own.
+        const double bound = (2 * test::kReferenceRoundings + static_cast<double>(planned.pixel_count) + 4) *
+                             test::kRoundoff64 * scale;
+        EXPECT_NEAR(trace.light[channel], mean, bound) << "M" << int{planned.tag};
+        if (scale > 0) worst = std::max(worst, std::fabs(trace.light[channel] - mean) / scale);
+      }
+    }
+  }
+  std::printf("worst difference: %.3g of S\n", worst);
+}
+
+TEST(Trace, NamesWhatThereIsNot) {
+  const RandomCase random(3);
+  MemoryCapture capture = random.encode();
+  const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+  EXPECT_THROW(static_cast<void>(trace_pixel(plan, capture, random.capture.shape.width, 0)), UsageError);
+  EXPECT_THROW(static_cast<void>(trace_pixel(plan, capture, 0, random.capture.shape.height)), UsageError);
+  std::uint8_t unused = 255;
+  while (random.mask.pixels_per_tag()[unused] != 0) --unused;
+  EXPECT_THROW(static_cast<void>(trace_region(plan, capture, unused)), UsageError);
+}
+
+}  // namespace
+}  // namespace nutik
