@@ -60,8 +60,7 @@ std::span<const Command> commands() {
        "Make a mask from shapes, from pictures and from what moves, without an image editor.",
        "nutik-cl mask --moving clip.tik mask.pgm --preview preview.png\n"
        "nutik-cl mask --moving --smooth 2 --largest --grow 4 clip.tik mask.pgm\n"
-       "nutik-cl mask --tag 128 --changed-between 0.3s 0.5s --tag 255 --ellipse 320,180,60,40 clip.tik -o "
-       "mask.pgm\n"
+       "nutik-cl mask --tag 128 --changed-between 0.3s 0.5s --tag 255 --ellipse 320,180,60,40 clip.tik\n"
        "nutik-cl mask --difference empty.png full.png --by 24 -o mask.pgm\n"
        "nutik-cl mask --size 640x360 --tag 64 --rectangle 0,0,320,360 -o halves.pgm",
        run_mask},

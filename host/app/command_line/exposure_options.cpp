@@ -31,8 +31,6 @@ std::vector<Option> exposure_options() {
              kTakesFunctions & ~bit(CommandId::check), &Options::live),
       valued(0, "pixel", "X,Y", kGroup, "the pixel to follow, counted from 0 at the top left", bit(Id::trace),
              &Options::pixel),
-      valued(0, "tag", "VALUE", kGroup, "follow the mean of all pixels that have this value in the mask",
-             bit(Id::trace), &Options::tag),
   };
 }
 

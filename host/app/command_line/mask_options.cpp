@@ -3,6 +3,7 @@
 namespace nutik::app {
 namespace {
 
+constexpr std::string_view kPixels = "Which pixels";
 constexpr std::string_view kRegions = "Regions, in this order: later ones lie over earlier ones";
 constexpr std::string_view kChanges = "Changes to the region before them";
 constexpr std::string_view kMask = "The mask";
@@ -16,7 +17,7 @@ std::vector<Option> mask_options() {
       step("fill", {}, kRegions, "the whole picture", kMaskOnly),
       step("rectangle", "X,Y,W,H", kRegions, "from its top left corner, in pixels", kMaskOnly),
       step("ellipse", "X,Y,RX,RY", kRegions, "round its centre, with half its width and height", kMaskOnly),
-      step("polygon", "X,Y,X,Y,…", kRegions, "three corners or more, even-odd where it crosses itself",
+      step("polygon", "X,Y,X,Y,...", kRegions, "three corners or more, even-odd where it crosses itself",
            kMaskOnly),
       step("threshold", "PICTURE LOW..HIGH", kRegions,
            "where a picture's brightness lies in a range: 100..255 in codes, 100 for that and brighter, "

@@ -33,7 +33,7 @@ struct Options {
   std::optional<std::string> unmapped;
   std::optional<std::string> live;
   std::optional<std::string> pixel;
-  std::optional<std::string> tag;
+  std::optional<std::string> tag;  // the last of several
 
   // How it is computed.
   std::optional<std::string> renderer;

@@ -1,5 +1,7 @@
 #include "app/input/mask_maker.hpp"
 
+#include <filesystem>
+
 #include "app/text/time_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -23,6 +25,9 @@ Picture picture_of(const CaptureFormat& format) {
 }  // namespace
 
 Picture read_picture(const std::string& name) {
+  if (std::error_code error; !std::filesystem::exists(name, error)) {
+    throw InputError(format("{} cannot be read: no such file", name));
+  }
   const auto stills = list_stills(name);
   if (!stills || stills->size() != 1) {
     throw UsageError(format(
