@@ -24,7 +24,7 @@ constexpr std::size_t kMostKnots = 1000;
 constexpr double kChordShare = 0.01;
 
 double hann(double x) {
-  const double sine = std::sin(std::numbers::pi * x);
+  const double sine = std::sin(std::numbers::pi * std::min(x, 1.0 - x));  // exactly 0 at both ends
   return sine * sine;
 }
 constexpr double kHannBend = 2 * std::numbers::pi * std::numbers::pi;  // π² 2 cos(2πx) at its ends and middle

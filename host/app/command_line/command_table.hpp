@@ -9,7 +9,7 @@
 
 namespace nutik::app {
 
-enum class CommandId { encode, expose, info, devices, recover };
+enum class CommandId { encode, expose, info, devices, recover, shutter, again };
 
 struct Command {
   CommandId id;

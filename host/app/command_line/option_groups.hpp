@@ -22,6 +22,10 @@ inline constexpr CommandSet kAllCommands = ~CommandSet{0};
 inline constexpr CommandSet kReadsClips = bit(CommandId::encode) | bit(CommandId::expose);
 // Those that expose pictures with gain functions and a mask.
 inline constexpr CommandSet kExposesFunctions = bit(CommandId::expose);
+// Those that expose series of pictures.
+inline constexpr CommandSet kExposesSeries = bit(CommandId::expose);
+// Those that say when an interval is exposed and how bright.
+inline constexpr CommandSet kTimesExposures = kExposesFunctions | bit(CommandId::shutter);
 // Those that expose pictures at all, and so take what says how that is computed.
 inline constexpr CommandSet kExposes = kExposesFunctions;
 

@@ -1,10 +1,13 @@
 #include <filesystem>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/expose_series.hpp"
 #include "app/input/capture_input.hpp"
 #include "app/input/exposer.hpp"
 #include "app/input/exposure_request.hpp"
+#include "app/input/input_files.hpp"
 #include "app/output/console.hpp"
+#include "app/output/exposure_report.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/stopwatch.hpp"
@@ -17,8 +20,6 @@
 
 namespace nutik::app {
 namespace {
-
-constexpr std::size_t kFunctionsInSummary = 6;
 
 // An exposure, and the timeline of the capture it was made from.
 struct ExposedCapture {
@@ -86,51 +87,11 @@ class Exposing {
   std::vector<std::string> notes_;  // on the clip
 };
 
-std::vector<std::string> input_names(const Options& options) {
-  std::vector<std::string> inputs{options.operands.front()};
-  if (!options.raw) {
-    // Each still of a sequence is an input that the picture must not replace.
-    for (const auto& still : list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{})) {
-      inputs.push_back(still.string());
-    }
-  }
-  if (options.mask) inputs.push_back(*options.mask);
-  if (options.functions) inputs.push_back(*options.functions);
-  return inputs;
-}
-
-// `, still gain M0 1, M128 0.25`, or without a tag for a plain interval.
-std::string still_gains_text(const RenderPlan& plan, bool plain) {
-  if (plain && !plan.functions.empty()) {
-    return format(", still gain {:.6g}", plan.functions.front().summary.still_gain());
-  }
-  std::string text = ", still gain";
-  for (std::size_t f = 0; f < std::min(plan.functions.size(), kFunctionsInSummary); ++f) {
-    const PlannedFunction& function = plan.functions[f];
-    text += format("{} M{} {:.6g}", f == 0 ? "" : ",", function.tag, function.summary.still_gain());
-  }
-  if (plan.functions.size() > kFunctionsInSummary) {
-    text += format(" and {} more", plan.functions.size() - kFunctionsInSummary);
-  }
-  return text;
-}
-
-// Light below 0 is black in a picture of codes: a still scene under a negative still gain disappears.
-void warn_of_negative_gains(const Exposed& exposed) {
-  if (!holds_codes(exposed.picture.type)) return;
-  for (const PlannedFunction& function : exposed.plan.functions) {
-    const double still_gain = function.summary.still_gain();
-    if (still_gain >= 0.0) continue;
-    print_warning(
-        format("M{}: the still gain is {:.6g}: whatever does not move comes out black; write a .pfm "
-               "or a .tif with --depth float to keep light below 0",
-               function.tag, still_gain));
-  }
-}
-
 }  // namespace
 
 int run_expose(const Options& options) {
+  if (options.every) return expose_series(options);
+  if (options.count) throw UsageError("--count goes with --every: a series needs both a step and a number");
   const Stopwatch stopwatch;
   const auto stated = stated_output(options.output, options.operands, "expose");
   const std::string& input = options.operands.front();
@@ -140,14 +101,14 @@ int run_expose(const Options& options) {
     output = sequence_name(input) + "-" + exposing.label() + ".png";
     exposing.set_output(output);
   }
-  check_output(output, OutputKind::picture, input_names(options));
+  check_output(output, OutputKind::picture, input_files(options));
 
   const bool captured = is_tik(input);
   const SourceOptions source_options = SourceOptions::from(options);
   const auto [exposed, timeline] =
       captured ? exposing.from_tik(input) : exposing.from_clip(input, source_options);
   for (const std::string& warning : exposed.plan.warnings) print_warning(warning);
-  warn_of_negative_gains(exposed);
+  warn_of_negative_gains(exposed.plan, exposed.picture.type);
   write_picture(output, exposed.picture);
   if (options.quiet) {
     if (!stated) print_line(output.string());  // a name that nobody gave
