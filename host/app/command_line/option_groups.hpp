@@ -39,7 +39,8 @@ inline constexpr CommandSet kExposes = kExposesFunctions;
           group,
           help,
           commands,
-          [member](Options& options, const std::string& text) { options.*member = text; }};
+          [member](Options& options, const std::string& text) { options.*member = text; },
+          member};
 }
 
 // A row without one.

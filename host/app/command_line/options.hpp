@@ -50,6 +50,7 @@ struct Options {
   std::optional<std::string> block_samples;
   std::optional<std::string> activity;
 
+  bool no_recipe = false;
   bool quiet = false;
   bool verbose = false;
 };

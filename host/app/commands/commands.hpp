@@ -11,5 +11,6 @@ int run_info(const Options& options);
 int run_devices(const Options& options);
 int run_recover(const Options& options);
 int run_shutter(const Options& options);
+int run_again(const Options& options);
 
 }  // namespace nutik::app

@@ -10,6 +10,7 @@
 #include "app/output/exposure_report.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
+#include "app/output/picture_recipe.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/text/size_text.hpp"
 #include "capture/error.hpp"
@@ -103,13 +104,14 @@ int run_expose(const Options& options) {
   }
   check_output(output, OutputKind::picture, input_files(options));
 
+  PictureRecipe recipe(options);
   const bool captured = is_tik(input);
   const SourceOptions source_options = SourceOptions::from(options);
   const auto [exposed, timeline] =
       captured ? exposing.from_tik(input) : exposing.from_clip(input, source_options);
   for (const std::string& warning : exposed.plan.warnings) print_warning(warning);
   warn_of_negative_gains(exposed.plan, exposed.picture.type);
-  write_picture(output, exposed.picture);
+  write_picture(output, exposed.picture, recipe.text(exposing.exposer().precision()));
   if (options.quiet) {
     if (!stated) print_line(output.string());  // a name that nobody gave
     return 0;

@@ -13,6 +13,7 @@
 #include "app/output/exposure_report.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
+#include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/text/size_text.hpp"
@@ -71,6 +72,7 @@ int expose_series(const Options& options) {
   const std::vector<std::string> inputs = input_files(options);
   check_output(names[0], OutputKind::picture, inputs);  // before a clip is read
   Exposer exposer(options);
+  PictureRecipe recipe(options);
   OpenedCapture opened(input, options);
   tik::Reader& capture = opened.reader();
   const std::vector<TimeText> starts = series.starts(request, capture.timeline());
@@ -90,8 +92,9 @@ int expose_series(const Options& options) {
     for (const std::string& warning : exposed.plan.warnings) warnings.print(names[k], warning);
     if (k == 0) warn_of_negative_gains(exposed.plan, exposed.picture.type);
     if (writing.valid()) writing.get();
-    writing = std::async(std::launch::async, [path = names[k], picture = std::move(exposed.picture)] {
-      write_picture(path, picture);
+    writing = std::async(std::launch::async, [path = names[k], picture = std::move(exposed.picture),
+                                              text = recipe.text(exposer.precision(), starts[k].text())] {
+      write_picture(path, picture, text);
     });
     if (k == 0) first_plan = std::move(exposed.plan);
   }
