@@ -13,7 +13,7 @@ from matplotlib import pyplot
 from fnplot.function_file import parse_functions
 
 SHAPES = ["box", "trapezoid:0.25", "triangle", "gaussian", "hann", "strobe:4", "spline:0=0,0.1=1,0.4=0.35,1=0",
-          "spline:0=-0.25,0.3=-0.25,0.5=1,0.7=-0.25,1=-0.25"]
+          "spline:0=-.2,.3=-.2,.5=1,.7=-.2,1=-.2"]
 LINE, POINT = "#0060a8", "#c85000"
 AREAS = {1: "#9ecae9", -1: "#fdc086"}  # what adds light, what takes it away
 EXPOSURE_MS = 10
