@@ -85,6 +85,7 @@ class OpenClRenderer::Implementation {
   }
 
   [[nodiscard]] const std::string& name() const { return info_.name; }
+  [[nodiscard]] std::string precision() const { return to_text(options_.precision); }
   [[nodiscard]] const RenderStatistics& statistics() const { return statistics_; }
   [[nodiscard]] const PrecisionChoice& choice() const { return choice_; }
 
@@ -347,6 +348,8 @@ Picture OpenClRenderer::render(const RenderPlan& plan, CaptureSource& source, co
 void OpenClRenderer::hold(const CaptureSource* source) { implementation_->hold(source); }
 
 std::string OpenClRenderer::name() const { return implementation_->name(); }
+
+std::string OpenClRenderer::precision() const { return implementation_->precision(); }
 
 std::string OpenClRenderer::report() const { return implementation_->report(); }
 

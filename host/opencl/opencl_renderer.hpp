@@ -61,6 +61,7 @@ class OpenClRenderer final : public Renderer {
   [[nodiscard]] Picture render(const RenderPlan& plan, CaptureSource& source,
                                const OutputFormat& output) override;
   [[nodiscard]] std::string name() const override;
+  [[nodiscard]] std::string precision() const override;
   [[nodiscard]] std::string report() const override;
   [[nodiscard]] std::string warning() const override;
   [[nodiscard]] const RenderStatistics& statistics() const;

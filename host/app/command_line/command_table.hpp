@@ -21,7 +21,9 @@ enum class CommandId {
   mask,
   contact,
   activity,
-  sweep
+  sweep,
+  shutter,
+  again
 };
 
 struct Command {

@@ -33,6 +33,8 @@ inline constexpr CommandSet kTakesMasks = kTakesFunctions | set_of(CommandId::ac
 // Those that take a plain interval.
 inline constexpr CommandSet kTakesIntervals =
     set_of(CommandId::expose, CommandId::trace, CommandId::mask, CommandId::contact, CommandId::sweep);
+// Those that shape and weigh what they expose.
+inline constexpr CommandSet kShapesExposures = set_of(CommandId::expose, CommandId::trace, CommandId::sweep);
 // Those that expose pictures, and so take what says how that is computed.
 inline constexpr CommandSet kExposes =
     set_of(CommandId::expose, CommandId::batch, CommandId::mask, CommandId::contact, CommandId::sweep);
@@ -53,7 +55,8 @@ inline constexpr CommandSet kAnswersInJson =
           group,
           help,
           commands,
-          [member](Options& options, const std::string& text) { options.*member = text; }};
+          [member](Options& options, const std::string& text) { options.*member = text; },
+          member};
 }
 
 // A row without one.

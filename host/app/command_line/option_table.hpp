@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,7 @@ struct Option {
   CommandSet commands;
   // For an option of one value. What an option of several was given stands in Options::said alone.
   std::function<void(Options& options, const std::string& value)> set;
+  std::optional<std::string> Options::*member = nullptr;  // that holds its value
   bool is_repeatable = false;
 
   // How many words its value takes.

@@ -33,7 +33,22 @@ struct Options {
   std::optional<std::string> unmapped;
   std::optional<std::string> live;
   std::optional<std::string> pixel;
-  std::optional<std::string> tag;  // the last of several
+  std::optional<std::string> tag;  // of a mask
+  std::optional<std::string> shutter;
+  std::optional<std::string> shutter_error;
+  std::optional<std::string> normalize;
+  std::optional<std::string> gain;
+  std::optional<std::string> ev;
+
+  // Many exposures, as a series or on a sheet.
+  std::optional<std::string> every;
+  std::optional<std::string> count;
+  std::optional<std::string> columns;
+  std::optional<std::string> width;
+  std::optional<std::string> shift;
+  std::optional<std::string> scale_gain;
+  std::optional<std::string> stretch;
+  std::optional<std::string> each;
 
   // How it is computed.
   std::optional<std::string> renderer;
@@ -56,18 +71,12 @@ struct Options {
   std::optional<std::string> size;
   std::optional<std::string> preview;
 
-  // Many exposures on a sheet, and changes over time.
-  std::optional<std::string> every;
-  std::optional<std::string> columns;
-  std::optional<std::string> width;
-  std::optional<std::string> shift;
-  std::optional<std::string> scale_gain;
-  std::optional<std::string> stretch;
-  std::optional<std::string> each;
+  // Changes over time.
   std::optional<std::string> csv;
   std::optional<std::string> map;
 
   bool json = false;
+  bool no_recipe = false;
   bool quiet = false;
   bool verbose = false;
 };

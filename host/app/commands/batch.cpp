@@ -10,11 +10,14 @@
 #include "app/commands/commands.hpp"
 #include "app/input/exposer.hpp"
 #include "app/input/exposure_request.hpp"
+#include "app/input/input_files.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/output/console.hpp"
+#include "app/output/exposure_report.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/picture_queue.hpp"
+#include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
 #include "capture/error.hpp"
@@ -102,17 +105,20 @@ class Batch {
   void expose(const ListedExposure& listed, const std::optional<std::string>& capture_name) {
     try {
       Options line = line_options(listed.words, capture_name);
+      for (const auto& [member, name] : kOfTheWholeBatch) line.*member = options_.*member;
       if (!line.transfer) line.transfer = options_.transfer;
-      const ExposureRequest request = ExposureRequest::from(line);
+      line.no_recipe |= options_.no_recipe;
+      ExposureRequest request = ExposureRequest::from(line);
       const auto stated = stated_output(line.output, line.operands, "expose");
       const std::filesystem::path output =
           stated.value_or(picture_name(line.operands.front(), request.label()));
-      check_output(output, OutputKind::picture, exposure_inputs(line));
+      check_output(output, OutputKind::picture, input_files(line));
       const auto [earlier, is_new] =
           line_of_output_.try_emplace(std::filesystem::absolute(output).lexically_normal(), listed.line);
       if (!is_new) {
         throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
       }
+      PictureRecipe recipe(line);
       CaptureSource& source = capture(line.operands.front()).reader();
       Exposed exposed =
           exposer_.expose(source, request.functions(source.timeline()), request.mask(source.format().shape),
@@ -121,7 +127,7 @@ class Batch {
         print_warning(format("{}:{}: {}", list_name_, listed.line, warning));
       }
       if (options_.verbose) print_line(format("{}: {}", output.string(), exposer_.report()));
-      pictures_.push(listed.line, output, std::move(exposed.picture));
+      pictures_.push(listed.line, output, std::move(exposed.picture), recipe.text(exposer_.precision()));
     } catch (const UsageError& error) {
       report(listed.line, error.what());
     } catch (const InputError& error) {

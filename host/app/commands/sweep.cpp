@@ -101,7 +101,7 @@ int run_sweep(const Options& options) {
     wishes.columns = static_cast<std::uint32_t>(ranges.front().count());
   }
   if (options.operands.empty()) throw UsageError("an input is missing; see nutik-cl sweep --help");
-  const ExposureRequest request = ExposureRequest::from(options);
+  ExposureRequest request = ExposureRequest::from(options);
   const std::filesystem::path output = sheet_output(options, "sweep", request.label() + "-sweep");
   std::vector<std::string> inputs{options.operands.front()};
   if (options.mask) inputs.push_back(*options.mask);

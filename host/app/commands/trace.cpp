@@ -95,7 +95,7 @@ int run_trace(const Options& options) {
   const auto output = stated_output(options.output, options.operands, "trace");
   const std::string& input = options.operands.front();
   const Traced traced = Traced::from(options);
-  const ExposureRequest request = ExposureRequest::from(options);
+  ExposureRequest request = ExposureRequest::from(options);
   if (output) {
     std::vector<std::string> inputs{input};
     if (options.mask) inputs.push_back(*options.mask);

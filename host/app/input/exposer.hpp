@@ -18,9 +18,6 @@ struct Exposed {
   Picture picture;
 };
 
-// What to tell about an exposure, whole sentences: the plan's warnings, and what codes cannot hold.
-[[nodiscard]] std::vector<std::string> exposure_warnings(const Exposed& exposed);
-
 class Exposer {
  public:
   // A device takes a while to start: it does so beside whatever the caller does next. Errors of that are
@@ -37,6 +34,7 @@ class Exposer {
 
   // What makes the pictures, and what the last one took. After the first exposure.
   [[nodiscard]] std::string renderer_name() const { return renderer_->name(); }
+  [[nodiscard]] std::string precision() const { return renderer_->precision(); }
   [[nodiscard]] std::string report() const { return renderer_->report(); }
 
  private:

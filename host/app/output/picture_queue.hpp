@@ -24,7 +24,7 @@ class PictureQueue {
   PictureQueue& operator=(const PictureQueue&) = delete;
 
   // Waits while too many pictures wait already. `number` tells the caller which one failed.
-  void push(std::size_t number, std::filesystem::path path, Picture picture);
+  void push(std::size_t number, std::filesystem::path path, Picture picture, std::string recipe);
   // Waits until everything is written. Nothing can be pushed any more.
   void finish();
 
@@ -33,6 +33,7 @@ class PictureQueue {
     std::size_t number;
     std::filesystem::path path;
     Picture picture;
+    std::string recipe;
   };
 
   // One being written, one waiting: more would only hold memory.
