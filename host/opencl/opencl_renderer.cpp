@@ -85,7 +85,7 @@ class OpenClRenderer::Implementation {
   }
 
   [[nodiscard]] const std::string& name() const { return info_.name; }
-  [[nodiscard]] std::string precision() const { return to_text(options_.precision); }
+  [[nodiscard]] std::string precision() const { return to_text(choice_.precision()); }
   [[nodiscard]] const RenderStatistics& statistics() const { return statistics_; }
   [[nodiscard]] const PrecisionChoice& choice() const { return choice_; }
 

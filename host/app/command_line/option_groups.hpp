@@ -71,7 +71,7 @@ inline constexpr CommandSet kAnswersInJson =
 // a flag.
 [[nodiscard]] inline Option step(std::string_view long_name, std::string_view value, std::string_view group,
                                  std::string_view help, CommandSet commands) {
-  return {0, long_name, value, group, help, commands, {}, true};
+  return {0, long_name, value, group, help, commands, {}, nullptr, true};
 }
 
 }  // namespace nutik::app
