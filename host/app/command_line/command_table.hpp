@@ -9,7 +9,7 @@
 
 namespace nutik::app {
 
-enum class CommandId { encode, expose, info, devices, recover, shutter, again };
+enum class CommandId { encode, expose, info, devices, recover, batch, shutter, again };
 
 struct Command {
   CommandId id;

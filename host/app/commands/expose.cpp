@@ -5,7 +5,6 @@
 #include "app/input/capture_input.hpp"
 #include "app/input/exposer.hpp"
 #include "app/input/exposure_request.hpp"
-#include "app/input/input_files.hpp"
 #include "app/output/console.hpp"
 #include "app/output/exposure_report.hpp"
 #include "app/output/output_format.hpp"
@@ -16,7 +15,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
-#include "media/still_sequence.hpp"
+#include "media/read_ahead.hpp"
 #include "render/render_plan.hpp"
 
 namespace nutik::app {
@@ -55,8 +54,11 @@ class Exposing {
       plan_options.transfer.reset();  // it went into the capture's format
       const SampleRange needed =
           needed_samples(timeline, functions, request_.mask(source.capture.shape), plan_options);
+      // At the timeline's end samples that follow are counted: they prove it wrong.
+      const bool is_end = needed.last == timeline.sample_count();
+      ReadAhead samples(*source.clip, is_end ? ReadAhead::kAll : needed.last);
       StreamingCapture stream(source.capture, timeline, needed, source.block_samples, source_options.tiles,
-                              [&](std::span<std::byte> raster) { return source.clip->read(raster); });
+                              [&] { return samples.next(); });
       try {
         return expose(stream, functions);
       } catch (const SampleCountMismatch& mismatch) {
@@ -99,18 +101,17 @@ int run_expose(const Options& options) {
   std::filesystem::path output = stated.value_or("");
   Exposing exposing(options, output);
   if (!stated) {
-    output = sequence_name(input) + "-" + exposing.label() + ".png";
+    output = picture_name(input, exposing.label());
     exposing.set_output(output);
   }
-  check_output(output, OutputKind::picture, input_files(options));
+  check_output(output, OutputKind::picture, exposure_inputs(options));
 
   PictureRecipe recipe(options);
   const bool captured = is_tik(input);
   const SourceOptions source_options = SourceOptions::from(options);
   const auto [exposed, timeline] =
       captured ? exposing.from_tik(input) : exposing.from_clip(input, source_options);
-  for (const std::string& warning : exposed.plan.warnings) print_warning(warning);
-  warn_of_negative_gains(exposed.plan, exposed.picture.type);
+  for (const std::string& warning : exposure_warnings(exposed)) print_warning(warning);
   write_picture(output, exposed.picture, recipe.text(exposing.exposer().precision()));
   if (options.quiet) {
     if (!stated) print_line(output.string());  // a name that nobody gave

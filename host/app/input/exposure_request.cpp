@@ -115,9 +115,8 @@ ExposureRequest ExposureRequest::from(const Options& options) {
 
 GainFunction ExposureRequest::interval_function(const Exposure& interval, const Timeline& timeline) {
   if (interval.start_ns >= timeline.duration_ns() || interval.end_ns <= 0) {
-    throw UsageError(format("the interval from {} to {} lies outside the capture, which lasts {}",
-                            duration_text(interval.start_ns), duration_text(interval.end_ns),
-                            duration_text(timeline.duration_ns())));
+    throw UsageError(format("the interval from {} on lies outside the capture, which lasts {}",
+                            duration_text(interval.start_ns), duration_text(timeline.duration_ns())));
   }
   return shutter_.function({interval.start_ns, interval.end_ns});
 }

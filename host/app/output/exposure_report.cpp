@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/output/console.hpp"
 #include "capture/format.hpp"
 
 namespace nutik::app {
@@ -25,18 +24,6 @@ std::string still_gains_text(const RenderPlan& plan, bool plain) {
     text += format(" and {} more", plan.functions.size() - kFunctionsInSummary);
   }
   return text;
-}
-
-void warn_of_negative_gains(const RenderPlan& plan, ValueType type) {
-  if (!holds_codes(type)) return;
-  for (const PlannedFunction& function : plan.functions) {
-    const double still_gain = function.summary.still_gain();
-    if (still_gain >= 0.0) continue;
-    print_warning(
-        format("M{}: the still gain is {:.6g}: whatever does not move comes out black; write a .pfm "
-               "or a .tif with --depth float to keep light below 0",
-               function.tag, still_gain));
-  }
 }
 
 }  // namespace nutik::app
