@@ -54,10 +54,12 @@ TEST_F(CommandLine, TakesThePapersForms) {
 }
 
 TEST_F(CommandLine, NamesWhatWasMeant) {
-  expect_refused({"encod", "clip.avi", "x.tik"}, 2, "there is no file and no command 'encod'; did you mean encode?");
+  expect_refused({"encod", "clip.avi", "x.tik"}, 2,
+                 "there is no file and no command 'encod'; did you mean encode?");
   expect_refused({"frobnicate"}, 2, "there is no file and no command 'frobnicate'");
   expect_refused({"-f", "25", "--fps", "30", "clip.avi", "x.tik"}, 2, "-f is given twice");
-  expect_refused({"--start", "0s", "--exposure", "1f", "-o", "", "clip.tik"}, 2, "the output's name is empty");
+  expect_refused({"--start", "0s", "--exposure", "1f", "-o", "", "clip.tik"}, 2,
+                 "the output's name is empty");
   ASSERT_EQ(test::run_shell("mkfifo pipe", scratch_.folder()).status, 0);
   expect_refused({"pipe", "x.tik"}, 3, "pipe is no regular file");
 }
