@@ -57,8 +57,17 @@ TEST_F(Batch, LeavesTheCaptureToTheCommandAndReadsFromStandardInput) {
       scratch_.folder());
   ASSERT_EQ(batch.status, 0) << batch.err;
   EXPECT_TRUE(batch.out.starts_with("2 of 2 pictures, ")) << batch.out;
-  ASSERT_EQ(run({"-k", "trail.fn", "scene.tik", "single.png"}).status, 0);
+  ASSERT_EQ(run({"-f", "100", "-k", "trail.fn", "still%d.pgm", "single.png"}).status, 0);
   EXPECT_EQ(picture("b.png"), picture("single.png"));
+}
+
+TEST_F(Batch, LeavesSeriesToExpose) {
+  scratch_.write("list", "--exposure 10ms --every 10ms s-%d.png\n");
+  const ProgramResult batch = run({"batch", "list", "scene.tik"});
+  EXPECT_EQ(batch.status, 1);
+  EXPECT_NE(batch.err.find("list:1: --every and --count make a series; a line of a batch is one picture"),
+            std::string::npos)
+      << batch.err;
 }
 
 TEST_F(Batch, ReportsBadLinesAndGoesOn) {

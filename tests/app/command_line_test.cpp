@@ -54,7 +54,8 @@ TEST_F(CommandLine, TakesThePapersForms) {
 }
 
 TEST_F(CommandLine, NamesWhatWasMeant) {
-  expect_refused({"encod", "clip.avi", "x.tik"}, 2, "there is no file and no command 'encod'; did you mean encode?");
+  expect_refused({"encod", "clip.avi", "x.tik"}, 2,
+                 "there is no file and no command 'encod'; did you mean encode?");
   expect_refused({"frobnicate"}, 2, "there is no file and no command 'frobnicate'");
   expect_refused({"-f", "25", "--fps", "30", "clip.avi", "x.tik"}, 2, "-f is given twice");
   expect_refused({"mask", "--base", "mask.pgm", "--base", "mask.pgm", "clip.tik"}, 2, "--base is given twice");

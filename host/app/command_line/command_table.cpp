@@ -87,16 +87,15 @@ std::span<const Command> commands() {
        run_sweep},
       {Id::shutter, "shutter", "SHAPE",
        "Write a shutter's shape as a gain function: a line for a function file. Shapes: box, trapezoid:R, "
-       "triangle, "
-       "gaussian, hann, strobe:N, spline:0=G,…,1=G.",
+       "triangle, gaussian, hann, strobe:N, spline:0=G,…,1=G.",
        "nutik-cl shutter hann --start 0.4s --exposure 10ms --tag 128 > f.fn\n"
        "nutik-cl shutter spline:0=0,0.1=1,1=0 --exposure 1s > trail.fn\n"
        "nutik-cl shutter strobe:5 --start 30f --exposure 60f --fps 960",
        run_shutter},
       {Id::again, "again", "PICTURE [FOLDER...]",
        "Print the command that makes a picture again, byte for byte, from the recipe that the picture "
-       "carries. The files "
-       "it was made from are looked for in the folders, the current one and the picture's.",
+       "carries. The files it was made from are looked for in the folders, the current one and the "
+       "picture's.",
        "nutik-cl again picture.png\n"
        "nutik-cl again picture.png captures masks\n"
        "nutik-cl again picture.png | sh",

@@ -10,10 +10,8 @@
 #include "app/commands/commands.hpp"
 #include "app/input/exposer.hpp"
 #include "app/input/exposure_request.hpp"
-#include "app/input/input_files.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/output/console.hpp"
-#include "app/output/exposure_report.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/picture_queue.hpp"
@@ -84,6 +82,9 @@ Options line_options(std::vector<std::string> words, const std::optional<std::st
           format("{} holds for all exposures: nutik-cl batch {} {} …", name, name, *(options.*member)));
     }
   }
+  if (options.every || options.count) {
+    throw UsageError("--every and --count make a series; a line of a batch is one picture");
+  }
   if (capture) {
     if (options.operands.size() > 1) {
       throw UsageError(format("'{}' is one file too many: all lines expose {}, and name a picture only",
@@ -105,20 +106,17 @@ class Batch {
   void expose(const ListedExposure& listed, const std::optional<std::string>& capture_name) {
     try {
       Options line = line_options(listed.words, capture_name);
-      for (const auto& [member, name] : kOfTheWholeBatch) line.*member = options_.*member;
       if (!line.transfer) line.transfer = options_.transfer;
-      line.no_recipe |= options_.no_recipe;
       ExposureRequest request = ExposureRequest::from(line);
       const auto stated = stated_output(line.output, line.operands, "expose");
       const std::filesystem::path output =
           stated.value_or(picture_name(line.operands.front(), request.label()));
-      check_output(output, OutputKind::picture, input_files(line));
+      check_output(output, OutputKind::picture, exposure_inputs(line));
       const auto [earlier, is_new] =
           line_of_output_.try_emplace(std::filesystem::absolute(output).lexically_normal(), listed.line);
       if (!is_new) {
         throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
       }
-      PictureRecipe recipe(line);
       CaptureSource& source = capture(line.operands.front()).reader();
       Exposed exposed =
           exposer_.expose(source, request.functions(source.timeline()), request.mask(source.format().shape),
@@ -127,7 +125,7 @@ class Batch {
         print_warning(format("{}:{}: {}", list_name_, listed.line, warning));
       }
       if (options_.verbose) print_line(format("{}: {}", output.string(), exposer_.report()));
-      pictures_.push(listed.line, output, std::move(exposed.picture), recipe.text(exposer_.precision()));
+      pictures_.push(listed.line, output, std::move(exposed.picture), recipe_text(line));
     } catch (const UsageError& error) {
       report(listed.line, error.what());
     } catch (const InputError& error) {
@@ -145,12 +143,21 @@ class Batch {
   [[nodiscard]] std::string renderer_name() const { return exposer_.renderer_name(); }
 
  private:
+  // Of the picture of a line, with what holds for the whole batch.
+  std::string recipe_text(Options line) {
+    for (const auto& [member, name] : kOfTheWholeBatch) line.*member = options_.*member;
+    if (line.no_recipe) return {};
+    if (!capture_checksum_) capture_checksum_ = capture_checksum(capture_name_);
+    return PictureRecipe(line, capture_checksum_).text(exposer_.precision());
+  }
+
   // Lines mostly expose one capture, or one after another: the last one stays open.
   OpenedCapture& capture(const std::string& name) {
     if (!capture_ || capture_name_ != name) {
       capture_.reset();
       capture_ = std::make_unique<OpenedCapture>(name, options_);
       capture_name_ = name;
+      capture_checksum_.reset();
       exposer_.hold(capture_->reader());
       if (!options_.quiet) {
         for (const std::string& note : capture_->notes()) print_note(note);
@@ -170,6 +177,7 @@ class Batch {
   std::string list_name_;
   Exposer exposer_;
   std::string capture_name_;
+  std::optional<std::string> capture_checksum_;  // where a recipe needed it
   std::unique_ptr<OpenedCapture> capture_;
   std::map<std::filesystem::path, std::size_t> line_of_output_;
   std::mutex reporting_;

@@ -5,7 +5,6 @@
 #include "app/input/capture_input.hpp"
 #include "app/input/exposer.hpp"
 #include "app/input/exposure_request.hpp"
-#include "app/input/input_files.hpp"
 #include "app/output/console.hpp"
 #include "app/output/exposure_report.hpp"
 #include "app/output/output_format.hpp"
@@ -106,7 +105,7 @@ int run_expose(const Options& options) {
     output = picture_name(input, exposing.label());
     exposing.set_output(output);
   }
-  check_output(output, OutputKind::picture, input_files(options));
+  check_output(output, OutputKind::picture, exposure_inputs(options));
 
   PictureRecipe recipe(options);
   const bool captured = is_tik(input);

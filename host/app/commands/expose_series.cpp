@@ -1,18 +1,18 @@
 #include "app/commands/expose_series.hpp"
 
 #include <filesystem>
-#include <future>
+#include <optional>
 #include <set>
 
 #include "app/input/exposer.hpp"
 #include "app/input/exposure_request.hpp"
 #include "app/input/exposure_series.hpp"
-#include "app/input/input_files.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/output/console.hpp"
 #include "app/output/exposure_report.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
+#include "app/output/picture_queue.hpp"
 #include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
@@ -20,8 +20,8 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/numbered_name.hpp"
-#include "media/picture_writer.hpp"
 #include "media/still_sequence.hpp"
+#include "system/channel.hpp"
 
 namespace nutik::app {
 namespace {
@@ -69,7 +69,7 @@ int expose_series(const Options& options) {
   ExposureRequest request = ExposureRequest::from(options);
   const ExposureSeries series = ExposureSeries::from(options);
   const PictureNames names(stated.value_or(sequence_name(input) + "-" + request.label() + "-%04d.png"));
-  const std::vector<std::string> inputs = input_files(options);
+  const std::vector<std::string> inputs = exposure_inputs(options);
   check_output(names[0], OutputKind::picture, inputs);  // before a clip is read
   Exposer exposer(options);
   PictureRecipe recipe(options);
@@ -84,21 +84,21 @@ int expose_series(const Options& options) {
   const Stopwatch stopwatch;
   Progress progress("exposing", starts.size(), options.quiet);
   Warnings warnings;
-  std::future<void> writing;  // the picture before, beside the next exposure
+  Channel<std::string> failures(starts.size());  // of pictures that could not be written
+  PictureQueue pictures([&](std::size_t, const std::string& message) { failures.push(message); });
   std::optional<RenderPlan> first_plan;
   for (std::uint64_t k = 0; k < starts.size(); ++k) {
     progress.show(k);
     Exposed exposed = exposer.expose(capture, request.functions(starts[k], capture.timeline()), mask,
                                      request.plan_options(), format_of_all);
     for (const std::string& warning : exposure_warnings(exposed)) warnings.print(names[k], warning);
-    if (writing.valid()) writing.get();
-    writing = std::async(std::launch::async, [path = names[k], picture = std::move(exposed.picture),
-                                              text = recipe.text(exposer.precision(), starts[k].text())] {
-      write_picture(path, picture, text);
-    });
+    pictures.push(k, names[k], std::move(exposed.picture),
+                  recipe.text(exposer.precision(), starts[k].text()));
     if (k == 0) first_plan = std::move(exposed.plan);
   }
-  writing.get();
+  pictures.finish();
+  failures.close();
+  if (const auto failure = failures.pop()) throw OutputError(*failure);
   if (options.quiet) {
     if (!stated) print_line(names[0].string());  // a name that nobody gave
     return 0;

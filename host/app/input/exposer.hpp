@@ -18,6 +18,9 @@ struct Exposed {
   Picture picture;
 };
 
+// What to tell about an exposure, whole sentences: the plan's warnings, and what codes cannot hold.
+[[nodiscard]] std::vector<std::string> exposure_warnings(const Exposed& exposed);
+
 class Exposer {
  public:
   // A device takes a while to start: it does so beside whatever the caller does next. Errors of that are

@@ -112,4 +112,17 @@ std::filesystem::path picture_name(const std::string& input, const std::string& 
   return sequence_name(input) + "-" + label + ".png";
 }
 
+std::vector<std::string> exposure_inputs(const Options& options) {
+  std::vector<std::string> inputs{options.operands.front()};
+  if (!options.raw) {
+    // Each still of a sequence is an input that the picture must not replace.
+    for (const auto& still : list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{})) {
+      inputs.push_back(still.string());
+    }
+  }
+  if (options.mask) inputs.push_back(*options.mask);
+  if (options.functions) inputs.push_back(*options.functions);
+  return inputs;
+}
+
 }  // namespace nutik::app

@@ -26,4 +26,7 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
 // The name of a picture of `input` that nobody gave one: `clip-motion.png` for the exposure `motion`.
 [[nodiscard]] std::filesystem::path picture_name(const std::string& input, const std::string& label);
 
+// The files that an exposure reads, each still of a sequence among them: its picture must not replace any.
+[[nodiscard]] std::vector<std::string> exposure_inputs(const Options& options);
+
 }  // namespace nutik::app

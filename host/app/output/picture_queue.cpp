@@ -11,7 +11,7 @@ PictureQueue::PictureQueue(Failed failed)
     : writing_(std::async(std::launch::async, [this, failed = std::move(failed)] {
         while (const auto job = jobs_.pop()) {
           try {
-            write_picture(job->path, job->picture, job->recipe);
+            write_picture(job->path, job->picture, job->text);
           } catch (const OutputError& error) {
             failed(job->number, error.what());
           } catch (const UsageError& error) {
@@ -22,8 +22,8 @@ PictureQueue::PictureQueue(Failed failed)
 
 PictureQueue::~PictureQueue() { jobs_.close(); }
 
-void PictureQueue::push(std::size_t number, std::filesystem::path path, Picture picture, std::string recipe) {
-  jobs_.push({number, std::move(path), std::move(picture), std::move(recipe)});
+void PictureQueue::push(std::size_t number, std::filesystem::path path, Picture picture, std::string text) {
+  jobs_.push({number, std::move(path), std::move(picture), std::move(text)});
 }
 
 void PictureQueue::finish() {

@@ -23,8 +23,9 @@ class PictureQueue {
   PictureQueue(const PictureQueue&) = delete;
   PictureQueue& operator=(const PictureQueue&) = delete;
 
-  // Waits while too many pictures wait already. `number` tells the caller which one failed.
-  void push(std::size_t number, std::filesystem::path path, Picture picture, std::string recipe);
+  // Waits while too many pictures wait already. `number` tells the caller which one failed; `text` goes into
+  // the picture (media/picture_writer.hpp).
+  void push(std::size_t number, std::filesystem::path path, Picture picture, std::string text);
   // Waits until everything is written. Nothing can be pushed any more.
   void finish();
 
@@ -33,7 +34,7 @@ class PictureQueue {
     std::size_t number;
     std::filesystem::path path;
     Picture picture;
-    std::string recipe;
+    std::string text;
   };
 
   // One being written, one waiting: more would only hold memory.

@@ -28,11 +28,11 @@ std::map<std::string, std::string> stated_options(const Options& options) {
   return stated;
 }
 
-Recipe make_recipe(const Options& options) {
+Recipe make_recipe(const Options& options, const std::optional<std::string>& known_capture) {
   Recipe recipe;
   recipe.version = NUTIK_VERSION;
   const std::string& input = options.operands.front();
-  recipe.capture = {input_name(input), capture_checksum(input)};
+  recipe.capture = {input_name(input), known_capture ? *known_capture : capture_checksum(input)};
   if (options.functions) {
     const MappedFile file(*options.functions);
     const auto bytes = file.bytes();
@@ -52,9 +52,11 @@ std::string capture_checksum(const std::string& path) {
   return format("xxh3-64-tik:{:016x}", tik::Reader(path).content_checksum());
 }
 
-PictureRecipe::PictureRecipe(const Options& options) : options_(options) {
+PictureRecipe::PictureRecipe(const Options& options, std::optional<std::string> known_capture)
+    : options_(options) {
   if (!options.no_recipe) {
-    reading_ = std::async(std::launch::async, [this] { return make_recipe(options_); });
+    reading_ = std::async(std::launch::async,
+                          [this, known = std::move(known_capture)] { return make_recipe(options_, known); });
   }
 }
 

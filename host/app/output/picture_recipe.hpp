@@ -13,8 +13,9 @@ namespace nutik::app {
 class PictureRecipe {
  public:
   // Reads the checksums of capture and mask beside whatever the caller does next; `options` must outlive
-  // this. With --no-recipe it does nothing.
-  explicit PictureRecipe(const Options& options);
+  // this. A capture that is exposed many times may be known by its checksum already. With --no-recipe it
+  // does nothing.
+  explicit PictureRecipe(const Options& options, std::optional<std::string> known_capture = {});
 
   // The recipe's text, for a picture that was computed in this precision; empty with --no-recipe. Of a series, each
   // picture's is that of a single one from its own `start` on. Throws InputError where an input cannot
