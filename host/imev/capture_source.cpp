@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "capture/format.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 
@@ -63,6 +64,7 @@ BlockExtent StreamingCapture::block_extent(std::uint64_t block) const {
 
 void StreamingCapture::read_samples(std::uint64_t until, bool keep) {
   while (samples_read_ < until) {
+    check_interruption();
     if (!read_sample_(raster_)) throw SampleCountMismatch(samples_read_, timeline_.sample_count());
     ++samples_read_;
     if (keep) {
@@ -83,7 +85,7 @@ std::uint64_t StreamingCapture::prepare(std::uint64_t block) {
   payload_bytes_ = builder_.finish(payload_);
   if (samples_read_ == timeline_.sample_count()) {
     std::uint64_t more = 0;
-    while (read_sample_(raster_)) ++more;
+    for (; read_sample_(raster_); ++more) check_interruption();
     if (more > 0) throw SampleCountMismatch(samples_read_ + more, timeline_.sample_count());
   }
   return payload_bytes_;

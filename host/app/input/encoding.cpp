@@ -6,6 +6,7 @@
 #include "app/output/console.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik::app {
 namespace {
@@ -78,6 +79,7 @@ std::uint64_t Encoding::decode(Progress& progress) {
   const ClosedAtEnd closed(rasters_);
   std::uint64_t samples = 1;  // the first is on its way
   while (auto raster = spare_rasters_.pop()) {
+    check_interruption();
     progress.show(samples);
     if (!source_.clip->read(*raster)) break;
     if (!rasters_.push(std::move(*raster))) break;
