@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <string>
 #include <string_view>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/extension.hpp"
+#include "media/numbered_name.hpp"
 
 namespace nutik {
 namespace {
@@ -31,9 +32,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 // The kind of picture that a name promises; empty where it promises none.
 std::string_view kind_of(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = extension_of(path);
   const auto found =
       std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& kind) { return kind[0] == extension; });
   return found == kKinds.end() ? std::string_view() : (*found)[1];
@@ -113,33 +112,6 @@ std::vector<fs::path> matching_files(const fs::path& pattern) {
   return files;
 }
 
-// A name with a number in it, `frame%04d.png`: what stands before and after, and how it is printed.
-struct NumberedName {
-  std::string before;
-  std::string after;
-  std::size_t width = 0;
-  char fill = ' ';
-
-  [[nodiscard]] std::string with(const std::string& digits) const {
-    return before + std::string(width > digits.size() ? width - digits.size() : 0, fill) + digits + after;
-  }
-};
-
-std::optional<NumberedName> parse_numbered(const std::string& name) {
-  const auto percent = name.find('%');
-  if (percent == std::string::npos) return std::nullopt;
-  NumberedName numbered{name.substr(0, percent), {}, 0, ' '};
-  std::size_t at = percent + 1;
-  if (at < name.size() && name[at] == '0') numbered.fill = '0';
-  for (; at < name.size() && is_digit(name[at]); ++at) {
-    numbered.width =
-        std::min<std::size_t>(numbered.width * 10 + static_cast<std::size_t>(name[at] - '0'), 100);
-  }
-  if (at >= name.size() || (name[at] != 'd' && name[at] != 'i' && name[at] != 'u')) return std::nullopt;
-  numbered.after = name.substr(at + 1);
-  return numbered;
-}
-
 // The number of a file of this kind of name, however its zeros are written, as digits without them.
 std::optional<std::string> number_of(const fs::path& file, const NumberedName& name) {
   const std::string text = file.filename().string();
@@ -200,7 +172,7 @@ std::optional<std::vector<fs::path>> list_stills(const fs::path& path) {
     if (!kind_of(path).empty()) return std::vector<fs::path>{path};
     return std::nullopt;
   }
-  if (const auto numbered = parse_numbered(path.filename().string())) {
+  if (const auto numbered = NumberedName::parse(path.filename().string())) {
     return numbered_files(path, *numbered);
   }
   if (is_glob(path.string())) return matching_files(path);
@@ -215,7 +187,7 @@ std::string sequence_name(const fs::path& path) {
   if (fs::is_directory(path, error)) return whole.filename().string();
   std::string name = path.stem().string();
   if (fs::exists(path, error)) return name;
-  if (const auto numbered = parse_numbered(path.filename().string())) {
+  if (const auto numbered = NumberedName::parse(path.filename().string())) {
     name = numbered->before;
   } else if (is_glob(name)) {
     name.erase(name.find_first_of("*?["));

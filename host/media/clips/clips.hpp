@@ -1,4 +1,4 @@
-// The ways in which clips are decoded here.
+// The ways in which clips are decoded here, and videos encoded.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 
 #include "media/clip.hpp"
 #include "media/clips/probe.hpp"
+#include "media/video_writer.hpp"
 
 namespace nutik::clips {
 
@@ -20,5 +21,10 @@ namespace nutik::clips {
 // Stills, one sample each; a TIFF may hold several.
 [[nodiscard]] std::unique_ptr<Clip> open_still_files(std::span<const std::filesystem::path> files,
                                                      const ClipOptions& options);
+
+// Videos in containers.
+[[nodiscard]] std::unique_ptr<VideoWriter> open_libav_writer(const std::filesystem::path& path,
+                                                             const VideoFormat& format,
+                                                             const VideoCodec& codec);
 
 }  // namespace nutik::clips

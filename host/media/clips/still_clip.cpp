@@ -8,6 +8,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/clips/clips.hpp"
+#include "media/extension.hpp"
 #include "media/netpbm.hpp"
 #include "media/tiff_reader.hpp"
 #include "system/mapped_file.hpp"
@@ -34,11 +35,7 @@ struct Still {
 };
 
 bool has_extension(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+  return std::find(extensions.begin(), extensions.end(), extension_of(file)) != extensions.end();
 }
 
 Still still_of(Picture&& picture, std::optional<std::uint32_t> maximum) {
