@@ -35,6 +35,12 @@ std::span<const Command> commands() {
       {Id::recover, "recover", "DAMAGED.tik WHOLE.tik",
        "Save the whole blocks of a .tik file that was cut off.", "nutik-cl recover damaged.tik -o whole.tik",
        run_recover},
+      {Id::batch, "batch", "LIST.txt [CAPTURE.tik|CLIP]",
+       "Expose many pictures: each line of the list is an exposure's options and its picture. The capture is "
+       "read once; what cannot be exposed is reported and left out.",
+       "nutik-cl batch exposures.txt clip.tik\n"
+       "printf '%s\\n' '--start 0s --exposure 10ms a.png' '-k trail.fn b.png' | nutik-cl batch - clip.tik",
+       run_batch},
   };
   return table;
 }

@@ -9,7 +9,7 @@
 
 namespace nutik::app {
 
-enum class CommandId { encode, expose, info, devices, recover };
+enum class CommandId { encode, expose, info, devices, recover, batch };
 
 struct Command {
   CommandId id;

@@ -19,11 +19,12 @@ inline constexpr OptionGroup kOptionGroups[] = {source_options, exposure_options
 
 inline constexpr CommandSet kAllCommands = ~CommandSet{0};
 // Those that read a clip, and so take what describes it.
-inline constexpr CommandSet kReadsClips = bit(CommandId::encode) | bit(CommandId::expose);
+inline constexpr CommandSet kReadsClips =
+    bit(CommandId::encode) | bit(CommandId::expose) | bit(CommandId::batch);
 // Those that expose pictures with gain functions and a mask.
 inline constexpr CommandSet kExposesFunctions = bit(CommandId::expose);
 // Those that expose pictures at all, and so take what says how that is computed.
-inline constexpr CommandSet kExposes = kExposesFunctions;
+inline constexpr CommandSet kExposes = kExposesFunctions | bit(CommandId::batch);
 
 // A row with a value, for the member of Options that holds it.
 [[nodiscard]] inline Option valued(char short_name, std::string_view long_name, std::string_view value,

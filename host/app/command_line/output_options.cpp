@@ -13,10 +13,10 @@ std::vector<Option> output_options() {
   return {
       valued('o', "output", "FILE", kGroup,
              "where to write; without it the last operand, or a name made from the inputs",
-             kReadsClips | bit(Id::recover), &Options::output),
+             bit(Id::encode) | kExposesFunctions | bit(Id::recover), &Options::output),
       valued(0, "depth", "BITS", kGroup,
              "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
-             kExposes, &Options::depth),
+             kExposesFunctions, &Options::depth),
       valued(
           0, "codec", "NAME", kGroup,
           "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",

@@ -10,5 +10,6 @@ int run_expose(const Options& options);
 int run_info(const Options& options);
 int run_devices(const Options& options);
 int run_recover(const Options& options);
+int run_batch(const Options& options);
 
 }  // namespace nutik::app
