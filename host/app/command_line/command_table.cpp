@@ -41,6 +41,15 @@ std::span<const Command> commands() {
        "nutik-cl batch exposures.txt clip.tik\n"
        "printf '%s\\n' '--start 0s --exposure 10ms a.png' '-k trail.fn b.png' | nutik-cl batch - clip.tik",
        run_batch},
+      {Id::video, "video", "CAPTURE.tik|CLIP [VIDEO]",
+       "Film the scene again: a video of any frame rate and shutter angle, each frame an exposure of its own "
+       "interval.",
+       "nutik-cl video clip.tik film.mp4\n"
+       "nutik-cl video --out-fps 24 --out-angle 180 --from 0.2s --to 1s --speed 0.25 clip.tik slow.mp4\n"
+       "nutik-cl video -f 960 --out-fps 30000/1001 --out-angle 360 slowmotion.mp4 film.mkv\n"
+       "nutik-cl video --depth 16 clip.tik frame-%05d.png\n"
+       "nutik-cl video -k trail.fn --out-fps 25 clip.tik trail.mp4",
+       run_video},
   };
   return table;
 }

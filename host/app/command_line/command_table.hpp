@@ -9,7 +9,7 @@
 
 namespace nutik::app {
 
-enum class CommandId { encode, expose, info, devices, recover, batch };
+enum class CommandId { encode, expose, info, devices, recover, batch, video };
 
 struct Command {
   CommandId id;

@@ -10,19 +10,22 @@ namespace nutik::app {
 
 [[nodiscard]] std::vector<Option> source_options();
 [[nodiscard]] std::vector<Option> exposure_options();
+[[nodiscard]] std::vector<Option> video_options();
 [[nodiscard]] std::vector<Option> computing_options();
 [[nodiscard]] std::vector<Option> output_options();
 
 using OptionGroup = std::vector<Option> (*)();
-inline constexpr OptionGroup kOptionGroups[] = {source_options, exposure_options, computing_options,
-                                                output_options};
+inline constexpr OptionGroup kOptionGroups[] = {source_options, exposure_options, video_options,
+                                                computing_options, output_options};
 
 inline constexpr CommandSet kAllCommands = ~CommandSet{0};
 // Those that read a clip, and so take what describes it.
 inline constexpr CommandSet kReadsClips =
-    bit(CommandId::encode) | bit(CommandId::expose) | bit(CommandId::batch);
+    bit(CommandId::encode) | bit(CommandId::expose) | bit(CommandId::batch) | bit(CommandId::video);
 // Those that expose pictures with gain functions and a mask.
-inline constexpr CommandSet kExposesFunctions = bit(CommandId::expose);
+inline constexpr CommandSet kExposesFunctions = bit(CommandId::expose) | bit(CommandId::video);
+// Those that expose a plain interval instead.
+inline constexpr CommandSet kExposesInterval = bit(CommandId::expose);
 // Those that expose pictures at all, and so take what says how that is computed.
 inline constexpr CommandSet kExposes = kExposesFunctions | bit(CommandId::batch);
 

@@ -39,6 +39,14 @@ struct Options {
   std::optional<std::string> block_samples;
   std::optional<std::string> activity;
 
+  // A video's frames.
+  std::optional<std::string> out_fps;
+  std::optional<std::string> out_angle;
+  std::optional<std::string> from;
+  std::optional<std::string> to;
+  std::optional<std::string> speed;
+  std::optional<std::string> video_codec;
+
   bool quiet = false;
   bool verbose = false;
 };

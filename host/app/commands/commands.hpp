@@ -11,5 +11,6 @@ int run_info(const Options& options);
 int run_devices(const Options& options);
 int run_recover(const Options& options);
 int run_batch(const Options& options);
+int run_video(const Options& options);
 
 }  // namespace nutik::app

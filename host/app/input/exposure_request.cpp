@@ -33,11 +33,17 @@ bool parse_only(const std::optional<std::string>& text, std::string_view option,
 
 }  // namespace
 
+PlanOptions ExposureRequest::plan_options_from(const Options& options) {
+  PlanOptions plan_options;
+  plan_options.unmapped_is_zero = parse_only(options.unmapped, "--unmapped", "zero");
+  plan_options.live_all = parse_only(options.live, "--live", "all");
+  if (options.transfer) plan_options.transfer = Transfer::parse(*options.transfer);
+  return plan_options;
+}
+
 ExposureRequest ExposureRequest::from(const Options& options) {
   ExposureRequest request;
-  request.plan_options_.unmapped_is_zero = parse_only(options.unmapped, "--unmapped", "zero");
-  request.plan_options_.live_all = parse_only(options.live, "--live", "all");
-  if (options.transfer) request.plan_options_.transfer = Transfer::parse(*options.transfer);
+  request.plan_options_ = plan_options_from(options);
   const bool plain = options.start || options.exposure;
   if (plain && options.functions) {
     throw UsageError("--start and --exposure describe a plain interval, -k a file of functions; use one");

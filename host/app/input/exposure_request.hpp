@@ -17,6 +17,9 @@ class ExposureRequest {
   // with all mistakes of the function file; prints its warnings.
   static ExposureRequest from(const Options& options);
 
+  // What the options say of a plan, whatever is exposed.
+  [[nodiscard]] static PlanOptions plan_options_from(const Options& options);
+
   // The functions and the mask for a capture of this shape and timeline.
   [[nodiscard]] FunctionSet functions(const Timeline& timeline) const;
   [[nodiscard]] Mask mask(const Shape& shape) const;

@@ -24,6 +24,31 @@ bool is_picture_content(std::string_view bytes) {
          !is_tik_content(std::string(bytes));
 }
 
+bool is_video_content(std::string_view bytes) {
+  const bool is_matroska = bytes.starts_with("\x1A\x45\xDF\xA3");
+  const bool is_mp4 = bytes.size() >= 8 && bytes.substr(4, 4) == "ftyp";
+  const bool is_avi = bytes.size() >= 12 && bytes.starts_with("RIFF") && bytes.substr(8, 4) == "AVI ";
+  return is_matroska || is_mp4 || is_avi;
+}
+
+bool is_content(OutputKind kind, const std::string& bytes) {
+  switch (kind) {
+    case OutputKind::tik: return is_tik_content(bytes);
+    case OutputKind::picture: return is_picture_content(bytes);
+    case OutputKind::video: return is_video_content(bytes);
+  }
+  return false;
+}
+
+std::string_view name_of(OutputKind kind) {
+  switch (kind) {
+    case OutputKind::tik: return ".tik file";
+    case OutputKind::picture: return "picture";
+    case OutputKind::video: return "video";
+  }
+  return {};
+}
+
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;
   if (std::filesystem::equivalent(a, b, error)) return true;
@@ -75,10 +100,9 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
     throw UsageError(format("{} is a folder; name a file in it", name));
   }
   const std::string bytes = first_bytes(output);
-  const bool same_kind = kind == OutputKind::tik ? is_tik_content(bytes) : is_picture_content(bytes);
-  if (!bytes.empty() && !same_kind) {
-    throw UsageError(format("{} exists and is no {}; it is not replaced. Choose another name", name,
-                            kind == OutputKind::tik ? ".tik file" : "picture"));
+  if (!bytes.empty() && !is_content(kind, bytes)) {
+    throw UsageError(
+        format("{} exists and is no {}; it is not replaced. Choose another name", name, name_of(kind)));
   }
 }
 

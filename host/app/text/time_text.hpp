@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "capture/frame_times.hpp"
 #include "capture/rational.hpp"
 #include "capture/timeline.hpp"
 
@@ -27,6 +28,10 @@ struct TimeText {
 // for `3f` is from the start of picture 37's exposure to the end of picture 39's, so that one picture is
 // exactly what the camera exposed; `3f` after a start at 0.4s is as long as three periods there.
 Exposure plain_interval(std::string_view start, std::string_view exposure, const Timeline& timeline);
+
+// A moment on a timeline, exactly: `0.4s`, or `37f` for the start of picture 37 (as many as there are: the
+// capture's end). Throws UsageError naming `what`.
+[[nodiscard]] ExactTime exact_time(std::string_view text, std::string_view what, const Timeline& timeline);
 
 // `12.5 ms`, `1.25 s`: a length for people, with up to four digits.
 [[nodiscard]] std::string duration_text(std::int64_t nanoseconds);
