@@ -1,4 +1,4 @@
-// Names with a number in them, `frame%04d.png`, as printf has them.
+// Names with a number in them, as printf writes it: `frame%04d.png`.
 #pragma once
 
 #include <cstddef>
@@ -8,18 +8,16 @@
 
 namespace nutik {
 
-// What stands before and after the number, and how it is written.
 struct NumberedName {
   std::string before;
   std::string after;
   std::size_t width = 0;
   char fill = ' ';
 
-  // A file's name without its folder: `%d`, `%4d` or `%04d`, also with i or u, once. Empty where there is
-  // none.
+  // Reads %d, %i or %u, with a width and leading zeros. Nothing where the name has none of them.
   static std::optional<NumberedName> parse(const std::string& name);
 
-  // The name with this number, given as its digits or as such.
+  // The name with a number, which is given in digits without leading zeros.
   [[nodiscard]] std::string with(const std::string& digits) const;
   [[nodiscard]] std::string with(std::uint64_t number) const { return with(std::to_string(number)); }
 };
