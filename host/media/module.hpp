@@ -7,6 +7,7 @@
 #include <span>
 
 #include "media/clip.hpp"
+#include "media/stills_table.hpp"
 #include "media/video_writer.hpp"
 
 namespace nutik {
@@ -14,8 +15,9 @@ namespace nutik {
 // The entry points of nutik-clips.so.
 struct ClipModule {
   std::unique_ptr<Clip> (*open_video)(const std::filesystem::path& path, const ClipOptions& options);
-  std::unique_ptr<Clip> (*open_stills)(std::span<const std::filesystem::path> files,
+  std::unique_ptr<Clip> (*open_stills)(std::span<const std::filesystem::path> files, const ClipTiming& timing,
                                        const ClipOptions& options);
+  StillTimes (*read_exif_times)(const std::filesystem::path& file);
   std::unique_ptr<VideoWriter> (*open_video_writer)(const std::filesystem::path& path,
                                                     const VideoFormat& format, const VideoCodec& codec);
 };

@@ -12,6 +12,7 @@
 #include "capture/format.hpp"
 #include "media/extension.hpp"
 #include "media/numbered_name.hpp"
+#include "media/stills_table.hpp"
 
 namespace nutik {
 namespace {
@@ -168,6 +169,11 @@ bool is_glob(const std::string& path) { return path.find_first_of("*?[") != std:
 std::optional<std::vector<fs::path>> list_stills(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) return pictures_in(path);
+  if (is_stills_table(path)) {
+    std::vector<fs::path> files;
+    for (const ListedStill& still : read_stills_table(path)) files.push_back(still.file);
+    return files;
+  }
   if (fs::exists(path, error)) {
     if (!kind_of(path).empty()) return std::vector<fs::path>{path};
     return std::nullopt;

@@ -39,7 +39,7 @@ Encoding::Encoding(SourceClip source, const SourceOptions& options, const tik::C
   header.capture = source_.capture;
   const ClipTiming& timing = source_.clip->info().timing;
   header.rate = options.clip.rate ? options.clip.rate : timing.rate;
-  header.shutter_angle = options.shutter_angle;
+  header.shutter_angle = times_.shutter_angle();
   writer_.emplace(output, header, codec, first);
   for (std::size_t i = 1; i < raster_count(source_.capture); ++i) {
     spare_rasters_.push(Raster(source_.capture.sample_bytes()));

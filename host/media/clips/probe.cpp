@@ -59,7 +59,7 @@ ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base,
         Rational::of(periods * time_base.denominator, (times.back() - times.front()) * time_base.numerator));
   }
   for (const Rational& rate : rates) {
-    if (fits(times, time_base, rate)) return {rate, {}};
+    if (fits(times, time_base, rate)) return {rate, {}, {}};
   }
   ClipTiming timing;
   for (const std::int64_t time : times) {
@@ -84,7 +84,7 @@ ClipTiming packet_timing(const AVStream& stream, std::vector<std::int64_t> times
     std::sort(times.begin(), times.end());  // packets come in the order of decoding
     return timing_of(times, Rational::of(stream.time_base.num, stream.time_base.den), rates);
   }
-  if (!rates.empty()) return {rates.front(), {}};
+  if (!rates.empty()) return {rates.front(), {}, {}};
   return {};
 }
 
