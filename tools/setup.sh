@@ -11,12 +11,12 @@ program_packages=(
   ocl-icd-opencl-dev opencl-headers opencl-clhpp-headers pocl-opencl-icd
   libopencv-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
   libexif-dev libpng-dev libtiff-dev libzstd-dev liblz4-dev libxxhash-dev
-  libcli11-dev libfmt-dev
+  libcli11-dev libfmt-dev nlohmann-json3-dev
 )
 # The scene generator and the plotter.
 script_packages=(python3 python3-numpy python3-opencv python3-matplotlib)
 # What only tests and benchmarks use. clang checks the kernels while building.
-test_packages=(clang libgtest-dev libboost-dev nlohmann-json3-dev netpbm ffmpeg python3-mpmath)
+test_packages=(clang libgtest-dev libboost-dev netpbm ffmpeg python3-mpmath)
 
 # Debian's own Python, which the packages above belong to, even where another one comes first in PATH.
 python=/usr/bin/python3

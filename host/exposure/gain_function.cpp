@@ -82,6 +82,10 @@ GainFunction GainFunction::scaled(double factor) const {
     if (!std::isfinite(gain)) {
       throw InputError(format("a gain of {} times {} is no finite number", point.gain, factor));
     }
+    // It would count no more in D.
+    if (gain == 0.0 && point.gain != 0.0 && factor != 0.0) {
+      throw InputError(format("a gain of {} times {} is too small for a number", point.gain, factor));
+    }
     point.gain = gain;
   }
   return GainFunction(std::move(points));

@@ -104,7 +104,7 @@ Picture read_netpbm(std::span<const std::byte> file, const std::string& name) {
   return NetpbmReader(file, name).read();
 }
 
-std::string netpbm_text(const Picture& picture) {
+std::string netpbm_text(const Picture& picture, const std::string& comment) {
   const Shape& shape = picture.shape;
   const bool colour = shape.channels == 3;
   if (picture.type == ValueType::light32) {
@@ -116,7 +116,8 @@ std::string netpbm_text(const Picture& picture) {
     return text;
   }
   std::string text =
-      format("{}\n{} {}\n{}\n", colour ? "P6" : "P5", shape.width, shape.height, picture.white_code);
+      format("{}\n{}{}{} {}\n{}\n", colour ? "P6" : "P5", comment.empty() ? "" : "# " + comment,
+             comment.empty() ? "" : "\n", shape.width, shape.height, picture.white_code);
   if (picture.type == ValueType::code8) {
     text.append(reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size());
   } else {

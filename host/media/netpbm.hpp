@@ -14,6 +14,7 @@ namespace nutik {
 [[nodiscard]] Picture read_netpbm(std::span<const std::byte> file, const std::string& name);
 
 // A picture as a raw PGM or PPM (codes), or as a PFM (light32: floats in light, bottom row first).
-[[nodiscard]] std::string netpbm_text(const Picture& picture);
+// `comment` is one line behind the first of a PGM or PPM; none where it is empty.
+[[nodiscard]] std::string netpbm_text(const Picture& picture, const std::string& comment = {});
 
 }  // namespace nutik

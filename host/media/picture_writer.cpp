@@ -19,11 +19,15 @@ struct FileKind {
   bool holds_codes;
   bool holds_light;
   std::uint32_t only_channels;  // 0: any
-  void (*write)(OutputFile& file, const Picture& picture);
+  void (*write)(OutputFile& file, const Picture& picture, const std::string& text);
 };
 
-void write_netpbm(OutputFile& file, const Picture& picture) { file.write(netpbm_text(picture)); }
-void write_tiff_file(OutputFile& file, const Picture& picture) { write_tiff(file.temporary_path(), picture); }
+void write_netpbm(OutputFile& file, const Picture& picture, const std::string& text) {
+  file.write(netpbm_text(picture, text));
+}
+void write_tiff_file(OutputFile& file, const Picture& picture, const std::string& text) {
+  write_tiff(file.temporary_path(), picture, text);
+}
 
 constexpr std::array<FileKind, 7> kKinds{{
     {".png", true, false, 0, write_png},
@@ -78,10 +82,10 @@ ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth>
 
 bool is_picture_name(const std::filesystem::path& path) { return find_kind(path) != nullptr; }
 
-void write_picture(const std::filesystem::path& path, const Picture& picture) {
+void write_picture(const std::filesystem::path& path, const Picture& picture, const std::string& text) {
   const FileKind& kind = kind_of(path);
   OutputFile file(path);
-  kind.write(file, picture);
+  kind.write(file, picture, text);
   file.commit();
 }
 

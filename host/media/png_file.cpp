@@ -7,6 +7,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/picture_text.hpp"
 
 namespace nutik {
 namespace {
@@ -64,6 +65,19 @@ const char* colour_name(int colour_type) {
 // Fast rather than small: a picture is written and looked at many times while a function is adjusted.
 constexpr int kCompressionLevel = 2;
 
+// From here on a text is compressed.
+constexpr std::size_t kLongText = 1024;
+
+void set_text(png_structp png, png_infop info, const std::string& text) {
+  std::string keyword = kPictureTextKeyword, value = text;  // libpng takes what it might write to
+  png_text entry{};
+  entry.compression = text.size() < kLongText ? PNG_TEXT_COMPRESSION_NONE : PNG_TEXT_COMPRESSION_zTXt;
+  entry.key = keyword.data();
+  entry.text = value.data();
+  entry.text_length = value.size();
+  png_set_text(png, info, &entry, 1);
+}
+
 }  // namespace
 
 bool is_png(std::span<const std::byte> file) {
@@ -95,7 +109,23 @@ Picture read_grey_png(std::span<const std::byte> file, const std::string& name) 
   return picture;
 }
 
-void write_png(OutputFile& file, const Picture& picture) {
+std::optional<std::string> read_png_text(std::span<const std::byte> file, const char* keyword,
+                                         const std::string& name) {
+  std::string error_name = name;
+  ReadStructure read(error_name);
+  ByteReader reader{file};
+  png_set_read_fn(read.png, &reader, read_bytes);
+  png_set_chunk_malloc_max(read.png, 0);  // a text may be as long as a function file
+  png_read_info(read.png, read.info);
+  png_textp texts = nullptr;
+  const int count = png_get_text(read.png, read.info, &texts, nullptr);
+  for (int i = 0; i < count; ++i) {
+    if (std::strcmp(texts[i].key, keyword) == 0) return std::string(texts[i].text, texts[i].text_length);
+  }
+  return std::nullopt;
+}
+
+void write_png(OutputFile& file, const Picture& picture, const std::string& text) {
   const Shape& shape = picture.shape;
   const std::size_t bytes = value_bytes(picture.type);
   WriteStructure write;
@@ -112,6 +142,7 @@ void write_png(OutputFile& file, const Picture& picture) {
   png_set_compression_level(write.png, kCompressionLevel);
   png_set_filter(write.png, 0, PNG_FILTER_SUB);
   png_set_compression_buffer_size(write.png, 1 << 16);
+  if (!text.empty()) set_text(write.png, write.info, text);
   png_write_info(write.png, write.info);
   if (bytes == 2) png_set_swap(write.png);  // PNG has the high byte first
   const std::size_t row_bytes = std::size_t{shape.width} * shape.channels * bytes;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -16,7 +17,11 @@ namespace nutik {
 // type found and the one wanted, where it is anything else.
 [[nodiscard]] Picture read_grey_png(std::span<const std::byte> file, const std::string& name);
 
-// Writes codes: 8 or 16 bits, grey or RGB.
-void write_png(OutputFile& file, const Picture& picture);
+// The text under a keyword (Latin-1); nothing where there is none. Throws InputError where the file is damaged.
+[[nodiscard]] std::optional<std::string> read_png_text(std::span<const std::byte> file, const char* keyword,
+                                                       const std::string& name);
+
+// Writes codes: 8 or 16 bits, grey or RGB. `text` is kept as picture_text.hpp says; none where it is empty.
+void write_png(OutputFile& file, const Picture& picture, const std::string& text);
 
 }  // namespace nutik

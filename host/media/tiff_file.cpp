@@ -20,7 +20,17 @@ struct CloseTiff {
 
 }  // namespace
 
-void write_tiff(const std::filesystem::path& path, const Picture& picture) {
+std::optional<std::string> read_tiff_description(const std::filesystem::path& path) {
+  TIFFSetErrorHandler(nullptr);
+  TIFFSetWarningHandler(nullptr);
+  const std::unique_ptr<TIFF, CloseTiff> tiff(TIFFOpen(path.c_str(), "r"));
+  if (!tiff) throw InputError(format("{} cannot be read: it is no TIFF, or was cut off", path.string()));
+  const char* text = nullptr;
+  if (TIFFGetField(tiff.get(), TIFFTAG_IMAGEDESCRIPTION, &text) == 0 || text == nullptr) return std::nullopt;
+  return text;
+}
+
+void write_tiff(const std::filesystem::path& path, const Picture& picture, const std::string& text) {
   TIFFSetErrorHandler(nullptr);  // what matters is thrown
   TIFFSetWarningHandler(nullptr);
   const std::unique_ptr<TIFF, CloseTiff> tiff(
@@ -40,6 +50,7 @@ void write_tiff(const std::filesystem::path& path, const Picture& picture) {
   TIFFSetField(tiff.get(), TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   TIFFSetField(tiff.get(), TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
   TIFFSetField(tiff.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+  if (!text.empty()) TIFFSetField(tiff.get(), TIFFTAG_IMAGEDESCRIPTION, text.c_str());
   TIFFSetField(tiff.get(), TIFFTAG_ROWSPERSTRIP, TIFFDefaultStripSize(tiff.get(), 0));
   const std::size_t row_bytes = std::size_t{shape.width} * shape.channels * bytes;
   std::vector<std::byte> row(row_bytes);  // libtiff may change what it is given

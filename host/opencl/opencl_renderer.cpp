@@ -107,6 +107,7 @@ class OpenClRenderer::Implementation {
   }
 
   [[nodiscard]] const std::string& name() const { return info_.name; }
+  [[nodiscard]] std::string precision() const { return to_text(options_.precision); }
   [[nodiscard]] const RenderStatistics& statistics() const { return statistics_; }
   [[nodiscard]] std::string report() const {
     const double megabytes = static_cast<double>(statistics_.payload_bytes) * 1e-6;
@@ -401,6 +402,8 @@ Picture OpenClRenderer::render(const RenderPlan& plan, CaptureSource& source, co
 }
 
 std::string OpenClRenderer::name() const { return implementation_->name(); }
+
+std::string OpenClRenderer::precision() const { return implementation_->precision(); }
 
 std::string OpenClRenderer::report() const { return implementation_->report(); }
 

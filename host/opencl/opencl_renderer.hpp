@@ -51,6 +51,7 @@ class OpenClRenderer final : public Renderer {
   [[nodiscard]] Picture render(const RenderPlan& plan, CaptureSource& source,
                                const OutputFormat& output) override;
   [[nodiscard]] std::string name() const override;
+  [[nodiscard]] std::string precision() const override;
   [[nodiscard]] std::string report() const override;
   [[nodiscard]] const RenderStatistics& statistics() const;
 

@@ -13,6 +13,7 @@ class ReferenceRenderer final : public Renderer {
   [[nodiscard]] Picture render(const RenderPlan& plan, CaptureSource& source,
                                const OutputFormat& output) override;
   [[nodiscard]] std::string name() const override { return "scalar reference"; }
+  [[nodiscard]] std::string precision() const override { return "double"; }
 };
 
 }  // namespace nutik

@@ -32,6 +32,9 @@ class Renderer {
   // What does the work, as a person would call it: a device's name, "scalar reference".
   [[nodiscard]] virtual std::string name() const = 0;
 
+  // The arithmetic of the last render, by the name that asks for it: `double`, `single`.
+  [[nodiscard]] virtual std::string precision() const = 0;
+
   // What the last render did and took, in a line for a person; empty where there is nothing to say.
   [[nodiscard]] virtual std::string report() const { return {}; }
 };

@@ -158,6 +158,17 @@ void Reader::read_footer() {
   timeline_ = Timeline::stored(load_exposures(exposure_bytes), footer.duration_ns, header_.shutter_angle);
 }
 
+std::uint64_t Reader::content_checksum() const {
+  const std::span<const std::byte> file = file_.bytes();
+  std::vector<std::byte> summary;
+  const auto append = [&](std::span<const std::byte> bytes) {
+    summary.insert(summary.end(), bytes.begin(), bytes.end());
+  };
+  for (const IndexEntry& entry : index_) append(file.subspan(entry.offset, sizeof(BlockHeader)));
+  append(file.last(sizeof(Footer)));
+  return checksum(summary);
+}
+
 BlockHeader Reader::block_header(std::uint64_t block) const {
   const std::span<const std::byte> file = file_.bytes();
   const IndexEntry& entry = index_[block];

@@ -22,6 +22,8 @@ std::span<const Command> commands() {
       {Id::expose, "expose", "CAPTURE.tik|CLIP [PICTURE]",
        "Expose a picture: each pixel is the integral of its light times a gain function of time.",
        "nutik-cl --start 0.4s --exposure 10ms clip.tik moment.png\n"
+       "nutik-cl --start 0.4s --exposure 10ms --shutter hann --normalize integral clip.tik soft.png\n"
+       "nutik-cl --start 0s --exposure 10ms --every 40ms --count 10 clip.tik -o out-%03d.png\n"
        "nutik-cl -k trail.fn clip.tik trail.png\n"
        "nutik-cl -m regions.pgm -k regions.fn clip.tik picture.tif --depth 16\n"
        "nutik-cl -m regions.pgm -k difference.fn clip.tik -o light.pfm",
@@ -50,6 +52,22 @@ std::span<const Command> commands() {
        "nutik-cl video --depth 16 clip.tik frame-%05d.png\n"
        "nutik-cl video -k trail.fn --out-fps 25 clip.tik trail.mp4",
        run_video},
+      {Id::shutter, "shutter", "SHAPE",
+       "Write a shutter's shape as a gain function: a line for a function file. Shapes: box, trapezoid:R, "
+       "triangle, "
+       "gaussian, hann, strobe:N, spline:0=G,…,1=G.",
+       "nutik-cl shutter hann --start 0.4s --exposure 10ms --tag 128 > f.fn\n"
+       "nutik-cl shutter spline:0=0,0.1=1,1=0 --exposure 1s > trail.fn\n"
+       "nutik-cl shutter strobe:5 --start 30f --exposure 60f --fps 960",
+       run_shutter},
+      {Id::again, "again", "PICTURE [FOLDER...]",
+       "Print the command that makes a picture again, byte for byte, from the recipe that the picture "
+       "carries. The files "
+       "it was made from are looked for in the folders, the current one and the picture's.",
+       "nutik-cl again picture.png\n"
+       "nutik-cl again picture.png captures masks\n"
+       "nutik-cl again picture.png | sh",
+       run_again},
   };
   return table;
 }

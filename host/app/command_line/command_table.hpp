@@ -9,7 +9,7 @@
 
 namespace nutik::app {
 
-enum class CommandId { encode, expose, info, devices, recover, batch, video };
+enum class CommandId { encode, expose, info, devices, recover, batch, video, shutter, again };
 
 struct Command {
   CommandId id;

@@ -16,7 +16,9 @@ std::vector<Option> exposure_options() {
              "which function each pixel is exposed with: an 8-bit grey PGM or PNG", kExposesFunctions,
              &Options::mask),
       valued(0, "start", "TIME", kGroup,
-             "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip",
+             "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip; with -k "
+             "the "
+             "functions' time 0 (default: 0s)",
              kExposesInterval, &Options::start),
       valued(0, "exposure", "TIME", kGroup,
              "length of the plain interval: 10ms, 1/100s, 250us, or 3f, to the end of the third picture",
@@ -27,6 +29,30 @@ std::vector<Option> exposure_options() {
       valued(0, "live", "all", kGroup,
              "visit every sample, also where no gain needs it (the picture is the same)", kExposesFunctions,
              &Options::live),
+      valued(0, "shutter", "SHAPE", kGroup,
+             "how far the shutter is open in the course of the plain interval: box, trapezoid:R, triangle, "
+             "gaussian, "
+             "hann, strobe:N or spline:0=G,…,1=G (default: box)",
+             kExposesFunctions, &Options::shutter),
+      valued(0, "shutter-error", "E", kGroup,
+             "how far a smooth shape may be from its true gains, as a share of the largest (default: 0.001)",
+             kTimesExposures, &Options::shutter_error),
+      valued(0, "normalize", "BY", kGroup,
+             "divide by the time with a gain (support), by its integral (integral: a still scene keeps its "
+             "brightness), by that of its magnitude (absolute), or by seconds:S (default: support)",
+             kExposesFunctions, &Options::normalize),
+      valued(0, "gain", "G", kGroup, "make the light G times as much (default: 1)", kTimesExposures,
+             &Options::gain),
+      valued(0, "ev", "E", kGroup, "make the light 2^E times as much: 1 is one stop brighter (default: 0)",
+             kTimesExposures, &Options::ev),
+      valued(
+          0, "every", "TIME", kGroup,
+          "expose a series, each picture this much later than the one before: 40ms, 2f; name it out-%03d.png",
+          kExposesSeries, &Options::every),
+      valued(0, "count", "N", kGroup, "pictures in the series (default: as many as fit in the capture)",
+             kExposesSeries, &Options::count),
+      valued(0, "tag", "VALUE", kGroup, "the mask value that the function belongs to: 0 … 255 (default: 0)",
+             bit(CommandId::shutter), &Options::tag),
   };
 }
 

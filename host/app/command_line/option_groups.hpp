@@ -24,8 +24,12 @@ inline constexpr CommandSet kReadsClips =
     bit(CommandId::encode) | bit(CommandId::expose) | bit(CommandId::batch) | bit(CommandId::video);
 // Those that expose pictures with gain functions and a mask.
 inline constexpr CommandSet kExposesFunctions = bit(CommandId::expose) | bit(CommandId::video);
-// Those that expose a plain interval instead.
-inline constexpr CommandSet kExposesInterval = bit(CommandId::expose);
+// Those that expose series of pictures.
+inline constexpr CommandSet kExposesSeries = bit(CommandId::expose);
+// Those that say when an interval is exposed.
+inline constexpr CommandSet kExposesInterval = bit(CommandId::expose) | bit(CommandId::shutter);
+// Those that say how bright it becomes.
+inline constexpr CommandSet kTimesExposures = kExposesFunctions | bit(CommandId::shutter);
 // Those that expose pictures at all, and so take what says how that is computed.
 inline constexpr CommandSet kExposes = kExposesFunctions | bit(CommandId::batch);
 
@@ -39,7 +43,8 @@ inline constexpr CommandSet kExposes = kExposesFunctions | bit(CommandId::batch)
           group,
           help,
           commands,
-          [member](Options& options, const std::string& text) { options.*member = text; }};
+          [member](Options& options, const std::string& text) { options.*member = text; },
+          member};
 }
 
 // A row without one.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,7 @@ struct Option {
   std::string_view help;
   CommandSet commands;
   std::function<void(Options& options, const std::string& value)> set;
+  std::optional<std::string> Options::*member = nullptr;  // that holds its value
 
   // `-f`, or `--fps` where it has no short name.
   [[nodiscard]] std::string display_name() const;

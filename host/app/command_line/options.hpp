@@ -24,6 +24,17 @@ struct Options {
   std::optional<std::string> exposure;
   std::optional<std::string> unmapped;
   std::optional<std::string> live;
+  std::optional<std::string> shutter;
+  std::optional<std::string> shutter_error;
+  std::optional<std::string> normalize;
+  std::optional<std::string> gain;
+  std::optional<std::string> ev;
+
+  std::optional<std::string> tag;
+
+  // A series of exposures.
+  std::optional<std::string> every;
+  std::optional<std::string> count;
 
   // How it is computed.
   std::optional<std::string> renderer;
@@ -47,6 +58,7 @@ struct Options {
   std::optional<std::string> speed;
   std::optional<std::string> video_codec;
 
+  bool no_recipe = false;
   bool quiet = false;
   bool verbose = false;
 };

@@ -30,6 +30,9 @@ std::vector<Option> output_options() {
              "also write how often each pixel changes, as a grey picture: black never, white most often, "
              "between them sRGB",
              bit(Id::info), &Options::activity),
+      flag(0, "no-recipe", kGroup,
+           "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)",
+           kExposesFunctions, &Options::no_recipe),
       flag('q', "quiet", kGroup, "no progress bar and no summary", kAllCommands, &Options::quiet),
       flag('v', "verbose", kGroup, "also say in which precision, how fast and with how much memory", kExposes,
            &Options::verbose),

@@ -3,6 +3,8 @@
 namespace nutik::app {
 namespace {
 
+using Id = CommandId;
+
 constexpr std::string_view kGroup = "The source clip";
 
 }  // namespace
@@ -12,11 +14,11 @@ std::vector<Option> source_options() {
       valued('f', "fps", "RATE", kGroup,
              "pictures a second that the clip was filmed with: 120, 29.97, 30000/1001 (default: what the "
              "file says)",
-             kReadsClips, &Options::fps),
+             kReadsClips | bit(Id::shutter), &Options::fps),
       valued('a', "shutter-angle", "DEGREES", kGroup,
              "share of the time between pictures that the shutter was open, 360 being all of it "
              "(default: 360)",
-             kReadsClips, &Options::shutter_angle),
+             kReadsClips | bit(Id::shutter), &Options::shutter_angle),
       valued(0, "white", "CODE", kGroup,
              "the code that stands for white: 255, 4095 for 12 bits, … (default: what the file says)",
              kReadsClips, &Options::white),

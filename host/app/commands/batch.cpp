@@ -102,7 +102,7 @@ class Batch {
     try {
       Options line = line_options(listed.words, capture_name);
       if (!line.transfer) line.transfer = options_.transfer;
-      const ExposureRequest request = ExposureRequest::from(line);
+      ExposureRequest request = ExposureRequest::from(line);
       const auto stated = stated_output(line.output, line.operands, "expose");
       const std::filesystem::path output =
           stated.value_or(picture_name(line.operands.front(), request.label()));

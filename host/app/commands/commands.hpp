@@ -12,5 +12,7 @@ int run_devices(const Options& options);
 int run_recover(const Options& options);
 int run_batch(const Options& options);
 int run_video(const Options& options);
+int run_shutter(const Options& options);
+int run_again(const Options& options);
 
 }  // namespace nutik::app

@@ -1,12 +1,15 @@
 #include <filesystem>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/expose_series.hpp"
 #include "app/input/capture_input.hpp"
 #include "app/input/exposer.hpp"
 #include "app/input/exposure_request.hpp"
 #include "app/output/console.hpp"
+#include "app/output/exposure_report.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
+#include "app/output/picture_recipe.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/text/size_text.hpp"
 #include "capture/error.hpp"
@@ -17,8 +20,6 @@
 
 namespace nutik::app {
 namespace {
-
-constexpr std::size_t kFunctionsInSummary = 6;
 
 // An exposure, and the timeline of the capture it was made from.
 struct ExposedCapture {
@@ -89,25 +90,11 @@ class Exposing {
   std::vector<std::string> notes_;  // on the clip
 };
 
-// `, still gain M0 1, M128 0.25`, or without a tag for a plain interval.
-std::string still_gains_text(const RenderPlan& plan, bool plain) {
-  if (plain && !plan.functions.empty()) {
-    return format(", still gain {:.6g}", plan.functions.front().summary.still_gain());
-  }
-  std::string text = ", still gain";
-  for (std::size_t f = 0; f < std::min(plan.functions.size(), kFunctionsInSummary); ++f) {
-    const PlannedFunction& function = plan.functions[f];
-    text += format("{} M{} {:.6g}", f == 0 ? "" : ",", function.tag, function.summary.still_gain());
-  }
-  if (plan.functions.size() > kFunctionsInSummary) {
-    text += format(" and {} more", plan.functions.size() - kFunctionsInSummary);
-  }
-  return text;
-}
-
 }  // namespace
 
 int run_expose(const Options& options) {
+  if (options.every) return expose_series(options);
+  if (options.count) throw UsageError("--count goes with --every: a series needs both a step and a number");
   const Stopwatch stopwatch;
   const auto stated = stated_output(options.output, options.operands, "expose");
   const std::string& input = options.operands.front();
@@ -119,12 +106,13 @@ int run_expose(const Options& options) {
   }
   check_output(output, OutputKind::picture, exposure_inputs(options));
 
+  PictureRecipe recipe(options);
   const bool captured = is_tik(input);
   const SourceOptions source_options = SourceOptions::from(options);
   const auto [exposed, timeline] =
       captured ? exposing.from_tik(input) : exposing.from_clip(input, source_options);
   for (const std::string& warning : exposure_warnings(exposed)) print_warning(warning);
-  write_picture(output, exposed.picture);
+  write_picture(output, exposed.picture, recipe.text(exposing.exposer().precision()));
   if (options.quiet) {
     if (!stated) print_line(output.string());  // a name that nobody gave
     return 0;

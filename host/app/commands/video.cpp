@@ -56,7 +56,7 @@ std::filesystem::path usual_name(const std::string& input, Rational rate) {
 int run_video(const Options& options) {
   const Stopwatch stopwatch;
   const auto stated = stated_output(options.output, options.operands, "video");
-  const FrameRequest request = FrameRequest::from(options);
+  FrameRequest request = FrameRequest::from(options);
   const std::string& input = options.operands.front();
   const VideoOutput output(options, stated.value_or(usual_name(input, request.rate())));
   const std::vector<std::string> inputs = exposure_inputs(options);
@@ -65,9 +65,10 @@ int run_video(const Options& options) {
   Exposer exposer(options);
   OpenedCapture capture(input, options);
   tik::Reader& reader = capture.reader();
-  const Frames frames = request.frames(reader.timeline(), reader.format().shape);
+  const Frames frames = request.frames(reader.timeline());
+  const Mask mask = request.exposure().mask(reader.format().shape);
   const OutputFormat frame_format = output.frame_format(reader.format());
-  output.check(frames.count(), inputs);
+  output.check(frames.count, inputs);
 
   const Transfer transfer = request.plan_options().transfer.value_or(reader.format().transfer);
   FrameQueue queue(
@@ -76,13 +77,14 @@ int run_video(const Options& options) {
   std::optional<Interrupted> interruption;
   std::uint64_t exposed_frames = 0;
   {
-    Progress progress("exposing", frames.count(), options.quiet);
+    Progress progress("exposing", frames.count, options.quiet);
     try {
-      for (; exposed_frames < frames.count(); ++exposed_frames) {
+      for (; exposed_frames < frames.count; ++exposed_frames) {
         check_interruption();
         progress.show(exposed_frames);
-        Exposed exposed = exposer.expose(reader, frames.functions(exposed_frames), frames.mask(),
-                                         request.plan_options(), frame_format);
+        const FunctionSet functions =
+            request.exposure().functions(frames.times.exposure(exposed_frames), reader.timeline());
+        Exposed exposed = exposer.expose(reader, functions, mask, request.plan_options(), frame_format);
         warnings.add(exposed_frames, exposure_warnings(exposed));
         if (!queue.push(std::move(exposed.picture))) break;
       }
@@ -96,7 +98,7 @@ int run_video(const Options& options) {
   warnings.print();
   if (interruption) {
     print_note(
-        format("{}: {} of {} frames were written", output.path().string(), exposed_frames, frames.count()));
+        format("{}: {} of {} frames were written", output.path().string(), exposed_frames, frames.count));
     throw *interruption;
   }
   if (options.quiet) {
@@ -104,10 +106,10 @@ int run_video(const Options& options) {
     return 0;
   }
 
-  const FrameTimes& times = frames.times();
+  const FrameTimes& times = frames.times;
   print_line(format("{}: {}, {} frames ({}), from {} to {} of the capture, {}, {:.2f} s on {}",
-                    output.path().string(), shape_text(reader.format().shape), frames.count(), request.text(),
-                    duration_text(times.start_ns(0)), duration_text(times.end_ns(frames.count() - 1)),
+                    output.path().string(), shape_text(reader.format().shape), frames.count, request.text(),
+                    duration_text(times.start_ns(0)), duration_text(times.end_ns(frames.count - 1)),
                     output.kind(), stopwatch.seconds(), exposer.renderer_name()));
   if (const std::string report = exposer.report(); options.verbose && !report.empty()) print_line(report);
   for (const std::string& note : queue.notes()) print_note(format("note: {}", note));

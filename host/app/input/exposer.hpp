@@ -34,6 +34,7 @@ class Exposer {
 
   // What makes the pictures, and what the last one took. After the first exposure.
   [[nodiscard]] std::string renderer_name() const { return renderer_->name(); }
+  [[nodiscard]] std::string precision() const { return renderer_->precision(); }
   [[nodiscard]] std::string report() const { return renderer_->report(); }
 
  private:

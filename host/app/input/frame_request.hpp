@@ -12,22 +12,9 @@
 namespace nutik::app {
 
 // The frames of a video of one capture.
-class Frames {
- public:
-  Frames(FrameTimes times, std::uint64_t count, FunctionSet functions, Mask mask)
-      : times_(times), count_(count), functions_(std::move(functions)), mask_(std::move(mask)) {}
-
-  [[nodiscard]] std::uint64_t count() const { return count_; }
-  [[nodiscard]] const FrameTimes& times() const { return times_; }
-  [[nodiscard]] const Mask& mask() const { return mask_; }
-  // Frame k's functions: its plain interval, or the functions of a file with their time 0 at its start.
-  [[nodiscard]] FunctionSet functions(std::uint64_t k) const;
-
- private:
-  FrameTimes times_;
-  std::uint64_t count_;
-  FunctionSet functions_;  // empty: plain intervals
-  Mask mask_;
+struct Frames {
+  FrameTimes times;
+  std::uint64_t count;
 };
 
 class FrameRequest {
@@ -36,22 +23,26 @@ class FrameRequest {
   // sense, InputError as ExposureRequest does.
   static FrameRequest from(const Options& options);
 
-  // The frames of a capture of this timeline and shape. Throws UsageError where there is none.
-  [[nodiscard]] Frames frames(const Timeline& timeline, const Shape& shape) const;
+  // When the frames of a capture are exposed. Throws UsageError where there is none.
+  [[nodiscard]] Frames frames(const Timeline& timeline) const;
 
-  [[nodiscard]] const PlanOptions& plan_options() const { return plan_options_; }
+  // What is exposed in each: functions for the interval that is a frame's, and the mask.
+  [[nodiscard]] ExposureRequest& exposure() { return exposure_; }
+  [[nodiscard]] const PlanOptions& plan_options() const { return exposure_.plan_options(); }
+
   [[nodiscard]] Rational rate() const { return rate_; }
   // `24 frames a second, 180 degrees, speed 0.25`.
   [[nodiscard]] std::string text() const;
 
  private:
+  FrameRequest(const Options& options, ExposureRequest exposure);
+
+  ExposureRequest exposure_;
   Rational rate_;
   Rational speed_;
   Rational angle_;
   std::string from_;
   std::optional<std::string> to_;
-  std::optional<ExposureRequest> functions_;
-  PlanOptions plan_options_;
 };
 
 }  // namespace nutik::app

@@ -76,30 +76,48 @@ std::int64_t TimeText::nanoseconds() const {
   return round_half_up(static_cast<int128>(number.numerator) * unit_ns, number.denominator);
 }
 
-Exposure plain_interval(std::string_view start, std::string_view exposure, const Timeline& timeline) {
-  const TimeText from = TimeText::parse(start, "start");
-  const TimeText length = TimeText::parse(exposure, "exposure");
-  if (length.number.numerator <= 0) {
-    throw UsageError(format("exposure '{}' is not longer than nothing", exposure));
+std::string TimeText::text() const {
+  if (counts_samples()) return format("{}f", number.text());
+  // The coarsest unit that holds it in whole numbers.
+  for (const Unit& unit : kUnits) {
+    if (unit.nanoseconds == 0 || unit.nanoseconds > kUnits.front().nanoseconds) continue;
+    const int128 nanoseconds = static_cast<int128>(number.numerator) * unit_ns;
+    const int128 whole = static_cast<int128>(number.denominator) * unit.nanoseconds;
+    if (nanoseconds % whole == 0)
+      return format("{}{}", static_cast<std::int64_t>(nanoseconds / whole), unit.name);
   }
+  return format("{}ns", Rational{number.numerator * unit_ns, number.denominator}.text());
+}
+
+std::int64_t moment_ns(const TimeText& time, const Timeline& timeline) {
+  if (!time.counts_samples()) return time.nanoseconds();
+  return timeline.start_ns(existing_sample(whole_samples(time, "start"), timeline));
+}
+
+Exposure plain_interval(const TimeText& from, const TimeText& length, const Timeline& timeline) {
+  const auto fail = [&](std::string_view why) {
+    throw UsageError(format("exposure '{}' is {}", length.text(), why));
+  };
+  if (length.number.numerator <= 0) fail("not longer than nothing");
   const std::int64_t count = length.counts_samples() ? whole_samples(length, "exposure") : 0;
   Exposure interval;
-  if (from.counts_samples()) {
+  interval.start_ns = moment_ns(from, timeline);
+  if (count == 0) {
+    interval.end_ns = interval.start_ns + length.nanoseconds();
+  } else if (from.counts_samples()) {
     const std::int64_t first = whole_samples(from, "start");
-    interval.start_ns = timeline.start_ns(existing_sample(first, timeline));
-    interval.end_ns = count > 0 ? timeline.end_ns(existing_sample(first + count - 1, timeline))
-                                : interval.start_ns + length.nanoseconds();
+    interval.end_ns = timeline.end_ns(existing_sample(first + count - 1, timeline));
   } else {
-    interval.start_ns = from.nanoseconds();
-    interval.end_ns = interval.start_ns +
-                      (count > 0 ? periods_ns(interval.start_ns, count, timeline) : length.nanoseconds());
+    interval.end_ns = interval.start_ns + periods_ns(interval.start_ns, count, timeline);
   }
-  // Nothing behind the capture's end is exposed; GainFunction could not even hold some of these times.
-  interval.end_ns = std::min(interval.end_ns, std::max(timeline.duration_ns() + 1, interval.start_ns + 1));
-  if (interval.end_ns <= interval.start_ns) {
-    throw UsageError(format("exposure '{}' is shorter than a nanosecond", exposure));
-  }
+  if (interval.end_ns <= interval.start_ns) fail("shorter than a nanosecond");
+  // GainFunction could not hold later times.
+  interval.end_ns = std::min(interval.end_ns, std::max(kLongestNs, interval.start_ns));
   return interval;
+}
+
+Exposure plain_interval(std::string_view start, std::string_view exposure, const Timeline& timeline) {
+  return plain_interval(TimeText::parse(start, "start"), TimeText::parse(exposure, "exposure"), timeline);
 }
 
 ExactTime exact_time(std::string_view text, std::string_view what, const Timeline& timeline) {

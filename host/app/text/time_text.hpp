@@ -22,16 +22,23 @@ struct TimeText {
   [[nodiscard]] bool counts_samples() const { return unit_ns == 0; }
   // Rounded half up. For a time in seconds or parts of it.
   [[nodiscard]] std::int64_t nanoseconds() const;
+  // `0.4s` or `37f`, as parse() reads it. For a time of whole nanoseconds: `400ms`.
+  [[nodiscard]] std::string text() const;
+  static TimeText of_nanoseconds(std::int64_t nanoseconds) { return {{nanoseconds, 1}, 1}; }
 };
 
 // When the plain interval that --start and --exposure describe begins and ends on a timeline. From `37f`
 // for `3f` is from the start of picture 37's exposure to the end of picture 39's, so that one picture is
 // exactly what the camera exposed; `3f` after a start at 0.4s is as long as three periods there.
+// The times are in `from` and `length`; throws UsageError where pictures are counted that the timeline lacks.
+Exposure plain_interval(const TimeText& from, const TimeText& length, const Timeline& timeline);
 Exposure plain_interval(std::string_view start, std::string_view exposure, const Timeline& timeline);
 
 // A moment on a timeline, exactly: `0.4s`, or `37f` for the start of picture 37 (as many as there are: the
 // capture's end). Throws UsageError naming `what`.
 [[nodiscard]] ExactTime exact_time(std::string_view text, std::string_view what, const Timeline& timeline);
+// A moment on a timeline; that of a picture is the start of its exposure.
+[[nodiscard]] std::int64_t moment_ns(const TimeText& time, const Timeline& timeline);
 
 // `12.5 ms`, `1.25 s`: a length for people, with up to four digits.
 [[nodiscard]] std::string duration_text(std::int64_t nanoseconds);

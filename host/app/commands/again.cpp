@@ -1,0 +1,161 @@
+#include <filesystem>
+
+#include "app/commands/commands.hpp"
+#include "app/output/console.hpp"
+#include "app/output/picture_recipe.hpp"
+#include "app/text/shell_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/input_checksum.hpp"
+#include "media/recipe.hpp"
+#include "media/still_sequence.hpp"
+#include "system/mapped_file.hpp"
+#include "system/output_file.hpp"
+
+namespace nutik::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Looks for a recipe's inputs, by name and content.
+class Pantry {
+ public:
+  explicit Pantry(std::vector<fs::path> folders) : folders_(std::move(folders)) {}
+
+  // The first file of that name with that checksum. Otherwise warns and returns the first of that name, or the name
+  // alone; the picture cannot be made again then.
+  template <typename Checksum>
+  fs::path find(const Recipe::Input& input, std::string_view what, Checksum checksum) {
+    std::optional<fs::path> other;
+    for (const fs::path& folder : folders_) {
+      const fs::path path = folder / input.name;
+      try {
+        if (!is_there(path)) continue;
+        if (checksum(path.string()) == input.checksum) return path;
+      } catch (const InputError& error) {
+        print_warning(error.what());
+        continue;
+      }
+      if (!other) other = path;
+    }
+    is_complete_ = false;
+    print_warning(
+        other ? format("{} is not the {} that the picture was made from: its checksum differs from {}",
+                       other->string(), what, input.checksum)
+              : format("the {} {} is not in {}; name its folder: nutik-cl again PICTURE FOLDER", what,
+                       input.name, folders_text()));
+    return other.value_or(input.name);
+  }
+
+  // A file of that name with that text; otherwise it is written into `folder`, and a warning says so.
+  static void write(const Recipe::Text& text, const fs::path& path, bool is_changed) {
+    if (fs::exists(path)) {
+      if (content(path) == text.bytes) return;
+      throw OutputError(
+          format("{} exists and is another file; it is not replaced. Move it away", path.string()));
+    }
+    fs::create_directories(path.parent_path());
+    OutputFile file(path);
+    file.write(text.bytes);
+    file.commit();
+    print_warning(format("{} {}; the functions that the picture was made with were written to {}", text.name,
+                         is_changed ? "was changed since" : "is gone", path.string()));
+  }
+
+  fs::path find(const Recipe::Text& text, const fs::path& folder) const {
+    bool is_changed = false;
+    for (const fs::path& place : folders_) {
+      const fs::path path = place / text.name;
+      if (!fs::is_regular_file(path)) continue;
+      if (content(path) == text.bytes) return path;
+      is_changed = true;
+    }
+    write(text, folder / text.name, is_changed);
+    return folder / text.name;
+  }
+
+  [[nodiscard]] bool is_complete() const { return is_complete_; }
+
+ private:
+  static bool is_there(const fs::path& path) {
+    if (fs::exists(path)) return true;
+    try {
+      return list_stills(path).has_value();  // a pattern
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+  static std::string content(const fs::path& path) {
+    const MappedFile file(path);
+    return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
+  }
+
+  [[nodiscard]] std::string folders_text() const {
+    std::string text;
+    for (const fs::path& folder : folders_) {
+      text +=
+          format("{}{}", text.empty() ? "" : ", ", folder.empty() ? "the current folder" : folder.string());
+    }
+    return text;
+  }
+
+  std::vector<fs::path> folders_;  // empty: the current one
+  bool is_complete_ = true;
+};
+
+std::vector<fs::path> folders_to_search(const Options& options) {
+  std::vector<fs::path> folders;
+  for (std::size_t i = 1; i < options.operands.size(); ++i) {
+    if (!fs::is_directory(options.operands[i])) {
+      throw UsageError(
+          format("{} is no folder; again looks in folders for the files that the picture was made from",
+                 options.operands[i]));
+    }
+    folders.emplace_back(options.operands[i]);
+  }
+  folders.emplace_back();
+  const fs::path beside = fs::path(options.operands.front()).parent_path();
+  if (!beside.empty()) folders.push_back(beside);
+  return folders;
+}
+
+// As an operand: never mistaken for an option or a command.
+std::string operand(const fs::path& path) {
+  const std::string text = path.string();
+  return shell_word(text.starts_with('-') ? "./" + text : text);
+}
+
+}  // namespace
+
+int run_again(const Options& options) {
+  if (options.operands.empty()) throw UsageError("again takes a picture: nutik-cl again picture.png");
+  const fs::path picture = options.operands.front();
+  Pantry pantry(folders_to_search(options));
+  const std::optional<Recipe> recipe = read_recipe(picture);
+  if (!recipe) {
+    throw InputError(
+        format("{} carries no recipe: nutik-cl keeps one in PNG, TIFF, PGM and PPM pictures, unless it was "
+               "told --no-recipe or another program wrote the picture since",
+               picture.string()));
+  }
+  if (recipe->version != NUTIK_VERSION) {
+    print_note(
+        format("note: the picture was made by nutik-cl {}, this is {}", recipe->version, NUTIK_VERSION));
+  }
+  std::string command = "nutik-cl expose";
+  if (recipe->functions) {
+    const fs::path folder = picture.stem().string() + "-again";
+    command += " -k " + operand(pantry.find(*recipe->functions, folder));
+  }
+  if (recipe->mask) command += " -m " + operand(pantry.find(*recipe->mask, "mask", input_checksum));
+  for (const auto& [name, value] : recipe->options) command += format(" --{} {}", name, shell_word(value));
+  command += recipe->renderer == "opencl" ? " --precision " + shell_word(recipe->precision)
+                                          : " --renderer " + shell_word(recipe->renderer);
+  command += " " + operand(pantry.find(recipe->capture, "capture", capture_checksum));
+  command += " -o " + operand(picture);
+  print_line(command);
+  return pantry.is_complete() ? 0 : 3;
+}
+
+}  // namespace nutik::app

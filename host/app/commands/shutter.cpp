@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <charconv>
+
+#include "app/commands/commands.hpp"
+#include "app/input/exposure_request.hpp"
+#include "app/output/console.hpp"
+#include "app/text/time_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/function_text.hpp"
+
+namespace nutik::app {
+namespace {
+
+constexpr double kLongestSeconds = 3e9;  // a timeline that pictures can be counted on; almost a century
+
+std::uint8_t parse_tag(const std::optional<std::string>& text) {
+  std::uint8_t tag = 0;
+  if (!text) return tag;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), tag);
+  if (error != std::errc() || end != text->data() + text->size()) {
+    throw UsageError(format("tag '{}' is no mask value of 0 … 255", *text));
+  }
+  return tag;
+}
+
+// Pictures can be counted where the rate of the capture is stated.
+Timeline timeline_for(const Options& options, const TimeText& start, const TimeText& length) {
+  const Rational angle = options.shutter_angle ? Rational::parse(*options.shutter_angle, "shutter angle")
+                                               : Timeline::kFullShutter;
+  if (options.fps) {
+    const Rational rate = Rational::parse(*options.fps, "frame rate");
+    return Timeline::constant(rate, angle,
+                              static_cast<std::uint64_t>(std::max(1.0, rate.value() * kLongestSeconds)));
+  }
+  if (start.counts_samples() || length.counts_samples()) {
+    throw UsageError(
+        "to count in pictures of a clip its rate must be known: add --fps, or write times in seconds");
+  }
+  return Timeline::constant({1, 1}, angle, 1);
+}
+
+}  // namespace
+
+int run_shutter(const Options& options) {
+  if (options.operands.size() != 1) {
+    throw UsageError("shutter takes one shape: nutik-cl shutter hann --start 0.4s --exposure 10ms");
+  }
+  if (!options.exposure) throw UsageError("how long is the exposure? Add --exposure 10ms");
+  Shutter shutter = parse_shutter(options.operands.front(), options.shutter_error);
+  const TimeText start = TimeText::parse(options.start.value_or("0s"), "start");
+  const TimeText length = TimeText::parse(*options.exposure, "exposure");
+  const std::uint8_t tag = parse_tag(options.tag);
+  const Exposure interval = plain_interval(start, length, timeline_for(options, start, length));
+  const double gain = brightening(options);
+  const GainFunction function = shutter.function({interval.start_ns, interval.end_ns});
+  print_line(format("# {} from {} for {}", options.operands.front(), start.text(), length.text()));
+  print_line(function_text(tag, gain == 1.0 ? function : function.scaled(gain)));
+  return 0;
+}
+
+}  // namespace nutik::app

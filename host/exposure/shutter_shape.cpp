@@ -1,0 +1,243 @@
+#include "exposure/shutter_shape.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/corridor_fit.hpp"
+#include "exposure/function_numbers.hpp"
+#include "exposure/monotone_spline.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::string_view kNames =
+    "box, trapezoid:R, triangle, gaussian, hann, strobe:N or spline:0=G,…,1=G";
+constexpr std::uint32_t kMostFlashes = 1'000'000;
+constexpr std::size_t kMostKnots = 1000;
+
+// A curve is sampled so closely that between two samples it leaves their chord by at most this share of the
+// error: the fit may use up the rest.
+constexpr double kChordShare = 0.01;
+
+double hann(double x) {
+  const double sine = std::sin(std::numbers::pi * std::min(x, 1.0 - x));  // exactly 0 at both ends
+  return sine * sine;
+}
+constexpr double kHannBend = 2 * std::numbers::pi * std::numbers::pi;  // π² 2 cos(2πx) at its ends and middle
+
+constexpr double kGaussianWidth = 6.0;  // of the exposure, in σ
+double gaussian(double x) {
+  const double deviations = kGaussianWidth * (x - 0.5);
+  return std::exp(-0.5 * deviations * deviations);
+}
+constexpr double kGaussianBend = kGaussianWidth * kGaussianWidth;  // 1/σ², in the middle
+
+std::int64_t time_at(const Rational& share, std::int64_t length_ns) {
+  return round_half_up(static_cast<int128>(share.numerator) * length_ns, share.denominator);
+}
+
+}  // namespace
+
+ShutterShape ShutterShape::parse(std::string_view text) {
+  const auto colon = text.find(':');
+  const std::string_view name = text.substr(0, colon);
+  const std::string_view value =
+      colon == std::string_view::npos ? std::string_view() : text.substr(colon + 1);
+  ShutterShape shape;
+  const bool takes_value = name == "trapezoid" || name == "strobe" || name == "spline";
+  if (name == "strobe") {
+    shape = strobe(value);
+  } else if (name == "spline") {
+    shape = spline(value);
+  } else if (name == "trapezoid") {
+    const Rational ramp = Rational::parse(value, "the trapezoid's ramp");
+    if (ramp.numerator <= 0 || 2 * ramp.numerator >= ramp.denominator) {
+      throw UsageError(
+          format("the trapezoid's ramp {} must be a share of the exposure between 0 and 0.5: trapezoid:0.25",
+                 ramp.text()));
+    }
+    shape.corners_ = {{{0, 1}, 0.0},
+                      {ramp, 1.0},
+                      {Rational::of(ramp.denominator - ramp.numerator, ramp.denominator), 1.0},
+                      {{1, 1}, 0.0}};
+  } else if (name == "triangle") {
+    shape.corners_ = {{{0, 1}, 0.0}, {{1, 2}, 1.0}, {{1, 1}, 0.0}};
+  } else if (name == "gaussian" || name == "hann") {
+    const bool is_hann = name == "hann";
+    shape.corners_.clear();
+    shape.curve_ = is_hann ? hann : gaussian;
+    shape.sections_ = {{0.0, 1.0, is_hann ? kHannBend : kGaussianBend, false}};
+  } else if (name != "box") {
+    throw UsageError(format("shutter '{}' is not known; choose {}", text, kNames));
+  }
+  if (!takes_value && colon != std::string_view::npos) {
+    throw UsageError(format("shutter '{}': {} takes no value", text, name));
+  }
+  shape.text_ = text;
+  return shape;
+}
+
+ShutterShape ShutterShape::strobe(std::string_view count) {
+  std::uint32_t flashes = 0;
+  const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), flashes);
+  if (error != std::errc() || end != count.data() + count.size() || flashes < 1 || flashes > kMostFlashes) {
+    throw UsageError(format("the strobe's number of flashes '{}' is no whole number of 1 … {}: strobe:5",
+                            count, kMostFlashes));
+  }
+  ShutterShape shape;
+  shape.corners_.clear();
+  const std::int64_t parts = 2 * std::int64_t{flashes} - 1;  // flashes and pauses
+  for (std::int64_t part = 0; part < parts; part += 2) {
+    const Rational opens = Rational::of(part, parts), closes = Rational::of(part + 1, parts);
+    if (part > 0) shape.corners_.push_back({opens, 0.0});
+    shape.corners_.push_back({opens, 1.0});
+    shape.corners_.push_back({closes, 1.0});
+    if (part + 1 < parts) shape.corners_.push_back({closes, 0.0});
+  }
+  return shape;
+}
+
+ShutterShape ShutterShape::spline(std::string_view list) {
+  constexpr std::string_view kExample = "spline:0=0,0.3=1,1=0";
+  std::vector<MonotoneSpline::Knot> knots;
+  for (std::string_view rest = list; !rest.empty() || knots.empty();) {
+    const auto comma = rest.find(',');
+    const std::string_view item = rest.substr(0, comma);
+    rest = comma == std::string_view::npos ? std::string_view() : rest.substr(comma + 1);
+    const auto equals = item.find('=');
+    if (equals == std::string_view::npos) {
+      throw UsageError(format("the spline's point '{}' is not written SHARE=GAIN, as in {}", item, kExample));
+    }
+    const ReadNumber<double> gain = read_gain(item.substr(equals + 1));
+    if (!gain.mistake.empty()) throw UsageError(format("the spline's point '{}': {}", item, gain.mistake));
+    knots.push_back({Rational::parse(item.substr(0, equals), "the spline's share").value(), gain.value});
+    if (knots.size() > 1 && knots.back().at <= knots[knots.size() - 2].at) {
+      throw UsageError(format("the spline's share in '{}' is not above the one before it", item));
+    }
+    if (comma != std::string_view::npos && rest.empty()) {
+      throw UsageError(format("the spline ends with a comma: '{}'", list));
+    }
+  }
+  if (knots.size() < 2 || knots.size() > kMostKnots || knots.front().at != 0.0 || knots.back().at != 1.0) {
+    throw UsageError(
+        format("a spline has 2 … {} points, the first at share 0 of the exposure and the last at 1: {}",
+               kMostKnots, kExample));
+  }
+  ShutterShape shape;
+  shape.corners_.clear();
+  const auto by_value = [](const auto& a, const auto& b) { return a.value < b.value; };
+  shape.least_ = std::min_element(knots.begin(), knots.end(), by_value)->value;
+  shape.most_ = std::max_element(knots.begin(), knots.end(), by_value)->value;
+  if (shape.largest_gain() == 0.0) throw UsageError("the spline is zero everywhere");
+  const MonotoneSpline spline(knots);
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    const bool is_zero = knots[i].value == 0.0 && knots[i + 1].value == 0.0;
+    shape.sections_.push_back({knots[i].at, knots[i + 1].at, spline.largest_bend(i), is_zero});
+  }
+  shape.curve_ = spline;
+  return shape;
+}
+
+double ShutterShape::gain(double x) const {
+  if (curve_) return curve_(x);
+  std::size_t i = 1;
+  while (i + 1 < corners_.size() && corners_[i].at.value() <= x) ++i;
+  const double begin = corners_[i - 1].at.value(), end = corners_[i].at.value();
+  if (begin == end) return corners_[i].gain;
+  return corners_[i - 1].gain + (corners_[i].gain - corners_[i - 1].gain) * ((x - begin) / (end - begin));
+}
+
+void ShutterShape::fail_too_short(std::int64_t length_ns, const std::string& why) const {
+  throw UsageError(format("an exposure of {} ns is too short for the shutter {}: {}", length_ns, text_, why));
+}
+
+std::vector<ControlPoint> ShutterShape::straight_points(std::int64_t length_ns) const {
+  std::vector<ControlPoint> points;
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const std::int64_t time_ns = time_at(corners_[i].at, length_ns);
+    if (i > 0 && corners_[i].at != corners_[i - 1].at && time_ns <= points.back().time_ns) {
+      fail_too_short(length_ns, "its corners would fall on the same nanosecond");
+    }
+    points.push_back({time_ns, corners_[i].gain});
+  }
+  return points;
+}
+
+std::vector<ControlPoint> ShutterShape::curved_points(std::int64_t length_ns, double error) const {
+  const auto length = static_cast<double>(length_ns);
+  const double allowed = error * largest_gain();
+  std::vector<ControlPoint> points;
+  std::vector<ControlPoint> run;  // samples of sections that are not zero, one behind the other
+  double chord = 0.0;             // how far the curve leaves the chords of samples
+  const auto close_run = [&] {
+    if (run.empty()) return;
+    if (chord > allowed / 2) {
+      fail_too_short(length_ns, format("control points a whole nanosecond apart cannot keep within {} of its "
+                                       "largest gain",
+                                       error));
+    }
+    const auto fit = fit_corridor(run, allowed - chord, least_, most_);
+    points.insert(points.end(), fit.begin() + (points.empty() ? 0 : 1), fit.end());
+    run.clear();
+  };
+  const auto bend_of = [&](std::size_t i) { return i < sections_.size() ? sections_[i].bend : 0.0; };
+  for (std::size_t i = 0; i < sections_.size(); ++i) {
+    const Section& section = sections_[i];
+    const std::int64_t begin_ns = std::llround(section.begin * length);
+    const std::int64_t end_ns = std::llround(section.end * length);
+    if (end_ns <= begin_ns)
+      fail_too_short(length_ns, "points of its spline would fall on the same nanosecond");
+    if (section.is_zero) {
+      close_run();
+      if (points.empty()) points.push_back({begin_ns, 0.0});
+      points.push_back({end_ns, 0.0});
+      continue;
+    }
+    const bool from_zero = i > 0 && sections_[i - 1].is_zero;
+    const bool to_zero = i + 1 < sections_.size() && sections_[i + 1].is_zero;
+    if (run.empty())
+      run.push_back({begin_ns, from_zero ? 0.0 : curve_(static_cast<double>(begin_ns) / length)});
+    const double wanted =
+        std::ceil((section.end - section.begin) * std::sqrt(section.bend / (8 * kChordShare * allowed)));
+    const auto steps =
+        static_cast<std::int64_t>(std::clamp(wanted, 1.0, static_cast<double>(end_ns - begin_ns)));
+    std::int64_t longest_ns = 0;
+    for (std::int64_t step = 1; step <= steps; ++step) {
+      const std::int64_t time_ns =
+          begin_ns + round_half_up(static_cast<int128>(end_ns - begin_ns) * step, steps);
+      longest_ns = std::max(longest_ns, time_ns - run.back().time_ns);
+      run.push_back(
+          {time_ns, step == steps && to_zero ? 0.0 : curve_(static_cast<double>(time_ns) / length)});
+    }
+    // Its own bend over a step, and its neighbours' over the half nanosecond that its ends were rounded by.
+    const double gap = static_cast<double>(longest_ns) / length;
+    chord = std::max(chord,
+                     (section.bend * gap * gap + (bend_of(i - 1) + bend_of(i + 1)) / (length * length)) / 8);
+  }
+  close_run();
+  return points;
+}
+
+GainFunction ShutterShape::function(Interval exposure, double error) const {
+  const std::int64_t length_ns = exposure.end_ns - exposure.begin_ns;
+  std::vector<ControlPoint> points = curve_ ? curved_points(length_ns, error) : straight_points(length_ns);
+  if (points.front().gain != 0.0) points.insert(points.begin(), {points.front().time_ns, 0.0});
+  if (points.back().gain != 0.0) points.push_back({points.back().time_ns, 0.0});
+  for (ControlPoint& point : points) point.time_ns += exposure.begin_ns;
+  return GainFunction(std::move(points));
+}
+
+GainFunction Shutter::function(Interval exposure) {
+  const std::int64_t length_ns = exposure.end_ns - exposure.begin_ns;
+  auto found = by_length_.find(length_ns);
+  if (found == by_length_.end()) {
+    found = by_length_.emplace(length_ns, shape_.function({0, length_ns}, error_)).first;
+  }
+  return found->second.shifted(exposure.begin_ns);
+}
+
+}  // namespace nutik

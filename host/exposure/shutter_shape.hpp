@@ -1,0 +1,98 @@
+// Shutter shapes: how far a shutter is open in the course of an exposure, as gain functions.
+//
+//   box              open all the time
+//   trapezoid:R      opens evenly over the first share R of the exposure and closes over the last (0 < R < 1/2)
+//   triangle         opens to the middle, then closes
+//   gaussian         exp(−x²/2σ²), σ being a sixth of the exposure, which ends at ±3σ with a gain of 0.011
+//   hann             sin²(π x): opens and closes smoothly
+//   strobe:N         N flashes, and between them N − 1 pauses of the same length
+//   spline:X=G,…     smooth through gain G at share X of the exposure, from 0 to 1, without going beyond
+//                    neighbouring gains (monotone_spline.hpp)
+//
+//   in:      a shape, an exposure in whole nanoseconds, an error
+//   out:     a gain function that is 0 outside the exposure and whose control points lie at whole nanoseconds
+//   always:  named shapes reach 1 and are nowhere below 0; the exposure is their whole width
+//
+// Shapes of straight lines are exact but for their corners' times, which are rounded to whole nanoseconds. The
+// others become the fewest straight pieces that keep within the error, a share of the shape's largest
+// |gain|, at all times (docs/shutters.md).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "capture/rational.hpp"
+#include "exposure/gain_function.hpp"
+
+namespace nutik {
+
+class ShutterShape {
+ public:
+  static constexpr double kUsualError = 1e-3;
+  static constexpr double kLeastError = 1e-6;  // finer ones would take more control points than clips samples
+
+  ShutterShape() = default;  // box
+
+  // A name as above. Throws UsageError naming what is wrong.
+  static ShutterShape parse(std::string_view text);
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+  // The gain at share x of the exposure, 0 <= x <= 1; at a jump, that of the later side.
+  [[nodiscard]] double gain(double x) const;
+  [[nodiscard]] double largest_gain() const { return std::max(-least_, most_); }  // of |gain|
+
+  // The function of an exposure [begin_ns, end_ns]. kLeastError <= error < 1. Throws UsageError where it is too
+  // short for the shape's corners, or for whole nanoseconds to keep within the error.
+  [[nodiscard]] GainFunction function(Interval exposure, double error = kUsualError) const;
+
+ private:
+  // A corner of a shape of straight lines. Two at one place are a jump.
+  struct Corner {
+    Rational at;
+    double gain;
+  };
+  // A stretch of a curve with a bound on |second derivative|, in gain per square of the exposure.
+  struct Section {
+    double begin;
+    double end;
+    double bend;
+    bool is_zero;
+  };
+
+  static ShutterShape strobe(std::string_view count);
+  static ShutterShape spline(std::string_view list);
+
+  [[nodiscard]] std::vector<ControlPoint> straight_points(std::int64_t length_ns) const;
+  [[nodiscard]] std::vector<ControlPoint> curved_points(std::int64_t length_ns, double error) const;
+  [[noreturn]] void fail_too_short(std::int64_t length_ns, const std::string& why) const;
+
+  std::string text_ = "box";
+  std::vector<Corner> corners_{{{0, 1}, 1.0}, {{1, 1}, 1.0}};  // empty for a curve
+  std::function<double(double)> curve_;                        // empty for straight lines
+  std::vector<Section> sections_;                              // of a curve, from 0 to 1 without gaps
+  double least_ = 0.0;                                         // the range of its gains
+  double most_ = 1.0;
+};
+
+// A shape and its error, for exposure after exposure: a length is fitted once.
+class Shutter {
+ public:
+  Shutter() = default;
+  Shutter(ShutterShape shape, double error) : shape_(std::move(shape)), error_(error) {}
+
+  [[nodiscard]] const ShutterShape& shape() const { return shape_; }
+  // As ShutterShape::function(). Not for several threads at a time.
+  [[nodiscard]] GainFunction function(Interval exposure);
+
+ private:
+  ShutterShape shape_;
+  double error_ = ShutterShape::kUsualError;
+  std::map<std::int64_t, GainFunction> by_length_;  // starting at 0
+};
+
+}  // namespace nutik

@@ -1,0 +1,86 @@
+#include "media/input_checksum.hpp"
+
+#define XXH_STATIC_LINKING_ONLY
+#include <xxhash.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/still_sequence.hpp"
+#include "system/mapped_file.hpp"
+
+namespace nutik {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kLeastEndBytes = 4 << 10;
+constexpr std::uint64_t kMostEndBytes = 1 << 20;
+
+struct FreeState {
+  void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+};
+
+class Hash {
+ public:
+  Hash() : state_(XXH3_createState()) {
+    if (!state_) throw std::bad_alloc();
+    XXH3_64bits_reset(state_.get());
+  }
+  void add(std::span<const std::byte> bytes) { XXH3_64bits_update(state_.get(), bytes.data(), bytes.size()); }
+  void add_size(std::uint64_t size) {
+    std::byte bytes[8];
+    for (int i = 0; i < 8; ++i) bytes[i] = static_cast<std::byte>(size >> (8 * i));
+    add(bytes);
+  }
+  [[nodiscard]] std::uint64_t value() const { return XXH3_64bits_digest(state_.get()); }
+
+ private:
+  std::unique_ptr<XXH3_state_t, FreeState> state_;
+};
+
+std::uint64_t size_of(const fs::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error) throw InputError(format("{} cannot be read: {}", file.string(), error.message()));
+  return size;
+}
+
+}  // namespace
+
+std::string input_checksum(const fs::path& path) {
+  const std::vector<fs::path> files = list_stills(path).value_or(std::vector<fs::path>{path});
+  std::uint64_t total = 0;
+  for (const fs::path& file : files) total += size_of(file);
+  const bool whole = total <= kWholeChecksumBytes;
+  const std::uint64_t end_bytes =
+      std::clamp<std::uint64_t>(kWholeChecksumBytes / (2 * files.size()), kLeastEndBytes, kMostEndBytes);
+  Hash hash;
+  for (const fs::path& file : files) {
+    hash.add_size(size_of(file));
+    if (size_of(file) == 0) continue;
+    const MappedFile mapped(file);
+    const auto bytes = mapped.bytes();
+    if (whole || bytes.size() <= 2 * end_bytes) {
+      hash.add(bytes);
+    } else {
+      hash.add(bytes.first(end_bytes));
+      hash.add(bytes.last(end_bytes));
+    }
+  }
+  return format("xxh3-64{}:{:016x}", whole ? "" : "-ends", hash.value());
+}
+
+std::string input_name(const fs::path& path) {
+  std::error_code error;
+  if (fs::exists(path, error)) {
+    const fs::path whole = fs::absolute(path, error).lexically_normal();
+    return (whole.filename().empty() ? whole.parent_path() : whole).filename().string();
+  }
+  return (path.parent_path().filename() / path.filename()).string();
+}
+
+}  // namespace nutik

@@ -1,0 +1,24 @@
+// What the content of a clip, a sequence of stills or a mask is known by again.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace nutik {
+
+// Files up to this size together are read whole.
+inline constexpr std::uint64_t kWholeChecksumBytes = 256ull << 20;
+
+// `xxh3-64:` and 16 digits: the XXH3-64 of each file's size (u64, little-endian) and bytes, one file behind the
+// other. Of more than kWholeChecksumBytes only the size and the first and last bytes of each file are taken, up to
+// 1 MiB each, less where there are many: `xxh3-64-ends:`. That costs next to nothing and tells one recording
+// from another, but not an edit in the middle that keeps the size. `path` may be a sequence of
+// stills (still_sequence.hpp). Throws InputError where a file cannot be read.
+[[nodiscard]] std::string input_checksum(const std::filesystem::path& path);
+
+// The name an input is known by: without its folder; for `frames/*.png`, where the folder is part of the
+// name, with the last one.
+[[nodiscard]] std::string input_name(const std::filesystem::path& path);
+
+}  // namespace nutik

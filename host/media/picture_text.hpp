@@ -1,0 +1,24 @@
+// The line of text that a picture carries beside its values: how it was made.
+//
+//   PNG        text chunk with the keyword nutik-cl (tEXt; zTXt where it is long)
+//   TIFF       ImageDescription
+//   PGM, PPM   a comment behind the first line
+//   PFM        nowhere: the format has no place for it
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace nutik {
+
+inline constexpr const char* kPictureTextKeyword = "nutik-cl";
+// What such a text starts with, which tells it from what others write in the same place.
+inline constexpr std::string_view kPictureTextStart = "{\"nutik-cl\":";
+
+// Nothing where the picture carries no such text. Throws InputError where the file cannot be read, is no
+// picture of these formats, or is cut off before the text.
+[[nodiscard]] std::optional<std::string> read_picture_text(const std::filesystem::path& path);
+
+}  // namespace nutik

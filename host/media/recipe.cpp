@@ -1,0 +1,102 @@
+#include "media/recipe.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/picture_text.hpp"
+
+namespace nutik {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool is_utf8(const std::string& bytes) {
+  try {
+    static_cast<void>(Json(bytes).dump());
+    return true;
+  } catch (const Json::exception&) {
+    return false;
+  }
+}
+
+// Each byte as the character of that number (ISO 8859-1), so that comments in any encoding come back as they were.
+std::string characters_of(const std::string& bytes) {
+  std::string text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      text.push_back(c);
+    } else {
+      text.push_back(static_cast<char>(0xC0 | byte >> 6));
+      text.push_back(static_cast<char>(0x80 | (byte & 0x3F)));
+    }
+  }
+  return text;
+}
+
+std::string bytes_of(const std::string& text) {
+  std::string bytes;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto lead = static_cast<unsigned char>(text[i]);
+    const bool is_pair = lead >= 0xC0 && i + 1 < text.size();
+    bytes.push_back(is_pair ? static_cast<char>((lead & 0x03) << 6 | (text[i + 1] & 0x3F)) : text[i]);
+    i += is_pair;
+  }
+  return bytes;
+}
+
+Json input_json(const Recipe::Input& input) { return {{"name", input.name}, {"checksum", input.checksum}}; }
+
+Recipe::Input input_of(const Json& json) { return {json.at("name"), json.at("checksum")}; }
+
+}  // namespace
+
+std::string Recipe::text() const {
+  Json json;
+  json["nutik-cl"] = version;
+  json["capture"] = input_json(capture);
+  if (functions) {
+    const bool is_text = is_utf8(functions->bytes);
+    json["functions"]["name"] = functions->name;
+    json["functions"][is_text ? "text" : "bytes"] =
+        is_text ? functions->bytes : characters_of(functions->bytes);
+  }
+  if (mask) json["mask"] = input_json(*mask);
+  json["options"] = options;
+  json["renderer"] = renderer;
+  json["precision"] = precision;
+  constexpr int kOneLine = -1;
+  // Names of files may be in any encoding.
+  return json.dump(kOneLine, ' ', true, Json::error_handler_t::replace);
+}
+
+Recipe Recipe::parse(std::string_view text, const std::string& name) {
+  try {
+    const Json json = Json::parse(text);
+    Recipe recipe;
+    recipe.version = json.at("nutik-cl");
+    recipe.capture = input_of(json.at("capture"));
+    if (json.contains("functions")) {
+      const Json& functions = json.at("functions");
+      const bool is_text = functions.contains("text");
+      const std::string kept = functions.at(is_text ? "text" : "bytes");
+      recipe.functions = Text{functions.at("name"), is_text ? kept : bytes_of(kept)};
+    }
+    if (json.contains("mask")) recipe.mask = input_of(json.at("mask"));
+    recipe.options = json.at("options").get<std::map<std::string, std::string>>();
+    recipe.renderer = json.at("renderer");
+    recipe.precision = json.at("precision");
+    return recipe;
+  } catch (const Json::exception& error) {
+    throw InputError(format("{}: its recipe is damaged: {}", name, error.what()));
+  }
+}
+
+std::optional<Recipe> read_recipe(const std::filesystem::path& picture) {
+  const auto text = read_picture_text(picture);
+  if (!text) return std::nullopt;
+  return Recipe::parse(*text, picture.string());
+}
+
+}  // namespace nutik

@@ -1,0 +1,46 @@
+// Recipes: how a picture was made, kept in the picture (docs/recipes.md).
+//
+//   in:      what an exposure was made from and with
+//   out:     one line of printable ASCII: a JSON object that starts with {"nutik-cl":
+//   always:  the same recipe is the same text, byte for byte: no dates, no folders
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace nutik {
+
+struct Recipe {
+  // A file by its name, without its folder, and what its content is known by.
+  struct Input {
+    std::string name;
+    std::string checksum;
+  };
+  // A file that is short enough to be kept whole.
+  struct Text {
+    std::string name;
+    std::string bytes;
+  };
+
+  std::string version;  // of the program
+  Input capture;
+  std::optional<Text> functions;
+  std::optional<Input> mask;
+  std::map<std::string, std::string> options;  // long names without dashes
+  std::string renderer;
+  std::string precision;
+
+  [[nodiscard]] std::string text() const;
+
+  // Reads a text that text() wrote. Throws InputError naming `name` where it is none.
+  static Recipe parse(std::string_view text, const std::string& name);
+};
+
+// The recipe that a picture carries; nothing where it is a picture without one. Throws InputError where the
+// file cannot be read or is no picture that could carry one, or its recipe is damaged.
+[[nodiscard]] std::optional<Recipe> read_recipe(const std::filesystem::path& picture);
+
+}  // namespace nutik

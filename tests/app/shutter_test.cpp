@@ -1,0 +1,115 @@
+// Shutter shapes through the program: as text, and as exposures.
+#include <gtest/gtest.h>
+
+#include "support/program.hpp"
+#include "support/scratch.hpp"
+#include "support/still_clip.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Scratch;
+
+class ShutterCommand : public testing::Test {
+ protected:
+  std::string out(const std::vector<std::string>& words) const {
+    const test::ProgramResult result = test::run_program(words, scratch_.folder());
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.out;
+  }
+  void expect_refused(const std::vector<std::string>& words, const std::string& message) const {
+    const test::ProgramResult result = test::run_program(words, scratch_.folder());
+    EXPECT_EQ(result.status, 2);
+    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+  }
+  Scratch scratch_;
+};
+
+TEST_F(ShutterCommand, WritesALineForAFunctionFile) {
+  EXPECT_EQ(out({"shutter", "box", "--start", "0.4s", "--exposure", "10ms", "--tag", "128"}),
+            "# box from 400ms for 10ms\nM128 [399999999:0], [400000000:1], [410000000:1], [410000001:0]\n");
+  EXPECT_EQ(out({"shutter", "triangle", "--exposure", "1/3s", "--ev", "-1"}),
+            "# triangle from 0s for 1000000000/3ns\nM0 [0:0], [166666667:0.5], [333333333:0]\n");
+  // Pictures of a clip with a half open shutter: from the start of one to the end of another.
+  EXPECT_EQ(
+      out({"shutter", "box", "--start", "2f", "--exposure", "3f", "-f", "1000", "-a", "180", "--gain", "3"}),
+      "# box from 2f for 3f\nM0 [1999999:0], [2000000:3], [4500000:3], [4500001:0]\n");
+}
+
+TEST_F(ShutterCommand, SaysWhatIsWrong) {
+  expect_refused({"shutter"}, "shutter takes one shape");
+  expect_refused({"shutter", "hann"}, "how long is the exposure? Add --exposure 10ms");
+  expect_refused({"shutter", "hat", "--exposure", "1s"}, "shutter 'hat' is not known; choose box");
+  expect_refused({"shutter", "hann", "--exposure", "3f"}, "add --fps, or write times in seconds");
+  expect_refused({"shutter", "hann", "--exposure", "3s", "--tag", "256"},
+                 "tag '256' is no mask value of 0 … 255");
+  expect_refused({"shutter", "hann", "--exposure", "3s", "--shutter-error", "0"},
+                 "--shutter-error 0 is no share from 1e-06 to 1");
+  expect_refused({"shutter", "hann", "--exposure", "50ns"}, "too short for the shutter hann");
+}
+
+// The shape as an option, and its text as a function file: the same light but for the steps of 1 ns.
+TEST_F(ShutterCommand, GivesTheExposureThatTheOptionGives) {
+  test::write_still_clip(scratch_.folder(), 24, 40);
+  out({"-f", "40", "frames", "clip.tik"});
+  for (const std::string shape : {"box", "hann", "gaussian", "strobe:3", "spline:0=0,0.2=1,1=-0.5"}) {
+    scratch_.write("f.fn", out({"shutter", shape, "--start", "0.1s", "--exposure", "0.4s"}));
+    for (const std::string by : {"support", "integral", "absolute", "seconds:0.3"}) {
+      out({"--start", "0.1s", "--exposure", "0.4s", "--shutter", shape, "--normalize", by, "clip.tik",
+           "a.pfm"});
+      out({"-k", "f.fn", "--normalize", by, "clip.tik", "b.pfm"});
+      const std::vector<float> a = test::read_pfm(scratch_ / "a.pfm"), b = test::read_pfm(scratch_ / "b.pfm");
+      ASSERT_EQ(a.size(), b.size());
+      // Each jump adds or takes half a nanosecond of 0.4 s.
+      for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 1e-6) << shape << ", " << by;
+    }
+  }
+}
+
+// By hand: a still scene of one code under functions whose integrals are plain.
+TEST_F(ShutterCommand, NormalizesAsItSays) {
+  std::filesystem::create_directory(scratch_ / "frames");
+  for (int k = 0; k < 10; ++k) {
+    scratch_.write("frames/" + std::to_string(k) + ".pgm", "P2 2 1 255\n51 102\n");
+  }
+  out({"-f", "10", "--transfer", "linear", "frames", "clip.tik"});
+  struct Case {
+    std::vector<std::string> words;
+    float light;  // of code 51, 0.2 in light
+  };
+  const std::vector<std::string> triangle{"--start", "0.2s", "--exposure", "0.4s", "--shutter", "triangle"};
+  for (const Case& wanted :
+       {Case{{}, 0.1f}, Case{{"--normalize", "support"}, 0.1f}, Case{{"--normalize", "integral"}, 0.2f},
+        Case{{"--normalize", "absolute"}, 0.2f}, Case{{"--normalize", "seconds:1"}, 0.04f},
+        Case{{"--gain", "3"}, 0.3f}, Case{{"--ev", "2"}, 0.4f},
+        Case{{"--normalize", "integral", "--ev", "-1", "--gain", "-3"}, -0.3f}}) {
+    for (const std::string renderer : {"opencl", "reference"}) {
+      std::vector<std::string> words = triangle;
+      words.insert(words.end(), wanted.words.begin(), wanted.words.end());
+      words.insert(words.end(), {"--renderer", renderer, "clip.tik", "a.pfm"});
+      out(words);
+      const std::vector<float> light = test::read_pfm(scratch_ / "a.pfm");
+      ASSERT_EQ(light.size(), 2u);
+      EXPECT_FLOAT_EQ(light[0], wanted.light) << words.back();
+      EXPECT_FLOAT_EQ(light[1], 2 * wanted.light);
+    }
+  }
+  // Negative parts, two functions, one of which cancels: only an error where the mask uses it.
+  scratch_.write("f.fn",
+                 "M0 [0:1], [100000000:1], [100000001:-1], [200000000:-1], [200000001:0]\n"
+                 "M1 [0:-3], [100000000:-3], [100000001:0]\n");
+  scratch_.write("mask.pgm", "P2 2 1 255\n1 1\n");
+  out({"-k", "f.fn", "-m", "mask.pgm", "--normalize", "integral", "clip.tik", "a.pfm"});
+  EXPECT_FLOAT_EQ(test::read_pfm(scratch_ / "a.pfm")[0], 0.2f);
+  out({"-k", "f.fn", "-m", "mask.pgm", "--normalize", "absolute", "clip.tik", "a.pfm"});
+  EXPECT_FLOAT_EQ(test::read_pfm(scratch_ / "a.pfm")[0], -0.2f);
+  scratch_.write("mask.pgm", "P2 2 1 255\n0 1\n");
+  const test::ProgramResult refused = test::run_program(
+      {"-k", "f.fn", "-m", "mask.pgm", "--normalize", "integral", "clip.tik", "a.pfm"}, scratch_.folder());
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find("M0: the positive and negative parts of its gains cancel"), std::string::npos)
+      << refused.err;
+}
+
+}  // namespace
+}  // namespace nutik
