@@ -200,7 +200,7 @@ TEST_F(Video, SaysWhatMakesNoSense) {
       {{"v.mp4", "--out-fps", "1", "--out-angle", "360"}, 2, "each is exposed for 1 s, and between"},
       {{"v.mp4", "-k", "f.fn", "--out-angle", "90"}, 2, "with -k the functions say"},
       {{"v.mp4", "-k", "long.fn"}, 2, "no frame fits: each is exposed for 900 ms"},
-      {{"v.mp4", "-m", "m.pgm"}, 2, "a mask goes with gain functions"},
+      {{"v.mp4", "-m", "m.pgm"}, 2, "a mask goes with gain functions (-k)"},
       {{"v.mp4", "--start", "0s"}, 2, "--start does not go with video"},
       {{"v.png"}, 2, "v.png is one picture and a video has many; number them: v-%05d.png"},
       {{"v-%d.png", "--video-codec", "h264"}, 2, "--video-codec goes with a video in one file"},

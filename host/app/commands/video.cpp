@@ -6,7 +6,6 @@
 #include "app/input/frame_request.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/output/console.hpp"
-#include "app/output/frame_queue.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
@@ -14,6 +13,7 @@
 #include "app/text/size_text.hpp"
 #include "app/text/time_text.hpp"
 #include "capture/format.hpp"
+#include "media/frame_queue.hpp"
 #include "media/still_sequence.hpp"
 #include "system/interruption.hpp"
 

@@ -11,7 +11,7 @@
 #include "media/video_writer.hpp"
 #include "system/channel.hpp"
 
-namespace nutik::app {
+namespace nutik {
 
 class FrameQueue {
  public:
@@ -42,4 +42,4 @@ class FrameQueue {
   std::future<void> writing_;
 };
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -1,8 +1,8 @@
-#include "app/output/frame_queue.hpp"
+#include "media/frame_queue.hpp"
 
 #include <utility>
 
-namespace nutik::app {
+namespace nutik {
 
 FrameQueue::FrameQueue(std::function<std::unique_ptr<VideoWriter>()> open)
     : writing_(std::async(std::launch::async, [this, open = std::move(open)] { write(open); })) {}
@@ -21,4 +21,4 @@ void FrameQueue::finish() {
   writer_->finish();
 }
 
-}  // namespace nutik::app
+}  // namespace nutik
