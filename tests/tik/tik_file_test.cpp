@@ -66,6 +66,20 @@ void expect_same_capture(const RandomCase& random, Reader& reader) {
   }
 }
 
+TEST(TikFile, IsKnownAgainByItsContent) {
+  const Scratch scratch, other;
+  RandomCase random(3);
+  const auto path = write(random, Codec::parse("none"), scratch);
+  const std::uint64_t checksum = Reader(path).content_checksum();
+  EXPECT_EQ(Reader(write(random, Codec::parse("none"), other)).content_checksum(), checksum);
+  // One code of the last sample.
+  const std::uint32_t code = test::code_at(random.capture, random.rasters.back(), 0);
+  test::set_code(random.capture, random.rasters.back(), 0, code == 0 ? 1 : code - 1);
+  EXPECT_NE(Reader(write(random, Codec::parse("none"), other)).content_checksum(), checksum);
+  random.timeline = Timeline::constant({7, 1}, {180, 1}, random.timeline.sample_count());
+  EXPECT_NE(Reader(write(random, Codec::parse("none"), other)).content_checksum(), checksum);
+}
+
 TEST(TikFile, GivesBackWhatWasWritten) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const RandomCase random(seed);

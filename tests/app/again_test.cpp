@@ -1,0 +1,152 @@
+// Pictures carry how they were made, and can be made again from that.
+#include <gtest/gtest.h>
+
+#include "support/program.hpp"
+#include "support/scratch.hpp"
+#include "support/still_clip.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Scratch;
+
+class Again : public testing::Test {
+ protected:
+  void SetUp() override {
+    test::write_still_clip(scratch_.folder(), 24, 40);
+    run({"-f", "40", "frames", "clip.tik"});
+    scratch_.write("it's f.fn",
+                   "M0 [0:1], [50000000:0] # caf\xe9\nM9 [10000000:0], [60000000:2], [90000000:0]\n");
+    std::string mask = "P2 24 24 255\n";
+    for (int i = 0; i < 24 * 24; ++i) mask += i % 5 == 0 ? "9 " : "0 ";
+    scratch_.write("mask.pgm", mask);
+  }
+  test::ProgramResult run(const std::vector<std::string>& words) const {
+    test::ProgramResult result = test::run_program(words, scratch_.folder());
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result;
+  }
+  [[nodiscard]] std::string file(const std::string& name) const { return test::read_file(scratch_ / name); }
+
+  // Runs the command that again prints, through a shell that finds the program by its name.
+  void expect_same_bytes(const std::string& picture) const {
+    const std::string before = file(picture);
+    ASSERT_FALSE(before.empty());
+    const std::string command = run({"again", picture}).out;
+    ASSERT_TRUE(command.starts_with("nutik-cl expose ")) << command;
+    std::filesystem::remove(scratch_ / picture);
+    const std::string folder = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path().string();
+    scratch_.write("again.sh", "PATH='" + folder + "':$PATH\n" + command);
+    const auto made = test::run_shell("sh again.sh", scratch_.folder());
+    EXPECT_EQ(made.status, 0) << command << made.err;
+    EXPECT_TRUE(file(picture) == before) << command;
+  }
+  Scratch scratch_;
+};
+
+TEST_F(Again, MakesTheSameBytes) {
+  const std::vector<std::string> functions{"-k", "it's f.fn", "-m", "mask.pgm"};
+  int number = 0;
+  for (const std::string extension : {".png", ".tif", ".pgm"}) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"--start", "0.1s", "--exposure", "3f", "clip.tik"},
+          {"--exposure", "0.3s", "--shutter", "spline:0=0,0.3=1,1=0", "--normalize", "integral", "--ev",
+           "-0.5", "--renderer", "reference", "clip.tik"},
+          {"-k", "it's f.fn", "-m", "mask.pgm", "--start", "250ms", "clip.tik", "--precision", "single"},
+          {"-f", "40", "-a", "90", "--exposure", "33ms", "--tolerance", "2", "--transfer", "gamma:2",
+           "frames"},
+          {"-f", "40", "--exposure", "33ms", "frames/*.pgm"}}) {
+      const std::string picture = "picture " + std::to_string(number++) + extension;
+      std::vector<std::string> all = words;
+      all.insert(all.end(), {"-o", picture});
+      run(all);
+      expect_same_bytes(picture);
+    }
+  }
+  run({"--exposure", "50ms", "--depth", "float", "clip.tik", "light.tif"});
+  expect_same_bytes("light.tif");
+}
+
+TEST_F(Again, MakesOnePictureOfASeries) {
+  run({"-k", "it's f.fn", "-m", "mask.pgm", "--every", "1/7s", "--count", "3", "clip.tik", "s-%d.png"});
+  EXPECT_NE(run({"again", "s-2.png"}).out.find(" --start 285714286ns "), std::string::npos);
+  expect_same_bytes("s-2.png");
+  run({"-f", "40", "--exposure", "20ms", "--every", "10f", "--start", "1f", "frames", "t-%d.png"});
+  expect_same_bytes("t-3.png");
+}
+
+TEST_F(Again, LooksForTheFilesItNeeds) {
+  run({"-k", "it's f.fn", "-m", "mask.pgm", "clip.tik", "a.png"});
+  const std::string picture = file("a.png");
+  std::filesystem::create_directory(scratch_ / "kept");
+  std::filesystem::rename(scratch_ / "clip.tik", scratch_ / "kept/clip.tik");
+  auto result = test::run_program({"again", "a.png"}, scratch_.folder());
+  EXPECT_EQ(result.status, 3);
+  EXPECT_EQ(result.err,
+            "warning: the capture clip.tik is not in the current folder; name its folder: nutik-cl again "
+            "PICTURE FOLDER\n");
+  EXPECT_NE(run({"again", "a.png", "kept"}).out.find(" kept/clip.tik -o a.png"), std::string::npos);
+
+  // Another capture of the same name is not taken for it.
+  run({"-f", "41", "frames", "clip.tik"});
+  EXPECT_NE(run({"again", "a.png", "kept"}).out.find(" kept/clip.tik "), std::string::npos);
+  result = test::run_program({"again", "a.png"}, scratch_.folder());
+  EXPECT_EQ(result.status, 3);
+  EXPECT_NE(
+      result.err.find("clip.tik is not the capture that the picture was made from: its checksum differs"),
+      std::string::npos)
+      << result.err;
+  std::filesystem::rename(scratch_ / "kept/clip.tik", scratch_ / "clip.tik");
+
+  scratch_.write("mask.pgm", "P2 24 24 255\n" + std::string(24 * 24 * 2, ' '));
+  result = test::run_program({"again", "a.png"}, scratch_.folder());
+  EXPECT_EQ(result.status, 3);
+  EXPECT_NE(result.err.find("mask.pgm is not the mask that"), std::string::npos) << result.err;
+}
+
+TEST_F(Again, WritesFunctionsThatAreGoneOrChanged) {
+  run({"-k", "it's f.fn", "-m", "mask.pgm", "clip.tik", "a.png"});
+  const std::string functions = file("it's f.fn");
+  scratch_.write("it's f.fn", "M0 [0:0]\n");
+  auto result = run({"again", "a.png"});
+  EXPECT_EQ(
+      result.err,
+      "warning: it's f.fn was changed since; the functions that the picture was made with were written to "
+      "a-again/it's f.fn\n");
+  EXPECT_EQ(file("a-again/it's f.fn"), functions);
+  expect_same_bytes("a.png");
+  std::filesystem::remove(scratch_ / "it's f.fn");
+  std::filesystem::remove(scratch_ / "a-again/it's f.fn");
+  EXPECT_NE(run({"again", "a.png"}).err.find("is gone; the functions"), std::string::npos);
+  expect_same_bytes("a.png");
+  scratch_.write("a-again/it's f.fn", "notes of mine");
+  result = test::run_program({"again", "a.png"}, scratch_.folder());
+  EXPECT_EQ(result.status, 5);
+  EXPECT_EQ(file("a-again/it's f.fn"), "notes of mine");
+}
+
+TEST_F(Again, SaysWhereThereIsNoRecipe) {
+  run({"--exposure", "33ms", "clip.tik", "private.png", "--no-recipe"});
+  EXPECT_EQ(file("private.png").find("nutik"), std::string::npos);
+  EXPECT_EQ(file("private.png").find("clip.tik"), std::string::npos);
+  auto result = test::run_program({"again", "private.png"}, scratch_.folder());
+  EXPECT_EQ(result.status, 3);
+  EXPECT_NE(result.err.find("private.png carries no recipe"), std::string::npos) << result.err;
+  result = test::run_program({"again", "private.png", "clip.tik"}, scratch_.folder());
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("clip.tik is no folder"), std::string::npos) << result.err;
+  EXPECT_EQ(test::run_program({"again"}, scratch_.folder()).status, 2);
+  EXPECT_EQ(test::run_program({"again", "clip.tik"}, scratch_.folder()).status, 3);
+}
+
+// What a picture says of where it was made: names of files, no folders.
+TEST_F(Again, KeepsFoldersToItself) {
+  run({"--exposure", "33ms", (scratch_ / "clip.tik").string(), (scratch_ / "a.png").string()});
+  const std::string folder = scratch_.folder().filename().string();
+  EXPECT_EQ(file("a.png").find(folder), std::string::npos);
+  run({"--exposure", "33ms", "clip.tik", "b.png"});
+  EXPECT_TRUE(file("a.png") == file("b.png"));
+}
+
+}  // namespace
+}  // namespace nutik
