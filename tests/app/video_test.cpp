@@ -157,6 +157,24 @@ TEST_F(Video, ExposesEachFrameWithFunctionsFromItsStartOn) {
   }
 }
 
+TEST_F(Video, ShapesAndBrightensEachFrame) {
+  make_capture("100", "360");
+  const std::vector<std::string> bright{"--shutter", "hann", "--normalize", "integral", "--ev", "-1"};
+  std::vector<std::string> options{"--out-fps", "20", "--out-angle", "270", "--from", "12ms"};
+  options.insert(options.end(), bright.begin(), bright.end());
+  const auto got = frames(options);
+  ASSERT_EQ(got.size(), 14u);  // the last ends at 12 + 13 · 50 + 37.5 ms, of 700
+  for (const int k : {0, 7, 13}) {
+    std::vector<std::string> words{"expose",     "--start", std::to_string(12 + k * 50) + "ms",
+                                   "--exposure", "37.5ms",  "c.tik",
+                                   "one.ppm",    "-q"};
+    words.insert(words.end(), bright.begin(), bright.end());
+    run(words);
+    const auto one = test::read_all(*test::open_test_clip(scratch_ / "one.ppm"));
+    EXPECT_EQ(got[static_cast<std::size_t>(k)], one.front()) << k;
+  }
+}
+
 TEST_F(Video, GoesIntoContainers) {
   make_capture("960", "360");
   const test::ProgramResult result =
