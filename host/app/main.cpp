@@ -7,10 +7,11 @@
 #include "app/command_line/command_line.hpp"
 #include "app/output/console.hpp"
 #include "capture/error.hpp"
+#include "system/interruption.hpp"
 
 namespace {
 
-enum ExitStatus { kOk = 0, kOther = 1, kUsage = 2, kInput = 3, kDevice = 4, kOutput = 5 };
+enum ExitStatus { kOk = 0, kOther = 1, kUsage = 2, kInput = 3, kDevice = 4, kOutput = 5, kSignal = 128 };
 
 int fail(const std::exception& error, ExitStatus status) {
   nutik::app::print_error(error.what());
@@ -20,6 +21,7 @@ int fail(const std::exception& error, ExitStatus status) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  nutik::catch_interruptions();
   try {
     const std::vector<std::string> words(argv + 1, argv + argc);
     const nutik::app::ParsedCommandLine parsed = nutik::app::parse_command_line(words);
@@ -34,6 +36,9 @@ int main(int argc, char** argv) {
     return fail(error, kDevice);
   } catch (const nutik::OutputError& error) {
     return fail(error, kOutput);
+  } catch (const nutik::Interrupted& interruption) {
+    nutik::app::print_error(interruption.what());
+    return kSignal + interruption.signal;
   } catch (const std::bad_alloc&) {
     nutik::app::print_error("out of memory");
     return kOther;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "capture/format.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 
@@ -62,6 +63,7 @@ BlockExtent StreamingCapture::block_extent(std::uint64_t block) const {
 
 void StreamingCapture::read_samples(std::uint64_t until, bool keep) {
   while (samples_read_ < until) {
+    check_interruption();
     const std::span<const std::byte> raster = next_sample_();
     if (raster.empty()) throw SampleCountMismatch(samples_read_, timeline_.sample_count());
     ++samples_read_;
@@ -83,7 +85,7 @@ std::uint64_t StreamingCapture::prepare(std::uint64_t block) {
   payload_bytes_ = builder_.finish(payload_);
   if (samples_read_ == timeline_.sample_count()) {
     std::uint64_t more = 0;
-    while (!next_sample_().empty()) ++more;
+    for (; !next_sample_().empty(); ++more) check_interruption();
     if (more > 0) throw SampleCountMismatch(samples_read_ + more, timeline_.sample_count());
   }
   return payload_bytes_;

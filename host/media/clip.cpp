@@ -1,17 +1,37 @@
 #include "media/clip.hpp"
 
+#include <algorithm>
 #include <system_error>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/module.hpp"
 #include "media/still_sequence.hpp"
+#include "media/stills_table.hpp"
 
 namespace nutik {
 
+namespace {
+
+std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const ClipOptions& options) {
+  const ClipModule& module = load_clip_module();
+  const std::vector<ListedStill> stills = read_stills_table(path);
+  std::vector<std::filesystem::path> files;
+  std::vector<StillTimes> exif;
+  for (const ListedStill& still : stills) {
+    files.push_back(still.file);
+    const bool is_timed = still.times.start_ns && still.times.exposure_ns;
+    exif.push_back(is_timed || options.rate ? StillTimes{} : module.read_exif_times(still.file));
+  }
+  return module.open_stills(files, options.rate ? ClipTiming{} : timing_of(path, stills, exif), options);
+}
+
+}  // namespace
+
 std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options) {
   if (!options.raw) {
-    if (const auto stills = list_stills(path)) return load_clip_module().open_stills(*stills, options);
+    if (is_stills_table(path)) return open_table(path, options);
+    if (const auto stills = list_stills(path)) return load_clip_module().open_stills(*stills, {}, options);
   }
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
@@ -23,15 +43,21 @@ std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOpt
 Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOptions& options,
                      Rational shutter_angle, std::uint64_t sample_count) {
   if (options.rate) return Timeline::constant(*options.rate, shutter_angle, sample_count);
-  if (!info.timing.rate && info.timing.starts_ns.empty()) {
+  if (!info.timing.is_known()) {
     throw InputError(format("{} does not say how fast it was taken; state the rate with --fps", name));
   }
   if (info.timing.rate) return Timeline::constant(*info.timing.rate, shutter_angle, sample_count);
-  if (info.timing.starts_ns.size() < sample_count) {
-    throw InputError(format("{} has {} pictures but only {} times; state its rate with --fps", name,
-                            sample_count, info.timing.starts_ns.size()));
+  const std::size_t times = std::max(info.timing.starts_ns.size(), info.timing.exposures.size());
+  if (times < sample_count) {
+    throw InputError(
+        format("{} has {} pictures but only {} times; state its rate with --fps", name, sample_count, times));
   }
   try {
+    if (!info.timing.exposures.empty()) {
+      const auto& exposures = info.timing.exposures;
+      return Timeline::explicit_exposures(
+          {exposures.begin(), exposures.begin() + static_cast<std::ptrdiff_t>(sample_count)});
+    }
     return Timeline::irregular({info.timing.starts_ns.begin(),
                                 info.timing.starts_ns.begin() + static_cast<std::ptrdiff_t>(sample_count)},
                                shutter_angle);

@@ -15,10 +15,14 @@
 
 namespace nutik {
 
-// When a clip's samples were taken, as far as its files tell: a constant rate, or a start for each.
+// When a clip's samples were taken, as far as its files tell: a constant rate, or for each its start, or its
+// exposure. One of them, or none.
 struct ClipTiming {
   std::optional<Rational> rate;         // samples a second
   std::vector<std::int64_t> starts_ns;  // where the rate is not constant
+  std::vector<Exposure> exposures;      // in order, without overlaps
+
+  [[nodiscard]] bool is_known() const { return rate || !starts_ns.empty() || !exposures.empty(); }
 };
 
 struct ClipInfo {
@@ -56,7 +60,8 @@ class Clip {
   virtual bool read(std::span<std::byte> raster) = 0;
 };
 
-// Opens a video, or a sequence of stills (media/still_sequence.hpp). Throws InputError where there is
+// Opens a video, a sequence of stills (media/still_sequence.hpp), or a table of stills (media/stills_table.hpp),
+// whose times do not count where a rate is stated. Throws InputError where there is
 // none, or none that can be read.
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options);
 

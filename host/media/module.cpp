@@ -49,10 +49,10 @@ const ClipModule& load_clip_module() {
     }
     tried += format("\n  {}: not a module of this program", file.string());
   }
-  throw InputError(
-      format("clips cannot be read: the module that decodes them was not found; install it beside "
-             "the program, or set NUTIK_MODULES to its folder. Looked for:{}",
-             tried));
+  throw InputError(format(
+      "clips cannot be read and videos not written: the module that does it was not found; install it beside "
+      "the program, or set NUTIK_MODULES to its folder. Looked for:{}",
+      tried));
 }
 
 }  // namespace nutik

@@ -5,6 +5,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/extension.hpp"
 #include "media/netpbm.hpp"
 #include "media/png_file.hpp"
 #include "media/tiff_file.hpp"
@@ -37,13 +38,6 @@ constexpr std::array<FileKind, 7> kKinds{{
     {".pnm", true, false, 0, write_netpbm},
     {".pfm", false, true, 0, write_netpbm},
 }};
-
-std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension;
-}
 
 const FileKind* find_kind(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);

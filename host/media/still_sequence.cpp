@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <string>
 #include <string_view>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/extension.hpp"
 #include "media/numbered_name.hpp"
+#include "media/stills_table.hpp"
 
 namespace nutik {
 namespace {
@@ -32,9 +33,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 // The kind of picture that a name promises; empty where it promises none.
 std::string_view kind_of(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = extension_of(path);
   const auto found =
       std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& kind) { return kind[0] == extension; });
   return found == kKinds.end() ? std::string_view() : (*found)[1];
@@ -170,6 +169,11 @@ bool is_glob(const std::string& path) { return path.find_first_of("*?[") != std:
 std::optional<std::vector<fs::path>> list_stills(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) return pictures_in(path);
+  if (is_stills_table(path)) {
+    std::vector<fs::path> files;
+    for (const ListedStill& still : read_stills_table(path)) files.push_back(still.file);
+    return files;
+  }
   if (fs::exists(path, error)) {
     if (!kind_of(path).empty()) return std::vector<fs::path>{path};
     return std::nullopt;

@@ -9,10 +9,12 @@
 #include <thread>
 #include <vector>
 
+#include "system/interruption.hpp"
+
 namespace nutik {
 
 // Calls work(i) for every i in [0, count), each once, on as many threads as there are cores. The first
-// exception is thrown again when all have stopped.
+// exception is thrown again when all have stopped; a signal is one (system/interruption.hpp).
 template <typename Work>
 void parallel_for(std::uint64_t count, Work work) {
   std::atomic<std::uint64_t> next{0};
@@ -20,7 +22,10 @@ void parallel_for(std::uint64_t count, Work work) {
   std::mutex failure_mutex;
   const auto run = [&] {
     try {
-      for (std::uint64_t i = next++; i < count; i = next++) work(i);
+      for (std::uint64_t i = next++; i < count; i = next++) {
+        check_interruption();
+        work(i);
+      }
     } catch (...) {
       next = count;
       const std::scoped_lock lock(failure_mutex);

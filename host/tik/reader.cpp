@@ -5,6 +5,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/interruption.hpp"
 #include "system/output_file.hpp"
 #include "tik/checksum.hpp"
 #include "tik/codec.hpp"
@@ -197,6 +198,7 @@ void Reader::fail_block(std::uint64_t block, const std::string& why) const {
 }
 
 std::uint64_t Reader::prepare(std::uint64_t block) {
+  check_interruption();
   const BlockHeader header = block_header(block);
   const std::span<const std::byte> stored = stored_payload(block);
   if (checksum(stored) != header.payload_checksum) fail_block(block, "its checksum does not match");
@@ -281,6 +283,7 @@ Recovery recover(const std::filesystem::path& damaged, const std::filesystem::pa
   std::uint64_t offset = first_block_offset(parsed);
   const std::uint64_t front_checksum = checksum(file.first(std::min<std::uint64_t>(offset, file.size())));
   while (fits(offset, sizeof(BlockHeader), file.size())) {
+    check_interruption();
     const auto header = load<BlockHeader>(file, offset);
     const HeaderPlace place{offset, recovery.block_count, recovery.sample_count,
                             parsed.header.rate.has_value()};

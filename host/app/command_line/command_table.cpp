@@ -85,6 +85,15 @@ std::span<const Command> commands() {
        "nutik-cl sweep -k trail.fn --scale-gain 0.5..2/0.25 --stretch 0.5..2/0.5 clip.tik sheet.png\n"
        "nutik-cl sweep --start 0.4s --exposure 10ms --shift 0..50f/5f --each moment-%02d.png clip.tik",
        run_sweep},
+      {Id::video, "video", "CAPTURE.tik|CLIP [VIDEO]",
+       "Film the scene again: a video of any frame rate and shutter angle, each frame an exposure of its own "
+       "interval.",
+       "nutik-cl video clip.tik film.mp4\n"
+       "nutik-cl video --out-fps 24 --out-angle 180 --from 0.2s --to 1s --speed 0.25 clip.tik slow.mp4\n"
+       "nutik-cl video -f 960 --out-fps 30000/1001 --out-angle 360 slowmotion.mp4 film.mkv\n"
+       "nutik-cl video --depth 16 clip.tik frame-%05d.png\n"
+       "nutik-cl video -k trail.fn --out-fps 25 clip.tik trail.mp4",
+       run_video},
       {Id::shutter, "shutter", "SHAPE",
        "Write a shutter's shape as a gain function: a line for a function file. Shapes: box, trapezoid:R, "
        "triangle, gaussian, hann, strobe:N, spline:0=G,…,1=G.",

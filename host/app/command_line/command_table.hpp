@@ -22,6 +22,7 @@ enum class CommandId {
   contact,
   activity,
   sweep,
+  video,
   shutter,
   again
 };

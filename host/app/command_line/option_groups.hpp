@@ -12,32 +12,36 @@ namespace nutik::app {
 [[nodiscard]] std::vector<Option> exposure_options();
 [[nodiscard]] std::vector<Option> mask_options();
 [[nodiscard]] std::vector<Option> moment_options();
+[[nodiscard]] std::vector<Option> video_options();
 [[nodiscard]] std::vector<Option> computing_options();
 [[nodiscard]] std::vector<Option> output_options();
 
 using OptionGroup = std::vector<Option> (*)();
-inline constexpr OptionGroup kOptionGroups[] = {source_options, exposure_options,  mask_options,
-                                                moment_options, computing_options, output_options};
+inline constexpr OptionGroup kOptionGroups[] = {source_options, exposure_options, video_options,
+                                                mask_options,   moment_options,   computing_options,
+                                                output_options};
 
 inline constexpr CommandSet kAllCommands = ~CommandSet{0};
 // Those that read a clip, and so take what describes it.
 inline constexpr CommandSet kReadsClips =
     set_of(CommandId::encode, CommandId::expose, CommandId::batch, CommandId::check, CommandId::trace,
-           CommandId::mask, CommandId::contact, CommandId::activity, CommandId::sweep);
+           CommandId::mask, CommandId::contact, CommandId::activity, CommandId::sweep, CommandId::video);
 // Those of them that turn it into a capture, or expose it.
 inline constexpr CommandSet kEncodesClips = kReadsClips & ~set_of(CommandId::check);
 // Those that take gain functions.
 inline constexpr CommandSet kTakesFunctions =
-    set_of(CommandId::expose, CommandId::check, CommandId::trace, CommandId::sweep);
+    set_of(CommandId::expose, CommandId::check, CommandId::trace, CommandId::sweep, CommandId::video);
 inline constexpr CommandSet kTakesMasks = kTakesFunctions | set_of(CommandId::activity);
 // Those that take a plain interval.
 inline constexpr CommandSet kTakesIntervals =
     set_of(CommandId::expose, CommandId::trace, CommandId::mask, CommandId::contact, CommandId::sweep);
 // Those that shape and weigh what they expose.
-inline constexpr CommandSet kShapesExposures = set_of(CommandId::expose, CommandId::trace, CommandId::sweep);
+inline constexpr CommandSet kShapesExposures =
+    set_of(CommandId::expose, CommandId::trace, CommandId::sweep, CommandId::video);
 // Those that expose pictures, and so take what says how that is computed.
 inline constexpr CommandSet kExposes =
-    set_of(CommandId::expose, CommandId::batch, CommandId::mask, CommandId::contact, CommandId::sweep);
+    set_of(CommandId::expose, CommandId::batch, CommandId::mask, CommandId::contact, CommandId::sweep,
+           CommandId::video);
 // Those that lay pictures out on a sheet.
 inline constexpr CommandSet kMakesSheets = set_of(CommandId::contact, CommandId::sweep);
 // Those that can answer in JSON.

@@ -75,6 +75,14 @@ struct Options {
   std::optional<std::string> csv;
   std::optional<std::string> map;
 
+  // A video's frames.
+  std::optional<std::string> out_fps;
+  std::optional<std::string> out_angle;
+  std::optional<std::string> from;
+  std::optional<std::string> to;
+  std::optional<std::string> speed;
+  std::optional<std::string> video_codec;
+
   bool json = false;
   bool no_recipe = false;
   bool quiet = false;

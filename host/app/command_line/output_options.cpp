@@ -16,7 +16,7 @@ std::vector<Option> output_options() {
              (kReadsClips & ~set_of(Id::batch, Id::check)) | bit(Id::recover), &Options::output),
       valued(0, "depth", "BITS", kGroup,
              "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
-             bit(Id::expose), &Options::depth),
+             set_of(Id::expose, Id::video), &Options::depth),
       valued(
           0, "codec", "NAME", kGroup,
           "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",

@@ -17,6 +17,7 @@ int run_mask(const Options& options);
 int run_contact(const Options& options);
 int run_activity(const Options& options);
 int run_sweep(const Options& options);
+int run_video(const Options& options);
 int run_shutter(const Options& options);
 int run_again(const Options& options);
 

@@ -67,6 +67,12 @@ SourceClip open_source(const std::filesystem::path& path, const SourceOptions& o
                path.string()));
   }
   source.clip = open_clip(path, options.clip);
+  if (options.angle_was_stated && !options.clip.rate && !source.clip->info().timing.exposures.empty()) {
+    throw UsageError(
+        format("{} says how long each picture was exposed; leave --shutter-angle out, or the "
+               "exposure_ns column empty",
+               path.string()));
+  }
   source.capture = source.clip->info().format;
   source.capture.noise = options.noise;
   if (options.clip.transfer) source.capture.transfer = *options.clip.transfer;
@@ -96,7 +102,9 @@ std::string timing_text(const Timeline& timeline, const SourceOptions& options) 
           : format("irregular times (from the file), {:.4g} pictures a second on average",
                    timeline.rate().value());
   return format("{}, shutter {} degrees ({})", rate, timeline.shutter_angle().text(),
-                options.angle_was_stated ? "--shutter-angle" : "assumed");
+                options.angle_was_stated                            ? "--shutter-angle"
+                : timeline.shutter_angle() != options.shutter_angle ? "mean of the listed exposures"
+                                                                    : "assumed");
 }
 
 std::string slow_motion_note(const Timeline& timeline, const SourceOptions& options) {

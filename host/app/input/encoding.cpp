@@ -6,6 +6,7 @@
 #include "app/output/console.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik::app {
 namespace {
@@ -37,7 +38,7 @@ Encoding::Encoding(SourceClip source, const SourceOptions& options, const tik::C
   header.capture = source_.capture;
   const ClipTiming& timing = source_.clip->info().timing;
   header.rate = options.clip.rate ? options.clip.rate : timing.rate;
-  header.shutter_angle = options.shutter_angle;
+  header.shutter_angle = times_.shutter_angle();
   writer_.emplace(output, header, codec, first);
   for (std::size_t i = 1; i < raster_count(source_.capture, options.memory); ++i) {
     spare_rasters_.push(Raster(source_.capture.sample_bytes()));
@@ -77,6 +78,7 @@ std::uint64_t Encoding::decode(Progress& progress) {
   const ClosedAtEnd closed(rasters_);
   std::uint64_t samples = 1;  // the first is on its way
   while (auto raster = spare_rasters_.pop()) {
+    check_interruption();
     progress.show(samples);
     if (!source_.clip->read(*raster)) break;
     if (!rasters_.push(std::move(*raster))) break;

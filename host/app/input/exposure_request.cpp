@@ -69,49 +69,59 @@ Shutter parse_shutter(const std::string& shape, const std::optional<std::string>
   return {ShutterShape::parse(shape), error};
 }
 
-ExposureRequest ExposureRequest::from(const Options& options) {
+ExposureRequest ExposureRequest::common(const Options& options) {
   ExposureRequest request;
   request.plan_options_.unmapped_is_zero = parse_only(options.unmapped, "--unmapped", "zero");
   request.plan_options_.live_all = parse_only(options.live, "--live", "all");
   if (options.transfer) request.plan_options_.transfer = Transfer::parse(*options.transfer);
   request.normalization_ = Normalization::parse(options.normalize.value_or("support"));
   request.gain_ = brightening(options);
+  if (!options.functions) {
+    if (options.mask) throw UsageError("a mask goes with gain functions (-k), not with a plain interval");
+    request.shutter_ = parse_shutter(options.shutter.value_or("box"), options.shutter_error);
+    request.plan_options_.function_name = "the exposure";
+    return request;
+  }
+  const auto refuse = [&](const std::optional<std::string>& option, std::string_view name) {
+    if (option)
+      throw UsageError(format("{} describes a plain interval, -k a file of functions; use one", name));
+  };
+  refuse(options.exposure, "--exposure");
+  refuse(options.shutter, "--shutter");
+  refuse(options.shutter_error, "--shutter-error");
+  request.file_ = read_functions(*options.functions);
+  if (!options.mask && request.file_->functions.size() > 1) {
+    throw UsageError(format("{} holds {} functions; a mask says where each applies: -m mask.pgm",
+                            *options.functions, request.file_->functions.size()));
+  }
+  if (options.mask) {
+    request.mask_ = Mask::from_picture(read_mask(*options.mask));
+    request.mask_pixels_ = request.mask_->pixels_per_tag();
+  }
+  return request;
+}
+
+ExposureRequest ExposureRequest::from(const Options& options) {
+  if (!options.functions && !options.start && !options.exposure) {
+    throw UsageError(options.mask ? "a mask needs gain functions: -k functions.fn"
+                                  : "an exposure needs a plain interval (--start 0.4s --exposure 10ms) or "
+                                    "gain functions (-k functions.fn)");
+  }
+  ExposureRequest request = common(options);
   request.start_ = TimeText::parse(options.start.value_or("0s"), "start");
   if (options.functions) {
-    const auto refuse = [&](const std::optional<std::string>& option, std::string_view name) {
-      if (option)
-        throw UsageError(format("{} describes a plain interval, -k a file of functions; use one", name));
-    };
-    refuse(options.exposure, "--exposure");
-    refuse(options.shutter, "--shutter");
-    refuse(options.shutter_error, "--shutter-error");
-    request.file_ = read_functions(*options.functions);
     request.label_ = std::filesystem::path(*options.functions).stem().string();
     if (options.start) request.label_ += "-" + *options.start;
-    if (!options.mask && request.file_->functions.size() > 1) {
-      throw UsageError(format("{} holds {} functions; a mask says where each applies: -m mask.pgm",
-                              *options.functions, request.file_->functions.size()));
-    }
-    if (options.mask) {
-      request.mask_ = Mask::from_picture(read_mask(*options.mask));
-      request.mask_pixels_ = request.mask_->pixels_per_tag();
-    }
   } else {
-    if (!options.start && !options.exposure) {
-      throw UsageError(options.mask ? "a mask needs gain functions: -k functions.fn"
-                                    : "an exposure needs a plain interval (--start 0.4s --exposure 10ms) or "
-                                      "gain functions (-k functions.fn)");
-    }
-    if (options.mask) throw UsageError("a mask goes with gain functions (-k), not with a plain interval");
     if (!options.exposure) throw UsageError("how long is the exposure? Add --exposure 10ms");
     request.length_ = TimeText::parse(*options.exposure, "exposure");
-    request.shutter_ = parse_shutter(options.shutter.value_or("box"), options.shutter_error);
     request.label_ = format("{}-{}", options.start.value_or("0s"), *options.exposure);
-    request.plan_options_.function_name = "the exposure";
   }
   std::replace(request.label_.begin(), request.label_.end(), '/', '_');
   return request;
 }
+
+ExposureRequest ExposureRequest::for_frames(const Options& options) { return common(options); }
 
 GainFunction ExposureRequest::interval_function(const Exposure& interval, const Timeline& timeline) {
   if (interval.start_ns >= timeline.duration_ns() || interval.end_ns <= 0) {
@@ -122,19 +132,24 @@ GainFunction ExposureRequest::interval_function(const Exposure& interval, const 
 }
 
 FunctionSet ExposureRequest::functions(const TimeText& start, const Timeline& timeline) {
+  if (!file_) return functions(plain_interval(start, length_, timeline), timeline);
+  const std::int64_t zero_ns = moment_ns(start, timeline);
+  return functions(Exposure{zero_ns, zero_ns}, timeline);
+}
+
+FunctionSet ExposureRequest::functions(const Exposure& interval, const Timeline& timeline) {
   const std::int64_t duration_ns = timeline.duration_ns();
   FunctionSet functions;
   if (!file_) {
-    const GainFunction function = interval_function(plain_interval(start, length_, timeline), timeline);
-    functions.emplace(0,
-                      normalization_.normalized(function, duration_ns, gain_, plan_options_.function_name));
+    functions.emplace(0, normalization_.normalized(interval_function(interval, timeline), duration_ns, gain_,
+                                                   plan_options_.function_name));
     return functions;
   }
-  const std::int64_t zero_ns = moment_ns(start, timeline);
   for (const auto& [tag, written] : file_->functions) {
     // What no pixel is exposed with may be what it likes.
     if (!mask_uses(tag)) continue;
-    const GainFunction function = zero_ns == 0 ? written.function : written.function.shifted(zero_ns);
+    const GainFunction function =
+        interval.start_ns == 0 ? written.function : written.function.shifted(interval.start_ns);
     functions.emplace(tag, normalization_.normalized(function, duration_ns, gain_, format("M{}", tag)));
   }
   return functions;

@@ -25,6 +25,9 @@ class ExposureRequest {
   // with all mistakes of the function file; prints its warnings.
   static ExposureRequest from(const Options& options);
 
+  // The same for the frames of a video: no interval, or functions whose time 0 each frame says.
+  static ExposureRequest for_frames(const Options& options);
+
   // Whether a plain interval is exposed, not the functions of a file.
   [[nodiscard]] bool is_plain() const { return !file_; }
   // When the exposure starts: the interval, or the functions' time 0. How long a plain one is.
@@ -37,6 +40,10 @@ class ExposureRequest {
   [[nodiscard]] FunctionSet functions(const Timeline& timeline) { return functions(start_, timeline); }
   [[nodiscard]] FunctionSet functions(const TimeText& start, const Timeline& timeline);
 
+  // The same of a plain interval that is known in nanoseconds; the functions of a file have their time 0 at
+  // its start, whatever its end.
+  [[nodiscard]] FunctionSet functions(const Exposure& interval, const Timeline& timeline);
+
   // When the functions' light is gathered at the latest, counted from their time 0.
   [[nodiscard]] std::int64_t functions_end_ns() const;
 
@@ -47,6 +54,7 @@ class ExposureRequest {
   [[nodiscard]] const std::string& label() const { return label_; }
 
  private:
+  static ExposureRequest common(const Options& options);
   [[nodiscard]] GainFunction interval_function(const Exposure& interval, const Timeline& timeline);
   [[nodiscard]] bool mask_uses(std::uint8_t tag) const { return !mask_ || mask_pixels_[tag] > 0; }
 

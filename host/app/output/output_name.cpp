@@ -30,11 +30,19 @@ bool is_table_content(std::string_view bytes) {
   return line.find(',') != std::string_view::npos && line.find('\0') == std::string_view::npos;
 }
 
+bool is_video_content(std::string_view bytes) {
+  const bool is_matroska = bytes.starts_with("\x1A\x45\xDF\xA3");
+  const bool is_mp4 = bytes.size() >= 8 && bytes.substr(4, 4) == "ftyp";
+  const bool is_avi = bytes.size() >= 12 && bytes.starts_with("RIFF") && bytes.substr(8, 4) == "AVI ";
+  return is_matroska || is_mp4 || is_avi;
+}
+
 bool is_content_of(OutputKind kind, const std::string& bytes) {
   switch (kind) {
     case OutputKind::tik: return is_tik_content(bytes);
     case OutputKind::picture: return is_picture_content(bytes);
     case OutputKind::table: return is_table_content(bytes);
+    case OutputKind::video: return is_video_content(bytes);
   }
   return false;
 }
@@ -44,6 +52,7 @@ const char* name_of(OutputKind kind) {
     case OutputKind::tik: return ".tik file";
     case OutputKind::picture: return "picture";
     case OutputKind::table: return "table";
+    case OutputKind::video: return "video";
   }
   return "";
 }

@@ -14,6 +14,14 @@ constexpr auto kFirst = std::chrono::milliseconds(400);
 constexpr auto kEvery = std::chrono::milliseconds(100);
 constexpr std::uint64_t kBarWidth = 30;
 
+// `12 s`, `3:05 min`, `1:02 h`.
+std::string time_left_text(double seconds) {
+  const auto whole = static_cast<std::uint64_t>(seconds + 0.5);
+  if (whole < 60) return format("{} s", whole);
+  if (whole < 3600) return format("{}:{:02} min", whole / 60, whole % 60);
+  return format("{}:{:02} h", whole / 3600, whole / 60 % 60);
+}
+
 }  // namespace
 
 Progress::Progress(std::string what, std::uint64_t total, bool quiet)
@@ -39,8 +47,9 @@ void Progress::show(std::uint64_t done) {
     const double left =
         done > 0 ? seconds / static_cast<double>(done) * static_cast<double>(total_ - std::min(done, total_))
                  : 0.0;
-    line += format(" [{}{}] {}/{}, {:.0f} s left", std::string(filled, '#'),
-                   std::string(kBarWidth - filled, '.'), done, total_, left);
+    line += format(" [{}{}] {}/{}, {:.3g} a second, {} left", std::string(filled, '#'),
+                   std::string(kBarWidth - filled, '.'), done, total_, static_cast<double>(done) / seconds,
+                   time_left_text(left));
   } else {
     line += format(" {}", done);
   }

@@ -133,6 +133,16 @@ std::uint64_t sample_at(std::string_view text, std::string_view what, const Time
   return timeline.samples_reaching(inside_ns, inside_ns + 1).first;
 }
 
+ExactTime exact_time(std::string_view text, std::string_view what, const Timeline& timeline) {
+  const TimeText time = TimeText::parse(text, what);
+  if (!time.counts_samples()) {
+    return {static_cast<int128>(time.number.numerator) * time.unit_ns, time.number.denominator};
+  }
+  const std::int64_t sample = whole_samples(time, what);
+  if (sample == static_cast<std::int64_t>(timeline.sample_count())) return {timeline.duration_ns(), 1};
+  return ExactTime::of_sample(timeline, existing_sample(sample, timeline));
+}
+
 std::string duration_text(std::int64_t nanoseconds) {
   const auto value = static_cast<double>(nanoseconds);
   if (nanoseconds < 1000) return format("{} ns", nanoseconds);

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "capture/frame_times.hpp"
 #include "capture/rational.hpp"
 #include "capture/timeline.hpp"
 
@@ -36,6 +37,9 @@ Exposure plain_interval(std::string_view start, std::string_view exposure, const
 // The picture at a time: `37f`, or the last whose exposure begins no later than the time. Throws UsageError
 // naming `what` where the time lies outside the capture.
 [[nodiscard]] std::uint64_t sample_at(std::string_view text, std::string_view what, const Timeline& timeline);
+// A moment on a timeline, exactly: `0.4s`, or `37f` for the start of picture 37 (as many as there are: the
+// capture's end). Throws UsageError naming `what`.
+[[nodiscard]] ExactTime exact_time(std::string_view text, std::string_view what, const Timeline& timeline);
 // A moment on a timeline; that of a picture is the start of its exposure.
 [[nodiscard]] std::int64_t moment_ns(const TimeText& time, const Timeline& timeline);
 

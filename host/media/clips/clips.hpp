@@ -1,4 +1,4 @@
-// The ways in which clips are decoded here.
+// The ways in which clips are decoded here, and videos encoded.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,8 @@
 
 #include "media/clip.hpp"
 #include "media/clips/probe.hpp"
+#include "media/stills_table.hpp"
+#include "media/video_writer.hpp"
 
 namespace nutik::clips {
 
@@ -17,8 +19,17 @@ namespace nutik::clips {
 [[nodiscard]] std::unique_ptr<Clip> open_with_libav(const std::filesystem::path& path, const Probe& probe,
                                                     const ClipOptions& options);
 
-// Stills, one sample each; a TIFF may hold several.
+// Stills, one sample each; a TIFF may hold several, but not where `timing` has times for them.
 [[nodiscard]] std::unique_ptr<Clip> open_still_files(std::span<const std::filesystem::path> files,
-                                                     const ClipOptions& options);
+                                                     const ClipTiming& timing, const ClipOptions& options);
+
+// When a still was taken and for how long, as far as its EXIF data tell (JPEG): DateTimeOriginal with
+// SubSecTimeOriginal, and ExposureTime. Nothing for a file without them.
+[[nodiscard]] StillTimes read_exif_times(const std::filesystem::path& file);
+
+// Videos in containers.
+[[nodiscard]] std::unique_ptr<VideoWriter> open_libav_writer(const std::filesystem::path& path,
+                                                             const VideoFormat& format,
+                                                             const VideoCodec& codec);
 
 }  // namespace nutik::clips

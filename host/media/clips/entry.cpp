@@ -17,4 +17,5 @@ std::unique_ptr<Clip> open_video_clip(const std::filesystem::path& path, const C
 }  // namespace nutik::clips
 
 extern "C" __attribute__((visibility("default")))
-const nutik::ClipModule nutik_clip_module{nutik::clips::open_video_clip, nutik::clips::open_still_files};
+const nutik::ClipModule nutik_clip_module{nutik::clips::open_video_clip, nutik::clips::open_still_files,
+                                          nutik::clips::read_exif_times, nutik::clips::open_libav_writer};

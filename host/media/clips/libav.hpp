@@ -16,6 +16,7 @@ extern "C" {
 
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 
@@ -51,6 +52,16 @@ inline std::string error_text(int code) {
   char text[AV_ERROR_MAX_STRING_SIZE] = {};
   av_strerror(code, text, sizeof text);
   return text;
+}
+
+// A picture with room behind its rows for the whole vectors that libswscale writes.
+inline FramePointer new_frame(AVPixelFormat pixels, int width, int height) {
+  FramePointer frame(av_frame_alloc());
+  frame->format = pixels;
+  frame->width = width;
+  frame->height = height;
+  if (av_frame_get_buffer(frame.get(), 0) < 0) throw std::bad_alloc();
+  return frame;
 }
 
 // An opened file and the index of its picture stream.

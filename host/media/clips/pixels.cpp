@@ -99,17 +99,6 @@ void yuv_to_rgb(const AVFrame& planes, std::uint32_t bits, AVFrame& rgb) {
   }
 }
 
-FramePointer new_frame(AVPixelFormat pixels, int width, int height) {
-  FramePointer frame(av_frame_alloc());
-  frame->format = pixels;
-  frame->width = width;
-  frame->height = height;
-  // Its rows have room behind them for the whole vectors that libswscale writes; a raster's have
-  // none.
-  if (av_frame_get_buffer(frame.get(), 0) < 0) throw std::bad_alloc();
-  return frame;
-}
-
 // Copies a row-major picture of `height` rows while it is turned.
 void copy_turned(const std::uint8_t* from, std::ptrdiff_t stride, std::size_t width, std::size_t height,
                  std::size_t pixel_bytes, int turns, std::span<std::byte> raster) {

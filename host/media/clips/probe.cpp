@@ -59,7 +59,7 @@ ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base,
         Rational::of(periods * time_base.denominator, (times.back() - times.front()) * time_base.numerator));
   }
   for (const Rational& rate : rates) {
-    if (fits(times, time_base, rate)) return {rate, {}};
+    if (fits(times, time_base, rate)) return {rate, {}, {}};
   }
   ClipTiming timing;
   for (const std::int64_t time : times) {
@@ -84,7 +84,7 @@ ClipTiming packet_timing(const AVStream& stream, std::vector<std::int64_t> times
     std::sort(times.begin(), times.end());  // packets come in the order of decoding
     return timing_of(times, Rational::of(stream.time_base.num, stream.time_base.den), rates);
   }
-  if (!rates.empty()) return {rates.front(), {}};
+  if (!rates.empty()) return {rates.front(), {}, {}};
   return {};
 }
 
@@ -133,12 +133,14 @@ void add_cine_header(const CineHeader& header, const AVStream& stream, Probe& re
   }
 }
 
-// A size or format that is wrong would cut the pictures at the wrong places.
-void check_raw_size(const std::filesystem::path& path, const RawVideo& raw) {
+// How many pictures the file holds. A size or format that is wrong would cut them at the wrong places.
+std::uint64_t count_raw_pictures(const std::filesystem::path& path, const RawVideo& raw) {
   const int bytes = av_image_get_buffer_size(av_get_pix_fmt(raw.pixel_format.c_str()),
                                              static_cast<int>(raw.width), static_cast<int>(raw.height), 1);
   const std::uint64_t file_bytes = std::filesystem::file_size(path);
-  if (bytes > 0 && file_bytes > 0 && file_bytes % static_cast<std::uint64_t>(bytes) == 0) return;
+  if (bytes > 0 && file_bytes > 0 && file_bytes % static_cast<std::uint64_t>(bytes) == 0) {
+    return file_bytes / static_cast<std::uint64_t>(bytes);
+  }
   throw InputError(
       format("{} has {} bytes, which is no whole number of pictures of {} bytes ({} x {}, {}); "
              "check --raw",
@@ -163,7 +165,10 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
                "state which with --transfer",
                name));
   }
-  if (raw) check_raw_size(path, *raw);
+  if (raw) {
+    result.sample_count = count_raw_pictures(path, *raw);
+    return result;
+  }
 
   std::vector<std::int64_t> times;
   const PacketPointer packet(av_packet_alloc());
@@ -178,7 +183,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
         format("the file is damaged or was cut off behind picture {}: {}", times.size(), error_text(code)));
   }
   result.sample_count = times.size();
-  if (!raw) result.timing = packet_timing(stream, std::move(times));
+  result.timing = packet_timing(stream, std::move(times));
   if (const auto header = read_cine_header(path)) add_cine_header(*header, stream, result);
   return result;
 }

@@ -8,6 +8,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/clips/clips.hpp"
+#include "media/extension.hpp"
 #include "media/netpbm.hpp"
 #include "media/tiff_reader.hpp"
 #include "system/mapped_file.hpp"
@@ -34,11 +35,7 @@ struct Still {
 };
 
 bool has_extension(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+  return std::find(extensions.begin(), extensions.end(), extension_of(file)) != extensions.end();
 }
 
 Still still_of(Picture&& picture, std::optional<std::uint32_t> maximum) {
@@ -88,10 +85,15 @@ Still read_with_opencv(const std::filesystem::path& file) {
 
 class StillClip final : public Clip {
  public:
-  StillClip(std::span<const std::filesystem::path> files, const ClipOptions& options) {
+  StillClip(std::span<const std::filesystem::path> files, const ClipTiming& timing,
+            const ClipOptions& options) {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     for (const std::filesystem::path& file : files) {
       const std::uint64_t count = is_tiff(file) ? TiffReader::count_pages(file) : 1;
+      if (count > 1 && timing.is_known()) {
+        throw InputError(format("{} has {} pages; in a table with times each picture is a file of its own",
+                                file.string(), count));
+      }
       for (std::uint64_t number = 1; number <= count; ++number) pages_.push_back({file, number, count});
     }
     first_ = read_page(pages_.front());
@@ -111,6 +113,7 @@ class StillClip final : public Clip {
           "state "
           "another with --white (12 bits: 4095)");
     }
+    info_.timing = timing;
     info_.sample_count = pages_.size();
   }
 
@@ -165,9 +168,9 @@ class StillClip final : public Clip {
 
 }  // namespace
 
-std::unique_ptr<Clip> open_still_files(std::span<const std::filesystem::path> files,
+std::unique_ptr<Clip> open_still_files(std::span<const std::filesystem::path> files, const ClipTiming& timing,
                                        const ClipOptions& options) {
-  return std::make_unique<StillClip>(files, options);
+  return std::make_unique<StillClip>(files, timing, options);
 }
 
 }  // namespace nutik::clips

@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <map>
+
+#include "app/commands/commands.hpp"
+#include "app/input/exposer.hpp"
+#include "app/input/frame_request.hpp"
+#include "app/input/opened_capture.hpp"
+#include "app/output/console.hpp"
+#include "app/output/output_name.hpp"
+#include "app/output/progress.hpp"
+#include "app/output/stopwatch.hpp"
+#include "app/output/video_output.hpp"
+#include "app/text/size_text.hpp"
+#include "app/text/time_text.hpp"
+#include "capture/format.hpp"
+#include "media/frame_queue.hpp"
+#include "media/still_sequence.hpp"
+#include "system/interruption.hpp"
+
+namespace nutik::app {
+namespace {
+
+// What exposures warn of, once for all frames that it holds for.
+class FrameWarnings {
+ public:
+  void add(std::uint64_t frame, const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) {
+      auto [entry, is_new] = frames_.try_emplace(warning, Frames{frame, 0});
+      ++entry->second.count;
+    }
+  }
+
+  void print() const {
+    for (const auto& [warning, frames] : frames_) {
+      const std::string others = frames.count > 1 ? format(" and {} more", frames.count - 1) : std::string();
+      print_warning(format("frame {}{}: {}", frames.first, others, warning));
+    }
+  }
+
+ private:
+  struct Frames {
+    std::uint64_t first;
+    std::uint64_t count;
+  };
+  std::map<std::string, Frames> frames_;
+};
+
+std::filesystem::path usual_name(const std::string& input, Rational rate) {
+  std::string text = rate.text();
+  std::replace(text.begin(), text.end(), '/', '_');
+  return format("{}-{}fps.mp4", sequence_name(input), text);
+}
+
+}  // namespace
+
+int run_video(const Options& options) {
+  const Stopwatch stopwatch;
+  const auto stated = stated_output(options.output, options.operands, "video");
+  FrameRequest request = FrameRequest::from(options);
+  const std::string& input = options.operands.front();
+  const VideoOutput output(options, stated.value_or(usual_name(input, request.rate())));
+  const std::vector<std::string> inputs = exposure_inputs(options);
+  output.check(0, inputs);  // a container's name, before the clip is read
+
+  Exposer exposer(options);
+  OpenedCapture capture(input, options);
+  tik::Reader& reader = capture.reader();
+  const Frames frames = request.frames(reader.timeline());
+  const Mask mask = request.exposure().mask(reader.format().shape);
+  const OutputFormat frame_format = output.frame_format(reader.format());
+  output.check(frames.count, inputs);
+
+  const Transfer transfer = request.plan_options().transfer.value_or(reader.format().transfer);
+  FrameQueue queue(
+      [&] { return output.open(reader.format().shape, frame_format, transfer, request.rate()); });
+  FrameWarnings warnings;
+  std::optional<Interrupted> interruption;
+  std::uint64_t exposed_frames = 0;
+  {
+    Progress progress("exposing", frames.count, options.quiet);
+    try {
+      for (; exposed_frames < frames.count; ++exposed_frames) {
+        check_interruption();
+        progress.show(exposed_frames);
+        const FunctionSet functions =
+            request.exposure().functions(frames.times.exposure(exposed_frames), reader.timeline());
+        Exposed exposed = exposer.expose(reader, functions, mask, request.plan_options(), frame_format);
+        warnings.add(exposed_frames, exposure_warnings(exposed));
+        if (!queue.push(std::move(exposed.picture))) break;
+      }
+    } catch (const Interrupted& caught) {
+      if (exposed_frames == 0) throw;
+      interruption = caught;
+      clear_interruption();  // what was exposed is still to be written
+    }
+    queue.finish();
+  }
+  warnings.print();
+  if (interruption) {
+    print_note(
+        format("{}: {} of {} frames were written", output.path().string(), exposed_frames, frames.count));
+    throw *interruption;
+  }
+  if (options.quiet) {
+    if (!stated) print_line(output.path().string());  // a name that nobody gave
+    return 0;
+  }
+
+  const FrameTimes& times = frames.times;
+  print_line(format("{}: {}, {} frames ({}), from {} to {} of the capture, {}, {:.2f} s on {}",
+                    output.path().string(), shape_text(reader.format().shape), frames.count, request.text(),
+                    duration_text(times.start_ns(0)), duration_text(times.end_ns(frames.count - 1)),
+                    output.kind(), stopwatch.seconds(), exposer.renderer_name()));
+  if (const std::string report = exposer.report(); options.verbose && !report.empty()) print_line(report);
+  for (const std::string& note : queue.notes()) print_note(format("note: {}", note));
+  for (const std::string& note : capture.notes()) print_note(note);
+  return 0;
+}
+
+}  // namespace nutik::app

@@ -1,0 +1,41 @@
+// Where a video goes, told from its name: a container, or a numbered still for each frame.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "app/command_line/options.hpp"
+#include "media/video_writer.hpp"
+#include "render/renderer.hpp"
+
+namespace nutik::app {
+
+class VideoOutput {
+ public:
+  // Throws UsageError where the name is that of neither, or codec and container do not fit.
+  VideoOutput(const Options& options, std::filesystem::path path);
+
+  // What values the frames have. Throws UsageError where --depth and the file do not fit.
+  [[nodiscard]] OutputFormat frame_format(const CaptureFormat& capture) const;
+
+  // Throws UsageError where one of the files to write is an input or of another kind.
+  void check(std::uint64_t frames, std::span<const std::string> inputs) const;
+
+  // `transfer` is what codes are made with.
+  [[nodiscard]] std::unique_ptr<VideoWriter> open(const Shape& shape, const OutputFormat& format,
+                                                  const Transfer& transfer, Rational rate) const;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  // `h264`, or `stills`.
+  [[nodiscard]] std::string kind() const;
+
+ private:
+  const Options& options_;
+  std::filesystem::path path_;
+  const VideoCodec* codec_ = nullptr;  // null: stills
+};
+
+}  // namespace nutik::app

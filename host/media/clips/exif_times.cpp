@@ -1,0 +1,80 @@
+#include <libexif/exif-data.h>
+#include <libexif/exif-utils.h>
+
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "capture/rational.hpp"
+#include "media/clips/clips.hpp"
+
+namespace nutik::clips {
+namespace {
+
+constexpr std::int64_t kSecondNs = 1'000'000'000;
+
+struct FreeExif {
+  void operator()(ExifData* data) const { exif_data_unref(data); }
+};
+
+ExifEntry* entry_of(const ExifData& data, ExifTag tag) {
+  return exif_content_get_entry(data.ifd[EXIF_IFD_EXIF], tag);
+}
+
+std::string text_of(const ExifData& data, ExifTag tag) {
+  const ExifEntry* entry = entry_of(data, tag);
+  if (entry == nullptr || entry->format != EXIF_FORMAT_ASCII) return {};
+  const std::string text(reinterpret_cast<const char*>(entry->data), entry->size);
+  return text.substr(0, text.find('\0'));
+}
+
+// `2026:11:21 13:22:27`, in nanoseconds since 1970, of whatever clock the camera had.
+std::optional<std::int64_t> date_ns(const std::string& text) {
+  constexpr std::array<std::size_t, 6> kAt{0, 5, 8, 11, 14, 17}, kDigits{4, 2, 2, 2, 2, 2};
+  std::array<unsigned, 6> part{};
+  if (text.size() < 19) return std::nullopt;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    const char* const begin = text.data() + kAt[i];
+    const auto [end, error] = std::from_chars(begin, begin + kDigits[i], part[i]);
+    if (error != std::errc() || end != begin + kDigits[i]) return std::nullopt;
+  }
+  const std::chrono::year_month_day day{std::chrono::year(static_cast<int>(part[0])),
+                                        std::chrono::month(part[1]), std::chrono::day(part[2])};
+  if (!day.ok()) return std::nullopt;
+  const std::int64_t days = std::chrono::sys_days(day).time_since_epoch().count();
+  return (((days * 24 + part[3]) * 60 + part[4]) * 60 + part[5]) * kSecondNs;
+}
+
+// The digits behind a second's point, as many as the camera wrote.
+std::int64_t fraction_ns(const std::string& digits) {
+  std::int64_t value = 0, unit = kSecondNs / 10;
+  for (const char digit : digits) {
+    if (digit < '0' || digit > '9') break;
+    value += (digit - '0') * unit;
+    unit /= 10;
+  }
+  return value;
+}
+
+}  // namespace
+
+StillTimes read_exif_times(const std::filesystem::path& file) {
+  const std::unique_ptr<ExifData, FreeExif> data(exif_data_new_from_file(file.c_str()));
+  StillTimes times;
+  if (!data) return times;
+  times.start_ns = date_ns(text_of(*data, EXIF_TAG_DATE_TIME_ORIGINAL));
+  if (times.start_ns) *times.start_ns += fraction_ns(text_of(*data, EXIF_TAG_SUB_SEC_TIME_ORIGINAL));
+  const ExifEntry* exposure = entry_of(*data, EXIF_TAG_EXPOSURE_TIME);
+  if (exposure != nullptr && exposure->format == EXIF_FORMAT_RATIONAL && exposure->size >= 8) {
+    const ExifRational seconds = exif_get_rational(exposure->data, exif_data_get_byte_order(data.get()));
+    if (seconds.numerator != 0 && seconds.denominator != 0) {
+      times.exposure_ns = std::max<std::int64_t>(
+          round_half_up(static_cast<int128>(seconds.numerator) * kSecondNs, seconds.denominator), 1);
+    }
+  }
+  return times;
+}
+
+}  // namespace nutik::clips

@@ -1,0 +1,235 @@
+// Videos through libavformat and libavcodec, the libraries that OpenCV's writer stands on. That one rounds
+// the rate to thousandths, in which 30000/1001 drifts, and takes 8 bits of BGR only.
+//
+//   codes in   8 or 16 bits, grey or RGB, over the full range
+//   pixels     ffv1: as they are; prores: YUV 4:2:2 of 10 bits; the others: YUV 4:2:0 of 8 bits, by BT.601's
+//              matrix, which readers take where a file names none (OpenCV: even where it names another)
+#include <algorithm>
+#include <cstring>
+
+#include "media/clips/clips.hpp"
+#include "media/clips/libav.hpp"
+#include "system/output_file.hpp"
+
+namespace nutik::clips {
+namespace {
+
+struct FreeOutput {
+  void operator()(AVFormatContext* context) const {
+    avio_closep(&context->pb);
+    avformat_free_context(context);
+  }
+};
+using OutputPointer = std::unique_ptr<AVFormatContext, FreeOutput>;
+
+// Of H.264 and its kin: below what an eye sees. FFV1 is there for all else.
+constexpr const char* kQuality = "17";
+
+AVPixelFormat source_pixels(const VideoFormat& format) {
+  const bool deep = format.type == ValueType::code16;
+  if (format.shape.channels == 1) return deep ? AV_PIX_FMT_GRAY16 : AV_PIX_FMT_GRAY8;
+  return deep ? AV_PIX_FMT_RGB48 : AV_PIX_FMT_RGB24;
+}
+
+AVPixelFormat encoded_pixels(const VideoFormat& format, const VideoCodec& codec) {
+  if (codec.name == "prores") return AV_PIX_FMT_YUV422P10;
+  if (codec.name == "mjpeg") return AV_PIX_FMT_YUVJ420P;
+  if (!codec.is_lossless) return AV_PIX_FMT_YUV420P;
+  const AVPixelFormat source = source_pixels(format);
+  if (source == AV_PIX_FMT_RGB24) return AV_PIX_FMT_BGR0;
+  return source == AV_PIX_FMT_RGB48 ? AV_PIX_FMT_GBRP16 : source;
+}
+
+AVColorTransferCharacteristic characteristic_of(const Transfer& transfer) {
+  if (transfer == Transfer::srgb()) return AVCOL_TRC_IEC61966_2_1;
+  if (transfer == Transfer::bt709()) return AVCOL_TRC_BT709;
+  if (transfer == Transfer::linear()) return AVCOL_TRC_LINEAR;
+  if (transfer == Transfer::gamma(2.2)) return AVCOL_TRC_GAMMA22;
+  if (transfer == Transfer::gamma(2.8)) return AVCOL_TRC_GAMMA28;
+  return AVCOL_TRC_UNSPECIFIED;
+}
+
+class LibavVideoWriter final : public VideoWriter {
+ public:
+  LibavVideoWriter(const std::filesystem::path& path, const VideoFormat& video, const VideoCodec& codec)
+      : name_(path.string()), video_(video), file_(path), packet_(av_packet_alloc()) {
+    const auto padded = [&](std::uint32_t side) {
+      return static_cast<int>(codec.pairs_pixels ? side + side % 2 : side);
+    };
+    width_ = padded(video.shape.width);
+    height_ = padded(video.shape.height);
+    if (width_ != static_cast<int>(video.shape.width) || height_ != static_cast<int>(video.shape.height)) {
+      notes_.push_back(
+          format("{} keeps one colour for two pixels: {} x {} became {} x {} by repeating the "
+                 "last row or column; ffv1 keeps the size",
+                 codec.name, video.shape.width, video.shape.height, width_, height_));
+    }
+    open_muxer(path);
+    open_encoder(codec);
+    picture_ = new_frame(source_pixels(video), width_, height_);
+    const auto pixels = encoder_->pix_fmt;
+    if (pixels != source_pixels(video)) {
+      encoded_ = new_frame(pixels, width_, height_);
+      open_scaler();
+    }
+    check(avio_open(&muxer_->pb, file_.temporary_path().c_str(), AVIO_FLAG_WRITE));
+    check(avformat_write_header(muxer_.get(), nullptr));
+  }
+
+  void write(const Picture& picture) override {
+    // An encoder may still hold the frame before.
+    check(av_frame_make_writable(picture_.get()));
+    copy(picture);
+    AVFrame* frame = picture_.get();
+    if (scaler_) {
+      frame = encoded_.get();
+      check(av_frame_make_writable(frame));
+      sws_scale(scaler_.get(), picture_->data, picture_->linesize, 0, height_, frame->data, frame->linesize);
+    }
+    frame->pts = frames_written_++;
+    encode(frame);
+  }
+
+  void finish() override {
+    encode(nullptr);
+    check(av_write_trailer(muxer_.get()));
+    check(avio_closep(&muxer_->pb));
+    file_.commit();
+  }
+
+  [[nodiscard]] std::vector<std::string> notes() const override { return notes_; }
+
+ private:
+  void check(int code) const {
+    if (code >= 0) return;
+    throw OutputError(format("{} cannot be written: {}", name_, error_text(code)));
+  }
+
+  void open_muxer(const std::filesystem::path& path) {
+    AVFormatContext* context = nullptr;
+    // The name chooses the container; the file itself has a temporary one.
+    check(avformat_alloc_output_context2(&context, nullptr, nullptr, path.filename().c_str()));
+    muxer_.reset(context);
+    stream_ = avformat_new_stream(context, nullptr);
+    if (stream_ == nullptr) throw std::bad_alloc();
+  }
+
+  void open_encoder(const VideoCodec& codec) {
+    const AVCodec* encoder = avcodec_find_encoder_by_name(std::string(codec.encoder).c_str());
+    if (encoder == nullptr) {
+      throw OutputError(
+          format("{} cannot be written: the FFmpeg here has no encoder {} for {}; choose "
+                 "another --video-codec",
+                 name_, codec.encoder, codec.name));
+    }
+    encoder_.reset(avcodec_alloc_context3(encoder));
+    AVCodecContext& context = *encoder_;
+    context.width = width_;
+    context.height = height_;
+    context.pix_fmt = encoded_pixels(video_, codec);
+    context.sample_aspect_ratio = {1, 1};
+    context.framerate = {static_cast<int>(video_.rate.numerator), static_cast<int>(video_.rate.denominator)};
+    context.time_base = av_inv_q(context.framerate);
+    context.thread_count = 0;  // as many as there are cores
+    const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(context.pix_fmt);
+    const bool is_yuv = pixels.nb_components == 3 && (pixels.flags & AV_PIX_FMT_FLAG_RGB) == 0;
+    context.colorspace = is_yuv                      ? AVCOL_SPC_SMPTE170M
+                         : pixels.nb_components == 1 ? AVCOL_SPC_UNSPECIFIED
+                                                     : AVCOL_SPC_RGB;
+    context.color_range =
+        is_yuv && context.pix_fmt != AV_PIX_FMT_YUVJ420P ? AVCOL_RANGE_MPEG : AVCOL_RANGE_JPEG;
+    context.color_primaries = AVCOL_PRI_BT709;
+    context.color_trc = characteristic_of(video_.transfer);
+    if ((muxer_->oformat->flags & AVFMT_GLOBALHEADER) != 0) context.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+
+    AVDictionary* settings = nullptr;
+    if (codec.name == "ffv1") {
+      av_dict_set(&settings, "level", "3", 0);  // slices, which are packed side by side and carry checksums
+      av_dict_set(&settings, "slicecrc", "1", 0);
+      context.gop_size = 1;
+    } else if (codec.name == "mjpeg") {
+      context.flags |= AV_CODEC_FLAG_QSCALE;
+      context.global_quality = 2 * FF_QP2LAMBDA;
+    } else if (codec.name != "prores") {
+      av_dict_set(&settings, "crf", kQuality, 0);
+      if (codec.name == "h265") av_dict_set(&settings, "x265-params", "log-level=none", 0);
+      if (codec.name == "vp9") av_dict_set(&settings, "row-mt", "1", 0);
+      if (codec.name == "vp9") av_dict_set(&settings, "cpu-used", "4", 0);
+    }
+    const int code = avcodec_open2(&context, encoder, &settings);
+    av_dict_free(&settings);
+    check(code);
+    check(avcodec_parameters_from_context(stream_->codecpar, &context));
+    stream_->time_base = context.time_base;
+    stream_->avg_frame_rate = context.framerate;
+    // What Apple's players know H.265 by.
+    if (codec.name == "h265" && std::string_view(muxer_->oformat->name) != "matroska") {
+      stream_->codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');
+    }
+  }
+
+  void open_scaler() {
+    const auto from = static_cast<AVPixelFormat>(picture_->format);
+    scaler_.reset(sws_getContext(width_, height_, from, width_, height_, encoder_->pix_fmt,
+                                 SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr, nullptr,
+                                 nullptr));
+    if (!scaler_) throw std::bad_alloc();
+    constexpr int kOne = 1 << 16;  // contrast and saturation
+    sws_setColorspaceDetails(scaler_.get(), sws_getCoefficients(SWS_CS_SMPTE170M), 1,
+                             sws_getCoefficients(SWS_CS_SMPTE170M),
+                             encoder_->color_range == AVCOL_RANGE_JPEG ? 1 : 0, 0, kOne, kOne);
+  }
+
+  // Into picture_, whose sides may be one longer.
+  void copy(const Picture& picture) {
+    const Shape& shape = picture.shape;
+    const std::size_t pixel_bytes = shape.channels * value_bytes(picture.type);
+    const std::size_t row_bytes = shape.width * pixel_bytes;
+    for (int y = 0; y < height_; ++y) {
+      const auto row = std::min<std::size_t>(static_cast<std::size_t>(y), shape.height - 1);
+      std::uint8_t* to = picture_->data[0] + static_cast<std::ptrdiff_t>(y) * picture_->linesize[0];
+      std::memcpy(to, picture.bytes.data() + row * row_bytes, row_bytes);
+      if (width_ > static_cast<int>(shape.width))
+        std::memcpy(to + row_bytes, to + row_bytes - pixel_bytes, pixel_bytes);
+    }
+  }
+
+  // Null: no frame follows.
+  void encode(const AVFrame* frame) {
+    check(avcodec_send_frame(encoder_.get(), frame));
+    for (;;) {
+      const int code = avcodec_receive_packet(encoder_.get(), packet_.get());
+      if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return;
+      check(code);
+      packet_->duration = 1;
+      av_packet_rescale_ts(packet_.get(), encoder_->time_base, stream_->time_base);
+      packet_->stream_index = stream_->index;
+      check(av_interleaved_write_frame(muxer_.get(), packet_.get()));
+    }
+  }
+
+  std::string name_;
+  VideoFormat video_;
+  OutputFile file_;
+  std::vector<std::string> notes_;
+  int width_ = 0;  // of the frames in the file
+  int height_ = 0;
+  OutputPointer muxer_;
+  AVStream* stream_ = nullptr;
+  CodecPointer encoder_;
+  ScalerPointer scaler_;
+  FramePointer picture_;
+  FramePointer encoded_;
+  PacketPointer packet_;
+  std::int64_t frames_written_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<VideoWriter> open_libav_writer(const std::filesystem::path& path, const VideoFormat& format,
+                                               const VideoCodec& codec) {
+  av_log_set_level(AV_LOG_FATAL);  // what matters is thrown, and said once
+  return std::make_unique<LibavVideoWriter>(path, format, codec);
+}
+
+}  // namespace nutik::clips

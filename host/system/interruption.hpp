@@ -1,0 +1,27 @@
+// Ending at a signal in good order: SIGINT (Ctrl-C), SIGTERM and SIGHUP set a flag, long loops look at it
+// and throw, and what is thrown passes destructors that remove temporary files.
+//
+//   in:      a program's wish to be interruptible, once, at its start
+//   always:  without that wish nothing here has any effect; a second signal ends the program at once
+#pragma once
+
+#include "capture/error.hpp"
+
+namespace nutik {
+
+struct Interrupted : Error {
+  explicit Interrupted(int number);
+  int signal;  // its number: a program ends with 128 + it
+};
+
+// From now on the first of these signals is noted instead of ending the program. One that is ignored
+// (nohup, a shell's background job) stays ignored.
+void catch_interruptions();
+
+// Throws Interrupted where a signal was noted. Costs one read of memory, so every loop may call it.
+void check_interruption();
+
+// Forgets a signal that was noted, for who has caught Interrupted and still has work to finish.
+void clear_interruption();
+
+}  // namespace nutik

@@ -1,0 +1,194 @@
+// Videos that were written give their frames back, at their rate.
+#include "media/video_writer.hpp"
+
+#include <gtest/gtest.h>
+
+#include "capture/error.hpp"
+#include "support/clips.hpp"
+#include "support/scratch.hpp"
+#include "support/stills.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Scratch;
+
+VideoFormat format_of(const Picture& picture, Rational rate) {
+  return {picture.shape, picture.type, picture.white_code, Transfer::srgb(), rate};
+}
+
+void use_the_programs_modules() {
+  setenv("NUTIK_MODULES", std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path().c_str(), 0);
+}
+
+void write_video(const std::filesystem::path& path, const std::vector<Picture>& pictures, Rational rate,
+                 const std::optional<std::string>& codec = std::nullopt) {
+  use_the_programs_modules();
+  const auto writer =
+      open_video_writer(path, format_of(pictures.front(), rate), video_codec_for(path, codec));
+  for (const Picture& picture : pictures) writer->write(picture);
+  writer->finish();
+}
+
+std::size_t file_count(const Scratch& scratch) {
+  const std::filesystem::directory_iterator files(scratch.folder());
+  return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+
+TEST(VideoWriter, Ffv1GivesEveryCodeBack) {
+  for (const char* name : {"v.mkv", "v.avi"}) {
+    for (const std::uint32_t channels : {1u, 3u}) {
+      for (const std::uint32_t white : {255u, 65'535u}) {
+        for (const auto& [width, height] : {std::pair{17u, 9u}, std::pair{64u, 48u}}) {
+          SCOPED_TRACE(std::string(name) + ", " + std::to_string(channels) + " channels, white " +
+                       std::to_string(white) + ", width " + std::to_string(width));
+          const Scratch scratch;
+          const auto pictures = test::random_stills({width, height, channels}, white, 5, width + white);
+          write_video(scratch / name, pictures, {30000, 1001});
+          EXPECT_EQ(file_count(scratch), 1u);  // no temporary file stays
+          const auto clip = test::open_test_clip(scratch / name);
+          EXPECT_EQ(clip->info().format.shape, pictures[0].shape);
+          EXPECT_EQ(clip->info().format.white_code, white);
+          EXPECT_EQ(clip->info().timing.rate, (Rational{30000, 1001}));
+          const auto rasters = test::read_all(*clip);
+          ASSERT_EQ(rasters.size(), pictures.size());
+          for (std::size_t k = 0; k < rasters.size(); ++k) {
+            EXPECT_EQ(test::difference(rasters[k], pictures[k]), "") << k;
+          }
+        }
+      }
+    }
+  }
+}
+
+// Every frame of one colour: what a wrong matrix or range would move by more than 15 codes. Rounding to YUV of
+// 8 bits and back moves a code by 2 at most, quantization at this quality by no more than that again.
+TEST(VideoWriter, EveryCodecKeepsTheColours) {
+  const std::pair<const char*, const char*> files[] = {
+      {"v.mp4", "h264"},  {"v.mov", "h265"}, {"v.webm", "vp9"}, {"v.mov", "prores"},
+      {"v.avi", "mjpeg"}, {"v.m4v", "h264"}, {"v.mkv", "vp9"}};
+  for (const auto& [name, codec_name] : files) {
+    SCOPED_TRACE(std::string(codec_name) + " in " + name);
+    const Scratch scratch;
+    const bool deep = !video_codec_for(name, codec_name).holds_8_bits;
+    const std::uint8_t colours[][3] = {
+        {200, 40, 60}, {30, 180, 90}, {20, 60, 220}, {255, 255, 255}, {0, 0, 0}};
+    std::vector<Picture> pictures;
+    for (const auto& colour : colours) {
+      Picture picture({64, 64, 3}, deep ? ValueType::code16 : ValueType::code8, deep ? 65'535 : 255);
+      for (std::uint64_t i = 0; i < picture.shape.value_count(); ++i) {
+        if (deep) {
+          picture.values<std::uint16_t>()[i] = static_cast<std::uint16_t>(colour[i % 3] * 257);
+        } else {
+          picture.values<std::uint8_t>()[i] = colour[i % 3];
+        }
+      }
+      pictures.push_back(std::move(picture));
+    }
+    write_video(scratch / name, pictures, {25, 1}, codec_name);
+    const auto clip = test::open_test_clip(scratch / name);
+    EXPECT_EQ(clip->info().timing.rate, (Rational{25, 1}));
+    const auto rasters = test::read_all(*clip);
+    ASSERT_EQ(rasters.size(), pictures.size());
+    const bool reads_deep = clip->info().format.code_bytes == 2;
+    int worst = 0;
+    for (std::size_t k = 0; k < rasters.size(); ++k) {
+      for (std::size_t i = 0; i < 64 * 64 * 3; ++i) {
+        const int code = reads_deep ? reinterpret_cast<const std::uint16_t*>(rasters[k].data())[i] / 257
+                                    : static_cast<int>(rasters[k][i]);
+        worst = std::max(worst, std::abs(code - colours[k][i % 3]));
+      }
+    }
+    EXPECT_LE(worst, 4);
+    RecordProperty(std::string("worst_") + codec_name, worst);
+  }
+}
+
+TEST(VideoWriter, RepeatsTheLastRowAndColumnOfOddSizes) {
+  const Scratch scratch;
+  use_the_programs_modules();
+  Picture picture({65, 33, 3}, ValueType::code8, 255);
+  for (auto& code : picture.values<std::uint8_t>()) code = 90;
+  const auto writer = open_video_writer(scratch / "v.mp4", format_of(picture, {24, 1}),
+                                        video_codec_for("v.mp4", std::nullopt));
+  ASSERT_EQ(writer->notes().size(), 1u);
+  EXPECT_NE(writer->notes()[0].find("65 x 33 became 66 x 34"), std::string::npos) << writer->notes()[0];
+  for (int k = 0; k < 3; ++k) writer->write(picture);
+  writer->finish();
+  const auto clip = test::open_test_clip(scratch / "v.mp4");
+  EXPECT_EQ(clip->info().format.shape, (Shape{66, 34, 3}));
+  for (const auto& raster : test::read_all(*clip)) {
+    for (const std::byte code : raster) ASSERT_NEAR(static_cast<int>(code), 90, 2);
+  }
+}
+
+TEST(VideoWriter, LeavesNothingOfAVideoThatIsNotFinished) {
+  const Scratch scratch;
+  use_the_programs_modules();
+  const auto pictures = test::random_stills({32, 32, 3}, 255, 2, 1);
+  {
+    const auto writer = open_video_writer(scratch / "v.mkv", format_of(pictures[0], {24, 1}),
+                                          video_codec_for("v.mkv", std::nullopt));
+    writer->write(pictures[0]);
+    EXPECT_EQ(file_count(scratch), 1u);  // the temporary file
+    EXPECT_FALSE(std::filesystem::exists(scratch / "v.mkv"));
+  }
+  EXPECT_EQ(file_count(scratch), 0u);
+}
+
+TEST(VideoWriter, NumbersStillsFromZero) {
+  const Scratch scratch;
+  const auto pictures = test::random_stills({8, 8, 1}, 65'535, 3, 2);
+  const auto writer = open_still_writer(scratch / "f-%03d.pgm");
+  for (const Picture& picture : pictures) writer->write(picture);
+  writer->finish();
+  const auto rasters = test::read_all(*test::open_test_clip(scratch / "f-%03d.pgm"));
+  ASSERT_EQ(rasters.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(test::difference(rasters[k], pictures[k]), "");
+  EXPECT_TRUE(std::filesystem::exists(scratch / "f-000.pgm"));
+}
+
+template <typename Call>
+std::string message_of(Call call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(VideoWriter, RefusesWhatAContainerOrCodecCannotHold) {
+  const auto codec = [](const char* path, const char* name) {
+    return message_of([&] { static_cast<void>(video_codec_for(path, name)); });
+  };
+  EXPECT_EQ(codec("v.mp4", "ffv1"), "v.mp4: a .mp4 file holds h264, h265, not ffv1");
+  EXPECT_EQ(codec("v.mkv", "h263"),
+            "video codec 'h263' is not known; choose one of: ffv1, h264, h265, vp9, prores, mjpeg");
+  EXPECT_NE(codec("v.ogg", "ffv1").find("videos are written as .mp4"), std::string::npos);
+  EXPECT_EQ(video_codec_for("a/V.MKV", std::nullopt).name, "ffv1");
+  const auto type = [](const char* path, std::optional<Depth> wish) {
+    return message_of([&] {
+      static_cast<void>(video_value_type(video_codec_for(path, std::nullopt), wish, ValueType::code8));
+    });
+  };
+  EXPECT_NE(type("v.mp4", Depth::bits16).find("for 16 use --video-codec ffv1"), std::string::npos);
+  EXPECT_NE(type("v.mkv", Depth::floating).find("write numbered stills"), std::string::npos);
+  EXPECT_EQ(type("v.mkv", Depth::bits16), "no error");
+  // A deep capture gives way to what the codec holds.
+  EXPECT_EQ(video_value_type(video_codec_for("v.mp4", std::nullopt), std::nullopt, ValueType::code16),
+            ValueType::code8);
+}
+
+TEST(VideoWriter, SaysWhatCannotBeWritten) {
+  use_the_programs_modules();
+  const auto pictures = test::random_stills({32, 32, 3}, 255, 1, 1);
+  const std::string message = message_of([&] {
+    const auto writer = open_video_writer("/nowhere/v.mkv", format_of(pictures[0], {24, 1}),
+                                          video_codec_for("v.mkv", std::nullopt));
+  });
+  EXPECT_EQ(message, "/nowhere/v.mkv cannot be created: No such file or directory");
+}
+
+}  // namespace
+}  // namespace nutik
