@@ -42,14 +42,13 @@ SampleCountMismatch::SampleCountMismatch(std::uint64_t found, std::uint64_t expe
       sample_count(found) {}
 
 StreamingCapture::StreamingCapture(const CaptureFormat& capture, Timeline timeline, SampleRange needed,
-                                   std::uint32_t block_samples, TilePolicy policy, ReadSample read_sample)
+                                   std::uint32_t block_samples, TilePolicy policy, NextSample next_sample)
     : capture_(capture),
       timeline_(std::move(timeline)),
       needed_(needed),
       block_samples_(block_samples),
-      read_sample_(std::move(read_sample)),
-      builder_(capture, block_samples, policy),
-      raster_(capture.sample_bytes()) {}
+      next_sample_(std::move(next_sample)),
+      builder_(capture, block_samples, policy) {}
 
 std::uint64_t StreamingCapture::block_count() const {
   return (needed_.last + block_samples_ - 1) / block_samples_;
@@ -63,12 +62,13 @@ BlockExtent StreamingCapture::block_extent(std::uint64_t block) const {
 
 void StreamingCapture::read_samples(std::uint64_t until, bool keep) {
   while (samples_read_ < until) {
-    if (!read_sample_(raster_)) throw SampleCountMismatch(samples_read_, timeline_.sample_count());
+    const std::span<const std::byte> raster = next_sample_();
+    if (raster.empty()) throw SampleCountMismatch(samples_read_, timeline_.sample_count());
     ++samples_read_;
     if (keep) {
-      builder_.add(raster_);
+      builder_.add(raster);
     } else {
-      builder_.pass(raster_);
+      builder_.pass(raster);
     }
   }
 }
@@ -83,7 +83,7 @@ std::uint64_t StreamingCapture::prepare(std::uint64_t block) {
   payload_bytes_ = builder_.finish(payload_);
   if (samples_read_ == timeline_.sample_count()) {
     std::uint64_t more = 0;
-    while (read_sample_(raster_)) ++more;
+    while (!next_sample_().empty()) ++more;
     if (more > 0) throw SampleCountMismatch(samples_read_ + more, timeline_.sample_count());
   }
   return payload_bytes_;

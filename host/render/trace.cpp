@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -31,14 +32,19 @@ Trace trace(const RenderPlan& plan, CaptureSource& source, std::size_t function,
   const auto unscaled = [&](double value) { return std::scalbn(value, gain.exponent()); };
   std::array<ValueWalk, 3> walks;
   PageBuffer payload;
+  std::optional<std::uint64_t> walked_last;
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     const PlannedBlock& planned = plan.blocks[b];
+    // The reference also walks through what other functions need: there it adds zeros, which change no bit.
+    const SampleSpan& needed = plan.spans[b * plan.function_count() + function];
+    if (needed.first == needed.last) continue;
     const std::uint64_t bytes = source.prepare(planned.block);
     payload.reserve(bytes);
     source.read(planned.block, payload.first(bytes));
     const auto records = read_light(BlockView(plan.capture, planned.extent, payload.first(bytes)));
     const std::vector<SampleTimes> times = source.timeline().times(planned.extent.range());
-    const bool follows = b > 0 && plan.blocks[b - 1].block + 1 == planned.block;
+    const bool follows = walked_last && *walked_last + 1 == planned.block;
+    walked_last = planned.block;
     const WalkedBlock block{times, follows, times.back().after_ns == plan.duration_ns};
     const std::size_t first_step = trace.steps.size();
     for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {

@@ -3,8 +3,8 @@
 //   in:      a plan, the capture it was made for, and a pixel or a mask value
 //   out:     from edge to edge: light, gain, what they add, and the sum so far
 //   units:   light of white is 1; integrals are light × gain × nanoseconds
-//   always:  steps follow each other in time; a trace of a pixel comes to the light that ReferenceRenderer
-//            gives it, to the last bit
+//   always:  each step begins where the one before it ended; a trace of a pixel comes to the light that
+//            ReferenceRenderer gives it, to the last bit
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ struct Trace {
   std::uint32_t channels = 0;
   std::uint64_t pixel_count = 0;  // whose mean it is
   std::size_t function = 0;       // the plan's
-  std::vector<TraceStep> steps;   // of the blocks that the plan visits
+  std::vector<TraceStep> steps;   // of the blocks that the function needs, none where it is 0
   std::array<double, 3> light{};  // the exposure's, by channel
 };
 

@@ -35,18 +35,22 @@ std::span<const Command> commands() {
       {Id::recover, "recover", "DAMAGED.tik WHOLE.tik",
        "Save the whole blocks of a .tik file that was cut off.", "nutik-cl recover damaged.tik -o whole.tik",
        run_recover},
+      {Id::batch, "batch", "LIST.txt [CAPTURE.tik|CLIP]",
+       "Expose many pictures: each line of the list is an exposure's options and its picture. The capture is "
+       "read once; what cannot be exposed is reported and left out.",
+       "nutik-cl batch exposures.txt clip.tik\n"
+       "printf '%s\\n' '--start 0s --exposure 10ms a.png' '-k trail.fn b.png' | nutik-cl batch - clip.tik",
+       run_batch},
       {Id::check, "check", "[CAPTURE.tik|CLIP]",
        "Say everything that is wrong or suspicious about a function file, a mask and a capture, and what "
-       "each "
-       "function comes to.",
+       "each function comes to.",
        "nutik-cl check -k regions.fn\n"
        "nutik-cl check -m regions.pgm -k regions.fn clip.tik\n"
        "nutik-cl check --json -m regions.pgm -k regions.fn clip.tik",
        run_check},
       {Id::trace, "trace", "CAPTURE.tik|CLIP [TRACE.csv|TRACE.png]",
        "Follow one pixel, or the mean of a region, through an exposure: its light, the gain, and what they "
-       "add "
-       "from edge to edge.",
+       "add from edge to edge.",
        "nutik-cl trace --pixel 320,180 -k trail.fn clip.tik\n"
        "nutik-cl trace --pixel 320,180 -m regions.pgm -k regions.fn clip.tik trace.png\n"
        "nutik-cl trace --tag 128 -m regions.pgm -k regions.fn clip.tik -o trace.csv\n"

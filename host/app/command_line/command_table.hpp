@@ -9,7 +9,20 @@
 
 namespace nutik::app {
 
-enum class CommandId { encode, expose, info, devices, recover, check, trace, mask, contact, activity, sweep };
+enum class CommandId {
+  encode,
+  expose,
+  info,
+  devices,
+  recover,
+  batch,
+  check,
+  trace,
+  mask,
+  contact,
+  activity,
+  sweep
+};
 
 struct Command {
   CommandId id;

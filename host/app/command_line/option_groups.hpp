@@ -22,8 +22,9 @@ inline constexpr OptionGroup kOptionGroups[] = {source_options, exposure_options
 inline constexpr CommandSet kAllCommands = ~CommandSet{0};
 // Those that read a clip, and so take what describes it.
 inline constexpr CommandSet kReadsClips =
-    bit(CommandId::encode) | bit(CommandId::expose) | bit(CommandId::check) | bit(CommandId::trace) |
-    bit(CommandId::mask) | bit(CommandId::contact) | bit(CommandId::activity) | bit(CommandId::sweep);
+    bit(CommandId::encode) | bit(CommandId::expose) | bit(CommandId::batch) | bit(CommandId::check) |
+    bit(CommandId::trace) | bit(CommandId::mask) | bit(CommandId::contact) | bit(CommandId::activity) |
+    bit(CommandId::sweep);
 // Those of them that turn it into a capture, or write something at all.
 inline constexpr CommandSet kEncodesClips = kReadsClips & ~bit(CommandId::check);
 // Those that expose pictures with gain functions and a mask.
@@ -39,7 +40,7 @@ inline constexpr CommandSet kAnswersInJson = bit(CommandId::check) | bit(Command
                                              bit(CommandId::mask) | bit(CommandId::contact) |
                                              bit(CommandId::activity) | bit(CommandId::sweep);
 // Those that expose pictures at all, and so take what says how that is computed.
-inline constexpr CommandSet kExposes = kExposesIntervals;
+inline constexpr CommandSet kExposes = kExposesIntervals | bit(CommandId::batch);
 // Those that lay pictures out on a sheet.
 inline constexpr CommandSet kMakesSheets = bit(CommandId::contact) | bit(CommandId::sweep);
 

@@ -10,6 +10,7 @@ int run_expose(const Options& options);
 int run_info(const Options& options);
 int run_devices(const Options& options);
 int run_recover(const Options& options);
+int run_batch(const Options& options);
 int run_mask(const Options& options);
 int run_contact(const Options& options);
 int run_activity(const Options& options);

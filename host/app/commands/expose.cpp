@@ -12,7 +12,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
-#include "media/still_sequence.hpp"
+#include "media/read_ahead.hpp"
 #include "render/render_plan.hpp"
 
 namespace nutik::app {
@@ -53,8 +53,11 @@ class Exposing {
       plan_options.transfer.reset();  // it went into the capture's format
       const SampleRange needed =
           needed_samples(timeline, functions, request_.mask(source.capture.shape), plan_options);
+      // At the timeline's end samples that follow are counted: they prove it wrong.
+      const bool is_end = needed.last == timeline.sample_count();
+      ReadAhead samples(*source.clip, is_end ? ReadAhead::kAll : needed.last);
       StreamingCapture stream(source.capture, timeline, needed, source.block_samples, source_options.tiles,
-                              [&](std::span<std::byte> raster) { return source.clip->read(raster); });
+                              [&] { return samples.next(); });
       try {
         return expose(stream, functions);
       } catch (const SampleCountMismatch& mismatch) {
@@ -86,19 +89,6 @@ class Exposing {
   std::vector<std::string> notes_;  // on the clip
 };
 
-std::vector<std::string> input_names(const Options& options) {
-  std::vector<std::string> inputs{options.operands.front()};
-  if (!options.raw) {
-    // Each still of a sequence is an input that the picture must not replace.
-    for (const auto& still : list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{})) {
-      inputs.push_back(still.string());
-    }
-  }
-  if (options.mask) inputs.push_back(*options.mask);
-  if (options.functions) inputs.push_back(*options.functions);
-  return inputs;
-}
-
 // `, still gain M0 1, M128 0.25`, or without a tag for a plain interval.
 std::string still_gains_text(const RenderPlan& plan, bool plain) {
   if (plain && !plan.functions.empty()) {
@@ -115,19 +105,6 @@ std::string still_gains_text(const RenderPlan& plan, bool plain) {
   return text;
 }
 
-// Light below 0 is black in a picture of codes: a still scene under a negative still gain disappears.
-void warn_of_negative_gains(const Exposed& exposed) {
-  if (!holds_codes(exposed.picture.type)) return;
-  for (const PlannedFunction& function : exposed.plan.functions) {
-    const double still_gain = function.summary.still_gain();
-    if (still_gain >= 0.0) continue;
-    print_warning(
-        format("M{}: the still gain is {:.6g}: whatever does not move comes out black; write a .pfm "
-               "or a .tif with --depth float to keep light below 0",
-               function.tag, still_gain));
-  }
-}
-
 }  // namespace
 
 int run_expose(const Options& options) {
@@ -137,17 +114,16 @@ int run_expose(const Options& options) {
   std::filesystem::path output = stated.value_or("");
   Exposing exposing(options, output);
   if (!stated) {
-    output = sequence_name(input) + "-" + exposing.label() + ".png";
+    output = picture_name(input, exposing.label());
     exposing.set_output(output);
   }
-  check_output(output, OutputKind::picture, input_names(options));
+  check_output(output, OutputKind::picture, exposure_inputs(options));
 
   const bool captured = is_tik(input);
   const SourceOptions source_options = SourceOptions::from(options);
   const auto [exposed, timeline] =
       captured ? exposing.from_tik(input) : exposing.from_clip(input, source_options);
-  for (const std::string& warning : exposed.plan.warnings) print_warning(warning);
-  warn_of_negative_gains(exposed);
+  for (const std::string& warning : exposure_warnings(exposed)) print_warning(warning);
   write_picture(output, exposed.picture);
   if (options.quiet) {
     if (!stated) print_line(output.string());  // a name that nobody gave

@@ -1,8 +1,24 @@
 #include "app/input/exposer.hpp"
 
 #include "app/input/renderer_choice.hpp"
+#include "capture/format.hpp"
 
 namespace nutik::app {
+
+std::vector<std::string> exposure_warnings(const Exposed& exposed) {
+  std::vector<std::string> warnings = exposed.plan.warnings;
+  if (!holds_codes(exposed.picture.type)) return warnings;
+  // Light below 0 is black in a picture of codes: a still scene under a negative still gain disappears.
+  for (const PlannedFunction& function : exposed.plan.functions) {
+    const double still_gain = function.summary.still_gain();
+    if (still_gain >= 0.0) continue;
+    warnings.push_back(
+        format("M{}: the still gain is {:.6g}: whatever does not move comes out black; write a .pfm "
+               "or a .tif with --depth float to keep light below 0",
+               function.tag, still_gain));
+  }
+  return warnings;
+}
 
 Exposer::Exposer(const Options& options)
     : starting_(std::async(std::launch::async, [&options] { return choose_renderer(options); })) {}

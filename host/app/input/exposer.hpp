@@ -4,6 +4,7 @@
 #include <future>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/command_line/options.hpp"
 #include "imev/capture_source.hpp"
@@ -16,6 +17,9 @@ struct Exposed {
   RenderPlan plan;
   Picture picture;
 };
+
+// What to tell about an exposure, whole sentences: the plan's warnings, and what codes cannot hold.
+[[nodiscard]] std::vector<std::string> exposure_warnings(const Exposed& exposed);
 
 class Exposer {
  public:

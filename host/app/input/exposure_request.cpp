@@ -74,9 +74,8 @@ FunctionSet ExposureRequest::functions(const Timeline& timeline) const {
   if (!file_) {
     const Exposure interval = plain_interval(start_, exposure_, timeline);
     if (interval.start_ns >= timeline.duration_ns() || interval.end_ns <= 0) {
-      throw UsageError(format("the interval from {} to {} lies outside the capture, which lasts {}",
-                              duration_text(interval.start_ns), duration_text(interval.end_ns),
-                              duration_text(timeline.duration_ns())));
+      throw UsageError(format("the interval from {} on lies outside the capture, which lasts {}",
+                              duration_text(interval.start_ns), duration_text(timeline.duration_ns())));
     }
     functions.emplace(0, GainFunction::boxcar(interval.start_ns, interval.end_ns));
     return functions;

@@ -5,6 +5,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
+#include "media/still_sequence.hpp"
 #include "system/mapped_file.hpp"
 #include "tik/header.hpp"
 
@@ -105,6 +106,23 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
     throw UsageError(
         format("{} exists and is no {}; it is not replaced. Choose another name", name, name_of(kind)));
   }
+}
+
+std::filesystem::path picture_name(const std::string& input, const std::string& label) {
+  return sequence_name(input) + "-" + label + ".png";
+}
+
+std::vector<std::string> exposure_inputs(const Options& options) {
+  std::vector<std::string> inputs{options.operands.front()};
+  if (!options.raw) {
+    // Each still of a sequence is an input that the picture must not replace.
+    for (const auto& still : list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{})) {
+      inputs.push_back(still.string());
+    }
+  }
+  if (options.mask) inputs.push_back(*options.mask);
+  if (options.functions) inputs.push_back(*options.functions);
+  return inputs;
 }
 
 }  // namespace nutik::app

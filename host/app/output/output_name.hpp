@@ -5,6 +5,9 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
+
+#include "app/command_line/options.hpp"
 
 namespace nutik::app {
 
@@ -19,5 +22,11 @@ enum class OutputKind { tik, picture, table };
 // Throws UsageError where `output` names one of the inputs, has a name of another kind, or would replace
 // a file of another kind.
 void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs);
+
+// The name of a picture of `input` that nobody gave one: `clip-motion.png` for the exposure `motion`.
+[[nodiscard]] std::filesystem::path picture_name(const std::string& input, const std::string& label);
+
+// The files that an exposure reads, each still of a sequence among them: its picture must not replace any.
+[[nodiscard]] std::vector<std::string> exposure_inputs(const Options& options);
 
 }  // namespace nutik::app

@@ -46,7 +46,8 @@ std::string light_text(const Trace& trace) {
 
 std::string steps_text(const Trace& trace, const PlannedFunction& function, bool all) {
   const double support_ns = std::max(1.0, static_cast<double>(function.summary.support_ns));
-  std::vector<std::vector<std::string>> rows{{"from ns", "to ns", "gain", "light", "adds", "sum"}};
+  std::vector<std::vector<std::string>> rows{
+      {"from ns", "to ns", "gain", trace.channels == 1 ? "light" : "light: red  green  blue", "adds", "sum"}};
   const auto add_step = [&](const TraceStep& step) {
     rows.push_back(
         {format("{}", step.begin_ns), format("{}", step.end_ns), line_text(step.begin_gain, step.end_gain),
