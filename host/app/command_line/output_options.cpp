@@ -13,7 +13,7 @@ std::vector<Option> output_options() {
   return {
       valued('o', "output", "FILE", kGroup,
              "where to write; without it the last operand, or a name made from the inputs",
-             bit(Id::encode) | kTakesExposures | bit(Id::recover), &Options::output),
+             (kEncodesClips & ~bit(Id::batch)) | bit(Id::recover), &Options::output),
       valued(0, "depth", "BITS", kGroup,
              "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
              bit(Id::expose), &Options::depth),
