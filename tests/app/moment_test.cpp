@@ -148,6 +148,9 @@ TEST_F(Moment, ActivitySaysWhereItIsQuiet) {
       << text.out;
   EXPECT_NE(text.out.find("try: nutik-cl --start 13f --exposure 1f clip.tik quiet.png"), std::string::npos)
       << text.out;
+  EXPECT_EQ(text.err, "");
+  EXPECT_NE(run({"activity", "clip.tik"}).err.find("--by CODES counts larger changes only"),
+            std::string::npos);
   EXPECT_NE(run({"activity", "--by", "200", "clip.tik"}).out.find("nothing changes"), std::string::npos);
 }
 

@@ -155,6 +155,10 @@ void report_text(const std::string& name, const Timeline& timeline, const Activi
                     100 * share_of(activity.changed_pixels()[busiest], pixels)));
   print_line(format("  busiest       {}", stretch_text(moments->busiest, timeline, pixels)));
   print_line(format("  quietest      {}", stretch_text(moments->quietest, timeline, pixels)));
+  if (2 * total > pixels * (count - 1)) {
+    print_note(
+        "note: most pixels change at every sample, as noise does; --by CODES counts larger changes only");
+  }
 }
 
 }  // namespace

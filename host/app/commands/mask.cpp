@@ -215,6 +215,9 @@ int run_mask(const Options& options) {
   } else if (!options.output && options.operands.size() < 2) {
     print_line(request.output.string());  // a name that nobody gave
   }
+  if (opened && !options.quiet) {
+    for (const std::string& note : opened->notes()) print_note(note);
+  }
   return 0;
 }
 
