@@ -99,8 +99,8 @@ void Encoding::build() {
 bool Encoding::hand_over_block() {
   auto payload = spare_payloads_.pop();
   if (!payload) return false;
-  Block block{builder_.extent(), std::move(*payload), 0, builder_.record_count()};
-  block.payload_bytes = builder_.finish(block.payload);
+  Block block{builder_.extent(), std::move(*payload), {}};
+  block.finished = builder_.finish(block.payload);
   return blocks_.push(std::move(block));
 }
 
@@ -113,8 +113,9 @@ void Encoding::store() {
     if (!times_.is_constant()) {
       exposures = times_.table().subspan(range.first, block->extent.sample_count);
     }
-    writer_->append({block->extent, block->payload.first(block->payload_bytes), block->record_count},
-                    exposures);
+    writer_->append(
+        {block->extent, block->payload.first(block->finished.payload_bytes), block->finished.record_count},
+        exposures);
     spare_payloads_.push(std::move(block->payload));
   }
 }

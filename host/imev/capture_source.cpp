@@ -5,20 +5,21 @@
 #include <stdexcept>
 
 #include "capture/format.hpp"
+#include "imev/expected_values.hpp"
 
 namespace nutik {
 
-MemoryCapture::MemoryCapture(const CaptureFormat& capture, Timeline timeline,
+MemoryCapture::MemoryCapture(const CaptureFormat& source, Timeline timeline,
                              std::span<const std::vector<std::byte>> rasters, std::uint32_t block_samples,
                              TilePolicy policy)
-    : capture_(capture), timeline_(std::move(timeline)) {
+    : capture_(held_format(source)), timeline_(std::move(timeline)) {
   if (rasters.size() != timeline_.sample_count()) {
     throw std::logic_error("a capture has another number of samples than its timeline");
   }
-  BlockBuilder builder(capture, block_samples, policy);
+  BlockBuilder builder(source, block_samples, policy);
   const auto close = [&] {
     Block block{builder.extent(), {}, 0};
-    block.bytes = builder.finish(block.payload);
+    block.bytes = builder.finish(block.payload).payload_bytes;
     blocks_.push_back(std::move(block));
   };
   for (const std::vector<std::byte>& raster : rasters) {
@@ -41,15 +42,19 @@ SampleCountMismatch::SampleCountMismatch(std::uint64_t found, std::uint64_t expe
     : InputError(nutik::format("the capture has {} samples where {} were expected", found, expected)),
       sample_count(found) {}
 
-StreamingCapture::StreamingCapture(const CaptureFormat& capture, Timeline timeline, SampleRange needed,
+StreamingCapture::StreamingCapture(const CaptureFormat& source, Timeline timeline, SampleRange needed,
                                    std::uint32_t block_samples, TilePolicy policy, ReadSample read_sample)
-    : capture_(capture),
+    : capture_(held_format(source)),
       timeline_(std::move(timeline)),
       needed_(needed),
       block_samples_(block_samples),
       read_sample_(std::move(read_sample)),
-      builder_(capture, block_samples, policy),
-      raster_(capture.sample_bytes()) {}
+      builder_(source, block_samples, policy),
+      raster_(source.sample_bytes()) {
+  if (source.noise.camera && !needed_.empty()) {
+    needed_.last = std::min(block_count() * block_samples_, timeline_.sample_count());
+  }
+}
 
 std::uint64_t StreamingCapture::block_count() const {
   return (needed_.last + block_samples_ - 1) / block_samples_;
@@ -80,7 +85,7 @@ std::uint64_t StreamingCapture::prepare(std::uint64_t block) {
   }
   read_samples(extent.first_sample, false);
   read_samples(extent.range().last, true);
-  payload_bytes_ = builder_.finish(payload_);
+  payload_bytes_ = builder_.finish(payload_).payload_bytes;
   if (samples_read_ == timeline_.sample_count()) {
     std::uint64_t more = 0;
     while (read_sample_(raster_)) ++more;

@@ -46,8 +46,8 @@ class CaptureSource {
 // A capture held in memory, block by block.
 class MemoryCapture final : public CaptureSource {
  public:
-  // `rasters` are the samples in order, as many as the timeline has.
-  MemoryCapture(const CaptureFormat& capture, Timeline timeline,
+  // `rasters` are the samples in order, of the format `source` and as many as the timeline has.
+  MemoryCapture(const CaptureFormat& source, Timeline timeline,
                 std::span<const std::vector<std::byte>> rasters, std::uint32_t block_samples,
                 TilePolicy policy = TilePolicy::automatic);
 
@@ -79,19 +79,20 @@ struct SampleCountMismatch : InputError {
   SampleCountMismatch(std::uint64_t found, std::uint64_t expected);
 };
 
-// A capture that is built while it is read, from a stream of samples. Nothing outside `needed` is kept,
-// nothing after it is read.
+// A capture that is built while it is read, from a stream of samples of the format `source`. Nothing outside
+// `needed` is kept, nothing after it is read; but where the camera's noise is known, samples stand for others
+// of their block, and the last one is read to its end.
 class StreamingCapture final : public CaptureSource {
  public:
   // Writes the next sample as an interleaved raster and returns true, or returns false at the end.
   using ReadSample = std::function<bool(std::span<std::byte> raster)>;
 
-  StreamingCapture(const CaptureFormat& capture, Timeline timeline, SampleRange needed,
+  StreamingCapture(const CaptureFormat& source, Timeline timeline, SampleRange needed,
                    std::uint32_t block_samples, TilePolicy policy, ReadSample read_sample);
 
   [[nodiscard]] const CaptureFormat& format() const override { return capture_; }
   [[nodiscard]] const Timeline& timeline() const override { return timeline_; }
-  // Blocks lie where they would in a file of the whole capture; the last one ends with `needed`.
+  // Blocks lie where they would in a file of the whole capture; the last one may be cut short.
   [[nodiscard]] std::uint64_t block_count() const override;
   [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override;
 
