@@ -116,8 +116,11 @@ class Parser {
     if (!has_values(words, 1, "white 255")) return;
     const auto white = number(words[1], "white code", 1, 65'535);
     if (!white) return;
-    if (*white != std::floor(*white)) report(words[1].at, "the white code is a whole number");
-    noise_.white_code = static_cast<std::uint32_t>(*white);
+    if (*white != std::floor(*white)) {
+      report(words[1].at, "the white code is a whole number");
+    } else {
+      noise_.white_code = static_cast<std::uint32_t>(*white);
+    }
   }
 
   void parse_transfer(const std::vector<Word>& words) {
