@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/command_line.hpp"
-#include "app/console.hpp"
+#include "app/command_line/command_line.hpp"
+#include "app/output/console.hpp"
 #include "capture/error.hpp"
 
 namespace {

@@ -25,7 +25,6 @@
 namespace nutik {
 
 inline constexpr std::size_t kMostNoisePoints = 256;  // of a channel
-inline constexpr double kLargestSigmas = 100;
 
 // Throws InputError with every mistake as `name:line:column: what is wrong`, one below the other.
 [[nodiscard]] CameraNoise parse_noise(std::string_view bytes, const std::string& name);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "exposure/compensated_sum.hpp"
 
 namespace nutik {
@@ -58,6 +60,32 @@ double interpolate_exactly(const GainPiece& piece, std::int64_t time_ns) {
 }
 
 }  // namespace
+
+GainFunction GainFunction::shifted(std::int64_t by_ns) const {
+  std::vector<ControlPoint> points = points_;
+  for (ControlPoint& point : points) {
+    // Twice the largest time still fits.
+    if (std::abs(by_ns) > kLargestTimeNs || std::abs(point.time_ns + by_ns) > kLargestTimeNs) {
+      throw InputError(
+          format("a control point at {} ns moved by {} ns lies outside what times can be (±{} ns)",
+                 point.time_ns, by_ns, kLargestTimeNs));
+    }
+    point.time_ns += by_ns;
+  }
+  return GainFunction(std::move(points));
+}
+
+GainFunction GainFunction::scaled(double factor) const {
+  std::vector<ControlPoint> points = points_;
+  for (ControlPoint& point : points) {
+    const double gain = point.gain * factor;
+    if (!std::isfinite(gain)) {
+      throw InputError(format("a gain of {} times {} is no finite number", point.gain, factor));
+    }
+    point.gain = gain;
+  }
+  return GainFunction(std::move(points));
+}
 
 std::vector<GainPiece> GainFunction::pieces(std::int64_t duration_ns) const {
   std::vector<GainPiece> pieces;

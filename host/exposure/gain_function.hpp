@@ -58,6 +58,11 @@ class GainFunction {
   // that is computed from pieces can then err in proportion to the gains within the capture.
   [[nodiscard]] std::vector<GainPiece> pieces(std::int64_t duration_ns) const;
 
+  // The same function later (earlier where `by_ns` is negative), or with every gain times `factor`. Throws
+  // InputError where a time or a gain leaves the range of numbers.
+  [[nodiscard]] GainFunction shifted(std::int64_t by_ns) const;
+  [[nodiscard]] GainFunction scaled(double factor) const;
+
   friend bool operator==(const GainFunction&, const GainFunction&) = default;
 
  private:

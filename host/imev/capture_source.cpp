@@ -42,19 +42,23 @@ SampleCountMismatch::SampleCountMismatch(std::uint64_t found, std::uint64_t expe
     : InputError(nutik::format("the capture has {} samples where {} were expected", found, expected)),
       sample_count(found) {}
 
+SampleRange streamed_samples(const CaptureFormat& source, SampleRange needed, std::uint32_t block_samples,
+                             std::uint64_t sample_count) {
+  if (source.noise.camera && !needed.empty()) {
+    const std::uint64_t blocks = (needed.last + block_samples - 1) / block_samples;
+    needed.last = std::min(blocks * block_samples, sample_count);
+  }
+  return needed;
+}
+
 StreamingCapture::StreamingCapture(const CaptureFormat& source, Timeline timeline, SampleRange needed,
-                                   std::uint32_t block_samples, TilePolicy policy, ReadSample read_sample)
+                                   std::uint32_t block_samples, TilePolicy policy, NextSample next_sample)
     : capture_(held_format(source)),
       timeline_(std::move(timeline)),
-      needed_(needed),
+      needed_(streamed_samples(source, needed, block_samples, timeline_.sample_count())),
       block_samples_(block_samples),
-      read_sample_(std::move(read_sample)),
-      builder_(source, block_samples, policy),
-      raster_(source.sample_bytes()) {
-  if (source.noise.camera && !needed_.empty()) {
-    needed_.last = std::min(block_count() * block_samples_, timeline_.sample_count());
-  }
-}
+      next_sample_(std::move(next_sample)),
+      builder_(source, block_samples, policy) {}
 
 std::uint64_t StreamingCapture::block_count() const {
   return (needed_.last + block_samples_ - 1) / block_samples_;
@@ -68,12 +72,13 @@ BlockExtent StreamingCapture::block_extent(std::uint64_t block) const {
 
 void StreamingCapture::read_samples(std::uint64_t until, bool keep) {
   while (samples_read_ < until) {
-    if (!read_sample_(raster_)) throw SampleCountMismatch(samples_read_, timeline_.sample_count());
+    const std::span<const std::byte> raster = next_sample_();
+    if (raster.empty()) throw SampleCountMismatch(samples_read_, timeline_.sample_count());
     ++samples_read_;
     if (keep) {
-      builder_.add(raster_);
+      builder_.add(raster);
     } else {
-      builder_.pass(raster_);
+      builder_.pass(raster);
     }
   }
 }
@@ -88,7 +93,7 @@ std::uint64_t StreamingCapture::prepare(std::uint64_t block) {
   payload_bytes_ = builder_.finish(payload_).payload_bytes;
   if (samples_read_ == timeline_.sample_count()) {
     std::uint64_t more = 0;
-    while (read_sample_(raster_)) ++more;
+    while (!next_sample_().empty()) ++more;
     if (more > 0) throw SampleCountMismatch(samples_read_ + more, timeline_.sample_count());
   }
   return payload_bytes_;

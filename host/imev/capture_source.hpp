@@ -79,16 +79,20 @@ struct SampleCountMismatch : InputError {
   SampleCountMismatch(std::uint64_t found, std::uint64_t expected);
 };
 
+// What a StreamingCapture reads of `sample_count` samples: none after those that are needed; but where the
+// camera's noise is known, samples stand for others of their block, and the last block is read to its end.
+[[nodiscard]] SampleRange streamed_samples(const CaptureFormat& source, SampleRange needed,
+                                           std::uint32_t block_samples, std::uint64_t sample_count);
+
 // A capture that is built while it is read, from a stream of samples of the format `source`. Nothing outside
-// `needed` is kept, nothing after it is read; but where the camera's noise is known, samples stand for others
-// of their block, and the last one is read to its end.
+// streamed_samples() is kept, nothing after it is read.
 class StreamingCapture final : public CaptureSource {
  public:
-  // Writes the next sample as an interleaved raster and returns true, or returns false at the end.
-  using ReadSample = std::function<bool(std::span<std::byte> raster)>;
+  // The next sample as an interleaved raster that stays until the next call; empty at the end.
+  using NextSample = std::function<std::span<const std::byte>()>;
 
   StreamingCapture(const CaptureFormat& source, Timeline timeline, SampleRange needed,
-                   std::uint32_t block_samples, TilePolicy policy, ReadSample read_sample);
+                   std::uint32_t block_samples, TilePolicy policy, NextSample next_sample);
 
   [[nodiscard]] const CaptureFormat& format() const override { return capture_; }
   [[nodiscard]] const Timeline& timeline() const override { return timeline_; }
@@ -107,9 +111,8 @@ class StreamingCapture final : public CaptureSource {
   Timeline timeline_;
   SampleRange needed_;
   std::uint32_t block_samples_;
-  ReadSample read_sample_;
+  NextSample next_sample_;
   BlockBuilder builder_;
-  std::vector<std::byte> raster_;
   std::uint64_t samples_read_ = 0;
   PageBuffer payload_;
   std::uint64_t payload_bytes_ = 0;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "capture/error.hpp"
 #include "exposure/function_file.hpp"
 #include "support/bounds.hpp"
 #include "support/exact.hpp"
@@ -122,6 +123,21 @@ TEST(GainFunction, HoldsHugeGainsAtTheCapturesEnd) {
   EXPECT_DOUBLE_EQ(summarize(function, 33'333'333).still_gain(), 1e300);
   const GainFunction ramp({{0, 0.0}, {1'000'000'000, 1.6e308}});
   EXPECT_DOUBLE_EQ(summarize(ramp, 500'000'000).still_gain(), 0.4e308);
+}
+
+TEST(GainFunction, MovesAndScales) {
+  const GainFunction function({{-5, 1.0}, {10, -2.0}, {10, 4.0}});
+  EXPECT_EQ(function.shifted(7), GainFunction({{2, 1.0}, {17, -2.0}, {17, 4.0}}));
+  EXPECT_EQ(function.shifted(-7).shifted(7), function);
+  EXPECT_EQ(function.scaled(-0.5), GainFunction({{-5, -0.5}, {10, 1.0}, {10, -2.0}}));
+}
+
+TEST(GainFunction, RefusesToLeaveTheRangeOfNumbers) {
+  const GainFunction function({{-5, 1e300}, {kLargestTimeNs, 0.0}});
+  EXPECT_NO_THROW(static_cast<void>(function.shifted(-kLargestTimeNs + 5)));
+  EXPECT_THROW(static_cast<void>(function.shifted(1)), InputError);
+  EXPECT_THROW(static_cast<void>(function.shifted(INT64_MIN + 1)), InputError);
+  EXPECT_THROW(static_cast<void>(function.scaled(1e10)), InputError);
 }
 
 }  // namespace

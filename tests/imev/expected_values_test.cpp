@@ -230,10 +230,9 @@ TEST(ExpectedValues, AStreamHoldsWhatAFileHolds) {
         random.whole(static_cast<std::int64_t>(first) + 1, static_cast<std::int64_t>(samples)));
     std::size_t next = 0;
     StreamingCapture stream(source, file.timeline(), {first, last}, block_samples, TilePolicy::automatic,
-                            [&](std::span<std::byte> raster) {
-                              if (next == rasters.size()) return false;
-                              std::ranges::copy(rasters[next++], raster.begin());
-                              return true;
+                            [&]() -> std::span<const std::byte> {
+                              if (next == rasters.size()) return {};
+                              return rasters[next++];
                             });
     EXPECT_EQ(stream.format(), file.format());
     for (std::uint64_t block = first / block_samples; block < stream.block_count(); ++block) {

@@ -15,11 +15,9 @@ struct CountingStream {
   std::uint64_t read = 0;
   std::uint64_t end;
 
-  bool operator()(std::span<std::byte> raster) {
-    if (read == end) return false;
-    std::copy(random.rasters[read].begin(), random.rasters[read].end(), raster.begin());
-    ++read;
-    return true;
+  std::span<const std::byte> operator()() {
+    if (read == end) return {};
+    return random.rasters[read++];
   }
 };
 

@@ -13,25 +13,14 @@ import argparse
 import os
 import pathlib
 import statistics
-import subprocess
-import sys
 import tempfile
-import time
 
-from tables import write_csv
+from tables import run, write_csv
 
 CLIPS = ("bicycle-wheel.mp4", "diabolo-cm-trajectory.mp4", "BallTossOut.mp4",
          "one-by-one-person-detection.mp4", "bottle-detection.mp4", "bulk-water.mov", "realshort.mp4",
          "bikes.mp4")
 CODECS = ("none", "lz4", "zstd:1", "zstd:3", "zstd:9")
-
-
-def run(*command):
-    start = time.perf_counter()
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode:
-        sys.exit(f"{' '.join(map(str, command))}\n{done.stderr}")
-    return time.perf_counter() - start
 
 
 def drop_from_cache(path):

@@ -1,0 +1,23 @@
+// From the words of a command line to a command and its options.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "app/command_line/option_table.hpp"
+#include "app/command_line/options.hpp"
+
+namespace nutik::app {
+
+struct ParsedCommandLine {
+  const Command* command = nullptr;
+  Options options;
+};
+
+// Finds the command: the first word that is no option nor an option's value and is not behind `--`, where
+// it is a command's name; otherwise the paper's shorthand, told from the options and operands. Throws
+// UsageError with the right command where it makes no sense. Help and version are answered here, on
+// stdout; the result's command is null then.
+[[nodiscard]] ParsedCommandLine parse_command_line(std::span<const std::string> words);
+
+}  // namespace nutik::app

@@ -1,0 +1,204 @@
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <mutex>
+#include <set>
+#include <utility>
+
+#include "app/command_line/command_line.hpp"
+#include "app/commands/commands.hpp"
+#include "app/input/exposer.hpp"
+#include "app/input/exposure_request.hpp"
+#include "app/input/opened_capture.hpp"
+#include "app/output/console.hpp"
+#include "app/output/output_format.hpp"
+#include "app/output/output_name.hpp"
+#include "app/output/picture_queue.hpp"
+#include "app/output/progress.hpp"
+#include "app/output/stopwatch.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
+namespace nutik::app {
+namespace {
+
+// A line of the list: an exposure as it would be asked for on the command line.
+struct ListedExposure {
+  std::size_t line;  // from 1 on
+  std::vector<std::string> words;
+};
+
+std::vector<ListedExposure> read_list(std::istream& stream) {
+  std::vector<ListedExposure> exposures;
+  std::string text;
+  for (std::size_t line = 1; std::getline(stream, text); ++line) {
+    if (!text.empty() && text.back() == '\r') text.pop_back();
+    std::vector<std::string> words = CLI::detail::split_up(text);
+    for (std::string& word : words) CLI::detail::remove_quotes(word);
+    if (words.empty() || words.front().empty() || words.front().front() == '#') continue;
+    exposures.push_back({line, std::move(words)});
+  }
+  return exposures;
+}
+
+std::vector<ListedExposure> read_list(const std::string& name) {
+  if (name == "-") return read_list(std::cin);
+  std::ifstream file(name);
+  if (!file) throw InputError(format("{} cannot be opened", name));
+  std::vector<ListedExposure> exposures = read_list(file);
+  if (file.bad()) throw InputError(format("{} cannot be read", name));
+  return exposures;
+}
+
+// What holds for all lines, and so belongs behind `batch`: value, name.
+constexpr std::pair<std::optional<std::string> Options::*, std::string_view> kOfTheWholeBatch[] = {
+    {&Options::renderer, "--renderer"},
+    {&Options::device, "--device"},
+    {&Options::precision, "--precision"},
+    {&Options::fps, "--fps"},
+    {&Options::shutter_angle, "--shutter-angle"},
+    {&Options::white, "--white"},
+    {&Options::raw, "--raw"},
+    {&Options::tolerance, "--tolerance"},
+    {&Options::tiles, "--tiles"},
+    {&Options::block_samples, "--block-samples"},
+};
+
+// The options of one line. `capture`, if any, is the operand that lines leave out.
+Options line_options(std::vector<std::string> words, const std::optional<std::string>& capture) {
+  for (const std::string& word : words) {
+    if (word == "--help" || word == "-h" || word == "--version") {
+      throw UsageError(format("{} is no exposure; see nutik-cl expose --help", word));
+    }
+  }
+  words.insert(words.begin(), "expose");
+  Options options = parse_command_line(words).options;
+  for (const auto& [member, name] : kOfTheWholeBatch) {
+    if (options.*member) {
+      throw UsageError(
+          format("{} holds for all exposures: nutik-cl batch {} {} …", name, name, *(options.*member)));
+    }
+  }
+  if (capture) {
+    if (options.operands.size() > 1) {
+      throw UsageError(format("'{}' is one file too many: all lines expose {}, and name a picture only",
+                              options.operands[1], *capture));
+    }
+    options.operands.insert(options.operands.begin(), *capture);
+  }
+  return options;
+}
+
+class Batch {
+ public:
+  Batch(const Options& options, std::string list_name)
+      : options_(options),
+        list_name_(std::move(list_name)),
+        exposer_(options),
+        pictures_([this](std::size_t line, const std::string& message) { report(line, message); }) {}
+
+  void expose(const ListedExposure& listed, const std::optional<std::string>& capture_name) {
+    try {
+      Options line = line_options(listed.words, capture_name);
+      if (!line.transfer) line.transfer = options_.transfer;
+      const ExposureRequest request = ExposureRequest::from(line);
+      const auto stated = stated_output(line.output, line.operands, "expose");
+      const std::filesystem::path output =
+          stated.value_or(picture_name(line.operands.front(), request.label()));
+      check_output(output, OutputKind::picture, exposure_inputs(line));
+      const auto [earlier, is_new] =
+          line_of_output_.try_emplace(std::filesystem::absolute(output).lexically_normal(), listed.line);
+      if (!is_new) {
+        throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
+      }
+      CaptureSource& source = capture(line.operands.front()).reader();
+      Exposed exposed =
+          exposer_.expose(source, request.functions(source.timeline()), request.mask(source.format().shape),
+                          request.plan_options(), output_format(line, output, source.format()));
+      for (const std::string& warning : exposure_warnings(exposed)) {
+        print_warning(format("{}:{}: {}", list_name_, listed.line, warning));
+      }
+      if (options_.verbose) print_line(format("{}: {}", output.string(), exposer_.report()));
+      pictures_.push(listed.line, output, std::move(exposed.picture));
+    } catch (const UsageError& error) {
+      report(listed.line, error.what());
+    } catch (const InputError& error) {
+      report(listed.line, error.what());
+    }
+  }
+
+  // After the last one: how many of the exposures failed.
+  [[nodiscard]] std::size_t finish() {
+    pictures_.finish();
+    return failed_lines_.size();
+  }
+
+  // After an exposure that did not fail.
+  [[nodiscard]] std::string renderer_name() const { return exposer_.renderer_name(); }
+
+ private:
+  // Lines mostly expose one capture, or one after another: the last one stays open.
+  OpenedCapture& capture(const std::string& name) {
+    if (!capture_ || capture_name_ != name) {
+      capture_.reset();
+      capture_ = std::make_unique<OpenedCapture>(name, options_);
+      capture_name_ = name;
+      if (!options_.quiet) {
+        for (const std::string& note : capture_->notes()) print_note(note);
+      }
+    }
+    return *capture_;
+  }
+
+  // From either thread.
+  void report(std::size_t line, const std::string& message) {
+    const std::lock_guard lock(reporting_);
+    failed_lines_.insert(line);
+    print_error(format("{}:{}: {}", list_name_, line, message));
+  }
+
+  const Options& options_;
+  std::string list_name_;
+  Exposer exposer_;
+  std::string capture_name_;
+  std::unique_ptr<OpenedCapture> capture_;
+  std::map<std::filesystem::path, std::size_t> line_of_output_;
+  std::mutex reporting_;
+  std::set<std::size_t> failed_lines_;
+  PictureQueue pictures_;
+};
+
+}  // namespace
+
+int run_batch(const Options& options) {
+  const Stopwatch stopwatch;
+  if (options.operands.empty() || options.operands.size() > 2) {
+    throw UsageError(
+        "batch takes a list of exposures and, if they share one, a capture: "
+        "nutik-cl batch list.txt clip.tik");
+  }
+  const std::string& list = options.operands.front();
+  const std::optional<std::string> capture =
+      options.operands.size() == 2 ? std::optional(options.operands[1]) : std::nullopt;
+  const std::vector<ListedExposure> exposures = read_list(list);
+  if (exposures.empty()) throw InputError(format("{} lists no exposure", list));
+
+  Batch batch(options, list);
+  Progress progress("exposing", exposures.size(), options.quiet);
+  for (std::size_t i = 0; i < exposures.size(); ++i) {
+    progress.show(i);
+    batch.expose(exposures[i], capture);
+  }
+  const std::size_t failed = batch.finish();
+  const std::size_t done = exposures.size() - failed;
+  if (!options.quiet) {
+    const double seconds = stopwatch.seconds();
+    print_line(format("{} of {} pictures, {:.2f} s, {:.1f} exposures a second{}", done, exposures.size(),
+                      seconds, static_cast<double>(done) / seconds,
+                      done > 0 ? " on " + batch.renderer_name() : std::string()));
+  }
+  return failed > 0 ? 1 : 0;
+}
+
+}  // namespace nutik::app

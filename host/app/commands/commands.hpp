@@ -1,0 +1,16 @@
+// The commands. Each returns the exit status; errors are thrown.
+#pragma once
+
+#include "app/command_line/options.hpp"
+
+namespace nutik::app {
+
+int run_encode(const Options& options);
+int run_expose(const Options& options);
+int run_info(const Options& options);
+int run_devices(const Options& options);
+int run_recover(const Options& options);
+int run_noise(const Options& options);
+int run_batch(const Options& options);
+
+}  // namespace nutik::app

@@ -1,0 +1,62 @@
+#include <array>
+
+#include "app/commands/commands.hpp"
+#include "app/input/capture_input.hpp"
+#include "app/input/encoding.hpp"
+#include "app/output/console.hpp"
+#include "app/output/output_name.hpp"
+#include "app/output/stopwatch.hpp"
+#include "app/text/size_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/still_sequence.hpp"
+
+namespace nutik::app {
+namespace {
+
+std::filesystem::path output_path(const Options& options) {
+  const auto stated = stated_output(options.output, options.operands, "encode");
+  return stated ? *stated : std::filesystem::path(sequence_name(options.operands.front()) + ".tik");
+}
+
+}  // namespace
+
+int run_encode(const Options& options) {
+  const Stopwatch stopwatch;
+  const std::filesystem::path output = output_path(options);
+  const std::string& input = options.operands.front();
+  const SourceOptions source_options = SourceOptions::from(options);
+  const tik::Codec codec = tik::Codec::parse(options.codec.value_or("zstd"));
+  if (is_tik(input) && std::filesystem::exists(input)) {
+    throw UsageError(
+        format("{} is a capture already; to expose a picture from it: nutik-cl --start 0s "
+               "--exposure 10ms {} picture.png",
+               input, input));
+  }
+  check_output(output, OutputKind::tik, std::array{input, source_options.noise_source.value_or(input)});
+
+  SourceClip source = open_source(input, source_options);
+  const std::uint64_t announced = source.clip->info().sample_count;
+  const std::vector<std::string> notes = source.notes;
+  Encoding encoding(std::move(source), source_options, codec, input, output);
+  Progress progress("encoding", announced, options.quiet);
+  const Timeline timeline = encoding.run(progress);
+  if (options.quiet) {
+    if (!options.output && options.operands.size() < 2)
+      print_line(output.string());  // a name that nobody gave
+    return 0;
+  }
+
+  const CaptureFormat& capture = encoding.source().capture;
+  print_line(format("{}: {}, {} samples, {}, {} of {} raw, {:.2f} s", output.string(),
+                    shape_text(capture.shape), timeline.sample_count(), timing_text(timeline, source_options),
+                    bytes_text(encoding.bytes_written()),
+                    bytes_text(capture.sample_bytes() * timeline.sample_count()), stopwatch.seconds()));
+  for (const std::string& note : notes) print_note(format("note: {}", note));
+  if (const std::string note = slow_motion_note(timeline, source_options); !note.empty()) {
+    print_note(format("note: {}", note));
+  }
+  return 0;
+}
+
+}  // namespace nutik::app

@@ -1,0 +1,153 @@
+#include <filesystem>
+
+#include "app/commands/commands.hpp"
+#include "app/input/capture_input.hpp"
+#include "app/input/exposer.hpp"
+#include "app/input/exposure_request.hpp"
+#include "app/output/console.hpp"
+#include "app/output/output_format.hpp"
+#include "app/output/output_name.hpp"
+#include "app/output/stopwatch.hpp"
+#include "app/text/size_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/picture_writer.hpp"
+#include "media/read_ahead.hpp"
+#include "render/render_plan.hpp"
+
+namespace nutik::app {
+namespace {
+
+constexpr std::size_t kFunctionsInSummary = 6;
+
+// An exposure, and the timeline of the capture it was made from.
+struct ExposedCapture {
+  Exposed exposed;
+  Timeline timeline;
+};
+
+class Exposing {
+ public:
+  Exposing(const Options& options, const std::filesystem::path& output)
+      : options_(options), output_(output), request_(ExposureRequest::from(options)), exposer_(options) {}
+
+  ExposedCapture from_tik(const std::string& input) {
+    refuse_source_options(options_, input);
+    tik::Reader reader(input);
+    return expose(reader, request_.functions(reader.timeline()));
+  }
+
+  // The timeline is known for sure only when the clip has been read to its end, which an exposure of its
+  // beginning never does. So the clip's word is taken, and where decoding proves it wrong, it is read
+  // once more with the right number of pictures.
+  ExposedCapture from_clip(const std::string& input, const SourceOptions& source_options) {
+    std::optional<std::uint64_t> sample_count;
+    for (;;) {
+      SourceClip source = open_source(input, source_options);
+      notes_ = source.notes;
+      const Timeline timeline =
+          timeline_of(input, source.clip->info(), source_options.clip, source_options.shutter_angle,
+                      sample_count.value_or(source.clip->info().sample_count));
+      const FunctionSet functions = request_.functions(timeline);
+      PlanOptions plan_options = request_.plan_options();
+      plan_options.transfer.reset();  // it went into the capture's format
+      const SampleRange needed =
+          needed_samples(timeline, functions, request_.mask(source.capture.shape), plan_options);
+      const std::uint64_t last =
+          streamed_samples(source.capture, needed, source.block_samples, timeline.sample_count()).last;
+      // At the timeline's end samples that follow are counted: they prove it wrong.
+      const bool is_end = last == timeline.sample_count();
+      ReadAhead samples(*source.clip, is_end ? ReadAhead::kAll : last);
+      StreamingCapture stream(source.capture, timeline, needed, source.block_samples, source_options.tiles,
+                              [&] { return samples.next(); });
+      try {
+        return expose(stream, functions);
+      } catch (const SampleCountMismatch& mismatch) {
+        if (sample_count == mismatch.sample_count || mismatch.sample_count == 0) {
+          throw InputError(format("{}: only {} pictures can be decoded", input, mismatch.sample_count));
+        }
+        sample_count = mismatch.sample_count;
+      }
+    }
+  }
+
+  // What makes the picture, for the summary.
+  [[nodiscard]] const Exposer& exposer() const { return exposer_; }
+  [[nodiscard]] const std::string& label() const { return request_.label(); }
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  void set_output(const std::filesystem::path& output) { output_ = output; }
+
+ private:
+  ExposedCapture expose(CaptureSource& source, const FunctionSet& functions) {
+    return {exposer_.expose(source, functions, request_.mask(source.format().shape), request_.plan_options(),
+                            output_format(options_, output_, source.format())),
+            source.timeline()};
+  }
+
+  const Options& options_;
+  std::filesystem::path output_;
+  ExposureRequest request_;
+  Exposer exposer_;
+  std::vector<std::string> notes_;  // on the clip
+};
+
+// `, still gain M0 1, M128 0.25`, or without a tag for a plain interval.
+std::string still_gains_text(const RenderPlan& plan, bool plain) {
+  if (plain && !plan.functions.empty()) {
+    return format(", still gain {:.6g}", plan.functions.front().summary.still_gain());
+  }
+  std::string text = ", still gain";
+  for (std::size_t f = 0; f < std::min(plan.functions.size(), kFunctionsInSummary); ++f) {
+    const PlannedFunction& function = plan.functions[f];
+    text += format("{} M{} {:.6g}", f == 0 ? "" : ",", function.tag, function.summary.still_gain());
+  }
+  if (plan.functions.size() > kFunctionsInSummary) {
+    text += format(" and {} more", plan.functions.size() - kFunctionsInSummary);
+  }
+  return text;
+}
+
+}  // namespace
+
+int run_expose(const Options& options) {
+  const Stopwatch stopwatch;
+  const auto stated = stated_output(options.output, options.operands, "expose");
+  const std::string& input = options.operands.front();
+  std::filesystem::path output = stated.value_or("");
+  Exposing exposing(options, output);
+  if (!stated) {
+    output = picture_name(input, exposing.label());
+    exposing.set_output(output);
+  }
+  check_output(output, OutputKind::picture, exposure_inputs(options));
+
+  const bool captured = is_tik(input);
+  const SourceOptions source_options = SourceOptions::from(options);
+  const auto [exposed, timeline] =
+      captured ? exposing.from_tik(input) : exposing.from_clip(input, source_options);
+  for (const std::string& warning : exposure_warnings(exposed)) print_warning(warning);
+  write_picture(output, exposed.picture);
+  if (options.quiet) {
+    if (!stated) print_line(output.string());  // a name that nobody gave
+    return 0;
+  }
+
+  const RenderPlan& plan = exposed.plan;
+  print_line(format("{}: {}, {} of {} samples{}, {:.2f} s on {}", output.string(),
+                    shape_text(plan.capture.shape), plan.live_sample_count(), timeline.sample_count(),
+                    still_gains_text(plan, !options.functions), stopwatch.seconds(),
+                    exposing.exposer().renderer_name()));
+  if (const std::string report = exposing.exposer().report(); options.verbose && !report.empty()) {
+    print_line(report);
+  }
+  if (!captured) {
+    print_line(format("source: {}", timing_text(timeline, source_options)));
+    for (const std::string& note : exposing.notes()) print_note(format("note: {}", note));
+    if (const std::string note = slow_motion_note(timeline, source_options); !note.empty()) {
+      print_note(format("note: {}", note));
+    }
+  }
+  return 0;
+}
+
+}  // namespace nutik::app

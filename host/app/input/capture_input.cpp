@@ -1,0 +1,171 @@
+#include "app/input/capture_input.hpp"
+
+#include <array>
+#include <charconv>
+
+#include "app/input/noise_choice.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "system/mapped_file.hpp"
+#include "tik/header.hpp"
+
+namespace nutik::app {
+namespace {
+
+// Rates up to this are what players show; a clip filmed faster often says one of them.
+constexpr double kHighestPlaybackRate = 60.0;
+
+constexpr double kLeastSigmas = 0.1, kLargestSigmas = 100;
+
+std::uint32_t parse_count(const std::string& text, std::string_view what, std::uint32_t low,
+                          std::uint32_t high) {
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < low || value > high) {
+    throw UsageError(format("{} '{}' is no whole number of {} … {}", what, text, low, high));
+  }
+  return value;
+}
+
+double parse_sigmas(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() ||
+      !(value >= kLeastSigmas && value <= kLargestSigmas)) {
+    throw UsageError(format("sigmas '{}' is no number of {} … {}", text, kLeastSigmas, kLargestSigmas));
+  }
+  return value;
+}
+
+RawVideo parse_raw_video(const std::string& text) {
+  const auto cross = text.find('x');
+  const auto colon = text.find(':');
+  if (cross == std::string::npos || colon == std::string::npos || colon < cross) {
+    throw UsageError(
+        format("raw video '{}' is not described; write its size and pixel format, as in "
+               "480x270:yuv420p10le",
+               text));
+  }
+  constexpr std::uint32_t kLargestSide = 65'536;
+  return {parse_count(text.substr(0, cross), "width", 1, kLargestSide),
+          parse_count(text.substr(cross + 1, colon - cross - 1), "height", 1, kLargestSide),
+          text.substr(colon + 1)};
+}
+
+}  // namespace
+
+bool is_tik(const std::filesystem::path& path) {
+  const std::string start = first_bytes(path);
+  return tik::looks_like_tik(std::as_bytes(std::span(start))) || path.extension() == ".tik";
+}
+
+SourceOptions SourceOptions::from(const Options& options) {
+  SourceOptions source;
+  if (options.fps) source.clip.rate = Rational::parse(*options.fps, "frame rate");
+  if (options.shutter_angle) {
+    source.shutter_angle = Rational::parse(*options.shutter_angle, "shutter angle");
+    source.angle_was_stated = true;
+  }
+  if (options.white) source.clip.white_code = parse_count(*options.white, "white code", 1, 65'535);
+  if (options.raw) source.clip.raw = parse_raw_video(*options.raw);
+  if (options.transfer) source.clip.transfer = Transfer::parse(*options.transfer);
+  if (options.tolerance) source.noise.tolerance = parse_count(*options.tolerance, "tolerance", 0, 65'535);
+  if (options.noise && options.tolerance) {
+    throw UsageError("--noise and --tolerance both say what is no change; leave one out");
+  }
+  if (options.sigmas && !options.noise) {
+    throw UsageError(
+        "--sigmas counts standard deviations of a camera's noise: it needs --noise FILE or --noise auto");
+  }
+  source.noise_source = options.noise;
+  if (options.sigmas) source.noise.sigmas = parse_sigmas(*options.sigmas);
+  if (options.tiles) source.tiles = parse_tile_policy(*options.tiles);
+  if (options.block_samples) {
+    source.block_samples = parse_count(*options.block_samples, "block length", 1, kLargestBlockSamples);
+  }
+  // Made here so that a senseless rate or angle is refused before anything is opened.
+  static_cast<void>(Timeline::constant(source.clip.rate.value_or(Rational{1, 1}), source.shutter_angle, 1));
+  return source;
+}
+
+CaptureFormat clip_format(const Clip& clip, const SourceOptions& options) {
+  CaptureFormat capture = clip.info().format;
+  if (options.clip.transfer) capture.transfer = *options.clip.transfer;
+  if (options.clip.white_code) {
+    if (capture.code_bytes == 1 && *options.clip.white_code > 255) {
+      throw UsageError(format("white code {} does not fit the clip's 8-bit codes (255 at most)",
+                              *options.clip.white_code));
+    }
+    capture.white_code = *options.clip.white_code;
+  }
+  return capture;
+}
+
+SourceClip open_source(const std::filesystem::path& path, const SourceOptions& options) {
+  SourceClip source;
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && std::filesystem::is_other(status)) {
+    throw InputError(
+        format("{} is no regular file: a clip is read more than once; save the stream to a file first",
+               path.string()));
+  }
+  source.clip = open_clip(path, options.clip);
+  source.capture = clip_format(*source.clip, options);
+  source.notes = source.clip->info().notes;
+  source.capture.noise = options.noise;
+  if (options.noise_source == kAutomaticNoise) {
+    const NoiseEstimate estimate = measure_noise(std::array{path.string()}, options, kAutomaticNoiseSamples);
+    source.capture.noise.camera = estimate.noise;
+    for (const std::string& note : noise_notes(estimate)) source.notes.push_back(note);
+  } else if (options.noise_source) {
+    source.capture.noise.camera = read_noise_file(*options.noise_source);
+  }
+  source.block_samples = options.block_samples.value_or(default_block_samples(source.capture));
+  // A block takes memory for the samples it may hold: no more than there are.
+  const std::uint64_t announced = source.clip->info().sample_count;
+  if (announced != 0 && announced < source.block_samples) {
+    source.block_samples = static_cast<std::uint32_t>(announced);
+  }
+  return source;
+}
+
+std::string timing_text(const Timeline& timeline, const SourceOptions& options) {
+  const std::string rate =
+      options.clip.rate ? format("{} pictures a second (--fps)", timeline.rate().text())
+      : timeline.is_constant()
+          ? format("{} pictures a second (from the file)", timeline.rate().text())
+          : format("irregular times (from the file), {:.4g} pictures a second on average",
+                   timeline.rate().value());
+  return format("{}, shutter {} degrees ({})", rate, timeline.shutter_angle().text(),
+                options.angle_was_stated ? "--shutter-angle" : "assumed");
+}
+
+std::string slow_motion_note(const Timeline& timeline, const SourceOptions& options) {
+  if (options.clip.rate || timeline.rate().value() > kHighestPlaybackRate) return {};
+  return format(
+      "the rate of {} a second comes from the file; slow-motion files state their playback rate: "
+      "if it was filmed faster, say so with --fps",
+      timeline.rate().text());
+}
+
+void refuse_source_options(const Options& options, const std::string& capture) {
+  const auto refuse = [&](bool stated, std::string_view name) {
+    if (!stated) return;
+    throw UsageError(
+        format("{} describes a clip that is encoded; {} was encoded already. Encode the clip "
+               "again with it",
+               name, capture));
+  };
+  refuse(options.fps.has_value(), "--fps");
+  refuse(options.shutter_angle.has_value(), "--shutter-angle");
+  refuse(options.white.has_value(), "--white");
+  refuse(options.raw.has_value(), "--raw");
+  refuse(options.tolerance.has_value(), "--tolerance");
+  refuse(options.noise.has_value(), "--noise");
+  refuse(options.sigmas.has_value(), "--sigmas");
+  refuse(options.tiles.has_value(), "--tiles");
+  refuse(options.block_samples.has_value(), "--block-samples");
+}
+
+}  // namespace nutik::app

@@ -1,0 +1,43 @@
+#include "app/input/exposer.hpp"
+
+#include "app/input/renderer_choice.hpp"
+#include "capture/format.hpp"
+
+namespace nutik::app {
+
+std::vector<std::string> exposure_warnings(const Exposed& exposed) {
+  std::vector<std::string> warnings = exposed.plan.warnings;
+  if (!holds_codes(exposed.picture.type)) return warnings;
+  // Light below 0 is black in a picture of codes: a still scene under a negative still gain disappears.
+  for (const PlannedFunction& function : exposed.plan.functions) {
+    const double still_gain = function.summary.still_gain();
+    if (still_gain >= 0.0) continue;
+    warnings.push_back(
+        format("M{}: the still gain is {:.6g}: whatever does not move comes out black; write a .pfm "
+               "or a .tif with --depth float to keep light below 0",
+               function.tag, still_gain));
+  }
+  return warnings;
+}
+
+Exposer::Exposer(const Options& options)
+    : starting_(std::async(std::launch::async, [&options] { return choose_renderer(options); })) {}
+
+Exposed Exposer::expose(CaptureSource& source, const FunctionSet& functions, const Mask& mask,
+                        const PlanOptions& plan_options, const OutputFormat& format) {
+  RenderPlan plan = make_plan(source, functions, mask, plan_options);
+  if (!renderer_) {
+    // Kernels are loaded beside the first block.
+    auto ready = std::async(std::launch::async, [&] {
+      auto renderer = starting_.get();
+      renderer->prepare(plan, format);
+      return renderer;
+    });
+    if (!plan.blocks.empty()) source.preload(plan.blocks.front().block);
+    renderer_ = ready.get();
+  }
+  Picture picture = renderer_->render(plan, source, format);
+  return {std::move(plan), std::move(picture)};
+}
+
+}  // namespace nutik::app

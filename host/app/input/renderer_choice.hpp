@@ -1,0 +1,14 @@
+// The renderer that the options ask for.
+#pragma once
+
+#include <memory>
+
+#include "app/command_line/options.hpp"
+#include "render/renderer.hpp"
+
+namespace nutik::app {
+
+// Throws UsageError for an unknown name, DeviceError where the device is absent.
+[[nodiscard]] std::unique_ptr<Renderer> choose_renderer(const Options& options);
+
+}  // namespace nutik::app

@@ -1,0 +1,120 @@
+#include "app/output/output_name.hpp"
+
+#include <string_view>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/picture_writer.hpp"
+#include "media/still_sequence.hpp"
+#include "system/mapped_file.hpp"
+#include "tik/header.hpp"
+
+namespace nutik::app {
+namespace {
+
+bool is_tik_content(const std::string& bytes) { return tik::looks_like_tik(std::as_bytes(std::span(bytes))); }
+
+bool is_picture_content(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG") || bytes.starts_with(std::string_view("II*\0", 4)) ||
+      bytes.starts_with(std::string_view("MM\0*", 4)) || bytes.starts_with("II+")) {
+    return true;
+  }
+  return bytes.size() > 2 && bytes[0] == 'P' &&
+         std::string_view("123456fF").find(bytes[1]) != std::string_view::npos &&
+         !is_tik_content(std::string(bytes));
+}
+
+bool is_content_of(OutputKind kind, const std::string& bytes) {
+  switch (kind) {
+    case OutputKind::tik: return is_tik_content(bytes);
+    case OutputKind::picture: return is_picture_content(bytes);
+    case OutputKind::noise: return bytes.starts_with("nutik noise");
+  }
+  return false;
+}
+
+std::string_view to_text(OutputKind kind) {
+  switch (kind) {
+    case OutputKind::tik: return ".tik file";
+    case OutputKind::picture: return "picture";
+    case OutputKind::noise: return "noise file";
+  }
+  return {};
+}
+
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  return std::filesystem::absolute(a).lexically_normal() == std::filesystem::absolute(b).lexically_normal();
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> stated_output(const std::optional<std::string>& option,
+                                                   std::span<const std::string> operands,
+                                                   const std::string& command) {
+  if (operands.empty()) throw UsageError(format("an input is missing; see nutik-cl {} --help", command));
+  if (operands.size() > 2) {
+    throw UsageError(
+        format("'{}' is one file too many; a sequence of stills is one operand: its folder, or a "
+               "pattern in quotes such as 'frames/*.png'. See nutik-cl {} --help",
+               operands[2], command));
+  }
+  if (option && operands.size() == 2) {
+    throw UsageError(format("two outputs: -o {} and {}; leave one out", *option, operands[1]));
+  }
+  for (const auto* name : {option ? &*option : nullptr, operands.size() == 2 ? &operands[1] : nullptr}) {
+    if (name == nullptr) continue;
+    if (name->empty()) throw UsageError("the output's name is empty");
+    return *name;
+  }
+  return std::nullopt;
+}
+
+void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs) {
+  const std::string name = output.string();
+  for (const std::string& input : inputs) {
+    if (is_same_file(output, input)) {
+      throw UsageError(format("the output {} is also an input; choose another name", name));
+    }
+  }
+  if (kind == OutputKind::tik && output.extension() != ".tik") {
+    throw UsageError(
+        format("{} is no name for a capture: encode writes .tik files (nutik-cl CLIP "
+               "CAPTURE.tik)",
+               name));
+  }
+  if (kind == OutputKind::picture && !is_picture_name(output)) {
+    throw UsageError(format("{}: pictures are written as .png, .tif, .ppm, .pgm or .pfm", name));
+  }
+  std::error_code error;
+  if (!std::filesystem::exists(output, error)) return;
+  if (std::filesystem::is_directory(output, error)) {
+    throw UsageError(format("{} is a folder; name a file in it", name));
+  }
+  const std::string bytes = first_bytes(output);
+  if (!bytes.empty() && !is_content_of(kind, bytes)) {
+    throw UsageError(
+        format("{} exists and is no {}; it is not replaced. Choose another name", name, to_text(kind)));
+  }
+}
+
+std::filesystem::path picture_name(const std::string& input, const std::string& label) {
+  return sequence_name(input) + "-" + label + ".png";
+}
+
+std::vector<std::string> exposure_inputs(const Options& options) {
+  std::vector<std::string> inputs{options.operands.front()};
+  if (!options.raw) {
+    // Each still of a sequence is an input that the picture must not replace.
+    for (const auto& still : list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{})) {
+      inputs.push_back(still.string());
+    }
+  }
+  if (options.mask) inputs.push_back(*options.mask);
+  if (options.functions) inputs.push_back(*options.functions);
+  if (options.noise) inputs.push_back(*options.noise);
+  return inputs;
+}
+
+}  // namespace nutik::app

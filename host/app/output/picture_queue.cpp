@@ -1,0 +1,34 @@
+#include "app/output/picture_queue.hpp"
+
+#include <utility>
+
+#include "capture/error.hpp"
+#include "media/picture_writer.hpp"
+
+namespace nutik::app {
+
+PictureQueue::PictureQueue(Failed failed)
+    : writing_(std::async(std::launch::async, [this, failed = std::move(failed)] {
+        while (const auto job = jobs_.pop()) {
+          try {
+            write_picture(job->path, job->picture);
+          } catch (const OutputError& error) {
+            failed(job->number, error.what());
+          } catch (const UsageError& error) {
+            failed(job->number, error.what());
+          }
+        }
+      })) {}
+
+PictureQueue::~PictureQueue() { jobs_.close(); }
+
+void PictureQueue::push(std::size_t number, std::filesystem::path path, Picture picture) {
+  jobs_.push({number, std::move(path), std::move(picture)});
+}
+
+void PictureQueue::finish() {
+  jobs_.close();
+  writing_.get();
+}
+
+}  // namespace nutik::app

@@ -1,0 +1,102 @@
+// Many exposures by one command.
+#include <gtest/gtest.h>
+
+#include "support/program.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+using test::ProgramResult;
+using test::read_file;
+using test::Scratch;
+
+class Batch : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (int k = 0; k < 6; ++k) {
+      std::string still = "P5\n9 7\n255\n";
+      for (int i = 0; i < 9 * 7; ++i) still += static_cast<char>(40 + 20 * k + i);
+      scratch_.write("still" + std::to_string(k) + ".pgm", still);
+    }
+    ASSERT_EQ(run({"-f", "100", "still%d.pgm", "scene.tik"}).status, 0);
+    scratch_.write("trail.fn", "M0 [0:0], [10000000:1], [40000000:0]\n");
+  }
+  ProgramResult run(const std::vector<std::string>& words) {
+    return test::run_program(words, scratch_.folder());
+  }
+  std::string picture(const std::string& name) { return read_file(scratch_ / name); }
+
+  Scratch scratch_;
+};
+
+TEST_F(Batch, GivesThePicturesOfSingleCommands) {
+  scratch_.write("list.txt",
+                 "# exposures\n"
+                 "\n"
+                 "--start 1f --exposure 2f scene.tik moment.png\r\n"
+                 "-k trail.fn scene.tik 'a trail.pfm'\n"
+                 "   -k trail.fn --depth 16 scene.tik -o trail.tif\n");
+  const ProgramResult batch = run({"batch", "list.txt"});
+  ASSERT_EQ(batch.status, 0) << batch.err;
+  EXPECT_TRUE(batch.out.starts_with("3 of 3 pictures, ")) << batch.out;
+  EXPECT_NE(batch.out.find(" exposures a second on "), std::string::npos) << batch.out;
+  EXPECT_EQ(batch.err, "");
+  ASSERT_EQ(run({"--start", "1f", "--exposure", "2f", "scene.tik", "single.png"}).status, 0);
+  ASSERT_EQ(run({"-k", "trail.fn", "scene.tik", "single.pfm"}).status, 0);
+  ASSERT_EQ(run({"-k", "trail.fn", "--depth", "16", "scene.tik", "single.tif"}).status, 0);
+  EXPECT_EQ(picture("moment.png"), picture("single.png"));
+  EXPECT_EQ(picture("a trail.pfm"), picture("single.pfm"));
+  EXPECT_EQ(picture("trail.tif"), picture("single.tif"));
+}
+
+TEST_F(Batch, LeavesTheCaptureToTheCommandAndReadsFromStandardInput) {
+  const ProgramResult batch = test::run_shell(
+      "(printf '%s\\n' '--start 0f --exposure 1f a.png' '-k trail.fn b.png' | " NUTIK_TEST_PROGRAM
+      " batch -f 100 - still%d.pgm)",
+      scratch_.folder());
+  ASSERT_EQ(batch.status, 0) << batch.err;
+  EXPECT_TRUE(batch.out.starts_with("2 of 2 pictures, ")) << batch.out;
+  ASSERT_EQ(run({"-k", "trail.fn", "scene.tik", "single.png"}).status, 0);
+  EXPECT_EQ(picture("b.png"), picture("single.png"));
+}
+
+TEST_F(Batch, ReportsBadLinesAndGoesOn) {
+  scratch_.write("list.txt",
+                 "--start 0f --exposure 1f a.png\n"
+                 "--start 9s --exposure 1f late.png\n"
+                 "--start 0f --exposure 1f a.png\n"
+                 "-k absent.fn b.png\n"
+                 "--precision single --start 0f --exposure 1f c.png\n"
+                 "--exposre 1f d.png\n"
+                 "--help\n"
+                 "--start 0f --exposure 1f absent/e.png\n"
+                 "--start 0f --exposure 1f scene.tik f.png\n"
+                 "--start 1f --exposure 1f g.png\n");
+  const ProgramResult batch = run({"batch", "list.txt", "scene.tik"});
+  EXPECT_EQ(batch.status, 1);
+  EXPECT_TRUE(batch.out.starts_with("2 of 10 pictures, ")) << batch.out;
+  for (const char* message :
+       {"list.txt:2: the interval from 9 s on lies outside the capture, which lasts 60 ms",
+        "list.txt:3: a.png is the picture of line 1 already", "list.txt:4: absent.fn cannot be read: ",
+        "list.txt:5: --precision holds for all exposures: nutik-cl batch --precision single",
+        "list.txt:6: there is no option --exposre; did you mean --exposure?",
+        "list.txt:7: --help is no exposure",
+        "list.txt:8: absent/e.png cannot be created: ", "list.txt:9: 'f.png' is one file too many"}) {
+    EXPECT_NE(batch.err.find(message), std::string::npos) << message << "\n" << batch.err;
+  }
+  EXPECT_FALSE(picture("a.png").empty());
+  EXPECT_FALSE(picture("g.png").empty());
+}
+
+TEST_F(Batch, RefusesListsThatListNothing) {
+  EXPECT_EQ(run({"batch"}).status, 2);
+  EXPECT_EQ(run({"batch", "absent.txt"}).status, 3);
+  scratch_.write("empty.txt", "# nothing\n");
+  const ProgramResult batch = run({"batch", "empty.txt"});
+  EXPECT_EQ(batch.status, 3);
+  EXPECT_NE(batch.err.find("empty.txt lists no exposure"), std::string::npos) << batch.err;
+}
+
+}  // namespace
+}  // namespace nutik
