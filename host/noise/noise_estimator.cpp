@@ -6,6 +6,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/parallel.hpp"
 
 namespace nutik {
 namespace {
@@ -122,9 +123,9 @@ void NoiseEstimator::add_clip(const std::string& name, const ReadSample& read_sa
   StillWindow window(capture_);
   std::uint64_t samples = 0;
   const auto measure = [&] {
-    for (std::uint32_t channel = 0; channel < channels_.size(); ++channel) {
-      pixels[channel].add(window.measure(channel));
-    }
+    parallel_for(channels_.size(), [&](std::uint64_t channel) {
+      pixels[channel].add(window.measure(static_cast<std::uint32_t>(channel)));
+    });
   };
   while (samples < most_samples && read_sample(raster)) {
     ++samples;

@@ -8,9 +8,10 @@ namespace nutik {
 namespace {
 
 constexpr std::uint64_t kMostPixels = 512 * 1024;
-constexpr int kFlickerPasses = 4;        // the first with all pixels
-constexpr double kFlickerOutlier = 2.5;  // standard deviations: what moves is no flicker
-constexpr std::uint64_t kLeastFlickerPixels = 256;
+constexpr int kFlickerPasses = 4;                      // the first with all pixels
+constexpr double kFlickerOutlier = 2.5;                // standard deviations: what moves is no flicker
+constexpr std::size_t kMostFlickerPixels = 32 * 1024;  // two numbers are found with fewer than all
+constexpr double kLeastFlickerPixels = 256;
 
 }  // namespace
 
@@ -45,9 +46,10 @@ void StillWindow::add(std::span<const std::byte> raster) {
 StillWindow::Flicker StillWindow::flicker(const std::uint16_t* codes, std::span<const float> means) const {
   Flicker line;
   double limit = INFINITY;
+  const std::size_t step = means.size() / kMostFlickerPixels + 1;
   for (int pass = 0; pass < kFlickerPasses; ++pass) {
     double n = 0, sum_m = 0, sum_mm = 0, sum_d = 0, sum_md = 0, squares = 0;
-    for (std::size_t i = 0; i < means.size(); ++i) {
+    for (std::size_t i = 0; i < means.size(); i += step) {
       if (codes[i] == 0 || codes[i] >= format_.white_code) continue;
       const double mean = means[i], difference = codes[i] - mean;
       const double rest = difference - line.offset - line.gain * mean;
