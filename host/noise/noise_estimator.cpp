@@ -141,14 +141,15 @@ void NoiseEstimator::add_clip(const std::string& name, const ReadSample& read_sa
   // A rest that is shorter than a window would be less sure of itself than what is there already.
   if (samples < kWindowSamples) measure();
   sample_count_ += samples;
-  const auto degrees = static_cast<std::uint32_t>(std::min<std::uint64_t>(samples, kWindowSamples)) - 2;
+  const double degrees = StillWindow::degrees_of_freedom(
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(samples, kWindowSamples)));
   for (std::uint32_t channel = 0; channel < channels_.size(); ++channel) {
     add_points(channels_[channel], std::move(pixels[channel].kept), degrees);
   }
 }
 
 void NoiseEstimator::add_points(ChannelPoints& channel, std::vector<PixelNoise> pixels,
-                                std::uint32_t degrees) const {
+                                double degrees) const {
   std::ranges::sort(pixels, {}, &PixelNoise::code);
   const auto tail = static_cast<std::size_t>(kRangeTail * static_cast<double>(pixels.size()));
   const double low = pixels[tail].code;

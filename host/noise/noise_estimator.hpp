@@ -64,7 +64,7 @@ class NoiseEstimator {
     std::uint64_t pixels = 0;
   };
 
-  void add_points(ChannelPoints& channel, std::vector<PixelNoise> pixels, std::uint32_t degrees) const;
+  void add_points(ChannelPoints& channel, std::vector<PixelNoise> pixels, double degrees) const;
 
   CaptureFormat capture_;
   std::vector<ChannelPoints> channels_;

@@ -77,7 +77,7 @@ SensorFit fit_sensor(std::span<const MeasuredPoint> points, std::uint32_t white_
     deviations.push_back(std::abs(code_sd_of(light_sd, point.code, white_code, transfer) / point.sd - 1));
   }
   std::ranges::sort(deviations);
-  deviations.resize(deviations.size() - deviations.size() / 10);
+  deviations.resize(deviations.size() - deviations.size() / 4);
   fit.worst = deviations.back();
   for (const double deviation : deviations) fit.misfit += deviation * deviation;
   fit.misfit = std::sqrt(fit.misfit / static_cast<double>(deviations.size()));

@@ -18,7 +18,7 @@ struct SensorFit {
   double read = 0;  // as in ChannelNoise
   double shot = 0;
   // By which share sd differs between the points and the fit: root of the mean square, and the largest, of the
-  // nine tenths of the points that lie closest. A few may be of something else than noise.
+  // three quarters of the points that lie closest. Others may be of something else than noise.
   double misfit = 0;
   double worst = 0;
 };

@@ -79,30 +79,33 @@ std::vector<PixelNoise> StillWindow::measure(std::uint32_t channel) const {
   }
   for (float& mean : means) mean /= static_cast<float>(samples_);
 
-  std::vector<float> moments(count), squares(count);  // of what remains, about the mean
-  std::vector<float> sums(count);
-  const double centre = (samples_ - 1) / 2.0;
-  double time_squares = 0;
+  // A second difference of independent noise has six times its variance.
+  std::vector<float> before(count), last(count), squares(count);
   for (std::uint32_t k = 0; k < samples_; ++k) {
     const std::uint16_t* codes = plane(k, channel);
     const Flicker common = flicker(codes, means);
     const auto offset = static_cast<float>(common.offset), gain = static_cast<float>(common.gain);
-    const auto time = static_cast<float>(k - centre);
-    time_squares += (k - centre) * (k - centre);
     for (std::size_t i = 0; i < count; ++i) {
       const float rest = codes[i] - means[i] - offset - gain * means[i];
-      sums[i] += rest;
-      moments[i] += time * rest;
-      squares[i] += rest * rest;
+      const float bend = rest - 2 * last[i] + before[i];
+      if (k >= 2) squares[i] += bend * bend;
+      before[i] = last[i];
+      last[i] = rest;
     }
   }
+  const auto scale = static_cast<float>(1 / (6.0 * (samples_ - 2)));
   std::vector<PixelNoise> noise(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double about_mean = squares[i] - double{sums[i]} * sums[i] / samples_;
-    const double about_line = about_mean - double{moments[i]} * moments[i] / time_squares;
-    noise[i] = {means[i], static_cast<float>(std::max(about_line, 0.0) / (samples_ - 2))};
-  }
+  for (std::size_t i = 0; i < count; ++i) noise[i] = {means[i], squares[i] * scale};
   return noise;
+}
+
+// Of n second differences the squares' sum has the variance 2 (36 n + 2 · 16 (n - 1) + 2 · (n - 2)), in units of
+// the noise's own squared: neighbours share two samples of three. A chi-squared sum of the same mean and variance
+// has as many degrees of freedom as this.
+double StillWindow::degrees_of_freedom(std::uint32_t samples) {
+  const double n = samples - 2.0;
+  const double of_pairs = n >= 2 ? 32 * (n - 1) + 2 * (n - 2) : 0;
+  return 36 * n * n / (36 * n + of_pairs);
 }
 
 }  // namespace nutik

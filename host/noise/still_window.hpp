@@ -2,8 +2,9 @@
 //
 //   in:      up to kWindowSamples samples as interleaved rasters
 //   out:     for each channel, each pixel's mean and variance over time, in codes
-//   always:  what all pixels do together, an offset and a gain from sample to sample, is flicker and taken out;
-//            so is each pixel's own straight line in time. Large pictures are thinned out
+//   always:  what all pixels do together, an offset and a gain from sample to sample, is flicker and taken out.
+//            Variances are those of second differences in time, so that whatever goes on evenly, as slow motion
+//            and changing daylight do, is no noise. Large pictures are thinned out
 #pragma once
 
 #include <cstddef>
@@ -15,13 +16,13 @@
 
 namespace nutik {
 
-// Long enough that a pixel's variance is known to a third, short enough that little moves.
+// Long enough that a pixel's variance is known to a half, short enough that little moves.
 inline constexpr std::uint32_t kWindowSamples = 16;
-inline constexpr std::uint32_t kLeastWindowSamples = 3;  // a line goes through any two
+inline constexpr std::uint32_t kLeastWindowSamples = 3;  // of a second difference
 
 struct PixelNoise {
   float code = 0;      // mean
-  float variance = 0;  // codes², with samples - 2 degrees of freedom
+  float variance = 0;  // codes²
 };
 
 class StillWindow {
@@ -36,6 +37,9 @@ class StillWindow {
 
   // One entry for every pixel of a channel. At least kLeastWindowSamples samples are there.
   [[nodiscard]] std::vector<PixelNoise> measure(std::uint32_t channel) const;
+
+  // Of a variance that was measured on so many samples.
+  [[nodiscard]] static double degrees_of_freedom(std::uint32_t samples);
 
   void clear() { samples_ = 0; }
 
