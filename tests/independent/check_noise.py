@@ -36,14 +36,15 @@ def read_points(path):
 
 
 def still_pixels(samples):
-    """Which pixels neither drift nor touch black or white. samples: N x H x W."""
+    """Which pixels neither drift nor come near black or white. samples: N x H x W."""
     third = min(max(len(samples) // 3, 1), 5)
     step = samples[2:] - 2 * samples[1:-1] + samples[:-2]
     sd = np.sqrt(np.median(step**2, axis=0) / (6 * 0.455))  # 0.455: the median of chi squared
     ends = np.abs(samples[:third].mean(axis=0) - samples[-third:].mean(axis=0))
     common = np.median(samples[-third:].mean(axis=0) - samples[:third].mean(axis=0))
     still = ends <= abs(common) + 4 * np.maximum(sd, 0.5) * np.sqrt(2 / third)
-    return still & (samples.min(axis=0) > 0) & (samples.max(axis=0) < samples.max())
+    mean = samples.mean(axis=0)
+    return still & (mean > 4 * sd) & (mean < samples.max() - 4 * sd)
 
 
 def robust_sd(samples, still, inside):
