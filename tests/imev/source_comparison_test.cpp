@@ -29,7 +29,9 @@ TEST(SourceComparison, FindsNothingBeyondWhatACapturePromises) {
     EXPECT_LE(with_tolerance.worst().error, random.capture.noise.tolerance) << random.text();
     EXPECT_EQ(with_tolerance.values_beyond(), 0u) << random.text();
     EXPECT_EQ(with_tolerance.value_count(), random.rasters.size() * random.capture.shape.value_count());
-    if (random.capture.noise.is_lossless()) EXPECT_TRUE(std::isinf(with_tolerance.psnr()));
+    if (random.capture.noise.is_lossless()) {
+      EXPECT_TRUE(std::isinf(with_tolerance.psnr()));
+    }
 
     const ChannelNoise noise{NoiseCurve::sensor, 0.01, 0.001, {}};
     random.capture.noise = {};
