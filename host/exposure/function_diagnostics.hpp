@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "exposure/source_text.hpp"
+#include "capture/source_text.hpp"
 
 namespace nutik {
 

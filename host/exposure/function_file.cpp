@@ -7,7 +7,7 @@
 
 #include "capture/format.hpp"
 #include "exposure/function_numbers.hpp"
-#include "exposure/source_text.hpp"
+#include "capture/source_text.hpp"
 
 namespace nutik {
 namespace {

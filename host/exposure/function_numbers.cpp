@@ -10,7 +10,7 @@
 
 #include "capture/format.hpp"
 #include "exposure/gain_function.hpp"
-#include "exposure/source_text.hpp"
+#include "capture/source_text.hpp"
 
 namespace nutik {
 namespace {

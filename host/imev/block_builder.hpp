@@ -2,8 +2,9 @@
 //
 //   in:      samples as interleaved rasters, in time order
 //   out:     a block's payload each time it is full or the capture ends (layout: imev/block.hpp)
-//   always:  memory for one block, whatever the capture's length; the codes held at a block's end go
-//            over into the next, so that blocks change nothing about what is a change
+//   always:  memory for one block, whatever the capture's length. With a tolerance the codes held at a
+//            block's end go over into the next, so that blocks change nothing about what is a change; with a
+//            camera's noise each block stands on its own samples (imev/expected_values.hpp)
 #pragma once
 
 #include <cstdint>
@@ -28,10 +29,16 @@ inline constexpr std::uint64_t kDefaultBlockBytes = 128ull << 20;
 [[nodiscard]] std::uint32_t default_block_samples(const CaptureFormat& capture,
                                                   std::uint64_t block_bytes = kDefaultBlockBytes);
 
+struct FinishedBlock {
+  std::uint64_t payload_bytes = 0;
+  std::uint64_t record_count = 0;  // change records, summed over pixels; starts are not counted
+};
+
 class BlockBuilder {
  public:
-  // Throws UsageError where a block of so many samples, or the payload that it may come to, is too large.
-  BlockBuilder(const CaptureFormat& capture, std::uint32_t block_samples, TilePolicy policy);
+  // `source` is what samples are; payloads are in held_format(source). Throws UsageError where a block of so
+  // many samples, or the payload that it may come to, is too large, or the noise is that of other codes.
+  BlockBuilder(const CaptureFormat& source, std::uint32_t block_samples, TilePolicy policy);
   ~BlockBuilder();
   BlockBuilder(BlockBuilder&&) noexcept;
   BlockBuilder& operator=(BlockBuilder&&) noexcept;
@@ -46,12 +53,9 @@ class BlockBuilder {
   // Which samples the current block holds so far.
   [[nodiscard]] BlockExtent extent() const;
 
-  // Change records in the current block so far, summed over pixels; starts are not counted.
-  [[nodiscard]] std::uint64_t record_count() const;
-
   // Closes the current block (which must hold a sample) and begins the next. The payload is written to
-  // the front of `into`, which grows as needed; returns its bytes.
-  std::uint64_t finish(PageBuffer& into);
+  // the front of `into`, which grows as needed.
+  FinishedBlock finish(PageBuffer& into);
 
   // Takes a sample between blocks (the current one is empty) that will not be kept: only what it leaves
   // held counts.
@@ -59,6 +63,8 @@ class BlockBuilder {
 
  private:
   class Implementation;
+  class Comparing;
+  class Averaging;
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -5,21 +5,22 @@
 #include <stdexcept>
 
 #include "capture/format.hpp"
+#include "imev/expected_values.hpp"
 #include "system/interruption.hpp"
 
 namespace nutik {
 
-MemoryCapture::MemoryCapture(const CaptureFormat& capture, Timeline timeline,
+MemoryCapture::MemoryCapture(const CaptureFormat& source, Timeline timeline,
                              std::span<const std::vector<std::byte>> rasters, std::uint32_t block_samples,
                              TilePolicy policy)
-    : capture_(capture), timeline_(std::move(timeline)) {
+    : capture_(held_format(source)), timeline_(std::move(timeline)) {
   if (rasters.size() != timeline_.sample_count()) {
     throw std::logic_error("a capture has another number of samples than its timeline");
   }
-  BlockBuilder builder(capture, block_samples, policy);
+  BlockBuilder builder(source, block_samples, policy);
   const auto close = [&] {
     Block block{builder.extent(), {}, 0};
-    block.bytes = builder.finish(block.payload);
+    block.bytes = builder.finish(block.payload).payload_bytes;
     blocks_.push_back(std::move(block));
   };
   for (const std::vector<std::byte>& raster : rasters) {
@@ -42,14 +43,23 @@ SampleCountMismatch::SampleCountMismatch(std::uint64_t found, std::uint64_t expe
     : InputError(nutik::format("the capture has {} samples where {} were expected", found, expected)),
       sample_count(found) {}
 
-StreamingCapture::StreamingCapture(const CaptureFormat& capture, Timeline timeline, SampleRange needed,
+SampleRange streamed_samples(const CaptureFormat& source, SampleRange needed, std::uint32_t block_samples,
+                             std::uint64_t sample_count) {
+  if (source.noise.camera && !needed.empty()) {
+    const std::uint64_t blocks = (needed.last + block_samples - 1) / block_samples;
+    needed.last = std::min(blocks * block_samples, sample_count);
+  }
+  return needed;
+}
+
+StreamingCapture::StreamingCapture(const CaptureFormat& source, Timeline timeline, SampleRange needed,
                                    std::uint32_t block_samples, TilePolicy policy, NextSample next_sample)
-    : capture_(capture),
+    : capture_(held_format(source)),
       timeline_(std::move(timeline)),
-      needed_(needed),
+      needed_(streamed_samples(source, needed, block_samples, timeline_.sample_count())),
       block_samples_(block_samples),
       next_sample_(std::move(next_sample)),
-      builder_(capture, block_samples, policy) {}
+      builder_(source, block_samples, policy) {}
 
 std::uint64_t StreamingCapture::block_count() const {
   return (needed_.last + block_samples_ - 1) / block_samples_;
@@ -82,7 +92,7 @@ std::uint64_t StreamingCapture::prepare(std::uint64_t block) {
   }
   read_samples(extent.first_sample, false);
   read_samples(extent.range().last, true);
-  payload_bytes_ = builder_.finish(payload_);
+  payload_bytes_ = builder_.finish(payload_).payload_bytes;
   if (samples_read_ == timeline_.sample_count()) {
     std::uint64_t more = 0;
     for (; !next_sample_().empty(); ++more) check_interruption();

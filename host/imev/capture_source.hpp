@@ -46,8 +46,8 @@ class CaptureSource {
 // A capture held in memory, block by block.
 class MemoryCapture final : public CaptureSource {
  public:
-  // `rasters` are the samples in order, as many as the timeline has.
-  MemoryCapture(const CaptureFormat& capture, Timeline timeline,
+  // `rasters` are the samples in order, of the format `source` and as many as the timeline has.
+  MemoryCapture(const CaptureFormat& source, Timeline timeline,
                 std::span<const std::vector<std::byte>> rasters, std::uint32_t block_samples,
                 TilePolicy policy = TilePolicy::automatic);
 
@@ -79,19 +79,24 @@ struct SampleCountMismatch : InputError {
   SampleCountMismatch(std::uint64_t found, std::uint64_t expected);
 };
 
-// A capture that is built while it is read, from a stream of samples. Nothing outside `needed` is kept,
-// nothing after it is read.
+// What a StreamingCapture reads of `sample_count` samples: none after those that are needed; but where the
+// camera's noise is known, samples stand for others of their block, and the last block is read to its end.
+[[nodiscard]] SampleRange streamed_samples(const CaptureFormat& source, SampleRange needed,
+                                           std::uint32_t block_samples, std::uint64_t sample_count);
+
+// A capture that is built while it is read, from a stream of samples of the format `source`. Nothing outside
+// streamed_samples() is kept, nothing after it is read.
 class StreamingCapture final : public CaptureSource {
  public:
   // The next sample as an interleaved raster that stays until the next call; empty at the end.
   using NextSample = std::function<std::span<const std::byte>()>;
 
-  StreamingCapture(const CaptureFormat& capture, Timeline timeline, SampleRange needed,
+  StreamingCapture(const CaptureFormat& source, Timeline timeline, SampleRange needed,
                    std::uint32_t block_samples, TilePolicy policy, NextSample next_sample);
 
   [[nodiscard]] const CaptureFormat& format() const override { return capture_; }
   [[nodiscard]] const Timeline& timeline() const override { return timeline_; }
-  // Blocks lie where they would in a file of the whole capture; the last one ends with `needed`.
+  // Blocks lie where they would in a file of the whole capture; the last one may be cut short.
   [[nodiscard]] std::uint64_t block_count() const override;
   [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override;
 

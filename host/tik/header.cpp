@@ -6,6 +6,8 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/noise_file.hpp"
+#include "imev/expected_values.hpp"
 #include "tik/format.hpp"
 
 namespace nutik::tik {
@@ -14,6 +16,7 @@ namespace {
 constexpr std::string_view kComment = "# TIK ";
 constexpr std::string_view kPurpose =
     " - an image evolution model; the picture is the first sample, change records follow it.";
+constexpr std::string_view kNoise = "noise";
 constexpr std::size_t kLongestHeader = 65'536;
 
 bool is_netpbm(std::string_view text) {
@@ -48,7 +51,11 @@ class HeaderParser {
     }
     try {
       capture.transfer = Transfer::parse(words["transfer"]);
-      capture.noise.tolerance = number_of(words, "tolerance");
+      if (noise_.empty()) {
+        capture.noise.tolerance = number_of(words, "tolerance");
+      } else {
+        take_noise(words, capture);
+      }
       parsed.header.shutter_angle = Rational::parse(first_word(words["shutter angle"]), "shutter angle");
       const std::string_view rate = first_word(words["rate"]);
       if (rate != "irregular") parsed.header.rate = Rational::parse(rate, "rate");
@@ -97,7 +104,21 @@ class HeaderParser {
     if (text_[1] != '5' && text_[1] != '6') fail("its picture is neither P5 nor P6");
   }
 
-  // `# TIK key: value` lines; others are skipped.
+  void take_noise(std::map<std::string, std::string, std::less<>>& words, CaptureFormat& capture) {
+    NoiseModel& noise = capture.noise;
+    const std::string_view sigmas = first_word(words["sigmas"]);
+    const auto [end, error] = std::from_chars(sigmas.data(), sigmas.data() + sigmas.size(), noise.sigmas);
+    if (error != std::errc() || end != sigmas.data() + sigmas.size() || !(noise.sigmas > 0)) {
+      fail(format("its sigmas are '{}'", words["sigmas"]));
+    }
+    noise.camera = parse_noise(noise_, name_ + ", noise");
+    if (noise.camera->channels.size() != capture.shape.channels ||
+        capture.white_code != held_format(capture).white_code || capture.code_bytes != 2) {
+      fail("its noise is that of other pictures");
+    }
+  }
+
+  // `# TIK key: value` lines; others are skipped. The lines of the noise are kept apart.
   std::map<std::string, std::string, std::less<>> take_comments() {
     std::map<std::string, std::string, std::less<>> words;
     while (at_ < text_.size() && text_[at_] == '#') {
@@ -106,7 +127,13 @@ class HeaderParser {
       const std::string_view line = text_.substr(at_, line_end - at_);
       const auto colon = line.find(": ");
       if (line.starts_with(kComment) && colon != std::string_view::npos) {
-        words.emplace(line.substr(kComment.size(), colon - kComment.size()), line.substr(colon + 2));
+        const std::string_view key = line.substr(kComment.size(), colon - kComment.size());
+        const std::string_view value = line.substr(colon + 2);
+        if (key == kNoise) {
+          noise_.append(value).append("\n");
+        } else {
+          words.emplace(key, value);
+        }
       }
       at_ = line_end + 1;
     }
@@ -142,6 +169,7 @@ class HeaderParser {
   std::string_view text_;
   const std::string& name_;
   std::size_t at_ = 0;
+  std::string noise_;  // the text of its noise file
 };
 
 std::string_view front_text(std::span<const std::byte> file) {
@@ -164,7 +192,12 @@ std::string Header::text() const {
   line("rate", rate ? format("{} samples a second", rate->text()) : "irregular, every exposure is listed");
   line("shutter angle", format("{} degrees", shutter_angle.text()));
   line("transfer", capture.transfer.text());
-  line("tolerance", format("{} codes", capture.noise.tolerance));
+  if (capture.noise.camera) {
+    line("sigmas", format("{} standard deviations", capture.noise.sigmas));
+    for (const std::string& each : noise_lines(*capture.noise.camera)) line(kNoise, each);
+  } else {
+    line("tolerance", format("{} codes", capture.noise.tolerance));
+  }
   line("codec", codec);
   text += format("{} {}\n{}\n", shape.width, shape.height, capture.white_code);
   return text;

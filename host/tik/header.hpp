@@ -14,6 +14,12 @@
 //   # TIK codec: zstd
 //   640 480
 //   255
+//
+// Where the capture was encoded with a camera's noise, in place of the tolerance:
+//
+//   # TIK sigmas: 3 standard deviations
+//   # TIK noise: white 255
+//   # TIK noise: …            each line of the noise file (capture/noise_file.hpp)
 #pragma once
 
 #include <cstddef>
@@ -27,7 +33,7 @@
 namespace nutik::tik {
 
 struct Header {
-  CaptureFormat capture;
+  CaptureFormat capture;  // of what is held
   // Samples a second where the rate is constant; absent where every exposure is listed.
   std::optional<Rational> rate;
   Rational shutter_angle = Timeline::kFullShutter;

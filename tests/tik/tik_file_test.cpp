@@ -5,6 +5,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "imev/expected_values.hpp"
 #include "support/program.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
@@ -21,10 +22,10 @@ using test::Scratch;
 std::filesystem::path write(const RandomCase& random, const Codec& codec, const Scratch& scratch) {
   const std::filesystem::path path = scratch / "capture.tik";
   Header header;
-  header.capture = random.capture;
+  header.capture = held_format(random.capture);
   if (random.timeline.is_constant()) header.rate = random.timeline.rate();
   header.shutter_angle = random.timeline.shutter_angle();
-  Writer writer(path, header, codec, random.rasters.front());
+  Writer writer(path, header, codec, to_held_codes(random.capture, random.rasters.front()));
   const MemoryCapture capture = random.encode();
   for (std::uint64_t b = 0; b < capture.block_count(); ++b) {
     const BlockView view = capture.view(b);
@@ -46,7 +47,7 @@ std::vector<std::byte> payload_of(Reader& reader, std::uint64_t block) {
 
 void expect_same_capture(const RandomCase& random, Reader& reader) {
   const MemoryCapture capture = random.encode();
-  EXPECT_EQ(reader.format(), random.capture);
+  EXPECT_EQ(reader.format(), held_format(random.capture));
   ASSERT_EQ(reader.block_count(), capture.block_count());
   ASSERT_EQ(reader.timeline().sample_count(), random.timeline.sample_count());
   EXPECT_EQ(reader.timeline().duration_ns(), random.timeline.duration_ns());
@@ -78,6 +79,68 @@ TEST(TikFile, IsKnownAgainByItsContent) {
   EXPECT_NE(Reader(write(random, Codec::parse("none"), other)).content_checksum(), checksum);
   random.timeline = Timeline::constant({7, 1}, {180, 1}, random.timeline.sample_count());
   EXPECT_NE(Reader(write(random, Codec::parse("none"), other)).content_checksum(), checksum);
+}
+
+// A random case whose camera's noise is known: points or a sensor, with as many digits as doubles have.
+RandomCase noisy_case(std::uint64_t seed) {
+  RandomCase random(seed);
+  CaptureFormat& capture = random.capture;
+  capture.noise = {};
+  capture.noise.sigmas = 2.0 + 1.0 / 3;
+  capture.noise.camera = CameraNoise{capture.white_code, capture.transfer, {}};
+  for (std::uint32_t c = 0; c < capture.shape.channels; ++c) {
+    const NoiseCurve curve = (seed + c) % 2 == 0 ? NoiseCurve::sensor : NoiseCurve::points;
+    capture.noise.camera->channels.push_back(
+        {curve, 0.01 / 3, 0.001 / 3, {{1.0 / 3, 1.5, 7}, {200.0 / 3, 10.0 / 3, 1'000'000}}});
+  }
+  return random;
+}
+
+TEST(TikFile, CarriesTheNoiseItWasEncodedWith) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const RandomCase random = noisy_case(seed);
+    SCOPED_TRACE(random.text());
+    const Scratch scratch;
+    const std::filesystem::path path = write(random, {CodecId::zstd, 0}, scratch);
+    Reader reader(path);
+    expect_same_capture(random, reader);
+    const std::string text = test::read_file(path);
+    EXPECT_NE(text.find("\n# TIK sigmas: 2.33"), std::string::npos);
+    EXPECT_NE(text.find(format("\n# TIK noise: white {}\n", random.capture.white_code)), std::string::npos);
+    EXPECT_EQ(text.find("# TIK tolerance"), std::string::npos);
+  }
+}
+
+TEST(TikFile, RecoversANoisyCaptureWithItsNoise) {
+  RandomCase random = noisy_case(3);
+  random.block_samples = 1;
+  const Scratch scratch;
+  const std::string whole = test::read_file(write(random, {CodecId::zstd, 0}, scratch));
+  const Recovery recovery = recover(
+      scratch.write("cut.tik", std::string_view(whole).substr(0, whole.size() - 100)), scratch / "saved.tik");
+  EXPECT_EQ(recovery.sample_count, random.timeline.sample_count());
+  EXPECT_EQ(Reader(scratch / "saved.tik").format(), held_format(random.capture));
+}
+
+TEST(TikFile, RefusesNoiseOfOtherPictures) {
+  const RandomCase random = noisy_case(3);
+  const Scratch scratch;
+  const std::string whole = test::read_file(write(random, {CodecId::none, 0}, scratch));
+  const auto message = [&](std::string_view was, std::string_view is) {
+    std::string changed = whole;
+    changed.replace(changed.find(was), was.size(), is);
+    try {
+      static_cast<void>(parse_header(std::as_bytes(std::span(changed)), "a.tik"));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing was thrown");
+  };
+  EXPECT_EQ(message("sigmas: 2", "sigmas: x"),
+            "a.tik: the header is damaged: its sigmas are 'x.3333333333333335 standard deviations'");
+  EXPECT_NE(message("noise: read", "noise: raed").find("'raed' is no key"), std::string::npos);
+  EXPECT_EQ(message(format("noise: white {}", random.capture.white_code), "noise: white 100"),
+            "a.tik: the header is damaged: its noise is that of other pictures");
 }
 
 TEST(TikFile, GivesBackWhatWasWritten) {

@@ -37,6 +37,13 @@ std::span<const Command> commands() {
       {Id::recover, "recover", "DAMAGED.tik WHOLE.tik",
        "Save the whole blocks of a .tik file that was cut off.", "nutik-cl recover damaged.tik -o whole.tik",
        run_recover},
+      {Id::noise, "noise", "CLIP... [-o CAMERA.noise]",
+       "Measure a camera's noise on footage of a still scene: one clip, or several exposures of it. The file "
+       "is text; tools/NoisePlotter.py draws it, --noise encodes with it.",
+       "nutik-cl noise still-scene.mp4 -o camera.noise\n"
+       "nutik-cl noise --white 4095 dark/ middle/ bright/ -o camera.noise\n"
+       "nutik-cl encode --noise camera.noise clip.mp4 clip.tik",
+       run_noise},
       {Id::batch, "batch", "LIST.txt [CAPTURE.tik|CLIP]",
        "Expose many pictures: each line of the list is an exposure's options and its picture. The capture is "
        "read once; what cannot be exposed is reported and left out.",

@@ -23,6 +23,7 @@ enum class CommandId {
   activity,
   sweep,
   video,
+  noise,
   shutter,
   again
 };

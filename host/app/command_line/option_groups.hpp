@@ -26,6 +26,8 @@ inline constexpr CommandSet kAllCommands = ~CommandSet{0};
 inline constexpr CommandSet kReadsClips =
     set_of(CommandId::encode, CommandId::expose, CommandId::batch, CommandId::check, CommandId::trace,
            CommandId::mask, CommandId::contact, CommandId::activity, CommandId::sweep, CommandId::video);
+// Those that decode a clip, and so take what its codes are.
+inline constexpr CommandSet kDecodesClips = kReadsClips | set_of(CommandId::noise);
 // Those of them that turn it into a capture, or expose it.
 inline constexpr CommandSet kEncodesClips = kReadsClips & ~set_of(CommandId::check);
 // Those that take gain functions.

@@ -24,6 +24,8 @@ struct Options {
   std::optional<std::string> white;
   std::optional<std::string> transfer;
   std::optional<std::string> raw;
+  std::optional<std::string> noise;
+  std::optional<std::string> sigmas;
 
   // The exposure.
   std::optional<std::string> mask;

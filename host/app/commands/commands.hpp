@@ -10,6 +10,7 @@ int run_expose(const Options& options);
 int run_info(const Options& options);
 int run_devices(const Options& options);
 int run_recover(const Options& options);
+int run_noise(const Options& options);
 int run_batch(const Options& options);
 int run_check(const Options& options);
 int run_trace(const Options& options);

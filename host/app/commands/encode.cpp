@@ -33,12 +33,13 @@ int run_encode(const Options& options) {
                "--exposure 10ms {} picture.png",
                input, input));
   }
-  check_output(output, OutputKind::tik, std::array{input});
+  check_output(output, OutputKind::tik, std::array{input, source_options.noise_source.value_or(input)});
 
   SourceClip source = open_source(input, source_options);
-  const ClipInfo info = source.clip->info();
+  const std::uint64_t announced = source.clip->info().sample_count;
+  const std::vector<std::string> notes = source.notes;
   Encoding encoding(std::move(source), source_options, codec, input, output);
-  Progress progress("encoding", info.sample_count, options.quiet);
+  Progress progress("encoding", announced, options.quiet);
   const Timeline timeline = encoding.run(progress);
   if (options.quiet) {
     if (!options.output && options.operands.size() < 2)
@@ -51,7 +52,7 @@ int run_encode(const Options& options) {
                     shape_text(capture.shape), timeline.sample_count(), timing_text(timeline, source_options),
                     bytes_text(encoding.bytes_written()),
                     bytes_text(capture.sample_bytes() * timeline.sample_count()), stopwatch.seconds()));
-  for (const std::string& note : info.notes) print_note(format("note: {}", note));
+  for (const std::string& note : notes) print_note(format("note: {}", note));
   if (const std::string note = slow_motion_note(timeline, source_options); !note.empty()) {
     print_note(format("note: {}", note));
   }

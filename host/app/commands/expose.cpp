@@ -45,7 +45,7 @@ class Exposing {
     std::optional<std::uint64_t> sample_count;
     for (;;) {
       SourceClip source = open_source(input, source_options);
-      notes_ = source.clip->info().notes;
+      notes_ = source.notes;
       const Timeline timeline =
           timeline_of(input, source.clip->info(), source_options.clip, source_options.shutter_angle,
                       sample_count.value_or(source.clip->info().sample_count));
@@ -54,10 +54,12 @@ class Exposing {
       plan_options.transfer.reset();  // it went into the capture's format
       const SampleRange needed =
           needed_samples(timeline, functions, request_.mask(source.capture.shape), plan_options);
+      const std::uint64_t last =
+          streamed_samples(source.capture, needed, source.block_samples, timeline.sample_count()).last;
       // At the timeline's end samples that follow are counted: they prove it wrong.
-      const bool is_end = needed.last == timeline.sample_count();
+      const bool is_end = last == timeline.sample_count();
       ReadAhead samples(*source.clip, source_options.memory.read_ahead_bytes(),
-                        is_end ? ReadAhead::kAll : needed.last);
+                        is_end ? ReadAhead::kAll : last);
       StreamingCapture stream(source.capture, timeline, needed, source.block_samples, source_options.tiles,
                               [&] { return samples.next(); });
       try {

@@ -11,6 +11,7 @@
 #include "capture/format.hpp"
 #include "imev/activity.hpp"
 #include "imev/each_block.hpp"
+#include "imev/expected_values.hpp"
 #include "media/picture_writer.hpp"
 #include "tik/reader.hpp"
 
@@ -41,6 +42,28 @@ void write_activity(tik::Reader& reader, const std::string& path) {
                     *std::ranges::max_element(activity.changes())));
 }
 
+// What is a change.
+std::string change_text(const NoiseModel& noise) {
+  if (noise.camera) return format("beyond {} sigmas of the noise", noise.sigmas);
+  return format("tolerance {}{}", noise.tolerance, noise.is_lossless() ? " (lossless)" : "");
+}
+
+// A sample as it was before it was encoded.
+std::uint64_t source_sample_bytes(const CaptureFormat& capture) {
+  if (!capture.noise.camera) return capture.sample_bytes();
+  return capture.shape.value_count() * (capture.noise.camera->white_code > 255 ? 2 : 1);
+}
+
+// `1.9 1.4 2.1 codes of the source at a tenth of white, 2.8 2.2 3.0 at nine tenths`
+std::string noise_summary(const CameraNoise& noise) {
+  std::string dark, bright;
+  for (std::uint32_t channel = 0; channel < noise.channels.size(); ++channel) {
+    dark += format("{:.3g} ", noise.sd(channel, 0.1 * noise.white_code));
+    bright += format("{:.3g} ", noise.sd(channel, 0.9 * noise.white_code));
+  }
+  return format("{}codes of the source at a tenth of white, {}at nine tenths", dark, bright);
+}
+
 }  // namespace
 
 int run_info(const Options& options) {
@@ -66,7 +89,7 @@ int run_info(const Options& options) {
     payload_bytes += reader.index()[block].payload_bytes;
     record_count += reader.index()[block].record_count;
   }
-  const std::uint64_t raw_bytes = capture.sample_bytes() * timeline.sample_count();
+  const std::uint64_t raw_bytes = source_sample_bytes(capture) * timeline.sample_count();
   const auto share = [](std::uint64_t part, std::uint64_t whole) {
     return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
   };
@@ -76,14 +99,20 @@ int run_info(const Options& options) {
   print_line(format("{}: a .tik capture, version {}", name, tik::kVersion));
   print_line(format("  pictures    {}, {} bits, white code {}, transfer {}", shape_text(capture.shape),
                     capture.code_bytes * 8, capture.white_code, capture.transfer.text()));
+  if (capture.noise.camera) {
+    print_line(format("  codes       means of the source's, whose white code is {}, times {}",
+                      capture.noise.camera->white_code, held_scale(capture)));
+    print_line("  noise       " + noise_summary(*capture.noise.camera));
+  }
   print_line(format("  samples     {} in {} blocks", timeline.sample_count(), reader.block_count()));
   print_line(format("  time        {}, {} samples a second{}, shutter {} degrees",
                     duration_text(timeline.duration_ns()), timeline.rate().text(),
                     timeline.is_constant() ? "" : " on average (irregular)",
                     timeline.shutter_angle().text()));
-  print_line(format("  changes     {:.2f} records a pixel, tolerance {}{}",
+  print_line(format("  changes     {:.2f} records a pixel, at {:.2f} % of samples, {}",
                     static_cast<double>(record_count) / static_cast<double>(capture.shape.pixel_count()),
-                    capture.noise.tolerance, capture.noise.is_lossless() ? " (lossless)" : ""));
+                    share(record_count, capture.shape.pixel_count() * timeline.sample_count()),
+                    change_text(capture.noise)));
   print_line(format("  tiles       {:.1f} % still, {:.1f} % rows, {:.1f} % dense, {:.1f} % records",
                     share(tally.still, tiles), share(tally.rows, tiles), share(tally.dense, tiles),
                     share(tally.records, tiles)));

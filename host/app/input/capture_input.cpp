@@ -1,5 +1,9 @@
 #include "app/input/capture_input.hpp"
 
+#include <array>
+#include <charconv>
+
+#include "app/input/noise_choice.hpp"
 #include "app/text/number_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -11,6 +15,18 @@ namespace {
 
 // Rates up to this are what players show; a clip filmed faster often says one of them.
 constexpr double kHighestPlaybackRate = 60.0;
+
+constexpr double kLeastSigmas = 0.1, kLargestSigmas = 100;
+
+double parse_sigmas(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() ||
+      !(value >= kLeastSigmas && value <= kLargestSigmas)) {
+    throw UsageError(format("sigmas '{}' is no number of {} … {}", text, kLeastSigmas, kLargestSigmas));
+  }
+  return value;
+}
 
 RawVideo parse_raw_video(const std::string& text) {
   const auto cross = text.find('x');
@@ -44,8 +60,18 @@ SourceOptions SourceOptions::from(const Options& options) {
   if (options.white) source.clip.white_code = parse_whole_number(*options.white, "white code", 1, 65'535);
   if (options.raw) source.clip.raw = parse_raw_video(*options.raw);
   if (options.transfer) source.clip.transfer = Transfer::parse(*options.transfer);
-  if (options.tolerance)
+  if (options.tolerance) {
     source.noise.tolerance = parse_whole_number(*options.tolerance, "tolerance", 0, 65'535);
+  }
+  if (options.noise && options.tolerance) {
+    throw UsageError("--noise and --tolerance both say what is no change; leave one out");
+  }
+  if (options.sigmas && !options.noise) {
+    throw UsageError(
+        "--sigmas counts standard deviations of a camera's noise: it needs --noise FILE or --noise auto");
+  }
+  source.noise_source = options.noise;
+  if (options.sigmas) source.noise.sigmas = parse_sigmas(*options.sigmas);
   if (options.tiles) source.tiles = parse_tile_policy(*options.tiles);
   if (options.block_samples) {
     source.block_samples =
@@ -55,6 +81,19 @@ SourceOptions SourceOptions::from(const Options& options) {
   // Made here so that a senseless rate or angle is refused before anything is opened.
   static_cast<void>(Timeline::constant(source.clip.rate.value_or(Rational{1, 1}), source.shutter_angle, 1));
   return source;
+}
+
+CaptureFormat clip_format(const Clip& clip, const SourceOptions& options) {
+  CaptureFormat capture = clip.info().format;
+  if (options.clip.transfer) capture.transfer = *options.clip.transfer;
+  if (options.clip.white_code) {
+    if (capture.code_bytes == 1 && *options.clip.white_code > 255) {
+      throw UsageError(format("white code {} does not fit the clip's 8-bit codes (255 at most)",
+                              *options.clip.white_code));
+    }
+    capture.white_code = *options.clip.white_code;
+  }
+  return capture;
 }
 
 SourceClip open_source(const std::filesystem::path& path, const SourceOptions& options) {
@@ -73,15 +112,15 @@ SourceClip open_source(const std::filesystem::path& path, const SourceOptions& o
                "exposure_ns column empty",
                path.string()));
   }
-  source.capture = source.clip->info().format;
+  source.capture = clip_format(*source.clip, options);
+  source.notes = source.clip->info().notes;
   source.capture.noise = options.noise;
-  if (options.clip.transfer) source.capture.transfer = *options.clip.transfer;
-  if (options.clip.white_code) {
-    if (source.capture.code_bytes == 1 && *options.clip.white_code > 255) {
-      throw UsageError(format("white code {} does not fit the clip's 8-bit codes (255 at most)",
-                              *options.clip.white_code));
-    }
-    source.capture.white_code = *options.clip.white_code;
+  if (options.noise_source == kAutomaticNoise) {
+    const NoiseEstimate estimate = measure_noise(std::array{path.string()}, options, kAutomaticNoiseSamples);
+    source.capture.noise.camera = estimate.noise;
+    for (const std::string& note : noise_notes(estimate)) source.notes.push_back(note);
+  } else if (options.noise_source) {
+    source.capture.noise.camera = read_noise_file(*options.noise_source);
   }
   source.block_samples = options.block_samples.value_or(
       default_block_samples(source.capture, std::min(kDefaultBlockBytes, options.memory.block_bytes())));
@@ -128,6 +167,8 @@ void refuse_source_options(const Options& options, const std::string& capture) {
   refuse(options.white.has_value(), "--white");
   refuse(options.raw.has_value(), "--raw");
   refuse(options.tolerance.has_value(), "--tolerance");
+  refuse(options.noise.has_value(), "--noise");
+  refuse(options.sigmas.has_value(), "--sigmas");
   refuse(options.tiles.has_value(), "--tiles");
   refuse(options.block_samples.has_value(), "--block-samples");
 }

@@ -18,12 +18,16 @@ namespace nutik::app {
 // Whether a file is to be read as a .tik: by its content, else by its name.
 [[nodiscard]] bool is_tik(const std::filesystem::path& path);
 
+// Stated for --noise: measured on the clip itself.
+inline constexpr std::string_view kAutomaticNoise = "auto";
+
 // What is stated about a clip on the command line.
 struct SourceOptions {
   ClipOptions clip;
   Rational shutter_angle = Timeline::kFullShutter;
   bool angle_was_stated = false;
-  NoiseModel noise;
+  NoiseModel noise;                         // without the camera's, which may be the clip's own
+  std::optional<std::string> noise_source;  // of the camera's: a file's name, or kAutomaticNoise
   TilePolicy tiles = TilePolicy::automatic;
   std::optional<std::uint32_t> block_samples;
   MemoryBudget memory;
@@ -32,11 +36,16 @@ struct SourceOptions {
   static SourceOptions from(const Options& options);
 };
 
+// A clip's format as it is or as it was stated, without noise. Throws UsageError where the white code that was
+// stated does not fit its codes.
+[[nodiscard]] CaptureFormat clip_format(const Clip& clip, const SourceOptions& options);
+
 // A clip and how it is to be encoded.
 struct SourceClip {
   std::unique_ptr<Clip> clip;
-  CaptureFormat capture;
+  CaptureFormat capture;  // of its samples; what is held of them has held_format()
   std::uint32_t block_samples = 0;
+  std::vector<std::string> notes;  // on the clip and its noise: what a person should know
 };
 
 [[nodiscard]] SourceClip open_source(const std::filesystem::path& path, const SourceOptions& options);

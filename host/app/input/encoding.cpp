@@ -6,6 +6,7 @@
 #include "app/output/console.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "imev/expected_values.hpp"
 #include "system/interruption.hpp"
 
 namespace nutik::app {
@@ -35,11 +36,11 @@ Encoding::Encoding(SourceClip source, const SourceOptions& options, const tik::C
   Raster first(source_.capture.sample_bytes());
   if (!source_.clip->read(first)) throw InputError(format("{} has no picture", input));
   tik::Header header;
-  header.capture = source_.capture;
+  header.capture = held_format(source_.capture);
   const ClipTiming& timing = source_.clip->info().timing;
   header.rate = options.clip.rate ? options.clip.rate : timing.rate;
   header.shutter_angle = times_.shutter_angle();
-  writer_.emplace(output, header, codec, first);
+  writer_.emplace(output, header, codec, to_held_codes(source_.capture, first));
   for (std::size_t i = 1; i < raster_count(source_.capture, options.memory); ++i) {
     spare_rasters_.push(Raster(source_.capture.sample_bytes()));
   }
@@ -100,8 +101,8 @@ void Encoding::build() {
 bool Encoding::hand_over_block() {
   auto payload = spare_payloads_.pop();
   if (!payload) return false;
-  Block block{builder_.extent(), std::move(*payload), 0, builder_.record_count()};
-  block.payload_bytes = builder_.finish(block.payload);
+  Block block{builder_.extent(), std::move(*payload), {}};
+  block.finished = builder_.finish(block.payload);
   return blocks_.push(std::move(block));
 }
 
@@ -114,8 +115,9 @@ void Encoding::store() {
     if (!times_.is_constant()) {
       exposures = times_.table().subspan(range.first, block->extent.sample_count);
     }
-    writer_->append({block->extent, block->payload.first(block->payload_bytes), block->record_count},
-                    exposures);
+    writer_->append(
+        {block->extent, block->payload.first(block->finished.payload_bytes), block->finished.record_count},
+        exposures);
     spare_payloads_.push(std::move(block->payload));
   }
 }

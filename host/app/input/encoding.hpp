@@ -39,8 +39,7 @@ class Encoding {
   struct Block {
     BlockExtent extent;
     PageBuffer payload;
-    std::uint64_t payload_bytes;
-    std::uint64_t record_count;
+    FinishedBlock finished;
   };
 
   [[nodiscard]] Timeline timeline_for(std::uint64_t samples) const;

@@ -42,14 +42,15 @@ OpenedCapture::OpenedCapture(const std::string& name, const Options& options) {
 void OpenedCapture::encode(const std::string& name, const Options& options) {
   const SourceOptions source_options = SourceOptions::from(options);
   SourceClip source = open_source(name, source_options);
-  const ClipInfo info = source.clip->info();
+  const std::uint64_t announced = source.clip->info().sample_count;
+  const std::vector<std::string> notes = source.notes;
   const RemovedAtEnd scratch(fs::temp_directory_path() / format("nutik-{}.tik", ::getpid()));
   Encoding encoding(std::move(source), source_options, tik::Codec::parse(kScratchCodec), name, scratch.path);
-  Progress progress("reading", info.sample_count, options.quiet);
+  Progress progress("reading", announced, options.quiet);
   const Timeline timeline = encoding.run(progress);
   reader_ = std::make_unique<tik::Reader>(scratch.path);
   notes_.push_back(format("source: {}", timing_text(timeline, source_options)));
-  for (const std::string& note : info.notes) notes_.push_back(format("note: {}", note));
+  for (const std::string& note : notes) notes_.push_back(format("note: {}", note));
   if (const std::string note = slow_motion_note(timeline, source_options); !note.empty()) {
     notes_.push_back(format("note: {}", note));
   }

@@ -38,6 +38,7 @@ SheetExposures::SheetExposures(const Options& options, CaptureSource& capture, M
       plan_options_(std::move(plan_options)),
       transfer_(capture.format().transfer),
       exposer_(options) {
+  exposer_.hold(capture);
   if (options.transfer) plan_options_.transfer = transfer_ = Transfer::parse(*options.transfer);
 }
 

@@ -43,6 +43,7 @@ bool is_content_of(OutputKind kind, const std::string& bytes) {
     case OutputKind::picture: return is_picture_content(bytes);
     case OutputKind::table: return is_table_content(bytes);
     case OutputKind::video: return is_video_content(bytes);
+    case OutputKind::noise: return bytes.starts_with("nutik noise");
   }
   return false;
 }
@@ -53,6 +54,7 @@ const char* name_of(OutputKind kind) {
     case OutputKind::picture: return "picture";
     case OutputKind::table: return "table";
     case OutputKind::video: return "video";
+    case OutputKind::noise: return "noise file";
   }
   return "";
 }
@@ -131,6 +133,7 @@ std::vector<std::string> exposure_inputs(const Options& options) {
   }
   if (options.mask) inputs.push_back(*options.mask);
   if (options.functions) inputs.push_back(*options.functions);
+  if (options.noise) inputs.push_back(*options.noise);
   return inputs;
 }
 

@@ -11,7 +11,7 @@
 
 namespace nutik::app {
 
-enum class OutputKind { tik, picture, table, video };
+enum class OutputKind { tik, picture, table, video, noise };
 
 // The output that was asked for: -o or the second operand. Throws UsageError where both were given, or
 // there are more operands than `command` takes.

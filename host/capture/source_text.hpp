@@ -1,4 +1,4 @@
-// The text of a function file, as its bytes are read and as people are shown them.
+// The text of a file that people write, as its bytes are read and as people are shown them.
 //
 //   in:      the bytes of a file
 //   out:     its characters without line ends of Windows and byte-order marks; places; excerpts

@@ -1,4 +1,4 @@
-#include "exposure/source_text.hpp"
+#include "capture/source_text.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,73 @@
+#include "app/input/noise_choice.hpp"
+
+#include <algorithm>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "capture/noise_file.hpp"
+#include "system/mapped_file.hpp"
+
+namespace nutik::app {
+namespace {
+
+constexpr double kLittleStill = 0.5;  // of the pixels
+
+std::string format_text(const CaptureFormat& format) {
+  return nutik::format("{} x {} pixels, {} channel{}, {} bits, white code {}, transfer {}",
+                       format.shape.width, format.shape.height, format.shape.channels,
+                       format.shape.channels == 1 ? "" : "s", format.code_bytes * 8, format.white_code,
+                       format.transfer.text());
+}
+
+}  // namespace
+
+CameraNoise read_noise_file(const std::filesystem::path& path) {
+  const MappedFile file(path);
+  const auto bytes = file.bytes();
+  return parse_noise({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
+}
+
+NoiseEstimate measure_noise(std::span<const std::string> clips, const SourceOptions& options,
+                            std::uint64_t most_samples) {
+  std::optional<CaptureFormat> first;
+  std::optional<NoiseEstimator> estimator;
+  for (const std::string& name : clips) {
+    const std::unique_ptr<Clip> clip = open_clip(name, options.clip);
+    const CaptureFormat format = clip_format(*clip, options);
+    if (!first) {
+      first = format;
+      estimator.emplace(format);
+    } else if (format != *first) {
+      throw InputError(nutik::format("{} is of another kind than {}: {} where that has {}", name,
+                                     clips.front(), format_text(format), format_text(*first)));
+    }
+    estimator->add_clip(
+        name, [&](std::span<std::byte> raster) { return clip->read(raster); }, most_samples);
+  }
+  return estimator->estimate();
+}
+
+std::vector<std::string> noise_notes(const NoiseEstimate& estimate) {
+  std::vector<std::string> notes;
+  double still = 1;
+  bool is_sensor = true;
+  for (std::size_t channel = 0; channel < estimate.channels.size(); ++channel) {
+    still = std::min(still, estimate.channels[channel].still_share);
+    is_sensor &= estimate.noise.channels[channel].curve == NoiseCurve::sensor;
+  }
+  if (still < kLittleStill) {
+    notes.push_back(
+        format("only {:.0f} % of the pixels are still: what moves slowly may count as noise; a still "
+               "scene tells more",
+               100 * still));
+  }
+  if (!is_sensor) {
+    notes.push_back(
+        "the noise is not that of a sensor (compressed clips are not, nor those whose --transfer is "
+        "another): "
+        "lines between the points are used, and nothing is known beyond them");
+  }
+  return notes;
+}
+
+}  // namespace nutik::app

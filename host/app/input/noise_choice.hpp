@@ -1,0 +1,28 @@
+// Where a camera's noise comes from: a file, or footage of it.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "app/input/capture_input.hpp"
+#include "noise/noise_estimator.hpp"
+
+namespace nutik::app {
+
+// Samples that --noise auto looks at, from the clip's start: enough for any camera, and soon decoded.
+inline constexpr std::uint64_t kAutomaticNoiseSamples = 256;
+
+// Reads a noise file. Throws InputError naming file, line and column of what is wrong with it.
+[[nodiscard]] CameraNoise read_noise_file(const std::filesystem::path& path);
+
+// Measures noise on clips of one format: several exposures of a still scene. Throws InputError where a clip
+// is of another format than the first, naming both.
+[[nodiscard]] NoiseEstimate measure_noise(std::span<const std::string> clips, const SourceOptions& options,
+                                          std::uint64_t most_samples);
+
+// What a person should know of an estimate: that little was still, or that no sensor's curve fits; empty where
+// it is as it should be.
+[[nodiscard]] std::vector<std::string> noise_notes(const NoiseEstimate& estimate);
+
+}  // namespace nutik::app

@@ -1,0 +1,63 @@
+#include "imev/source_comparison.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+#include "imev/expected_values.hpp"
+
+namespace nutik {
+namespace {
+
+std::uint32_t code_at(std::span<const std::byte> raster, std::uint64_t value, std::uint32_t code_bytes) {
+  std::uint16_t code = 0;
+  std::memcpy(&code, raster.data() + value * code_bytes, code_bytes);
+  return code;
+}
+
+// Of the band's own arithmetic, whose standard deviations are kept in single precision.
+constexpr double kBandRounding = 1e-6;
+
+}  // namespace
+
+SourceComparison::SourceComparison(const CaptureFormat& source)
+    : source_(source), scale_(held_scale(source)), held_(held_format(source).sample_bytes()) {
+  for (std::uint32_t channel = 0; channel < source.shape.channels; ++channel) {
+    const NoiseModel& noise = source.noise;
+    std::vector<float> band(std::size_t{source.white_code} + 1, static_cast<float>(noise.tolerance));
+    if (noise.camera) {
+      band = noise.camera->sd_of_codes(channel);
+      for (float& each : band) each *= static_cast<float>(noise.sigmas);
+    }
+    bands_.push_back(std::move(band));
+  }
+}
+
+void SourceComparison::add(const BlockView& block, std::uint32_t sample, std::span<const std::byte> raster) {
+  if (raster.size() != source_.sample_bytes()) {
+    throw std::logic_error("a sample's raster has the wrong size");
+  }
+  block.read_sample(sample, held_);
+  const std::uint32_t held_bytes = held_format(source_).code_bytes;
+  for (std::uint64_t value = 0; value < source_.shape.value_count(); ++value) {
+    const double held = static_cast<double>(code_at(held_, value, held_bytes)) / scale_;
+    const double error = std::abs(held - code_at(raster, value, source_.code_bytes));
+    squares_ += error * error;
+    const auto nearest = static_cast<std::size_t>(std::lround(held));
+    const double band = bands_[value % source_.shape.channels][nearest];
+    if (error > band * (1 + kBandRounding)) ++values_beyond_;
+    if (error > worst_.error) {
+      worst_ = {error, block.extent().first_sample + sample, value / source_.shape.channels};
+    }
+  }
+  value_count_ += source_.shape.value_count();
+}
+
+double SourceComparison::psnr() const {
+  if (squares_ == 0) return std::numeric_limits<double>::infinity();
+  const double peak = source_.white_code;
+  return 10 * std::log10(peak * peak * static_cast<double>(value_count_) / squares_);
+}
+
+}  // namespace nutik

@@ -1,0 +1,222 @@
+#include "noise/noise_estimator.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "system/parallel.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::size_t kMostKept = 2 << 20;  // pixels of a channel
+constexpr double kGroups = 48;              // that the range of codes is cut into
+constexpr std::size_t kGroupPixels = 512;   // or more, where codes are frequent
+constexpr std::size_t kLeastGroupPixels = 64;
+constexpr double kSparseWidth = 3;    // group widths that rare codes may be spread over
+constexpr double kRangeTail = 0.001;  // pixels at either end that do not make the range
+constexpr int kPasses = 50;           // they settle after a few
+constexpr double kOutlier = 3.0;      // standard deviations of a variance's distribution
+constexpr double kClipping = 3.0;  // standard deviations from black and white within which codes are cut off
+constexpr double kJoinedWidth = 0.5;     // group widths within which points of several clips are one
+constexpr double kLeastDistance = 1e-5;  // of points, in white codes: six digits tell them apart
+constexpr double kLargestMisfit = 0.04;
+constexpr double kWorstMisfit = 0.10;
+
+// Quantile of a variance with so many degrees of freedom, as a multiple of its expectation, at z standard
+// deviations of the normal distribution (Wilson and Hilferty 1931; within 5 % for one degree, 1 % from four on).
+double variance_quantile(double degrees, double z) {
+  return std::pow(1 - 2 / (9 * degrees) + z * std::sqrt(2 / (9 * degrees)), 3);
+}
+
+struct StillPixels {
+  double variance = 0;
+  double code = 0;
+  std::uint64_t count = 0;
+};
+
+// The mean variance of pixels that vary alike, without those that vary far more: from their median on, the
+// limit and the mean are found in turn. Rounding alone makes variances of up to kRoundingVariance and more, in
+// pixels that happen to lie between two codes.
+StillPixels still_pixels(std::span<const PixelNoise> group, double degrees) {
+  std::vector<float> variances;
+  for (const PixelNoise& pixel : group) variances.push_back(pixel.variance);
+  const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
+  std::ranges::nth_element(variances, middle);
+  StillPixels still{*middle / variance_quantile(degrees, 0), 0, 0};
+  const double outlier = variance_quantile(degrees, kOutlier);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const std::uint64_t before = still.count;
+    const double limit = outlier * std::max(still.variance, kRoundingVariance);
+    double sum = 0, codes = 0;
+    still.count = 0;
+    for (const PixelNoise& pixel : group) {
+      if (pixel.variance > limit) continue;
+      sum += pixel.variance;
+      codes += pixel.code;
+      ++still.count;
+    }
+    if (still.count == 0) return still;
+    still.variance = sum / static_cast<double>(still.count);
+    still.code = codes / static_cast<double>(still.count);
+    if (still.count == before) break;
+  }
+  return still;
+}
+
+double six_digits(double value) {
+  const std::string text = format("{:.6g}", value);
+  double rounded = value;
+  std::from_chars(text.data(), text.data() + text.size(), rounded);
+  return rounded;
+}
+
+// Points of several clips that lie close together become one.
+std::vector<MeasuredPoint> joined(std::vector<MeasuredPoint> points, std::uint32_t white_code) {
+  std::ranges::sort(points, {}, [](const MeasuredPoint& each) { return each.point.code; });
+  const double low = points.front().point.code;
+  const double range = std::max(points.back().point.code - low, kLeastDistance * white_code);
+  const auto place = [&](const MeasuredPoint& each) {
+    return std::sqrt((each.point.code - low) / range) * kGroups;
+  };
+  std::vector<MeasuredPoint> few;
+  for (const MeasuredPoint& each : points) {
+    const bool is_far =
+        few.empty() || (place(each) - place(few.back()) > kJoinedWidth &&
+                        each.point.code - few.back().point.code > kLeastDistance * white_code);
+    if (is_far) {
+      few.push_back(each);
+      continue;
+    }
+    auto& [last, last_uncertainty] = few.back();
+    const double a = std::pow(last_uncertainty, -2), b = std::pow(each.uncertainty, -2);
+    last.code = (a * last.code + b * each.point.code) / (a + b);
+    last.sd = std::sqrt((a * last.sd * last.sd + b * each.point.sd * each.point.sd) / (a + b));
+    last.pixels += each.point.pixels;
+    last_uncertainty = 1 / std::sqrt(a + b);
+  }
+  return few;
+}
+
+}  // namespace
+
+NoiseEstimator::NoiseEstimator(const CaptureFormat& capture)
+    : capture_(capture), channels_(capture.shape.channels) {}
+
+void NoiseEstimator::Pixels::add(std::span<const PixelNoise> pixels) {
+  for (const PixelNoise& pixel : pixels) {
+    if (seen++ % stride != 0) continue;
+    kept.push_back(pixel);
+    if (kept.size() < kMostKept) continue;
+    for (std::size_t i = 0; i < kept.size() / 2; ++i) kept[i] = kept[2 * i];
+    kept.resize(kept.size() / 2);
+    stride *= 2;
+  }
+}
+
+void NoiseEstimator::add_clip(const std::string& name, const ReadSample& read_sample,
+                              std::uint64_t most_samples) {
+  std::vector<Pixels> pixels(channels_.size());
+  std::vector<std::byte> raster(capture_.sample_bytes());
+  StillWindow window(capture_);
+  std::uint64_t samples = 0;
+  const auto measure = [&] {
+    parallel_for(channels_.size(), [&](std::uint64_t channel) {
+      pixels[channel].add(window.measure(static_cast<std::uint32_t>(channel)));
+    });
+  };
+  while (samples < most_samples && read_sample(raster)) {
+    ++samples;
+    window.add(raster);
+    if (!window.is_full()) continue;
+    measure();
+    window.clear();
+  }
+  if (samples < kLeastWindowSamples) {
+    throw InputError(format("{}: {} picture{} of a still scene; noise is measured on {} or more", name,
+                            samples, samples == 1 ? "" : "s", kLeastWindowSamples));
+  }
+  // A rest that is shorter than a window would be less sure of itself than what is there already.
+  if (samples < kWindowSamples) measure();
+  sample_count_ += samples;
+  const double degrees = StillWindow::degrees_of_freedom(
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(samples, kWindowSamples)));
+  for (std::uint32_t channel = 0; channel < channels_.size(); ++channel) {
+    add_points(channels_[channel], std::move(pixels[channel].kept), degrees);
+  }
+}
+
+void NoiseEstimator::add_points(ChannelPoints& channel, std::vector<PixelNoise> pixels,
+                                double degrees) const {
+  std::ranges::sort(pixels, {}, &PixelNoise::code);
+  const auto tail = static_cast<std::size_t>(kRangeTail * static_cast<double>(pixels.size()));
+  const double low = pixels[tail].code;
+  const double range =
+      std::max(pixels[pixels.size() - 1 - tail].code - low, kLeastDistance * capture_.white_code);
+  const auto place = [&](const PixelNoise& pixel) {
+    return std::sqrt(std::max(pixel.code - low, 0.0) / range) * kGroups;
+  };
+  channel.pixels += pixels.size();
+  std::size_t begin = 0;
+  const auto close = [&](std::size_t end) {
+    const std::span<const PixelNoise> group(pixels.data() + begin, end - begin);
+    begin = end;
+    const StillPixels still = still_pixels(group, degrees);
+    if (still.count == 0) return;
+    channel.still_pixels += still.count;
+    const double uncertainty = 1 / std::sqrt(2.0 * degrees * static_cast<double>(still.count));
+    const double sd = std::sqrt(std::max(still.variance, kRoundingVariance));
+    channel.points.push_back({{still.code, sd, still.count}, uncertainty});
+  };
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const double span = place(pixels[i]) - place(pixels[begin]);
+    const std::size_t count = i - begin;
+    if (span > kSparseWidth && count < kGroupPixels) {
+      if (count >= kLeastGroupPixels) {
+        close(i);
+      } else {
+        begin = i;  // too few to say anything
+      }
+    } else if (span > 1 && count >= kGroupPixels) {
+      close(i);
+    }
+  }
+  if (pixels.size() - begin >= kLeastGroupPixels || channel.points.empty()) close(pixels.size());
+}
+
+NoiseEstimate NoiseEstimator::estimate() const {
+  NoiseEstimate estimate;
+  estimate.sample_count = sample_count_;
+  estimate.noise.white_code = capture_.white_code;
+  estimate.noise.transfer = capture_.transfer;
+  for (const ChannelPoints& channel : channels_) {
+    if (channel.points.empty()) throw InputError("no pixel is still: noise is measured on a scene that is");
+    // Where codes are cut off at black or white, they stray less than the light does.
+    std::vector<MeasuredPoint> points;
+    std::ranges::copy_if(channel.points, std::back_inserter(points), [&](const MeasuredPoint& each) {
+      const double reach = kClipping * each.point.sd;
+      return each.point.code >= reach && each.point.code + reach <= capture_.white_code;
+    });
+    if (points.empty()) {
+      throw InputError("all pixels are black or white, where noise is cut off: film a scene with greys");
+    }
+    points = joined(std::move(points), capture_.white_code);
+    const SensorFit fit = fit_sensor(points, capture_.white_code, capture_.transfer);
+    ChannelNoise noise;
+    const bool fits = fit.misfit <= kLargestMisfit && fit.worst <= kWorstMisfit;
+    noise.curve = fits ? NoiseCurve::sensor : NoiseCurve::points;
+    noise.read = six_digits(fit.read);
+    noise.shot = six_digits(fit.shot);
+    for (const auto& [point, uncertainty] : points) {
+      noise.points.push_back({six_digits(point.code), six_digits(point.sd), point.pixels});
+    }
+    estimate.noise.channels.push_back(std::move(noise));
+    estimate.channels.push_back(
+        {fit.misfit, static_cast<double>(channel.still_pixels) / static_cast<double>(channel.pixels)});
+  }
+  return estimate;
+}
+
+}  // namespace nutik

@@ -1,0 +1,74 @@
+// Measures a camera's noise on footage of a still scene.
+//
+//   in:      one clip or several, of one format: several exposures of one scene cover more codes
+//   out:     points and fit for every channel (capture/noise_model.hpp)
+//   always:  what moves, flickers or is stuck is left out: the pixels of a code vary alike, and those that
+//            vary far more than most are none of them. Memory does not depend on the clips' length
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "capture/noise_model.hpp"
+#include "capture/picture.hpp"
+#include "noise/sensor_fit.hpp"
+#include "noise/still_window.hpp"
+
+namespace nutik {
+
+struct NoiseEstimate {
+  struct Channel {
+    double misfit = 0;       // of the sensor's curve: SensorFit::misfit
+    double still_share = 0;  // of the pixels, over all windows: those that points were measured on
+  };
+
+  CameraNoise noise;
+  std::vector<Channel> channels;
+  std::uint64_t sample_count = 0;  // that were looked at
+};
+
+class NoiseEstimator {
+ public:
+  // Writes the next sample as an interleaved raster and returns true, or returns false at the end.
+  using ReadSample = std::function<bool(std::span<std::byte> raster)>;
+
+  // Enough for any clip: its first minute or so.
+  static constexpr std::uint64_t kMostSamples = 1024;
+
+  explicit NoiseEstimator(const CaptureFormat& capture);
+
+  // Reads up to `most_samples` of the clip `name`. Throws InputError where there are fewer than
+  // kLeastWindowSamples.
+  void add_clip(const std::string& name, const ReadSample& read_sample,
+                std::uint64_t most_samples = kMostSamples);
+
+  // Throws InputError where no pixel is still or all are black or white. Numbers have six digits.
+  [[nodiscard]] NoiseEstimate estimate() const;
+
+ private:
+  // The pixels of a channel over all windows of a clip; every `stride`-th is kept.
+  struct Pixels {
+    std::vector<PixelNoise> kept;
+    std::uint64_t stride = 1;
+    std::uint64_t seen = 0;
+
+    void add(std::span<const PixelNoise> pixels);
+  };
+
+  struct ChannelPoints {
+    std::vector<MeasuredPoint> points;
+    std::uint64_t still_pixels = 0;
+    std::uint64_t pixels = 0;
+  };
+
+  void add_points(ChannelPoints& channel, std::vector<PixelNoise> pixels, double degrees) const;
+
+  CaptureFormat capture_;
+  std::vector<ChannelPoints> channels_;
+  std::uint64_t sample_count_ = 0;
+};
+
+}  // namespace nutik

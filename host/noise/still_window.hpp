@@ -1,0 +1,64 @@
+// A few consecutive samples of a still scene, and how much each pixel strays in them.
+//
+//   in:      up to kWindowSamples samples as interleaved rasters
+//   out:     for each channel, each pixel's mean and variance over time, in codes
+//   always:  what all pixels do together, an offset and a gain from sample to sample, is flicker and taken out.
+//            Variances are those of second differences in time, so that whatever goes on evenly, as slow motion
+//            and changing daylight do, is no noise. Large pictures are thinned out
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "capture/picture.hpp"
+
+namespace nutik {
+
+// Long enough that a pixel's variance is known to a half, short enough that little moves.
+inline constexpr std::uint32_t kWindowSamples = 16;
+inline constexpr std::uint32_t kLeastWindowSamples = 3;  // of a second difference
+
+struct PixelNoise {
+  float code = 0;      // mean
+  float variance = 0;  // codes²
+};
+
+class StillWindow {
+ public:
+  explicit StillWindow(const CaptureFormat& capture);
+
+  // Adds a sample of CaptureFormat::sample_bytes(); the window must not be full.
+  void add(std::span<const std::byte> raster);
+
+  [[nodiscard]] std::uint32_t sample_count() const { return samples_; }
+  [[nodiscard]] bool is_full() const { return samples_ == kWindowSamples; }
+
+  // One entry for every pixel of a channel. At least kLeastWindowSamples samples are there.
+  [[nodiscard]] std::vector<PixelNoise> measure(std::uint32_t channel) const;
+
+  // Of a variance that was measured on so many samples.
+  [[nodiscard]] static double degrees_of_freedom(std::uint32_t samples);
+
+  void clear() { samples_ = 0; }
+
+ private:
+  // Sample k of a pixel whose mean is m is too large by offset + gain · m.
+  struct Flicker {
+    double offset = 0;
+    double gain = 0;
+  };
+
+  [[nodiscard]] const std::uint16_t* plane(std::uint32_t sample, std::uint32_t channel) const {
+    return codes_.data() + (std::size_t{sample} * format_.shape.channels + channel) * pixels_.size();
+  }
+  [[nodiscard]] Flicker flicker(const std::uint16_t* codes, std::span<const float> means) const;
+
+  CaptureFormat format_;
+  std::vector<std::uint64_t> pixels_;  // that are looked at, row-major
+  std::vector<std::uint16_t> codes_;   // [sample][channel][pixel looked at]
+  std::uint32_t samples_ = 0;
+};
+
+}  // namespace nutik

@@ -1,0 +1,144 @@
+// A camera's noise through the program: measuring it, encoding with it, exposing with it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "capture/noise_file.hpp"
+#include "support/noisy_scene.hpp"
+#include "support/program.hpp"
+#include "support/scratch.hpp"
+#include "support/stills.hpp"
+#include "tik/reader.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Scratch;
+
+class Noise : public testing::Test {
+ protected:
+  // Writes stills of a wedge, brighter or darker, into a folder.
+  void film(const std::string& folder, double brightest, std::uint64_t seed, std::uint64_t count = 40,
+            std::uint32_t white = 255) {
+    test::NoisyCamera camera;
+    camera.format.shape = {120, 64, 3};
+    camera.format.white_code = white;
+    camera.format.code_bytes = white > 255 ? 2 : 1;
+    const test::Rasters rasters = test::film(camera, count, seed, test::still_wedge(camera, 0.02, brightest));
+    std::filesystem::create_directory(scratch_ / folder);
+    for (std::size_t k = 0; k < rasters.size(); ++k) {
+      Picture still(camera.format.shape, white > 255 ? ValueType::code16 : ValueType::code8, white);
+      still.bytes = rasters[k];
+      scratch_.write(folder + "/" + std::to_string(1000 + k) + ".ppm", test::netpbm_file(still, false));
+    }
+  }
+
+  test::ProgramResult run(const std::vector<std::string>& words) const {
+    const test::ProgramResult result = test::run_program(words, scratch_.folder());
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result;
+  }
+
+  void expect_refused(const std::vector<std::string>& words, int status, const std::string& said) const {
+    const test::ProgramResult result = test::run_program(words, scratch_.folder());
+    EXPECT_EQ(result.status, status) << result.out << result.err;
+    EXPECT_NE(result.err.find(said), std::string::npos) << result.err;
+  }
+
+  [[nodiscard]] CameraNoise noise_in(const std::string& name) const {
+    return parse_noise(test::read_file(scratch_ / name), name);
+  }
+
+  Scratch scratch_;
+};
+
+TEST_F(Noise, IsMeasuredOnSeveralExposures) {
+  film("dark", 0.2, 1);
+  film("bright", 0.8, 2);
+  const auto result = run({"noise", "dark", "bright", "-o", "camera.noise"});
+  EXPECT_NE(result.out.find("camera.noise: measured on 80 samples"), std::string::npos) << result.out;
+  const CameraNoise noise = noise_in("camera.noise");
+  const test::NoisyCamera camera;
+  for (const ChannelNoise& channel : noise.channels) {
+    EXPECT_NEAR(channel.read, camera.read, 0.06 * camera.read);
+    EXPECT_NEAR(channel.shot, camera.shot, 0.06 * camera.shot);
+  }
+  EXPECT_NE(test::read_file(scratch_ / "camera.noise").find("# measured on bright\n"), std::string::npos);
+}
+
+TEST_F(Noise, GivesTheSamePictureFromAClipAndFromItsCapture) {
+  film("clip", 0.8, 3);
+  run({"noise", "clip", "-o", "camera.noise"});
+  for (const char* noise : {"camera.noise", "auto"}) {
+    const std::vector<std::string> source{"-f",       "100", "--noise",         noise,
+                                          "--sigmas", "2.5", "--block-samples", "16"};
+    const auto with = [&](std::vector<std::string> words) {
+      words.insert(words.end(), source.begin(), source.end());
+      return words;
+    };
+    run(with({"encode", "clip", "-o", "clip.tik"}));
+    // Within a block, across two, and of the last one, which is not full.
+    for (const char* start : {"3f", "14f", "38f"}) {
+      run({"--start", start, "--exposure", "2f", "clip.tik", "-o", "a.pfm"});
+      run(with({"--start", start, "--exposure", "2f", "clip", "-o", "b.pfm"}));
+      EXPECT_EQ(test::read_file(scratch_ / "a.pfm"), test::read_file(scratch_ / "b.pfm")) << noise << start;
+      run({"--start", start, "--exposure", "2f", "clip.tik", "--renderer", "reference", "-o", "c.png"});
+      run(with({"--start", start, "--exposure", "2f", "clip", "--renderer", "reference", "-o", "d.png"}));
+      EXPECT_EQ(test::read_file(scratch_ / "c.png"), test::read_file(scratch_ / "d.png")) << noise << start;
+    }
+  }
+  const tik::Reader reader(scratch_ / "clip.tik");
+  EXPECT_EQ(reader.format().noise.camera, noise_in("camera.noise"));  // auto measures the same
+  EXPECT_EQ(reader.format().noise.sigmas, 2.5);
+}
+
+TEST_F(Noise, InfoTellsWhatIsHeld) {
+  film("clip", 0.8, 4);
+  run({"encode", "-f", "100", "--noise", "auto", "clip", "-o", "clip.tik"});
+  const std::string info = run({"info", "clip.tik"}).out;
+  for (const char* said :
+       {"16 bits, white code 65535", "means of the source's, whose white code is 255, times 257",
+        "beyond 3 sigmas of the noise", "codes of the source at a tenth of white", "% of 922 kB raw"}) {
+    EXPECT_NE(info.find(said), std::string::npos) << said << " is not in\n" << info;
+  }
+  const auto at = info.find(" % of samples");
+  const double share = std::stod(info.substr(info.rfind(' ', at - 1)));
+  EXPECT_GT(share, 0.3);
+  EXPECT_LT(share, 2.0);
+}
+
+TEST_F(Noise, SaysWhatCannotBe) {
+  film("clip", 0.8, 5, 4);
+  film("short", 0.8, 5, 2);
+  film("deep", 0.8, 5, 4, 4095);
+  run({"noise", "-q", "clip", "-o", "camera.noise"});
+  run({"encode", "-q", "-f", "100", "clip", "-o", "clip.tik"});
+  expect_refused({"noise"}, 2, "a clip of a still scene is missing");
+  expect_refused({"noise", "clip.tik"}, 2, "clip.tik is a capture");
+  expect_refused({"noise", "absent.mp4"}, 3, "absent.mp4");
+  expect_refused({"noise", "short", "-o", "a.noise"}, 3, "2 pictures of a still scene");
+  expect_refused({"noise", "clip", "deep", "-o", "a.noise"}, 3,
+                 "deep is of another kind than clip: 120 x 64 pixels, 3 channels, 16 bits, white code 4095");
+  expect_refused({"noise", "clip", "-o", "clip.tik"}, 2, "clip.tik exists and is no noise file");
+  const std::vector<std::string> encode{"encode", "-f", "100", "clip", "-o", "b.tik"};
+  const auto with = [&](std::initializer_list<std::string> more) {
+    std::vector<std::string> words = encode;
+    words.insert(words.end(), more);
+    return words;
+  };
+  expect_refused(with({"--noise", "camera.noise", "--tolerance", "2"}), 2, "leave one out");
+  expect_refused(with({"--sigmas", "2"}), 2, "--sigmas counts standard deviations of a camera's noise");
+  expect_refused(with({"--noise", "auto", "--sigmas", "0"}), 2, "sigmas '0' is no number of 0.1 … 100");
+  expect_refused(with({"--noise", "absent.noise"}), 3, "absent.noise");
+  scratch_.write("wrong.noise", "nutik noise 0\nwhite 255\ntransfer srbg\n");
+  expect_refused(with({"--noise", "wrong.noise"}), 3, "wrong.noise:3:10: transfer 'srbg' is not known");
+  expect_refused({"encode", "-f", "100", "deep", "-o", "b.tik", "--noise", "camera.noise"}, 2,
+                 "the noise was measured with white code 255 and the clip's is 4095");
+  expect_refused({"--start", "0f", "--exposure", "1f", "--noise", "auto", "clip.tik"}, 2,
+                 "--noise describes a clip");
+  for (const char* name : {"a.noise", "b.tik"})
+    EXPECT_FALSE(std::filesystem::exists(scratch_ / name)) << name;
+}
+
+}  // namespace
+}  // namespace nutik

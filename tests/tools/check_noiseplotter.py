@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""NoisePlotter.py: that it draws, computes what docs/noise.md says, and names what is wrong with a file."""
+
+import argparse
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+GREY = """nutik noise 0
+white 255
+transfer srgb
+channel grey
+read 0.002
+shot 0.0001
+curve sensor
+point 10 1.5 100
+point 20.5 2 50
+"""
+
+
+class Checks:
+    def __init__(self, plotter, work):
+        self.plotter, self.work, self.failures = plotter, work, 0
+
+    def holds(self, name, true, said=""):
+        print(f"  {'ok  ' if true else 'FAIL'} {name}{': ' + said if said and not true else ''}")
+        self.failures += not true
+
+    def run(self, text, *arguments):
+        (self.work / "a.noise").write_text(text)
+        return subprocess.run([sys.executable, self.plotter, "a.noise", *arguments], cwd=self.work,
+                              capture_output=True, text=True)
+
+    def refuses(self, name, text, said):
+        output = self.work / "refused.png"
+        run = self.run(text, "-o", output.name)
+        right = run.returncode == 3 and said in run.stderr and not output.exists()
+        self.holds(name, right, f"{run.returncode}: {run.stderr}")
+
+
+def check_drawing(checks):
+    for suffix, start in ((".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")):
+        path = checks.work / f"plot{suffix}"
+        path.unlink(missing_ok=True)
+        colour = GREY + GREY.split("srgb\n")[1].replace("grey", "green") + GREY.split("srgb\n")[1].replace(
+            "grey", "blue").replace("sensor", "points")
+        run = checks.run(colour.replace("grey", "red"), "-o", path.name)
+        drawn = run.returncode == 0 and path.read_bytes().startswith(start)
+        checks.holds(f"draws {suffix}", drawn, run.stderr)
+    checks.holds("refuses .jpg", checks.run(GREY, "-o", "a.jpg").returncode == 2)
+    run = checks.run(GREY, "-o", "absent/a.png")
+    checks.holds("says why it cannot write", run.returncode == 5 and "absent" in run.stderr, run.stderr)
+
+
+def check_numbers(checks):
+    sys.path.insert(0, str(checks.plotter.parent))
+    from noiseplot.noise_file import read_noise
+
+    path = checks.work / "numbers.noise"
+    path.write_text(GREY.replace("srgb", "linear"))
+    noise = read_noise(path)
+    (channel,) = noise.channels
+    for code in (0, 51, 255):  # the slope is 255 codes for each unit of light
+        want = math.sqrt(255**2 * (0.002**2 + 0.0001 * code / 255) + 1 / 12)
+        checks.holds(f"sensor's curve at {code}", abs(noise.sensor_sd(channel, code) - want) < 1e-9)
+    for code, want in ((0, 1.5), (10, 1.5), (15.25, 1.75), (20.5, 2), (255, 2)):
+        checks.holds(f"line at {code}", abs(noise.points_sd(channel, code) - want) < 1e-9)
+
+
+def check_mistakes(checks):
+    checks.refuses("an empty file", "", "a.noise:1: a noise file starts with")
+    checks.refuses("another version", GREY.replace("noise 0", "noise 1"), "a.noise:1: a noise file starts with")
+    checks.refuses("an unknown key", GREY + "pont 1 2 3\n", "a.noise:10: 'pont' is no key")
+    checks.refuses("a word for a number", GREY.replace("0.002", "few"), "a.noise:5: read 'few' is no number")
+    checks.refuses("points in disorder", GREY + "point 4 1 1\n", "a.noise:10: code 4 is not above")
+    checks.refuses("a point that lacks a number", GREY + "point 40 1\n", "a.noise:10: 'point' takes 3 values")
+    checks.refuses("no channel", "nutik noise 0\nwhite 255\ntransfer srgb\n", "no channel")
+    checks.refuses("no curve", GREY.replace("curve sensor\n", ""), "does not say which curve")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--plotter", type=Path, required=True)
+    parser.add_argument("--work", type=Path, required=True)
+    arguments = parser.parse_args()
+    arguments.work.mkdir(parents=True, exist_ok=True)
+    checks = Checks(arguments.plotter.resolve(), arguments.work)
+    check_drawing(checks)
+    check_numbers(checks)
+    check_mistakes(checks)
+    return 1 if checks.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
