@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "capture/format.hpp"
-#include "exposure/function_numbers.hpp"
 #include "capture/source_text.hpp"
+#include "exposure/function_numbers.hpp"
 
 namespace nutik {
 namespace {

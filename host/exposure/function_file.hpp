@@ -30,7 +30,7 @@ struct FileFunction {
 
 struct FunctionFile {
   std::map<std::uint8_t, FileFunction> functions;  // by mask value
-  std::set<std::uint8_t> broken;                    // mask values whose functions have errors
+  std::set<std::uint8_t> broken;                   // mask values whose functions have errors
   Diagnostics diagnostics;
 
   [[nodiscard]] bool has_errors() const { return diagnostics.count(Diagnostic::Severity::error) > 0; }

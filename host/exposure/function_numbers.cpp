@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "capture/format.hpp"
-#include "exposure/gain_function.hpp"
 #include "capture/source_text.hpp"
+#include "exposure/gain_function.hpp"
 
 namespace nutik {
 namespace {

@@ -228,8 +228,8 @@ std::optional<TiffPage> TiffReader::next() {
   TiffPage page = PageReader(file_.get(), format("{}, page {},", name_, pages_read_)).read();
   at_end_ = TIFFLastDirectory(file_.get()) != 0;
   if (!at_end_ && TIFFReadDirectory(file_.get()) == 0) {
-    throw InputError(format("{} is cut off or damaged behind page {}: there should be another one", name_,
-                            pages_read_));
+    throw InputError(
+        format("{} is cut off or damaged behind page {}: there should be another one", name_, pages_read_));
   }
   return page;
 }

@@ -58,10 +58,12 @@ TEST_F(CommandLine, NamesWhatWasMeant) {
                  "there is no file and no command 'encod'; did you mean encode?");
   expect_refused({"frobnicate"}, 2, "there is no file and no command 'frobnicate'");
   expect_refused({"-f", "25", "--fps", "30", "clip.avi", "x.tik"}, 2, "-f is given twice");
-  expect_refused({"mask", "--base", "mask.pgm", "--base", "mask.pgm", "clip.tik"}, 2, "--base is given twice");
+  expect_refused({"mask", "--base", "mask.pgm", "--base", "mask.pgm", "clip.tik"}, 2,
+                 "--base is given twice");
   expect_refused({"mask", "clip.tik", "--changed-between", "0.1s"}, 2,
                  "--changed-between needs more words: --changed-between TIME TIME");
-  expect_refused({"--start", "0s", "--exposure", "1f", "-o", "", "clip.tik"}, 2, "the output's name is empty");
+  expect_refused({"--start", "0s", "--exposure", "1f", "-o", "", "clip.tik"}, 2,
+                 "the output's name is empty");
   ASSERT_EQ(test::run_shell("mkfifo pipe", scratch_.folder()).status, 0);
   expect_refused({"pipe", "x.tik"}, 3, "pipe is no regular file");
 }
@@ -218,8 +220,8 @@ TEST_F(CommandLine, SaysWhereRateAndAngleComeFrom) {
 TEST_F(CommandLine, HasHelpForEverything) {
   EXPECT_NE(run({"--help"}).out.find("nutik-cl clip.mp4 clip.tik"), std::string::npos);
   EXPECT_EQ(run({"--version"}).out.rfind("nutik-cl ", 0), 0u);
-  for (const char* command : {"encode", "expose", "info", "devices", "recover", "mask", "contact", "activity",
-                              "sweep"}) {
+  for (const char* command :
+       {"encode", "expose", "info", "devices", "recover", "mask", "contact", "activity", "sweep"}) {
     const ProgramResult result = run({command, "--help"});
     EXPECT_EQ(result.status, 0);
     EXPECT_NE(result.out.find("Examples:"), std::string::npos) << command;

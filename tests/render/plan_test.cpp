@@ -81,7 +81,8 @@ TEST(RenderPlan, WarnsOfWhatDoesNotCount) {
   only("M0 [0:0], [1:0]", "zero everywhere in the capture");
   only("M0 [-5:0], [-4:1], [10:1], [11:0]", "before the capture's start");
   only("M0 [0:1], [2000000000:1], [2000000001:0]", "after the capture's end");
-  only("M0 [0:0], [400000000:1]", "M0: the last gain, 1, holds to the end of the capture at 1 s; put a gain of 0");
+  only("M0 [0:0], [400000000:1]",
+       "M0: the last gain, 1, holds to the end of the capture at 1 s; put a gain of 0");
   only("M0 [400000000:1],[410000000:1]",
        "the first gain, 1, holds from the start of the capture, and the last gain, 1, holds to the end");
   EXPECT_TRUE(warnings("M0 [0:1], [10:1], [11:0], [5000000000:0]").empty());  // a held zero end

@@ -41,9 +41,8 @@ inline constexpr CommandSet kTakesIntervals =
 inline constexpr CommandSet kShapesExposures =
     set_of(CommandId::expose, CommandId::trace, CommandId::sweep, CommandId::video);
 // Those that expose pictures, and so take what says how that is computed.
-inline constexpr CommandSet kExposes =
-    set_of(CommandId::expose, CommandId::batch, CommandId::mask, CommandId::contact, CommandId::sweep,
-           CommandId::video);
+inline constexpr CommandSet kExposes = set_of(CommandId::expose, CommandId::batch, CommandId::mask,
+                                              CommandId::contact, CommandId::sweep, CommandId::video);
 // Those that lay pictures out on a sheet.
 inline constexpr CommandSet kMakesSheets = set_of(CommandId::contact, CommandId::sweep);
 // Those that can answer in JSON.

@@ -13,7 +13,8 @@ std::vector<Option> output_options() {
   return {
       valued('o', "output", "FILE", kGroup,
              "where to write; without it the last operand, or a name made from the inputs",
-             (kReadsClips & ~set_of(Id::batch, Id::check)) | set_of(Id::recover, Id::noise), &Options::output),
+             (kReadsClips & ~set_of(Id::batch, Id::check)) | set_of(Id::recover, Id::noise),
+             &Options::output),
       valued(0, "depth", "BITS", kGroup,
              "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
              set_of(Id::expose, Id::video), &Options::depth),
