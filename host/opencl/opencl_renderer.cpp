@@ -70,10 +70,7 @@ class OpenClRenderer::Implementation {
  public:
   explicit Implementation(const OpenClOptions& options)
       : options_(options), device_(pick_device(options)), info_(describe_device(device_)) {
-    if (options.precision == Precision::double_ && !info_.has_double) {
-      throw DeviceError(
-          format("{} has no double precision; use --precision auto, compensated or fixed", info_.name));
-    }
+    set_precision(options.precision);
     context_ = cl::Context(device_);
     queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
     feed_ = std::make_unique<BlockFeed>(context_, device_, info_, feed_limits());
@@ -83,6 +80,15 @@ class OpenClRenderer::Implementation {
       options_.announce(format("building kernels for {}; they are kept for the next time", info_.name));
     });
   }
+
+  void set_precision(std::optional<Precision> precision) {
+    if (precision == Precision::double_ && !info_.has_double) {
+      throw DeviceError(
+          format("{} has no double precision; use --precision auto, compensated or fixed", info_.name));
+    }
+    options_.precision = precision;
+  }
+  [[nodiscard]] std::span<const Precision> precisions() const { return precisions_of(info_); }
 
   [[nodiscard]] const std::string& name() const { return info_.name; }
   [[nodiscard]] std::string precision() const { return to_text(choice_.precision()); }
@@ -344,6 +350,12 @@ void OpenClRenderer::prepare(const RenderPlan& plan, const OutputFormat& output)
 Picture OpenClRenderer::render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
   return implementation_->render(plan, source, output);
 }
+
+void OpenClRenderer::set_precision(std::optional<Precision> precision) {
+  implementation_->set_precision(precision);
+}
+
+std::span<const Precision> OpenClRenderer::precisions() const { return implementation_->precisions(); }
 
 void OpenClRenderer::hold(const CaptureSource* source) { implementation_->hold(source); }
 

@@ -56,6 +56,12 @@ class OpenClRenderer final : public Renderer {
   explicit OpenClRenderer(const OpenClOptions& options);
   ~OpenClRenderer() override;
 
+  // For the pictures that follow: what OpenClOptions::precision says for the first. Throws DeviceError where the
+  // device cannot compute in it.
+  void set_precision(std::optional<Precision> precision);
+  // What the device has, the fastest first.
+  [[nodiscard]] std::span<const Precision> precisions() const;
+
   void hold(const CaptureSource* source) override;
   void prepare(const RenderPlan& plan, const OutputFormat& output) override;
   [[nodiscard]] Picture render(const RenderPlan& plan, CaptureSource& source,

@@ -116,6 +116,15 @@ std::span<const Command> commands() {
        "nutik-cl again picture.png captures masks\n"
        "nutik-cl again picture.png | sh",
        run_again},
+      {Id::validate, "validate", "CAPTURE.tik|CLIP",
+       "Expose with the reference and in every arithmetic that the device has: how right each is, within "
+       "which "
+       "bound, and how long it takes. Exit status 1 where one exceeds its bound.",
+       "nutik-cl validate --start 0.4s --exposure 10ms clip.tik\n"
+       "nutik-cl validate -m regions.pgm -k regions.fn --depth 16 clip.tik\n"
+       "nutik-cl validate --start 0s --exposure 1s --source clip.mp4 clip.tik\n"
+       "nutik-cl validate --json --runs 20 -k trail.fn clip.tik",
+       run_validate},
   };
   return table;
 }

@@ -25,7 +25,8 @@ enum class CommandId {
   video,
   noise,
   shutter,
-  again
+  again,
+  validate
 };
 
 struct Command {

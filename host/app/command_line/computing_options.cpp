@@ -15,7 +15,7 @@ std::vector<Option> computing_options() {
       valued(0, "device", "NAME", kGroup,
              "OpenCL device by number or part of its name; NUTIK_DEVICE does the same (default: the first "
              "GPU, else the first device)",
-             kExposes, &Options::device),
+             kExposes | bit(CommandId::validate), &Options::device),
       valued(
           0, "precision", "NAME", kGroup,
           "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is "

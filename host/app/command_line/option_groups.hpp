@@ -14,32 +14,35 @@ namespace nutik::app {
 [[nodiscard]] std::vector<Option> moment_options();
 [[nodiscard]] std::vector<Option> video_options();
 [[nodiscard]] std::vector<Option> computing_options();
+[[nodiscard]] std::vector<Option> validation_options();
 [[nodiscard]] std::vector<Option> output_options();
 
 using OptionGroup = std::vector<Option> (*)();
-inline constexpr OptionGroup kOptionGroups[] = {source_options, exposure_options, video_options,
-                                                mask_options,   moment_options,   computing_options,
-                                                output_options};
+inline constexpr OptionGroup kOptionGroups[] = {source_options,     exposure_options, video_options,
+                                                mask_options,       moment_options,   computing_options,
+                                                validation_options, output_options};
 
 inline constexpr CommandSet kAllCommands = ~CommandSet{0};
 // Those that read a clip, and so take what describes it.
 inline constexpr CommandSet kReadsClips =
     set_of(CommandId::encode, CommandId::expose, CommandId::batch, CommandId::check, CommandId::trace,
-           CommandId::mask, CommandId::contact, CommandId::activity, CommandId::sweep, CommandId::video);
+           CommandId::mask, CommandId::contact, CommandId::activity, CommandId::sweep, CommandId::video,
+           CommandId::validate);
 // Those that decode a clip, and so take what its codes are.
 inline constexpr CommandSet kDecodesClips = kReadsClips | set_of(CommandId::noise);
 // Those of them that turn it into a capture, or expose it.
 inline constexpr CommandSet kEncodesClips = kReadsClips & ~set_of(CommandId::check);
 // Those that take gain functions.
-inline constexpr CommandSet kTakesFunctions =
-    set_of(CommandId::expose, CommandId::check, CommandId::trace, CommandId::sweep, CommandId::video);
+inline constexpr CommandSet kTakesFunctions = set_of(CommandId::expose, CommandId::check, CommandId::trace,
+                                                     CommandId::sweep, CommandId::video, CommandId::validate);
 inline constexpr CommandSet kTakesMasks = kTakesFunctions | set_of(CommandId::activity);
 // Those that take a plain interval.
 inline constexpr CommandSet kTakesIntervals =
-    set_of(CommandId::expose, CommandId::trace, CommandId::mask, CommandId::contact, CommandId::sweep);
+    set_of(CommandId::expose, CommandId::trace, CommandId::mask, CommandId::contact, CommandId::sweep,
+           CommandId::validate);
 // Those that shape and weigh what they expose.
 inline constexpr CommandSet kShapesExposures =
-    set_of(CommandId::expose, CommandId::trace, CommandId::sweep, CommandId::video);
+    set_of(CommandId::expose, CommandId::trace, CommandId::sweep, CommandId::video, CommandId::validate);
 // Those that expose pictures, and so take what says how that is computed.
 inline constexpr CommandSet kExposes = set_of(CommandId::expose, CommandId::batch, CommandId::mask,
                                               CommandId::contact, CommandId::sweep, CommandId::video);
@@ -48,7 +51,7 @@ inline constexpr CommandSet kMakesSheets = set_of(CommandId::contact, CommandId:
 // Those that can answer in JSON.
 inline constexpr CommandSet kAnswersInJson =
     set_of(CommandId::check, CommandId::trace, CommandId::mask, CommandId::contact, CommandId::activity,
-           CommandId::sweep);
+           CommandId::sweep, CommandId::validate);
 
 // A row with a value, for the member of Options that holds it.
 [[nodiscard]] inline Option valued(char short_name, std::string_view long_name, std::string_view value,

@@ -58,6 +58,10 @@ struct Options {
   std::optional<std::string> precision;
   std::optional<std::string> memory;
 
+  // How right it is.
+  std::optional<std::string> source;
+  std::optional<std::string> runs;
+
   // The file.
   std::optional<std::string> output;
   std::optional<std::string> depth;

@@ -13,11 +13,11 @@ std::vector<Option> output_options() {
   return {
       valued('o', "output", "FILE", kGroup,
              "where to write; without it the last operand, or a name made from the inputs",
-             (kReadsClips & ~set_of(Id::batch, Id::check)) | set_of(Id::recover, Id::noise),
+             (kReadsClips & ~set_of(Id::batch, Id::check, Id::validate)) | set_of(Id::recover, Id::noise),
              &Options::output),
       valued(0, "depth", "BITS", kGroup,
              "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
-             set_of(Id::expose, Id::video), &Options::depth),
+             set_of(Id::expose, Id::video, Id::validate), &Options::depth),
       valued(
           0, "codec", "NAME", kGroup,
           "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",

@@ -21,5 +21,6 @@ int run_sweep(const Options& options);
 int run_video(const Options& options);
 int run_shutter(const Options& options);
 int run_again(const Options& options);
+int run_validate(const Options& options);
 
 }  // namespace nutik::app

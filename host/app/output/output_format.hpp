@@ -14,4 +14,7 @@ namespace nutik::app {
 [[nodiscard]] OutputFormat output_format(const Options& options, const std::filesystem::path& output,
                                          const CaptureFormat& capture);
 
+// The same where no file is written: the capture's own depth unless --depth says another.
+[[nodiscard]] OutputFormat output_format(const Options& options, const CaptureFormat& capture);
+
 }  // namespace nutik::app

@@ -1,0 +1,110 @@
+#include "app/commands/commands.hpp"
+#include "app/input/capture_input.hpp"
+#include "app/input/exposure_request.hpp"
+#include "app/input/opened_capture.hpp"
+#include "app/input/renderer_choice.hpp"
+#include "app/input/source_check.hpp"
+#include "app/output/json.hpp"
+#include "app/output/output_format.hpp"
+#include "app/output/progress.hpp"
+#include "app/text/number_text.hpp"
+#include "app/text/size_text.hpp"
+#include "app/text/validation_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "opencl/validation.hpp"
+
+namespace nutik::app {
+namespace {
+
+constexpr std::uint32_t kUsualRuns = 5;
+constexpr std::uint32_t kMostRuns = 10'000;
+
+// --white and --raw may describe --source, where the capture is a .tik and needs no description.
+Options options_of_capture(const Options& options) {
+  Options own = options;
+  if (options.source && is_tik(options.operands.front())) {
+    own.white.reset();
+    own.raw.reset();
+  }
+  return own;
+}
+
+Json validation_json(const Validation& validation, const RenderPlan& plan, const std::string& input,
+                     const std::string& device, std::uint32_t runs) {
+  const Shape& shape = plan.capture.shape;
+  Json json{{"capture", input},
+            {"device", device},
+            {"width", shape.width},
+            {"height", shape.height},
+            {"channels", shape.channels},
+            {"live_samples", plan.live_sample_count()},
+            {"format", format_name(validation.output.type)}};
+  if (holds_codes(validation.output.type)) json["white_code"] = validation.output.white_code;
+  json.update({{"runs", runs},
+               {"reference_render_ms", validation.reference_ms},
+               {"variants", variants_json(validation, shape)},
+               {"is_within_bounds", validation.is_within_bounds()}});
+  return json;
+}
+
+}  // namespace
+
+int run_validate(const Options& options) {
+  if (options.operands.size() != 1) {
+    throw UsageError(
+        "validate takes one capture or clip: nutik-cl validate --start 0s --exposure 1s clip.tik");
+  }
+  const std::string& input = options.operands.front();
+  const std::uint32_t runs =
+      options.runs ? parse_whole_number(*options.runs, "--runs", 1, kMostRuns) : kUsualRuns;
+  ExposureRequest request = ExposureRequest::from(options);
+  std::unique_ptr<OpenClRenderer> device = start_device(options);  // refused before a clip is read
+  OpenedCapture opened(input, options_of_capture(options));
+  const std::unique_ptr<OpenClRenderer> renderer = std::move(device);  // which must not outlive what it reads
+  tik::Reader& capture = opened.reader();
+  const Shape& shape = capture.format().shape;
+  const OutputFormat output = output_format(options, capture.format());
+  const RenderPlan plan =
+      make_plan(capture, request.functions(capture.timeline()), request.mask(shape), request.plan_options());
+  for (const std::string& warning : plan.warnings) print_warning(warning);
+
+  std::optional<Progress> progress;
+  const Validation validation =
+      validate(plan, capture, output, *renderer, runs, [&](std::uint64_t done, std::uint64_t total) {
+        if (!progress) progress.emplace("rendering", total, options.quiet);
+        progress->show(done);
+      });
+  progress.reset();
+  std::optional<SourceCheck> source;
+  if (options.source) source = compare_with_source(capture, *options.source, options);
+
+  if (options.json) {
+    Json json = validation_json(validation, plan, input, renderer->name(), runs);
+    if (source) json["source"] = source_json(*source, shape, *options.source);
+    print_json(json);
+  } else {
+    if (!options.quiet) {
+      print_line(format("{}: {}, {} of {} samples, as {}; medians of {} on {}", input, shape_text(shape),
+                        plan.live_sample_count(), capture.timeline().sample_count(), format_name(output.type),
+                        runs, renderer->name()));
+    }
+    print_line(variants_text(validation));
+    if (!options.quiet) print_line(choice_text(validation));
+    if (source) print_line(source_text(*source, shape, *options.source));
+    if (!options.quiet) {
+      for (const std::string& note : opened.notes()) print_note(note);
+    }
+  }
+  if (source && source->clip_goes_on) {
+    print_note(format("note: {} goes on after the capture's last sample", *options.source));
+  }
+  const bool is_true = !source || source->comparison.values_beyond() == 0;
+  if (!is_true) print_error(format("the capture is not true to {}: was it made from it?", *options.source));
+  if (!validation.is_within_bounds()) {
+    print_error("an arithmetic exceeds its bound: the device computes wrongly, or there is a fault here");
+  }
+  return is_true && validation.is_within_bounds() ? 0 : 1;
+}
+
+}  // namespace nutik::app

@@ -1,0 +1,66 @@
+#include "app/input/source_check.hpp"
+
+#include "app/input/capture_input.hpp"
+#include "app/output/progress.hpp"
+#include "app/text/size_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "imev/each_block.hpp"
+#include "imev/expected_values.hpp"
+
+namespace nutik::app {
+namespace {
+
+std::string samples_text(const CaptureFormat& format) {
+  return nutik::format("{}, {} bits, white code {}", shape_text(format.shape), format.code_bytes * 8,
+                       format.white_code);
+}
+
+// What the samples of a capture were before it was encoded.
+CaptureFormat source_format(const CaptureFormat& capture) {
+  CaptureFormat source = capture;
+  if (capture.noise.camera) {
+    source.white_code = capture.noise.camera->white_code;
+    source.code_bytes = source.white_code > 255 ? 2 : 1;
+  }
+  return source;
+}
+
+}  // namespace
+
+SourceCheck compare_with_source(tik::Reader& capture, const std::filesystem::path& clip,
+                                const Options& options) {
+  const CaptureFormat wanted = source_format(capture.format());
+  SourceOptions source_options = SourceOptions::from(options);
+  source_options.noise_source.reset();  // the capture has its noise model
+  if (!options.white && wanted.code_bytes == 2) source_options.clip.white_code = wanted.white_code;
+  const SourceClip source = open_source(clip, source_options);
+  if (source.capture.shape != wanted.shape || source.capture.code_bytes != wanted.code_bytes ||
+      source.capture.white_code != wanted.white_code) {
+    throw InputError(format("{} is not what the capture was made from: it has {}, the capture {}",
+                            clip.string(), samples_text(source.capture), samples_text(wanted)));
+  }
+
+  SourceCheck check{SourceComparison(wanted), 0, capture.file_bytes(), 0, false};
+  for (const tik::IndexEntry& block : capture.index()) check.record_count += block.record_count;
+  const std::uint64_t sample_count = capture.timeline().sample_count();
+  check.source_bytes = wanted.sample_bytes() * sample_count;
+  std::vector<std::byte> raster(wanted.sample_bytes());
+  Progress progress("comparing with the source", sample_count, options.quiet);
+  for_each_block(capture, [&](const BlockView& block) {
+    for (std::uint32_t k = 0; k < block.extent().sample_count; ++k) {
+      const std::uint64_t sample = block.extent().first_sample + k;
+      if (!source.clip->read(raster)) {
+        throw InputError(
+            format("{} is not what the capture was made from: it has {} pictures, the capture {}",
+                   clip.string(), sample, sample_count));
+      }
+      check.comparison.add(block, k, raster);
+      progress.show(sample);
+    }
+  });
+  check.clip_goes_on = source.clip->read(raster);
+  return check;
+}
+
+}  // namespace nutik::app

@@ -1,0 +1,90 @@
+#include "opencl/validation.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "render/reference_renderer.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr OutputFormat kLight{ValueType::light64, 0};
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+struct Times {
+  std::vector<double> expose_ms, develop_ms, render_ms;
+};
+
+}  // namespace
+
+double ValidatedVariant::gigabytes_per_second() const {
+  return expose_ms > 0.0 ? static_cast<double>(payload_bytes) * 1e-6 / expose_ms : 0.0;
+}
+
+bool Validation::is_within_bounds() const {
+  return std::ranges::all_of(variants,
+                             [](const ValidatedVariant& variant) { return variant.is_within_bound(); });
+}
+
+Validation validate(const RenderPlan& plan, CaptureSource& capture, const OutputFormat& output,
+                    OpenClRenderer& renderer, std::uint32_t runs,
+                    const std::function<void(std::uint64_t done, std::uint64_t total)>& progress) {
+  const auto precisions = renderer.precisions();
+  const std::uint64_t total = 1 + precisions.size() * (2 + std::uint64_t{runs});
+  std::uint64_t done = 0;
+  const auto step = [&] { progress(++done, total); };
+  Validation validation;
+  validation.output = output;
+  const Precision chosen = choose_precision(plan, output, precisions).precision();
+  validation.chosen = static_cast<std::size_t>(std::ranges::find(precisions, chosen) - precisions.begin());
+
+  const Clock::time_point start = Clock::now();
+  const Picture expected = ReferenceRenderer().render(plan, capture, kLight);
+  validation.reference_ms = milliseconds_since(start);
+  step();
+
+  renderer.hold(&capture);
+  for (const Precision precision : precisions) {
+    renderer.set_precision(precision);
+    ValidatedVariant& variant = validation.variants.emplace_back();
+    variant.bound = error_bound(plan, precision, output);
+    variant.light = light_errors(plan, variant.bound, expected, renderer.render(plan, capture, kLight));
+    step();
+    variant.stored = stored_errors(plan, variant.bound, expected, renderer.render(plan, capture, output));
+    step();
+  }
+
+  std::vector<Times> times(precisions.size());
+  for (std::uint32_t run = 0; run < runs; ++run) {
+    for (std::size_t i = 0; i < precisions.size(); ++i) {
+      renderer.set_precision(precisions[i]);
+      const Clock::time_point begin = Clock::now();
+      static_cast<void>(renderer.render(plan, capture, output));
+      times[i].render_ms.push_back(milliseconds_since(begin));
+      times[i].expose_ms.push_back(renderer.statistics().expose_ms);
+      times[i].develop_ms.push_back(renderer.statistics().develop_ms);
+      validation.variants[i].payload_bytes = renderer.statistics().payload_bytes;
+      step();
+    }
+  }
+  renderer.hold(nullptr);
+  for (std::size_t i = 0; i < precisions.size(); ++i) {
+    validation.variants[i].expose_ms = median(std::move(times[i].expose_ms));
+    validation.variants[i].develop_ms = median(std::move(times[i].develop_ms));
+    validation.variants[i].render_ms = median(std::move(times[i].render_ms));
+  }
+  return validation;
+}
+
+}  // namespace nutik

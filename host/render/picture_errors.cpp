@@ -1,0 +1,123 @@
+#include "render/picture_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace nutik {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+// In u₆₄ of the white code: what a place on the scale of codes is computed to (the inverse transfer function's power,
+// quotient and product).
+constexpr double kPlaceRoundings = 32;
+constexpr double kRoundoff64 = 0x1p-53;
+
+void check(const RenderPlan& plan, const Picture& expected, const Picture& picture) {
+  if (expected.shape != plan.capture.shape || picture.shape != plan.capture.shape) {
+    throw std::logic_error("pictures of another shape than their plan's were compared");
+  }
+}
+
+const PictureError& bound_of_value(const RenderPlan& plan, const ErrorBound& bound, std::uint64_t value) {
+  return bound.functions[plan.function_of_pixel[value / plan.capture.shape.channels]];
+}
+
+// Where light lies on the scale of codes 0 … white_code, before it is rounded to one.
+double place_of(const Transfer& transfer, double light, std::uint32_t white_code) {
+  return transfer.fraction_of(std::clamp(light, 0.0, 1.0)) * white_code;
+}
+
+// How far `place` lies from the places that round to `code`, which for black and white go on without end.
+double distance_to_code(double place, double code, double white_code) {
+  const double below = code == 0.0 ? 0.0 : code - 0.5 - place;
+  const double above = code == white_code ? 0.0 : place - (code + 0.5);
+  return std::max({below, above, 0.0});
+}
+
+template <typename Code>
+StoredErrors code_errors(const RenderPlan& plan, const ErrorBound& bound, const Picture& expected,
+                         const Picture& picture) {
+  StoredErrors errors{picture.shape.value_count(), 0, 0};
+  const double white = picture.white_code;
+  const auto codes = picture.values<Code>();
+  const auto light = expected.values<double>();
+  for (std::uint64_t i = 0; i < errors.values; ++i) {
+    const double place = place_of(plan.capture.transfer, light[i], picture.white_code);
+    const double code = codes[i];
+    if (code == std::floor(place + 0.5)) continue;
+    ++errors.differing;
+    const double allowed =
+        bound_of_value(plan, bound, i).steps + kPlaceRoundings * kRoundoff64 * picture.white_code;
+    if (code <= white && distance_to_code(place, code, white) <= allowed) ++errors.explained;
+  }
+  return errors;
+}
+
+template <typename Real>
+StoredErrors real_errors(const RenderPlan& plan, const ErrorBound& bound, const Picture& expected,
+                         const Picture& picture) {
+  StoredErrors errors{picture.shape.value_count(), 0, 0};
+  const auto reals = picture.values<Real>();
+  const auto light = expected.values<double>();
+  for (std::uint64_t i = 0; i < errors.values; ++i) {
+    if (reals[i] == static_cast<Real>(light[i])) continue;
+    ++errors.differing;
+    const Real magnitude = std::fabs(reals[i]);
+    const double half_step =
+        (static_cast<double>(std::nextafter(magnitude, std::numeric_limits<Real>::infinity())) -
+         static_cast<double>(magnitude)) /
+        2;
+    const double error = std::fabs(static_cast<double>(reals[i]) - light[i]);
+    if (error <= bound_of_value(plan, bound, i).light + half_step)
+      ++errors.explained;  // never where it is NaN
+  }
+  return errors;
+}
+
+}  // namespace
+
+LightErrors light_errors(const RenderPlan& plan, const ErrorBound& bound, const Picture& expected,
+                         const Picture& light) {
+  check(plan, expected, light);
+  const auto wanted = expected.values<double>();
+  const auto found = light.values<double>();
+  LightErrors errors;
+  double squares = 0.0;
+  for (std::uint64_t i = 0; i < wanted.size(); ++i) {
+    if (found[i] == wanted[i]) continue;
+    double error = std::fabs(found[i] - wanted[i]);
+    if (std::isnan(error)) error = kInfinite;
+    if (error > errors.worst) {
+      errors.worst = error;
+      errors.worst_value = i;
+    }
+    squares += error * error;
+    errors.share_of_bound = std::max(errors.share_of_bound, error / bound_of_value(plan, bound, i).light);
+    // A full scale where it is no number.
+    const double share_of_white = error == kInfinite
+                                      ? 1.0
+                                      : std::fabs(place_of(plan.capture.transfer, found[i], 1) -
+                                                  place_of(plan.capture.transfer, wanted[i], 1));
+    errors.worst_8_bit_codes = std::max(errors.worst_8_bit_codes, 255 * share_of_white);
+    errors.worst_16_bit_codes = std::max(errors.worst_16_bit_codes, 65'535 * share_of_white);
+  }
+  errors.rms = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, wanted.size())));
+  return errors;
+}
+
+StoredErrors stored_errors(const RenderPlan& plan, const ErrorBound& bound, const Picture& expected,
+                           const Picture& picture) {
+  check(plan, expected, picture);
+  switch (picture.type) {
+    case ValueType::code8: return code_errors<std::uint8_t>(plan, bound, expected, picture);
+    case ValueType::code16: return code_errors<std::uint16_t>(plan, bound, expected, picture);
+    case ValueType::light32: return real_errors<float>(plan, bound, expected, picture);
+    case ValueType::light64: break;
+  }
+  return real_errors<double>(plan, bound, expected, picture);
+}
+
+}  // namespace nutik
