@@ -3,7 +3,9 @@
 
     peer_loops.py loop CLIP PICTURE          the mean of all frames in light: OpenCV, a table, an accumulator
     peer_loops.py regions CLIP PICTURE       16 regions of a mask, each with a gain of its own at each frame
-    peer_loops.py loop|regions --memory CLIP prints the seconds of the arithmetic alone, on decoded frames
+    peer_loops.py loop|regions --memory CLIP [LIGHT.npy]
+                                             prints the seconds of the arithmetic alone, on decoded frames; may keep
+                                             the light
 """
 
 import argparse
@@ -72,8 +74,10 @@ def main():
         return
     frames = list(frames_of(arguments.clip))
     start = time.perf_counter()
-    expose(frames, arguments.kind, count)
+    light = expose(frames, arguments.kind, count)
     print(time.perf_counter() - start)
+    if arguments.picture:
+        np.save(arguments.picture, light)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,184 @@
+// nutik-cl validate as a user meets it: the table, JSON, the source, exit status 1 where a device computes wrongly.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+#include "support/scratch.hpp"
+#include "support/still_clip.hpp"
+
+namespace nutik {
+namespace {
+
+using nlohmann::json;
+using test::ProgramResult;
+
+const std::vector<std::string> kInterval{"--start", "0s", "--exposure", "100ms"};
+
+class Validate : public testing::Test {
+ protected:
+  void SetUp() override {
+    test::write_still_clip(scratch_.folder(), 24, 20);
+    ASSERT_EQ(run({"-q", "encode", "-f", "100", "--tolerance", "4", "frames", "clip.tik"}).status, 0);
+  }
+
+  ProgramResult run(const std::vector<std::string>& words,
+                    const std::vector<std::string>& settings = {}) const {
+    return test::run_program(words, scratch_.folder(), settings);
+  }
+  // validate of the interval, with more words.
+  ProgramResult validate(std::vector<std::string> words,
+                         const std::vector<std::string>& settings = {}) const {
+    words.insert(words.begin(), "validate");
+    words.insert(words.end(), kInterval.begin(), kInterval.end());
+    return run(words, settings);
+  }
+  json json_of(std::vector<std::string> words) const {
+    words.emplace_back("--json");
+    const ProgramResult result = validate(std::move(words));
+    EXPECT_EQ(result.status, 0) << result.err;
+    return json::parse(result.out);
+  }
+  void expect_refused(const std::vector<std::string>& words, int status, std::string_view part) const {
+    const ProgramResult result = validate(words);
+    EXPECT_EQ(result.status, status) << result.err;
+    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in: " << result.err;
+  }
+
+  test::Scratch scratch_;
+};
+
+TEST_F(Validate, ShowsEveryArithmeticAndMarksTheChosenOne) {
+  const ProgramResult result = validate({"clip.tik"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  for (const char* part : {"clip.tik: 24 x 24 grey, 10 of 20 samples, as 8-bit codes; medians of 5 on ",
+                           "\n*  single", "\n   fixed", "\n   compensated", "\n   reference",
+                           "\n* what --precision auto takes: light within "}) {
+    EXPECT_NE(result.out.find(part), std::string::npos) << "no '" << part << "' in: " << result.out;
+  }
+}
+
+TEST_F(Validate, AnswersInJson) {
+  const json eight = json_of({"--runs", "2", "clip.tik"});
+  EXPECT_EQ(eight["width"], 24);
+  EXPECT_EQ(eight["channels"], 1);
+  EXPECT_EQ(eight["live_samples"], 10);
+  EXPECT_EQ(eight["white_code"], 255);
+  EXPECT_EQ(eight["runs"], 2);
+  EXPECT_TRUE(eight["is_within_bounds"]);
+  for (const json& variant : eight["variants"]) {
+    EXPECT_TRUE(variant["is_within_bound"]) << variant;
+    EXPECT_EQ(variant["is_chosen"], variant["precision"] == "single") << variant;
+    EXPECT_LE(variant["worst_light"], variant["bound_light"]) << variant;
+    EXPECT_LE(variant["rms_light"], variant["worst_light"]) << variant;
+    EXPECT_EQ(variant["values"], 24 * 24) << variant;
+    EXPECT_GT(variant["expose_ms"], 0) << variant;
+  }
+  const json sixteen = json_of({"--depth", "16", "clip.tik"});
+  EXPECT_EQ(sixteen["white_code"], 65'535);
+  for (const json& variant : sixteen["variants"])
+    EXPECT_FALSE(variant["precision"] == "single" && variant["is_chosen"]);
+  EXPECT_FALSE(json_of({"--depth", "float", "clip.tik"}).contains("white_code"));
+}
+
+// In the table of a mask and functions, and of a clip that is no capture yet.
+TEST_F(Validate, TakesMasksFunctionsAndClips) {
+  std::ofstream(scratch_ / "mask.pgm", std::ios::binary)
+      << "P5 24 24 255\n"
+      << std::string(12 * 24, '\0') << std::string(12 * 24, '\7');
+  scratch_.write("f.fn",
+                 "M0 [0:0], [50000000:1], [100000000:0]\nM7 [0:1e4], [99999999:1e4], [100000000:-9e3], "
+                 "[200000000:-9e3]\n");
+  const ProgramResult result =
+      run({"validate", "--json", "-m", "mask.pgm", "-k", "f.fn", "-f", "100", "frames"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const json answer = json::parse(result.out);
+  for (const json& variant : answer["variants"]) {
+    EXPECT_FALSE(variant["is_chosen"] && variant["precision"] == "single") << variant;  // these gains cancel
+  }
+}
+
+TEST_F(Validate, ComparesWithTheSource) {
+  const json source = json_of({"clip.tik", "--source", "frames"})["source"];
+  EXPECT_EQ(source["values_beyond"], 0);
+  EXPECT_LE(source["worst_codes"], 4);
+  EXPECT_GT(source["worst_codes"], 0);
+  EXPECT_GT(source["psnr_db"], 30);
+  EXPECT_EQ(source["values"], 24 * 24 * 20);
+  EXPECT_EQ(source["source_bytes"], 24 * 24 * 20);
+  EXPECT_EQ(source["file_bytes"], std::filesystem::file_size(scratch_ / "clip.tik"));
+  EXPECT_GT(source["records"], 0);
+
+  ASSERT_EQ(run({"-q", "encode", "-f", "100", "frames", "exact.tik"}).status, 0);
+  EXPECT_TRUE(json_of({"exact.tik", "--source", "frames"})["source"]["psnr_db"].is_null());
+  EXPECT_NE(validate({"exact.tik", "--source", "frames"}).out.find("frames: held exactly; "),
+            std::string::npos);
+}
+
+TEST_F(Validate, AnotherSourceIsNoSource) {
+  std::filesystem::create_directory(scratch_ / "other");
+  test::write_still_clip(scratch_ / "other", 24, 12);
+  expect_refused({"clip.tik", "--source", "other/frames"}, 3, "it has 12 pictures, the capture 20");
+  std::filesystem::create_directory(scratch_ / "large");
+  test::write_still_clip(scratch_ / "large", 25, 20);
+  expect_refused({"clip.tik", "--source", "large/frames"}, 3,
+                 "it has 25 x 25 grey, 8 bits, white code 255, the capture 24 x 24 grey");
+  std::ofstream(scratch_ / "frames/005.pgm", std::ios::binary) << "P5 24 24 255\n"
+                                                               << std::string(24 * 24, 'x');
+  expect_refused({"clip.tik", "--source", "frames"}, 1, "the capture is not true to frames");
+  expect_refused({"clip.tik", "--source", "missing"}, 3, "missing");
+}
+
+TEST_F(Validate, SaysWhatItCannotDo) {
+  expect_refused({}, 2, "validate takes one capture or clip");
+  expect_refused({"clip.tik", "--runs", "0"}, 2, "--runs '0' is no whole number of 1 … 10000");
+  expect_refused({"clip.tik", "--device", "no such device"}, 4, "no such device");
+  expect_refused({"clip.tik", "--precision", "single"}, 2, "--precision");
+  expect_refused({"clip.tik", "--white", "255"}, 2, "was encoded already");
+}
+
+// A built kernel as it is kept: a text, then its key and its binary, each behind its length.
+struct KeptKernel {
+  std::string key, binary;
+};
+KeptKernel split(const std::string& bytes) {
+  const std::size_t magic = bytes.find('\n') + 1;
+  std::uint64_t key_bytes = 0;
+  std::memcpy(&key_bytes, bytes.data() + magic, sizeof key_bytes);
+  const std::size_t end = magic + sizeof key_bytes + key_bytes;
+  return {bytes.substr(0, end), bytes.substr(end)};
+}
+
+std::filesystem::path kept_kernel(const std::filesystem::path& cache) {
+  for (const auto& entry : std::filesystem::directory_iterator(cache / "nutik-cl")) {
+    if (entry.path().filename().string().starts_with("expose-")) return entry.path();
+  }
+  return {};
+}
+
+// The kernel of `single` for codes that are sRGB is replaced by the one that takes them for linear light: a device
+// that computes wrongly.
+TEST_F(Validate, ExitsWithOneWhereADeviceComputesWrongly) {
+  const std::string cache = (scratch_ / "cache").string(), other = (scratch_ / "other-cache").string();
+  const auto expose = [&](const std::string& folder, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"expose", "--precision", "single", "clip.tik", "picture.png"};
+    words.insert(words.end(), kInterval.begin(), kInterval.end());
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words, {"XDG_CACHE_HOME=" + folder}).status;
+  };
+  ASSERT_EQ(expose(cache, {}), 0);
+  ASSERT_EQ(expose(other, {"--transfer", "linear"}), 0);
+  const std::filesystem::path kept = kept_kernel(cache);
+  const std::string wrong =
+      split(test::read_file(kept)).key + split(test::read_file(kept_kernel(other))).binary;
+  std::ofstream(kept, std::ios::binary) << wrong;
+  const ProgramResult result = validate({"clip.tik"}, {"XDG_CACHE_HOME=" + cache});
+  EXPECT_EQ(result.status, 1) << result.out;
+  EXPECT_NE(result.out.find("EXCEEDED"), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find("an arithmetic exceeds its bound"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace nutik
