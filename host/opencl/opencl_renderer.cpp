@@ -178,7 +178,7 @@ class OpenClRenderer::Implementation {
     std::string text =
         format("\n{}: {}", to_text(choice_.precision()), error_text(choice_.bound.worst, output_));
     for (const ErrorBound& bound : choice_.rejected) {
-      text += format("; not {}: {}", to_text(bound.precision), error_text(bound.worst, output_));
+      text += format("; not {}: only {}", to_text(bound.precision), error_text(bound.worst, output_));
     }
     return text;
   }

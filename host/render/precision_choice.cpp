@@ -28,12 +28,15 @@ std::string error_text(const PictureError& error, const OutputFormat& output) {
   const std::string light = format("light within {:.2g}", error.light);
   if (output.type == ValueType::light64) return light;
   const bool is_power_of_two = std::has_single_bit(output.white_code + 1);
-  const std::string step = output.type == ValueType::light32 ? "step of a float"
-                           : is_power_of_two ? format("{}-bit code", std::bit_width(output.white_code))
-                                             : format("code of {}", output.white_code);
-  const bool is_eight = step.starts_with('8');
-  return error.steps < 1.0 ? format("{}, {:.2g} of a{} {}", light, error.steps, is_eight ? "n" : "", step)
-                           : format("{}, {:.3g} times a{} {}", light, error.steps, is_eight ? "n" : "", step);
+  const bool is_one = error.steps < 1.0;
+  const char* plural = is_one ? "" : "s";
+  const std::string step = output.type == ValueType::light32 ? format("float's step{}", plural)
+                           : is_power_of_two
+                               ? format("{}-bit code{}", std::bit_width(output.white_code), plural)
+                               : format("code{} of {}", plural, output.white_code);
+  const std::string_view article = step.starts_with('8') ? "of an " : "of a ";
+  return is_one ? format("{}, {:.2g} {}{}", light, error.steps, article, step)
+                : format("{}, {:.3g} {}", light, error.steps, step);
 }
 
 }  // namespace nutik

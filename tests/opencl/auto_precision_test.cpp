@@ -64,7 +64,7 @@ TEST(AutoPrecision, TakesMoreWhereSingleIsWrong) {
   EXPECT_TRUE(chosen.choice().is_right_enough());
   ASSERT_FALSE(chosen.choice().rejected.empty());
   EXPECT_EQ(chosen.choice().rejected.front().precision, Precision::single_);
-  EXPECT_NE(chosen.report().find("not single: light within"), std::string::npos) << chosen.report();
+  EXPECT_NE(chosen.report().find("not single: only light within"), std::string::npos) << chosen.report();
 }
 
 // What costs more than the format can show is left out; what a finer format shows is not.

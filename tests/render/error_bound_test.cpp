@@ -135,17 +135,38 @@ TEST(PrecisionChoice, TakesTheFirstThatIsRightEnoughElseTheBest) {
   EXPECT_EQ(none.rejected.size(), 3u);
 }
 
+// Where every arithmetic may be wrong by all codes there are, light still tells them apart.
+TEST(PrecisionChoice, TakesTheLeastInLightWhereAllCodesMayBeWrong) {
+  CaptureFormat format;
+  format.shape = {1, 1, 1};
+  const test::Rasters rasters(100, std::vector<std::byte>(1, std::byte{90}));
+  const MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100), rasters, 64);
+  for (const double gain : {1e20, 1e100, 1e300}) {
+    const GainFunction function({{640'000'000, gain}, {640'000'000, 2 - gain}});
+    const RenderPlan plan = make_plan(capture, {{0, function}}, Mask::uniform(1, 1, 0), {});
+    const std::vector<Precision> available{Precision::single_, Precision::fixed, Precision::compensated};
+    const PrecisionChoice choice = choose_precision(plan, {ValueType::code8, 255}, available);
+    EXPECT_EQ(choice.precision(), Precision::compensated) << gain;
+    EXPECT_EQ(choice.bound.worst.steps, 255) << gain;
+    ASSERT_EQ(choice.rejected.size(), 2u) << gain;
+    for (const ErrorBound& rejected : choice.rejected) {
+      EXPECT_EQ(rejected.worst.steps, 255) << gain;
+      EXPECT_LT(choice.bound.worst.light, rejected.worst.light) << gain;
+    }
+  }
+}
+
 TEST(PrecisionChoice, SaysWhatItMayErrBy) {
   EXPECT_EQ(error_text({3.1e-7, 0.0102}, {ValueType::code8, 255}),
             "light within 3.1e-07, 0.01 of an 8-bit code");
   EXPECT_EQ(error_text({3.4e-3, 34.12}, {ValueType::code8, 255}),
-            "light within 0.0034, 34.1 times an 8-bit code");
+            "light within 0.0034, 34.1 8-bit codes");
   EXPECT_EQ(error_text({3.1e-7, 0.2625}, {ValueType::code16, 4095}),
             "light within 3.1e-07, 0.26 of a 12-bit code");
   EXPECT_EQ(error_text({3.1e-7, 0.2625}, {ValueType::code16, 1000}),
             "light within 3.1e-07, 0.26 of a code of 1000");
   EXPECT_EQ(error_text({1e-8, 0.17}, {ValueType::light32, 0}),
-            "light within 1e-08, 0.17 of a step of a float");
+            "light within 1e-08, 0.17 of a float's step");
   EXPECT_EQ(error_text({1e-13, 0.1}, kLight), "light within 1e-13");
 }
 
