@@ -77,6 +77,17 @@ ChangeRecord BlockView::record_at(std::uint32_t sample, const std::byte* codes, 
   return record;
 }
 
+std::uint32_t BlockView::row_sample(std::uint64_t tile, std::uint32_t row, std::uint32_t before) const {
+  const bool has_list = geometry_.row_index_bytes(entry(tile).rows()) != 0;
+  const std::uint32_t sample = has_list ? index_at(body(tile).data(), row) : row;
+  if (row == 0 ? sample != 0 : sample <= before || sample >= geometry_.sample_count) {
+    fail(row == 0 ? format("tile {}: its first row is at sample {}, not 0", tile, sample)
+                  : format("tile {}: its row {} is at sample {} of {}, the one before at {}", tile, row,
+                           sample, geometry_.sample_count, before));
+  }
+  return sample;
+}
+
 // The checksums of a crafted file are right, and the directory says nothing about sample numbers: here they
 // are checked, so that whoever looks them up in a table of the block's samples needs no care of their own.
 void BlockView::read_history(std::uint64_t tile, std::uint32_t lane,
@@ -104,12 +115,7 @@ void BlockView::read_history(std::uint64_t tile, std::uint32_t lane,
   const std::uint64_t list_bytes = geometry_.row_index_bytes(at.rows());
   std::uint32_t before = 0;
   for (std::uint32_t row = 0; row < at.rows(); ++row) {
-    const std::uint32_t sample = list_bytes == 0 ? row : index_at(bytes, row);
-    if (row == 0 ? sample != 0 : sample <= before || sample >= geometry_.sample_count) {
-      fail(row == 0 ? format("tile {}: its first row is at sample {}, not 0", tile, sample)
-                    : format("tile {}: its row {} is at sample {} of {}, the one before at {}", tile, row,
-                             sample, geometry_.sample_count, before));
-    }
+    const std::uint32_t sample = row_sample(tile, row, before);
     before = sample;
     const ChangeRecord record = record_at(sample, bytes + list_bytes + row * geometry_.row_bytes(), lane);
     if (history.empty() || history.back().codes != record.codes) history.push_back(record);
@@ -120,12 +126,24 @@ void BlockView::read_sample(std::uint32_t sample, std::span<std::byte> raster) c
   const TileGrid grid(shape_);
   std::vector<ChangeRecord> history;
   for (std::uint64_t tile = 0; tile < geometry_.tile_count; ++tile) {
+    const TileEntry at = entry(tile);
+    const std::byte* row_codes = nullptr;  // of the row that all pixels of the tile hold, where it has rows
+    for (std::uint32_t row = 0, before = 0; !at.is_records() && row < at.rows(); ++row) {
+      before = row_sample(tile, row, before);
+      if (before > sample) continue;
+      row_codes = body(tile).data() + geometry_.row_index_bytes(at.rows()) + row * geometry_.row_bytes();
+    }
     grid.for_each_lane(tile, [&](std::uint32_t lane, std::uint64_t pixel) {
-      read_history(tile, lane, history);
-      const auto after =
-          std::upper_bound(history.begin(), history.end(), sample,
-                           [](std::uint32_t at, const ChangeRecord& record) { return at < record.sample; });
-      const ChangeRecord& held = *(after - 1);
+      ChangeRecord held;
+      if (row_codes != nullptr) {
+        held = record_at(sample, row_codes, lane);
+      } else {
+        read_history(tile, lane, history);
+        held = *(std::upper_bound(
+                     history.begin(), history.end(), sample,
+                     [](std::uint32_t time, const ChangeRecord& record) { return time < record.sample; }) -
+                 1);
+      }
       for (std::uint32_t channel = 0; channel < geometry_.channels; ++channel) {
         std::byte* to = raster.data() + (pixel * geometry_.channels + channel) * geometry_.code_bytes;
         std::memcpy(to, &held.codes[channel], geometry_.code_bytes);  // little-endian hosts

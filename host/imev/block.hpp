@@ -145,6 +145,8 @@ class BlockView {
  private:
   [[noreturn]] void fail(const std::string& why) const;
   [[nodiscard]] std::uint32_t index_at(const std::byte* list, std::uint64_t position) const;
+  // The sample at which a row of a tile of rows begins, the one before it beginning at `before`.
+  [[nodiscard]] std::uint32_t row_sample(std::uint64_t tile, std::uint32_t row, std::uint32_t before) const;
   [[nodiscard]] ChangeRecord record_at(std::uint32_t sample, const std::byte* codes,
                                        std::uint32_t lane) const;
 

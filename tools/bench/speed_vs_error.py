@@ -184,8 +184,10 @@ def chart(path, rows):
     for panel, clip in zip(panels.flat, clips):
         own = [row for row in rows if row["clip"] == clip]
         colours, markers = draw_panel(panel, own, f"{clip}, {own[0]['size']}", 1e-16)
-    for panel in list(panels.flat)[len(clips):]:
-        panel.set_visible(False)
+    for place in range(len(clips), panels.size):
+        panels.flat[place].set_visible(False)
+        panels.flat[place - columns].tick_params(labelbottom=True)
+        panels.flat[place - columns].set_xlabel("milliseconds a render")
     for name, light in HALF_CODES.items():
         panels[0][0].text(0.93, light, name, transform=panels[0][0].get_yaxis_transform(), ha="right", va="bottom",
                           fontsize=8, color="#606060")
@@ -203,6 +205,7 @@ def chart(path, rows):
                 Line2D([], [], color="#707070", linestyle="--", label="front without double"),
                 point("X", "black", "Python and OpenCV, a loop"), point("*", "black", "scalar reference (its bound)", 11),
                 Line2D([], [], color="#8a5a00", linestyle="-.", label="6 s, the paper's program")]
+    handles += [Line2D([], [], linestyle="none", label=" ")] * 3  # columns of four
     legend_share = 1.0 / figure.get_figheight()
     figure.get_layout_engine().set(rect=(0, legend_share, 1, 1 - legend_share))
     figure.legend(handles=handles, loc="lower center", ncols=4, fontsize=9, frameon=False)
