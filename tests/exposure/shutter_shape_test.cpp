@@ -192,7 +192,7 @@ TEST(ShutterShape, SaysWhatIsWrong) {
     return test::message_of<UsageError>([&] { static_cast<void>(ShutterShape::parse(text)); });
   };
   EXPECT_EQ(message("boxes"),
-            "shutter 'boxes' is not known; choose box, trapezoid:R, triangle, gaussian, hann, strobe:N or "
+            "shutter 'boxes' is not known; choose box, trapezoid:R, triangle, gaussian, hann, strobe:N[,R] or "
             "spline:0=G,…,1=G");
   EXPECT_EQ(message("hann:2"), "shutter 'hann:2': hann takes no value");
   EXPECT_EQ(message("trapezoid:0.5"),

@@ -8,16 +8,16 @@ from .painting import HEIGHT, WIDTH, PaintedScene, blend, cloud, ellipse, light
 RADIUS = 34
 FLOOR = 452.0             # where the ball's lowest point bounces
 GRAVITY = 1500.0          # design units a second squared
-SPEED = 560.0             # to the right
+SPEED = 420.0             # to the right
 ENTERS_S = 0.10           # at the left border
 SUN = np.array([-0.55, -0.62, 0.56], np.float32)
 
 
 class BouncingBall(PaintedScene):
     name = "bouncing-ball"
-    summary = "a ball bounces through a sunlit room, from 0.1 to 2.1 s"
+    summary = "a ball bounces through a sunlit room, from 0.1 to 2.7 s"
     fps = 240
-    seconds = 2.25
+    seconds = 2.8
 
     def place(self, seconds):
         """(x, y) of the ball's centre. Each bounce rises to 0.62 times the height before."""
@@ -77,9 +77,6 @@ class BouncingBall(PaintedScene):
                 sunny = np.maximum(sunny, ((across > 0) & (across < 108) & (down > 0) & (down < 128)).astype(np.float32))
         scale = canvas.scale[0]
         sunny = cv2.GaussianBlur(sunny, (0, 0), 4.0 * scale)
-        leaves = cv2.GaussianBlur(cloud(shape, (30 * scale, 34 * scale), 9, 2), (0, 0), 5 * scale)
-        branch = np.clip((x - 330 + 0.8 * (260 - y)) / 420, 0, 1)
-        sunny *= 1 - 0.62 * np.clip((leaves - 0.47) * 9 + 0.2, 0, 1) * branch
         wall = wall * (1 + 0.9 * sunny[..., None]) + sunny[..., None] * light("#ff9f4e") * 0.42
         floor = self.floor(x, y, shape)
         below = (y > 420)[..., None]
@@ -87,8 +84,34 @@ class BouncingBall(PaintedScene):
         skirting = ((y > 398) & (y <= 420))[..., None]
         picture = np.where(skirting, blend(light("#d9d2c3"), light("#8d8676"), (y - 398) / 26 + x / WIDTH * 0.5), picture)
         picture = np.where(((y > 418) & (y <= 421))[..., None], picture * 0.35, picture)
+        canvas.cover(picture, np.ones(shape, np.float32))
+        self.plant(canvas)
         vignette = 1 - 0.34 * (((x - 470) / 700) ** 2 + ((y - 260) / 480) ** 2)
-        canvas.cover(picture * vignette[..., None], np.ones(shape, np.float32))
+        canvas.layer[..., :3] *= vignette[..., None]
+
+    @staticmethod
+    def plant(canvas):
+        """A rubber plant in a pot, before the wall at the right."""
+        random = np.random.Generator(np.random.PCG64(23))
+        pot_x, pot_y = 906.0, 430.0
+        canvas.fill(ellipse(pot_x + 20, pot_y + 2, 62, 8), light("#24140c"), 0.5)
+        for stem in (-26, -8, 6, 24):
+            top = np.array([pot_x + 2.6 * stem, 210 + abs(stem) * 2.2])
+            canvas.fill([(pot_x - 2, pot_y - 60), (pot_x + 2, pot_y - 60), top + (1.5, 0), top - (1.5, 0)], light("#3a3222"))
+            for share in np.linspace(0.30, 1.0, 7):
+                at = np.array([pot_x, pot_y - 60]) * (1 - share) + top * share
+                for side in (-1, 1):
+                    droop, length = random.uniform(-0.5, 0.45), random.uniform(26, 42)
+                    turn = np.pi / 2 - side * (np.pi / 2 - droop) if side < 0 else droop
+                    middle = at + length * 0.8 * np.array([np.cos(turn), np.sin(turn)])
+                    green = blend(light("#17301f"), light("#4f8a52"), random.uniform(0.1, 0.9))
+                    canvas.fill(ellipse(*middle, length * 0.8, 9, turn), green)
+                    canvas.fill([at, middle + (middle - at) * 0.8, middle + (middle - at) * 0.8 + (0, 1.2), at + (0, 1.2)],
+                                light("#86b07c"), 0.35)
+        shape = [(pot_x - 42, pot_y - 66), (pot_x + 42, pot_y - 66), (pot_x + 31, pot_y + 6), (pot_x - 31, pot_y + 6)]
+        canvas.fill(shape, lambda u, v: blend(light("#e9dfcb"), light("#8d7d66"), (u - pot_x + 30) / 70))
+        canvas.fill([(pot_x - 44, pot_y - 68), (pot_x + 44, pot_y - 68), (pot_x + 42, pot_y - 58), (pot_x - 42, pot_y - 58)],
+                    lambda u, v: blend(light("#f6eddb"), light("#a08e75"), (u - pot_x + 30) / 70))
 
     @staticmethod
     def floor(x, y, shape):

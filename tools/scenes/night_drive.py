@@ -9,7 +9,7 @@ ROAD = 520.0             # where the wheels stand
 KERB = 428.0
 SPEED = 640.0            # design units a second
 LENGTH = 270.0
-ENTERS_S = 0.25          # the nose is at the left border
+ENTERS_S = 0.6           # the nose is at the left border
 BODY = np.array([(2, -22), (3, -44), (28, -56), (70, -60), (98, -88), (150, -92), (190, -63), (244, -53), (266, -42),
                  (271, -24), (262, -12), (10, -12)])
 WINDOWS = (((78, -61), (102, -83), (124, -86), (124, -61)), ((130, -61), (130, -86), (147, -85), (176, -61)))
@@ -18,9 +18,9 @@ WHEELS = (56, 212)
 
 class NightDrive(PaintedScene):
     name = "night-drive"
-    summary = "a car drives through a city at night, from 0.25 to 2.3 s"
-    fps = 240
-    seconds = 2.4
+    summary = "a car drives through a city at night, from 0.6 s on, its light from 0.2 s"
+    fps = 120
+    seconds = 2.0
 
     @staticmethod
     def rear(seconds):

@@ -63,6 +63,17 @@ def cloud(shape, cell, seed, octaves=4):
     return np.clip(total / weight, 0, 1)
 
 
+def endless(texture, axis):
+    """A texture that goes on where it ends, along an axis; rolled, it shows no seam."""
+    size = texture.shape[axis]
+    share = np.abs(np.linspace(-1, 1, size, dtype=np.float32)) ** 2
+    share = share.reshape([-1 if k == axis else 1 for k in range(texture.ndim)])
+    other = np.roll(texture, size // 2, axis)
+    mean = texture.mean()
+    even = (1 - share) * (texture - mean) + share * (other - mean)
+    return mean + even / np.sqrt((1 - share) ** 2 + share ** 2)
+
+
 class Canvas:
     """A part of the picture, `grid` sampling points to a pixel, that shapes are painted on."""
 

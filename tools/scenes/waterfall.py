@@ -3,7 +3,7 @@
 import cv2
 import numpy as np
 
-from .painting import HEIGHT, WIDTH, Canvas, PaintedScene, blend, cloud, ellipse, light, smooth_line
+from .painting import HEIGHT, WIDTH, Canvas, PaintedScene, blend, cloud, ellipse, endless, light, smooth_line
 
 FALL = 1050.0                  # design units a second that the water falls
 POOL = 470.0
@@ -18,6 +18,7 @@ class Waterfall(PaintedScene):
     summary = "water falls, and a salmon leaps beside it from 1.3 to 2.1 s"
     fps = 120
     seconds = 2.25
+    moments = 2
 
     def __init__(self, width=WIDTH, height=HEIGHT):
         self.size = (width, height)
@@ -43,8 +44,8 @@ class Waterfall(PaintedScene):
         self.pool = np.clip((y - POOL + 12 * (wave + 0.1)) / 8, 0, 1).astype(np.float32)
         self.foam = np.clip(near * np.exp(-np.maximum(y - POOL, 0) / 46) * 1.25, 0, 1).astype(np.float32)
         self.mist = (0.62 * np.exp(-((x - 680) / 270) ** 2 - ((y - POOL + 6) / 46) ** 2)).astype(np.float32)
-        self.textures = [cloud((2 * height, width), (70 * sy, 7 * sx), 50 + k, 4) for k in range(2)]
-        self.ripples = [cloud((height, 2 * width), (5 * sy, 46 * sx), 60 + k, 4) for k in range(2)]
+        self.textures = [endless(cloud((2 * height, width), (70 * sy, 7 * sx), 50 + k, 4), 0) for k in range(2)]
+        self.ripples = [endless(cloud((height, 2 * width), (5 * sy, 46 * sx), 60 + k, 4), 1) for k in range(2)]
 
     def water(self, seconds):
         """Light of the water and what it covers, at a moment: [height, width, 3] and [height, width]."""
@@ -59,12 +60,8 @@ class Waterfall(PaintedScene):
         ripple = np.clip((there + back - 0.66) * 2.2, 0, 1)
         deep = blend(light("#0c2f33"), light("#5fa3a4"), ripple * 0.55)
         pool = blend(deep, light("#eef8f8"), self.foam * (0.45 + 0.9 * ripple))
-        picture = falling * self.fall[..., None] * (1 - self.pool)[..., None] + pool * self.pool[..., None]
         cover = np.maximum(self.fall * (0.35 + 0.65 * body) * (1 - self.pool), self.pool)
-        covered = np.where((self.fall > 0)[..., None] & (self.pool < 1)[..., None], falling, pool)
-        covered = covered * (1 - self.pool)[..., None] + pool * self.pool[..., None]
-        del picture
-        return covered, cover
+        return blend(falling, pool, self.pool), cover
 
     def draw(self, frame):
         times = (frame + (np.arange(self.moments) + 0.5) / self.moments) / self.fps
@@ -158,6 +155,15 @@ class Waterfall(PaintedScene):
         rock = rock * np.clip(1 + 6 * slope, 0.5, 1.7)[..., None]
         shade = 0.42 + 0.75 * np.exp(-((x - 690) / 420) ** 2) * np.exp(-((y - 230) / 420) ** 2)
         canvas.cover(rock * shade[..., None], np.ones(x.shape, np.float32))
-        top = np.clip((46 - y + 22 * (coarse - 0.5)) / 10, 0, 1)
-        leaves = blend(light("#16240f"), light("#7d9a3c"), cloud(x.shape, (9 * sy, 10 * sx), 74, 3) * 1.3 - 0.25)
-        canvas.cover(leaves * 0.8, top)
+        self.leaves(canvas)
+
+    @staticmethod
+    def leaves(canvas):
+        """Bushes above the rock, hanging over it; the further back the darker."""
+        random = np.random.Generator(np.random.PCG64(75))
+        for share in np.linspace(0, 1, 1700):
+            x, reach = random.uniform(-10, WIDTH + 10), 40 + 16 * np.sin(random.integers(9) * 0.7)
+            hang = reach + 26 * np.sin(x / 63) * np.sin(x / 29) - 30 * np.exp(-((x - 690) / 210) ** 4)
+            y = hang * (1 - random.random() ** 0.6 * 1.3) * (1.25 - 0.45 * share)
+            tone = blend(light("#0c160c"), light("#86a344"), share * random.uniform(0.45, 0.95))
+            canvas.fill(ellipse(x, y, random.uniform(6, 13), random.uniform(2.4, 4.6), random.uniform(0.2, 2.6), 14), tone)
