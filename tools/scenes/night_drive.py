@@ -21,6 +21,7 @@ class NightDrive(PaintedScene):
     summary = "a car drives through a city at night, from 0.6 s on, its light from 0.2 s"
     fps = 120
     seconds = 2.0
+    moments = 2
 
     @staticmethod
     def rear(seconds):

@@ -1,0 +1,9 @@
+nutik-cl encode --tolerance 2 clip.mkv clip.tik
+
+# 256 columns, each a picture later than the one to its left.
+nutik-cl mask --grid 256x1 clip.tik regions.pgm
+for column in {0..255}; do
+  nutik-cl shutter box --fps 120 --start ${column}f --exposure 1f --tag $column
+done > picture.fn
+nutik-cl -m regions.pgm -k picture.fn clip.tik picture.png
+FnPlotter.py picture.fn --capture clip.tik --per-page 32 -o plot.png
