@@ -2,7 +2,7 @@
 """Films the gallery's scenes and runs its recipes, tools/gallery/*.sh, as docs/gallery.md prints them.
 
 Each recipe runs in a folder of its own, where its scene's clip.mkv lies, with nutik-cl and FnPlotter.py in PATH. It
-makes picture.png and plot.png (of several pages, plot-1.png). --publish FOLDER writes the pictures of the page there:
+makes picture.png and plot.png. --publish FOLDER writes the pictures of the page there:
 NAME.jpg, NAME-scene.jpg (the clip's picture at one moment), NAME-plot.png and strip.jpg.
 """
 
@@ -65,10 +65,6 @@ def make(recipe, program, work, size, plots=True):
     return folder
 
 
-def plot_of(folder):
-    return next(path for path in (folder / "plot.png", folder / "plot-1.png") if path.exists())
-
-
 def read(path):
     picture = cv2.imread(str(path))
     if picture is None:
@@ -85,7 +81,7 @@ def publish(recipe, folder, target):
     write(target / f"{recipe}.jpg", read(folder / "picture.png"))
     scene = cv2.resize(read(folder / "scene.png"), SCENE_SIZE, interpolation=cv2.INTER_AREA)
     write(target / f"{recipe}-scene.jpg", scene)
-    plot = read(plot_of(folder))
+    plot = read(folder / "plot.png")
     reduced = cv2.resize(plot, None, fx=0.75, fy=0.75, interpolation=cv2.INTER_AREA)
     write(target / f"{recipe}-plot.png", reduced // 8 * 8 + 7)  # 32 levels: a third of the bytes, and looks the same
 

@@ -6,14 +6,14 @@ from .painting import HEIGHT, WIDTH, PaintedScene, blend, cloud, ellipse, light
 
 HUB = np.array([512.0, 236.0])
 LENGTH = 196.0                 # of a sail, from the hub
-TURNS_PER_SECOND = 1.15
+TURNS_PER_SECOND = 0.85
 SHORE = 440.0
 SAIL, FRAME = light("#e9d3ac"), light("#2a1c1a")
 
 
 class Windmill(PaintedScene):
     name = "windmill"
-    summary = "the sails of a mill turn 1.15 times a second"
+    summary = "the sails of a mill turn 0.85 times a second"
     fps = 120
     seconds = 260 / 120
 
