@@ -7,6 +7,7 @@ NAME.jpg, NAME-scene.jpg (the clip's picture at one moment), NAME-plot.png and s
 """
 
 import argparse
+import inspect
 import os
 import subprocess
 import sys
@@ -14,6 +15,8 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+
+from scenes import SCENES
 
 TOOLS = Path(__file__).resolve().parent
 # Recipe: the scene that it is made from, and a moment of it, in seconds, as a camera would have taken it.
@@ -38,7 +41,8 @@ def run(command, **how):
 def film(recipe, folder, size):
     """The scene's clip in the recipe's folder, unless it is there and newer than what draws it."""
     clip = folder / "clip.mkv"
-    sources = [TOOLS / "scene.py", *(TOOLS / "scenes").glob("*.py")]
+    own = inspect.getfile(SCENES[RECIPES[recipe][0]])
+    sources = [TOOLS / "scene.py", TOOLS / "scenes" / "camera.py", TOOLS / "scenes" / "painting.py", Path(own)]
     if not clip.exists() or any(source.stat().st_mtime > clip.stat().st_mtime for source in sources):
         run([sys.executable, TOOLS / "scene.py", folder, "--scene", RECIPES[recipe][0], "--size", size])
 

@@ -4,11 +4,11 @@ nutik-cl activity --by 16 clip.tik activity.png
 nutik-cl contact --every 0.2s clip.tik contact.png
 
 # At 0 s the room is empty: five times, the ball is what differs from that.
-nutik-cl mask --tag 1 --difference 0.36s 0s --largest --smooth 1 --grow 2 \
-              --tag 2 --difference 0.75s 0s --largest --smooth 1 --grow 2 \
-              --tag 3 --difference 1.27s 0s --largest --smooth 1 --grow 2 \
-              --tag 4 --difference 1.78s 0s --largest --smooth 1 --grow 2 \
-              --tag 5 --difference 2.20s 0s --largest --smooth 1 --grow 2 \
+nutik-cl mask --tag 1 --difference 0.36s 0s --largest --smooth 1 --grow 1 \
+              --tag 2 --difference 0.75s 0s --largest --smooth 1 --grow 1 \
+              --tag 3 --difference 1.27s 0s --largest --smooth 1 --grow 1 \
+              --tag 4 --difference 1.78s 0s --largest --smooth 1 --grow 1 \
+              --tag 5 --difference 2.20s 0s --largest --smooth 1 --grow 1 \
               clip.tik regions.pgm --preview preview.png
 
 # Its way, three times as strong: the empty room is taken away from it again.
