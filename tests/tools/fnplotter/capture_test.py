@@ -154,7 +154,7 @@ class TheProgram(unittest.TestCase):
         result = run(functions, "--capture", self.capture(), "--program", paths.program, "-o", output)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         texts = set(re.findall("<!-- (.*) -->", output.read_text(encoding="utf-8")))
-        self.assertLessEqual({"exposures of the 10 samples", "pixels that change", "10 %"}, texts)
+        self.assertLessEqual({"exposures of the 10 samples", "pixels that change", "20 %"}, texts)
         self.assertTrue([text for text in texts if text.endswith("over the capture (1 s)")], texts)
 
 
