@@ -24,7 +24,6 @@ class Golfer(PaintedScene):
     summary = "a golf swing of a second; the club meets the ball at 0.62 s"
     fps = 240
     seconds = 1.25
-    moments = 2
 
     @staticmethod
     def angles(seconds):
