@@ -7,5 +7,5 @@ for column in {0..31}; do
   nutik-cl shutter box --fps 30 $moment --tag $column
 done > picture.fn
 nutik-cl -m regions.pgm -k picture.fn clip.tik picture.png
-head -n 4 picture.fn > first-four.fn
+head -n 8 picture.fn > first-four.fn
 FnPlotter.py first-four.fn --capture clip.tik -o plot.png

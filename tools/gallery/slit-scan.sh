@@ -6,5 +6,5 @@ for column in {0..255}; do
   nutik-cl shutter box --fps 120 --start ${column}f --exposure 1f --tag $column
 done > picture.fn
 nutik-cl -m regions.pgm -k picture.fn clip.tik picture.png
-head -n 4 picture.fn > first-four.fn
+head -n 8 picture.fn > first-four.fn
 FnPlotter.py first-four.fn --capture clip.tik --zoom 0ms..50ms -o plot.png
