@@ -15,8 +15,9 @@ namespace nutik {
 namespace {
 
 constexpr std::string_view kNames =
-    "box, trapezoid:R, triangle, gaussian, hann, strobe:N or spline:0=G,…,1=G";
+    "box, trapezoid:R, triangle, gaussian, hann, strobe:N[,R] or spline:0=G,…,1=G";
 constexpr std::uint32_t kMostFlashes = 1'000'000;
+constexpr std::int64_t kFinestShare = 1'000'000;  // denominator of a flash's share
 constexpr std::size_t kMostKnots = 1000;
 
 // A curve is sampled so closely that between two samples it leaves their chord by at most this share of the
@@ -81,22 +82,36 @@ ShutterShape ShutterShape::parse(std::string_view text) {
   return shape;
 }
 
-ShutterShape ShutterShape::strobe(std::string_view count) {
+ShutterShape ShutterShape::strobe(std::string_view text) {
+  const auto comma = text.find(',');
+  const std::string_view count = text.substr(0, comma);
   std::uint32_t flashes = 0;
   const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), flashes);
   if (error != std::errc() || end != count.data() + count.size() || flashes < 1 || flashes > kMostFlashes) {
     throw UsageError(format("the strobe's number of flashes '{}' is no whole number of 1 … {}: strobe:5",
                             count, kMostFlashes));
   }
+  Rational open{1, 2};
+  if (comma != std::string_view::npos) {
+    open = Rational::parse(text.substr(comma + 1), "the strobe's share");
+    if (open.numerator <= 0 || open.numerator >= open.denominator || open.denominator > kFinestShare) {
+      throw UsageError(
+          format("the strobe's flashes last a share {} of the time from one to the next; it must lie between "
+                 "0 and 1, "
+                 "in steps of {} or larger: strobe:5,0.1",
+                 open.text(), Rational::of(1, kFinestShare).text()));
+    }
+  }
   ShutterShape shape;
   shape.corners_.clear();
-  const std::int64_t parts = 2 * std::int64_t{flashes} - 1;  // flashes and pauses
-  for (std::int64_t part = 0; part < parts; part += 2) {
-    const Rational opens = Rational::of(part, parts), closes = Rational::of(part + 1, parts);
-    if (part > 0) shape.corners_.push_back({opens, 0.0});
-    shape.corners_.push_back({opens, 1.0});
-    shape.corners_.push_back({closes, 1.0});
-    if (part + 1 < parts) shape.corners_.push_back({closes, 0.0});
+  // From one flash to the next it is `denominator` parts, of which a flash takes `numerator`.
+  const std::int64_t parts = (std::int64_t{flashes} - 1) * open.denominator + open.numerator;
+  for (std::int64_t opens = 0; opens < parts; opens += open.denominator) {
+    const std::int64_t closes = opens + open.numerator;
+    if (opens > 0) shape.corners_.push_back({Rational::of(opens, parts), 0.0});
+    shape.corners_.push_back({Rational::of(opens, parts), 1.0});
+    shape.corners_.push_back({Rational::of(closes, parts), 1.0});
+    if (closes < parts) shape.corners_.push_back({Rational::of(closes, parts), 0.0});
   }
   return shape;
 }

@@ -6,6 +6,7 @@
 //   gaussian         exp(−x²/2σ²), σ being a sixth of the exposure, which ends at ±3σ with a gain of 0.011
 //   hann             sin²(π x): opens and closes smoothly
 //   strobe:N         N flashes, and between them N − 1 pauses of the same length
+//   strobe:N,R       flashes that last a share R of the time from one to the next (0 < R < 1)
 //   spline:X=G,…     smooth through gain G at share X of the exposure, from 0 to 1, without going beyond
 //                    neighbouring gains (monotone_spline.hpp)
 //
@@ -64,7 +65,7 @@ class ShutterShape {
     bool is_zero;
   };
 
-  static ShutterShape strobe(std::string_view count);
+  static ShutterShape strobe(std::string_view flashes);
   static ShutterShape spline(std::string_view list);
 
   [[nodiscard]] std::vector<ControlPoint> straight_points(std::int64_t length_ns) const;

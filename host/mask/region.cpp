@@ -113,4 +113,23 @@ void paint(Mask& mask, const Region& region, std::uint8_t tag) {
   }
 }
 
+void paint_grid(Mask& mask, const Region& region, std::uint32_t columns, std::uint32_t rows,
+                std::uint8_t first_tag) {
+  if (columns == 0 || rows == 0 || first_tag + std::uint64_t{columns} * rows > kMaskValues) {
+    throw std::logic_error("paint_grid: no cell, or a tag above 255");
+  }
+  // The cell that holds the centre of pixel k of `pixels`: floor((k + ½) · cells / pixels).
+  const auto cell = [](std::uint64_t k, std::uint64_t cells, std::uint64_t pixels) {
+    return (2 * k + 1) * cells / (2 * pixels);
+  };
+  std::size_t pixel = 0;
+  for (std::uint32_t y = 0; y < mask.height; ++y) {
+    const std::uint64_t first_of_row = first_tag + cell(y, rows, mask.height) * columns;
+    for (std::uint32_t x = 0; x < mask.width; ++x, ++pixel) {
+      if (region.inside[pixel] == 0) continue;
+      mask.tags[pixel] = static_cast<std::uint8_t>(first_of_row + cell(x, columns, mask.width));
+    }
+  }
+}
+
 }  // namespace nutik

@@ -59,4 +59,10 @@ struct Point {
 // Gives the region's pixels a tag; the others keep theirs. Mask and region have one size.
 void paint(Mask& mask, const Region& region, std::uint8_t tag);
 
+// The same with a tag for each cell of a grid over the whole picture: `first_tag` at the top left, one more from cell
+// to cell along each row. Cells are as equal as whole pixels allow; a pixel belongs to the cell that holds its
+// centre. Throws std::logic_error for a grid of no cell or of tags above 255.
+void paint_grid(Mask& mask, const Region& region, std::uint32_t columns, std::uint32_t rows,
+                std::uint8_t first_tag);
+
 }  // namespace nutik

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "capture/format.hpp"
 #include "media/mask_reader.hpp"
 #include "support/moving_square.hpp"
 #include "support/program.hpp"
@@ -228,6 +229,23 @@ TEST_F(MaskCommand, RefusesWhatMakesNoSense) {
   EXPECT_EQ(test::read_file(scratch_ / "small.pgm"), "P2 2 1 255 0 1");
   expect_refused({"expose", "--moving", "clip.tik"}, 2,
                  "--moving does not go with expose; it is an option of: mask");
+}
+
+TEST_F(MaskCommand, CutsThePictureIntoAGrid) {
+  const int half = MovingSquare::kWidth / 2, height = MovingSquare::kHeight;
+  const int rest =
+      MovingSquare::kWidth - half;  // of an odd width the middle pixel's centre lies on the line: right
+  const std::vector<std::uint8_t> halves = boxes({{half, 0, rest, height, 1}});
+  EXPECT_EQ(tags({"--grid", "2x1", "clip.tik"}), halves);
+  EXPECT_EQ(tags({"--tag", "7", "--grid", "2x1", "--within", "0,0,3,2", "clip.tik"}),
+            boxes({{0, 0, 3, 2, 7}}));
+  const auto columns = tags({"--grid", format("{}x1", MovingSquare::kWidth), "clip.tik"});
+  for (int x = 0; x < MovingSquare::kWidth; ++x) EXPECT_EQ(columns[static_cast<std::size_t>(x)], x);
+  expect_refused({"mask", "--grid", "4", "clip.tik", "a.pgm"}, 2, "write COLUMNSxROWS: 16x9");
+  expect_refused({"mask", "--grid", "0x4", "clip.tik", "a.pgm"}, 2, "1 … 256");
+  expect_refused({"mask", "--tag", "1", "--grid", "16x16", "clip.tik", "a.pgm"}, 2,
+                 "has 256 cells, tagged from 1 on: tags end at 255");
+  expect_refused({"mask", "--grid", "256x1", "clip.tik", "a.pgm"}, 3, "more cells than pixels along a side");
 }
 
 }  // namespace

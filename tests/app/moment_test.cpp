@@ -154,6 +154,18 @@ TEST_F(Moment, ActivitySaysWhereItIsQuiet) {
   EXPECT_NE(run({"activity", "--by", "200", "clip.tik"}).out.find("nothing changes"), std::string::npos);
 }
 
+TEST_F(Moment, ActivityNamesAMomentForAnotherCommand) {
+  const auto moment = [&](std::string_view wanted, std::string_view by) {
+    return run({"activity", "--by", std::string(by), "--moment", std::string(wanted), "clip.tik"}).out;
+  };
+  EXPECT_EQ(moment("quietest", "8"), "--start 13f --exposure 1f\n");
+  EXPECT_EQ(moment("busiest", "8"), "--start 1f --exposure 1f\n");
+  EXPECT_EQ(moment("quietest", "200"), "--start 0f --exposure 20f\n");  // nothing changes by that much
+  expect_refused({"activity", "--by", "200", "--moment", "busiest", "clip.tik"}, 3, "nothing changes");
+  expect_refused({"activity", "--moment", "calmest", "clip.tik"}, 2, "neither quietest nor busiest");
+  expect_refused({"activity", "--moment", "busiest", "--json", "clip.tik"}, 2, "prints nothing else");
+}
+
 TEST_F(Moment, ActivityOfARegion) {
   ASSERT_EQ(run({"mask", "--tag", "7", "--rectangle", "0,20,20,8", "--tag", "9", "--rectangle", "40,0,10,10",
                  "clip.tik", "mask.pgm"})

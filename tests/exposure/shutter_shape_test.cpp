@@ -146,6 +146,12 @@ TEST(ShutterShape, StraightShapesAreExact) {
   EXPECT_EQ(function("strobe:2", 10, 40),
             GainFunction({{10, 0}, {10, 1}, {20, 1}, {20, 0}, {30, 0}, {30, 1}, {40, 1}, {40, 0}}));
   EXPECT_EQ(summarize(function("strobe:5", 0, 9'000), 9'000).support_ns, 5'000);
+  EXPECT_EQ(function("strobe:5,0.5", 0, 9'000), function("strobe:5", 0, 9'000));
+  EXPECT_EQ(summarize(function("strobe:11,0.1", 0, 10'100), 10'100).support_ns,
+            1'100);                                                // 11 flashes of 100 ns
+  EXPECT_EQ(ShutterShape::parse("strobe:2,1/4").gain(0.19), 1.0);  // open for 1/5, pause of 3/5
+  EXPECT_EQ(ShutterShape::parse("strobe:2,1/4").gain(0.21), 0.0);
+  EXPECT_EQ(ShutterShape::parse("strobe:2,1/4").gain(0.81), 1.0);
 }
 
 TEST(ShutterShape, GainFollowsTheDefinition) {
@@ -191,13 +197,17 @@ TEST(ShutterShape, SaysWhatIsWrong) {
   const auto message = [](const char* text) {
     return test::message_of<UsageError>([&] { static_cast<void>(ShutterShape::parse(text)); });
   };
-  EXPECT_EQ(message("boxes"),
-            "shutter 'boxes' is not known; choose box, trapezoid:R, triangle, gaussian, hann, strobe:N or "
-            "spline:0=G,…,1=G");
+  EXPECT_EQ(
+      message("boxes"),
+      "shutter 'boxes' is not known; choose box, trapezoid:R, triangle, gaussian, hann, strobe:N[,R] or "
+      "spline:0=G,…,1=G");
   EXPECT_EQ(message("hann:2"), "shutter 'hann:2': hann takes no value");
   EXPECT_EQ(message("trapezoid:0.5"),
             "the trapezoid's ramp 0.5 must be a share of the exposure between 0 and 0.5: trapezoid:0.25");
   EXPECT_NE(message("trapezoid").find("the trapezoid's ramp '' is not a number"), std::string::npos);
+  for (const char* text : {"strobe:5,0", "strobe:5,1", "strobe:5,-0.1", "strobe:5,1/3000000"}) {
+    EXPECT_NE(message(text).find("it must lie between 0 and 1"), std::string::npos) << text;
+  }
   for (const char* text : {"strobe", "strobe:0", "strobe:2.5", "strobe:-1", "strobe:9999999"}) {
     EXPECT_NE(message(text).find("is no whole number of 1 … 1000000: strobe:5"), std::string::npos) << text;
   }

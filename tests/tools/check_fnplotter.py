@@ -2,7 +2,7 @@
 """Holds FnPlotter.py to the shared corpus of function files, and its plots to what they must show.
 
     check_fnplotter.py --plotter tools/FnPlotter.py --corpus tests/corpus/functions --work FOLDER
-                       [--only plots]
+                       --program build/nutik-cl [--only plots]
 
 Plots are left in FOLDER. Without Matplotlib only the parser is checked, and the other tests are skipped.
 """
@@ -24,8 +24,10 @@ def main():
     parser.add_argument("--plotter", type=Path, required=True)
     parser.add_argument("--corpus", type=Path, required=True)
     parser.add_argument("--work", type=Path, required=True)
+    parser.add_argument("--program", type=Path, required=True)
     parser.add_argument("--only", choices=TESTS)
     options = parser.parse_args()
+    paths.program = options.program.resolve()
     paths.plotter, paths.corpus = options.plotter.resolve(), options.corpus.resolve()
     paths.work = options.work.resolve() / (options.only or "all")
     paths.work.mkdir(parents=True, exist_ok=True)

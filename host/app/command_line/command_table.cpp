@@ -103,7 +103,7 @@ std::span<const Command> commands() {
        run_video},
       {Id::shutter, "shutter", "SHAPE",
        "Write a shutter's shape as a gain function: a line for a function file. Shapes: box, trapezoid:R, "
-       "triangle, gaussian, hann, strobe:N, spline:0=G,…,1=G.",
+       "triangle, gaussian, hann, strobe:N[,R], spline:0=G,…,1=G.",
        "nutik-cl shutter hann --start 0.4s --exposure 10ms --tag 128 > f.fn\n"
        "nutik-cl shutter spline:0=0,0.1=1,1=0 --exposure 1s > trail.fn\n"
        "nutik-cl shutter strobe:5 --start 30f --exposure 60f --fps 960",

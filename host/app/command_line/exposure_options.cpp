@@ -37,7 +37,7 @@ std::vector<Option> exposure_options() {
              bit(Id::trace), &Options::tag),
       valued(0, "shutter", "SHAPE", kGroup,
              "how far the shutter is open in the course of the plain interval: box, trapezoid:R, triangle, "
-             "gaussian, hann, strobe:N or spline:0=G,…,1=G (default: box)",
+             "gaussian, hann, strobe:N[,R] or spline:0=G,…,1=G (default: box)",
              kShapesExposures, &Options::shutter),
       valued(0, "shutter-error", "E", kGroup,
              "how far a smooth shape may be from its true gains, as a share of the largest (default: 0.001)",

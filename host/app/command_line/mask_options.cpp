@@ -19,6 +19,9 @@ std::vector<Option> mask_options() {
       step("ellipse", "X,Y,RX,RY", kRegions, "round its centre, with half its width and height", kMaskOnly),
       step("polygon", "X,Y,X,Y,...", kRegions, "three corners or more, even-odd where it crosses itself",
            kMaskOnly),
+      step("grid", "COLUMNSxROWS", kRegions,
+           "the whole picture, cut into cells that are tagged N, N + 1, … row by row, from 0 without --tag",
+           kMaskOnly),
       step("threshold", "PICTURE LOW..HIGH", kRegions,
            "where a picture's brightness lies in a range: 100..255 in codes, 100 for that and brighter, "
            "40%..100% of "

@@ -79,6 +79,7 @@ struct Options {
 
   // Changes over time.
   std::optional<std::string> csv;
+  std::optional<std::string> moment;
   std::optional<std::string> map;
 
   // A video's frames.

@@ -55,6 +55,10 @@ ActivityOutputs outputs_of(const Options& options) {
   }
   if (outputs.prints_table && options.json)
     throw UsageError("--csv - and --json both go to standard output; use one");
+  if (options.moment && *options.moment != "quietest" && *options.moment != "busiest")
+    throw UsageError(format("--moment '{}' is neither quietest nor busiest", *options.moment));
+  if (options.moment && (outputs.prints_table || options.json))
+    throw UsageError("--moment prints nothing else; leave --csv - and --json away");
   return outputs;
 }
 
@@ -161,6 +165,21 @@ void report_text(const std::string& name, const Timeline& timeline, const Activi
   }
 }
 
+// The stretch that --moment asks for, as options of another command. Where nothing changes all is quiet.
+std::string moment_text(const std::string& name, const std::string& wanted, const Timeline& timeline,
+                        const Activity& activity, const std::optional<ActivityMoments>& moments) {
+  const bool is_quietest = wanted == "quietest";
+  const bool is_still =
+      std::ranges::all_of(activity.changed_pixels(), [](auto changes) { return changes == 0; });
+  if (!moments && !(is_still && is_quietest)) {
+    throw InputError(format("{} has no {} moment: {}", name, wanted,
+                            is_still ? "nothing changes" : "it has fewer than three samples"));
+  }
+  SampleRange samples{0, timeline.sample_count()};
+  if (moments) samples = (is_quietest ? moments->quietest : moments->busiest).samples;
+  return format("--start {}f --exposure {}f", samples.first, samples.size());
+}
+
 }  // namespace
 
 int run_activity(const Options& options) {
@@ -194,7 +213,9 @@ int run_activity(const Options& options) {
     file.write(table_text(timeline, activity));
     file.commit();
   }
-  if (outputs.prints_table) {
+  if (options.moment) {
+    print_line(moment_text(name, *options.moment, timeline, activity, moments));
+  } else if (outputs.prints_table) {
     print_text(table_text(timeline, activity));
   } else if (options.json) {
     report_json(name, timeline, activity, moments);

@@ -18,6 +18,8 @@
 namespace nutik::app {
 namespace {
 
+constexpr std::ptrdiff_t kMostTagsListed = 32;
+
 // What the command line asks for, before anything large is read.
 struct MaskRequest {
   std::vector<MaskStep> steps;
@@ -155,14 +157,24 @@ double percent_of(std::uint64_t pixels, const Mask& mask) {
 
 void report_text(const MaskRequest& request, const Mask& mask, const std::vector<StepReport>& steps) {
   const auto counts = mask.pixels_per_tag();
-  print_line(format("{}: {} x {}, {} tags", request.output.string(), mask.width, mask.height,
-                    kMaskValues - std::count(counts.begin(), counts.end(), 0u)));
+  const auto tag_count = kMaskValues - std::count(counts.begin(), counts.end(), 0u);
+  print_line(format("{}: {} x {}, {} tags", request.output.string(), mask.width, mask.height, tag_count));
   for (const StepReport& step : steps) {
-    print_line(format("  {:<18} M{:<4}{:>10} pixels {:6.2f} %{}", step.option, step.tag, step.pixel_count,
+    const std::string tags =
+        step.tag == step.last_tag ? format("M{}", step.tag) : format("M{} … M{}", step.tag, step.last_tag);
+    print_line(format("  {:<18} {:<5}{:>10} pixels {:6.2f} %{}", step.option, tags, step.pixel_count,
                       percent_of(step.pixel_count, mask),
                       step.by_codes ? format(", by more than {} codes", *step.by_codes) : ""));
   }
   print_line("the mask");
+  if (tag_count > kMostTagsListed) {
+    const auto fewest = std::min_element(counts.begin(), counts.end(), [](auto a, auto b) {
+      return a != 0 && (b == 0 || a < b);  // tags without a pixel come last
+    });
+    print_line(format("  {:<18} {} tags of {} … {} pixels; --json lists each", "", tag_count, *fewest,
+                      *std::max_element(counts.begin(), counts.end())));
+    return;
+  }
   for (std::size_t tag = 0; tag < counts.size(); ++tag) {
     if (counts[tag] == 0) continue;
     print_line(format("  {:<18} M{:<4}{:>10} pixels {:6.2f} %", "", tag, counts[tag],
@@ -175,6 +187,7 @@ void report_json(const MaskRequest& request, const Mask& mask, const std::vector
   json["steps"] = Json::array();
   for (const StepReport& step : steps) {
     Json entry{{"step", step.option}, {"tag", step.tag}, {"pixel_count", step.pixel_count}};
+    if (step.last_tag != step.tag) entry["last_tag"] = step.last_tag;
     if (step.by_codes) entry["more_than_codes"] = *step.by_codes;
     json["steps"].push_back(std::move(entry));
   }

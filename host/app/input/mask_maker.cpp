@@ -49,12 +49,20 @@ Picture picture_of_sample(CaptureSource& source, std::uint64_t sample) {
 }
 
 void MaskMaker::add(const MaskStep& step) {
-  StepReport report{step.option, step.tag, 0, std::nullopt};
+  StepReport report{step.option, step.tag, step.last_tag(), 0, std::nullopt};
   Region region = region_of(step, report);
   for (const auto& change : step.changes) region = change(region);
   report.pixel_count = region.pixel_count();
   reports_.push_back(std::move(report));
-  paint(mask_, region, step.tag);
+  if (const auto* grid = std::get_if<select::Grid>(&step.selection)) {
+    if (grid->columns > mask_.width || grid->rows > mask_.height) {
+      throw InputError(format("--grid {}x{} has more cells than pixels along a side: the mask is {} x {}",
+                              grid->columns, grid->rows, mask_.width, mask_.height));
+    }
+    paint_grid(mask_, region, grid->columns, grid->rows, step.tag);
+  } else {
+    paint(mask_, region, step.tag);
+  }
 }
 
 Region MaskMaker::region_of(const MaskStep& step, StepReport& report) {
@@ -62,6 +70,7 @@ Region MaskMaker::region_of(const MaskStep& step, StepReport& report) {
   return std::visit(
       Overloaded{
           [&](const select::Whole&) { return Region::all(mask_.width, mask_.height); },
+          [&](const select::Grid&) { return Region::all(mask_.width, mask_.height); },
           [&](const select::Shape& shape) { return shape.draw(mask_.width, mask_.height); },
           [&](const select::Threshold& threshold) {
             const Picture picture = picture_at(threshold.picture, step);

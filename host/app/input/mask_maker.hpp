@@ -15,7 +15,8 @@ namespace nutik::app {
 // What a step came to.
 struct StepReport {
   std::string option;
-  std::uint8_t tag = 0;
+  std::uint8_t tag = 0;                   // of a grid, the first
+  std::uint8_t last_tag = 0;              // of a grid; else the same
   std::uint64_t pixel_count = 0;          // that it gave its tag
   std::optional<std::uint32_t> by_codes;  // more than which a code had to change
 };

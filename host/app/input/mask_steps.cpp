@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "app/text/number_text.hpp"
@@ -87,6 +88,29 @@ Selection threshold_of(const Said& said) {
   return threshold;
 }
 
+// `16x9`: columns and rows.
+select::Grid grid_of(const Said& said) {
+  const std::string& text = said.words.front();
+  const auto cross = text.find('x');
+  if (cross == std::string::npos) {
+    throw UsageError(format("--grid '{}' is none; write COLUMNSxROWS: 16x9", text));
+  }
+  return {parse_whole_number(text.substr(0, cross), "--grid's columns", 1, kMaskValues),
+          parse_whole_number(text.substr(cross + 1), "--grid's rows", 1, kMaskValues)};
+}
+
+// A grid's tags are counted up from the one that was stated, else from 0.
+MaskStep grid_step(const Said& said, std::optional<std::uint8_t> first_tag) {
+  const select::Grid grid = grid_of(said);
+  const std::uint32_t cells = grid.columns * grid.rows;
+  const std::uint8_t first = first_tag.value_or(0);
+  if (first + cells > kMaskValues) {
+    throw UsageError(format("--grid {} has {} cells, tagged from {} on: tags end at {}", said.words.front(),
+                            cells, first, kMaskValues - 1));
+  }
+  return {"--grid", first, grid, 0, {}};
+}
+
 PictureOrTime picture_or_time(const std::string& word) {
   if (is_time(word)) static_cast<void>(TimeText::parse(word, "time"));
   return word;
@@ -153,6 +177,11 @@ bool MaskStep::compares() const {
          std::holds_alternative<select::Stillness>(selection);
 }
 
+std::uint8_t MaskStep::last_tag() const {
+  const auto* grid = std::get_if<select::Grid>(&selection);
+  return grid == nullptr ? tag : static_cast<std::uint8_t>(tag + grid->columns * grid->rows - 1);
+}
+
 bool MaskStep::reads_capture() const {
   if (const auto* threshold = std::get_if<select::Threshold>(&selection)) return is_time(threshold->picture);
   if (const auto* difference = std::get_if<select::Difference>(&selection)) {
@@ -173,7 +202,7 @@ std::vector<std::string> MaskStep::picture_files() const {
 
 std::vector<MaskStep> mask_steps(const Options& options) {
   std::vector<MaskStep> steps;
-  std::uint8_t tag = 255;
+  std::optional<std::uint8_t> tag;
   bool has_region = false;  // since the last --tag
   for (const Said& said : options.said) {
     const std::string name = "--" + std::string(said.option);
@@ -182,7 +211,10 @@ std::vector<MaskStep> mask_steps(const Options& options) {
       has_region = false;
     } else if (is_one_of(said.option, {"fill", "rectangle", "ellipse", "polygon", "threshold", "difference",
                                        "moving", "still", "changed-between"})) {
-      steps.push_back({name, tag, selection_of(said), 0, {}});
+      steps.push_back({name, tag.value_or(255), selection_of(said), 0, {}});
+      has_region = true;
+    } else if (said.option == "grid") {
+      steps.push_back(grid_step(said, tag));
       has_region = true;
     } else if (is_one_of(said.option, {"by", "within", "largest", "grow", "shrink", "smooth", "invert"})) {
       if (!has_region) {

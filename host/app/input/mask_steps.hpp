@@ -41,10 +41,14 @@ struct Motion {  // within all of the capture where no times are stated
   std::string to;
 };
 struct Stillness {};
+struct Grid {  // the whole picture; the cells get the step's tag and those after it
+  std::uint32_t columns = 1;
+  std::uint32_t rows = 1;
+};
 }  // namespace select
 
 using Selection = std::variant<select::Whole, select::Shape, select::Threshold, select::Difference,
-                               select::Motion, select::Stillness>;
+                               select::Motion, select::Stillness, select::Grid>;
 
 struct MaskStep {
   std::string option;  // `--moving`, for messages
@@ -55,6 +59,8 @@ struct MaskStep {
 
   // Whether it compares codes, and so takes --by.
   [[nodiscard]] bool compares() const;
+  // The last of its tags: of a grid that of its last cell, else its only one.
+  [[nodiscard]] std::uint8_t last_tag() const;
   // Whether it needs a capture.
   [[nodiscard]] bool reads_capture() const;
   [[nodiscard]] std::vector<std::string> picture_files() const;

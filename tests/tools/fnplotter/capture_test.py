@@ -1,10 +1,12 @@
 """With a capture its samples and its changes lie behind the functions, and what counts is its domain.
 
-The program is stood in for by a script that prints the table of `nutik-cl activity --csv -`.
+A capture is made and listed by the program itself. Where captures must be odd or large, the program is stood in for by a
+script that prints the table of `nutik-cl activity --csv -`.
 """
 
 import re
 import struct
+import subprocess
 import sys
 import unittest
 
@@ -118,6 +120,42 @@ class Captures(unittest.TestCase):
         self.assertEqual(clip.starts_ns.tolist(), [k * CAPTURE_NS // 7 for k in range(7)])
         self.assertEqual((clip.ends_ns - clip.starts_ns).tolist(), [1_000_000] * 7)
         self.assertEqual(clip.changed.tolist(), [0, 0.01, 0.02, 0.03, 0.04, 0, 0.01])
+
+
+@needs_matplotlib
+class TheProgram(unittest.TestCase):
+    """Ten pictures of 8 x 8 pixels, 10 a second with a shutter of 180 degrees, of which 1, 2, … 9 pixels change."""
+
+    def capture(self):
+        folder = paths.work / "stills"
+        folder.mkdir(exist_ok=True)
+        pixels = bytearray(64)
+        for number in range(10):
+            for pixel in range(number):
+                pixels[pixel] += 20
+            (folder / f"{number}.pgm").write_bytes(b"P5 8 8 255\n" + pixels)
+        clip = paths.work / "stills.tik"
+        command = [paths.program, "encode", "-q", "-f", "10", "-a", "180", folder, clip]
+        subprocess.run(command, check=True)
+        return clip
+
+    def test_its_table_is_read(self):
+        from fnplot.capture import read_capture
+
+        clip = read_capture(self.capture(), paths.program)
+        self.assertEqual(clip.duration_ns, 1_000_000_000)
+        self.assertEqual(clip.starts_ns.tolist(), [k * 100_000_000 for k in range(10)])
+        self.assertEqual((clip.ends_ns - clip.starts_ns).tolist(), [50_000_000] * 10)
+        self.assertEqual((clip.changed * 64).tolist(), list(range(10)))
+
+    def test_it_is_drawn(self):
+        output = paths.work / "program.svg"
+        functions = write("ramp.fn", "M0 [0:0], [500000000:2], [500000001:0]\n")
+        result = run(functions, "--capture", self.capture(), "--program", paths.program, "-o", output)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        texts = set(re.findall("<!-- (.*) -->", output.read_text(encoding="utf-8")))
+        self.assertLessEqual({"exposures of the 10 samples", "pixels that change", "20 %"}, texts)
+        self.assertTrue([text for text in texts if text.endswith("over the capture (1 s)")], texts)
 
 
 @needs_matplotlib

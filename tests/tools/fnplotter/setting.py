@@ -10,7 +10,7 @@ import unittest
 import zlib
 from types import SimpleNamespace
 
-paths = SimpleNamespace(plotter=None, corpus=None, work=None)  # set by check_fnplotter.py
+paths = SimpleNamespace(plotter=None, corpus=None, work=None, program=None)  # set by check_fnplotter.py
 
 CAPTURE_NS = 3_000_000_000
 

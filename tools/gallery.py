@@ -1,0 +1,121 @@
+#!/usr/bin/python3
+"""Films the gallery's scenes and runs its recipes, tools/gallery/*.sh, as docs/gallery.md prints them.
+
+Each recipe runs in a folder of its own, where its scene's clip.mkv lies, with nutik-cl and FnPlotter.py in PATH. It
+makes picture.png and plot.png. --publish FOLDER writes the pictures of the page there:
+NAME.jpg, NAME-scene.jpg (the clip's picture at one moment), NAME-plot.png and strip.jpg.
+"""
+
+import argparse
+import inspect
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from scenes import SCENES
+
+TOOLS = Path(__file__).resolve().parent
+# Recipe: the scene that it is made from, and a moment of it, in seconds, as a camera would have taken it.
+RECIPES = {
+    "motion-study": ("bouncing-ball", 1.0),
+    "rear-curtain": ("night-drive", 1.8),
+    "frozen-subject": ("waterfall", 1.65),
+    "empty-street": ("street", 2.0),
+    "strobe": ("golfer", 0.58),
+    "slit-scan": ("windmill", 0.5),
+}
+JPEG_QUALITY = 88
+SCENE_SIZE = (512, 288)
+STRIP_TILE = (384, 216)
+
+
+def run(command, **how):
+    print("$ " + " ".join(map(str, command)), flush=True)
+    subprocess.run(list(map(str, command)), check=True, **how)
+
+
+def film(recipe, folder, size):
+    """The scene's clip in the recipe's folder, unless it is there and newer than what draws it."""
+    clip = folder / "clip.mkv"
+    own = inspect.getfile(SCENES[RECIPES[recipe][0]])
+    sources = [TOOLS / "scene.py", TOOLS / "scenes" / "camera.py", TOOLS / "scenes" / "painting.py", Path(own)]
+    if not clip.exists() or any(source.stat().st_mtime > clip.stat().st_mtime for source in sources):
+        run([sys.executable, TOOLS / "scene.py", folder, "--scene", RECIPES[recipe][0], "--size", size])
+
+
+def commands_in_path(program, folder, plots):
+    """PATH with a folder in front that has the program and the plotter under the names that recipes use."""
+    folder.mkdir(parents=True, exist_ok=True)
+    plotter = f'#!/bin/sh\nexec "{sys.executable}" "{TOOLS / "FnPlotter.py"}" "$@"\n' if plots else "#!/bin/sh\n"
+    for name, text in (("nutik-cl", f'#!/bin/sh\nexec "{program}" "$@"\n'), ("FnPlotter.py", plotter)):
+        (folder / name).write_text(text)
+        (folder / name).chmod(0o755)
+    return f"{folder}{os.pathsep}{os.environ['PATH']}"
+
+
+def make(recipe, program, work, size, plots=True):
+    """Films the scene and runs the recipe, with or without its plot; the folder that holds what it made."""
+    folder = work / recipe
+    folder.mkdir(parents=True, exist_ok=True)
+    film(recipe, folder, size)
+    environment = os.environ | {"PATH": commands_in_path(program, work / "bin", plots)}
+    environment.setdefault("MPLCONFIGDIR", str(work / "matplotlib"))
+    run(["bash", "-euo", "pipefail", TOOLS / "gallery" / f"{recipe}.sh"], cwd=folder, env=environment)
+    run([program, "-q", "--start", f"{RECIPES[recipe][1]}s", "--exposure", "1f", "clip.tik", "scene.png"], cwd=folder)
+    return folder
+
+
+def read(path):
+    picture = cv2.imread(str(path))
+    if picture is None:
+        raise OSError(f"{path} cannot be read")
+    return picture
+
+
+def write(path, picture):
+    if not cv2.imwrite(str(path), picture, [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY, cv2.IMWRITE_PNG_COMPRESSION, 9]):
+        raise OSError(f"{path} cannot be written")
+
+
+def publish(recipe, folder, target):
+    write(target / f"{recipe}.jpg", read(folder / "picture.png"))
+    scene = cv2.resize(read(folder / "scene.png"), SCENE_SIZE, interpolation=cv2.INTER_AREA)
+    write(target / f"{recipe}-scene.jpg", scene)
+    plot = read(folder / "plot.png")
+    reduced = cv2.resize(plot, None, fx=0.75, fy=0.75, interpolation=cv2.INTER_AREA)
+    write(target / f"{recipe}-plot.png", reduced // 8 * 8 + 7)  # 32 levels: a third of the bytes, and looks the same
+
+
+def publish_strip(work, target):
+    tiles = [cv2.resize(read(work / recipe / "picture.png"), STRIP_TILE, interpolation=cv2.INTER_AREA) for recipe in RECIPES]
+    write(target / "strip.jpg", np.vstack([np.hstack(tiles[:3]), np.hstack(tiles[3:])]))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", required=True, type=Path, help="nutik-cl")
+    parser.add_argument("--work", required=True, type=Path, help="where clips, captures and pictures lie")
+    parser.add_argument("--size", default="768x432", help="of the scenes (default: 768x432)")
+    parser.add_argument("--only", choices=RECIPES, action="append", help="this recipe; may be repeated")
+    parser.add_argument("--publish", type=Path, metavar="FOLDER", help="write the pictures of docs/gallery.md")
+    options = parser.parse_args()
+    program, work = options.program.resolve(), options.work.resolve()
+    recipes = options.only or list(RECIPES)
+    for recipe in recipes:
+        folder = make(recipe, program, work, options.size)
+        if options.publish:
+            options.publish.mkdir(parents=True, exist_ok=True)
+            publish(recipe, folder, options.publish)
+    if options.publish and all((work / recipe / "picture.png").exists() for recipe in RECIPES):
+        publish_strip(work, options.publish)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except (OSError, subprocess.CalledProcessError) as error:
+        sys.exit(f"gallery.py: {error}")
