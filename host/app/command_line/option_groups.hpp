@@ -43,6 +43,9 @@ inline constexpr CommandSet kShapesExposures =
 // Those that expose pictures, and so take what says how that is computed.
 inline constexpr CommandSet kExposes = set_of(CommandId::expose, CommandId::batch, CommandId::mask,
                                               CommandId::contact, CommandId::sweep, CommandId::video);
+// Those whose pictures may hold light below 0.
+inline constexpr CommandSet kExposesFreely =
+    set_of(CommandId::expose, CommandId::contact, CommandId::sweep, CommandId::video);
 // Those that lay pictures out on a sheet.
 inline constexpr CommandSet kMakesSheets = set_of(CommandId::contact, CommandId::sweep);
 // Those that can answer in JSON.

@@ -18,6 +18,10 @@ std::vector<Option> output_options() {
       valued(0, "depth", "BITS", kGroup,
              "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
              set_of(Id::expose, Id::video), &Options::depth),
+      valued(0, "negative", "HOW", kGroup,
+             "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
+             "darker), abs (as bright as light above it) (default: saturate)",
+             kExposesFreely, &Options::negative),
       valued(
           0, "codec", "NAME", kGroup,
           "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",

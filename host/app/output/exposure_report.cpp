@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/text/size_text.hpp"
 #include "capture/format.hpp"
 
 namespace nutik::app {
@@ -24,6 +25,21 @@ std::string still_gains_text(const RenderPlan& plan, bool plain) {
     text += format(" and {} more", plan.functions.size() - kFunctionsInSummary);
   }
   return text;
+}
+
+std::string saturation_text(const Saturation& saturation, ValueType type) {
+  if (!holds_codes(type)) return {};
+  if (saturation == Saturation{}) return ", no pixel saturated";
+  const auto pixels = [](std::uint64_t count) { return counted(count, "pixel"); };
+  if (saturation.above == 0) return format(", {} saturated below 0", pixels(saturation.below));
+  if (saturation.below == 0) return format(", {} saturated above 1", pixels(saturation.above));
+  return format(", {} saturated below 0 and {} above 1", pixels(saturation.below), saturation.above);
+}
+
+void add_saturation(Json& json, const Saturation& saturation, ValueType type) {
+  if (!holds_codes(type)) return;
+  json["saturated_below_pixels"] = saturation.below;
+  json["saturated_above_pixels"] = saturation.above;
 }
 
 }  // namespace nutik::app

@@ -14,4 +14,9 @@ namespace nutik::app {
 [[nodiscard]] OutputFormat output_format(const Options& options, const std::filesystem::path& output,
                                          const CaptureFormat& capture);
 
+// What --negative asks for in a file of such values. Throws UsageError where it is not known, or the file
+// holds no codes.
+[[nodiscard]] NegativeLight negative_light(const Options& options, ValueType type,
+                                           const std::filesystem::path& output);
+
 }  // namespace nutik::app
