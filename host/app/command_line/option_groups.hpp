@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/command_line/option_table.hpp"
@@ -51,7 +52,8 @@ inline constexpr CommandSet kMakesSheets = set_of(CommandId::contact, CommandId:
 // Those that can answer in JSON.
 inline constexpr CommandSet kAnswersInJson =
     set_of(CommandId::check, CommandId::trace, CommandId::mask, CommandId::contact, CommandId::activity,
-           CommandId::sweep);
+           CommandId::sweep, CommandId::encode, CommandId::expose, CommandId::info, CommandId::devices,
+           CommandId::recover, CommandId::noise, CommandId::batch, CommandId::video);
 
 // A row with a value, for the member of Options that holds it.
 [[nodiscard]] inline Option valued(char short_name, std::string_view long_name, std::string_view value,
@@ -65,6 +67,12 @@ inline constexpr CommandSet kAnswersInJson =
           commands,
           [member](Options& options, const std::string& text) { options.*member = text; },
           member};
+}
+
+// That row, where its values are known.
+[[nodiscard]] inline Option one_of(Option option, std::vector<std::string_view> choices) {
+  option.choices = std::move(choices);
+  return option;
 }
 
 // A row without one.

@@ -21,5 +21,7 @@ int run_sweep(const Options& options);
 int run_video(const Options& options);
 int run_shutter(const Options& options);
 int run_again(const Options& options);
+int run_completion(const Options& options);
+int run_man(const Options& options);
 
 }  // namespace nutik::app

@@ -32,6 +32,7 @@ class SheetExposures {
   [[nodiscard]] const Transfer& transfer() const { return transfer_; }
   // Of all pictures so far, together.
   [[nodiscard]] const Saturation& saturation() const { return saturation_; }
+  [[nodiscard]] ValueType type() const { return format_.type; }
   [[nodiscard]] const Exposer& exposer() const { return exposer_; }
 
  private:

@@ -1,6 +1,8 @@
 // What is said of an exposure.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "app/output/json.hpp"
@@ -18,5 +20,13 @@ namespace nutik::app {
 
 // The same for scripts: `saturated_below_pixels`, `saturated_above_pixels`.
 void add_saturation(Json& json, const Saturation& saturation, ValueType type);
+
+// What an exposure reads and leaves out, and why, for -v: whole lines, without a line end behind the last. Blocks of
+// a clip are counted as they are made, so `block_count` is none there.
+[[nodiscard]] std::string plan_text(const RenderPlan& plan, const Timeline& timeline,
+                                    std::optional<std::uint64_t> block_count);
+
+// The plan's functions for scripts.
+[[nodiscard]] Json functions_json(const RenderPlan& plan);
 
 }  // namespace nutik::app
