@@ -26,7 +26,7 @@ constexpr std::size_t kNarrowest = 60;
 constexpr std::size_t kUsual = 80;
 constexpr std::size_t kWidest = 100;  // longer lines are hard to read
 constexpr std::size_t kOptionColumn = 32;
-constexpr std::size_t kCommandColumn = 13;
+constexpr std::size_t kCommandColumn = 14;
 
 // Of the terminal, or as COLUMNS says.
 std::size_t line_width() {
