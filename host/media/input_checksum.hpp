@@ -1,8 +1,8 @@
 // What the content of a clip, a sequence of stills or a mask is known by again.
 #pragma once
 
-#include <cstdint>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>

@@ -34,6 +34,7 @@ CodeScale::CodeScale(const Transfer& transfer, const OutputFormat& output)
     : transfer_(transfer),
       white_code_(output.white_code),
       negative_(output.negative),
+      half_(std::max(output.white_code / 2, 1u)),
       folds_(output.negative == NegativeLight::absolute) {
   const double step = 1.0 / output.white_code;
   switch (negative_) {
@@ -41,8 +42,8 @@ CodeScale::CodeScale(const Transfer& transfer, const OutputFormat& output)
       lowest_ = -transfer.light_of(0.5 * step);
       highest_ = transfer.light_of(1.0 + 0.5 * step);
       break;
-    case NegativeLight::offset:  // a code is two steps of the half that each sign has
-      highest_ = transfer.light_of(1.0 + step);
+    case NegativeLight::offset:
+      highest_ = transfer.light_of(1.0 + 0.5 / half_);
       lowest_ = -highest_;
       break;
     case NegativeLight::absolute:
@@ -53,15 +54,15 @@ CodeScale::CodeScale(const Transfer& transfer, const OutputFormat& output)
 }
 
 std::uint32_t CodeScale::code_of(double light) const {
-  double fraction = 0.0;
-  switch (negative_) {
-    case NegativeLight::saturate: fraction = transfer_.fraction_of(std::clamp(light, 0.0, 1.0)); break;
-    case NegativeLight::offset:
-      fraction = 0.5 + 0.5 * std::copysign(transfer_.fraction_of(std::min(std::fabs(light), 1.0)), light);
-      break;
-    case NegativeLight::absolute: fraction = transfer_.fraction_of(std::min(std::fabs(light), 1.0)); break;
-  }
-  return static_cast<std::uint32_t>(std::floor(fraction * white_code_ + 0.5));
+  const double magnitude =
+      negative_ == NegativeLight::saturate ? std::clamp(light, 0.0, 1.0) : std::min(std::fabs(light), 1.0);
+  const auto rounded = [&](std::uint32_t codes) {
+    return static_cast<std::uint32_t>(std::floor(transfer_.fraction_of(magnitude) * codes + 0.5));
+  };
+  if (negative_ != NegativeLight::offset) return rounded(white_code_);
+  // Light 0 has a code of its own, not the border between two: what cancels must not flicker.
+  const std::uint32_t middle = white_code_ - half_;
+  return light < 0.0 ? middle - rounded(half_) : middle + rounded(half_);
 }
 
 Saturation count_saturated(const Picture& light, const CodeScale& scale) {

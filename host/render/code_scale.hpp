@@ -30,6 +30,7 @@ class CodeScale {
   Transfer transfer_;
   std::uint32_t white_code_;
   NegativeLight negative_;
+  std::uint32_t half_;  // codes of either sign with offset
   bool folds_;
   double lowest_;
   double highest_;

@@ -42,7 +42,8 @@ class Negative : public testing::TestWithParam<const char*> {
     return test::run_program(words, scratch_.folder());
   }
   ProgramResult expose(const std::string& output, std::vector<std::string> more) const {
-    more.insert(more.end(), {"--renderer", GetParam(), "--gain", "4", "-k", "difference.fn", "clip.tik", "-o", output});
+    more.insert(more.end(),
+                {"--renderer", GetParam(), "--gain", "4", "-k", "difference.fn", "clip.tik", "-o", output});
     return run(more);
   }
   [[nodiscard]] std::vector<int> codes(const std::string& name) const {
@@ -57,7 +58,8 @@ class Negative : public testing::TestWithParam<const char*> {
     return 2 * (light_of(kCodes[0][pixel]) - light_of(kCodes[1][pixel]));
   }
 
-  static constexpr int kCodes[2][8] = {{0, 255, 128, 50, 10, 200, 0, 255}, {255, 0, 128, 60, 10, 100, 0, 255}};
+  static constexpr int kCodes[2][8] = {{0, 255, 128, 50, 10, 200, 0, 255},
+                                       {255, 0, 128, 60, 10, 100, 0, 255}};
   test::Scratch scratch_;
 };
 
@@ -78,9 +80,8 @@ TEST_P(Negative, OffsetPutsZeroIntoTheMiddle) {
   const ProgramResult result = expose("a.png", {"--negative", "offset"});
   ASSERT_EQ(result.status, 0) << result.err;
   for (std::size_t i = 0; i < 8; ++i) {
-    const double half = fraction_of(std::min(std::fabs(light(i)), 1.0)) / 2;
-    const double fraction = light(i) < 0 ? 0.5 - half : 0.5 + half;
-    EXPECT_EQ(codes("a.png")[i], std::floor(255 * fraction + 0.5)) << i;
+    const double magnitude = std::floor(127 * fraction_of(std::min(std::fabs(light(i)), 1.0)) + 0.5);
+    EXPECT_EQ(codes("a.png")[i], light(i) < 0 ? 128 - magnitude : 128 + magnitude) << i;
   }
   EXPECT_EQ(codes("a.png")[2], 128);
   EXPECT_NE(result.out.find(", 1 pixel saturated below 0 and 1 above 1,"), std::string::npos) << result.out;
@@ -90,7 +91,8 @@ TEST_P(Negative, AbsShowsMagnitudes) {
   const ProgramResult result = expose("a.png", {"--negative", "abs", "--json"});
   ASSERT_EQ(result.status, 0) << result.err;
   for (std::size_t i = 0; i < 8; ++i) {
-    EXPECT_EQ(codes("a.png")[i], std::floor(255 * fraction_of(std::min(std::fabs(light(i)), 1.0)) + 0.5)) << i;
+    EXPECT_EQ(codes("a.png")[i], std::floor(255 * fraction_of(std::min(std::fabs(light(i)), 1.0)) + 0.5))
+        << i;
   }
   const nlohmann::json json = nlohmann::json::parse(result.out);
   EXPECT_EQ(json["saturated_below_pixels"], 0);
@@ -123,14 +125,17 @@ TEST_P(Negative, SumsOverSeriesVideosBatchesAndSheets) {
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
   };
-  expect({"--gain", "4", "-k", "difference.fn", "--every", "1s", "--count", "1", "clip.tik", "-o", "s-%d.png"},
+  expect(
+      {"--gain", "4", "-k", "difference.fn", "--every", "1s", "--count", "1", "clip.tik", "-o", "s-%d.png"},
+      ", 2 pixels saturated below 0 and 1 above 1,");
+  expect({"video", "--gain", "4", "-k", "difference.fn", "--out-fps", "1", "--speed", "1", "clip.tik",
+          "v-%d.png"},
          ", 2 pixels saturated below 0 and 1 above 1,");
-  expect({"video", "--gain", "4", "-k", "difference.fn", "--out-fps", "1", "--speed", "1", "clip.tik", "v-%d.png"},
-         ", 2 pixels saturated below 0 and 1 above 1,");
-  scratch_.write("list.txt", "--gain 4 -k difference.fn a.png\n--gain 4 --negative abs -k difference.fn b.png\n");
+  scratch_.write("list.txt",
+                 "--gain 4 -k difference.fn a.png\n--gain 4 --negative abs -k difference.fn b.png\n");
   expect({"batch", "list.txt", "clip.tik"}, ", 2 pixels saturated below 0 and 3 above 1,");
-  expect({"sweep", "--negative", "offset", "--gain", "4", "-k", "difference.fn", "--scale-gain", "0.5..1/0.5", "clip.tik",
-          "sheet.png"},
+  expect({"sweep", "--negative", "offset", "--gain", "4", "-k", "difference.fn", "--scale-gain", "0.5..1/0.5",
+          "clip.tik", "sheet.png"},
          "saturated below 0 and");
 }
 

@@ -23,7 +23,8 @@ TEST(CodeScale, GivesCodesBackAndNeverSaturatesThem) {
         for (std::uint32_t code = 0; code <= white; ++code) {
           const double light = transfer.light_of(static_cast<double>(code) / white);
           ASSERT_EQ(scale.code_of(light), code) << transfer.text();
-          ASSERT_FALSE(scale.saturates_below(light) || scale.saturates_above(light)) << transfer.text() << code;
+          ASSERT_FALSE(scale.saturates_below(light) || scale.saturates_above(light))
+              << transfer.text() << code;
         }
       }
     }
@@ -35,16 +36,19 @@ TEST(CodeScale, OffsetMirrorsAboutTheMiddle) {
     const CodeScale scale = scale_of(transfer, 255, NegativeLight::offset);
     EXPECT_EQ(scale.code_of(0.0), 128u);
     EXPECT_EQ(scale.code_of(1.0), 255u);
-    EXPECT_EQ(scale.code_of(-1.0), 0u);
+    EXPECT_EQ(scale.code_of(-1.0), 1u);
     std::uint32_t last = 0;
     for (int i = -1200; i <= 1200; ++i) {
       const double light = i / 1000.0;
       const std::uint32_t code = scale.code_of(light);
       EXPECT_GE(code, last);
       last = code;
-      // Half up in code: what lies between two codes goes up on either side of the middle.
-      EXPECT_NEAR(static_cast<double>(code) + scale.code_of(-light), 255.0, 1.0) << transfer.text() << light;
+      EXPECT_EQ(code + scale.code_of(-light), 256u) << transfer.text() << light;
     }
+    // What cancels but for roundings.
+    EXPECT_EQ(scale.code_of(1e-12), 128u);
+    EXPECT_EQ(scale.code_of(-1e-12), 128u);
+    EXPECT_EQ(scale_of(transfer, 254, NegativeLight::offset).code_of(-1.0), 0u);
   }
 }
 
@@ -63,8 +67,8 @@ TEST(CodeScale, SaturatesWhereTheNextCodeWouldBegin) {
     EXPECT_FALSE(absolute.saturates_below(-1e9));
     const CodeScale offset = scale_of(transfer, 255, NegativeLight::offset);
     EXPECT_FALSE(offset.saturates_below(-1.0) || offset.saturates_above(1.0));
-    EXPECT_TRUE(offset.saturates_below(-transfer.light_of(256.5 / 255)));
-    EXPECT_TRUE(offset.saturates_above(transfer.light_of(256.5 / 255)));
+    EXPECT_TRUE(offset.saturates_below(-transfer.light_of(1 + 0.51 / 127)));
+    EXPECT_TRUE(offset.saturates_above(transfer.light_of(1 + 0.51 / 127)));
   }
 }
 

@@ -33,10 +33,12 @@ struct Scan {
 // Suggests options of the command that is named, if any, before those of others.
 [[noreturn]] void fail_unknown_option(const std::string& word, std::span<const std::string> words) {
   const std::string name = word.substr(0, word.find('='));
-  const auto named = std::ranges::find_if(words, [](const std::string& each) { return find_command(each) != nullptr; });
+  const auto named =
+      std::ranges::find_if(words, [](const std::string& each) { return find_command(each) != nullptr; });
   std::vector<std::string> known{"--help", "--version"};
   if (named != words.end()) {
-    for (const Option* option : options_of(*find_command(*named))) known.push_back("--" + std::string(option->long_name));
+    for (const Option* option : options_of(*find_command(*named)))
+      known.push_back("--" + std::string(option->long_name));
     if (const std::string suggestion = did_you_mean(name, known); !suggestion.empty()) {
       throw UsageError(format("there is no option {}{}; see nutik-cl {} --help", name, suggestion, *named));
     }
@@ -123,7 +125,8 @@ const Command& shorthand(const Scan& scan, std::span<const std::string> words) {
   const std::string first = scan.operands.empty() ? std::string() : words[scan.operands.front()];
   const std::string clip = first.empty() ? "clip.tik" : first;
   if (scan.has("mask")) {
-    throw UsageError(format("a mask needs gain functions: nutik-cl -m mask.pgm -k functions.fn {}", shell_word(clip)));
+    throw UsageError(
+        format("a mask needs gain functions: nutik-cl -m mask.pgm -k functions.fn {}", shell_word(clip)));
   }
   if (scan.operands.empty()) {
     throw UsageError("a clip or a capture is missing: nutik-cl clip.mp4 clip.tik");
@@ -138,7 +141,8 @@ const Command& shorthand(const Scan& scan, std::span<const std::string> words) {
                  first, shell_word(first)));
     }
     const std::string stem = std::filesystem::path(first).stem().string();
-    throw UsageError(format("the output is missing: nutik-cl {} {}", shell_word(first), shell_word(stem + ".tik")));
+    throw UsageError(
+        format("the output is missing: nutik-cl {} {}", shell_word(first), shell_word(stem + ".tik")));
   }
   return command(CommandId::encode);
 }

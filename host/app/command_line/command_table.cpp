@@ -118,7 +118,8 @@ std::span<const Command> commands() {
        "nutik-cl again picture.png | sh",
        run_again, Group::pictures},
       {Id::completion, "completion", "bash|zsh|fish",
-       "Print a script that completes commands, options and their values in a shell. cmake --install puts all "
+       "Print a script that completes commands, options and their values in a shell. cmake --install puts "
+       "all "
        "three where shells look for them.",
        "source <(nutik-cl completion bash)\n"
        "nutik-cl completion fish > nutik-cl.fish",

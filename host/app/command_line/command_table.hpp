@@ -50,7 +50,6 @@ struct Command {
 // The commands of the paper's forms, which need no name.
 inline constexpr CommandId kShorthand[] = {CommandId::encode, CommandId::expose, CommandId::info};
 
-
 // Commands that an option belongs to, as bits.
 using CommandSet = std::uint32_t;
 [[nodiscard]] constexpr CommandSet bit(CommandId id) { return 1u << static_cast<unsigned>(id); }

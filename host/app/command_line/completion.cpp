@@ -31,7 +31,9 @@ std::vector<std::string> command_names() {
   return names;
 }
 
-std::vector<std::string> choices_of(const Option& option) { return {option.choices.begin(), option.choices.end()}; }
+std::vector<std::string> choices_of(const Option& option) {
+  return {option.choices.begin(), option.choices.end()};
+}
 
 // A row for each name: what several commands call by one name completes alike.
 std::vector<const Option*> distinct_options() {
@@ -154,9 +156,10 @@ _nutik_cl() {
   };
   add_options("", options_without_command());
   for (const Command& command : commands()) add_options(command.name, options_of(command));
-  text += format("    esac\n    return\n  fi\n\n  case $command in\n    '')\n      _nutik_cl_files\n"
-                 "      COMPREPLY+=($(compgen -W '{}' -- \"$cur\"))\n      ;;\n",
-                 names);
+  text += format(
+      "    esac\n    return\n  fi\n\n  case $command in\n    '')\n      _nutik_cl_files\n"
+      "      COMPREPLY+=($(compgen -W '{}' -- \"$cur\"))\n      ;;\n",
+      names);
   for (const Command& command : commands()) {
     const OperandKind kind = operands_of(command);
     if (kind.is_nothing) {
@@ -237,9 +240,9 @@ std::string zsh_script() {
   for (const Command& command : commands()) {
     const OperandKind kind = operands_of(command);
     add(command.name, options_of(command),
-        kind.is_nothing          ? ""
-        : !kind.words.empty()    ? format("({})", zsh_text(joined(kind.words)))
-                                 : zsh_files(kind.extensions));
+        kind.is_nothing       ? ""
+        : !kind.words.empty() ? format("({})", zsh_text(joined(kind.words)))
+                              : zsh_files(kind.extensions));
   }
   return text + "  esac\n}\n\n_nutik-cl \"$@\"\n";
 }
@@ -264,17 +267,20 @@ std::string fish_files(const std::vector<std::string>& extensions) {
 }
 
 std::string fish_script() {
-  std::string text = "# Completion of nutik-cl for fish; written by `nutik-cl completion fish`.\n\n"
-                     "function __nutik_cl_command\n  for word in (commandline -opc)[2..-1]\n"
-                     "    if contains -- $word " +
-                     joined(command_names()) + "\n      echo $word\n      return\n    end\n  end\n  echo none\nend\n\n"
-                                               "function __nutik_cl_is\n  contains -- (__nutik_cl_command) $argv\nend\n\n";
+  std::string text =
+      "# Completion of nutik-cl for fish; written by `nutik-cl completion fish`.\n\n"
+      "function __nutik_cl_command\n  for word in (commandline -opc)[2..-1]\n"
+      "    if contains -- $word " +
+      joined(command_names()) +
+      "\n      echo $word\n      return\n    end\n  end\n  echo none\nend\n\n"
+      "function __nutik_cl_is\n  contains -- (__nutik_cl_command) $argv\nend\n\n";
   for (const Command& command : commands()) {
     text += format("complete -c nutik-cl -n '__nutik_cl_is none' -a {} -d {}\n", command.name,
                    fish_word(brief(command.summary)));
   }
-  text += "complete -c nutik-cl -l help -s h -d 'show what it takes'\n"
-          "complete -c nutik-cl -n '__nutik_cl_is none' -l version -d 'show the version'\n";
+  text +=
+      "complete -c nutik-cl -l help -s h -d 'show what it takes'\n"
+      "complete -c nutik-cl -n '__nutik_cl_is none' -l version -d 'show the version'\n";
   for (const Option& option : options()) {
     std::vector<std::string> takers;
     bool is_shorthand = false;
@@ -288,7 +294,8 @@ std::string fish_script() {
     if (option.short_name != 0) text += format(" -s {}", option.short_name);
     text += format(" -l {}", option.long_name);
     if (!option.choices.empty()) {
-      text += format(" {} -a {}", option.takes_file() ? "-r -F" : "-x", fish_word(joined(choices_of(option))));
+      text +=
+          format(" {} -a {}", option.takes_file() ? "-r -F" : "-x", fish_word(joined(choices_of(option))));
     } else if (const auto extensions = extensions_of(option); !extensions.empty()) {
       text += format(" -x -a {}", fish_word(fish_files(extensions)));
     } else if (option.takes_file()) {

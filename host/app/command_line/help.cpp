@@ -104,11 +104,15 @@ void print_help() {
   for (const CommandGroup group : kCommandGroups) {
     text += format("\n{}:\n", title(group));
     for (const Command* command : commands_of(group)) {
-      text += format("  {:<{}}{}\n", command->name, kCommandColumn - 2, wrapped(brief(command->summary), kCommandColumn));
+      text += format("  {:<{}}{}\n", command->name, kCommandColumn - 2,
+                     wrapped(brief(command->summary), kCommandColumn));
     }
   }
-  text += "\n" + wrapped("nutik-cl COMMAND --help says more. A file that is named like a command is written ./info, or "
-                         "after --.", 0);
+  text += "\n" +
+          wrapped(
+              "nutik-cl COMMAND --help says more. A file that is named like a command is written ./info, or "
+              "after --.",
+              0);
   print_line(text);
 }
 

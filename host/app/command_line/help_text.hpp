@@ -9,8 +9,10 @@ namespace nutik::app {
 
 // What every page starts with, for people who never heard of it.
 inline constexpr std::string_view kWhatItIs =
-    "nutik-cl exposes pictures after the scene was filmed. It turns a video into a capture (.tik), the record "
-    "of when and how every pixel changed, and exposes pictures from it in which every region of a mask has its "
+    "nutik-cl exposes pictures after the scene was filmed. It turns a video into a capture (.tik), the "
+    "record "
+    "of when and how every pixel changed, and exposes pictures from it in which every region of a mask has "
+    "its "
     "own gain as a function of time.";
 
 // The first sentence of a summary, with its full stop, without what a colon adds.

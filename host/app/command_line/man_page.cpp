@@ -113,7 +113,8 @@ std::string examples_section() {
 }  // namespace
 
 std::string man_page() {
-  std::string text = ".\\\" Written by nutik-cl man, from the table that the program reads its options with.\n";
+  std::string text =
+      ".\\\" Written by nutik-cl man, from the table that the program reads its options with.\n";
   text += ".TH NUTIK\\-CL 1 \"\" \"nutik\\-cl " NUTIK_VERSION "\" \"User Commands\"\n";
   text += section("NAME") + "nutik\\-cl \\- exposes pictures after the scene was filmed\n";
   text += section("SYNOPSIS");
@@ -125,9 +126,10 @@ std::string man_page() {
   text += section("DESCRIPTION") + escaped(kWhatItIs) + "\n.PP\n" +
           escaped("A function file has a line for each mask value, with times in nanoseconds:") +
           "\n.PP\n.nf\nM0 [0:1], [10000000:1], [10000001:0]\n.fi\n.PP\n" +
-          escaped("Times have a unit: 0.4s, 10ms, 250us, 7ns, 2min, 1/100s, or 37f for pictures of the clip, "
-                  "counted from 0. Functions (-k) and masks (-m) are read from standard input where their name "
-                  "is -.") +
+          escaped(
+              "Times have a unit: 0.4s, 10ms, 250us, 7ns, 2min, 1/100s, or 37f for pictures of the clip, "
+              "counted from 0. Functions (-k) and masks (-m) are read from standard input where their name "
+              "is -.") +
           "\n";
   text += commands_section() + options_section() + examples_section();
   text += section("EXIT STATUS");

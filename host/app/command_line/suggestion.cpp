@@ -35,7 +35,8 @@ std::vector<std::string> starting_with(std::string_view word, std::span<const st
   std::vector<std::string> found;
   if (word.size() - std::min(word.find_first_not_of('-'), word.size()) < kFewest) return found;
   for (const std::string& candidate : known) {
-    if (candidate.starts_with(word) && std::ranges::find(found, candidate) == found.end()) found.push_back(candidate);
+    if (candidate.starts_with(word) && std::ranges::find(found, candidate) == found.end())
+      found.push_back(candidate);
   }
   if (found.size() > kMost) found.clear();
   return found;

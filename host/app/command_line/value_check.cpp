@@ -37,34 +37,41 @@ bool is_option(const std::string& value) {
 
 }  // namespace
 
-void check_choice(std::string_view what, const std::string& value, std::span<const std::string_view> choices) {
+void check_choice(std::string_view what, const std::string& value,
+                  std::span<const std::string_view> choices) {
   if (choices.empty() || is_known(value, choices)) return;
   // A number is another number, not a mistyped one.
   if (std::ranges::count_if(value, is_letter) < 2) return;
   std::vector<std::string> known(choices.begin(), choices.end());
-  const std::string suggestion = did_you_mean(value, known);
+  std::string lower = value;  // no choice has capitals
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string suggestion = did_you_mean(lower, known);
   if (suggestion.empty()) return;
   std::string list;
-  for (const std::string& choice : known) list += (list.empty() ? "" : ", ") + choice + (choice.ends_with(':') ? "…" : "");
+  for (const std::string& choice : known)
+    list += (list.empty() ? "" : ", ") + choice + (choice.ends_with(':') ? "…" : "");
   throw UsageError(format("{} {} is not known{} It is one of: {}", what, value, suggestion, list));
 }
 
 void check_value(const Option& option, const std::string& name, const std::string& value) {
   if (is_option(value)) {
-    throw UsageError(format("{0} needs a value, {0} {1}, and {2} behind it is an option; write {0}={2} where it "
-                            "is meant as the value",
-                            name, option.value, value));
+    throw UsageError(
+        format("{0} needs a value, {0} {1}, and {2} behind it is an option; write {0}={2} where it "
+               "is meant as the value",
+               name, option.value, value));
   }
   const std::string extension(option.file_extension());
   const bool wants_text = extension == "fn" || extension == "pgm";
   if (wants_text && fs::path(value).extension() == ".tik") {
-    throw UsageError(format("{0} needs a file of another kind, {0} {1}, and {2} is a capture; is the value of {0} "
-                            "missing?",
-                            name, option.value, value));
+    throw UsageError(
+        format("{0} needs a file of another kind, {0} {1}, and {2} is a capture; is the value of {0} "
+               "missing?",
+               name, option.value, value));
   }
   if (!option.takes_file() && looks_like_file(value)) {
-    throw UsageError(format("{0} needs a value, {0} {1}, and {2} behind it is a file; is the value of {0} missing?",
-                            name, option.value, value));
+    throw UsageError(
+        format("{0} needs a value, {0} {1}, and {2} behind it is a file; is the value of {0} missing?", name,
+               option.value, value));
   }
   if (!option.takes_file() || value.find_first_of("./") == std::string::npos) {
     std::error_code error;

@@ -65,8 +65,8 @@ std::vector<std::uint8_t> counted_pixels(const Options& options, const Shape& sh
   }
   const Mask mask = read_mask_input(*options.mask);
   if (mask.width != shape.width || mask.height != shape.height) {
-    throw InputError(format("{} is {} x {}, the capture {} x {}; they must be of one size", input_title(*options.mask),
-                            mask.width, mask.height, shape.width, shape.height));
+    throw InputError(format("{} is {} x {}, the capture {} x {}; they must be of one size",
+                            input_title(*options.mask), mask.width, mask.height, shape.width, shape.height));
   }
   const bool is_any = !options.tag;
   const std::uint32_t wanted = is_any ? 0 : parse_whole_number(*options.tag, "tag", 0, 255);

@@ -132,7 +132,8 @@ class Batch {
         print_warning(format("{}:{}: {}", list_name_, listed.line, warning));
       }
       saturation_ += exposed.saturation;
-      if (options_.verbose && !options_.json) print_line(format("{}: {}", output.string(), exposer_.report()));
+      if (options_.verbose && !options_.json)
+        print_line(format("{}: {}", output.string(), exposer_.report()));
       pictures_.push(listed.line, output, std::move(exposed.picture), recipe_text(line));
     } catch (const UsageError& error) {
       report(listed.line, error.what());
@@ -228,9 +229,10 @@ int run_batch(const Options& options) {
     print_json(json);
   } else if (!options.quiet) {
     const double seconds = stopwatch.seconds();
-    print_line(format("{} of {}{}, {:.2f} s, {:.1f} exposures a second{}", done, counted(exposures.size(), "picture"),
-                      saturation_text(batch.saturation(), ValueType::code8), seconds, static_cast<double>(done) / seconds,
-                      done > 0 ? " on " + batch.renderer_name() : std::string()));
+    print_line(format(
+        "{} of {}{}, {:.2f} s, {:.1f} exposures a second{}", done, counted(exposures.size(), "picture"),
+        saturation_text(batch.saturation(), ValueType::code8), seconds, static_cast<double>(done) / seconds,
+        done > 0 ? " on " + batch.renderer_name() : std::string()));
   }
   return failed > 0 ? 1 : 0;
 }

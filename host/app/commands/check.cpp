@@ -71,7 +71,8 @@ class Checking {
   explicit Checking(const Options& options) : options_(options) {}
 
   void run() {
-    if (options_.functions) attempt(input_title(*options_.functions), "function_file", [&] { read_functions(); });
+    if (options_.functions)
+      attempt(input_title(*options_.functions), "function_file", [&] { read_functions(); });
     if (options_.mask) attempt(input_title(*options_.mask), "mask_file", [&] { open_mask(); });
     if (!options_.operands.empty()) {
       attempt(options_.operands.front(), "capture", [&] { open_capture(options_.operands.front()); });

@@ -31,11 +31,11 @@ int run_devices(const Options& options) {
   }
   for (std::size_t i = 0; i < devices.size(); ++i) {
     const DeviceInfo& device = devices[i];
-    print_line(format(
-        "{}  {}\n   {}, {}, {} ({} at a time), {} precision\n   {}, driver {}, {}", i,
-        device.name, to_text(device.kind), counted(device.compute_units, "compute unit"), bytes_text(device.memory_bytes),
-        bytes_text(device.largest_allocation_bytes), device.has_double ? "double and single" : "single",
-        device.platform, device.driver_version, device.opencl_version));
+    print_line(format("{}  {}\n   {}, {}, {} ({} at a time), {} precision\n   {}, driver {}, {}", i,
+                      device.name, to_text(device.kind), counted(device.compute_units, "compute unit"),
+                      bytes_text(device.memory_bytes), bytes_text(device.largest_allocation_bytes),
+                      device.has_double ? "double and single" : "single", device.platform,
+                      device.driver_version, device.opencl_version));
   }
   return 0;
 }

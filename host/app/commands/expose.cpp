@@ -142,7 +142,8 @@ int run_expose(const Options& options) {
   print_line(format("{}: {}, {} of {} samples{}{}, {:.2f} s on {}", output.string(),
                     shape_text(plan.capture.shape), plan.live_sample_count(), timeline.sample_count(),
                     still_gains_text(plan, !options.functions),
-                    saturation_text(exposed.saturation, exposed.picture.type), stopwatch.seconds(), exposing.exposer().renderer_name()));
+                    saturation_text(exposed.saturation, exposed.picture.type), stopwatch.seconds(),
+                    exposing.exposer().renderer_name()));
   if (options.verbose) print_line(plan_text(plan, timeline, exposing.block_count()));
   if (const std::string report = exposing.exposer().report(); options.verbose && !report.empty()) {
     print_line(report);

@@ -127,7 +127,8 @@ int expose_series(const Options& options) {
                     still_gains_text(*first_plan, request.is_plain()),
                     saturation_text(saturation, format_of_all.type),
                     static_cast<double>(starts.size()) / seconds, seconds, exposer.renderer_name()));
-  if (options.verbose) print_line("first " + plan_text(*first_plan, capture.timeline(), capture.block_count()));
+  if (options.verbose)
+    print_line("first " + plan_text(*first_plan, capture.timeline(), capture.block_count()));
   if (const std::string report = exposer.report(); options.verbose && !report.empty()) print_line(report);
   for (const std::string& note : opened.notes()) print_note(note);
   return 0;

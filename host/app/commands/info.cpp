@@ -113,7 +113,8 @@ int run_info(const Options& options) {
     json["is_constant_rate"] = timeline.is_constant();
     json["shutter_angle_degrees"] = timeline.shutter_angle().text();
     json["records"] = record_count;
-    json["tiles"] = {{"still", tally.still}, {"rows", tally.rows}, {"dense", tally.dense}, {"records", tally.records}};
+    json["tiles"] = {
+        {"still", tally.still}, {"rows", tally.rows}, {"dense", tally.dense}, {"records", tally.records}};
     json["file_bytes"] = reader.file_bytes();
     json["raw_bytes"] = raw_bytes;
     json["memory_bytes"] = payload_bytes;
@@ -135,7 +136,8 @@ int run_info(const Options& options) {
                       capture.noise.camera->white_code, held_scale(capture)));
     print_line("  noise       " + noise_summary(*capture.noise.camera));
   }
-  print_line(format("  samples     {} in {}", timeline.sample_count(), counted(reader.block_count(), "block")));
+  print_line(
+      format("  samples     {} in {}", timeline.sample_count(), counted(reader.block_count(), "block")));
   print_line(format("  time        {}, {} samples a second{}, shutter {} degrees",
                     duration_text(timeline.duration_ns()), timeline.rate().text(),
                     timeline.is_constant() ? "" : " on average (irregular)",
@@ -154,8 +156,8 @@ int run_info(const Options& options) {
     const std::uint64_t most = write_activity(reader, *options.activity);
     print_line(format("  activity    {}: black never changes, white {} times", *options.activity, most));
   }
-  print_line(
-      format("try: nutik-cl --start {}f --exposure 1f {} picture.png", timeline.sample_count() / 2, shell_word(name)));
+  print_line(format("try: nutik-cl --start {}f --exposure 1f {} picture.png", timeline.sample_count() / 2,
+                    shell_word(name)));
   return is_damaged ? 3 : 0;  // as any command that meets damaged input
 }
 

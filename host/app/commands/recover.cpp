@@ -15,7 +15,8 @@ namespace nutik::app {
 int run_recover(const Options& options) {
   const auto output = stated_output(options.output, options.operands, "recover");
   const std::string& damaged = options.operands.front();
-  if (!output) throw UsageError(format("the output is missing: nutik-cl recover {} -o whole.tik", shell_word(damaged)));
+  if (!output)
+    throw UsageError(format("the output is missing: nutik-cl recover {} -o whole.tik", shell_word(damaged)));
   check_output(*output, OutputKind::tik, std::array{damaged});
   const tik::Recovery recovery = tik::recover(damaged, *output);
   if (options.json) {
@@ -25,7 +26,8 @@ int run_recover(const Options& options) {
                 {"lost_bytes", recovery.lost_bytes}});
   } else if (!options.quiet) {
     print_line(format("{}: {} in {} were saved, {} behind them left out", output->string(),
-                      counted(recovery.sample_count, "sample"), counted(recovery.block_count, "block"), bytes_text(recovery.lost_bytes)));
+                      counted(recovery.sample_count, "sample"), counted(recovery.block_count, "block"),
+                      bytes_text(recovery.lost_bytes)));
   }
   return 0;
 }

@@ -128,7 +128,8 @@ int run_video(const Options& options) {
   print_line(format("{}: {}, {} frames ({}), from {} to {} of the capture, {}{}, {:.2f} s on {}",
                     output.path().string(), shape_text(reader.format().shape), frames.count, request.text(),
                     duration_text(times.start_ns(0)), duration_text(times.end_ns(frames.count - 1)),
-                    output.kind(), saturation_text(saturation, frame_format.type), stopwatch.seconds(), exposer.renderer_name()));
+                    output.kind(), saturation_text(saturation, frame_format.type), stopwatch.seconds(),
+                    exposer.renderer_name()));
   if (const std::string report = exposer.report(); options.verbose && !report.empty()) print_line(report);
   for (const std::string& note : queue.notes()) print_note(format("note: {}", note));
   for (const std::string& note : capture.notes()) print_note(note);

@@ -23,7 +23,8 @@ std::string read_to_end(std::FILE* stream) {
   while (const std::size_t count = std::fread(part.data(), 1, part.size(), stream)) {
     bytes.append(part.data(), count);
   }
-  if (std::ferror(stream) != 0) throw InputError(format("{} cannot be read: {}", kTitle, std::strerror(errno)));
+  if (std::ferror(stream) != 0)
+    throw InputError(format("{} cannot be read: {}", kTitle, std::strerror(errno)));
   if (bytes.empty()) throw InputError(format("{} is empty", kTitle));
   return bytes;
 }
@@ -65,7 +66,8 @@ void check_standard_input(const Options& options) {
   for (const auto& [value, name] : readers) {
     if (!value || !is_standard_input(*value)) continue;
     if (!first.empty()) {
-      throw UsageError(format("{} - and {} - would both read standard input; name a file for one", first, name));
+      throw UsageError(
+          format("{} - and {} - would both read standard input; name a file for one", first, name));
     }
     first = name;
   }

@@ -58,9 +58,10 @@ std::string plan_text(const RenderPlan& plan, const Timeline& timeline,
   for (std::size_t f = 0; f < std::min(plan.functions.size(), kFunctionsInSummary); ++f) {
     const PlannedFunction& function = plan.functions[f];
     const Interval& live = function.summary.live;
-    text += format("\n  M{}: {}, {}, {}", function.tag, counted(function.pixel_count, "pixel"),
-                   live.empty() ? "never live" : format("live {} … {}", time(live.begin_ns), time(live.end_ns)),
-                   counted(function.live.size(), "sample"));
+    text +=
+        format("\n  M{}: {}, {}, {}", function.tag, counted(function.pixel_count, "pixel"),
+               live.empty() ? "never live" : format("live {} … {}", time(live.begin_ns), time(live.end_ns)),
+               counted(function.live.size(), "sample"));
   }
   if (plan.functions.size() > kFunctionsInSummary) {
     text += format("\n  and {} functions more", plan.functions.size() - kFunctionsInSummary);

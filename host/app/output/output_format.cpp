@@ -20,9 +20,10 @@ NegativeLight negative_light(const Options& options, ValueType type, const std::
   if (!options.negative) return NegativeLight::saturate;
   const NegativeLight negative = parse_negative_light(*options.negative);
   if (holds_codes(type)) return negative;
-  throw UsageError(format("--negative says what codes make of light below 0, and {} holds floating point, which "
-                          "keeps it; leave --negative out",
-                          output.string()));
+  throw UsageError(
+      format("--negative says what codes make of light below 0, and {} holds floating point, which "
+             "keeps it; leave --negative out",
+             output.string()));
 }
 
 OutputFormat output_format(const Options& options, const std::filesystem::path& output,

@@ -43,10 +43,10 @@ Recipe make_recipe(const Options& options, const std::optional<std::string>& kno
                                     std::string(InputBytes(*options.functions).text())};
   }
   if (options.mask) {
-    recipe.mask = Recipe::Input{known_name(*options.mask, ".pgm"),
-                                is_standard_input(*options.mask)
-                                    ? bytes_checksum(InputBytes(*options.mask).bytes())
-                                    : input_checksum(*options.mask)};
+    recipe.mask =
+        Recipe::Input{known_name(*options.mask, ".pgm"),
+                      is_standard_input(*options.mask) ? bytes_checksum(InputBytes(*options.mask).bytes())
+                                                       : input_checksum(*options.mask)};
   }
   recipe.options = stated_options(options);
   recipe.renderer = options.renderer.value_or("opencl");
