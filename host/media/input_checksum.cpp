@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kLeastEndBytes = 4 << 10;
 constexpr std::uint64_t kMostEndBytes = 1 << 20;
+constexpr std::size_t kPieceBytes = 1 << 20;
 
 struct FreeState {
   void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
@@ -65,7 +66,12 @@ std::string input_checksum(const fs::path& path) {
     const MappedFile mapped(file);
     const auto bytes = mapped.bytes();
     if (whole || bytes.size() <= 2 * end_bytes) {
-      hash.add(bytes);
+      // Piece by piece: a clip may be larger than the memory that is allowed.
+      for (std::size_t at = 0; at < bytes.size(); at += kPieceBytes) {
+        const auto piece = bytes.subspan(at, std::min(kPieceBytes, bytes.size() - at));
+        hash.add(piece);
+        mapped.release(piece);
+      }
     } else {
       hash.add(bytes.first(end_bytes));
       hash.add(bytes.last(end_bytes));

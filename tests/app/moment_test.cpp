@@ -191,9 +191,10 @@ TEST_F(Moment, SweepExposesEachShift) {
   ASSERT_EQ(json["pictures"].size(), 6u);
   EXPECT_EQ(json["pictures"][3], nlohmann::json::parse(R"({"shift_ns":30000000,"file":"s3.png"})"));
   for (const int k : {0, 3, 5}) {
-    ASSERT_EQ(
-        run({"--start", std::to_string(10 * k) + "ms", "--exposure", "10ms", "clip.tik", "alone.png"}).status,
-        0);
+    ASSERT_EQ(run({"--start", std::to_string(10 * k) + "ms", "--exposure", "10ms", "--no-recipe", "clip.tik",
+                   "alone.png"})
+                  .status,
+              0);
     EXPECT_EQ(file("s" + std::to_string(k) + ".png"), file("alone.png")) << k;
   }
   EXPECT_EQ(json["sheet"], "clip-0s-10ms-sweep.png");
@@ -201,7 +202,7 @@ TEST_F(Moment, SweepExposesEachShift) {
   const auto pictures = json_of({"sweep", "--start", "9f", "--exposure", "1f", "--shift", "-5f..5f/5f",
                                  "--each", "p%d.png", "clip.tik"});
   EXPECT_EQ(pictures["pictures"][0]["shift_samples"], -5);
-  ASSERT_EQ(run({"--start", "4f", "--exposure", "1f", "clip.tik", "alone.png"}).status, 0);
+  ASSERT_EQ(run({"--start", "4f", "--exposure", "1f", "--no-recipe", "clip.tik", "alone.png"}).status, 0);
   EXPECT_EQ(file("p0.png"), file("alone.png"));
 }
 
@@ -216,9 +217,9 @@ TEST_F(Moment, SweepVariesGainAndLength) {
             nlohmann::json::parse(R"({"gain_factor":1.5,"stretch_factor":2.0,"file":"v05.png"})"));
   // It begins to expose at 20 ms, which stays.
   scratch_.write("last.fn", "M0 [-20000000:0], [20000000:0], [60000000:1.5], [60000002:0]\n");
-  ASSERT_EQ(run({"-k", "last.fn", "clip.tik", "alone.png"}).status, 0);
+  ASSERT_EQ(run({"-k", "last.fn", "--no-recipe", "clip.tik", "alone.png"}).status, 0);
   EXPECT_EQ(file("v05.png"), file("alone.png"));
-  ASSERT_EQ(run({"-k", "f.fn", "clip.tik", "alone.png"}).status, 0);
+  ASSERT_EQ(run({"-k", "f.fn", "--no-recipe", "clip.tik", "alone.png"}).status, 0);
   EXPECT_EQ(file("v01.png"), file("alone.png"));
 }
 

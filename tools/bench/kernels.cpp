@@ -1,6 +1,7 @@
 // How fast the kernels read a capture, against the limit of the memory they read it from.
 //
 //   bench_kernels [--width N] [--height N] [--samples N] [--runs N] [--device I] [--csv FILE] [--quick]
+//                 [--item-pixels N] [--item-tiles N] [--lanes N] [--group-items N]
 //
 // Needs only OpenCL and a compiler. Kernel times are the device's own (profiling events), medians of
 // several runs; the limit is measured in the same run: memory read by all cores where the device shares
@@ -32,6 +33,7 @@ struct Settings {
   std::size_t device = 0;
   std::string csv;
   bool quick = false;
+  OpenClOptions options;  // how the work is cut, for tuning; 0: as the device's kind suggests
 };
 
 Settings parse(int argc, char** argv) {
@@ -51,6 +53,14 @@ Settings parse(int argc, char** argv) {
       settings.device = number();
     else if (word == "--csv" && i + 1 < argc)
       settings.csv = argv[++i];
+    else if (word == "--item-pixels")
+      settings.options.item_pixels = static_cast<std::uint32_t>(number());
+    else if (word == "--item-tiles")
+      settings.options.item_tiles = static_cast<std::uint32_t>(number());
+    else if (word == "--lanes")
+      settings.options.lanes = static_cast<std::uint32_t>(number());
+    else if (word == "--group-items")
+      settings.options.group_items = static_cast<std::uint32_t>(number());
     else if (word == "--quick")
       settings.quick = true;
     else {
@@ -209,7 +219,7 @@ int run(const Settings& settings) {
     const RenderPlan plan =
         make_plan(capture, functions_for(one.regions, capture.timeline().duration_ns(), 5),
                   mask_for(format.shape, one.regions), {});
-    OpenClOptions options;
+    OpenClOptions options = settings.options;
     options.device = settings.device;
     options.precision = one.precision;
     options.chunk_bytes = 4ull << 30;
