@@ -9,6 +9,7 @@ import re
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import cv2
@@ -111,22 +112,27 @@ def main():
 
     commands = re.findall(r"^  ([a-z]+) {2,}[A-Z]", help_of(), re.M)
     assert len(commands) >= 18, commands
-    failures, count = [], 0
-    for command in commands:
-        examples = examples_of(help_of(command))
+
+    def failures_of(command):
+        """How many of a command's examples ran, and what went wrong with others."""
+        examples = [example for example in examples_of(help_of(command))
+                    if "man -l" not in example or shutil.which("man")]
         assert examples, command
         folder = arguments.work / command
         shutil.copytree(scene, folder)
+        failures = []
         for example in examples:
-            if "man -l" in example and not shutil.which("man"):
-                print(f"without man, left out: {example}")
-                continue
-            count += 1
             result = subprocess.run(["bash", "-o", "pipefail", "-c", example], cwd=folder, env=environment,
                                     text=True, capture_output=True, stdin=subprocess.DEVNULL)
             if result.returncode != 0:
                 failures.append(f"{example}\n  {result.returncode}: {result.stderr.strip()}")
         shutil.rmtree(folder)
+        return len(examples), failures
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        results = list(pool.map(failures_of, commands))
+    failures = [failure for _, failed in results for failure in failed]
+    count = sum(number for number, _ in results)
     print("\n".join(failures) or f"{count} examples of {len(commands)} commands run")
     return 1 if failures else 0
 
