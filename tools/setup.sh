@@ -16,7 +16,7 @@ program_packages=(
 # The scene generator and the plotter.
 script_packages=(python3 python3-numpy python3-opencv python3-matplotlib)
 # What only tests and benchmarks use. clang checks the kernels while building, oclgrind while they run.
-test_packages=(clang oclgrind libgtest-dev libboost-dev netpbm ffmpeg python3-mpmath)
+test_packages=(clang oclgrind libgtest-dev libboost-dev netpbm ffmpeg python3-mpmath zsh fish groff)
 
 # Debian's own Python, which the packages above belong to, even where another one comes first in PATH.
 python=/usr/bin/python3

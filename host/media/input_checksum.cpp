@@ -80,6 +80,13 @@ std::string input_checksum(const fs::path& path) {
   return format("xxh3-64{}:{:016x}", whole ? "" : "-ends", hash.value());
 }
 
+std::string bytes_checksum(std::span<const std::byte> bytes) {
+  Hash hash;
+  hash.add_size(bytes.size());
+  hash.add(bytes);
+  return format("xxh3-64:{:016x}", hash.value());
+}
+
 std::string input_name(const fs::path& path) {
   std::error_code error;
   if (fs::exists(path, error)) {

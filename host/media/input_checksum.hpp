@@ -1,8 +1,10 @@
 // What the content of a clip, a sequence of stills or a mask is known by again.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 
 namespace nutik {
@@ -16,6 +18,9 @@ inline constexpr std::uint64_t kWholeChecksumBytes = 256ull << 20;
 // from another, but not an edit in the middle that keeps the size. `path` may be a sequence of
 // stills (still_sequence.hpp). Throws InputError where a file cannot be read.
 [[nodiscard]] std::string input_checksum(const std::filesystem::path& path);
+
+// The same of the bytes of one file.
+[[nodiscard]] std::string bytes_checksum(std::span<const std::byte> bytes);
 
 // The name an input is known by: without its folder; for `frames/*.png`, where the folder is part of the
 // name, with the last one.

@@ -10,15 +10,18 @@ namespace nutik {
 
 Picture read_mask(const std::filesystem::path& path) {
   const MappedFile file(path);
-  const std::string name = path.string();
-  if (is_png(file.bytes())) return read_grey_png(file.bytes(), name);
-  if (file.bytes().size() < 2 || file.bytes()[0] != std::byte{'P'}) {
+  return read_mask(file.bytes(), path.string());
+}
+
+Picture read_mask(std::span<const std::byte> bytes, const std::string& name) {
+  if (is_png(bytes)) return read_grey_png(bytes, name);
+  if (bytes.size() < 2 || bytes[0] != std::byte{'P'}) {
     throw InputError(
         format("{} is neither a PGM nor a PNG; masks are 8-bit grey pictures of these kinds "
                "(JPEG would change their values)",
                name));
   }
-  Picture picture = read_netpbm(file.bytes(), name);
+  Picture picture = read_netpbm(bytes, name);
   if (picture.shape.channels != 1) {
     throw InputError(format("{} is a picture of {} channels; a mask has 1 (save it as grey, PGM)", name,
                             picture.shape.channels));

@@ -1,7 +1,10 @@
 // Masks from files.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include "capture/picture.hpp"
 
@@ -10,5 +13,8 @@ namespace nutik {
 // Reads an 8-bit picture with one channel (PGM P2 or P5, PNG), tags taken literally: a maximum other
 // than 255 does not rescale them. Throws InputError that says what was found and what is needed.
 [[nodiscard]] Picture read_mask(const std::filesystem::path& path);
+
+// The same of bytes that messages call `name`.
+[[nodiscard]] Picture read_mask(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace nutik

@@ -16,6 +16,7 @@
 #include "opencl/light_source.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
+#include "render/code_scale.hpp"
 
 namespace nutik {
 namespace {
@@ -41,6 +42,13 @@ bool has_fma(const cl::Device& device, Precision precision) {
     case Precision::fixed: break;
   }
   return false;
+}
+
+// Whether a value has the first code or the last.
+bool has_end_code(const Picture& codes) {
+  const auto is_end = [&](std::uint32_t code) { return code == 0 || code == codes.white_code; };
+  return codes.type == ValueType::code8 ? std::ranges::any_of(codes.values<std::uint8_t>(), is_end)
+                                        : std::ranges::any_of(codes.values<std::uint16_t>(), is_end);
 }
 
 // Buffers made in a scope no longer count when it ends.
@@ -93,6 +101,7 @@ class OpenClRenderer::Implementation {
   [[nodiscard]] const std::string& name() const { return info_.name; }
   [[nodiscard]] std::string precision() const { return to_text(choice_.precision()); }
   [[nodiscard]] const RenderStatistics& statistics() const { return statistics_; }
+  [[nodiscard]] Saturation saturation() const { return saturation_; }
   [[nodiscard]] const PrecisionChoice& choice() const { return choice_; }
 
   // Said only of what the program chose: a person who asks for an arithmetic gets it.
@@ -106,12 +115,13 @@ class OpenClRenderer::Implementation {
   [[nodiscard]] std::string report() const {
     const double megabytes = static_cast<double>(statistics_.payload_bytes) * 1e-6;
     return format(
-               "{} precision; {} blocks of {:.1f} MB made ready in {:.1f} ms, read by the kernel in {:.1f} "
+               "{} precision; {} block{} of {:.1f} MB made ready in {:.1f} ms, read by the kernel in {:.1f} "
                "ms "
                "({:.1f} GB/s); codes or light in {:.1f} ms; at most {:.1f} MB on the device",
-               to_text(choice_.precision()), statistics_.blocks, megabytes, statistics_.read_ms,
-               statistics_.expose_ms, statistics_.expose_ms > 0 ? megabytes / statistics_.expose_ms : 0.0,
-               statistics_.develop_ms, static_cast<double>(statistics_.device_bytes) * 1e-6) +
+               to_text(choice_.precision()), statistics_.blocks, statistics_.blocks == 1 ? "" : "s",
+               megabytes, statistics_.read_ms, statistics_.expose_ms,
+               statistics_.expose_ms > 0 ? megabytes / statistics_.expose_ms : 0.0, statistics_.develop_ms,
+               static_cast<double>(statistics_.device_bytes) * 1e-6) +
            choice_text();
   }
 
@@ -130,6 +140,7 @@ class OpenClRenderer::Implementation {
   Picture render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
     try {
       statistics_ = {};
+      saturation_ = {};
       held_bytes_ = 0;
       output_ = output;
       choice_ = choose(plan, output);
@@ -137,8 +148,8 @@ class OpenClRenderer::Implementation {
       const FunctionMap map = map_functions(plan);
       const cl::Buffer function_of_lane = upload(map.of_lane);
       const cl::Buffer sums = expose(work, plan, source, map, function_of_lane);
-      Picture picture = holds_codes(output.type) ? develop_codes(work, plan, output, sums, function_of_lane)
-                                                 : develop_light(work, plan, output, sums);
+      Picture picture = holds_codes(output.type) ? develop_counted(work, plan, output, sums, function_of_lane)
+                                                 : develop_light(work, plan, output, output.type, sums);
       programs_->save_new_binaries();
       return picture;
     } catch (const cl::Error& error) {
@@ -286,7 +297,8 @@ class OpenClRenderer::Implementation {
     return chunk;
   }
 
-  Picture develop_light(const Work& work, const RenderPlan& plan, const OutputFormat& output,
+  // As light of this type, for a picture that will be stored as `output`.
+  Picture develop_light(const Work& work, const RenderPlan& plan, const OutputFormat& output, ValueType type,
                         const cl::Buffer& sums) {
     const Shape& shape = plan.capture.shape;
     const std::uint64_t tile_count = TileGrid(shape).tile_count();
@@ -297,9 +309,28 @@ class OpenClRenderer::Implementation {
         kernel(items(work.shape, tile_count), sums, shape.width, shape.height, tile_count, raster);
     queue_.enqueueReadBuffer(raster, CL_TRUE, 0, of_sums.size(), of_sums.data());
     statistics_.develop_ms = milliseconds(event);
-    Picture picture(shape, output.type, output.white_code);
+    Picture picture(shape, type, output.white_code);
     store_light(plan, work.precision, of_sums, picture);
     return picture;
+  }
+
+  // Codes, and how many pixels saturate. The kernel knows no negative codes and counts nothing: where a plan's
+  // functions can saturate, or negative light is to be seen, the sums are read and turned into light here.
+  Picture develop_counted(const Work& work, const RenderPlan& plan, const OutputFormat& output,
+                          const cl::Buffer& sums, const cl::Buffer& function_of_lane) {
+    const CodeScale scale(plan.capture.transfer, output);
+    if (output.negative != NegativeLight::saturate) {
+      const Picture light = develop_light(work, plan, output, ValueType::light64, sums);
+      saturation_ = count_saturated(light, scale);
+      return encoded(light, scale, output);
+    }
+    Picture codes = develop_codes(work, plan, output, sums, function_of_lane);
+    if (can_saturate(plan, scale) && has_end_code(codes)) {
+      const double develop_ms = statistics_.develop_ms;
+      saturation_ = count_saturated(develop_light(work, plan, output, ValueType::light64, sums), scale);
+      statistics_.develop_ms += develop_ms;
+    }
+    return codes;
   }
 
   Picture develop_codes(const Work& work, const RenderPlan& plan, const OutputFormat& output,
@@ -329,6 +360,7 @@ class OpenClRenderer::Implementation {
   std::unique_ptr<BlockFeed> feed_;
   std::uint64_t held_bytes_ = 0;
   RenderStatistics statistics_;
+  Saturation saturation_;
   OutputFormat output_;     // of the last picture
   PrecisionChoice choice_;  // likewise
 };
@@ -358,6 +390,8 @@ void OpenClRenderer::set_precision(std::optional<Precision> precision) {
 std::span<const Precision> OpenClRenderer::precisions() const { return implementation_->precisions(); }
 
 void OpenClRenderer::hold(const CaptureSource* source) { implementation_->hold(source); }
+
+Saturation OpenClRenderer::saturation() const { return implementation_->saturation(); }
 
 std::string OpenClRenderer::name() const { return implementation_->name(); }
 

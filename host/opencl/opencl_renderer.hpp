@@ -66,6 +66,7 @@ class OpenClRenderer final : public Renderer {
   void prepare(const RenderPlan& plan, const OutputFormat& output) override;
   [[nodiscard]] Picture render(const RenderPlan& plan, CaptureSource& source,
                                const OutputFormat& output) override;
+  [[nodiscard]] Saturation saturation() const override;
   [[nodiscard]] std::string name() const override;
   [[nodiscard]] std::string precision() const override;
   [[nodiscard]] std::string report() const override;

@@ -1,10 +1,9 @@
 #include "render/reference_renderer.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "imev/block.hpp"
+#include "render/code_scale.hpp"
 #include "render/value_walk.hpp"
 #include "system/page_buffer.hpp"
 #include "system/parallel.hpp"
@@ -72,15 +71,6 @@ class Reference {
   std::vector<ValueWalk> walks_;  // by value
 };
 
-template <typename Value>
-void store_codes(const Reference& reference, const Transfer& transfer, Picture& picture) {
-  const auto values = picture.values<Value>();
-  for (std::uint64_t i = 0; i < values.size(); ++i) {
-    const double fraction = transfer.fraction_of(std::clamp(reference.light(i), 0.0, 1.0));
-    values[i] = static_cast<Value>(std::floor(fraction * picture.white_code + 0.5));
-  }
-}
-
 }  // namespace
 
 Picture ReferenceRenderer::render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
@@ -95,22 +85,22 @@ Picture ReferenceRenderer::render(const RenderPlan& plan, CaptureSource& source,
     reference.add_block(planned, BlockView(plan.capture, planned.extent, payload.first(bytes)), follows);
   }
 
-  Picture picture(plan.capture.shape, output.type, output.white_code);
-  switch (output.type) {
-    case ValueType::code8: store_codes<std::uint8_t>(reference, plan.capture.transfer, picture); break;
-    case ValueType::code16: store_codes<std::uint16_t>(reference, plan.capture.transfer, picture); break;
-    case ValueType::light32:
-      for (std::uint64_t i = 0; i < picture.shape.value_count(); ++i) {
-        picture.values<float>()[i] = static_cast<float>(reference.light(i));
-      }
-      break;
-    case ValueType::light64:
-      for (std::uint64_t i = 0; i < picture.shape.value_count(); ++i) {
-        picture.values<double>()[i] = reference.light(i);
-      }
-      break;
+  saturation_ = {};
+  if (output.type == ValueType::light32) {
+    Picture picture(plan.capture.shape, output.type, output.white_code);
+    for (std::uint64_t i = 0; i < picture.shape.value_count(); ++i) {
+      picture.values<float>()[i] = static_cast<float>(reference.light(i));
+    }
+    return picture;
   }
-  return picture;
+  Picture light(plan.capture.shape, ValueType::light64, output.white_code);
+  for (std::uint64_t i = 0; i < light.shape.value_count(); ++i) {
+    light.values<double>()[i] = reference.light(i);
+  }
+  if (output.type == ValueType::light64) return light;
+  const CodeScale scale(plan.capture.transfer, output);
+  saturation_ = count_saturated(light, scale);
+  return encoded(light, scale, output);
 }
 
 }  // namespace nutik

@@ -12,8 +12,12 @@ class ReferenceRenderer final : public Renderer {
  public:
   [[nodiscard]] Picture render(const RenderPlan& plan, CaptureSource& source,
                                const OutputFormat& output) override;
+  [[nodiscard]] Saturation saturation() const override { return saturation_; }
   [[nodiscard]] std::string name() const override { return "scalar reference"; }
   [[nodiscard]] std::string precision() const override { return "double"; }
+
+ private:
+  Saturation saturation_;
 };
 
 }  // namespace nutik

@@ -10,11 +10,29 @@
 
 namespace nutik {
 
+// What codes say of light below 0. saturate: code 0; offset: light 0 has the middle code, each sign half of
+// the codes; absolute: as much light above 0.
+enum class NegativeLight { saturate, offset, absolute };
+
 // How a picture's values are to be stored. Codes are made with the capture's transfer function and
 // saturate at 0 and at the white code; light is kept as it is.
 struct OutputFormat {
   ValueType type = ValueType::code8;
   std::uint32_t white_code = 255;
+  NegativeLight negative = NegativeLight::saturate;  // of codes
+};
+
+// How many pixels hold light that no code was left for (render/code_scale.hpp).
+struct Saturation {
+  std::uint64_t below = 0;
+  std::uint64_t above = 0;
+
+  Saturation& operator+=(const Saturation& other) {
+    below += other.below;
+    above += other.above;
+    return *this;
+  }
+  friend bool operator==(const Saturation&, const Saturation&) = default;
 };
 
 class Renderer {
@@ -33,6 +51,9 @@ class Renderer {
   // order. Throws InputError for a damaged block, DeviceError where the device fails.
   [[nodiscard]] virtual Picture render(const RenderPlan& plan, CaptureSource& source,
                                        const OutputFormat& output) = 0;
+
+  // Of the last render; none where it kept light.
+  [[nodiscard]] virtual Saturation saturation() const = 0;
 
   // What does the work, as a person would call it: a device's name, "scalar reference".
   [[nodiscard]] virtual std::string name() const = 0;

@@ -78,14 +78,14 @@ TEST_F(CommandLine, ReportsHowAnExposureWasComputed) {
   const ProgramResult result = run({"-v", "--start", "0s", "--exposure", "3f", "clip.tik", "out.png"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.out.find(", still gain 1,"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("1 blocks of "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("1 block of "), std::string::npos) << result.out;
   EXPECT_NE(result.out.find(" MB on the device"), std::string::npos) << result.out;
 }
 
 TEST_F(CommandLine, SaysWhatACaptureHolds) {
   const ProgramResult info = run({"info", "clip.tik", "--activity", "map.png"});
   EXPECT_EQ(info.status, 0) << info.err;
-  for (const char* part : {"16 x 16 colour, 8 bits, white code 255, transfer srgb", "6 in 1 blocks",
+  for (const char* part : {"16 x 16 colour, 8 bits, white code 255, transfer srgb", "6 in 1 block",
                            "25 samples a second, shutter 360 degrees", "5.00 records a pixel",
                            "100.0 % dense", "map.png: black never changes, white 5 times",
                            "try: nutik-cl --start 3f --exposure 1f clip.tik picture.png"}) {
@@ -132,7 +132,7 @@ TEST_F(CommandLine, ShowsInfoForACaptureAlone) {
   const ProgramResult result = run({"clip.tik"});
   EXPECT_EQ(result.status, 0);
   EXPECT_NE(result.out.find("16 x 16 colour, 8 bits, white code 255, transfer srgb"), std::string::npos);
-  EXPECT_NE(result.out.find("6 in 1 blocks"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("6 in 1 block"), std::string::npos) << result.out;
   const auto suggestion = result.out.find("try: nutik-cl ");
   ASSERT_NE(suggestion, std::string::npos);
   EXPECT_NE(result.out.find("--start 3f --exposure 1f clip.tik picture.png", suggestion), std::string::npos);
@@ -240,7 +240,7 @@ TEST_F(CommandLine, RecoversACutOffCapture) {
   expect_refused({"cut.tik"}, 3, "nutik-cl recover cut.tik -o recovered.tik");
   const ProgramResult result = run({"recover", "cut.tik", "-o", "whole.tik"});
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("6 samples in 1 blocks were saved"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("6 samples in 1 block were saved"), std::string::npos) << result.out;
   EXPECT_EQ(run({"-k", "one.fn", "whole.tik", "a.png", "--no-recipe"}).status, 0);
   EXPECT_EQ(run({"-k", "one.fn", "clip.tik", "b.png", "--no-recipe"}).status, 0);
   EXPECT_EQ(test::read_file(scratch_ / "a.png"), test::read_file(scratch_ / "b.png"));

@@ -13,6 +13,13 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
+foreach(file share/bash-completion/completions/nutik-cl share/zsh/site-functions/_nutik-cl
+             share/fish/vendor_completions.d/nutik-cl.fish share/man/man1/nutik-cl.1)
+  file(SIZE ${WORK}/installed/${file} size)
+  if(size LESS 1000)
+    message(FATAL_ERROR "${file} was installed with ${size} bytes")
+  endif()
+endforeach()
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR}
     -DCMAKE_PREFIX_PATH=${WORK}/installed -DCMAKE_CXX_COMPILER=${COMPILER}
     -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})

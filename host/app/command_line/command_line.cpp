@@ -6,7 +6,10 @@
 
 #include "app/command_line/help.hpp"
 #include "app/command_line/suggestion.hpp"
+#include "app/command_line/value_check.hpp"
+#include "app/input/standard_input.hpp"
 #include "app/output/console.hpp"
+#include "app/text/shell_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 
@@ -27,10 +30,20 @@ struct Scan {
   }
 };
 
-[[noreturn]] void fail_unknown_option(const std::string& word) {
-  std::vector<std::string> known{"--help", "--version"};
-  for (const Option& option : options()) known.push_back("--" + std::string(option.long_name));
+// Suggests options of the command that is named, if any, before those of others.
+[[noreturn]] void fail_unknown_option(const std::string& word, std::span<const std::string> words) {
   const std::string name = word.substr(0, word.find('='));
+  const auto named =
+      std::ranges::find_if(words, [](const std::string& each) { return find_command(each) != nullptr; });
+  std::vector<std::string> known{"--help", "--version"};
+  if (named != words.end()) {
+    for (const Option* option : options_of(*find_command(*named)))
+      known.push_back("--" + std::string(option->long_name));
+    if (const std::string suggestion = did_you_mean(name, known); !suggestion.empty()) {
+      throw UsageError(format("there is no option {}{}; see nutik-cl {} --help", name, suggestion, *named));
+    }
+  }
+  for (const Option& option : options()) known.push_back("--" + std::string(option.long_name));
   throw UsageError(format("there is no option {}{}; see nutik-cl --help", name, did_you_mean(name, known)));
 }
 
@@ -38,7 +51,7 @@ Scan scan(std::span<const std::string> words) {
   Scan scan;
   scan.operands_end = words.size();
   const auto take = [&](const Option* option, const std::string& word, bool has_value, std::size_t& i) {
-    if (option == nullptr) fail_unknown_option(word);
+    if (option == nullptr) fail_unknown_option(word, words);
     scan.options.push_back(option);
     if (option->value.empty()) {
       if (has_value) throw UsageError(format("{} takes no value", option->display_name()));
@@ -50,6 +63,10 @@ Scan scan(std::span<const std::string> words) {
       throw UsageError(format("{} needs {}: {} {}", name,
                               option->word_count() == 1 ? "a value" : "more words", name, option->value));
     }
+    if (has_value && word.find('=') != std::string::npos) {
+      check_choice(word.substr(0, word.find('=')), word.substr(word.find('=') + 1), option->choices);
+    }
+    if (!has_value && option->word_count() == 1) check_value(*option, word, words[i]);
   };
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
@@ -108,7 +125,8 @@ const Command& shorthand(const Scan& scan, std::span<const std::string> words) {
   const std::string first = scan.operands.empty() ? std::string() : words[scan.operands.front()];
   const std::string clip = first.empty() ? "clip.tik" : first;
   if (scan.has("mask")) {
-    throw UsageError(format("a mask needs gain functions: nutik-cl -m mask.pgm -k functions.fn {}", clip));
+    throw UsageError(
+        format("a mask needs gain functions: nutik-cl -m mask.pgm -k functions.fn {}", shell_word(clip)));
   }
   if (scan.operands.empty()) {
     throw UsageError("a clip or a capture is missing: nutik-cl clip.mp4 clip.tik");
@@ -120,10 +138,11 @@ const Command& shorthand(const Scan& scan, std::span<const std::string> words) {
       throw UsageError(
           format("what should be done with {}? To expose a picture: nutik-cl --start 0s "
                  "--exposure 10ms {} picture.png",
-                 first, first));
+                 first, shell_word(first)));
     }
     const std::string stem = std::filesystem::path(first).stem().string();
-    throw UsageError(format("the output is missing: nutik-cl {} {}.tik", first, stem));
+    throw UsageError(
+        format("the output is missing: nutik-cl {} {}", shell_word(first), shell_word(stem + ".tik")));
   }
   return command(CommandId::encode);
 }
@@ -205,7 +224,9 @@ ParsedCommandLine parse_command_line(std::span<const std::string> words) {
   }
   const Command& chosen = named != nullptr ? *named : shorthand(found, words);
   check_options(found, chosen);
-  return {&chosen, parse_options(chosen, std::move(rest))};
+  ParsedCommandLine parsed{&chosen, parse_options(chosen, std::move(rest))};
+  check_standard_input(parsed.options);
+  return parsed;
 }
 
 }  // namespace nutik::app

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "app/command_line/options.hpp"
 
@@ -26,8 +27,16 @@ enum class CommandId {
   noise,
   shutter,
   again,
-  validate
+  validate,
+  completion,
+  man
 };
+
+// Where help lists a command.
+enum class CommandGroup { captures, pictures, understanding, other };
+inline constexpr CommandGroup kCommandGroups[] = {CommandGroup::captures, CommandGroup::pictures,
+                                                  CommandGroup::understanding, CommandGroup::other};
+[[nodiscard]] std::string_view title(CommandGroup group);
 
 struct Command {
   CommandId id;
@@ -36,7 +45,11 @@ struct Command {
   std::string_view summary;
   std::string_view examples;  // lines, each a command
   int (*run)(const Options& options);
+  CommandGroup group = CommandGroup::other;
 };
+
+// The commands of the paper's forms, which need no name.
+inline constexpr CommandId kShorthand[] = {CommandId::encode, CommandId::expose, CommandId::info};
 
 // Commands that an option belongs to, as bits.
 using CommandSet = std::uint32_t;
@@ -48,6 +61,8 @@ template <typename... Ids>
 }
 
 [[nodiscard]] std::span<const Command> commands();
+// The same, group by group.
+[[nodiscard]] std::vector<const Command*> commands_of(CommandGroup group);
 [[nodiscard]] const Command& command(CommandId id);
 [[nodiscard]] const Command* find_command(std::string_view name);
 

@@ -12,11 +12,12 @@ constexpr std::string_view kGroup = "The exposure";
 std::vector<Option> exposure_options() {
   return {
       valued('k', "functions", "FILE.fn", kGroup,
-             "the gain functions, one for each mask value; a file with a single one needs no mask",
+             "the gain functions, one for each mask value; a file with a single one needs no mask; - is "
+             "standard input",
              kTakesFunctions, &Options::functions),
       valued('m', "mask", "FILE.pgm", kGroup,
-             "which function each pixel is exposed with: an 8-bit grey PGM or PNG", kTakesMasks,
-             &Options::mask),
+             "which function each pixel is exposed with: an 8-bit grey PGM or PNG; - is standard input",
+             kTakesMasks, &Options::mask),
       valued(0, "start", "TIME", kGroup,
              "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip; with -k "
              "the "
@@ -25,27 +26,35 @@ std::vector<Option> exposure_options() {
       valued(0, "exposure", "TIME", kGroup,
              "length of the plain interval: 10ms, 1/100s, 250us, or 3f, to the end of the third picture",
              kTakesIntervals | bit(Id::shutter), &Options::exposure),
-      valued(0, "unmapped", "zero", kGroup,
-             "expose mask values without a function to black (default: an error)", kTakesFunctions,
-             &Options::unmapped),
-      valued(0, "live", "all", kGroup,
-             "visit every sample, also where no gain needs it (the picture is the same)",
-             kTakesFunctions & ~bit(Id::check), &Options::live),
+      one_of(valued(0, "unmapped", "zero", kGroup,
+                    "expose mask values without a function to black (default: an error)", kTakesFunctions,
+                    &Options::unmapped),
+             {"zero"}),
+      one_of(valued(0, "live", "all", kGroup,
+                    "visit every sample, also where no gain needs it (the picture is the same)",
+                    kTakesFunctions & ~bit(Id::check), &Options::live),
+             {"all"}),
       valued(0, "pixel", "X,Y", kGroup, "the pixel to follow, counted from 0 at the top left", bit(Id::trace),
              &Options::pixel),
       valued(0, "tag", "VALUE", kGroup, "follow the mean of all pixels that have this value in the mask",
              bit(Id::trace), &Options::tag),
-      valued(0, "shutter", "SHAPE", kGroup,
-             "how far the shutter is open in the course of the plain interval: box, trapezoid:R, triangle, "
-             "gaussian, hann, strobe:N[,R] or spline:0=G,…,1=G (default: box)",
-             kShapesExposures, &Options::shutter),
+      one_of(
+          valued(
+              0, "shutter", "SHAPE", kGroup,
+              "how far the shutter is open in the course of the plain interval: box, trapezoid:R, triangle, "
+              "gaussian, hann, strobe:N[,R] or spline:0=G,…,1=G (default: box)",
+              kShapesExposures, &Options::shutter),
+          {"box", "trapezoid:", "triangle", "gaussian", "hann", "strobe:", "spline:"}),
       valued(0, "shutter-error", "E", kGroup,
              "how far a smooth shape may be from its true gains, as a share of the largest (default: 0.001)",
              kShapesExposures | bit(Id::shutter), &Options::shutter_error),
-      valued(0, "normalize", "BY", kGroup,
-             "divide by the time with a gain (support), by its integral (integral: a still scene keeps its "
-             "brightness), by that of its magnitude (absolute), or by seconds:S (default: support)",
-             kShapesExposures, &Options::normalize),
+      one_of(
+          valued(
+              0, "normalize", "BY", kGroup,
+              "divide by the time with a gain (support), by its integral (integral: a still scene keeps its "
+              "brightness), by that of its magnitude (absolute), or by seconds:S (default: support)",
+              kShapesExposures, &Options::normalize),
+          {"support", "integral", "absolute", "seconds:"}),
       valued(0, "gain", "G", kGroup, "make the light G times as much (default: 1)",
              kShapesExposures | bit(Id::shutter), &Options::gain),
       valued(0, "ev", "E", kGroup, "make the light 2^E times as much: 1 is one stop brighter (default: 0)",

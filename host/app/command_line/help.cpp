@@ -1,9 +1,16 @@
 #include "app/command_line/help.hpp"
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/command_line/help_text.hpp"
 #include "app/output/console.hpp"
 #include "app/text/text_table.hpp"
 #include "capture/format.hpp"
@@ -15,17 +22,36 @@
 namespace nutik::app {
 namespace {
 
-constexpr std::size_t kWidth = 100;
+constexpr std::size_t kNarrowest = 60;
+constexpr std::size_t kUsual = 80;
+constexpr std::size_t kWidest = 100;  // longer lines are hard to read
 constexpr std::size_t kOptionColumn = 32;
+constexpr std::size_t kCommandColumn = 14;
 
-// `text` in lines of at most kWidth, all but the first after `indent` blanks.
-std::string wrapped(std::string_view text, std::size_t indent) {
+// Of the terminal, or as COLUMNS says.
+std::size_t line_width() {
+  std::size_t width = kUsual;
+  winsize size{};
+  if (isatty(STDOUT_FILENO) == 1 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+    width = size.ws_col;
+  }
+  if (const char* stated = std::getenv("COLUMNS")) {
+    const std::string_view text(stated);
+    std::from_chars(text.data(), text.data() + text.size(), width);
+  }
+  return std::clamp(width, kNarrowest, kWidest);
+}
+
+// `text` in lines that fit, all but the first after `indent` blanks. A line that goes on ends with `at_break`.
+std::string wrapped(std::string_view text, std::size_t indent, std::string_view at_break = {}) {
+  static const std::size_t width = line_width();
   std::string result;
   std::size_t column = indent;
   while (!text.empty()) {
     const auto space = text.find(' ');
     const std::string_view word = text.substr(0, space);
-    if (column > indent && column + 1 + columns(word) > kWidth) {
+    if (column > indent && column + 1 + columns(word) + at_break.size() > width) {
+      result += at_break;
       result += '\n' + std::string(indent, ' ');
       column = indent;
     } else if (column > indent) {
@@ -51,12 +77,11 @@ std::string option_lines(const Option& option) {
   return names + wrapped(option.help, kOptionColumn) + '\n';
 }
 
+// As a shell takes them, also where a line goes on.
 std::string example_lines(std::string_view examples) {
   std::string text;
-  while (!examples.empty()) {
-    const auto line_end = examples.find('\n');
-    text += format("  {}\n", examples.substr(0, line_end));
-    examples = line_end == std::string_view::npos ? std::string_view() : examples.substr(line_end + 1);
+  for (const std::string_view example : lines_of(examples)) {
+    text += format("  {}\n", wrapped(example, 6, " \\"));
   }
   return text;
 }
@@ -67,26 +92,27 @@ void print_version() { print_line("nutik-cl " NUTIK_VERSION); }
 
 void print_help() {
   std::string text =
-      "nutik-cl exposes pictures after the scene was filmed. It turns a video into a capture (.tik), the\n"
-      "record of when and how every pixel changed, and exposes pictures from it in which every region of\n"
-      "a mask has its own gain as a function of time.\n"
-      "\n"
-      "  nutik-cl clip.mp4 clip.tik                                  encode a clip\n"
-      "  nutik-cl --start 0.4s --exposure 10ms clip.tik moment.png   expose a plain interval\n"
-      "  nutik-cl -m mask.pgm -k functions.fn clip.tik out.png       expose regions with gain functions\n"
-      "  nutik-cl clip.tik                                           say what a capture holds\n"
-      "\n"
-      "A function file has a line for each mask value, times in nanoseconds: M0 [0:1], [10000000:1], "
-      "[10000001:0]\n"
-      "\n"
-      "Commands (the forms above need none):\n";
-  for (const Command& command : commands()) {
-    text += format("  {:<10}{}\n", command.name, wrapped(command.summary, 12));
+      wrapped(kWhatItIs, 0) +
+      "\n\n"
+      "  nutik-cl clip.mp4 clip.tik                                 encode a clip\n"
+      "  nutik-cl --start 0.4s --exposure 10ms clip.tik moment.png  expose an interval\n"
+      "  nutik-cl -m mask.pgm -k functions.fn clip.tik out.png      expose by functions\n"
+      "  nutik-cl clip.tik                                          say what it holds\n"
+      "\n" +
+      wrapped("A function file has a line for each mask value, with times in nanoseconds:", 0) +
+      "\n  M0 [0:1], [10000000:1], [10000001:0]\n";
+  for (const CommandGroup group : kCommandGroups) {
+    text += format("\n{}:\n", title(group));
+    for (const Command* command : commands_of(group)) {
+      text += format("  {:<{}}{}\n", command->name, kCommandColumn - 2,
+                     wrapped(brief(command->summary), kCommandColumn));
+    }
   }
-  text +=
-      "\n"
-      "nutik-cl COMMAND --help shows a command's options. A file that is named like a command is written\n"
-      "./info, or after --.";
+  text += "\n" +
+          wrapped(
+              "nutik-cl COMMAND --help says more. A file that is named like a command is written ./info, or "
+              "after --.",
+              0);
   print_line(text);
 }
 
@@ -95,13 +121,12 @@ void print_command_help(const Command& command) {
       format("nutik-cl {} [OPTIONS]{}{}\n\n{}\n", command.name, command.operands.empty() ? "" : " ",
              command.operands, wrapped(command.summary, 0));
   std::vector<std::string_view> groups;
-  for (const Option& option : options()) {
-    if ((option.commands & bit(command.id)) == 0) continue;
-    if (groups.empty() || groups.back() != option.group) {
-      text += format("\n{}:\n", option.group);
-      groups.push_back(option.group);
+  for (const Option* option : options_of(command)) {
+    if (groups.empty() || groups.back() != option->group) {
+      text += format("\n{}:\n", option->group);
+      groups.push_back(option->group);
     }
-    text += option_lines(option);
+    text += option_lines(*option);
   }
   text += format("\nExamples:\n{}", example_lines(command.examples));
   text.pop_back();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/command_line/option_table.hpp"
@@ -46,12 +47,16 @@ inline constexpr CommandSet kShapesExposures =
 // Those that expose pictures, and so take what says how that is computed.
 inline constexpr CommandSet kExposes = set_of(CommandId::expose, CommandId::batch, CommandId::mask,
                                               CommandId::contact, CommandId::sweep, CommandId::video);
+// Those whose pictures may hold light below 0.
+inline constexpr CommandSet kExposesFreely =
+    set_of(CommandId::expose, CommandId::contact, CommandId::sweep, CommandId::video);
 // Those that lay pictures out on a sheet.
 inline constexpr CommandSet kMakesSheets = set_of(CommandId::contact, CommandId::sweep);
 // Those that can answer in JSON.
 inline constexpr CommandSet kAnswersInJson =
     set_of(CommandId::check, CommandId::trace, CommandId::mask, CommandId::contact, CommandId::activity,
-           CommandId::sweep, CommandId::validate);
+           CommandId::sweep, CommandId::encode, CommandId::expose, CommandId::info, CommandId::devices,
+           CommandId::recover, CommandId::noise, CommandId::batch, CommandId::video, CommandId::validate);
 
 // A row with a value, for the member of Options that holds it.
 [[nodiscard]] inline Option valued(char short_name, std::string_view long_name, std::string_view value,
@@ -65,6 +70,12 @@ inline constexpr CommandSet kAnswersInJson =
           commands,
           [member](Options& options, const std::string& text) { options.*member = text; },
           member};
+}
+
+// That row, where its values are known.
+[[nodiscard]] inline Option one_of(Option option, std::vector<std::string_view> choices) {
+  option.choices = std::move(choices);
+  return option;
 }
 
 // A row without one.

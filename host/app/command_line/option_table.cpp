@@ -11,6 +11,18 @@ std::string Option::display_name() const {
   return short_name != 0 ? std::string{'-', short_name} : "--" + std::string(long_name);
 }
 
+std::string_view Option::file_extension() const {
+  const auto dot = value.rfind('.');
+  if (dot == std::string_view::npos || dot + 1 == value.size()) return {};
+  const std::string_view extension = value.substr(dot + 1);
+  const bool is_extension = std::ranges::all_of(extension, [](char c) { return c >= 'a' && c <= 'z'; });
+  return is_extension ? extension : std::string_view();
+}
+
+bool Option::takes_file() const {
+  return value.starts_with("FILE") || value.starts_with("PICTURE") || !file_extension().empty();
+}
+
 std::size_t Option::word_count() const {
   return value.empty() ? 0 : 1 + static_cast<std::size_t>(std::count(value.begin(), value.end(), ' '));
 }
@@ -37,6 +49,14 @@ const Option* option_of(const Command& command, std::string_view long_name) {
     return option.long_name == long_name && (option.commands & bit(command.id)) != 0;
   });
   return found == options().end() ? nullptr : &*found;
+}
+
+std::vector<const Option*> options_of(const Command& command) {
+  std::vector<const Option*> found;
+  for (const Option& option : options()) {
+    if ((option.commands & bit(command.id)) != 0) found.push_back(&option);
+  }
+  return found;
 }
 
 const Option* find_option(char short_name) {

@@ -65,6 +65,7 @@ struct Options {
   // The file.
   std::optional<std::string> output;
   std::optional<std::string> depth;
+  std::optional<std::string> negative;
   std::optional<std::string> tolerance;
   std::optional<std::string> codec;
   std::optional<std::string> tiles;

@@ -15,16 +15,27 @@ std::vector<Option> output_options() {
              "where to write; without it the last operand, or a name made from the inputs",
              (kReadsClips & ~set_of(Id::batch, Id::check, Id::validate)) | set_of(Id::recover, Id::noise),
              &Options::output),
-      valued(0, "depth", "BITS", kGroup,
-             "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
-             set_of(Id::expose, Id::video, Id::validate), &Options::depth),
-      valued(
-          0, "codec", "NAME", kGroup,
-          "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",
-          bit(Id::encode), &Options::codec),
-      valued(0, "tiles", "KIND", kGroup,
-             "auto, or all tiles as dense, rows or records, for experiments (default: auto)", kEncodesClips,
-             &Options::tiles),
+      one_of(
+          valued(
+              0, "depth", "BITS", kGroup,
+              "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
+              set_of(Id::expose, Id::video, Id::validate), &Options::depth),
+          {"8", "16", "float"}),
+      one_of(valued(0, "negative", "HOW", kGroup,
+                    "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light "
+                    "below it "
+                    "darker), abs (as bright as light above it) (default: saturate)",
+                    kExposesFreely, &Options::negative),
+             {"saturate", "offset", "abs"}),
+      one_of(valued(0, "codec", "NAME", kGroup,
+                    "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 "
+                    "(default: zstd)",
+                    bit(Id::encode), &Options::codec),
+             {"none", "lz4", "zstd", "zstd:"}),
+      one_of(valued(0, "tiles", "KIND", kGroup,
+                    "auto, or all tiles as dense, rows or records, for experiments (default: auto)",
+                    kEncodesClips, &Options::tiles),
+             {"auto", "dense", "rows", "records"}),
       valued(0, "block-samples", "N", kGroup, "samples in a block (default: 64, fewer for large pictures)",
              kEncodesClips, &Options::block_samples),
       valued(0, "activity", "MAP.png", kGroup,
@@ -37,7 +48,8 @@ std::vector<Option> output_options() {
            set_of(Id::expose, Id::batch), &Options::no_recipe),
       flag('q', "quiet", kGroup, "no progress bar and no summary", kAllCommands, &Options::quiet),
       flag('v', "verbose", kGroup,
-           "say more: in which precision and why, how fast and with how much memory; every step of a trace",
+           "say more: what is read and what is skipped, in which precision and why, how fast and with how "
+           "much memory; every step of a trace",
            (kExposes & ~bit(Id::mask)) | bit(Id::trace), &Options::verbose),
   };
 }

@@ -22,22 +22,26 @@ std::vector<Option> source_options() {
       valued(0, "white", "CODE", kGroup,
              "the code that stands for white: 255, 4095 for 12 bits, … (default: what the file says)",
              kDecodesClips, &Options::white),
-      valued(0, "transfer", "NAME", kGroup,
-             "how codes stand for light: srgb, bt709, linear or gamma:G (default: srgb; linear for stills "
-             "and grey video of more than 8 bits and for 16-bit colour; what deep or raw video names; a "
-             ".tik's own)",
-             kDecodesClips, &Options::transfer),
+      one_of(
+          valued(
+              0, "transfer", "NAME", kGroup,
+              "how codes stand for light: srgb, bt709, linear or gamma:G (default: srgb; linear for stills "
+              "and grey video of more than 8 bits and for 16-bit colour; what deep or raw video names; a "
+              ".tik's own)",
+              kDecodesClips, &Options::transfer),
+          {"srgb", "bt709", "linear", "gamma:"}),
       valued(0, "raw", "WxH:FORMAT", kGroup,
              "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le",
              kDecodesClips, &Options::raw),
       valued(0, "tolerance", "CODES", kGroup,
              "differences up to this many codes are no change; 0 keeps every one (default: 0)", kEncodesClips,
              &Options::tolerance),
-      valued(
-          0, "noise", "FILE|auto", kGroup,
-          "the camera's noise, as nutik-cl noise measures it, or auto: measured on the clip itself. What is "
-          "within it is no change, and samples are held as the light they are expected to have",
-          kReadsClips, &Options::noise),
+      one_of(valued(0, "noise", "FILE|auto", kGroup,
+                    "the camera's noise, as nutik-cl noise measures it, or auto: measured on the clip "
+                    "itself. What is "
+                    "within it is no change, and samples are held as the light they are expected to have",
+                    kReadsClips, &Options::noise),
+             {"auto"}),
       valued(0, "sigmas", "K", kGroup,
              "with --noise: standard deviations from what is held within which a sample is no change "
              "(default: 3)",

@@ -28,18 +28,41 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+// What the word is the beginning of, where that says something: not too little, not too many.
+std::vector<std::string> starting_with(std::string_view word, std::span<const std::string> known) {
+  constexpr std::size_t kFewest = 2;  // letters
+  constexpr std::size_t kMost = 4;
+  std::vector<std::string> found;
+  if (word.size() - std::min(word.find_first_not_of('-'), word.size()) < kFewest) return found;
+  for (const std::string& candidate : known) {
+    if (candidate.starts_with(word) && std::ranges::find(found, candidate) == found.end())
+      found.push_back(candidate);
+  }
+  if (found.size() > kMost) found.clear();
+  return found;
+}
+
 }  // namespace
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> known) {
-  const std::string* nearest = nullptr;
-  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
-  for (const std::string& candidate : known) {
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance >= least) continue;
-    least = distance;
-    nearest = &candidate;
+  std::vector<std::string> meant = starting_with(word, known);
+  if (meant.empty()) {
+    const std::string* nearest = nullptr;
+    std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+    for (const std::string& candidate : known) {
+      const std::size_t distance = edit_distance(word, candidate);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = &candidate;
+    }
+    if (nearest == nullptr) return {};
+    meant.push_back(*nearest);
   }
-  return nearest == nullptr ? std::string() : format("; did you mean {}?", *nearest);
+  std::string text;
+  for (std::size_t i = 0; i < meant.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == meant.size() ? " or " : ", ") + meant[i];
+  }
+  return format("; did you mean {}?", text);
 }
 
 }  // namespace nutik::app

@@ -7,7 +7,8 @@
 
 namespace nutik::app {
 
-// `; did you mean --exposure?` for the nearest of the known words where it is near enough, else nothing.
+// `; did you mean --exposure?` for the known words that `word` is the beginning of (at most four), else the
+// nearest one where it is near enough, else nothing.
 [[nodiscard]] std::string did_you_mean(std::string_view word, std::span<const std::string> known);
 
 }  // namespace nutik::app

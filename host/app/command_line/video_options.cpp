@@ -26,11 +26,14 @@ std::vector<Option> video_options() {
           0, "speed", "FACTOR", kGroup,
           "seconds of the capture in a second of the video: 0.25 is four times slower than life (default: 1)",
           kVideo, &Options::speed),
-      valued(0, "video-codec", "NAME", kGroup,
-             "ffv1 (lossless; .mkv, .avi), h264, h265 (.mp4, .mov, .mkv), vp9 (.webm, .mkv), prores (.mov, "
-             ".mkv) or "
-             "mjpeg (.avi, .mov, .mkv) (default: h264, in .mkv and .avi ffv1, in .webm vp9)",
-             kVideo, &Options::video_codec),
+      one_of(
+          valued(
+              0, "video-codec", "NAME", kGroup,
+              "ffv1 (lossless; .mkv, .avi), h264, h265 (.mp4, .mov, .mkv), vp9 (.webm, .mkv), prores (.mov, "
+              ".mkv) or "
+              "mjpeg (.avi, .mov, .mkv) (default: h264, in .mkv and .avi ffv1, in .webm vp9)",
+              kVideo, &Options::video_codec),
+          {"ffv1", "h264", "h265", "vp9", "prores", "mjpeg"}),
   };
 }
 

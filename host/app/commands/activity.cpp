@@ -4,6 +4,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/input/opened_capture.hpp"
+#include "app/input/standard_input.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
@@ -14,7 +15,6 @@
 #include "exposure/mask.hpp"
 #include "imev/activity_moments.hpp"
 #include "imev/each_block.hpp"
-#include "media/mask_reader.hpp"
 #include "media/picture_writer.hpp"
 #include "sheet/activity_chart.hpp"
 #include "system/output_file.hpp"
@@ -32,8 +32,7 @@ struct ActivityOutputs {
 ActivityOutputs outputs_of(const Options& options) {
   ActivityOutputs outputs;
   outputs.chart = stated_output(options.output, options.operands, "activity");
-  std::vector<std::string> inputs{options.operands.front()};
-  if (options.mask) inputs.push_back(*options.mask);
+  std::vector<std::string> inputs = exposure_inputs(options);
   const auto check = [&](const std::filesystem::path& path, OutputKind kind) {
     check_output(path, kind, inputs);
     inputs.push_back(path.string());  // no two outputs of one name either
@@ -68,10 +67,10 @@ std::vector<std::uint8_t> counted_pixels(const Options& options, const Shape& sh
     if (options.tag) throw UsageError("--tag is one of a mask; add -m mask.pgm");
     return {};
   }
-  const Mask mask = Mask::from_picture(read_mask(*options.mask));
+  const Mask mask = read_mask_input(*options.mask);
   if (mask.width != shape.width || mask.height != shape.height) {
-    throw InputError(format("{} is {} x {}, the capture {} x {}; they must be of one size", *options.mask,
-                            mask.width, mask.height, shape.width, shape.height));
+    throw InputError(format("{} is {} x {}, the capture {} x {}; they must be of one size",
+                            input_title(*options.mask), mask.width, mask.height, shape.width, shape.height));
   }
   const bool is_any = !options.tag;
   const std::uint32_t wanted = is_any ? 0 : parse_whole_number(*options.tag, "tag", 0, 255);
@@ -80,8 +79,8 @@ std::vector<std::uint8_t> counted_pixels(const Options& options, const Shape& sh
     return static_cast<std::uint8_t>(is_any ? tag != 0 : tag == wanted);
   });
   if (std::ranges::find(counted, 1) == counted.end()) {
-    throw InputError(is_any ? format("{} is 0 everywhere; no pixel counts", *options.mask)
-                            : format("{} has no pixel with tag {}", *options.mask, wanted));
+    throw InputError(is_any ? format("{} is 0 everywhere; no pixel counts", input_title(*options.mask))
+                            : format("{} has no pixel with tag {}", input_title(*options.mask), wanted));
   }
   return counted;
 }

@@ -11,13 +11,16 @@
 #include "app/input/exposer.hpp"
 #include "app/input/exposure_request.hpp"
 #include "app/input/opened_capture.hpp"
+#include "app/input/standard_input.hpp"
 #include "app/output/console.hpp"
+#include "app/output/exposure_report.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/picture_queue.hpp"
 #include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
+#include "app/text/size_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 
@@ -82,6 +85,7 @@ Options line_options(std::vector<std::string> words, const std::optional<std::st
           format("{} holds for all exposures: nutik-cl batch {} {} …", name, name, *(options.*member)));
     }
   }
+  if (options.json) throw UsageError("--json holds for all exposures: nutik-cl batch --json …");
   if (options.every || options.count) {
     throw UsageError("--every and --count make a series; a line of a batch is one picture");
   }
@@ -106,6 +110,9 @@ class Batch {
   void expose(const ListedExposure& listed, const std::optional<std::string>& capture_name) {
     try {
       Options line = line_options(listed.words, capture_name);
+      if (is_standard_input(list_name_) && (line.functions == "-" || line.mask == "-")) {
+        throw UsageError("standard input holds the list already; name a file for functions and mask");
+      }
       if (!line.transfer) line.transfer = options_.transfer;
       ExposureRequest request = ExposureRequest::from(line);
       const auto stated = stated_output(line.output, line.operands, "expose");
@@ -124,7 +131,9 @@ class Batch {
       for (const std::string& warning : exposure_warnings(exposed)) {
         print_warning(format("{}:{}: {}", list_name_, listed.line, warning));
       }
-      if (options_.verbose) print_line(format("{}: {}", output.string(), exposer_.report()));
+      saturation_ += exposed.saturation;
+      if (options_.verbose && !options_.json)
+        print_line(format("{}: {}", output.string(), exposer_.report()));
       pictures_.push(listed.line, output, std::move(exposed.picture), recipe_text(line));
     } catch (const UsageError& error) {
       report(listed.line, error.what());
@@ -139,6 +148,10 @@ class Batch {
     return failed_lines_.size();
   }
 
+  // Of all pictures together.
+  [[nodiscard]] const Saturation& saturation() const { return saturation_; }
+  // The lines whose pictures are missing. After finish().
+  [[nodiscard]] const std::set<std::size_t>& failed_lines() const { return failed_lines_; }
   // After an exposure that did not fail.
   [[nodiscard]] std::string renderer_name() const { return exposer_.renderer_name(); }
 
@@ -180,6 +193,7 @@ class Batch {
   std::optional<std::string> capture_checksum_;  // where a recipe needed it
   std::unique_ptr<OpenedCapture> capture_;
   std::map<std::filesystem::path, std::size_t> line_of_output_;
+  Saturation saturation_;
   std::mutex reporting_;
   std::set<std::size_t> failed_lines_;
   PictureQueue pictures_;
@@ -208,11 +222,17 @@ int run_batch(const Options& options) {
   }
   const std::size_t failed = batch.finish();
   const std::size_t done = exposures.size() - failed;
-  if (!options.quiet) {
+  if (options.json) {
+    Json json{{"exposures", exposures.size()}, {"failed_lines", batch.failed_lines()}};
+    add_saturation(json, batch.saturation(), ValueType::code8);
+    json["seconds"] = stopwatch.seconds();
+    print_json(json);
+  } else if (!options.quiet) {
     const double seconds = stopwatch.seconds();
-    print_line(format("{} of {} pictures, {:.2f} s, {:.1f} exposures a second{}", done, exposures.size(),
-                      seconds, static_cast<double>(done) / seconds,
-                      done > 0 ? " on " + batch.renderer_name() : std::string()));
+    print_line(format(
+        "{} of {}{}, {:.2f} s, {:.1f} exposures a second{}", done, counted(exposures.size(), "picture"),
+        saturation_text(batch.saturation(), ValueType::code8), seconds, static_cast<double>(done) / seconds,
+        done > 0 ? " on " + batch.renderer_name() : std::string()));
   }
   return failed > 0 ? 1 : 0;
 }

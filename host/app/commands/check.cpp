@@ -6,6 +6,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/input/capture_input.hpp"
+#include "app/input/standard_input.hpp"
 #include "app/output/console.hpp"
 #include "app/output/json.hpp"
 #include "app/text/findings.hpp"
@@ -18,8 +19,6 @@
 #include "exposure/function_file.hpp"
 #include "exposure/mask.hpp"
 #include "exposure/mask_check.hpp"
-#include "media/mask_reader.hpp"
-#include "system/mapped_file.hpp"
 
 namespace nutik::app {
 namespace {
@@ -72,8 +71,9 @@ class Checking {
   explicit Checking(const Options& options) : options_(options) {}
 
   void run() {
-    if (options_.functions) attempt(*options_.functions, "function_file", [&] { read_functions(); });
-    if (options_.mask) attempt(*options_.mask, "mask_file", [&] { open_mask(); });
+    if (options_.functions)
+      attempt(input_title(*options_.functions), "function_file", [&] { read_functions(); });
+    if (options_.mask) attempt(input_title(*options_.mask), "mask_file", [&] { open_mask(); });
     if (!options_.operands.empty()) {
       attempt(options_.operands.front(), "capture", [&] { open_capture(options_.operands.front()); });
     }
@@ -111,10 +111,9 @@ class Checking {
   }
 
   void read_functions() {
-    const std::string& name = *options_.functions;
-    const MappedFile file(name);
-    const auto bytes = file.bytes();
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string name = input_title(*options_.functions);
+    const InputBytes input(*options_.functions);
+    const std::string_view text = input.text();
     functions_.emplace(ReadFunctions{name, SourceText(text), parse_functions(text)});
     const Diagnostics& diagnostics = functions_->file.diagnostics;
     for (const Diagnostic& found : diagnostics.shown()) {
@@ -130,9 +129,9 @@ class Checking {
   }
 
   void open_mask() {
-    Mask mask = Mask::from_picture(read_mask(*options_.mask));
+    Mask mask = read_mask_input(*options_.mask);
     const auto pixels = mask.pixels_per_tag();
-    mask_.emplace(ReadMask{*options_.mask, std::move(mask), pixels});
+    mask_.emplace(ReadMask{input_title(*options_.mask), std::move(mask), pixels});
   }
 
   void open_capture(const std::string& name) {

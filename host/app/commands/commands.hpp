@@ -22,5 +22,7 @@ int run_video(const Options& options);
 int run_shutter(const Options& options);
 int run_again(const Options& options);
 int run_validate(const Options& options);
+int run_completion(const Options& options);
+int run_man(const Options& options);
 
 }  // namespace nutik::app

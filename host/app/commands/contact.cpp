@@ -5,6 +5,7 @@
 #include "app/input/opened_capture.hpp"
 #include "app/input/sheet_exposures.hpp"
 #include "app/input/sweep_values.hpp"
+#include "app/output/exposure_report.hpp"
 #include "app/output/json.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
@@ -175,6 +176,7 @@ int run_contact(const Options& options) {
     for (const Exposure& exposure : exposures) {
       json["exposures"].push_back({{"start_ns", exposure.start_ns}, {"end_ns", exposure.end_ns}});
     }
+    add_saturation(json, exposing.saturation(), exposing.type());
     print_json(json);
     return 0;
   }
@@ -183,8 +185,9 @@ int run_contact(const Options& options) {
       print_line(output.string());  // a name that nobody gave
     return 0;
   }
-  print_line(format("{}: {} exposures of {}, {} columns, {} rows, {:.2f} s on {}", output.string(),
-                    exposures.size(), length, layout.columns, layout.rows, stopwatch.seconds(),
+  print_line(format("{}: {} exposures of {}, {} columns, {} rows{}, {:.2f} s on {}", output.string(),
+                    exposures.size(), length, layout.columns, layout.rows,
+                    saturation_text(exposing.saturation(), exposing.type()), stopwatch.seconds(),
                     exposing.exposer().renderer_name()));
   if (const std::string report = exposing.exposer().report(); options.verbose && !report.empty())
     print_line(report);

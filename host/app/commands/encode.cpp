@@ -4,8 +4,10 @@
 #include "app/input/capture_input.hpp"
 #include "app/input/encoding.hpp"
 #include "app/output/console.hpp"
+#include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/stopwatch.hpp"
+#include "app/text/shell_text.hpp"
 #include "app/text/size_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -31,7 +33,7 @@ int run_encode(const Options& options) {
     throw UsageError(
         format("{} is a capture already; to expose a picture from it: nutik-cl --start 0s "
                "--exposure 10ms {} picture.png",
-               input, input));
+               input, shell_word(input)));
   }
   check_output(output, OutputKind::tik, std::array{input, source_options.noise_source.value_or(input)});
 
@@ -41,6 +43,20 @@ int run_encode(const Options& options) {
   Encoding encoding(std::move(source), source_options, codec, input, output);
   Progress progress("encoding", announced, options.quiet);
   const Timeline timeline = encoding.run(progress);
+  if (options.json) {
+    const CaptureFormat& written = encoding.source().capture;
+    Json json{{"capture", output.string()}};
+    add_shape(json, written.shape);
+    json["samples"] = timeline.sample_count();
+    json["samples_a_second"] = timeline.rate().text();
+    json["shutter_angle_degrees"] = timeline.shutter_angle().text();
+    json["duration_ns"] = timeline.duration_ns();
+    json["file_bytes"] = encoding.bytes_written();
+    json["raw_bytes"] = written.sample_bytes() * timeline.sample_count();
+    json["seconds"] = stopwatch.seconds();
+    print_json(json);
+    return 0;
+  }
   if (options.quiet) {
     if (!options.output && options.operands.size() < 2)
       print_line(output.string());  // a name that nobody gave

@@ -35,6 +35,7 @@ class Exposing {
   ExposedCapture from_tik(const std::string& input) {
     refuse_source_options(options_, input);
     tik::Reader reader(input);
+    block_count_ = reader.block_count();
     return expose(reader, request_.functions(reader.timeline()));
   }
 
@@ -77,6 +78,8 @@ class Exposing {
   [[nodiscard]] const Exposer& exposer() const { return exposer_; }
   [[nodiscard]] const std::string& label() const { return request_.label(); }
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  // Of a .tik.
+  [[nodiscard]] std::optional<std::uint64_t> block_count() const { return block_count_; }
   void set_output(const std::filesystem::path& output) { output_ = output; }
 
  private:
@@ -90,6 +93,7 @@ class Exposing {
   std::filesystem::path output_;
   ExposureRequest request_;
   Exposer exposer_;
+  std::optional<std::uint64_t> block_count_;
   std::vector<std::string> notes_;  // on the clip
 };
 
@@ -116,16 +120,31 @@ int run_expose(const Options& options) {
       captured ? exposing.from_tik(input) : exposing.from_clip(input, source_options);
   for (const std::string& warning : exposure_warnings(exposed)) print_warning(warning);
   write_picture(output, exposed.picture, recipe.text(exposing.exposer().precision()));
+  if (options.json) {
+    Json json{{"picture", output.string()}};
+    add_shape(json, exposed.picture.shape);
+    json["samples"] = timeline.sample_count();
+    json["live_samples"] = exposed.plan.live_sample_count();
+    json["functions"] = functions_json(exposed.plan);
+    add_saturation(json, exposed.saturation, exposed.picture.type);
+    json["precision"] = exposing.exposer().precision();
+    json["renderer"] = exposing.exposer().renderer_name();
+    json["seconds"] = stopwatch.seconds();
+    print_json(json);
+    return 0;
+  }
   if (options.quiet) {
     if (!stated) print_line(output.string());  // a name that nobody gave
     return 0;
   }
 
   const RenderPlan& plan = exposed.plan;
-  print_line(format("{}: {}, {} of {} samples{}, {:.2f} s on {}", output.string(),
+  print_line(format("{}: {}, {} of {} samples{}{}, {:.2f} s on {}", output.string(),
                     shape_text(plan.capture.shape), plan.live_sample_count(), timeline.sample_count(),
-                    still_gains_text(plan, !options.functions), stopwatch.seconds(),
+                    still_gains_text(plan, !options.functions),
+                    saturation_text(exposed.saturation, exposed.picture.type), stopwatch.seconds(),
                     exposing.exposer().renderer_name()));
+  if (options.verbose) print_line(plan_text(plan, timeline, exposing.block_count()));
   if (const std::string report = exposing.exposer().report(); options.verbose && !report.empty()) {
     print_line(report);
   }

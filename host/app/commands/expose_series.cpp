@@ -87,6 +87,7 @@ int expose_series(const Options& options) {
   Channel<std::string> failures(starts.size());  // of pictures that could not be written
   PictureQueue pictures([&](std::size_t, const std::string& message) { failures.push(message); });
   std::optional<RenderPlan> first_plan;
+  Saturation saturation;  // of all pictures together
   for (std::uint64_t k = 0; k < starts.size(); ++k) {
     progress.show(k);
     Exposed exposed = exposer.expose(capture, request.functions(starts[k], capture.timeline()), mask,
@@ -94,22 +95,40 @@ int expose_series(const Options& options) {
     for (const std::string& warning : exposure_warnings(exposed)) warnings.print(names[k], warning);
     pictures.push(k, names[k], std::move(exposed.picture),
                   recipe.text(exposer.precision(), starts[k].text()));
+    saturation += exposed.saturation;
     if (k == 0) first_plan = std::move(exposed.plan);
   }
   pictures.finish();
   failures.close();
   if (const auto failure = failures.pop()) throw OutputError(*failure);
+  if (options.json) {
+    Json json{{"pictures", Json::array()}};
+    for (std::uint64_t k = 0; k < starts.size(); ++k) {
+      json["pictures"].push_back({{"picture", names[k].string()}, {"start", starts[k].text()}});
+    }
+    add_shape(json, capture.format().shape);
+    json["functions"] = functions_json(*first_plan);
+    add_saturation(json, saturation, format_of_all.type);
+    json["precision"] = exposer.precision();
+    json["renderer"] = exposer.renderer_name();
+    json["seconds"] = stopwatch.seconds();
+    print_json(json);
+    return 0;
+  }
   if (options.quiet) {
     if (!stated) print_line(names[0].string());  // a name that nobody gave
     return 0;
   }
 
   const double seconds = stopwatch.seconds();
-  print_line(format("{} … {}: {} exposures every {}, {}{}, {:.1f} exposures a second, {:.2f} s on {}",
+  print_line(format("{} … {}: {} exposures every {}, {}{}{}, {:.1f} exposures a second, {:.2f} s on {}",
                     names[0].string(), names[starts.size() - 1].filename().string(), starts.size(),
                     series.every_text(), shape_text(capture.format().shape),
                     still_gains_text(*first_plan, request.is_plain()),
+                    saturation_text(saturation, format_of_all.type),
                     static_cast<double>(starts.size()) / seconds, seconds, exposer.renderer_name()));
+  if (options.verbose)
+    print_line("first " + plan_text(*first_plan, capture.timeline(), capture.block_count()));
   if (const std::string report = exposer.report(); options.verbose && !report.empty()) print_line(report);
   for (const std::string& note : opened.notes()) print_note(note);
   return 0;

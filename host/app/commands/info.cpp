@@ -4,7 +4,9 @@
 #include "app/commands/commands.hpp"
 #include "app/input/capture_input.hpp"
 #include "app/output/console.hpp"
+#include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
+#include "app/text/shell_text.hpp"
 #include "app/text/size_text.hpp"
 #include "app/text/time_text.hpp"
 #include "capture/error.hpp"
@@ -34,12 +36,12 @@ struct TileTally {
   }
 };
 
-void write_activity(tik::Reader& reader, const std::string& path) {
+// Returns how often the pixel that changes most does.
+std::uint64_t write_activity(tik::Reader& reader, const std::string& path) {
   Activity activity(reader.format());
   for_each_block(reader, [&](const BlockView& block) { activity.add(block); });
   write_picture(path, activity_map(reader.format().shape, activity.changes()));
-  print_line(format("  activity    {}: black never changes, white {} times", path,
-                    *std::ranges::max_element(activity.changes())));
+  return *std::ranges::max_element(activity.changes());
 }
 
 // What is a change.
@@ -96,6 +98,36 @@ int run_info(const Options& options) {
   const std::uint64_t tiles =
       std::max<std::uint64_t>(1, tally.still + tally.rows + tally.dense + tally.records);
 
+  if (options.json) {
+    Json json{{"capture", name}, {"version", tik::kVersion}};
+    add_shape(json, capture.shape);
+    json["code_bits"] = capture.code_bytes * 8;
+    json["white_code"] = capture.white_code;
+    json["transfer"] = capture.transfer.text();
+    json["tolerance_codes"] = capture.noise.tolerance;
+    json["has_camera_noise"] = capture.noise.camera.has_value();
+    json["samples"] = timeline.sample_count();
+    json["blocks"] = reader.block_count();
+    json["duration_ns"] = timeline.duration_ns();
+    json["samples_a_second"] = timeline.rate().text();
+    json["is_constant_rate"] = timeline.is_constant();
+    json["shutter_angle_degrees"] = timeline.shutter_angle().text();
+    json["records"] = record_count;
+    json["tiles"] = {
+        {"still", tally.still}, {"rows", tally.rows}, {"dense", tally.dense}, {"records", tally.records}};
+    json["file_bytes"] = reader.file_bytes();
+    json["raw_bytes"] = raw_bytes;
+    json["memory_bytes"] = payload_bytes;
+    json["codec"] = reader.header().codec;
+    json["is_damaged"] = is_damaged;
+    if (options.activity) {
+      write_activity(reader, *options.activity);
+      json["activity"] = *options.activity;
+    }
+    print_json(json);
+    return is_damaged ? 3 : 0;
+  }
+
   print_line(format("{}: a .tik capture, version {}", name, tik::kVersion));
   print_line(format("  pictures    {}, {} bits, white code {}, transfer {}", shape_text(capture.shape),
                     capture.code_bytes * 8, capture.white_code, capture.transfer.text()));
@@ -104,7 +136,8 @@ int run_info(const Options& options) {
                       capture.noise.camera->white_code, held_scale(capture)));
     print_line("  noise       " + noise_summary(*capture.noise.camera));
   }
-  print_line(format("  samples     {} in {} blocks", timeline.sample_count(), reader.block_count()));
+  print_line(
+      format("  samples     {} in {}", timeline.sample_count(), counted(reader.block_count(), "block")));
   print_line(format("  time        {}, {} samples a second{}, shutter {} degrees",
                     duration_text(timeline.duration_ns()), timeline.rate().text(),
                     timeline.is_constant() ? "" : " on average (irregular)",
@@ -119,9 +152,12 @@ int run_info(const Options& options) {
   print_line(format("  size        {} ({:.1f} % of {} raw), {} in memory, codec {}",
                     bytes_text(reader.file_bytes()), share(reader.file_bytes(), raw_bytes),
                     bytes_text(raw_bytes), bytes_text(payload_bytes), reader.header().codec));
-  if (options.activity) write_activity(reader, *options.activity);
-  print_line(
-      format("try: nutik-cl --start {}f --exposure 1f {} picture.png", timeline.sample_count() / 2, name));
+  if (options.activity) {
+    const std::uint64_t most = write_activity(reader, *options.activity);
+    print_line(format("  activity    {}: black never changes, white {} times", *options.activity, most));
+  }
+  print_line(format("try: nutik-cl --start {}f --exposure 1f {} picture.png", timeline.sample_count() / 2,
+                    shell_word(name)));
   return is_damaged ? 3 : 0;  // as any command that meets damaged input
 }
 

@@ -5,12 +5,12 @@
 #include "app/input/exposer.hpp"
 #include "app/input/mask_maker.hpp"
 #include "app/input/opened_capture.hpp"
+#include "app/input/standard_input.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/text/time_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/mask_reader.hpp"
 #include "media/picture_writer.hpp"
 #include "media/still_sequence.hpp"
 #include "sheet/mask_overlay.hpp"
@@ -94,8 +94,8 @@ Mask base_of(const Options& options, const MaskRequest& request, const CaptureSo
     sizes.push_back({*request.capture, {capture->format().shape.width, capture->format().shape.height}});
   }
   if (options.base) {
-    base = Mask::from_picture(read_mask(*options.base));
-    sizes.push_back({*options.base, {base->width, base->height}});
+    base = read_mask_input(*options.base);
+    sizes.push_back({input_title(*options.base), {base->width, base->height}});
   }
   for (const MaskStep& step : request.steps) {
     if (!sizes.empty()) break;

@@ -1,6 +1,7 @@
 #include "app/commands/commands.hpp"
 #include "app/input/noise_choice.hpp"
 #include "app/output/console.hpp"
+#include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/stopwatch.hpp"
 #include "capture/error.hpp"
@@ -53,6 +54,15 @@ int run_noise(const Options& options) {
   OutputFile file(output);
   file.write(noise_text(estimate.noise, comments));
   file.commit();
+  if (options.json) {
+    Json json{{"noise", output.string()}, {"samples", estimate.sample_count}, {"channels", Json::array()}};
+    for (const auto& channel : estimate.channels) {
+      json["channels"].push_back({{"still_share", channel.still_share}});
+    }
+    json["seconds"] = stopwatch.seconds();
+    print_json(json);
+    return 0;
+  }
   if (options.quiet) {
     if (!options.output) print_line(output.string());  // a name that nobody gave
     return 0;

@@ -2,7 +2,9 @@
 
 #include "app/commands/commands.hpp"
 #include "app/output/console.hpp"
+#include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
+#include "app/text/shell_text.hpp"
 #include "app/text/size_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -13,12 +15,19 @@ namespace nutik::app {
 int run_recover(const Options& options) {
   const auto output = stated_output(options.output, options.operands, "recover");
   const std::string& damaged = options.operands.front();
-  if (!output) throw UsageError(format("the output is missing: nutik-cl recover {} -o whole.tik", damaged));
+  if (!output)
+    throw UsageError(format("the output is missing: nutik-cl recover {} -o whole.tik", shell_word(damaged)));
   check_output(*output, OutputKind::tik, std::array{damaged});
   const tik::Recovery recovery = tik::recover(damaged, *output);
-  if (!options.quiet) {
-    print_line(format("{}: {} samples in {} blocks were saved, {} behind them left out", output->string(),
-                      recovery.sample_count, recovery.block_count, bytes_text(recovery.lost_bytes)));
+  if (options.json) {
+    print_json({{"capture", output->string()},
+                {"samples", recovery.sample_count},
+                {"blocks", recovery.block_count},
+                {"lost_bytes", recovery.lost_bytes}});
+  } else if (!options.quiet) {
+    print_line(format("{}: {} in {} were saved, {} behind them left out", output->string(),
+                      counted(recovery.sample_count, "sample"), counted(recovery.block_count, "block"),
+                      bytes_text(recovery.lost_bytes)));
   }
   return 0;
 }

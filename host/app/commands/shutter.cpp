@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "app/command_line/option_table.hpp"
+#include "app/command_line/value_check.hpp"
 #include "app/commands/commands.hpp"
 #include "app/input/exposure_request.hpp"
 #include "app/output/console.hpp"
@@ -46,6 +48,7 @@ int run_shutter(const Options& options) {
   if (options.operands.size() != 1) {
     throw UsageError("shutter takes one shape: nutik-cl shutter hann --start 0.4s --exposure 10ms");
   }
+  check_choice("shutter", options.operands.front(), find_option("shutter")->choices);
   if (!options.exposure) throw UsageError("how long is the exposure? Add --exposure 10ms");
   Shutter shutter = parse_shutter(options.operands.front(), options.shutter_error);
   const TimeText start = TimeText::parse(options.start.value_or("0s"), "start");

@@ -6,6 +6,7 @@
 #include "app/input/opened_capture.hpp"
 #include "app/input/sheet_exposures.hpp"
 #include "app/input/sweep_values.hpp"
+#include "app/output/exposure_report.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
@@ -103,9 +104,7 @@ int run_sweep(const Options& options) {
   if (options.operands.empty()) throw UsageError("an input is missing; see nutik-cl sweep --help");
   ExposureRequest request = ExposureRequest::from(options);
   const std::filesystem::path output = sheet_output(options, "sweep", request.label() + "-sweep");
-  std::vector<std::string> inputs{options.operands.front()};
-  if (options.mask) inputs.push_back(*options.mask);
-  if (options.functions) inputs.push_back(*options.functions);
+  const std::vector<std::string> inputs = exposure_inputs(options);
   check_sheet_output(output, inputs);
   const std::vector<std::filesystem::path> singles = single_names(options, combinations.size(), inputs);
 
@@ -160,6 +159,7 @@ int run_sweep(const Options& options) {
       if (!singles.empty()) picture["file"] = singles[i].string();
       json["pictures"].push_back(std::move(picture));
     }
+    add_saturation(json, exposing.saturation(), exposing.type());
     print_json(json);
     return 0;
   }
@@ -168,8 +168,9 @@ int run_sweep(const Options& options) {
       print_line(output.string());  // a name that nobody gave
     return 0;
   }
-  print_line(format("{}: {} pictures, {} columns, {} rows, {:.2f} s on {}", output.string(),
-                    combinations.size(), layout.columns, layout.rows, stopwatch.seconds(),
+  print_line(format("{}: {} pictures, {} columns, {} rows{}, {:.2f} s on {}", output.string(),
+                    combinations.size(), layout.columns, layout.rows,
+                    saturation_text(exposing.saturation(), exposing.type()), stopwatch.seconds(),
                     exposing.exposer().renderer_name()));
   if (const std::string report = exposing.exposer().report(); options.verbose && !report.empty())
     print_line(report);

@@ -97,9 +97,7 @@ int run_trace(const Options& options) {
   const Traced traced = Traced::from(options);
   ExposureRequest request = ExposureRequest::from(options);
   if (output) {
-    std::vector<std::string> inputs{input};
-    if (options.mask) inputs.push_back(*options.mask);
-    if (options.functions) inputs.push_back(*options.functions);
+    const std::vector<std::string> inputs = exposure_inputs(options);
     if (!is_table_name(*output) && !is_picture_name(*output)) {
       throw UsageError(format("{}: traces are written as a table, .csv, or as a picture: .png, .tif or .ppm",
                               output->string()));

@@ -6,6 +6,7 @@
 #include "app/input/frame_request.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/output/console.hpp"
+#include "app/output/exposure_report.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
@@ -75,6 +76,7 @@ int run_video(const Options& options) {
   FrameQueue queue(
       [&] { return output.open(reader.format().shape, frame_format, transfer, request.rate()); });
   FrameWarnings warnings;
+  Saturation saturation;  // of all frames together
   std::optional<Interrupted> interruption;
   std::uint64_t exposed_frames = 0;
   {
@@ -86,6 +88,7 @@ int run_video(const Options& options) {
         const FunctionSet functions =
             request.exposure().functions(frames.times.exposure(exposed_frames), reader.timeline());
         Exposed exposed = exposer.expose(reader, functions, mask, request.plan_options(), frame_format);
+        saturation += exposed.saturation;
         warnings.add(exposed_frames, exposure_warnings(exposed));
         if (!queue.push(std::move(exposed.picture))) break;
       }
@@ -102,16 +105,31 @@ int run_video(const Options& options) {
         format("{}: {} of {} frames were written", output.path().string(), exposed_frames, frames.count));
     throw *interruption;
   }
+  if (options.json) {
+    Json json{{"video", output.path().string()}, {"kind", output.kind()}};
+    add_shape(json, reader.format().shape);
+    json["frames"] = frames.count;
+    json["frames_a_second"] = request.rate().text();
+    json["start_ns"] = frames.times.start_ns(0);
+    json["end_ns"] = frames.times.end_ns(frames.count - 1);
+    add_saturation(json, saturation, frame_format.type);
+    json["precision"] = exposer.precision();
+    json["renderer"] = exposer.renderer_name();
+    json["seconds"] = stopwatch.seconds();
+    print_json(json);
+    return 0;
+  }
   if (options.quiet) {
     if (!stated) print_line(output.path().string());  // a name that nobody gave
     return 0;
   }
 
   const FrameTimes& times = frames.times;
-  print_line(format("{}: {}, {} frames ({}), from {} to {} of the capture, {}, {:.2f} s on {}",
+  print_line(format("{}: {}, {} frames ({}), from {} to {} of the capture, {}{}, {:.2f} s on {}",
                     output.path().string(), shape_text(reader.format().shape), frames.count, request.text(),
                     duration_text(times.start_ns(0)), duration_text(times.end_ns(frames.count - 1)),
-                    output.kind(), stopwatch.seconds(), exposer.renderer_name()));
+                    output.kind(), saturation_text(saturation, frame_format.type), stopwatch.seconds(),
+                    exposer.renderer_name()));
   if (const std::string report = exposer.report(); options.verbose && !report.empty()) print_line(report);
   for (const std::string& note : queue.notes()) print_note(format("note: {}", note));
   for (const std::string& note : capture.notes()) print_note(note);

@@ -7,14 +7,14 @@ namespace nutik::app {
 
 std::vector<std::string> exposure_warnings(const Exposed& exposed) {
   std::vector<std::string> warnings = exposed.plan.warnings;
-  if (!holds_codes(exposed.picture.type)) return warnings;
+  if (!holds_codes(exposed.picture.type) || exposed.negative != NegativeLight::saturate) return warnings;
   // Light below 0 is black in a picture of codes: a still scene under a negative still gain disappears.
   for (const PlannedFunction& function : exposed.plan.functions) {
     const double still_gain = function.summary.still_gain();
     if (still_gain >= 0.0) continue;
     warnings.push_back(
-        format("M{}: the still gain is {:.6g}: whatever does not move comes out black; write a .pfm "
-               "or a .tif with --depth float to keep light below 0",
+        format("M{}: the still gain is {:.6g}: whatever does not move comes out black; --negative "
+               "offset shows light below 0, a .pfm or a .tif with --depth float keeps it",
                function.tag, still_gain));
   }
   return warnings;
@@ -45,7 +45,7 @@ Exposed Exposer::expose(CaptureSource& source, const FunctionSet& functions, con
   Picture picture = renderer_->render(plan, source, format);
   if (std::string warning = renderer_->warning(); !warning.empty())
     plan.warnings.push_back(std::move(warning));
-  return {std::move(plan), std::move(picture)};
+  return {std::move(plan), std::move(picture), format.negative, renderer_->saturation()};
 }
 
 }  // namespace nutik::app

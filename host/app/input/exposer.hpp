@@ -16,6 +16,8 @@ namespace nutik::app {
 struct Exposed {
   RenderPlan plan;
   Picture picture;
+  NegativeLight negative = NegativeLight::saturate;  // in codes
+  Saturation saturation;
 };
 
 // What to tell about an exposure, whole sentences: the plan's warnings, and what codes cannot hold.

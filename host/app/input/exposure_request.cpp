@@ -5,23 +5,21 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/input/standard_input.hpp"
 #include "app/output/console.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/mask_reader.hpp"
-#include "system/mapped_file.hpp"
 
 namespace nutik::app {
 namespace {
 
 FunctionFile read_functions(const std::string& name) {
-  const MappedFile file(name);
-  const auto bytes = file.bytes();
-  FunctionFile functions = parse_functions({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  FunctionFile functions = parse_functions(InputBytes(name).text());
+  const std::string title = input_title(name);
   if (functions.has_errors()) {
-    throw InputError(format("{} has mistakes:\n{}", name, functions.report(name)));
+    throw InputError(format("{} has mistakes:\n{}", title, functions.report(title)));
   }
-  if (const std::string warnings = functions.report(name); !warnings.empty()) print_note(warnings);
+  if (const std::string warnings = functions.report(title); !warnings.empty()) print_note(warnings);
   return functions;
 }
 
@@ -92,10 +90,10 @@ ExposureRequest ExposureRequest::common(const Options& options) {
   request.file_ = read_functions(*options.functions);
   if (!options.mask && request.file_->functions.size() > 1) {
     throw UsageError(format("{} holds {} functions; a mask says where each applies: -m mask.pgm",
-                            *options.functions, request.file_->functions.size()));
+                            input_title(*options.functions), request.file_->functions.size()));
   }
   if (options.mask) {
-    request.mask_ = Mask::from_picture(read_mask(*options.mask));
+    request.mask_ = read_mask_input(*options.mask);
     request.mask_pixels_ = request.mask_->pixels_per_tag();
   }
   return request;
@@ -110,7 +108,9 @@ ExposureRequest ExposureRequest::from(const Options& options) {
   ExposureRequest request = common(options);
   request.start_ = TimeText::parse(options.start.value_or("0s"), "start");
   if (options.functions) {
-    request.label_ = std::filesystem::path(*options.functions).stem().string();
+    request.label_ = is_standard_input(*options.functions)
+                         ? "standard-input"
+                         : std::filesystem::path(*options.functions).stem().string();
     if (options.start) request.label_ += "-" + *options.start;
   } else {
     if (!options.exposure) throw UsageError("how long is the exposure? Add --exposure 10ms");

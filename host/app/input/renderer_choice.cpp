@@ -1,7 +1,10 @@
 #include "app/input/renderer_choice.hpp"
 
+#include <cctype>
 #include <cstdlib>
+#include <utility>
 
+#include "app/command_line/suggestion.hpp"
 #include "app/input/memory_budget.hpp"
 #include "app/output/console.hpp"
 #include "capture/error.hpp"
@@ -12,12 +15,49 @@
 
 namespace nutik::app {
 
+namespace {
+
+// Words of the devices' names, as they are written there.
+std::vector<std::string> words_of(const std::vector<DeviceInfo>& devices) {
+  std::vector<std::string> words;
+  for (const DeviceInfo& device : devices) {
+    std::string word;
+    for (const char c : device.name + " " + device.platform + " ") {
+      if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+        word += c;
+      } else if (!word.empty()) {
+        words.push_back(std::exchange(word, {}));
+      }
+    }
+  }
+  return words;
+}
+
+std::size_t chosen_device(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
+  try {
+    return choose_device(devices, wanted);
+  } catch (const DeviceError& error) {
+    // Case does not count in a device's name.
+    const auto lower = [](std::string text) {
+      for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      return text;
+    };
+    std::vector<std::string> words = words_of(devices);
+    for (std::string& word : words) word = lower(word);
+    const std::string suggestion = did_you_mean(lower(wanted), words);
+    if (suggestion.empty() || wanted.size() < 3) throw;
+    throw DeviceError(error.what() + ("\n" + suggestion.substr(2)));
+  }
+}
+
+}  // namespace
+
 std::unique_ptr<OpenClRenderer> start_device(const Options& options) {
   const char* environment = std::getenv("NUTIK_DEVICE");
   const std::string wanted = options.device.value_or(environment != nullptr ? environment : "");
   const std::vector<DeviceInfo> devices = list_devices();
   OpenClOptions opencl;
-  opencl.device = choose_device(devices, wanted);
+  opencl.device = chosen_device(devices, wanted);
   if (options.precision.value_or("auto") != "auto") opencl.precision = parse_precision(*options.precision);
   opencl.memory_bytes = MemoryBudget::from(options).rendering_bytes();
   opencl.cache_folder = default_cache_folder();

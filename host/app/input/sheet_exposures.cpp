@@ -1,5 +1,6 @@
 #include "app/input/sheet_exposures.hpp"
 
+#include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
 #include "app/text/number_text.hpp"
 #include "media/picture_writer.hpp"
@@ -38,14 +39,18 @@ SheetExposures::SheetExposures(const Options& options, CaptureSource& capture, M
       plan_options_(std::move(plan_options)),
       transfer_(capture.format().transfer),
       exposer_(options) {
+  const CaptureFormat& format = capture.format();
+  format_.type = format.code_bytes == 1 ? ValueType::code8 : ValueType::code16;
+  format_.white_code = format.white_code;
+  format_.negative = negative_light(options, format_.type, {});
   exposer_.hold(capture);
   if (options.transfer) plan_options_.transfer = transfer_ = Transfer::parse(*options.transfer);
 }
 
 Exposed SheetExposures::expose(const FunctionSet& functions) {
-  const CaptureFormat& format = capture_.format();
-  return exposer_.expose(capture_, functions, mask_, plan_options_,
-                         {format.code_bytes == 1 ? ValueType::code8 : ValueType::code16, format.white_code});
+  Exposed exposed = exposer_.expose(capture_, functions, mask_, plan_options_, format_);
+  saturation_ += exposed.saturation;
+  return exposed;
 }
 
 }  // namespace nutik::app

@@ -30,6 +30,9 @@ class SheetExposures {
 
   // What codes stand for: what was stated, else the capture's own.
   [[nodiscard]] const Transfer& transfer() const { return transfer_; }
+  // Of all pictures so far, together.
+  [[nodiscard]] const Saturation& saturation() const { return saturation_; }
+  [[nodiscard]] ValueType type() const { return format_.type; }
   [[nodiscard]] const Exposer& exposer() const { return exposer_; }
 
  private:
@@ -37,6 +40,8 @@ class SheetExposures {
   Mask mask_;
   PlanOptions plan_options_;
   Transfer transfer_;
+  OutputFormat format_;
+  Saturation saturation_;
   Exposer exposer_;
 };
 

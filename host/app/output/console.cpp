@@ -1,27 +1,51 @@
 #include "app/output/console.hpp"
 
+#include <unistd.h>
+
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 #include "capture/error.hpp"
 
 namespace nutik::app {
 namespace {
 
-void write_line(std::FILE* stream, const char* before, const std::string& text) {
-  std::fprintf(stream, "%s%s\n", before, text.c_str());
+constexpr const char* kRed = "\x1b[1;31m";
+constexpr const char* kYellow = "\x1b[1;33m";
+constexpr const char* kPlain = "\x1b[0m";
+
+void write_line(std::FILE* stream, const std::string& text) {
+  std::fprintf(stream, "%s\n", text.c_str());
   std::fflush(stream);
+}
+
+// Only for eyes: on a terminal that knows colours, unless NO_COLOR (no-color.org) says otherwise.
+bool has_colours() {
+  static const bool result = [] {
+    const char* no_colour = std::getenv("NO_COLOR");
+    const char* terminal = std::getenv("TERM");
+    return isatty(STDERR_FILENO) == 1 && (no_colour == nullptr || *no_colour == '\0') &&
+           terminal != nullptr && std::string_view(terminal) != "dumb";
+  }();
+  return result;
+}
+
+// A message behind a word that says what it is.
+void write_message(const char* colour, const std::string& label, const std::string& text) {
+  write_line(stderr, (has_colours() ? colour + label + kPlain : label) + " " + text);
 }
 
 }  // namespace
 
-void print_line(const std::string& text) { write_line(stdout, "", text); }
+void print_line(const std::string& text) { write_line(stdout, text); }
 void print_text(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);
 }
-void print_warning(const std::string& text) { write_line(stderr, "warning: ", text); }
-void print_error(const std::string& text) { write_line(stderr, "nutik-cl: ", text); }
-void print_note(const std::string& text) { write_line(stderr, "", text); }
+void print_warning(const std::string& text) { write_message(kYellow, "warning:", text); }
+void print_error(const std::string& text) { write_message(kRed, "nutik-cl:", text); }
+void print_note(const std::string& text) { write_line(stderr, text); }
 
 void flush_output() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

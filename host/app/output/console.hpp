@@ -7,8 +7,8 @@ namespace nutik::app {
 
 void print_line(const std::string& text);     // result, to stdout
 void print_text(const std::string& text);     // result that ends its own lines, to stdout
-void print_warning(const std::string& text);  // to stderr, behind "warning: "
-void print_error(const std::string& text);    // to stderr, behind "nutik-cl: "
+void print_warning(const std::string& text);  // to stderr, behind "warning:", in colour on a terminal
+void print_error(const std::string& text);    // to stderr, behind "nutik-cl:", likewise
 void print_note(const std::string& text);     // to stderr
 
 // Throws OutputError where standard output could not be written, to a full disk for example.

@@ -5,10 +5,18 @@
 #include <nlohmann/json.hpp>
 
 #include "app/output/console.hpp"
+#include "capture/picture.hpp"
 
 namespace nutik::app {
 
 using Json = nlohmann::ordered_json;
+
+// `width`, `height`, `channels`.
+inline void add_shape(Json& json, const Shape& shape) {
+  json["width"] = shape.width;
+  json["height"] = shape.height;
+  json["channels"] = shape.channels;
+}
 
 // Text that is no UTF-8, a file name for example, is shown with U+FFFD in place of its bytes.
 inline void print_json(const Json& json) {

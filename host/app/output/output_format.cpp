@@ -1,5 +1,7 @@
 #include "app/output/output_format.hpp"
 
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "media/picture_writer.hpp"
 
 namespace nutik::app {
@@ -15,15 +17,39 @@ ValueType usual_type(const CaptureFormat& capture) {
 
 // A picture of the capture's own depth has the capture's codes; another depth its full range.
 OutputFormat format_of(ValueType type, const CaptureFormat& capture) {
-  return {type, type == usual_type(capture) ? capture.white_code : type == ValueType::code16 ? 65'535 : 255};
+  OutputFormat format;
+  format.type = type;
+  format.white_code = type == usual_type(capture) ? capture.white_code
+                      : type == ValueType::code16 ? 65'535
+                                                  : 255;
+  return format;
+}
+
+NegativeLight parse_negative_light(const std::string& text) {
+  if (text == "saturate") return NegativeLight::saturate;
+  if (text == "offset") return NegativeLight::offset;
+  if (text == "abs") return NegativeLight::absolute;
+  throw UsageError(format("--negative {} is not known; choose saturate, offset or abs", text));
 }
 
 }  // namespace
 
+NegativeLight negative_light(const Options& options, ValueType type, const std::filesystem::path& output) {
+  if (!options.negative) return NegativeLight::saturate;
+  const NegativeLight negative = parse_negative_light(*options.negative);
+  if (holds_codes(type)) return negative;
+  throw UsageError(
+      format("--negative says what codes make of light below 0, and {} holds floating point, which "
+             "keeps it; leave --negative out",
+             output.string()));
+}
+
 OutputFormat output_format(const Options& options, const std::filesystem::path& output,
                            const CaptureFormat& capture) {
-  return format_of(value_type_for(output, stated_depth(options), usual_type(capture), capture.shape.channels),
-                   capture);
+  OutputFormat chosen = format_of(
+      value_type_for(output, stated_depth(options), usual_type(capture), capture.shape.channels), capture);
+  chosen.negative = negative_light(options, chosen.type, output);
+  return chosen;
 }
 
 OutputFormat output_format(const Options& options, const CaptureFormat& capture) {

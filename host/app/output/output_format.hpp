@@ -17,4 +17,9 @@ namespace nutik::app {
 // The same where no file is written: the capture's own depth unless --depth says another.
 [[nodiscard]] OutputFormat output_format(const Options& options, const CaptureFormat& capture);
 
+// What --negative asks for in a file of such values. Throws UsageError where it is not known, or the file
+// holds no codes.
+[[nodiscard]] NegativeLight negative_light(const Options& options, ValueType type,
+                                           const std::filesystem::path& output);
+
 }  // namespace nutik::app

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "app/input/standard_input.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
@@ -131,8 +132,9 @@ std::vector<std::string> exposure_inputs(const Options& options) {
       inputs.push_back(still.string());
     }
   }
-  if (options.mask) inputs.push_back(*options.mask);
-  if (options.functions) inputs.push_back(*options.functions);
+  for (const auto* input : {&options.mask, &options.functions}) {
+    if (*input && !is_standard_input(**input)) inputs.push_back(**input);
+  }
   if (options.noise) inputs.push_back(*options.noise);
   return inputs;
 }

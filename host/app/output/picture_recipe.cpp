@@ -6,9 +6,9 @@
 
 #include "app/command_line/option_table.hpp"
 #include "app/input/capture_input.hpp"
+#include "app/input/standard_input.hpp"
 #include "capture/format.hpp"
 #include "media/input_checksum.hpp"
-#include "system/mapped_file.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik::app {
@@ -28,18 +28,26 @@ std::map<std::string, std::string> stated_options(const Options& options) {
   return stated;
 }
 
+// What came from standard input gets a name that a file can have.
+std::string known_name(const std::string& name, const char* extension) {
+  return is_standard_input(name) ? std::string("standard-input") + extension : input_name(name);
+}
+
 Recipe make_recipe(const Options& options, const std::optional<std::string>& known_capture) {
   Recipe recipe;
   recipe.version = NUTIK_VERSION;
   const std::string& input = options.operands.front();
   recipe.capture = {input_name(input), known_capture ? *known_capture : capture_checksum(input)};
   if (options.functions) {
-    const MappedFile file(*options.functions);
-    const auto bytes = file.bytes();
-    recipe.functions = Recipe::Text{input_name(*options.functions),
-                                    {reinterpret_cast<const char*>(bytes.data()), bytes.size()}};
+    recipe.functions = Recipe::Text{known_name(*options.functions, ".fn"),
+                                    std::string(InputBytes(*options.functions).text())};
   }
-  if (options.mask) recipe.mask = Recipe::Input{input_name(*options.mask), input_checksum(*options.mask)};
+  if (options.mask) {
+    recipe.mask =
+        Recipe::Input{known_name(*options.mask, ".pgm"),
+                      is_standard_input(*options.mask) ? bytes_checksum(InputBytes(*options.mask).bytes())
+                                                       : input_checksum(*options.mask)};
+  }
   recipe.options = stated_options(options);
   recipe.renderer = options.renderer.value_or("opencl");
   return recipe;

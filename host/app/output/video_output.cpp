@@ -32,6 +32,7 @@ OutputFormat VideoOutput::frame_format(const CaptureFormat& capture) const {
   OutputFormat output;
   output.type = video_value_type(*codec_, wish, usual);
   output.white_code = output.type == ValueType::code8 ? 255 : 65'535;  // what players take for white
+  output.negative = negative_light(options_, output.type, path_);
   return output;
 }
 

@@ -4,16 +4,13 @@
 #include <map>
 #include <utility>
 
+#include "app/text/size_text.hpp"
 #include "capture/format.hpp"
 
 namespace nutik::app {
 namespace {
 
 constexpr std::size_t kMostOfAKind = 20;
-
-std::string counted(std::size_t count, const std::string& name) {
-  return format("{} {}{}", count, name, count == 1 ? "" : "s");
-}
 
 }  // namespace
 

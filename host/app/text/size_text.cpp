@@ -4,6 +4,10 @@
 
 namespace nutik::app {
 
+std::string counted(std::uint64_t count, std::string_view name) {
+  return format("{} {}{}", count, name, count == 1 ? "" : "s");
+}
+
 std::string bytes_text(std::uint64_t bytes) {
   const auto value = static_cast<double>(bytes);
   if (bytes < 1000) return format("{} bytes", bytes);

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "capture/picture.hpp"
 
 namespace nutik::app {
 
-[[nodiscard]] std::string bytes_text(std::uint64_t bytes);  // `94 kB`, `1.49 GB`
-[[nodiscard]] std::string shape_text(const Shape& shape);   // `640 x 480 colour`
+[[nodiscard]] std::string counted(std::uint64_t count, std::string_view name);  // `1 block`, `2 blocks`
+[[nodiscard]] std::string bytes_text(std::uint64_t bytes);                      // `94 kB`, `1.49 GB`
+[[nodiscard]] std::string shape_text(const Shape& shape);                       // `640 x 480 colour`
 
 }  // namespace nutik::app

@@ -1,0 +1,102 @@
+#include "render/code_scale.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "system/parallel.hpp"
+
+namespace nutik {
+namespace {
+
+// Values that one thread takes at a time.
+constexpr std::uint64_t kPart = 1u << 16;
+
+template <typename Work>
+void for_each_part(std::uint64_t count, Work work) {
+  parallel_for((count + kPart - 1) / kPart,
+               [&](std::uint64_t part) { work(part * kPart, std::min(count, (part + 1) * kPart)); });
+}
+
+template <typename Code>
+void encode(const Picture& light, const CodeScale& scale, Picture& codes) {
+  const auto from = light.values<double>();
+  const auto to = codes.values<Code>();
+  for_each_part(from.size(), [&](std::uint64_t first, std::uint64_t last) {
+    for (std::uint64_t i = first; i < last; ++i) to[i] = static_cast<Code>(scale.code_of(from[i]));
+  });
+}
+
+}  // namespace
+
+CodeScale::CodeScale(const Transfer& transfer, const OutputFormat& output)
+    : transfer_(transfer),
+      white_code_(output.white_code),
+      negative_(output.negative),
+      half_(std::max(output.white_code / 2, 1u)),
+      folds_(output.negative == NegativeLight::absolute) {
+  const double step = 1.0 / output.white_code;
+  switch (negative_) {
+    case NegativeLight::saturate:
+      lowest_ = -transfer.light_of(0.5 * step);
+      highest_ = transfer.light_of(1.0 + 0.5 * step);
+      break;
+    case NegativeLight::offset:
+      highest_ = transfer.light_of(1.0 + 0.5 / half_);
+      lowest_ = -highest_;
+      break;
+    case NegativeLight::absolute:
+      highest_ = transfer.light_of(1.0 + 0.5 * step);
+      lowest_ = -std::numeric_limits<double>::infinity();
+      break;
+  }
+}
+
+std::uint32_t CodeScale::code_of(double light) const {
+  const double magnitude =
+      negative_ == NegativeLight::saturate ? std::clamp(light, 0.0, 1.0) : std::min(std::fabs(light), 1.0);
+  const auto rounded = [&](std::uint32_t codes) {
+    return static_cast<std::uint32_t>(std::floor(transfer_.fraction_of(magnitude) * codes + 0.5));
+  };
+  if (negative_ != NegativeLight::offset) return rounded(white_code_);
+  // Light 0 has a code of its own, not the border between two: what cancels must not flicker.
+  const std::uint32_t middle = white_code_ - half_;
+  return light < 0.0 ? middle - rounded(half_) : middle + rounded(half_);
+}
+
+Saturation count_saturated(const Picture& light, const CodeScale& scale) {
+  const auto values = light.values<double>();
+  const std::uint32_t channels = light.shape.channels;
+  std::atomic<std::uint64_t> below{0}, above{0};
+  for_each_part(light.shape.pixel_count(), [&](std::uint64_t first, std::uint64_t last) {
+    std::uint64_t part_below = 0, part_above = 0;
+    for (std::uint64_t pixel = first; pixel < last; ++pixel) {
+      const auto of_pixel = values.subspan(pixel * channels, channels);
+      part_below += std::ranges::any_of(of_pixel, [&](double value) { return scale.saturates_below(value); });
+      part_above += std::ranges::any_of(of_pixel, [&](double value) { return scale.saturates_above(value); });
+    }
+    below += part_below;
+    above += part_above;
+  });
+  return {below, above};
+}
+
+Picture encoded(const Picture& light, const CodeScale& scale, const OutputFormat& output) {
+  Picture codes(light.shape, output.type, output.white_code);
+  output.type == ValueType::code8 ? encode<std::uint8_t>(light, scale, codes)
+                                  : encode<std::uint16_t>(light, scale, codes);
+  return codes;
+}
+
+bool can_saturate(const RenderPlan& plan, const CodeScale& scale) {
+  return std::ranges::any_of(plan.functions, [&](const PlannedFunction& planned) {
+    // Light of [0, 1] comes to between -∫g⁻/D and ∫g⁺/D.
+    const double sum = planned.summary.error_scale();
+    const double difference = planned.summary.still_gain();
+    return scale.saturates_above((sum + difference) / 2) || scale.saturates_below((difference - sum) / 2) ||
+           scale.saturates_above((difference - sum) / 2);
+  });
+}
+
+}  // namespace nutik

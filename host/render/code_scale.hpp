@@ -1,0 +1,48 @@
+// From light to codes on the host, where light below 0 is to be seen: and which light no code is left for.
+//
+//   in:      light as floating point, a picture's transfer function, white code and NegativeLight
+//   out:     codes 0 … white code, and how many pixels saturate at either end
+//   always:  light 0 and light 1 never saturate, nor does what rounds to their codes
+//
+// docs/model.md has the formulas.
+#pragma once
+
+#include <cstdint>
+
+#include "capture/picture.hpp"
+#include "render/renderer.hpp"
+
+namespace nutik {
+
+class CodeScale {
+ public:
+  CodeScale(const Transfer& transfer, const OutputFormat& output);
+
+  [[nodiscard]] std::uint32_t code_of(double light) const;
+
+  // Whether the code would be less than 0, or more than the white code, if there were such codes.
+  [[nodiscard]] bool saturates_below(double light) const { return light < lowest_; }
+  [[nodiscard]] bool saturates_above(double light) const {
+    return light >= highest_ || (folds_ && -light >= highest_);
+  }
+
+ private:
+  Transfer transfer_;
+  std::uint32_t white_code_;
+  NegativeLight negative_;
+  std::uint32_t half_;  // codes of either sign with offset
+  bool folds_;
+  double lowest_;
+  double highest_;
+};
+
+// How many pixels of light (light64) saturate. A pixel counts once at an end, whatever its channels are.
+[[nodiscard]] Saturation count_saturated(const Picture& light, const CodeScale& scale);
+
+// The codes of a picture of light (light64), in the format asked for.
+[[nodiscard]] Picture encoded(const Picture& light, const CodeScale& scale, const OutputFormat& output);
+
+// Whether some light of [0, 1] can saturate at all under the plan's functions: told from ∫g and ∫|g|.
+[[nodiscard]] bool can_saturate(const RenderPlan& plan, const CodeScale& scale);
+
+}  // namespace nutik

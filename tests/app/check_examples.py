@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Runs every example of every command's help, word for word, beside a scene that has the files they name.
+
+All that is asked of an example is that it works: a shell runs it, and its exit status is 0.
+"""
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import cv2
+import numpy
+
+WIDTH, HEIGHT, COUNT, RATE = 640, 360, 65, 50
+
+FUNCTIONS = {
+    "trail.fn": "M0 [0:1], [1000000000:0]\n",
+    "one.fn": "M0 [0:1], [1000000000:0]\n",
+    "regions.fn": "M0 [0:1], [1000000000:1], [1000000001:0]\nM128 [0:1], [10000000:1], [10000001:0]\n"
+                  "M255 [0:1], [20000000:1], [20000001:0]\n",
+    "difference.fn": "M0 [0:1], [100000000:1], [100000001:-1], [200000000:-1], [200000001:0]\n"
+                     "M128 [0:1], [10000000:1], [10000001:0]\nM255 [0:1], [20000000:1], [20000001:0]\n",
+}
+COPIES = {"file.fn": "regions.fn", "functions.fn": "regions.fn"}
+
+
+def frame(k, level=0):
+    """A square that moves over a ramp."""
+    picture = numpy.empty((HEIGHT, WIDTH, 3), numpy.uint8)
+    picture[:] = numpy.linspace(20, 140, WIDTH, dtype=numpy.uint8)[None, :, None]
+    picture = numpy.clip(picture.astype(int) + level, 0, 255).astype(numpy.uint8)
+    picture[150:210, 40 + 8 * k:100 + 8 * k] = (90, 160, 220)
+    return picture
+
+
+def write_clip(path, frames):
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter_fourcc(*"mp4v"), RATE, (WIDTH, HEIGHT))
+    for picture in frames:
+        writer.write(picture)
+    writer.release()
+
+
+def noisy(level, count):
+    random = numpy.random.default_rng(7)
+    for _ in range(count):
+        base = numpy.linspace(30, 200, WIDTH)[None, :, None] + level
+        yield numpy.clip(base + random.normal(0, 2, (HEIGHT, WIDTH, 3)), 0, 255).astype(numpy.uint8)
+
+
+def make_scene(folder, program):
+    write_clip(folder / "clip.mp4", (frame(k) for k in range(COUNT)))
+    shutil.copy(folder / "clip.mp4", folder / "slowmotion.mp4")
+    write_clip(folder / "still-scene.mp4", noisy(0, 40))
+    mask = numpy.zeros((HEIGHT, WIDTH), numpy.uint8)
+    mask[100:300, :320] = 128
+    mask[100:300, 320:] = 255
+    for name in ("regions.pgm", "mask.pgm"):
+        cv2.imwrite(str(folder / name), mask)
+    for name, text in FUNCTIONS.items():
+        (folder / name).write_text(text)
+    for name, of in COPIES.items():
+        shutil.copy(folder / of, folder / name)
+    (folder / "frames").mkdir()
+    for k in range(6):
+        cv2.imwrite(str(folder / "frames" / f"{k:04}.png"), frame(k).astype(numpy.uint16) * 16)
+        cv2.imwrite(str(folder / f"frame{k:04}.tif"), frame(k))
+    for name, level in (("dark", -10), ("middle", 0), ("bright", 20)):
+        (folder / name).mkdir()
+        for k, picture in enumerate(noisy(level, 12)):
+            cv2.imwrite(str(folder / name / f"{k:03}.png"), picture.astype(numpy.uint16) * 16)
+    cv2.imwrite(str(folder / "empty.png"), frame(0))
+    cv2.imwrite(str(folder / "full.png"), frame(30))
+    (folder / "exposures.txt").write_text("--start 0.1s --exposure 10ms first.png\n-k trail.fn second.png\n")
+
+    def run(*words):
+        subprocess.run([program, "-q", *words], cwd=folder, check=True)
+
+    run("-f", str(RATE), "clip.mp4", "clip.tik")
+    run("noise", "still-scene.mp4", "-o", "camera.noise")
+    run("--start", "0s", "--exposure", "10ms", "clip.tik", "picture.png")
+    (folder / "captures").mkdir()
+    (folder / "masks").mkdir()
+    whole = (folder / "clip.tik").read_bytes()
+    (folder / "damaged.tik").write_bytes(whole[:len(whole) - 10])
+
+
+def examples_of(page):
+    """The lines below `Examples:`, some over several lines, as a shell takes them."""
+    text = page.split("\nExamples:\n", 1)[1]
+    return [line.strip() for line in re.split(r"\n(?=  \S)", text)]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--program", required=True)
+    parser.add_argument("--work", required=True, type=Path)
+    arguments = parser.parse_args()
+    shutil.rmtree(arguments.work, ignore_errors=True)
+    scene = arguments.work / "scene"
+    scene.mkdir(parents=True)
+    make_scene(scene, arguments.program)
+    environment = dict(os.environ, COLUMNS="80",
+                       PATH=f"{Path(arguments.program).parent}:{os.environ['PATH']}")
+
+    def help_of(*words):
+        return subprocess.run([arguments.program, *words, "--help"], env=environment, text=True, check=True,
+                              capture_output=True).stdout
+
+    commands = re.findall(r"^  ([a-z]+) {2,}[A-Z]", help_of(), re.M)
+    assert len(commands) >= 18, commands
+
+    def failures_of(command):
+        """How many of a command's examples ran, and what went wrong with others."""
+        examples = [example for example in examples_of(help_of(command))
+                    if "man -l" not in example or shutil.which("man")]
+        assert examples, command
+        folder = arguments.work / command
+        shutil.copytree(scene, folder)
+        failures = []
+        for example in examples:
+            result = subprocess.run(["bash", "-o", "pipefail", "-c", example], cwd=folder, env=environment,
+                                    text=True, capture_output=True, stdin=subprocess.DEVNULL)
+            if result.returncode != 0:
+                failures.append(f"{example}\n  {result.returncode}: {result.stderr.strip()}")
+        shutil.rmtree(folder)
+        return len(examples), failures
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        results = list(pool.map(failures_of, commands))
+    failures = [failure for _, failed in results for failure in failed]
+    count = sum(number for number, _ in results)
+    print("\n".join(failures) or f"{count} examples of {len(commands)} commands run")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

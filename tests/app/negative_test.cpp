@@ -1,0 +1,152 @@
+// Light below 0 in pictures of codes: what each --negative makes of it, and what the program counts.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <vector>
+
+#include "support/program.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+using test::ProgramResult;
+
+// sRGB as IEC 61966-2-1 writes it.
+double light_of(int code) {
+  const double v = code / 255.0;
+  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+double fraction_of(double light) {
+  return light <= 0.0031308 ? light * 12.92 : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+}
+
+// Two pictures of 8 pixels; the function takes the second from the first.
+class Negative : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directory(scratch_ / "frames");
+    for (std::size_t k = 0; k < 2; ++k) {
+      std::string text = "P2 4 2 255\n";
+      for (const int code : kCodes[k]) text += std::to_string(code) + " ";
+      scratch_.write("frames/" + std::to_string(k) + ".pgm", text);
+    }
+    scratch_.write("difference.fn", "M0 [0:1], [39999999:1], [40000000:-1], [79999999:-1], [80000000:0]\n");
+    ASSERT_EQ(run({"-f", "25", "frames", "clip.tik"}).status, 0);
+  }
+
+  ProgramResult run(const std::vector<std::string>& words) const {
+    return test::run_program(words, scratch_.folder());
+  }
+  ProgramResult expose(const std::string& output, std::vector<std::string> more) const {
+    more.insert(more.end(),
+                {"--renderer", GetParam(), "--gain", "4", "-k", "difference.fn", "clip.tik", "-o", output});
+    return run(more);
+  }
+  [[nodiscard]] std::vector<int> codes(const std::string& name) const {
+    const cv::Mat picture = cv::imread((scratch_ / name).string(), cv::IMREAD_UNCHANGED);
+    EXPECT_EQ(picture.total(), 8u);
+    std::vector<int> values;
+    for (std::size_t i = 0; i < picture.total(); ++i) values.push_back(picture.ptr<std::uint8_t>()[i]);
+    return values;
+  }
+  // (v0 - v1) / 2 times 4, but for two steps of 1 ns.
+  [[nodiscard]] static double light(std::size_t pixel) {
+    return 2 * (light_of(kCodes[0][pixel]) - light_of(kCodes[1][pixel]));
+  }
+
+  static constexpr int kCodes[2][8] = {{0, 255, 128, 50, 10, 200, 0, 255},
+                                       {255, 0, 128, 60, 10, 100, 0, 255}};
+  test::Scratch scratch_;
+};
+
+TEST_P(Negative, SaturatesToBlackByItself) {
+  const ProgramResult result = expose("a.png", {});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(expose("b.png", {"--no-recipe", "--negative", "saturate"}).status, 0);
+  EXPECT_EQ(codes("a.png"), codes("b.png"));
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double clipped = std::clamp(light(i), 0.0, 1.0);
+    EXPECT_EQ(codes("a.png")[i], std::floor(255 * fraction_of(clipped) + 0.5)) << i;
+  }
+  // -2 and -0.03 below, 2 above; exactly 0 and 0.9 are held.
+  EXPECT_NE(result.out.find(", 2 pixels saturated below 0 and 1 above 1,"), std::string::npos) << result.out;
+}
+
+TEST_P(Negative, OffsetPutsZeroIntoTheMiddle) {
+  const ProgramResult result = expose("a.png", {"--negative", "offset"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double magnitude = std::floor(127 * fraction_of(std::min(std::fabs(light(i)), 1.0)) + 0.5);
+    EXPECT_EQ(codes("a.png")[i], light(i) < 0 ? 128 - magnitude : 128 + magnitude) << i;
+  }
+  EXPECT_EQ(codes("a.png")[2], 128);
+  EXPECT_NE(result.out.find(", 1 pixel saturated below 0 and 1 above 1,"), std::string::npos) << result.out;
+}
+
+TEST_P(Negative, AbsShowsMagnitudes) {
+  const ProgramResult result = expose("a.png", {"--negative", "abs", "--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(codes("a.png")[i], std::floor(255 * fraction_of(std::min(std::fabs(light(i)), 1.0)) + 0.5))
+        << i;
+  }
+  const nlohmann::json json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["saturated_below_pixels"], 0);
+  EXPECT_EQ(json["saturated_above_pixels"], 2);  // 2, and -2, whose magnitude is
+}
+
+TEST_P(Negative, CountsNothingWhereLightFits) {
+  // White that stays white is no saturation, nor is black that stays black.
+  const ProgramResult result =
+      run({"--renderer", GetParam(), "--start", "0s", "--exposure", "1f", "clip.tik", "a.png"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find(", no pixel saturated,"), std::string::npos) << result.out;
+  const ProgramResult light = expose("a.pfm", {});
+  EXPECT_EQ(light.status, 0) << light.err;
+  EXPECT_EQ(light.out.find("saturated"), std::string::npos) << light.out;
+}
+
+TEST_P(Negative, IsRefusedWhereLightIsKept) {
+  const ProgramResult result = expose("a.pfm", {"--negative", "abs"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("a.pfm holds floating point, which keeps it"), std::string::npos) << result.err;
+}
+
+TEST_P(Negative, SumsOverSeriesVideosBatchesAndSheets) {
+  const std::string renderer = GetParam();
+  const auto expect = [&](const std::vector<std::string>& words, const char* part) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--renderer", renderer});
+    const ProgramResult result = run(all);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
+  };
+  expect(
+      {"--gain", "4", "-k", "difference.fn", "--every", "1s", "--count", "1", "clip.tik", "-o", "s-%d.png"},
+      ", 2 pixels saturated below 0 and 1 above 1,");
+  expect({"video", "--gain", "4", "-k", "difference.fn", "--out-fps", "1", "--speed", "1", "clip.tik",
+          "v-%d.png"},
+         ", 2 pixels saturated below 0 and 1 above 1,");
+  scratch_.write("list.txt",
+                 "--gain 4 -k difference.fn a.png\n--gain 4 --negative abs -k difference.fn b.png\n");
+  expect({"batch", "list.txt", "clip.tik"}, ", 2 pixels saturated below 0 and 3 above 1,");
+  expect({"sweep", "--negative", "offset", "--gain", "4", "-k", "difference.fn", "--scale-gain", "0.5..1/0.5",
+          "clip.tik", "sheet.png"},
+         "saturated below 0 and");
+}
+
+TEST_P(Negative, IsInTheRecipe) {
+  ASSERT_EQ(expose("a.png", {"--negative", "offset"}).status, 0);
+  const ProgramResult again = run({"again", "a.png"});
+  EXPECT_NE(again.out.find(" --negative offset "), std::string::npos) << again.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Renderers, Negative, testing::Values("opencl", "reference"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+}  // namespace
+}  // namespace nutik
