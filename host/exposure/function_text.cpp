@@ -21,9 +21,6 @@ GainFunction with_steps(const GainFunction& function) {
       ++points[i + 1].time_ns;
     }
   }
-  const bool starts_with_capture = given.size() > 1 && given[0].time_ns == 0 && given[1].time_ns == 0 &&
-                                   given[0].gain == 0.0 && points[0].time_ns < 0;
-  if (starts_with_capture) points.erase(points.begin());
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     if (points[i].time_ns < points[i + 1].time_ns) continue;
     throw UsageError(

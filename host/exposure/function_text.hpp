@@ -10,8 +10,8 @@ namespace nutik {
 
 // The function with each jump as a step of 1 ns, for function files know no jumps. The step is taken from
 // where the magnitude is smaller, so that what is fully exposed stays so: before the jump where the gain
-// grows, behind it where it shrinks. A jump at the start of the capture from a held 0 becomes a held gain, which is
-// the same within the capture. Throws UsageError where control points stand too close for a step.
+// grows, behind it where it shrinks: a jump at the capture's start begins 1 ns before it, so that the function can be
+// moved as a whole. Throws UsageError where control points stand too close for a step.
 [[nodiscard]] GainFunction with_steps(const GainFunction& function);
 
 // `M128 [399999999:0], [400000000:1], [410000000:1], [410000001:0]`, with steps for jumps. Gains have as many

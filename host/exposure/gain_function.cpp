@@ -187,7 +187,8 @@ GainSummary summarize(const GainFunction& function, std::int64_t duration_ns) {
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const bool is_zero = points[i].gain == 0.0 && points[i + 1].gain == 0.0;
     if (is_zero || points[i].time_ns == points[i + 1].time_ns) continue;
-    summary.reaches_before_capture |= points[i].time_ns < 0;
+    const bool steps_to_start = points[i].time_ns == -1 && points[i + 1].time_ns == 0;
+    summary.reaches_before_capture |= points[i].time_ns < 0 && !steps_to_start;
     summary.reaches_after_capture |= points[i + 1].time_ns > duration_ns;
   }
   summary.exposes_from_the_start = function.first_gain() != 0.0 && points.front().time_ns > 0;

@@ -46,6 +46,12 @@ bool is_held(const VideoCodec& codec, std::string_view extension) {
 
 }  // namespace
 
+double largest_rate_for(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  const bool is_coarse = extension == ".mkv" || extension == ".webm" || extension == ".avi";
+  return is_coarse ? 1000.0 : 100'000.0;
+}
+
 bool is_video_name(const std::filesystem::path& path) { return find_container(path) != nullptr; }
 
 const VideoCodec& video_codec_for(const std::filesystem::path& path, const std::optional<std::string>& name) {

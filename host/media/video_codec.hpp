@@ -22,6 +22,10 @@ struct VideoCodec {
   bool pairs_pixels;  // keeps one colour for two by two pixels, so that both sides must be even
 };
 
+// The frames a second that a container of this name still tells apart: 1000 in .mkv and .webm, whose times are
+// milliseconds, and .avi, as FFmpeg writes it; else 100000.
+[[nodiscard]] double largest_rate_for(const std::filesystem::path& path);
+
 // Whether the name's extension is that of a container: .mp4, .m4v, .mov, .mkv, .avi or .webm.
 [[nodiscard]] bool is_video_name(const std::filesystem::path& path);
 

@@ -21,8 +21,11 @@ GainFunction read_back(const std::string& text, std::uint8_t tag) {
 TEST(FunctionText, WritesJumpsAsSteps) {
   EXPECT_EQ(function_text(128, GainFunction::boxcar(400'000'000, 410'000'000)),
             "M128 [399999999:0], [400000000:1], [410000000:1], [410000001:0]");
-  // As docs/functions.md writes an exposure from the capture's start on.
-  EXPECT_EQ(function_text(0, GainFunction::boxcar(0, 10'000'000)), "M0 [0:1], [10000000:1], [10000001:0]");
+  // From the capture's start on, so that it can be moved; the step before it is nothing to warn of.
+  const GainFunction at_start = GainFunction::boxcar(0, 10'000'000);
+  EXPECT_EQ(function_text(0, at_start), "M0 [-1:0], [0:1], [10000000:1], [10000001:0]");
+  EXPECT_FALSE(summarize(with_steps(at_start), 20'000'000).reaches_before_capture);
+  EXPECT_EQ(summarize(with_steps(at_start), 20'000'000).support_ns, 10'000'001);
   EXPECT_EQ(function_text(7, GainFunction({{-10, 0}, {-10, -2}, {5, -2}, {5, 0.5}, {9, 0}})),
             "M7 [-11:0], [-10:-2], [5:-2], [6:0.5], [9:0]");
   EXPECT_EQ(function_text(1, GainFunction({{5, 0.1}})), "M1 [5:0.1]");

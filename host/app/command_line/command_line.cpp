@@ -120,7 +120,8 @@ void fail_misspelt_command(const std::string& word) {
 
 // The paper's forms: no command, only what belongs to it.
 const Command& shorthand(const Scan& scan, std::span<const std::string> words) {
-  const bool exposes = scan.has("functions") || scan.has("start") || scan.has("exposure");
+  const bool exposes = scan.has("functions") || scan.has("start") || scan.has("exposure") ||
+                       scan.has("every") || scan.has("count") || scan.has("shutter");
   if (exposes) return command(CommandId::expose);
   const std::string first = scan.operands.empty() ? std::string() : words[scan.operands.front()];
   const std::string clip = first.empty() ? "clip.tik" : first;

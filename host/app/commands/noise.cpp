@@ -24,7 +24,7 @@ std::string channel_text(const NoiseEstimate& estimate, std::size_t channel) {
       "within {:.1f} %",
       kNames[estimate.channels.size() == 1 ? 0 : channel + 1], dark.sd, dark.code, bright.sd, bright.code,
       noise.points.size(), noise.read, noise.shot,
-      noise.curve == NoiseCurve::sensor ? "fit them" : "do not fit them; they fit",
+      noise.curve == NoiseCurve::sensor ? "fit them" : "fit them only",
       100 * estimate.channels[channel].misfit);
 }
 
@@ -45,8 +45,9 @@ int run_noise(const Options& options) {
       options.output ? *options.output : sequence_name(options.operands.front()) + ".noise";
   check_output(output, OutputKind::noise, options.operands);
 
+  std::vector<std::string> clip_notes;
   const NoiseEstimate estimate =
-      measure_noise(options.operands, SourceOptions::from(options), NoiseEstimator::kMostSamples);
+      measure_noise(options.operands, SourceOptions::from(options), NoiseEstimator::kMostSamples, clip_notes);
   std::vector<std::string> comments;
   for (const std::string& name : options.operands) {
     comments.push_back("measured on " + std::filesystem::path(name).filename().string());
@@ -74,6 +75,7 @@ int run_noise(const Options& options) {
   for (std::size_t channel = 0; channel < estimate.channels.size(); ++channel) {
     print_line(channel_text(estimate, channel));
   }
+  for (const std::string& note : clip_notes) print_note("note: " + note);
   for (const std::string& note : noise_notes(estimate)) print_note("note: " + note);
   return 0;
 }

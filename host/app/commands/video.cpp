@@ -59,7 +59,7 @@ int run_video(const Options& options) {
   const auto stated = stated_output(options.output, options.operands, "video");
   FrameRequest request = FrameRequest::from(options);
   const std::string& input = options.operands.front();
-  const VideoOutput output(options, stated.value_or(usual_name(input, request.rate())));
+  const VideoOutput output(options, stated.value_or(usual_name(input, request.rate())), request.rate());
   const std::vector<std::string> inputs = exposure_inputs(options);
   output.check(0, inputs);  // a container's name, before the clip is read
 
@@ -73,8 +73,7 @@ int run_video(const Options& options) {
   output.check(frames.count, inputs);
 
   const Transfer transfer = request.plan_options().transfer.value_or(reader.format().transfer);
-  FrameQueue queue(
-      [&] { return output.open(reader.format().shape, frame_format, transfer, request.rate()); });
+  FrameQueue queue([&] { return output.open(reader.format().shape, frame_format, transfer); });
   FrameWarnings warnings;
   Saturation saturation;  // of all frames together
   std::optional<Interrupted> interruption;

@@ -116,7 +116,9 @@ SourceClip open_source(const std::filesystem::path& path, const SourceOptions& o
   source.notes = source.clip->info().notes;
   source.capture.noise = options.noise;
   if (options.noise_source == kAutomaticNoise) {
-    const NoiseEstimate estimate = measure_noise(std::array{path.string()}, options, kAutomaticNoiseSamples);
+    std::vector<std::string> known;  // the clip is this one
+    const NoiseEstimate estimate =
+        measure_noise(std::array{path.string()}, options, kAutomaticNoiseSamples, known);
     source.capture.noise.camera = estimate.noise;
     for (const std::string& note : noise_notes(estimate)) source.notes.push_back(note);
   } else if (options.noise_source) {

@@ -28,12 +28,13 @@ CameraNoise read_noise_file(const std::filesystem::path& path) {
 }
 
 NoiseEstimate measure_noise(std::span<const std::string> clips, const SourceOptions& options,
-                            std::uint64_t most_samples) {
+                            std::uint64_t most_samples, std::vector<std::string>& clip_notes) {
   std::optional<CaptureFormat> first;
   std::optional<NoiseEstimator> estimator;
   for (const std::string& name : clips) {
     const std::unique_ptr<Clip> clip = open_clip(name, options.clip);
     const CaptureFormat format = clip_format(*clip, options);
+    for (const std::string& note : clip->info().notes) clip_notes.push_back(note);
     if (!first) {
       first = format;
       estimator.emplace(format);

@@ -102,6 +102,9 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
                "CAPTURE.tik)",
                name));
   }
+  if (kind == OutputKind::noise && (output.extension() == ".tik" || is_picture_name(output))) {
+    throw UsageError(format("{} is no name for a text: a camera's noise is written as .noise", name));
+  }
   if (kind == OutputKind::picture && !is_picture_name(output)) {
     throw UsageError(format("{}: pictures are written as .png, .tif, .ppm, .pgm or .pfm", name));
   }

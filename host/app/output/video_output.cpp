@@ -8,8 +8,8 @@
 
 namespace nutik::app {
 
-VideoOutput::VideoOutput(const Options& options, std::filesystem::path path)
-    : options_(options), path_(std::move(path)) {
+VideoOutput::VideoOutput(const Options& options, std::filesystem::path path, Rational rate)
+    : options_(options), path_(std::move(path)), rate_(rate) {
   const bool is_numbered = NumberedName::parse(path_.filename().string()).has_value();
   if (is_picture_name(path_) && is_numbered) {
     if (options.video_codec) {
@@ -22,6 +22,12 @@ VideoOutput::VideoOutput(const Options& options, std::filesystem::path path)
                             (path_.parent_path() / path_.stem()).string(), path_.extension().string()));
   }
   codec_ = &video_codec_for(path_, options.video_codec);
+  if (const double largest = largest_rate_for(path_); rate.value() > largest) {
+    throw UsageError(
+        format("{}: a {} file tells at most {:.0f} frames a second apart, and {} are asked for; write {}",
+               path_.string(), path_.extension().string(), largest, rate.text(),
+               largest < 100'000 ? "a .mp4 or .mov, or numbered stills" : "numbered stills"));
+  }
 }
 
 OutputFormat VideoOutput::frame_format(const CaptureFormat& capture) const {
@@ -51,9 +57,9 @@ void VideoOutput::check(std::uint64_t frames, std::span<const std::string> input
 }
 
 std::unique_ptr<VideoWriter> VideoOutput::open(const Shape& shape, const OutputFormat& format,
-                                               const Transfer& transfer, Rational rate) const {
+                                               const Transfer& transfer) const {
   if (codec_ == nullptr) return open_still_writer(path_);
-  return open_video_writer(path_, {shape, format.type, format.white_code, transfer, rate}, *codec_);
+  return open_video_writer(path_, {shape, format.type, format.white_code, transfer, rate_}, *codec_);
 }
 
 std::string VideoOutput::kind() const { return codec_ == nullptr ? "stills" : std::string(codec_->name); }

@@ -15,8 +15,9 @@ namespace nutik::app {
 
 class VideoOutput {
  public:
-  // Throws UsageError where the name is that of neither, or codec and container do not fit.
-  VideoOutput(const Options& options, std::filesystem::path path);
+  // `rate` in frames a second. Throws UsageError where the name is that of neither, codec and container do not
+  // fit, or the container cannot tell so many frames a second apart.
+  VideoOutput(const Options& options, std::filesystem::path path, Rational rate);
 
   // What values the frames have. Throws UsageError where --depth and the file do not fit.
   [[nodiscard]] OutputFormat frame_format(const CaptureFormat& capture) const;
@@ -26,7 +27,7 @@ class VideoOutput {
 
   // `transfer` is what codes are made with.
   [[nodiscard]] std::unique_ptr<VideoWriter> open(const Shape& shape, const OutputFormat& format,
-                                                  const Transfer& transfer, Rational rate) const;
+                                                  const Transfer& transfer) const;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   // `h264`, or `stills`.
@@ -35,6 +36,7 @@ class VideoOutput {
  private:
   const Options& options_;
   std::filesystem::path path_;
+  Rational rate_;
   const VideoCodec* codec_ = nullptr;  // null: stills
 };
 
