@@ -159,11 +159,11 @@ TEST_F(Again, TakesNoOrdersFromAPicture) {
         R"("mask":"m.pgm")", R"("noise":"camera.noise")", R"("no-recipe":"")"}) {
     expect_refused(recipe("clip.tik", "f.fn", option), "its recipe states '--");
   }
-  for (const std::string& name :
-       {std::string("../pwned.sh"), (scratch_ / "pwned.sh").string(), std::string(".."), std::string(),
-        std::string("a/b.fn"), std::string(".")}) {
+  const std::string beside = scratch_.folder().filename().string() + "-pwned.sh";
+  for (const std::string& name : {"../" + beside, (scratch_ / "pwned.sh").string(), std::string(".."),
+                                  std::string(), std::string("a/b.fn"), std::string(".")}) {
     expect_refused(recipe("clip.tik", name, ""), "its recipe names '");
-    EXPECT_FALSE(std::filesystem::exists(scratch_.folder().parent_path() / "pwned.sh"));
+    EXPECT_FALSE(std::filesystem::exists(scratch_.folder().parent_path() / beside));
     EXPECT_FALSE(std::filesystem::exists(scratch_ / "pwned.sh"));
   }
   for (const char* name : {"../clip.tik", "/clip.tik", "a/b/clip.tik", "a/", "..", ""}) {
