@@ -10,6 +10,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/still_sequence.hpp"
+#include "media/stills_table.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
@@ -53,7 +54,8 @@ std::uint64_t size_of(const fs::path& file) {
 }  // namespace
 
 std::string input_checksum(const fs::path& path) {
-  const std::vector<fs::path> files = list_stills(path).value_or(std::vector<fs::path>{path});
+  std::vector<fs::path> files = list_stills(path).value_or(std::vector<fs::path>{path});
+  if (is_stills_table(path)) files.insert(files.begin(), path);  // the times of its stills
   std::uint64_t total = 0;
   for (const fs::path& file : files) total += size_of(file);
   const bool whole = total <= kWholeChecksumBytes;
@@ -93,7 +95,8 @@ std::string input_name(const fs::path& path) {
     const fs::path whole = fs::absolute(path, error).lexically_normal();
     return (whole.filename().empty() ? whole.parent_path() : whole).filename().string();
   }
-  return (path.parent_path().filename() / path.filename()).string();
+  const fs::path folder = path.parent_path().filename();
+  return (folder == "." || folder == ".." ? path.filename() : folder / path.filename()).string();
 }
 
 }  // namespace nutik

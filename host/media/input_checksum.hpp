@@ -16,14 +16,15 @@ inline constexpr std::uint64_t kWholeChecksumBytes = 256ull << 20;
 // other. Of more than kWholeChecksumBytes only the size and the first and last bytes of each file are taken, up to
 // 1 MiB each, less where there are many: `xxh3-64-ends:`. That costs next to nothing and tells one recording
 // from another, but not an edit in the middle that keeps the size. `path` may be a sequence of
-// stills (still_sequence.hpp). Throws InputError where a file cannot be read.
+// stills (still_sequence.hpp); a table of stills is the first of its files. Throws InputError where a
+// file cannot be read.
 [[nodiscard]] std::string input_checksum(const std::filesystem::path& path);
 
 // The same of the bytes of one file.
 [[nodiscard]] std::string bytes_checksum(std::span<const std::byte> bytes);
 
 // The name an input is known by: without its folder; for `frames/*.png`, where the folder is part of the
-// name, with the last one.
+// name, with the last one, unless that is `.` or `..`.
 [[nodiscard]] std::string input_name(const std::filesystem::path& path);
 
 }  // namespace nutik

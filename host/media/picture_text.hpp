@@ -6,6 +6,7 @@
 //   PFM        nowhere: the format has no place for it
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,8 +18,11 @@ inline constexpr const char* kPictureTextKeyword = "nutik-cl";
 // What such a text starts with, which tells it from what others write in the same place.
 inline constexpr std::string_view kPictureTextStart = "{\"nutik-cl\":";
 
+// How long such a text may be, for pictures come from anyone and a PNG's text may be compressed a thousandfold.
+inline constexpr std::size_t kMostPictureTextBytes = std::size_t{64} << 20;
+
 // Nothing where the picture carries no such text. Throws InputError where the file cannot be read, is no
-// picture of these formats, or is cut off before the text.
+// picture of these formats, is cut off before the text, or the text is longer than kMostPictureTextBytes.
 [[nodiscard]] std::optional<std::string> read_picture_text(const std::filesystem::path& path);
 
 }  // namespace nutik

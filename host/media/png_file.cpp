@@ -3,6 +3,7 @@
 #include <png.h>
 
 #include <cstring>
+#include <string_view>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -23,6 +24,15 @@ namespace {
 }
 void ignore_warning(png_structp, png_const_charp) {}
 
+// libpng passes over a text that is too long or damaged, with a warning that starts with the chunk's name.
+void refuse_lost_text(png_structp png, png_const_charp message) {
+  const std::string_view text = message;
+  if (!text.starts_with("tEXt") && !text.starts_with("zTXt")) return;
+  throw InputError(format("{}: a text in it cannot be read ({}); it may have {} MiB at most",
+                          *static_cast<std::string*>(png_get_error_ptr(png)), message,
+                          kMostPictureTextBytes >> 20));
+}
+
 struct ByteReader {
   std::span<const std::byte> rest;
 };
@@ -37,8 +47,8 @@ void read_bytes(png_structp png, png_bytep to, png_size_t bytes) {
 struct ReadStructure {
   png_structp png;
   png_infop info;
-  explicit ReadStructure(std::string& name)
-      : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &name, throw_input, ignore_warning)),
+  explicit ReadStructure(std::string& name, png_error_ptr warn = ignore_warning)
+      : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &name, throw_input, warn)),
         info(png_create_info_struct(png)) {}
   ~ReadStructure() { png_destroy_read_struct(&png, &info, nullptr); }
 };
@@ -112,10 +122,11 @@ Picture read_grey_png(std::span<const std::byte> file, const std::string& name) 
 std::optional<std::string> read_png_text(std::span<const std::byte> file, const char* keyword,
                                          const std::string& name) {
   std::string error_name = name;
-  ReadStructure read(error_name);
+  ReadStructure read(error_name, refuse_lost_text);
   ByteReader reader{file};
   png_set_read_fn(read.png, &reader, read_bytes);
-  png_set_chunk_malloc_max(read.png, 0);  // a text may be as long as a function file
+  png_set_chunk_malloc_max(read.png,
+                           kMostPictureTextBytes);  // libpng's own 8 MB are less than function files
   png_read_info(read.png, read.info);
   png_textp texts = nullptr;
   const int count = png_get_text(read.png, read.info, &texts, nullptr);

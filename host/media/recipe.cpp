@@ -4,6 +4,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/source_text.hpp"
 #include "media/picture_text.hpp"
 
 namespace nutik {
@@ -48,7 +49,43 @@ std::string bytes_of(const std::string& text) {
 
 Json input_json(const Recipe::Input& input) { return {{"name", input.name}, {"checksum", input.checksum}}; }
 
-Recipe::Input input_of(const Json& json) { return {json.at("name"), json.at("checksum")}; }
+Json text_json(const Recipe::Text& text) {
+  const bool is_text = is_utf8(text.bytes);
+  Json json{{"name", text.name}};
+  json[is_text ? "text" : "bytes"] = is_text ? text.bytes : characters_of(text.bytes);
+  return json;
+}
+
+bool is_plain(std::string_view name) {
+  return !name.empty() && name != "." && name != ".." && name.find('/') == std::string_view::npos &&
+         name.find('\0') == std::string_view::npos;
+}
+
+[[noreturn]] void fail_name(const std::string& picture, const std::string& name) {
+  throw InputError(format("{}: its recipe names {}, which no recipe of nutik-cl does: names have no folders",
+                          picture, nutik::quoted(name)));
+}
+
+// Of `frames/*.png` the folder is part of the name.
+Recipe::Input input_of(const Json& json, const std::string& picture) {
+  Recipe::Input input{json.at("name"), json.at("checksum")};
+  const std::string_view name = input.name;
+  const auto slash = name.find('/');
+  const bool has_folder = slash != std::string_view::npos;
+  if ((has_folder && !is_plain(name.substr(0, slash))) ||
+      !is_plain(name.substr(has_folder ? slash + 1 : 0))) {
+    fail_name(picture, input.name);
+  }
+  return input;
+}
+
+Recipe::Text text_of(const Json& json, const std::string& picture) {
+  const bool is_text = json.contains("text");
+  const std::string kept = json.at(is_text ? "text" : "bytes");
+  Recipe::Text text{json.at("name"), is_text ? kept : bytes_of(kept)};
+  if (!is_plain(text.name)) fail_name(picture, text.name);
+  return text;
+}
 
 }  // namespace
 
@@ -56,12 +93,8 @@ std::string Recipe::text() const {
   Json json;
   json["nutik-cl"] = version;
   json["capture"] = input_json(capture);
-  if (functions) {
-    const bool is_text = is_utf8(functions->bytes);
-    json["functions"]["name"] = functions->name;
-    json["functions"][is_text ? "text" : "bytes"] =
-        is_text ? functions->bytes : characters_of(functions->bytes);
-  }
+  if (functions) json["functions"] = text_json(*functions);
+  if (noise) json["noise"] = text_json(*noise);
   if (mask) json["mask"] = input_json(*mask);
   json["options"] = options;
   json["renderer"] = renderer;
@@ -76,14 +109,10 @@ Recipe Recipe::parse(std::string_view text, const std::string& name) {
     const Json json = Json::parse(text);
     Recipe recipe;
     recipe.version = json.at("nutik-cl");
-    recipe.capture = input_of(json.at("capture"));
-    if (json.contains("functions")) {
-      const Json& functions = json.at("functions");
-      const bool is_text = functions.contains("text");
-      const std::string kept = functions.at(is_text ? "text" : "bytes");
-      recipe.functions = Text{functions.at("name"), is_text ? kept : bytes_of(kept)};
-    }
-    if (json.contains("mask")) recipe.mask = input_of(json.at("mask"));
+    recipe.capture = input_of(json.at("capture"), name);
+    if (json.contains("functions")) recipe.functions = text_of(json.at("functions"), name);
+    if (json.contains("noise")) recipe.noise = text_of(json.at("noise"), name);
+    if (json.contains("mask")) recipe.mask = input_of(json.at("mask"), name);
     recipe.options = json.at("options").get<std::map<std::string, std::string>>();
     recipe.renderer = json.at("renderer");
     recipe.precision = json.at("precision");

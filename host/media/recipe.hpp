@@ -2,7 +2,8 @@
 //
 //   in:      what an exposure was made from and with
 //   out:     one line of printable ASCII: a JSON object that starts with {"nutik-cl":
-//   always:  the same recipe is the same text, byte for byte: no dates, no folders
+//   always:  the same recipe is the same text, byte for byte: no dates, no folders. A picture may come from
+//            anyone, so names that are read lead no way out of a folder: see parse()
 #pragma once
 
 #include <filesystem>
@@ -28,6 +29,7 @@ struct Recipe {
   std::string version;  // of the program
   Input capture;
   std::optional<Text> functions;
+  std::optional<Text> noise;
   std::optional<Input> mask;
   std::map<std::string, std::string> options;  // long names without dashes
   std::string renderer;
@@ -35,7 +37,8 @@ struct Recipe {
 
   [[nodiscard]] std::string text() const;
 
-  // Reads a text that text() wrote. Throws InputError naming `name` where it is none.
+  // Reads a text that text() wrote. Throws InputError naming `name` where it is none, or the name of functions
+  // or noise is not that of a file alone, or that of capture or mask has more than one plain folder.
   static Recipe parse(std::string_view text, const std::string& name);
 };
 

@@ -6,12 +6,14 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/rational.hpp"
 #include "media/extension.hpp"
 
 namespace nutik {
 namespace {
 
 constexpr std::int64_t kLargestNs = 4'000'000'000'000'000'000;  // differences of two fit
+constexpr std::int64_t kLongestNs = std::int64_t{1} << 62;      // of a timeline
 
 constexpr std::string_view kColumns[] = {"file", "start_ns", "exposure_ns"};
 
@@ -111,6 +113,7 @@ std::vector<ListedStill> read_stills_table(const std::filesystem::path& path) {
     }
     stills.push_back(std::move(still));
   }
+  if (in.bad()) throw InputError(format("{} cannot be read to its end", path.string()));
   if (stills.empty()) throw InputError(format("{} lists no picture", path.string()));
   return stills;
 }
@@ -166,7 +169,14 @@ ClipTiming timing_of(const std::filesystem::path& table, std::span<const ListedS
   ClipTiming timing;
   for (std::size_t k = 0; k < stills.size(); ++k) {
     const std::int64_t start_ns = starts[k] - starts[0];
-    const std::int64_t end_ns = exposures.empty() ? start_ns : start_ns + exposures[k];
+    const int128 reached_ns = static_cast<int128>(start_ns) + (exposures.empty() ? 0 : exposures[k]);
+    if (start_ns > kLongestNs || reached_ns > kLongestNs) {
+      fail(table, stills[k].line,
+           format("{} starts {} ns after the first picture{}; a clip lasts {} ns (146 years) at most",
+                  stills[k].file.string(), start_ns,
+                  exposures.empty() ? "" : format(" and is exposed for {} ns", exposures[k]), kLongestNs));
+    }
+    const auto end_ns = static_cast<std::int64_t>(reached_ns);
     if (k > 0) {
       const std::int64_t free_ns =
           exposures.empty() ? timing.starts_ns.back() + 1 : timing.exposures.back().end_ns;

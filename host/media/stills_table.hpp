@@ -41,7 +41,8 @@ struct ListedStill {
 
 // The timing that rows tell, `exif` being what their files say, one for each. Starts come from the table for
 // all files, or from EXIF data for all; the same holds for exposures, which may also be absent everywhere.
-// Throws InputError naming line, file and both values where something is missing or exposures overlap.
+// Throws InputError naming line, file and both values where something is missing, exposures overlap, or
+// the clip would be longer than 2^62 ns.
 [[nodiscard]] ClipTiming timing_of(const std::filesystem::path& table, std::span<const ListedStill> stills,
                                    std::span<const StillTimes> exif);
 

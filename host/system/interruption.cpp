@@ -15,7 +15,11 @@ static_assert(std::atomic<int>::is_always_lock_free);
 
 void note(int number) {
   noted_signal.store(number, std::memory_order_relaxed);
-  for (const int signal : kSignals) std::signal(signal, SIG_DFL);  // whoever asks twice means now
+  // Whoever asks twice means now. A signal that was ignored before stays ignored.
+  for (const int signal : kSignals) {
+    struct sigaction now {};
+    if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler == note) std::signal(signal, SIG_DFL);
+  }
 }
 
 const char* name_of(int number) {

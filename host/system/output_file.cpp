@@ -20,8 +20,15 @@ OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
   if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored)) {
     throw OutputError(format("{} exists and is no regular file; choose another name", path_.string()));
   }
-  temporary_path_ = path_.parent_path() / format(".{}.{}.part", path_.filename().string(), getpid());
-  descriptor_ = open(temporary_path_.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0666);
+  // Never through what stands there already, be it another's link in a folder that all may write to.
+  constexpr int kMostTries = 100;
+  for (int tried = 0; descriptor_ < 0 && tried < kMostTries; ++tried) {
+    const std::string again = tried == 0 ? "" : format("-{}", tried);
+    temporary_path_ =
+        path_.parent_path() / format(".{}.{}{}.part", path_.filename().string(), getpid(), again);
+    descriptor_ = open(temporary_path_.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno != EEXIST) break;
+  }
   if (descriptor_ < 0) fail("cannot be created");
 }
 

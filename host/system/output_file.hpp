@@ -12,8 +12,8 @@ namespace nutik {
 
 class OutputFile {
  public:
-  // Creates the temporary file, `.<name>.<process>.part`. Throws OutputError where the folder is absent
-  // or not writable.
+  // Creates the temporary file, `.<name>.<process>.part`, or `.<name>.<process>-1.part` where there is one.
+  // Throws OutputError where the folder is absent or not writable.
   explicit OutputFile(std::filesystem::path path);
   // Removes the temporary file unless commit() was called.
   ~OutputFile();

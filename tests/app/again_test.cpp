@@ -139,6 +139,60 @@ TEST_F(Again, SaysWhereThereIsNoRecipe) {
   EXPECT_EQ(test::run_program({"again", "clip.tik"}, scratch_.folder()).status, 3);
 }
 
+// A picture may come from anyone, and what is printed may be run.
+TEST_F(Again, TakesNoOrdersFromAPicture) {
+  const auto expect_refused = [&](const std::string& recipe, const std::string& message) {
+    scratch_.write("evil.pgm", "P5\n# " + recipe + "\n1 1\n255\nx");
+    const auto result = test::run_program({"again", "evil.pgm"}, scratch_.folder());
+    EXPECT_EQ(result.status, 3) << recipe << result.out;
+    EXPECT_EQ(result.out, "") << recipe;
+    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+  };
+  const auto recipe = [](const std::string& capture, const std::string& functions,
+                         const std::string& options) {
+    return R"({"nutik-cl":"0","capture":{"name":")" + capture + R"(","checksum":"x"},"functions":{"name":")" +
+           functions + R"(","text":"M0 [0:1]\n"},"options":{)" + options +
+           R"(},"renderer":"opencl","precision":"double"})";
+  };
+  for (const char* option :
+       {R"("ev 1; touch pwned; #":"1")", R"("output":"clip.tik")", R"("rectangle":"1,1,1,1")",
+        R"("mask":"m.pgm")", R"("noise":"camera.noise")", R"("no-recipe":"")"}) {
+    expect_refused(recipe("clip.tik", "f.fn", option), "its recipe states '--");
+  }
+  const std::string beside = scratch_.folder().filename().string() + "-pwned.sh";
+  for (const std::string& name : {"../" + beside, (scratch_ / "pwned.sh").string(), std::string(".."),
+                                  std::string(), std::string("a/b.fn"), std::string(".")}) {
+    expect_refused(recipe("clip.tik", name, ""), "its recipe names '");
+    EXPECT_FALSE(std::filesystem::exists(scratch_.folder().parent_path() / beside));
+    EXPECT_FALSE(std::filesystem::exists(scratch_ / "pwned.sh"));
+  }
+  for (const char* name : {"../clip.tik", "/clip.tik", "a/b/clip.tik", "a/", "..", ""}) {
+    expect_refused(recipe(name, "f.fn", ""), "its recipe names '");
+  }
+  // What may be shown does not write to the terminal by itself.
+  scratch_.write("sly.pgm", "P5\n# " + recipe("\\u001b[2Jclip.tik", "f.fn", "") + "\n1 1\n255\nx");
+  const auto result = test::run_program({"again", "sly.pgm"}, scratch_.folder());
+  EXPECT_EQ(result.err.find('\x1b'), std::string::npos) << result.err;
+}
+
+TEST_F(Again, KeepsTheNoiseOfAClip) {
+  const std::string noise =
+      "nutik noise 0\nwhite 255\ntransfer srgb\nchannel grey\nread 0.002\nshot 0.0001\n"
+      "curve sensor\npoint 10 1.5 100\npoint 20.5 2 50\n";
+  scratch_.write("camera.noise", noise);
+  const auto exposed = test::run_program(
+      {"-f", "40", "--noise", "camera.noise", "--exposure", "0.2s", "frames", "n.png"}, scratch_.folder());
+  ASSERT_EQ(exposed.status, 0) << exposed.err;
+  expect_same_bytes("n.png");
+  scratch_.write("camera.noise", "another");
+  EXPECT_NE(run({"again", "n.png"}).err.find("camera.noise was changed since; the noise values"),
+            std::string::npos);
+  EXPECT_EQ(file("n-again/camera.noise"), noise);
+  expect_same_bytes("n.png");
+  run({"-f", "40", "--noise", "auto", "--exposure", "0.2s", "frames", "m.png"});
+  expect_same_bytes("m.png");
+}
+
 // What a picture says of where it was made: names of files, no folders.
 TEST_F(Again, KeepsFoldersToItself) {
   run({"--exposure", "33ms", (scratch_ / "clip.tik").string(), (scratch_ / "a.png").string()});

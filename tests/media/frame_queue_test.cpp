@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <semaphore>
-#include <thread>
 
 #include "capture/error.hpp"
 
@@ -14,20 +13,18 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Takes a while for each frame, and keeps the order of their white codes.
-class SlowWriter final : public VideoWriter {
+// Refuses a frame of the white code 99, and keeps the order of the others' white codes.
+class KeepingWriter final : public VideoWriter {
  public:
-  SlowWriter(std::chrono::milliseconds each, std::vector<std::uint32_t>& written, bool& is_finished)
-      : each_(each), written_(written), is_finished_(is_finished) {}
+  KeepingWriter(std::vector<std::uint32_t>& written, bool& is_finished)
+      : written_(written), is_finished_(is_finished) {}
   void write(const Picture& picture) override {
-    std::this_thread::sleep_for(each_);
     if (picture.white_code == 99) throw OutputError("the disk is full");
     written_.push_back(picture.white_code);
   }
   void finish() override { is_finished_ = true; }
 
  private:
-  std::chrono::milliseconds each_;
   std::vector<std::uint32_t>& written_;
   bool& is_finished_;
 };
@@ -68,11 +65,11 @@ TEST(FrameQueue, WritesAFrameWhileTheNextOnesAreMade) {
 TEST(FrameQueue, TellsThatWritingFailed) {
   std::vector<std::uint32_t> written;
   bool is_finished = false;
-  FrameQueue queue([&] { return std::make_unique<SlowWriter>(1ms, written, is_finished); });
+  FrameQueue queue([&] { return std::make_unique<KeepingWriter>(written, is_finished); });
   std::uint32_t pushed = 0;
   while (queue.push(frame(pushed < 3 ? pushed : 99))) ++pushed;
   EXPECT_THROW(queue.finish(), OutputError);
-  EXPECT_EQ(written.size(), 3u);
+  EXPECT_EQ(written, (std::vector<std::uint32_t>{0, 1, 2}));
   EXPECT_FALSE(is_finished);
   FrameQueue unopened([]() -> std::unique_ptr<VideoWriter> { throw OutputError("no such folder"); });
   while (unopened.push(frame(0))) {
@@ -80,13 +77,20 @@ TEST(FrameQueue, TellsThatWritingFailed) {
   EXPECT_THROW(unopened.finish(), OutputError);
 }
 
+// Its thread has ended by then: nothing is written to a writer, or by one, that is gone.
 TEST(FrameQueue, WithoutFinishTheVideoIsDropped) {
+  std::counting_semaphore<> may_open(0);
   std::vector<std::uint32_t> written;
   bool is_finished = false;
   {
-    FrameQueue queue([&] { return std::make_unique<SlowWriter>(1ms, written, is_finished); });
-    ASSERT_TRUE(queue.push(frame(0)));
+    FrameQueue queue([&] {
+      may_open.acquire();
+      return std::make_unique<KeepingWriter>(written, is_finished);
+    });
+    for (std::uint32_t k = 0; k < 3; ++k) ASSERT_TRUE(queue.push(frame(k)));
+    may_open.release();
   }
+  EXPECT_EQ(written, (std::vector<std::uint32_t>{0, 1, 2}));
   EXPECT_FALSE(is_finished);
 }
 

@@ -133,6 +133,20 @@ TEST(PictureText, IsOurOwnOnly) {
             std::string::npos);
 }
 
+// A thousandth of it is enough to write 64 MiB into a PNG.
+TEST(PictureText, HasALimit) {
+  const Scratch scratch;
+  const auto path = scratch / "a.png";
+  const std::string start(kPictureTextStart);
+  write_picture(path, test::random_stills({2, 2, 1}, 255, 1, 5).front(),
+                start + std::string(kMostPictureTextBytes, '#'));
+  EXPECT_LT(std::filesystem::file_size(path), 1u << 20);
+  EXPECT_NE(test::message_of<InputError>([&] {
+              static_cast<void>(read_picture_text(path));
+            }).find("a.png: a text in it cannot be read (zTXt"),
+            std::string::npos);
+}
+
 TEST(InputChecksum, FollowsContentAndNotNames) {
   const Scratch scratch;
   scratch.write("a", "content");
@@ -159,6 +173,16 @@ TEST(InputChecksum, TakesStillsOneByOne) {
   EXPECT_NE(input_checksum(scratch / "x"), input_checksum(scratch / "y"));
   EXPECT_EQ(input_checksum(scratch / "x"), input_checksum(scratch / "z"));
   EXPECT_EQ(input_checksum(scratch / "x/*.pgm"), input_checksum(scratch / "x"));
+}
+
+TEST(InputChecksum, TakesTheTimesOfATableOfStills) {
+  const Scratch scratch;
+  scratch.write("a.pgm", "a");
+  const std::string before = input_checksum(scratch.write("t.csv", "a.pgm,0,10\n"));
+  EXPECT_EQ(input_checksum(scratch.write("t.csv", "a.pgm,0,10\n")), before);
+  EXPECT_NE(input_checksum(scratch.write("t.csv", "a.pgm,0,11\n")), before);
+  scratch.write("a.pgm", "b");
+  EXPECT_NE(input_checksum(scratch.write("t.csv", "a.pgm,0,10\n")), before);
 }
 
 TEST(InputChecksum, TakesTheEndsOfLargeFiles) {

@@ -6,7 +6,9 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "capture/error.hpp"
 #include "support/ffmpeg.hpp"
+#include "support/messages.hpp"
 #include "support/stills.hpp"
 
 namespace nutik {
@@ -97,6 +99,12 @@ TEST(StillsTable, NamesFileAndBothValuesOfWhatIsWrong) {
       {"a.pgm,0.5,1\n", {"stills.csv:1: start_ns '0.5' is no whole number"}},
       {"file,start,exposure\na.pgm,0,1\n", {"stills.csv:1: start_ns 'start' is no whole number"}},
       {"c, 2.pgm,0,1\n", {"stills.csv:1: 4 columns, and there are three", "stands in quotes"}},
+      {"a.pgm,-4000000000000000000,1\nb.pgm,4000000000000000000,4000000000000000000\n",
+       {"stills.csv:2: ",
+        "b.pgm starts 8000000000000000000 ns after the first picture and is exposed for "
+        "4000000000000000000 ns; a clip lasts 4611686018427387904 ns"}},
+      {"a.pgm,-4000000000000000000\nb.pgm,4000000000000000000\n",
+       {"stills.csv:2: ", "b.pgm starts 8000000000000000000 ns after the first picture; a clip"}},
       {"\"a.pgm,0,1\n", {"stills.csv:1: a quote is not closed"}},
       {",0,1\n", {"stills.csv:1: the file's name is missing"}},
       {"file,start_ns,exposure_ns\n", {"stills.csv lists no picture"}},
@@ -106,6 +114,15 @@ TEST(StillsTable, NamesFileAndBothValuesOfWhatIsWrong) {
     const auto path = scratch.write("shots/stills.csv", tested.table);
     for (const char* part : tested.parts) test::expect_clip_refused(path, {}, part);
   }
+}
+
+// What cannot be read, as a folder cannot, is no table that ends there.
+TEST(StillsTable, TellsAReadErrorFromTheEnd) {
+  const Scratch scratch;
+  EXPECT_NE(test::message_of<InputError>([&] {
+              static_cast<void>(read_stills_table(scratch.folder()));
+            }).find("cannot be read to its end"),
+            std::string::npos);
 }
 
 // A JPEG with EXIF data: an APP1 segment put behind the start of what OpenCV writes.

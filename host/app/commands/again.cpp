@@ -6,6 +6,7 @@
 #include "app/text/shell_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/source_text.hpp"
 #include "media/input_checksum.hpp"
 #include "media/recipe.hpp"
 #include "media/still_sequence.hpp"
@@ -26,7 +27,8 @@ class Pantry {
   // alone; the picture cannot be made again then.
   template <typename Checksum>
   fs::path find(const Recipe::Input& input, std::string_view what, Checksum checksum) {
-    std::optional<fs::path> other;
+    std::optional<fs::path> other_folder;
+    const std::string name = shown(input.name);
     for (const fs::path& folder : folders_) {
       const fs::path path = folder / input.name;
       try {
@@ -36,33 +38,20 @@ class Pantry {
         print_warning(error.what());
         continue;
       }
-      if (!other) other = path;
+      if (!other_folder) other_folder = folder;
     }
     is_complete_ = false;
     print_warning(
-        other ? format("{} is not the {} that the picture was made from: its checksum differs from {}",
-                       other->string(), what, input.checksum)
-              : format("the {} {} is not in {}; name its folder: nutik-cl again PICTURE FOLDER", what,
-                       input.name, folders_text()));
-    return other.value_or(input.name);
+        other_folder ? format("{} is not the {} that the picture was made from: its checksum differs from {}",
+                              (*other_folder / name).string(), what, shown(input.checksum))
+                     : format("the {} {} is not in {}; name its folder: nutik-cl again PICTURE FOLDER", what,
+                              name, folders_text()));
+    return other_folder.value_or(fs::path()) / input.name;
   }
 
-  // A file of that name with that text; otherwise it is written into `folder`, and a warning says so.
-  static void write(const Recipe::Text& text, const fs::path& path, bool is_changed) {
-    if (fs::exists(path)) {
-      if (content(path) == text.bytes) return;
-      throw OutputError(
-          format("{} exists and is another file; it is not replaced. Move it away", path.string()));
-    }
-    fs::create_directories(path.parent_path());
-    OutputFile file(path);
-    file.write(text.bytes);
-    file.commit();
-    print_warning(format("{} {}; the functions that the picture was made with were written to {}", text.name,
-                         is_changed ? "was changed since" : "is gone", path.string()));
-  }
-
-  fs::path find(const Recipe::Text& text, const fs::path& folder) const {
+  // A file of that name with that text; otherwise it is written into `folder`, and a warning says so. `what` is
+  // in the plural.
+  fs::path find(const Recipe::Text& text, std::string_view what, const fs::path& folder) const {
     bool is_changed = false;
     for (const fs::path& place : folders_) {
       const fs::path path = place / text.name;
@@ -70,13 +59,28 @@ class Pantry {
       if (content(path) == text.bytes) return path;
       is_changed = true;
     }
-    write(text, folder / text.name, is_changed);
+    write(text, what, folder / text.name, is_changed);
     return folder / text.name;
   }
 
   [[nodiscard]] bool is_complete() const { return is_complete_; }
 
  private:
+  static void write(const Recipe::Text& text, std::string_view what, const fs::path& path, bool is_changed) {
+    if (fs::exists(path)) {
+      if (content(path) == text.bytes) return;
+      throw OutputError(format("{} exists and is another file; it is not replaced. Move it away",
+                               (path.parent_path() / shown(text.name)).string()));
+    }
+    fs::create_directories(path.parent_path());
+    OutputFile file(path);
+    file.write(text.bytes);
+    file.commit();
+    print_warning(format("{} {}; the {} that the picture was made with were written to {}", shown(text.name),
+                         is_changed ? "was changed since" : "is gone", what,
+                         (path.parent_path() / shown(text.name)).string()));
+  }
+
   static bool is_there(const fs::path& path) {
     if (fs::exists(path)) return true;
     try {
@@ -120,6 +124,17 @@ std::vector<fs::path> folders_to_search(const Options& options) {
   return folders;
 }
 
+// What is printed may be run by a shell: of a stranger's picture it names options that recipes have, and no others.
+void check_options(const Recipe& recipe, const std::string& picture) {
+  for (const auto& [name, value] : recipe.options) {
+    if (is_recipe_option(name, value)) continue;
+    throw InputError(
+        format("{}: its recipe states {}, which no recipe of nutik-cl {} does; another version made "
+               "it, or it is not to be trusted",
+               picture, nutik::quoted("--" + name + " " + value), NUTIK_VERSION));
+  }
+}
+
 // As an operand: never mistaken for an option or a command.
 std::string operand(const fs::path& path) {
   const std::string text = path.string();
@@ -140,16 +155,20 @@ int run_again(const Options& options) {
                picture.string()));
   }
   if (recipe->version != NUTIK_VERSION) {
-    print_note(
-        format("note: the picture was made by nutik-cl {}, this is {}", recipe->version, NUTIK_VERSION));
+    print_note(format("note: the picture was made by nutik-cl {}, this is {}", shown(recipe->version),
+                      NUTIK_VERSION));
   }
+  check_options(*recipe, picture.string());
+  const fs::path folder = picture.stem().string() + "-again";
   std::string command = "nutik-cl expose";
-  if (recipe->functions) {
-    const fs::path folder = picture.stem().string() + "-again";
-    command += " -k " + operand(pantry.find(*recipe->functions, folder));
+  if (recipe->functions) command += " -k " + operand(pantry.find(*recipe->functions, "functions", folder));
+  if (recipe->noise) {
+    const fs::path here = ".";  // so that a file of the name `auto` is not taken for that word
+    command += " --noise " + operand(here / pantry.find(*recipe->noise, "noise values", folder));
   }
   if (recipe->mask) command += " -m " + operand(pantry.find(*recipe->mask, "mask", input_checksum));
-  for (const auto& [name, value] : recipe->options) command += format(" --{} {}", name, shell_word(value));
+  for (const auto& [name, value] : recipe->options)
+    command += " " + shell_word("--" + name) + " " + shell_word(value);
   command += recipe->renderer == "opencl" ? " --precision " + shell_word(recipe->precision)
                                           : " --renderer " + shell_word(recipe->renderer);
   command += " " + operand(pantry.find(recipe->capture, "capture", capture_checksum));

@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 
 #include "app/commands/commands.hpp"
@@ -7,6 +6,7 @@
 #include "app/input/sweep_values.hpp"
 #include "app/output/exposure_report.hpp"
 #include "app/output/json.hpp"
+#include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/text/time_text.hpp"
@@ -143,7 +143,7 @@ int run_contact(const Options& options) {
   const sheet::SheetWishes wishes = sheet_wishes(options);
   const std::filesystem::path output = sheet_output(options, "contact", "contact");
   const std::string& input = options.operands.front();
-  check_sheet_output(output, std::array{input});
+  check_sheet_output(output, exposure_inputs(options));
 
   OpenedCapture opened(input, options);
   tik::Reader& capture = opened.reader();

@@ -52,7 +52,7 @@ MaskRequest request_of(const Options& options) {
     }
     request.output = stated_output(options.output, options.operands, "mask")
                          .value_or(sequence_name(*request.capture) + "-mask.pgm");
-    request.inputs.push_back(*request.capture);
+    request.inputs = exposure_inputs(options);
   } else if (options.output && !options.output->empty()) {
     request.output = *options.output;
   } else {

@@ -97,12 +97,12 @@ int run_trace(const Options& options) {
   const Traced traced = Traced::from(options);
   ExposureRequest request = ExposureRequest::from(options);
   if (output) {
-    const std::vector<std::string> inputs = exposure_inputs(options);
     if (!is_table_name(*output) && !is_picture_name(*output)) {
       throw UsageError(format("{}: traces are written as a table, .csv, or as a picture: .png, .tif or .ppm",
                               output->string()));
     }
-    check_output(*output, is_table_name(*output) ? OutputKind::table : OutputKind::picture, inputs);
+    check_output(*output, is_table_name(*output) ? OutputKind::table : OutputKind::picture,
+                 exposure_inputs(options));
     constexpr std::uint32_t kColour = 3;
     if (!is_table_name(*output)) {
       static_cast<void>(value_type_for(*output, Depth::bits8, ValueType::code8, kColour));

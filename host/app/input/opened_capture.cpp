@@ -1,11 +1,13 @@
 #include "app/input/opened_capture.hpp"
 
-#include <unistd.h>
-
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
 #include "app/input/capture_input.hpp"
 #include "app/input/encoding.hpp"
+#include "capture/error.hpp"
 #include "capture/format.hpp"
 
 namespace nutik::app {
@@ -13,16 +15,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Removes a file that is still open elsewhere: what was opened stays readable.
-struct RemovedAtEnd {
-  fs::path path;
-  explicit RemovedAtEnd(fs::path file) : path(std::move(file)) {}
-  ~RemovedAtEnd() {
-    std::error_code ignored;
-    fs::remove(path, ignored);
+// A folder that nobody else can reach into, removed with its files: what was opened stays readable.
+class PrivateFolder {
+ public:
+  PrivateFolder() {
+    std::string name = fs::temp_directory_path() / "nutik-XXXXXX";
+    if (::mkdtemp(name.data()) == nullptr) {
+      throw OutputError(format("no temporary folder can be made: {}: {}", name, std::strerror(errno)));
+    }
+    path_ = name;
   }
-  RemovedAtEnd(const RemovedAtEnd&) = delete;
-  RemovedAtEnd& operator=(const RemovedAtEnd&) = delete;
+  ~PrivateFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
 };
 
 // Quick to unpack; it is read many times and kept for no longer than that.
@@ -44,11 +57,12 @@ void OpenedCapture::encode(const std::string& name, const Options& options) {
   SourceClip source = open_source(name, source_options);
   const std::uint64_t announced = source.clip->info().sample_count;
   const std::vector<std::string> notes = source.notes;
-  const RemovedAtEnd scratch(fs::temp_directory_path() / format("nutik-{}.tik", ::getpid()));
-  Encoding encoding(std::move(source), source_options, tik::Codec::parse(kScratchCodec), name, scratch.path);
+  const PrivateFolder folder;
+  const fs::path scratch = folder.path() / "capture.tik";
+  Encoding encoding(std::move(source), source_options, tik::Codec::parse(kScratchCodec), name, scratch);
   Progress progress("reading", announced, options.quiet);
   const Timeline timeline = encoding.run(progress);
-  reader_ = std::make_unique<tik::Reader>(scratch.path);
+  reader_ = std::make_unique<tik::Reader>(scratch);
   notes_.push_back(format("source: {}", timing_text(timeline, source_options)));
   for (const std::string& note : notes) notes_.push_back(format("note: {}", note));
   if (const std::string note = slow_motion_note(timeline, source_options); !note.empty()) {

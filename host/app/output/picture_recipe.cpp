@@ -7,8 +7,10 @@
 #include "app/command_line/option_table.hpp"
 #include "app/input/capture_input.hpp"
 #include "app/input/standard_input.hpp"
+#include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/input_checksum.hpp"
+#include "media/picture_text.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik::app {
@@ -18,12 +20,19 @@ namespace {
 constexpr std::array<std::string_view, 9> kLeftOut{"output", "mask",     "functions", "every", "count",
                                                    "device", "renderer", "precision", "memory"};
 
+bool is_stated(const Option& option, std::string_view value) {
+  if ((option.commands & bit(CommandId::expose)) == 0 || option.member == nullptr) return false;
+  // A file's text is in the recipe.
+  if (option.member == &Options::noise) return value == kAutomaticNoise;
+  return std::ranges::find(kLeftOut, option.long_name) == kLeftOut.end();
+}
+
 std::map<std::string, std::string> stated_options(const Options& options) {
   std::map<std::string, std::string> stated;
   for (const Option& option : app::options()) {
-    if ((option.commands & bit(CommandId::expose)) == 0 || option.member == nullptr) continue;
-    if (std::ranges::find(kLeftOut, option.long_name) != kLeftOut.end()) continue;
-    if (const auto& value = options.*option.member) stated.emplace(option.long_name, *value);
+    if (option.member == nullptr) continue;
+    const auto& value = options.*option.member;
+    if (value && is_stated(option, *value)) stated.emplace(option.long_name, *value);
   }
   return stated;
 }
@@ -33,15 +42,17 @@ std::string known_name(const std::string& name, const char* extension) {
   return is_standard_input(name) ? std::string("standard-input") + extension : input_name(name);
 }
 
+Recipe::Text whole_text(const std::string& name, const char* extension) {
+  return {known_name(name, extension), std::string(InputBytes(name).text())};
+}
+
 Recipe make_recipe(const Options& options, const std::optional<std::string>& known_capture) {
   Recipe recipe;
   recipe.version = NUTIK_VERSION;
   const std::string& input = options.operands.front();
   recipe.capture = {input_name(input), known_capture ? *known_capture : capture_checksum(input)};
-  if (options.functions) {
-    recipe.functions = Recipe::Text{known_name(*options.functions, ".fn"),
-                                    std::string(InputBytes(*options.functions).text())};
-  }
+  if (options.functions) recipe.functions = whole_text(*options.functions, ".fn");
+  if (options.noise && *options.noise != kAutomaticNoise) recipe.noise = whole_text(*options.noise, ".noise");
   if (options.mask) {
     recipe.mask =
         Recipe::Input{known_name(*options.mask, ".pgm"),
@@ -54,6 +65,12 @@ Recipe make_recipe(const Options& options, const std::optional<std::string>& kno
 }
 
 }  // namespace
+
+bool is_recipe_option(std::string_view long_name, std::string_view value) {
+  return std::ranges::any_of(app::options(), [&](const Option& option) {
+    return option.long_name == long_name && is_stated(option, value);
+  });
+}
 
 std::string capture_checksum(const std::string& path) {
   if (!is_tik(path)) return input_checksum(path);
@@ -73,7 +90,13 @@ std::string PictureRecipe::text(const std::string& precision, const std::optiona
   if (!recipe_) recipe_ = reading_.get();
   recipe_->precision = precision;
   if (start) recipe_->options["start"] = *start;
-  return recipe_->text();
+  std::string text = recipe_->text();
+  if (text.size() >= kMostPictureTextBytes) {
+    throw InputError(
+        format("the recipe has {} bytes and a picture carries {} MiB at most; leave it out: --no-recipe",
+               text.size(), kMostPictureTextBytes >> 20));
+  }
+  return text;
 }
 
 }  // namespace nutik::app

@@ -4,6 +4,7 @@
 #include <future>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "app/command_line/options.hpp"
 #include "media/recipe.hpp"
@@ -19,7 +20,7 @@ class PictureRecipe {
 
   // The recipe's text, for a picture that was computed in this precision; empty with --no-recipe. Of a series, each
   // picture's is that of a single one from its own `start` on. Throws InputError where an input cannot
-  // be read.
+  // be read, or the text is longer than a picture carries (kMostPictureTextBytes).
   [[nodiscard]] std::string text(const std::string& precision, const std::optional<std::string>& start = {});
 
  private:
@@ -27,6 +28,10 @@ class PictureRecipe {
   std::future<Recipe> reading_;
   std::optional<Recipe> recipe_;  // once it was read
 };
+
+// Whether a recipe may state this option of `expose` with this value: it makes the picture, and stands in no
+// other place of the recipe.
+[[nodiscard]] bool is_recipe_option(std::string_view long_name, std::string_view value);
 
 // What the content of a capture is known by again: of a .tik its blocks' and footer's checksums.
 [[nodiscard]] std::string capture_checksum(const std::string& path);
