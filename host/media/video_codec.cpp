@@ -46,8 +46,6 @@ bool is_held(const VideoCodec& codec, std::string_view extension) {
 
 }  // namespace
 
-bool is_video_name(const std::filesystem::path& path) { return find_container(path) != nullptr; }
-
 const VideoCodec& video_codec_for(const std::filesystem::path& path, const std::optional<std::string>& name) {
   const Container* container = find_container(path);
   if (container == nullptr) {

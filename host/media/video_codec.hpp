@@ -22,9 +22,6 @@ struct VideoCodec {
   bool pairs_pixels;  // keeps one colour for two by two pixels, so that both sides must be even
 };
 
-// Whether the name's extension is that of a container: .mp4, .m4v, .mov, .mkv, .avi or .webm.
-[[nodiscard]] bool is_video_name(const std::filesystem::path& path);
-
 // The codec of that name, or the one that is usual for the container: h264 in .mp4, .m4v and .mov, ffv1 in
 // .mkv and .avi, vp9 in .webm. Throws UsageError listing what there is where the codec is not known or the
 // container does not hold it.
