@@ -44,8 +44,7 @@ SheetExposures::SheetExposures(const Options& options, CaptureSource& capture, M
 
 Exposed SheetExposures::expose(const FunctionSet& functions) {
   const CaptureFormat& format = capture_.format();
-  return exposer_.expose(capture_, functions, mask_, plan_options_,
-                         {format.code_bytes == 1 ? ValueType::code8 : ValueType::code16, format.white_code});
+  return exposer_.expose(capture_, functions, mask_, plan_options_, {code_type(format), format.white_code});
 }
 
 }  // namespace nutik::app

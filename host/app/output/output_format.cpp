@@ -9,26 +9,22 @@ std::optional<Depth> stated_depth(const Options& options) {
   return options.depth ? std::optional(parse_depth(*options.depth)) : std::nullopt;
 }
 
-ValueType usual_type(const CaptureFormat& capture) {
-  return capture.code_bytes == 1 ? ValueType::code8 : ValueType::code16;
-}
-
 // A picture of the capture's own depth has the capture's codes; another depth its full range.
 OutputFormat format_of(ValueType type, const CaptureFormat& capture) {
-  return {type, type == usual_type(capture) ? capture.white_code : type == ValueType::code16 ? 65'535 : 255};
+  return {type, type == code_type(capture) ? capture.white_code : type == ValueType::code16 ? 65'535 : 255};
 }
 
 }  // namespace
 
 OutputFormat output_format(const Options& options, const std::filesystem::path& output,
                            const CaptureFormat& capture) {
-  return format_of(value_type_for(output, stated_depth(options), usual_type(capture), capture.shape.channels),
+  return format_of(value_type_for(output, stated_depth(options), code_type(capture), capture.shape.channels),
                    capture);
 }
 
 OutputFormat output_format(const Options& options, const CaptureFormat& capture) {
   const std::optional<Depth> depth = stated_depth(options);
-  const ValueType type = !depth                   ? usual_type(capture)
+  const ValueType type = !depth                   ? code_type(capture)
                          : depth == Depth::bits8  ? ValueType::code8
                          : depth == Depth::bits16 ? ValueType::code16
                                                   : ValueType::light32;
