@@ -107,8 +107,7 @@ class OpenClRenderer::Implementation {
     const double megabytes = static_cast<double>(statistics_.payload_bytes) * 1e-6;
     return format(
                "{} precision; {} blocks of {:.1f} MB made ready in {:.1f} ms, read by the kernel in {:.1f} "
-               "ms "
-               "({:.1f} GB/s); codes or light in {:.1f} ms; at most {:.1f} MB on the device",
+               "ms ({:.1f} GB/s); codes or light in {:.1f} ms; at most {:.1f} MB on the device",
                to_text(choice_.precision()), statistics_.blocks, megabytes, statistics_.read_ms,
                statistics_.expose_ms, statistics_.expose_ms > 0 ? megabytes / statistics_.expose_ms : 0.0,
                statistics_.develop_ms, static_cast<double>(statistics_.device_bytes) * 1e-6) +
