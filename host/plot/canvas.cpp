@@ -14,7 +14,6 @@
 namespace nutik::plot {
 namespace {
 
-constexpr std::uint32_t kLargestSide = 32'767;
 constexpr const char* kFont = "DejaVu Sans";
 
 struct DestroySurface {

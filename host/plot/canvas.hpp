@@ -15,6 +15,8 @@
 
 namespace nutik::plot {
 
+inline constexpr std::uint32_t kLargestSide = 32'767;  // of a sheet, in pixels: Cairo's limit
+
 struct Point {
   double x = 0.0;
   double y = 0.0;
@@ -51,7 +53,7 @@ struct LineStyle {
 
 class Canvas {
  public:
-  // Throws UsageError where the sheet would pass 32767 pixels on a side, Cairo's limit.
+  // Throws UsageError where the sheet would pass kLargestSide or have no pixel.
   Canvas(std::uint32_t width, std::uint32_t height, Colour background = kWhite);
   ~Canvas();
   Canvas(const Canvas&) = delete;

@@ -4,18 +4,14 @@
 #include "app/text/number_text.hpp"
 #include "media/picture_writer.hpp"
 #include "media/still_sequence.hpp"
+#include "plot/canvas.hpp"
 
 namespace nutik::app {
-namespace {
-
-constexpr std::uint32_t kLargestSheet = 32'767;
-
-}  // namespace
 
 sheet::SheetWishes sheet_wishes(const Options& options) {
   sheet::SheetWishes wishes;
   if (options.columns) wishes.columns = parse_whole_number(*options.columns, "--columns", 1, 1000);
-  if (options.width) wishes.width = parse_whole_number(*options.width, "--width", 100, kLargestSheet);
+  if (options.width) wishes.width = parse_whole_number(*options.width, "--width", 100, plot::kLargestSide);
   return wishes;
 }
 
