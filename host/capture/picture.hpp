@@ -4,6 +4,7 @@
 // byte order, no padding.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -49,6 +50,11 @@ enum class ValueType { code8, code16, light32, light64 };
   return 0;
 }
 
+// What a capture's codes are as values of a picture.
+[[nodiscard]] constexpr ValueType code_type(const CaptureFormat& capture) {
+  return capture.code_bytes == 1 ? ValueType::code8 : ValueType::code16;
+}
+
 [[nodiscard]] constexpr bool holds_codes(ValueType type) {
   return type == ValueType::code8 || type == ValueType::code16;
 }
@@ -84,5 +90,17 @@ struct Picture {
     if (size != value_bytes(type)) throw std::logic_error("a picture was read as another value type");
   }
 };
+
+// The largest of a raster's codes; 0 where it has none.
+[[nodiscard]] inline std::uint32_t largest_code(std::span<const std::byte> raster, std::uint32_t code_bytes) {
+  std::uint32_t largest = 0;
+  if (code_bytes == 1) {
+    for (const std::byte code : raster) largest = std::max(largest, static_cast<std::uint32_t>(code));
+  } else {
+    const auto* codes = reinterpret_cast<const std::uint16_t*>(raster.data());
+    for (std::size_t i = 0; i < raster.size() / 2; ++i) largest = std::max<std::uint32_t>(largest, codes[i]);
+  }
+  return largest;
+}
 
 }  // namespace nutik

@@ -38,7 +38,8 @@ Character first_character(std::string_view text) {
   return {code, bytes, true};
 }
 
-// Controls, blanks that look like a space but are none, and what terminals do not show or obey.
+// Controls, blanks that look like a space but are none, what terminals do not show or obey, and the codes that
+// Unicode keeps from being characters.
 bool is_invisible(char32_t code) {
   struct Range {
     char32_t first, last;
@@ -46,8 +47,9 @@ bool is_invisible(char32_t code) {
   constexpr Range kInvisible[] = {
       {0x00, 0x1F},     {0x7F, 0xA0},     {0xAD, 0xAD},     {0x061C, 0x061C},   {0x180E, 0x180E},
       {0x2000, 0x200F}, {0x2028, 0x202F}, {0x205F, 0x206F}, {0x3000, 0x3000},   {0xFE00, 0xFE0F},
-      {0xFEFF, 0xFEFF}, {0xFFF0, 0xFFFB}, {0xFFFE, 0xFFFF}, {0xE0000, 0xE0FFF},
+      {0xFDD0, 0xFDEF}, {0xFEFF, 0xFEFF}, {0xFFF0, 0xFFFB}, {0xE0000, 0xE0FFF},
   };
+  if ((code & 0xFFFE) == 0xFFFE) return true;
   return std::any_of(std::begin(kInvisible), std::end(kInvisible),
                      [&](const Range& range) { return code >= range.first && code <= range.last; });
 }
@@ -64,6 +66,16 @@ std::string printable(std::string_view text, const Character& character) {
 }
 
 }  // namespace
+
+std::string printable(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    result += printable(text, character);
+    text.remove_prefix(character.bytes);
+  }
+  return result;
+}
 
 std::string shown(std::string_view piece) {
   std::string text;

@@ -26,8 +26,11 @@ struct Excerpt {
   std::string indent;
 };
 
-// A piece of a file for a message: at most 40 characters and "…", controls, invisible characters
-// and bytes that are no UTF-8 as escapes (\r, \x1b, \u00a0, \xe9).
+// A text as one line of printable UTF-8, whatever it is made of: controls, invisible characters, characters
+// that Unicode sets aside, and bytes that are no UTF-8 as escapes (\r, \x1b, \u00a0, \xe9).
+[[nodiscard]] std::string printable(std::string_view text);
+
+// A piece of a file for a message: at most 40 characters and "…", printable.
 [[nodiscard]] std::string shown(std::string_view piece);
 [[nodiscard]] std::string quoted(std::string_view piece);
 

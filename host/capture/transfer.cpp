@@ -106,6 +106,12 @@ std::vector<double> Transfer::light_of_codes(std::uint32_t white_code) const {
   return light;
 }
 
+std::vector<double> Transfer::light_of_all_codes(std::uint32_t white_code, std::uint32_t code_bytes) const {
+  std::vector<double> light = light_of_codes(white_code);
+  light.resize(std::size_t{1} << (8 * code_bytes), light.back());
+  return light;
+}
+
 std::vector<double> Transfer::code_thresholds(std::uint32_t white_code) const {
   std::vector<double> thresholds(static_cast<std::size_t>(white_code) + 1);
   for (std::size_t code = 1; code < thresholds.size(); ++code) {

@@ -34,6 +34,10 @@ class Transfer {
 
   // Light of every code 0 … white_code.
   [[nodiscard]] std::vector<double> light_of_codes(std::uint32_t white_code) const;
+  // The same for every code that `code_bytes` bytes can hold, those above white as light 1: for codes out of
+  // files, which may be damaged and must not lead past a table.
+  [[nodiscard]] std::vector<double> light_of_all_codes(std::uint32_t white_code,
+                                                       std::uint32_t code_bytes) const;
 
   // Element c is the least light that rounds to code c, half up in code: light_of((c - 1/2) / white).
   // Element 0 is 0.

@@ -47,8 +47,7 @@ double Normalization::divided_by(const GainSummary& summary, const std::string& 
       if (std::fabs(summary.integral_ns) <= kLeastIntegralShare * summary.absolute_integral_ns) {
         throw InputError(
             format("{}: the positive and negative parts of its gains cancel (the still gain is {:.3g}), so "
-                   "there is no "
-                   "integral to divide by; use --normalize support, absolute or seconds:S",
+                   "there is no integral to divide by; use --normalize support, absolute or seconds:S",
                    name, summary.still_gain()));
       }
       return std::scalbn(support_ns / summary.integral_ns, -summary.exponent);

@@ -75,13 +75,7 @@ void for_each_tile(const CaptureFormat& source, const TileGrid& grid, std::span<
 void check_white(const CaptureFormat& source, std::span<const std::byte> raster, std::uint64_t sample) {
   const std::uint32_t largest_possible = source.code_bytes == 1 ? 255 : 65'535;
   if (source.white_code >= largest_possible) return;
-  std::uint32_t largest = 0;
-  if (source.code_bytes == 1) {
-    for (const std::byte code : raster) largest = std::max(largest, static_cast<std::uint32_t>(code));
-  } else {
-    const auto* codes = reinterpret_cast<const std::uint16_t*>(raster.data());
-    for (std::size_t i = 0; i < raster.size() / 2; ++i) largest = std::max<std::uint32_t>(largest, codes[i]);
-  }
+  const std::uint32_t largest = largest_code(raster, source.code_bytes);
   if (largest > source.white_code) {
     throw InputError(
         format("sample {} has a code of {}, above the white code {}; state the right one "

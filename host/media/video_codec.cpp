@@ -52,8 +52,6 @@ double largest_rate_for(const std::filesystem::path& path) {
   return is_coarse ? 1000.0 : 100'000.0;
 }
 
-bool is_video_name(const std::filesystem::path& path) { return find_container(path) != nullptr; }
-
 const VideoCodec& video_codec_for(const std::filesystem::path& path, const std::optional<std::string>& name) {
   const Container* container = find_container(path);
   if (container == nullptr) {

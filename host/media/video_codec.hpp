@@ -26,9 +26,6 @@ struct VideoCodec {
 // milliseconds, and .avi, as FFmpeg writes it; else 100000.
 [[nodiscard]] double largest_rate_for(const std::filesystem::path& path);
 
-// Whether the name's extension is that of a container: .mp4, .m4v, .mov, .mkv, .avi or .webm.
-[[nodiscard]] bool is_video_name(const std::filesystem::path& path);
-
 // The codec of that name, or the one that is usual for the container: h264 in .mp4, .m4v and .mov, ffv1 in
 // .mkv and .avi, vp9 in .webm. Throws UsageError listing what there is where the codec is not known or the
 // container does not hold it.

@@ -19,23 +19,26 @@ BlockFeed::BlockFeed(cl::Context context, const cl::Device& device, const Device
 }
 
 void BlockFeed::hold(const CaptureSource* source) {
-  if (reading_.valid()) reading_.wait();
-  reading_ = {};
+  stop();
   held_.clear();
   held_slabs_.clear();
   held_bytes_ = 0;
   held_source_ = source;
 }
 
-void BlockFeed::start(const RenderPlan& plan, CaptureSource& source) {
-  // An exposure that failed may have left a chunk that is being read.
+void BlockFeed::stop() {
   if (reading_.valid()) reading_.wait();
   reading_ = {};
+}
+
+void BlockFeed::start(const RenderPlan& plan, CaptureSource& source) {
+  stop();
   plan_ = &plan;
   source_ = &source;
   next_ = 0;
   pending_bytes_ = 0;
   in_place_bytes_ = 0;
+  is_read_by_kernel_ = false;
   for (Slab& slab : passing_) slab.used = 0;
 }
 
@@ -110,6 +113,7 @@ BlockFeed::Chunk BlockFeed::held_chunk() {
     chunk.entries.push_back(entry(found->second.offset));
     chunk.payload_bytes += found->second.bytes;
   }
+  is_read_by_kernel_ |= slab == held_slabs_.back().get();
   chunk.payload = buffer_of(*slab);
   return chunk;
 }
@@ -134,8 +138,8 @@ BlockFeed::Chunk BlockFeed::read_chunk() {
     chunk.payload_bytes += bytes;
     if (!stays) continue;
     held_.emplace(planned.block, place);
-    held_bytes_ += align_up(bytes, kBlockAlignment);
   }
+  is_read_by_kernel_ |= stays;
   chunk.payload = buffer_of(*slab);
   return chunk;
 }
@@ -145,12 +149,15 @@ BlockFeed::Slab& BlockFeed::slab_for(std::uint64_t bytes, bool& stays) {
   const std::uint64_t room = std::max(align_up(bytes, kBlockAlignment), limits_.chunk_bytes);
   if (source_ == held_source_) {
     stays = true;
-    if (!held_slabs_.empty() && held_slabs_.back()->used + bytes <= held_slabs_.back()->capacity) {
+    const bool has_open = !held_slabs_.empty() && !is_read_by_kernel_;
+    if (has_open && held_slabs_.back()->used + bytes <= held_slabs_.back()->capacity) {
       return *held_slabs_.back();
     }
     if (held_bytes_ + room <= limits_.held_bytes) {
       held_slabs_.push_back(std::make_unique<Slab>());
       make_room(*held_slabs_.back(), room);
+      held_bytes_ += held_slabs_.back()->capacity;
+      is_read_by_kernel_ = false;
       return *held_slabs_.back();
     }
   }

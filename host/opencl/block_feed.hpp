@@ -43,12 +43,15 @@ class BlockFeed {
   // live that long.
   void hold(const CaptureSource* source);
 
-  // `plan` and `source` must live until the last chunk has been taken, or the next start.
+  // `plan` and `source` must live until the last chunk has been taken, or stop().
   void start(const RenderPlan& plan, CaptureSource& source);
 
   // The next chunk, in time order; nothing after the last. Whoever asks has no use for the chunk before
   // any more. Throws InputError for a damaged block, DeviceError for one that the device cannot hold.
   [[nodiscard]] std::optional<Chunk> next();
+
+  // Waits for what is being read ahead, and forgets it: where an exposure fails.
+  void stop();
 
   // What blocks take on the device now.
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
@@ -100,7 +103,8 @@ class BlockFeed {
   const CaptureSource* held_source_ = nullptr;
   std::vector<std::unique_ptr<Slab>> held_slabs_;
   std::unordered_map<std::uint64_t, Place> held_;  // by block of the capture
-  std::uint64_t held_bytes_ = 0;
+  std::uint64_t held_bytes_ = 0;                   // what the slabs may hold
+  bool is_read_by_kernel_ = false;  // the last held slab, in this exposure: nothing is added to it meanwhile
 
   std::future<Chunk> reading_;  // ahead
 };

@@ -19,10 +19,7 @@ LightSource light_source(const CaptureFormat& capture, Precision precision, bool
       return {"NUTIK_LIGHT_CURVE", std::move(*curve)};
     }
   }
-  // An entry for every code that can be stored: no damaged file may make a kernel read past the table.
-  std::vector<double> light = capture.transfer.light_of_codes(capture.white_code);
-  light.resize(std::size_t{1} << (8 * capture.code_bytes), light.back());
-  return {"NUTIK_LIGHT_TABLE", std::move(light)};
+  return {"NUTIK_LIGHT_TABLE", capture.transfer.light_of_all_codes(capture.white_code, capture.code_bytes)};
 }
 
 }  // namespace nutik

@@ -51,6 +51,18 @@ bool has_end_code(const Picture& codes) {
                                         : std::ranges::any_of(codes.values<std::uint16_t>(), is_end);
 }
 
+// Nothing is read from a capture any more when its exposure ends, however it does.
+class StoppedAtEnd {
+ public:
+  explicit StoppedAtEnd(BlockFeed& feed) : feed_(feed) {}
+  ~StoppedAtEnd() { feed_.stop(); }
+  StoppedAtEnd(const StoppedAtEnd&) = delete;
+  StoppedAtEnd& operator=(const StoppedAtEnd&) = delete;
+
+ private:
+  BlockFeed& feed_;
+};
+
 // Buffers made in a scope no longer count when it ends.
 class HeldBytes {
  public:
@@ -269,6 +281,7 @@ class OpenClRenderer::Implementation {
     const cl::Buffer transfer = upload(tables.light);
 
     feed_->start(plan, source);
+    const StoppedAtEnd stopped(*feed_);
     bool first = true;
     while (std::optional<BlockFeed::Chunk> chunk = next_chunk()) {
       if (options_.last_block_first) std::reverse(chunk->entries.begin(), chunk->entries.end());

@@ -9,11 +9,11 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/source_text.hpp"
 
 namespace nutik::plot {
 namespace {
 
-constexpr std::uint32_t kLargestSide = 32'767;
 constexpr const char* kFont = "DejaVu Sans";
 
 struct DestroySurface {
@@ -24,6 +24,12 @@ struct DestroyContext {
 };
 using Surface = std::unique_ptr<cairo_surface_t, DestroySurface>;
 using Context = std::unique_ptr<cairo_t, DestroyContext>;
+
+void check(cairo_status_t status) {
+  if (status == CAIRO_STATUS_SUCCESS) return;
+  if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
+  throw OutputError(format("the picture cannot be drawn: {}", cairo_status_to_string(status)));
+}
 
 void set_colour(cairo_t* context, const Colour& colour) {
   cairo_set_source_rgba(context, colour.red, colour.green, colour.blue, colour.opacity);
@@ -67,7 +73,7 @@ Canvas::Canvas(std::uint32_t width, std::uint32_t height, Colour background)
   sheet_->surface.reset(
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width), static_cast<int>(height)));
   sheet_->context.reset(cairo_create(sheet_->surface.get()));
-  if (cairo_status(sheet_->context.get()) != CAIRO_STATUS_SUCCESS) throw std::bad_alloc();
+  check(cairo_status(sheet_->context.get()));
   cairo_set_line_join(sheet_->context.get(), CAIRO_LINE_JOIN_BEVEL);
   fill(Box{0, 0, static_cast<double>(width), static_cast<double>(height)}, background);
 }
@@ -112,7 +118,7 @@ double Canvas::text_width(std::string_view text, const TextStyle& style) const {
   cairo_t* context = sheet_->context.get();
   set_font(context, style);
   cairo_text_extents_t extents;
-  cairo_text_extents(context, std::string(text).c_str(), &extents);
+  cairo_text_extents(context, printable(text).c_str(), &extents);
   return extents.x_advance;
 }
 
@@ -138,7 +144,7 @@ void Canvas::text(Point at, std::string_view text, const TextStyle& style) {
   if (style.upwards) cairo_rotate(context, -kQuarterTurn);
   cairo_move_to(context, left, down);
   set_colour(context, style.colour);
-  cairo_show_text(context, std::string(text).c_str());
+  cairo_show_text(context, printable(text).c_str());
   cairo_restore(context);
 }
 
@@ -146,7 +152,7 @@ void Canvas::picture(const Box& box, const Picture& picture) {
   const auto width = static_cast<int>(picture.shape.width);
   const auto height = static_cast<int>(picture.shape.height);
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
-  if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) throw std::bad_alloc();
+  check(cairo_surface_status(surface.get()));
   cairo_surface_flush(surface.get());
   const std::uint64_t row_pixels =
       static_cast<std::uint64_t>(cairo_image_surface_get_stride(surface.get())) / 4;
@@ -181,9 +187,12 @@ Canvas::Clip::Clip(Canvas& canvas, const Box& box) : canvas_(canvas) {
 Canvas::Clip::~Clip() { cairo_restore(canvas_.sheet_->context.get()); }
 
 Picture Canvas::finished() const {
+  // After its first error Cairo leaves out all that follows, and says so only when asked.
+  check(cairo_status(sheet_->context.get()));
   Picture picture({width_, height_, 3}, ValueType::code8, 255);
   cairo_surface_t* surface = sheet_->surface.get();
   cairo_surface_flush(surface);
+  check(cairo_surface_status(surface));
   const std::uint64_t row_pixels = static_cast<std::uint64_t>(cairo_image_surface_get_stride(surface)) / 4;
   const auto* pixels = reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(surface));
   const auto codes = picture.values<std::uint8_t>();

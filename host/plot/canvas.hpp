@@ -1,7 +1,8 @@
 // A sheet to draw on: text, lines, areas and pictures, smooth at their edges. Cairo's only user.
 //
 //   units:   pixels from the top left; y grows downwards; 0.5 is the middle of the first pixel
-//   always:  what lies outside the sheet is left out; text is UTF-8
+//   always:  what lies outside the sheet is left out; text is UTF-8, and what of it cannot be
+//            shown (bytes that are no UTF-8, controls) stands as escapes: \xe9
 #pragma once
 
 #include <cstdint>
@@ -13,6 +14,8 @@
 #include "plot/colour.hpp"
 
 namespace nutik::plot {
+
+inline constexpr std::uint32_t kLargestSide = 32'767;  // of a sheet, in pixels: Cairo's limit
 
 struct Point {
   double x = 0.0;
@@ -50,7 +53,7 @@ struct LineStyle {
 
 class Canvas {
  public:
-  // Throws UsageError where the sheet would pass 32767 pixels on a side, Cairo's limit.
+  // Throws UsageError where the sheet would pass kLargestSide or have no pixel.
   Canvas(std::uint32_t width, std::uint32_t height, Colour background = kWhite);
   ~Canvas();
   Canvas(const Canvas&) = delete;
@@ -83,7 +86,7 @@ class Canvas {
     Canvas& canvas_;
   };
 
-  // What was drawn: 8-bit colour.
+  // What was drawn: 8-bit colour. Throws std::bad_alloc or OutputError where Cairo could not draw all of it.
   [[nodiscard]] Picture finished() const;
 
  private:

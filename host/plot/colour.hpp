@@ -24,11 +24,9 @@ inline constexpr Colour kText = Colour::of(0x202020);
 inline constexpr Colour kNote = Colour::of(0x505050);
 inline constexpr Colour kGrid = Colour::of(0xd4d4d4);
 inline constexpr Colour kZeroLine = Colour::of(0xa0a0a0);
-inline constexpr Colour kOutside = Colour::of(0xebebeb);  // of the capture
 
 // What adds light and what takes it away.
 inline constexpr Colour kPositive = Colour::of(0x0060a8);
-inline constexpr Colour kNegative = Colour::of(0xc85000);
 inline constexpr Colour kPositiveArea = Colour::of(0x9ecae9);
 inline constexpr Colour kNegativeArea = Colour::of(0xfdc086);
 

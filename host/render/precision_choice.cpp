@@ -34,7 +34,7 @@ std::string error_text(const PictureError& error, const OutputFormat& output) {
                            : is_power_of_two
                                ? format("{}-bit code{}", std::bit_width(output.white_code), plural)
                                : format("code{} of {}", plural, output.white_code);
-  const std::string_view article = step.starts_with('8') ? "of an " : "of a ";
+  const std::string_view article = step.starts_with('8') || step.starts_with("11-") ? "of an " : "of a ";
   return is_one ? format("{}, {:.2g} {}{}", light, error.steps, article, step)
                 : format("{}, {:.3g} {}", light, error.steps, step);
 }

@@ -32,7 +32,7 @@ Trace trace(const RenderPlan& plan, CaptureSource& source, std::size_t function,
   const auto unscaled = [&](double value) { return std::scalbn(value, gain.exponent()); };
   std::array<ValueWalk, 3> walks;
   PageBuffer payload;
-  std::optional<std::uint64_t> walked_last;
+  std::optional<std::uint64_t> block_before;
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     const PlannedBlock& planned = plan.blocks[b];
     // The reference also walks through what other functions need: there it adds zeros, which change no bit.
@@ -43,8 +43,8 @@ Trace trace(const RenderPlan& plan, CaptureSource& source, std::size_t function,
     source.read(planned.block, payload.first(bytes));
     const auto records = read_light(BlockView(plan.capture, planned.extent, payload.first(bytes)));
     const std::vector<SampleTimes> times = source.timeline().times(planned.extent.range());
-    const bool follows = walked_last && *walked_last + 1 == planned.block;
-    walked_last = planned.block;
+    const bool follows = block_before && *block_before + 1 == planned.block;
+    block_before = planned.block;
     const WalkedBlock block{times, follows, times.back().after_ns == plan.duration_ns};
     const std::size_t first_step = trace.steps.size();
     for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
@@ -134,7 +134,8 @@ Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t t
   const auto function = static_cast<std::size_t>(planned - plan.functions.begin());
   const Shape& shape = plan.capture.shape;
   const TileGrid grid(shape);
-  const std::vector<double> light_of = plan.capture.transfer.light_of_codes(plan.capture.white_code);
+  const std::vector<double> light_of =
+      plan.capture.transfer.light_of_all_codes(plan.capture.white_code, plan.capture.code_bytes);
   std::vector<ChangeRecord> history;
   Trace result = trace(plan, source, function, [&](const BlockView& block) {
     LightSum sum(block.extent());

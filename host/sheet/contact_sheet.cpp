@@ -15,7 +15,6 @@ constexpr std::uint32_t kMargin = 12;
 constexpr std::uint32_t kGap = 8;
 constexpr std::uint32_t kLabelHeight = 20;  // below each picture
 constexpr std::uint32_t kHeadingHeight = 26;
-constexpr std::uint32_t kLargestSide = 32'767;
 constexpr double kUsualCell = 240.0;
 constexpr double kUsualAspect = 1.5;  // of the whole sheet
 
@@ -57,13 +56,13 @@ SheetLayout lay_out(const Shape& picture, std::uint32_t count, const SheetWishes
     layout.cell_width = std::min(layout.cell_width, std::max(picture.width, 2 * kNarrowestCell));
   }
   const double height = std::round(static_cast<double>(layout.cell_width) * picture.height / picture.width);
-  layout.cell_height = static_cast<std::uint32_t>(std::clamp(height, 1.0, double{kLargestSide}));
+  layout.cell_height = static_cast<std::uint32_t>(std::clamp(height, 1.0, double{plot::kLargestSide}));
   const double total = static_cast<double>(layout.rows) * (layout.cell_height + kLabelHeight + kGap);
-  if (total > kLargestSide - 2 * kMargin - kHeadingHeight) {
+  if (total > plot::kLargestSide - 2 * kMargin - kHeadingHeight) {
     throw UsageError(format(
         "{} rows of pictures {} pixels high pass the {} that a sheet can have; make fewer pictures, or "
         "smaller ones with more --columns or a smaller --width",
-        layout.rows, layout.cell_height, kLargestSide));
+        layout.rows, layout.cell_height, plot::kLargestSide));
   }
   return layout;
 }

@@ -38,7 +38,8 @@ std::uint32_t code_at(const Picture& picture, std::uint64_t value) {
 Picture thumbnail(const Picture& picture, const Transfer& transfer, std::uint32_t width,
                   std::uint32_t height) {
   const std::uint32_t channels = picture.shape.channels;
-  const std::vector<double> light = transfer.light_of_codes(picture.white_code);
+  const std::vector<double> light =
+      transfer.light_of_all_codes(picture.white_code, static_cast<std::uint32_t>(value_bytes(picture.type)));
   const auto columns = shares(picture.shape.width, width);
   const auto rows = shares(picture.shape.height, height);
   const Transfer srgb = Transfer::srgb();

@@ -8,6 +8,7 @@
 #include "support/moving_square.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
+#include "support/stills.hpp"
 
 namespace nutik {
 namespace {
@@ -64,6 +65,17 @@ class MaskCommand : public testing::Test {
   test::Scratch scratch_;
   MovingSquare scene_;
 };
+
+// A TIFF whose values pass the maximum that it states: neither a crash nor a mask.
+TEST_F(MaskCommand, RefusesAPictureWithCodesAboveItsOwnWhite) {
+  const auto stills = test::random_stills({MovingSquare::kWidth, MovingSquare::kHeight, 1}, 65'535, 1, 1);
+  test::TiffOptions options;
+  options.max_sample_value = 1023;
+  scratch_.write("above.tif", test::tiff_file(stills, options));
+  expect_refused({"mask", "--threshold", "above.tif", "0..500", "-o", "m.pgm", "--preview", "p.png"}, 3,
+                 "above the 1023 that it states");
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "m.pgm"));
+}
 
 // The square's way, and the rest.
 TEST_F(MaskCommand, KnowsWhatMoves) {

@@ -67,6 +67,23 @@ TEST(Canvas, WritesText) {
   EXPECT_GT(marked(canvas.finished()), 20u);
 }
 
+// Cairo takes no such text and then draws nothing any more.
+TEST(Canvas, WritesBytesThatAreNoTextAsEscapesAndGoesOn) {
+  const Box later{0, 40, 200, 20};
+  for (const std::string_view text :
+       {"caf\xe9.png", "\xed\xa0\x80", "a\xef\xbf\xbe", "\xf0\x9f\xbf\xbf", "a\nb"}) {
+    Canvas canvas(200, 60);
+    EXPECT_GT(canvas.text_width(text), canvas.text_width("a"));
+    canvas.text({5, 20}, text);
+    const std::size_t written = marked(canvas.finished());
+    EXPECT_GT(written, 20u);
+    canvas.fill(later, kText);
+    EXPECT_EQ(marked(canvas.finished()), written + 200 * 20);
+  }
+  const Canvas canvas(10, 10);
+  EXPECT_EQ(canvas.text_width("caf\xe9"), canvas.text_width("caf\\xe9"));
+}
+
 TEST(Canvas, RefusesASheetThatNoneCanBe) {
   EXPECT_THROW(Canvas(40'000, 10), UsageError);
   EXPECT_THROW(Canvas(0, 10), UsageError);
@@ -84,7 +101,8 @@ TEST(Graph, PlacesValues) {
 TEST(Graph, AreasHaveAColourOnEachSideOfZero) {
   Canvas canvas(100, 60);
   Graph graph(canvas, Box{10, 10, 80, 40}, {0, 2}, {-1, 1});
-  graph.area(std::array{Point{0, 1}, Point{1, 1}, Point{1, -5}, Point{2, -5}}, kPositive, kNegative);
+  graph.area(std::array{Point{0, 1}, Point{1, 1}, Point{1, -5}, Point{2, -5}}, kPositive,
+             Colour::of(0xc85000));
   const Picture picture = canvas.finished();
   EXPECT_EQ(rgb_at(picture, 20, 20), 0x0060a8u);
   EXPECT_EQ(rgb_at(picture, 70, 40), 0xc85000u);

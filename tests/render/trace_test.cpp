@@ -114,6 +114,18 @@ TEST(Trace, ARegionIsTheMeanOfItsPixels) {
   std::printf("worst difference: %.3g of S\n", worst);
 }
 
+// As a damaged file may have them.
+TEST(Trace, OfARegionTakesCodesAboveWhiteForWhite) {
+  const CaptureFormat format{{8, 4, 1}, 2, 65'535, Transfer::linear(), {}};
+  std::vector<std::byte> raster(format.sample_bytes(), std::byte{0xFF});
+  MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 2),
+                        std::vector{raster, raster}, 2);
+  const FunctionSet functions{{0, GainFunction({{0, 1.0}})}};
+  RenderPlan plan = make_plan(capture, functions, Mask::uniform(8, 4, 0), {});
+  plan.capture.white_code = 1023;
+  EXPECT_EQ(trace_region(plan, capture, 0).light[0], 1.0);
+}
+
 TEST(Trace, NamesWhatThereIsNot) {
   const RandomCase random(3);
   MemoryCapture capture = random.encode();

@@ -51,6 +51,13 @@ TEST(Thumbnail, KeepsChannelsAndDepths) {
   EXPECT_EQ(codes_of(thumbnail(deep, Transfer::srgb(), 1, 1)), (std::vector<int>{188, 0, 188}));
 }
 
+TEST(Thumbnail, TakesCodesAboveWhiteForWhite) {
+  Picture deep({2, 1, 1}, ValueType::code16, 1023);
+  deep.values<std::uint16_t>()[0] = 65'535;
+  deep.values<std::uint16_t>()[1] = 1024;
+  EXPECT_EQ(codes_of(thumbnail(deep, Transfer::srgb(), 2, 1)), (std::vector<int>{255, 255}));
+}
+
 TEST(Thumbnail, KeepsTheMeanLightOfAnyPicture) {
   test::Random random(11);
   for (int i = 0; i < 50; ++i) {

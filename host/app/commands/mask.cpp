@@ -147,7 +147,7 @@ Picture backdrop(const Options& options, const MaskRequest& request, const Mask&
   plan_options.function_name = "the preview's exposure";
   return exposer
       .expose(*capture, functions, Mask::uniform(mask.width, mask.height, 0), plan_options,
-              {format.code_bytes == 1 ? ValueType::code8 : ValueType::code16, format.white_code})
+              {code_type(format), format.white_code})
       .picture;
 }
 

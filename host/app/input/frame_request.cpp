@@ -18,8 +18,7 @@ FrameRequest FrameRequest::from(const Options& options) {
   if (options.functions && options.out_angle) {
     throw UsageError(
         "--out-angle describes plain exposures; with -k the functions say how each frame is exposed, from "
-        "its "
-        "start on. Use one");
+        "its start on. Use one");
   }
   return {options, ExposureRequest::for_frames(options)};
 }

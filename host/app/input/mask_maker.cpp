@@ -19,7 +19,7 @@ struct Overloaded : Cases... {
 };
 
 Picture picture_of(const CaptureFormat& format) {
-  return {format.shape, format.code_bytes == 1 ? ValueType::code8 : ValueType::code16, format.white_code};
+  return {format.shape, code_type(format), format.white_code};
 }
 
 }  // namespace
@@ -37,6 +37,13 @@ Picture read_picture(const std::string& name) {
   const auto clip = open_clip(name, {});
   Picture picture = picture_of(clip->info().format);
   if (!clip->read(picture.bytes)) throw InputError(format("{} has no picture", name));
+  const std::uint32_t largest = largest_code(picture.bytes, clip->info().format.code_bytes);
+  if (largest > picture.white_code) {
+    throw InputError(
+        format("{} cannot be read: it has a code of {}, above the {} that it states as its largest; write it "
+               "again with the right one",
+               name, largest, picture.white_code));
+  }
   return picture;
 }
 

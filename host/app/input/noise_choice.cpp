@@ -65,8 +65,7 @@ std::vector<std::string> noise_notes(const NoiseEstimate& estimate) {
   if (!is_sensor) {
     notes.push_back(
         "the noise is not that of a sensor (compressed clips are not, nor those whose --transfer is "
-        "another): "
-        "lines between the points are used, and nothing is known beyond them");
+        "another): lines between the points are used, and nothing is known beyond them");
   }
   return notes;
 }

@@ -5,18 +5,14 @@
 #include "app/text/number_text.hpp"
 #include "media/picture_writer.hpp"
 #include "media/still_sequence.hpp"
+#include "plot/canvas.hpp"
 
 namespace nutik::app {
-namespace {
-
-constexpr std::uint32_t kLargestSheet = 32'767;
-
-}  // namespace
 
 sheet::SheetWishes sheet_wishes(const Options& options) {
   sheet::SheetWishes wishes;
   if (options.columns) wishes.columns = parse_whole_number(*options.columns, "--columns", 1, 1000);
-  if (options.width) wishes.width = parse_whole_number(*options.width, "--width", 100, kLargestSheet);
+  if (options.width) wishes.width = parse_whole_number(*options.width, "--width", 100, plot::kLargestSide);
   return wishes;
 }
 
@@ -40,7 +36,7 @@ SheetExposures::SheetExposures(const Options& options, CaptureSource& capture, M
       transfer_(capture.format().transfer),
       exposer_(options) {
   const CaptureFormat& format = capture.format();
-  format_.type = format.code_bytes == 1 ? ValueType::code8 : ValueType::code16;
+  format_.type = code_type(format);
   format_.white_code = format.white_code;
   format_.negative = negative_light(options, format_.type, {});
   exposer_.hold(capture);

@@ -11,15 +11,11 @@ std::optional<Depth> stated_depth(const Options& options) {
   return options.depth ? std::optional(parse_depth(*options.depth)) : std::nullopt;
 }
 
-ValueType usual_type(const CaptureFormat& capture) {
-  return capture.code_bytes == 1 ? ValueType::code8 : ValueType::code16;
-}
-
 // A picture of the capture's own depth has the capture's codes; another depth its full range.
 OutputFormat format_of(ValueType type, const CaptureFormat& capture) {
   OutputFormat format;
   format.type = type;
-  format.white_code = type == usual_type(capture) ? capture.white_code
+  format.white_code = type == code_type(capture)  ? capture.white_code
                       : type == ValueType::code16 ? 65'535
                                                   : 255;
   return format;
@@ -47,14 +43,14 @@ NegativeLight negative_light(const Options& options, ValueType type, const std::
 OutputFormat output_format(const Options& options, const std::filesystem::path& output,
                            const CaptureFormat& capture) {
   OutputFormat chosen = format_of(
-      value_type_for(output, stated_depth(options), usual_type(capture), capture.shape.channels), capture);
+      value_type_for(output, stated_depth(options), code_type(capture), capture.shape.channels), capture);
   chosen.negative = negative_light(options, chosen.type, output);
   return chosen;
 }
 
 OutputFormat output_format(const Options& options, const CaptureFormat& capture) {
   const std::optional<Depth> depth = stated_depth(options);
-  const ValueType type = !depth                   ? usual_type(capture)
+  const ValueType type = !depth                   ? code_type(capture)
                          : depth == Depth::bits8  ? ValueType::code8
                          : depth == Depth::bits16 ? ValueType::code16
                                                   : ValueType::light32;

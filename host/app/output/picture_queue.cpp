@@ -9,6 +9,7 @@ namespace nutik::app {
 
 PictureQueue::PictureQueue(Failed failed)
     : writing_(std::async(std::launch::async, [this, failed = std::move(failed)] {
+        const ClosedAtEnd closed(jobs_);  // nobody waits for a writer that is gone
         while (const auto job = jobs_.pop()) {
           try {
             write_picture(job->path, job->picture, job->text);

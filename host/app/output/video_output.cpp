@@ -34,7 +34,7 @@ OutputFormat VideoOutput::frame_format(const CaptureFormat& capture) const {
   if (codec_ == nullptr) return output_format(options_, path_, capture);
   const std::optional<Depth> wish =
       options_.depth ? std::optional(parse_depth(*options_.depth)) : std::nullopt;
-  const ValueType usual = capture.code_bytes == 1 ? ValueType::code8 : ValueType::code16;
+  const ValueType usual = code_type(capture);
   OutputFormat output;
   output.type = video_value_type(*codec_, wish, usual);
   output.white_code = output.type == ValueType::code8 ? 255 : 65'535;  // what players take for white

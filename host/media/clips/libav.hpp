@@ -54,9 +54,16 @@ inline std::string error_text(int code) {
   return text;
 }
 
+// What an allocation handed out. Throws std::bad_alloc where that is nothing.
+template <typename Pointer>
+Pointer allocated(Pointer pointer) {
+  if (pointer == nullptr) throw std::bad_alloc();
+  return pointer;
+}
+
 // A picture with room behind its rows for the whole vectors that libswscale writes.
 inline FramePointer new_frame(AVPixelFormat pixels, int width, int height) {
-  FramePointer frame(av_frame_alloc());
+  FramePointer frame(allocated(av_frame_alloc()));
   frame->format = pixels;
   frame->width = width;
   frame->height = height;

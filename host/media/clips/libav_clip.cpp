@@ -13,12 +13,12 @@ class LibavClip final : public Clip {
         opened_(open_video(path, options.raw)),
         coded_(probe.shape),
         converter_(probe.pixels, probe.quarter_turns),
-        packet_(av_packet_alloc()),
-        frame_(av_frame_alloc()) {
+        packet_(allocated(av_packet_alloc())),
+        frame_(allocated(av_frame_alloc())) {
     const AVCodecParameters* parameters = stream().codecpar;
     const AVCodec* decoder = avcodec_find_decoder(parameters->codec_id);
     if (decoder == nullptr) throw InputError(format("{}: no decoder here knows its pictures", name_));
-    codec_.reset(avcodec_alloc_context3(decoder));
+    codec_.reset(allocated(avcodec_alloc_context3(decoder)));
     codec_->thread_count = 0;  // as many as there are cores
     codec_->err_recognition = AV_EF_CRCCHECK;
     if (avcodec_parameters_to_context(codec_.get(), parameters) < 0 ||

@@ -49,10 +49,32 @@ AVColorTransferCharacteristic characteristic_of(const Transfer& transfer) {
   return AVCOL_TRC_UNSPECIFIED;
 }
 
+// What an encoder is told by name.
+class Settings {
+ public:
+  Settings() = default;
+  ~Settings() { av_dict_free(&entries_); }
+  Settings(const Settings&) = delete;
+  Settings& operator=(const Settings&) = delete;
+
+  void set(const char* name, const char* value) {
+    if (av_dict_set(&entries_, name, value, 0) < 0) throw std::bad_alloc();
+  }
+  AVDictionary** get() { return &entries_; }
+  // Of an entry that is left.
+  [[nodiscard]] std::optional<std::string> first_name() const {
+    const AVDictionaryEntry* entry = av_dict_get(entries_, "", nullptr, AV_DICT_IGNORE_SUFFIX);
+    return entry == nullptr ? std::nullopt : std::optional<std::string>(entry->key);
+  }
+
+ private:
+  AVDictionary* entries_ = nullptr;
+};
+
 class LibavVideoWriter final : public VideoWriter {
  public:
   LibavVideoWriter(const std::filesystem::path& path, const VideoFormat& video, const VideoCodec& codec)
-      : name_(path.string()), video_(video), file_(path), packet_(av_packet_alloc()) {
+      : name_(path.string()), video_(video), file_(path), packet_(allocated(av_packet_alloc())) {
     const auto padded = [&](std::uint32_t side) {
       return static_cast<int>(codec.pairs_pixels ? side + side % 2 : side);
     };
@@ -84,7 +106,13 @@ class LibavVideoWriter final : public VideoWriter {
     if (scaler_) {
       frame = encoded_.get();
       check(av_frame_make_writable(frame));
-      sws_scale(scaler_.get(), picture_->data, picture_->linesize, 0, height_, frame->data, frame->linesize);
+      const int rows = sws_scale(scaler_.get(), picture_->data, picture_->linesize, 0, height_, frame->data,
+                                 frame->linesize);
+      check(rows);
+      if (rows != height_) {
+        throw OutputError(format("{} cannot be written: FFmpeg converted {} of {} rows of frame {}", name_,
+                                 rows, height_, frames_written_));
+      }
     }
     frame->pts = frames_written_++;
     encode(frame);
@@ -110,8 +138,7 @@ class LibavVideoWriter final : public VideoWriter {
     // The name chooses the container; the file itself has a temporary one.
     check(avformat_alloc_output_context2(&context, nullptr, nullptr, path.filename().c_str()));
     muxer_.reset(context);
-    stream_ = avformat_new_stream(context, nullptr);
-    if (stream_ == nullptr) throw std::bad_alloc();
+    stream_ = allocated(avformat_new_stream(context, nullptr));
   }
 
   void open_encoder(const VideoCodec& codec) {
@@ -122,7 +149,7 @@ class LibavVideoWriter final : public VideoWriter {
                  "another --video-codec",
                  name_, codec.encoder, codec.name));
     }
-    encoder_.reset(avcodec_alloc_context3(encoder));
+    encoder_.reset(allocated(avcodec_alloc_context3(encoder)));
     AVCodecContext& context = *encoder_;
     context.width = width_;
     context.height = height_;
@@ -142,23 +169,28 @@ class LibavVideoWriter final : public VideoWriter {
     context.color_trc = characteristic_of(video_.transfer);
     if ((muxer_->oformat->flags & AVFMT_GLOBALHEADER) != 0) context.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
 
-    AVDictionary* settings = nullptr;
+    Settings settings;
     if (codec.name == "ffv1") {
-      av_dict_set(&settings, "level", "3", 0);  // slices, which are packed side by side and carry checksums
-      av_dict_set(&settings, "slicecrc", "1", 0);
+      settings.set("level", "3");  // slices, which are packed side by side and carry checksums
+      settings.set("slicecrc", "1");
       context.gop_size = 1;
     } else if (codec.name == "mjpeg") {
       context.flags |= AV_CODEC_FLAG_QSCALE;
       context.global_quality = 2 * FF_QP2LAMBDA;
     } else if (codec.name != "prores") {
-      av_dict_set(&settings, "crf", kQuality, 0);
-      if (codec.name == "h265") av_dict_set(&settings, "x265-params", "log-level=none", 0);
-      if (codec.name == "vp9") av_dict_set(&settings, "row-mt", "1", 0);
-      if (codec.name == "vp9") av_dict_set(&settings, "cpu-used", "4", 0);
+      settings.set("crf", kQuality);
+      if (codec.name == "h265") settings.set("x265-params", "log-level=none");
+      if (codec.name == "vp9") settings.set("row-mt", "1");
+      if (codec.name == "vp9") settings.set("cpu-used", "4");
     }
-    const int code = avcodec_open2(&context, encoder, &settings);
-    av_dict_free(&settings);
-    check(code);
+    check(avcodec_open2(&context, encoder, settings.get()));
+    // What an encoder does not know it leaves: the video would be another one than was asked for.
+    if (const auto left = settings.first_name()) {
+      throw OutputError(
+          format("{} cannot be written: the FFmpeg here has an encoder {} that does not know the setting {}; "
+                 "choose another --video-codec",
+                 name_, codec.encoder, *left));
+    }
     check(avcodec_parameters_from_context(stream_->codecpar, &context));
     stream_->time_base = context.time_base;
     stream_->avg_frame_rate = context.framerate;
@@ -170,14 +202,13 @@ class LibavVideoWriter final : public VideoWriter {
 
   void open_scaler() {
     const auto from = static_cast<AVPixelFormat>(picture_->format);
-    scaler_.reset(sws_getContext(width_, height_, from, width_, height_, encoder_->pix_fmt,
-                                 SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr, nullptr,
-                                 nullptr));
-    if (!scaler_) throw std::bad_alloc();
+    scaler_.reset(allocated(sws_getContext(width_, height_, from, width_, height_, encoder_->pix_fmt,
+                                           SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr,
+                                           nullptr, nullptr)));
     constexpr int kOne = 1 << 16;  // contrast and saturation
-    sws_setColorspaceDetails(scaler_.get(), sws_getCoefficients(SWS_CS_SMPTE170M), 1,
-                             sws_getCoefficients(SWS_CS_SMPTE170M),
-                             encoder_->color_range == AVCOL_RANGE_JPEG ? 1 : 0, 0, kOne, kOne);
+    check(sws_setColorspaceDetails(scaler_.get(), sws_getCoefficients(SWS_CS_SMPTE170M), 1,
+                                   sws_getCoefficients(SWS_CS_SMPTE170M),
+                                   encoder_->color_range == AVCOL_RANGE_JPEG ? 1 : 0, 0, kOne, kOne));
   }
 
   // Into picture_, whose sides may be one longer.

@@ -171,7 +171,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   }
 
   std::vector<std::int64_t> times;
-  const PacketPointer packet(av_packet_alloc());
+  const PacketPointer packet(allocated(av_packet_alloc()));
   int code = 0;
   while ((code = av_read_frame(opened.format.get(), packet.get())) >= 0) {
     const bool counts = packet->stream_index == opened.stream && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;

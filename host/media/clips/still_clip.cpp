@@ -109,8 +109,7 @@ class StillClip final : public Clip {
     capture.transfer = first_.code_bytes == 1 ? Transfer::srgb() : Transfer::linear();
     if (capture.code_bytes == 2 && !first_.maximum && !options.white_code) {
       info_.notes.push_back(
-          "the files do not say how many of their 16 bits are used: white is taken to be 65535; "
-          "state "
+          "the files do not say how many of their 16 bits are used: white is taken to be 65535; state "
           "another with --white (12 bits: 4095)");
     }
     info_.timing = timing;
