@@ -152,7 +152,10 @@ double in_steps(const RenderPlan& plan, const GainSummary& gain, double light, d
     return code_error(plan.capture.transfer, output.white_code, light + threshold);
   }
   const double scale = gain.error_scale();
-  return scale > 0.0 ? light / (scale * format_step(output.type)) : 0.0;
+  // Numbers of the format have no smaller steps than its least one.
+  const double least = output.type == ValueType::light64 ? std::numeric_limits<double>::denorm_min()
+                                                         : std::numeric_limits<float>::denorm_min();
+  return scale > 0.0 ? light / std::max(scale * format_step(output.type), least) : 0.0;
 }
 
 }  // namespace

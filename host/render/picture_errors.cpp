@@ -65,14 +65,13 @@ StoredErrors real_errors(const RenderPlan& plan, const ErrorBound& bound, const 
   for (std::uint64_t i = 0; i < errors.values; ++i) {
     if (reals[i] == static_cast<Real>(light[i])) continue;
     ++errors.differing;
-    const Real magnitude = std::fabs(reals[i]);
-    const double half_step =
-        (static_cast<double>(std::nextafter(magnitude, std::numeric_limits<Real>::infinity())) -
-         static_cast<double>(magnitude)) /
-        2;
-    const double error = std::fabs(static_cast<double>(reals[i]) - light[i]);
-    if (error <= bound_of_value(plan, bound, i).light + half_step)
-      ++errors.explained;  // never where it is NaN
+    // Rounding keeps the order, also beyond the largest number: what lies between is what some light within the
+    // bound is stored as. Never where it is no number.
+    const double allowed = bound_of_value(plan, bound, i).light;
+    if (static_cast<Real>(light[i] - allowed) <= reals[i] &&
+        reals[i] <= static_cast<Real>(light[i] + allowed)) {
+      ++errors.explained;
+    }
   }
   return errors;
 }
@@ -85,7 +84,6 @@ LightErrors light_errors(const RenderPlan& plan, const ErrorBound& bound, const 
   const auto wanted = expected.values<double>();
   const auto found = light.values<double>();
   LightErrors errors;
-  double squares = 0.0;
   for (std::uint64_t i = 0; i < wanted.size(); ++i) {
     if (found[i] == wanted[i]) continue;
     double error = std::fabs(found[i] - wanted[i]);
@@ -94,7 +92,7 @@ LightErrors light_errors(const RenderPlan& plan, const ErrorBound& bound, const 
       errors.worst = error;
       errors.worst_value = i;
     }
-    squares += error * error;
+    errors.rms = std::hypot(errors.rms, error);  // squares of large light would overflow
     errors.share_of_bound = std::max(errors.share_of_bound, error / bound_of_value(plan, bound, i).light);
     // A full scale where it is no number.
     const double share_of_white = error == kInfinite
@@ -104,7 +102,7 @@ LightErrors light_errors(const RenderPlan& plan, const ErrorBound& bound, const 
     errors.worst_8_bit_codes = std::max(errors.worst_8_bit_codes, 255 * share_of_white);
     errors.worst_16_bit_codes = std::max(errors.worst_16_bit_codes, 65'535 * share_of_white);
   }
-  errors.rms = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, wanted.size())));
+  errors.rms /= std::sqrt(static_cast<double>(std::max<std::size_t>(1, wanted.size())));
   return errors;
 }
 

@@ -76,6 +76,22 @@ TEST_F(PictureErrors, OfFloatsAllowForTheirStep) {
   EXPECT_EQ(errors.explained, 1u);
 }
 
+// Beyond the largest float infinity is right where some light within the bound is stored so, and wrong elsewhere.
+TEST_F(PictureErrors, OfFloatsBeyondTheLargest) {
+  Picture floats(format_.shape, ValueType::light32, 0);
+  std::ranges::copy(std::vector{INFINITY, -INFINITY, INFINITY, -INFINITY}, floats.values<float>().begin());
+  const StoredErrors errors =
+      stored_errors(plan_, bound(1e36, 0), light({3.4e38, -3.4e38, 3.3e38, 3.4e38}), floats);
+  EXPECT_EQ(errors.differing, 4u);
+  EXPECT_EQ(errors.explained, 2u);
+}
+
+TEST_F(PictureErrors, OfLightWhoseSquareIsNoNumber) {
+  const LightErrors errors =
+      light_errors(plan_, bound(1e201, 0), light({0, 0, 0, 0}), light({3e200, 0, 4e200, 0}));
+  EXPECT_NEAR(errors.rms, 2.5e200, 1e188);
+}
+
 // What validate's exit status comes from: a picture is right only where every value is.
 TEST_F(PictureErrors, OneWrongValueExceedsTheBound) {
   const Picture expected = light({0.1, 0.2, 0.3, 0.4});
