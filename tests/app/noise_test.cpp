@@ -121,7 +121,7 @@ TEST_F(Noise, SaysWhatCannotBe) {
   expect_refused({"noise", "short", "-o", "a.noise"}, 3, "2 pictures of a still scene");
   expect_refused({"noise", "clip", "deep", "-o", "a.noise"}, 3,
                  "deep is of another kind than clip: 120 x 64 pixels, 3 channels, 16 bits, white code 4095");
-  expect_refused({"noise", "clip", "-o", "clip.tik"}, 2, "clip.tik exists and is no noise file");
+  expect_refused({"noise", "clip", "-o", "clip.tik"}, 2, "clip.tik is no name for a text");
   const std::vector<std::string> encode{"encode", "-f", "100", "clip", "-o", "b.tik"};
   const auto with = [&](std::initializer_list<std::string> more) {
     std::vector<std::string> words = encode;
