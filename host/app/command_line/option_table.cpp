@@ -20,7 +20,8 @@ std::string_view Option::file_extension() const {
 }
 
 bool Option::takes_file() const {
-  return value.starts_with("FILE") || value.starts_with("CLIP") || value.starts_with("PICTURE") || !file_extension().empty();
+  return value.starts_with("FILE") || value.starts_with("CLIP") || value.starts_with("PICTURE") ||
+         !file_extension().empty();
 }
 
 std::size_t Option::word_count() const {
