@@ -6,7 +6,6 @@
 namespace nutik {
 namespace {
 
-constexpr std::int64_t kSecondNs = 1'000'000'000;
 constexpr std::int64_t kLargestTerm = 1'000'000'000;  // keeps every product below 2^126
 constexpr std::int64_t kFinestAngle = 1'000'000;
 constexpr std::int64_t kLongestFrameNs = 1'000'000'000'000'000'000;

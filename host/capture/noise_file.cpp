@@ -1,20 +1,19 @@
 #include "capture/noise_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/picture.hpp"
 #include "capture/source_text.hpp"
 
 namespace nutik {
 namespace {
 
 constexpr std::string_view kFirstLine = "nutik noise 0";
-constexpr std::array<std::string_view, 4> kChannelNames{"grey", "red", "green", "blue"};
 constexpr std::size_t kMostMistakes = 20;
 
 struct Word {
@@ -145,15 +144,15 @@ class Parser {
     seen_ = {};
     channel_at_ = words.front().at;
     if (!has_values(words, 1, "channel red")) return;
-    if (channel == 0) is_grey_ = words[1].text == kChannelNames[0];
+    if (channel == 0) is_grey_ = words[1].text == channel_name(1, 0);
     const std::size_t most = is_grey_ ? 1 : 3;
     if (channel >= most) {
       report(words[1].at, "there is a channel too many: a file has grey alone, or red, green and blue");
-    } else if (words[1].text != kChannelNames[is_grey_ ? 0 : channel + 1]) {
+    } else if (words[1].text != channel_name(most, channel)) {
       report(words[1].at,
              format("channel {} where {} was expected; a file has grey alone, or red, green and "
                     "blue in this order",
-                    quoted(words[1].text), channel == 0 ? "grey or red" : kChannelNames[channel + 1]));
+                    quoted(words[1].text), channel == 0 ? "grey or red" : channel_name(3, channel)));
     }
   }
 
@@ -249,7 +248,7 @@ std::vector<std::string> noise_lines(const CameraNoise& noise) {
                                  format("transfer {}", noise.transfer.text())};
   for (std::size_t c = 0; c < noise.channels.size(); ++c) {
     const ChannelNoise& channel = noise.channels[c];
-    lines.push_back(format("channel {}", kChannelNames[noise.channels.size() == 1 ? 0 : c + 1]));
+    lines.push_back(format("channel {}", channel_name(noise.channels.size(), c)));
     lines.push_back(format("read {}", channel.read));
     lines.push_back(format("shot {}", channel.shot));
     lines.push_back(format("curve {}", to_text(channel.curve)));

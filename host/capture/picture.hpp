@@ -26,6 +26,15 @@ struct Shape {
   friend bool operator==(const Shape&, const Shape&) = default;
 };
 
+// `grey`, or `red`, `green`, `blue` of three.
+[[nodiscard]] constexpr const char* channel_name(std::size_t channels, std::size_t channel) {
+  constexpr const char* kNames[] = {"red", "green", "blue"};
+  return channels == 1 ? "grey" : kNames[channel];
+}
+
+// What red, green and blue add to the brightness of a colour (ITU-R BT.709).
+inline constexpr double kLuma[3] = {0.2126, 0.7152, 0.0722};
+
 // What the codes of a capture are.
 struct CaptureFormat {
   Shape shape;

@@ -8,6 +8,8 @@
 
 namespace nutik {
 
+inline constexpr std::int64_t kSecondNs = 1'000'000'000;
+
 __extension__ typedef __int128 int128;
 
 // A fraction in lowest terms. denominator > 0.

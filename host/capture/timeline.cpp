@@ -9,7 +9,6 @@
 namespace nutik {
 namespace {
 
-constexpr std::int64_t kSecondNs = 1'000'000'000;
 constexpr double kLongestNs = 4.6e18;                 // 2^62
 constexpr std::int64_t kLargestTerm = 1'000'000'000;  // keeps every product below 2^126
 

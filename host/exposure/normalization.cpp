@@ -54,7 +54,6 @@ double Normalization::divided_by(const GainSummary& summary, const std::string& 
     case Divisor::absolute: return std::scalbn(support_ns / summary.absolute_integral_ns, -summary.exponent);
     case Divisor::seconds: break;
   }
-  constexpr std::int64_t kSecondNs = 1'000'000'000;
   return static_cast<double>(static_cast<int128>(summary.support_ns) * seconds_.denominator) /
          static_cast<double>(static_cast<int128>(seconds_.numerator) * kSecondNs);
 }

@@ -86,7 +86,6 @@ Region spanning_more(const Shape& shape, std::span<const std::uint32_t> spans, s
 }
 
 Region between(const Picture& picture, double low, double high) {
-  constexpr double kLuma[3] = {0.2126, 0.7152, 0.0722};
   Region region = Region::none(picture.shape.width, picture.shape.height);
   const std::uint32_t channels = picture.shape.channels;
   double brightness = 0.0;

@@ -63,7 +63,7 @@ Picture tinted(const Mask& mask, const std::vector<Tag>& tags, const Picture& en
       const auto code = [&](std::uint32_t channel) {
         return static_cast<double>(source[pixel * channels + std::min(channel, channels - 1)]);
       };
-      const double grey = 0.2126 * code(0) + 0.7152 * code(1) + 0.0722 * code(2);
+      const double grey = kLuma[0] * code(0) + kLuma[1] * code(1) + kLuma[2] * code(2);
       const std::array<double, 3> colour{colours[tag].red, colours[tag].green, colours[tag].blue};
       for (std::uint32_t channel = 0; channel < 3; ++channel) {
         const double tint = is_border ? 1.0 : kTint;

@@ -124,7 +124,7 @@ void draw_heading(plot::Canvas& canvas, std::string heading) {
 void draw_legend(plot::Canvas& canvas, const plot::Box& box, const Trace& trace) {
   double right = box.right();
   for (std::uint32_t channel = trace.channels; channel-- > 0;) {
-    const std::string name = channel_name(trace, channel);
+    const std::string name = channel_name(trace.channels, channel);
     const plot::TextStyle style{.size = 12, .colour = plot::kNote, .align = plot::Align::right};
     canvas.text({right, box.y - 7}, name, style);
     right -= canvas.text_width(name, style) + 5;

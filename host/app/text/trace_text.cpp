@@ -35,11 +35,6 @@ bool is_zero(const TraceStep& step) { return step.begin_gain == 0.0 && step.end_
 
 }  // namespace
 
-const char* channel_name(const Trace& trace, std::uint32_t channel) {
-  constexpr std::array<const char*, 3> kNames{"red", "green", "blue"};
-  return trace.channels == 1 ? "grey" : kNames[channel];
-}
-
 std::string light_text(const Trace& trace) {
   return by_channel(trace, [&](std::uint32_t channel) { return number(trace.light[channel]); });
 }
@@ -108,7 +103,7 @@ std::string steps_csv(const Trace& trace) {
   std::string text = "begin_ns,end_ns,begin_gain,end_gain";
   for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
     for (const char* column : {"begin_light", "end_light", "integral_ns", "sum_ns"}) {
-      text += format(",{}_{}", channel_name(trace, channel), column);
+      text += format(",{}_{}", channel_name(trace.channels, channel), column);
     }
   }
   for (const TraceStep& step : trace.steps) {

@@ -12,8 +12,6 @@
 
 namespace nutik::app {
 
-// `red`, `green`, `blue`; `grey` where there is one channel.
-[[nodiscard]] const char* channel_name(const Trace& trace, std::uint32_t channel);
 // The exposure's light by channel: `0.2159 0.301 0.112`.
 [[nodiscard]] std::string light_text(const Trace& trace);
 

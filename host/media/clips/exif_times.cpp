@@ -13,8 +13,6 @@
 namespace nutik::clips {
 namespace {
 
-constexpr std::int64_t kSecondNs = 1'000'000'000;
-
 struct FreeExif {
   void operator()(ExifData* data) const { exif_data_unref(data); }
 };

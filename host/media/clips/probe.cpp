@@ -8,8 +8,6 @@
 namespace nutik::clips {
 namespace {
 
-constexpr std::int64_t kSecondNs = 1'000'000'000;
-
 std::optional<Transfer> transfer_of(AVColorTransferCharacteristic characteristic) {
   switch (characteristic) {
     case AVCOL_TRC_BT709:
