@@ -136,8 +136,7 @@ BlockFeed::Chunk BlockFeed::read_chunk() {
     const Place place = read_block(*slab, planned, bytes);
     chunk.entries.push_back(entry(place.offset));
     chunk.payload_bytes += bytes;
-    if (!stays) continue;
-    held_.emplace(planned.block, place);
+    if (stays) held_.emplace(planned.block, place);
   }
   is_read_by_kernel_ |= stays;
   chunk.payload = buffer_of(*slab);

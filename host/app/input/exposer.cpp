@@ -32,15 +32,14 @@ Exposed Exposer::expose(CaptureSource& source, const FunctionSet& functions, con
                         const PlanOptions& plan_options, const OutputFormat& format) {
   RenderPlan plan = make_plan(source, functions, mask, plan_options);
   if (!renderer_) {
-    // Kernels are loaded beside the first block. Where either fails the device is there for the next exposure.
+    // Kernels are loaded beside the first block. Where that fails the device is there for the next exposure.
     auto ready = std::async(std::launch::async, [&] {
-      if (!started_) started_ = starting_.get();
-      started_->hold(held_);
-      started_->prepare(plan, format);
+      renderer_ = starting_.get();
+      renderer_->hold(held_);
+      renderer_->prepare(plan, format);
     });
     if (!plan.blocks.empty()) source.preload(plan.blocks.front().block);
     ready.get();
-    renderer_ = std::move(started_);
   }
   Picture picture = renderer_->render(plan, source, format);
   if (std::string warning = renderer_->warning(); !warning.empty())

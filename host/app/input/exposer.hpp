@@ -44,7 +44,6 @@ class Exposer {
 
  private:
   std::future<std::unique_ptr<Renderer>> starting_;
-  std::unique_ptr<Renderer> started_;  // until something could be exposed with it
   std::unique_ptr<Renderer> renderer_;
   const CaptureSource* held_ = nullptr;
 };
