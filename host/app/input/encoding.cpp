@@ -14,11 +14,6 @@ namespace {
 
 constexpr std::size_t kPayloads = 2;
 
-// Enough that decoding goes on while a block is closed.
-std::size_t raster_count(const CaptureFormat& capture, const MemoryBudget& memory) {
-  return std::clamp<std::uint64_t>(memory.read_ahead_bytes() / capture.sample_bytes(), 2, 64);
-}
-
 }  // namespace
 
 Encoding::Encoding(SourceClip source, const SourceOptions& options, const tik::Codec& codec,
@@ -29,32 +24,24 @@ Encoding::Encoding(SourceClip source, const SourceOptions& options, const tik::C
       builder_(source_.capture, source_.block_samples, options.tiles),
       // Before anything is read, so that times that cannot be used are said at once.
       times_(timeline_for(std::max<std::uint64_t>(source_.clip->info().sample_count, 1))),
-      rasters_(raster_count(source_.capture, options.memory)),
-      spare_rasters_(raster_count(source_.capture, options.memory)),
+      samples_(*source_.clip, options.memory.read_ahead_bytes()),
+      first_(samples_.next()),
       blocks_(kPayloads),
       spare_payloads_(kPayloads) {
-  Raster first(source_.capture.sample_bytes());
-  if (!source_.clip->read(first)) throw InputError(format("{} has no picture", input));
+  if (first_.empty()) throw InputError(format("{} has no picture", input));
   tik::Header header;
   header.capture = held_format(source_.capture);
   const ClipTiming& timing = source_.clip->info().timing;
   header.rate = options.clip.rate ? options.clip.rate : timing.rate;
   header.shutter_angle = times_.shutter_angle();
-  writer_.emplace(output, header, codec, to_held_codes(source_.capture, first));
-  for (std::size_t i = 1; i < raster_count(source_.capture, options.memory); ++i) {
-    spare_rasters_.push(Raster(source_.capture.sample_bytes()));
-  }
+  writer_.emplace(output, header, codec, to_held_codes(source_.capture, first_));
   for (std::size_t i = 0; i < kPayloads; ++i) spare_payloads_.push(PageBuffer());
-  rasters_.push(std::move(first));
 }
 
 Timeline Encoding::run(Progress& progress) {
   auto storing = std::async(std::launch::async, [this] { store(); });
-  auto building = std::async(std::launch::async, [this] { build(); });
-  const std::uint64_t samples = decode(progress);
-  // A stage that failed closed the channels of the one before it, which then ended without an error.
+  const std::uint64_t samples = build(progress);
   storing.get();
-  building.get();
   Timeline timeline = timeline_for(samples);
   writer_->finish(timeline);
   warn_of_count(samples);
@@ -75,27 +62,17 @@ void Encoding::warn_of_count(std::uint64_t samples) const {
              input_, announced, samples));
 }
 
-std::uint64_t Encoding::decode(Progress& progress) {
-  const ClosedAtEnd closed(rasters_);
-  std::uint64_t samples = 1;  // the first is on its way
-  while (auto raster = spare_rasters_.pop()) {
+std::uint64_t Encoding::build(Progress& progress) {
+  const ClosedAtEnd closed(blocks_);
+  std::uint64_t samples = 0;
+  for (std::span<const std::byte> raster = first_; !raster.empty(); raster = samples_.next()) {
     check_interruption();
-    progress.show(samples);
-    if (!source_.clip->read(*raster)) break;
-    if (!rasters_.push(std::move(*raster))) break;
-    ++samples;
-  }
-  return samples;
-}
-
-void Encoding::build() {
-  const ClosedAtEnd closed(rasters_, spare_rasters_, blocks_);
-  while (auto raster = rasters_.pop()) {
-    builder_.add(*raster);
-    spare_rasters_.push(std::move(*raster));
-    if (builder_.is_full() && !hand_over_block()) return;
+    progress.show(++samples);
+    builder_.add(raster);
+    if (builder_.is_full() && !hand_over_block()) return samples;
   }
   if (!builder_.is_empty()) hand_over_block();
+  return samples;
 }
 
 bool Encoding::hand_over_block() {

@@ -1,19 +1,21 @@
 // Turns a clip into a capture file: three stages side by side, so that decoding goes on while a block is closed,
 // packed and written.
 //
-//   this thread     decodes samples               │ rasters, reused
-//   a second        builds blocks from them       │ payloads, reused
-//   a third         packs and writes the blocks
+//   a thread        decodes samples               │ rasters, reused (media/read_ahead.hpp)
+//   this one        builds blocks from them       │ payloads, reused
+//   another         packs and writes the blocks
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/input/capture_input.hpp"
 #include "app/output/progress.hpp"
+#include "media/read_ahead.hpp"
 #include "system/channel.hpp"
 #include "tik/writer.hpp"
 
@@ -34,8 +36,6 @@ class Encoding {
   [[nodiscard]] const SourceClip& source() const { return source_; }
 
  private:
-  using Raster = std::vector<std::byte>;
-
   struct Block {
     BlockExtent extent;
     PageBuffer payload;
@@ -44,9 +44,8 @@ class Encoding {
 
   [[nodiscard]] Timeline timeline_for(std::uint64_t samples) const;
   void warn_of_count(std::uint64_t samples) const;
-  std::uint64_t decode(Progress& progress);
-  void build();
-  bool hand_over_block();  // false where nobody stores blocks any more
+  std::uint64_t build(Progress& progress);  // how many samples there were
+  bool hand_over_block();                   // false where nobody stores blocks any more
   void store();
 
   SourceClip source_;
@@ -56,9 +55,9 @@ class Encoding {
   Timeline times_;  // as announced
   std::optional<tik::Writer> writer_;
 
-  Channel<Raster> rasters_;  // decoded
-  Channel<Raster> spare_rasters_;
-  Channel<Block> blocks_;  // built
+  ReadAhead samples_;
+  std::span<const std::byte> first_;  // the first sample, until the next is asked for
+  Channel<Block> blocks_;             // built
   Channel<PageBuffer> spare_payloads_;
 };
 
