@@ -4,6 +4,7 @@
 #include "app/input/opened_capture.hpp"
 #include "app/input/sheet_exposures.hpp"
 #include "app/input/sweep_values.hpp"
+#include "app/output/ending.hpp"
 #include "app/output/exposure_report.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
@@ -180,18 +181,12 @@ int run_contact(const Options& options) {
     print_json(json);
     return 0;
   }
-  if (options.quiet) {
-    if (!options.output && options.operands.size() < 2)
-      print_line(output.string());  // a name that nobody gave
-    return 0;
-  }
+  if (ended_quietly(options, output)) return 0;
   print_line(format("{}: {} exposures of {}, {} columns, {} rows{}, {:.2f} s on {}", output.string(),
                     exposures.size(), length, layout.columns, layout.rows,
                     saturation_text(exposing.saturation(), exposing.type()), stopwatch.seconds(),
                     exposing.exposer().renderer_name()));
-  if (const std::string report = exposing.exposer().report(); options.verbose && !report.empty())
-    print_line(report);
-  for (const std::string& note : opened.notes()) print_note(note);
+  print_details(options, exposing.exposer(), opened.notes());
   return 0;
 }
 

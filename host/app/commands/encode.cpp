@@ -4,6 +4,7 @@
 #include "app/input/capture_input.hpp"
 #include "app/input/encoding.hpp"
 #include "app/output/console.hpp"
+#include "app/output/ending.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/stopwatch.hpp"
@@ -57,21 +58,14 @@ int run_encode(const Options& options) {
     print_json(json);
     return 0;
   }
-  if (options.quiet) {
-    if (!options.output && options.operands.size() < 2)
-      print_line(output.string());  // a name that nobody gave
-    return 0;
-  }
+  if (ended_quietly(options, output)) return 0;
 
   const CaptureFormat& capture = encoding.source().capture;
   print_line(format("{}: {}, {} samples, {}, {} of {} raw, {:.2f} s", output.string(),
                     shape_text(capture.shape), timeline.sample_count(), timing_text(timeline, source_options),
                     bytes_text(encoding.bytes_written()),
                     bytes_text(capture.sample_bytes() * timeline.sample_count()), stopwatch.seconds()));
-  for (const std::string& note : notes) print_note(format("note: {}", note));
-  if (const std::string note = slow_motion_note(timeline, source_options); !note.empty()) {
-    print_note(format("note: {}", note));
-  }
+  for (const std::string& line : note_lines(notes, timeline, source_options)) print_note(line);
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include "app/input/exposer.hpp"
 #include "app/input/exposure_request.hpp"
 #include "app/output/console.hpp"
+#include "app/output/ending.hpp"
 #include "app/output/exposure_report.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
@@ -127,16 +128,11 @@ int run_expose(const Options& options) {
     json["live_samples"] = exposed.plan.live_sample_count();
     json["functions"] = functions_json(exposed.plan);
     add_saturation(json, exposed.saturation, exposed.picture.type);
-    json["precision"] = exposing.exposer().precision();
-    json["renderer"] = exposing.exposer().renderer_name();
-    json["seconds"] = stopwatch.seconds();
+    add_rendering(json, exposing.exposer(), stopwatch);
     print_json(json);
     return 0;
   }
-  if (options.quiet) {
-    if (!stated) print_line(output.string());  // a name that nobody gave
-    return 0;
-  }
+  if (ended_quietly(options, output)) return 0;
 
   const RenderPlan& plan = exposed.plan;
   print_line(format("{}: {}, {} of {} samples{}{}, {:.2f} s on {}", output.string(),
@@ -145,15 +141,10 @@ int run_expose(const Options& options) {
                     saturation_text(exposed.saturation, exposed.picture.type), stopwatch.seconds(),
                     exposing.exposer().renderer_name()));
   if (options.verbose) print_line(plan_text(plan, timeline, exposing.block_count()));
-  if (const std::string report = exposing.exposer().report(); options.verbose && !report.empty()) {
-    print_line(report);
-  }
+  print_details(options, exposing.exposer(), {});
   if (!captured) {
     print_line(format("source: {}", timing_text(timeline, source_options)));
-    for (const std::string& note : exposing.notes()) print_note(format("note: {}", note));
-    if (const std::string note = slow_motion_note(timeline, source_options); !note.empty()) {
-      print_note(format("note: {}", note));
-    }
+    for (const std::string& line : note_lines(exposing.notes(), timeline, source_options)) print_note(line);
   }
   return 0;
 }

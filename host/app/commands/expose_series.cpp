@@ -9,6 +9,7 @@
 #include "app/input/exposure_series.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/output/console.hpp"
+#include "app/output/ending.hpp"
 #include "app/output/exposure_report.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
@@ -109,16 +110,11 @@ int expose_series(const Options& options) {
     add_shape(json, capture.format().shape);
     json["functions"] = functions_json(*first_plan);
     add_saturation(json, saturation, format_of_all.type);
-    json["precision"] = exposer.precision();
-    json["renderer"] = exposer.renderer_name();
-    json["seconds"] = stopwatch.seconds();
+    add_rendering(json, exposer, stopwatch);
     print_json(json);
     return 0;
   }
-  if (options.quiet) {
-    if (!stated) print_line(names[0].string());  // a name that nobody gave
-    return 0;
-  }
+  if (ended_quietly(options, names[0])) return 0;
 
   const double seconds = stopwatch.seconds();
   print_line(format("{} … {}: {} exposures every {}, {}{}{}, {:.1f} exposures a second, {:.2f} s on {}",
@@ -129,8 +125,7 @@ int expose_series(const Options& options) {
                     static_cast<double>(starts.size()) / seconds, seconds, exposer.renderer_name()));
   if (options.verbose)
     print_line("first " + plan_text(*first_plan, capture.timeline(), capture.block_count()));
-  if (const std::string report = exposer.report(); options.verbose && !report.empty()) print_line(report);
-  for (const std::string& note : opened.notes()) print_note(note);
+  print_details(options, exposer, opened.notes());
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include "app/input/mask_maker.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/input/standard_input.hpp"
+#include "app/output/ending.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/text/time_text.hpp"
@@ -223,10 +224,8 @@ int run_mask(const Options& options) {
   write_picture(request.output, mask.to_picture());
   if (options.json) {
     report_json(request, mask, maker.reports());
-  } else if (!options.quiet) {
+  } else if (!ended_quietly(options, request.output)) {
     report_text(request, mask, maker.reports());
-  } else if (!options.output && options.operands.size() < 2) {
-    print_line(request.output.string());  // a name that nobody gave
   }
   if (opened && !options.quiet) {
     for (const std::string& note : opened->notes()) print_note(note);

@@ -1,6 +1,7 @@
 #include "app/commands/commands.hpp"
 #include "app/input/noise_choice.hpp"
 #include "app/output/console.hpp"
+#include "app/output/ending.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/stopwatch.hpp"
@@ -13,8 +14,6 @@
 namespace nutik::app {
 namespace {
 
-constexpr const char* kNames[] = {"grey", "red", "green", "blue"};
-
 // `red: 1.82 codes at 20.1 … 3.05 at 231 (41 points), read 0.0021 and shot 0.00012 fit within 0.6 %`
 std::string channel_text(const NoiseEstimate& estimate, std::size_t channel) {
   const ChannelNoise& noise = estimate.noise.channels[channel];
@@ -22,7 +21,7 @@ std::string channel_text(const NoiseEstimate& estimate, std::size_t channel) {
   return format(
       "  {:<6}{:.3g} codes at {:.4g} … {:.3g} at {:.4g} ({} points); read {:.3g} and shot {:.3g} {} "
       "within {:.1f} %",
-      kNames[estimate.channels.size() == 1 ? 0 : channel + 1], dark.sd, dark.code, bright.sd, bright.code,
+      channel_name(estimate.channels.size(), channel), dark.sd, dark.code, bright.sd, bright.code,
       noise.points.size(), noise.read, noise.shot,
       noise.curve == NoiseCurve::sensor ? "fit them" : "fit them only",
       100 * estimate.channels[channel].misfit);
@@ -64,10 +63,7 @@ int run_noise(const Options& options) {
     print_json(json);
     return 0;
   }
-  if (options.quiet) {
-    if (!options.output) print_line(output.string());  // a name that nobody gave
-    return 0;
-  }
+  if (ended_quietly(options, output, options.output.has_value())) return 0;
   double still = 1;
   for (const auto& channel : estimate.channels) still = std::min(still, channel.still_share);
   print_line(format("{}: measured on {} samples, {:.1f} % of the pixels still, {:.2f} s", output.string(),

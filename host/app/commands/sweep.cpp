@@ -6,10 +6,12 @@
 #include "app/input/opened_capture.hpp"
 #include "app/input/sheet_exposures.hpp"
 #include "app/input/sweep_values.hpp"
+#include "app/output/ending.hpp"
 #include "app/output/exposure_report.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
+#include "app/output/shared_warnings.hpp"
 #include "app/output/stopwatch.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -63,23 +65,6 @@ std::vector<std::filesystem::path> single_names(const Options& options, std::siz
   return names;
 }
 
-// Warnings, each with the pictures that it is about.
-class Warnings {
- public:
-  void add(const std::string& label, const std::vector<std::string>& texts) {
-    for (const std::string& text : texts) labels_[text].push_back(label);
-  }
-  void print() const {
-    for (const auto& [text, labels] : labels_) {
-      const std::string others = labels.size() > 1 ? format(" and {} more", labels.size() - 1) : "";
-      print_warning(format("{}{}: {}", labels.front(), others, text));
-    }
-  }
-
- private:
-  std::map<std::string, std::vector<std::string>> labels_;
-};
-
 const char* key_of(SweepParameter parameter) {
   switch (parameter) {
     case SweepParameter::shift: return "shift";
@@ -123,7 +108,7 @@ int run_sweep(const Options& options) {
       format("{}: {}, {} pictures", std::filesystem::path(options.operands.front()).filename().string(),
              request.label(), combinations.size()));
   SheetExposures exposing(options, capture, request.mask(shape), request.plan_options());
-  Warnings warnings;
+  SharedWarnings warnings;
   {
     Progress progress("exposing", combinations.size(), options.quiet);
     for (std::size_t i = 0; i < combinations.size(); ++i) {
@@ -163,18 +148,12 @@ int run_sweep(const Options& options) {
     print_json(json);
     return 0;
   }
-  if (options.quiet) {
-    if (!options.output && options.operands.size() < 2)
-      print_line(output.string());  // a name that nobody gave
-    return 0;
-  }
+  if (ended_quietly(options, output)) return 0;
   print_line(format("{}: {} pictures, {} columns, {} rows{}, {:.2f} s on {}", output.string(),
                     combinations.size(), layout.columns, layout.rows,
                     saturation_text(exposing.saturation(), exposing.type()), stopwatch.seconds(),
                     exposing.exposer().renderer_name()));
-  if (const std::string report = exposing.exposer().report(); options.verbose && !report.empty())
-    print_line(report);
-  for (const std::string& note : opened.notes()) print_note(note);
+  print_details(options, exposing.exposer(), opened.notes());
   return 0;
 }
 

@@ -1,14 +1,15 @@
 #include <algorithm>
-#include <map>
 
 #include "app/commands/commands.hpp"
 #include "app/input/exposer.hpp"
 #include "app/input/frame_request.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/output/console.hpp"
+#include "app/output/ending.hpp"
 #include "app/output/exposure_report.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
+#include "app/output/shared_warnings.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/output/video_output.hpp"
 #include "app/text/size_text.hpp"
@@ -20,31 +21,6 @@
 
 namespace nutik::app {
 namespace {
-
-// What exposures warn of, once for all frames that it holds for.
-class FrameWarnings {
- public:
-  void add(std::uint64_t frame, const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings) {
-      auto [entry, is_new] = frames_.try_emplace(warning, Frames{frame, 0});
-      ++entry->second.count;
-    }
-  }
-
-  void print() const {
-    for (const auto& [warning, frames] : frames_) {
-      const std::string others = frames.count > 1 ? format(" and {} more", frames.count - 1) : std::string();
-      print_warning(format("frame {}{}: {}", frames.first, others, warning));
-    }
-  }
-
- private:
-  struct Frames {
-    std::uint64_t first;
-    std::uint64_t count;
-  };
-  std::map<std::string, Frames> frames_;
-};
 
 std::filesystem::path usual_name(const std::string& input, Rational rate) {
   std::string text = rate.text();
@@ -74,7 +50,7 @@ int run_video(const Options& options) {
 
   const Transfer transfer = request.plan_options().transfer.value_or(reader.format().transfer);
   FrameQueue queue([&] { return output.open(reader.format().shape, frame_format, transfer); });
-  FrameWarnings warnings;
+  SharedWarnings warnings;
   Saturation saturation;  // of all frames together
   std::optional<Interrupted> interruption;
   std::uint64_t exposed_frames = 0;
@@ -88,7 +64,7 @@ int run_video(const Options& options) {
             request.exposure().functions(frames.times.exposure(exposed_frames), reader.timeline());
         Exposed exposed = exposer.expose(reader, functions, mask, request.plan_options(), frame_format);
         saturation += exposed.saturation;
-        warnings.add(exposed_frames, exposure_warnings(exposed));
+        warnings.add(format("frame {}", exposed_frames), exposure_warnings(exposed));
         if (!queue.push(std::move(exposed.picture))) break;
       }
     } catch (const Interrupted& caught) {
@@ -112,16 +88,11 @@ int run_video(const Options& options) {
     json["start_ns"] = frames.times.start_ns(0);
     json["end_ns"] = frames.times.end_ns(frames.count - 1);
     add_saturation(json, saturation, frame_format.type);
-    json["precision"] = exposer.precision();
-    json["renderer"] = exposer.renderer_name();
-    json["seconds"] = stopwatch.seconds();
+    add_rendering(json, exposer, stopwatch);
     print_json(json);
     return 0;
   }
-  if (options.quiet) {
-    if (!stated) print_line(output.path().string());  // a name that nobody gave
-    return 0;
-  }
+  if (ended_quietly(options, output.path())) return 0;
 
   const FrameTimes& times = frames.times;
   print_line(format("{}: {}, {} frames ({}), from {} to {} of the capture, {}{}, {:.2f} s on {}",
@@ -129,9 +100,10 @@ int run_video(const Options& options) {
                     duration_text(times.start_ns(0)), duration_text(times.end_ns(frames.count - 1)),
                     output.kind(), saturation_text(saturation, frame_format.type), stopwatch.seconds(),
                     exposer.renderer_name()));
-  if (const std::string report = exposer.report(); options.verbose && !report.empty()) print_line(report);
-  for (const std::string& note : queue.notes()) print_note(format("note: {}", note));
-  for (const std::string& note : capture.notes()) print_note(note);
+  std::vector<std::string> notes;
+  for (const std::string& note : queue.notes()) notes.push_back(format("note: {}", note));
+  notes.insert(notes.end(), capture.notes().begin(), capture.notes().end());
+  print_details(options, exposer, notes);
   return 0;
 }
 

@@ -1,7 +1,6 @@
 #include "app/input/capture_input.hpp"
 
 #include <array>
-#include <charconv>
 
 #include "app/input/noise_choice.hpp"
 #include "app/text/number_text.hpp"
@@ -17,16 +16,6 @@ namespace {
 constexpr double kHighestPlaybackRate = 60.0;
 
 constexpr double kLeastSigmas = 0.1, kLargestSigmas = 100;
-
-double parse_sigmas(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() ||
-      !(value >= kLeastSigmas && value <= kLargestSigmas)) {
-    throw UsageError(format("sigmas '{}' is no number of {} … {}", text, kLeastSigmas, kLargestSigmas));
-  }
-  return value;
-}
 
 RawVideo parse_raw_video(const std::string& text) {
   const auto cross = text.find('x');
@@ -71,7 +60,8 @@ SourceOptions SourceOptions::from(const Options& options) {
         "--sigmas counts standard deviations of a camera's noise: it needs --noise FILE or --noise auto");
   }
   source.noise_source = options.noise;
-  if (options.sigmas) source.noise.sigmas = parse_sigmas(*options.sigmas);
+  if (options.sigmas)
+    source.noise.sigmas = parse_number(*options.sigmas, "sigmas", kLeastSigmas, kLargestSigmas);
   if (options.tiles) source.tiles = parse_tile_policy(*options.tiles);
   if (options.block_samples) {
     source.block_samples =
@@ -148,12 +138,17 @@ std::string timing_text(const Timeline& timeline, const SourceOptions& options) 
                                                                     : "assumed");
 }
 
-std::string slow_motion_note(const Timeline& timeline, const SourceOptions& options) {
-  if (options.clip.rate || timeline.rate().value() > kHighestPlaybackRate) return {};
-  return format(
-      "the rate of {} a second comes from the file; slow-motion files state their playback rate: "
-      "if it was filmed faster, say so with --fps",
-      timeline.rate().text());
+std::vector<std::string> note_lines(const std::vector<std::string>& notes, const Timeline& timeline,
+                                    const SourceOptions& options) {
+  std::vector<std::string> lines;
+  for (const std::string& note : notes) lines.push_back(format("note: {}", note));
+  if (!options.clip.rate && timeline.rate().value() <= kHighestPlaybackRate) {
+    lines.push_back(format(
+        "note: the rate of {} a second comes from the file; slow-motion files state their playback rate: "
+        "if it was filmed faster, say so with --fps",
+        timeline.rate().text()));
+  }
+  return lines;
 }
 
 void refuse_source_options(const Options& options, const std::string& capture) {

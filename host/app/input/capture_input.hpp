@@ -53,8 +53,10 @@ struct SourceClip {
 // `120 pictures a second (--fps), shutter 180 degrees (--shutter-angle)`: what a timeline was made from.
 [[nodiscard]] std::string timing_text(const Timeline& timeline, const SourceOptions& options);
 
-// Says that a low rate from a file may not be the rate the clip was filmed with; empty where it may be.
-[[nodiscard]] std::string slow_motion_note(const Timeline& timeline, const SourceOptions& options);
+// What else a person should know of a clip, as lines: the `notes` on it, and that a low rate from a file may not be the
+// rate it was filmed with.
+[[nodiscard]] std::vector<std::string> note_lines(const std::vector<std::string>& notes,
+                                                  const Timeline& timeline, const SourceOptions& options);
 
 // The errors of options that describe a clip, for a .tik, which has been described already.
 void refuse_source_options(const Options& options, const std::string& capture);

@@ -1,12 +1,12 @@
 #include "app/input/exposure_request.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 
 #include "app/input/standard_input.hpp"
 #include "app/output/console.hpp"
+#include "app/text/number_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 
@@ -30,22 +30,18 @@ bool parse_only(const std::optional<std::string>& text, std::string_view option,
   throw UsageError(format("{} {} is not known; the only choice is {} {}", option, *text, option, only));
 }
 
-double parse_number(const std::string& text, std::string_view option) {
-  double value = 0.0;
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-    throw UsageError(format("{} {} is no number", option, text));
-  }
-  return value;
+double parse_signed_number(std::string_view text, std::string_view option) {
+  const auto value = parse_number(text.substr(text.starts_with('+') ? 1 : 0));
+  if (!value) throw UsageError(format("{} {} is no number", option, text));
+  return *value;
 }
 
 }  // namespace
 
 double brightening(const Options& options) {
   double gain = 1.0;
-  if (options.gain) gain = parse_number(*options.gain, "--gain");
-  if (options.ev) gain *= std::exp2(parse_number(*options.ev, "--ev"));
+  if (options.gain) gain = parse_signed_number(*options.gain, "--gain");
+  if (options.ev) gain *= std::exp2(parse_signed_number(*options.ev, "--ev"));
   if (!std::isfinite(gain) || gain == 0.0) {
     throw UsageError(format("{}{} makes a picture of nothing but {}; choose a number nearer to {}",
                             options.gain ? "--gain " + *options.gain : "",
@@ -58,7 +54,7 @@ double brightening(const Options& options) {
 Shutter parse_shutter(const std::string& shape, const std::optional<std::string>& error_text) {
   double error = ShutterShape::kUsualError;
   if (error_text) {
-    error = parse_number(*error_text, "--shutter-error");
+    error = parse_signed_number(*error_text, "--shutter-error");
     if (!(error >= ShutterShape::kLeastError && error < 1.0)) {
       throw UsageError(
           format("--shutter-error {} is no share from {} to 1", *error_text, ShutterShape::kLeastError));

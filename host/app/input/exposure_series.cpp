@@ -1,8 +1,8 @@
 #include "app/input/exposure_series.hpp"
 
 #include <algorithm>
-#include <charconv>
 
+#include "app/text/number_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 
@@ -10,16 +10,7 @@ namespace nutik::app {
 namespace {
 
 // More files than a folder is pleasant with, and than anybody means.
-constexpr std::uint64_t kMost = 1'000'000;
-
-std::uint64_t parse_series_count(const std::string& text) {
-  std::uint64_t count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc() || end != text.data() + text.size() || count < 1 || count > kMost) {
-    throw UsageError(format("count '{}' is no whole number of 1 … {}", text, kMost));
-  }
-  return count;
-}
+constexpr std::uint32_t kMost = 1'000'000;
 
 }  // namespace
 
@@ -33,7 +24,7 @@ ExposureSeries ExposureSeries::from(const Options& options) {
   if (series.every_.counts_samples() && series.every_.number.denominator != 1) {
     throw UsageError(format("every '{}' is not a whole number of pictures", *options.every));
   }
-  if (options.count) series.count_ = parse_series_count(*options.count);
+  if (options.count) series.count_ = parse_whole_number(*options.count, "count", 1, kMost);
   return series;
 }
 

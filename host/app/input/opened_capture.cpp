@@ -64,10 +64,7 @@ void OpenedCapture::encode(const std::string& name, const Options& options) {
   const Timeline timeline = encoding.run(progress);
   reader_ = std::make_unique<tik::Reader>(scratch);
   notes_.push_back(format("source: {}", timing_text(timeline, source_options)));
-  for (const std::string& note : notes) notes_.push_back(format("note: {}", note));
-  if (const std::string note = slow_motion_note(timeline, source_options); !note.empty()) {
-    notes_.push_back(format("note: {}", note));
-  }
+  for (std::string& line : note_lines(notes, timeline, source_options)) notes_.push_back(std::move(line));
 }
 
 }  // namespace nutik::app

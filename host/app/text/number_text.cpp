@@ -25,6 +25,14 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
+double parse_number(std::string_view text, std::string_view what, double low, double high) {
+  const auto value = parse_number(text);
+  if (!value || *value < low || *value > high) {
+    throw UsageError(format("{} '{}' is no number of {} … {}", what, text, low, high));
+  }
+  return *value;
+}
+
 std::vector<double> parse_numbers(std::string_view text, std::string_view what) {
   std::vector<double> numbers;
   for (;;) {

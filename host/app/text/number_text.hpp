@@ -15,6 +15,8 @@ namespace nutik::app {
 
 // A finite decimal number; empty where the text is none.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
+// One of low … high. Throws UsageError naming `what`.
+[[nodiscard]] double parse_number(std::string_view text, std::string_view what, double low, double high);
 
 // Numbers between commas: `10,20.5,-3`. Throws UsageError naming `what` and the part that is none.
 [[nodiscard]] std::vector<double> parse_numbers(std::string_view text, std::string_view what);
