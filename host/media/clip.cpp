@@ -14,7 +14,7 @@ namespace nutik {
 namespace {
 
 std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const ClipOptions& options) {
-  const ClipModule& module = load_clip_module();
+  const StillModule& module = still_module();
   const std::vector<ListedStill> stills = read_stills_table(path);
   std::vector<std::filesystem::path> files;
   std::vector<StillTimes> exif;
@@ -23,7 +23,7 @@ std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const ClipOp
     const bool is_timed = still.times.start_ns && still.times.exposure_ns;
     exif.push_back(is_timed || options.rate ? StillTimes{} : module.read_exif_times(still.file));
   }
-  return module.open_stills(files, options.rate ? ClipTiming{} : timing_of(path, stills, exif), options);
+  return module.open(files, options.rate ? ClipTiming{} : timing_of(path, stills, exif), options);
 }
 
 }  // namespace
@@ -31,13 +31,13 @@ std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const ClipOp
 std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options) {
   if (!options.raw) {
     if (is_stills_table(path)) return open_table(path, options);
-    if (const auto stills = list_stills(path)) return load_clip_module().open_stills(*stills, {}, options);
+    if (const auto stills = list_stills(path)) return still_module().open(*stills, {}, options);
   }
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
     throw InputError(format("{} cannot be read: no such file", path.string()));
   }
-  return load_clip_module().open_video(path, options);
+  return video_module().open(path, options);
 }
 
 Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOptions& options,

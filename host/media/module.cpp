@@ -28,12 +28,11 @@ std::vector<std::filesystem::path> module_folders() {
   return folders;
 }
 
-}  // namespace
-
-const ClipModule& load_clip_module() {
+// The entry points of the module in `name`, which stand behind its `symbol`.
+const void* load_module(const char* name, const char* symbol) {
   std::string tried;
   for (const std::filesystem::path& folder : module_folders()) {
-    const std::filesystem::path file = folder / "nutik-clips.so";
+    const std::filesystem::path file = folder / name;
     if (!std::filesystem::exists(file)) {
       tried += format("\n  {}: no such file", file.string());
       continue;
@@ -44,15 +43,25 @@ const ClipModule& load_clip_module() {
       tried += format("\n  {}", dlerror());
       continue;
     }
-    if (const void* module = dlsym(library, kClipModuleSymbol)) {
-      return *static_cast<const ClipModule*>(module);
-    }
+    if (const void* module = dlsym(library, symbol)) return module;
     tried += format("\n  {}: not a module of this program", file.string());
   }
-  throw InputError(format(
-      "clips cannot be read and videos not written: the module that does it was not found; install it beside "
-      "the program, or set NUTIK_MODULES to its folder. Looked for:{}",
-      tried));
+  throw InputError(
+      format("the module {}, which reads and writes such files, was not found; install it beside the "
+             "program, or set "
+             "NUTIK_MODULES to its folder. Looked for:{}",
+             name, tried));
 }
+
+template <typename Module>
+const Module& module() {
+  static const void* const loaded = load_module(Module::kFile, Module::kSymbol);
+  return *static_cast<const Module*>(loaded);
+}
+
+}  // namespace
+
+const VideoModule& video_module() { return module<VideoModule>(); }
+const StillModule& still_module() { return module<StillModule>(); }
 
 }  // namespace nutik

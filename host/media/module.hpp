@@ -1,5 +1,5 @@
-// The libraries that decode and encode clips are loaded when the first is opened, not when the program starts:
-// OpenCV's video part and what it needs take 125 ms to load, more than rendering a small capture.
+// The libraries that decode and encode are loaded when they are first needed, not when the program starts: FFmpeg's
+// take 30 ms, OpenCV's with what they need 55 ms more, as long as rendering a small capture.
 #pragma once
 
 #include <filesystem>
@@ -12,21 +12,32 @@
 
 namespace nutik {
 
-// The entry points of nutik-clips.so.
-struct ClipModule {
-  std::unique_ptr<Clip> (*open_video)(const std::filesystem::path& path, const ClipOptions& options);
-  std::unique_ptr<Clip> (*open_stills)(std::span<const std::filesystem::path> files, const ClipTiming& timing,
-                                       const ClipOptions& options);
-  StillTimes (*read_exif_times)(const std::filesystem::path& file);
-  std::unique_ptr<VideoWriter> (*open_video_writer)(const std::filesystem::path& path,
-                                                    const VideoFormat& format, const VideoCodec& codec);
+// What nutik-videos.so gives the program: videos in containers and raw, read and written.
+struct VideoModule {
+  static constexpr const char* kFile = "nutik-videos.so";
+  static constexpr const char* kSymbol = "nutik_video_module";
+
+  std::unique_ptr<Clip> (*open)(const std::filesystem::path& path, const ClipOptions& options);
+  std::unique_ptr<VideoWriter> (*open_writer)(const std::filesystem::path& path, const VideoFormat& format,
+                                              const VideoCodec& codec);
 };
 
-// Looks for the module in the folder that NUTIK_MODULES names, beside the program, and in the installed
-// place. Throws InputError naming where it was looked for.
-[[nodiscard]] const ClipModule& load_clip_module();
+// What nutik-stills.so gives the program.
+struct StillModule {
+  static constexpr const char* kFile = "nutik-stills.so";
+  static constexpr const char* kSymbol = "nutik_still_module";
 
-// The symbol that gives a module's entry points.
-inline constexpr const char* kClipModuleSymbol = "nutik_clip_module";
+  // Stills, one sample each; a TIFF may hold several, but not where `timing` has times for them.
+  std::unique_ptr<Clip> (*open)(std::span<const std::filesystem::path> files, const ClipTiming& timing,
+                                const ClipOptions& options);
+  // When a still was taken and for how long, as far as its EXIF data tell (JPEG): DateTimeOriginal with
+  // SubSecTimeOriginal, and ExposureTime. Nothing for a file without them.
+  StillTimes (*read_exif_times)(const std::filesystem::path& file);
+};
+
+// These look for their module in the folder that NUTIK_MODULES names, beside the program, and in the installed
+// place. They throw InputError naming where it was looked for.
+[[nodiscard]] const VideoModule& video_module();
+[[nodiscard]] const StillModule& still_module();
 
 }  // namespace nutik

@@ -5,17 +5,19 @@
 namespace nutik {
 namespace {
 
-std::size_t raster_count(const Clip& clip, std::uint64_t ahead_bytes) {
-  return std::clamp<std::uint64_t>(ahead_bytes / clip.info().format.sample_bytes(), 2, 64);
+std::size_t raster_count(std::uint64_t sample_bytes, std::uint64_t ahead_bytes) {
+  return std::clamp<std::uint64_t>(ahead_bytes / sample_bytes, 2, 64);
 }
 
 }  // namespace
 
 ReadAhead::ReadAhead(Clip& clip, std::uint64_t ahead_bytes, std::uint64_t most)
-    : clip_(clip), decoded_(raster_count(clip, ahead_bytes)), spare_(raster_count(clip, ahead_bytes)) {
-  for (std::size_t i = 0; i < raster_count(clip, ahead_bytes); ++i) {
-    spare_.push(Raster(clip.info().format.sample_bytes()));
-  }
+    : clip_(clip),
+      sample_bytes_(clip.info().format.sample_bytes()),
+      decoded_(raster_count(sample_bytes_, ahead_bytes)),
+      spare_(raster_count(sample_bytes_, ahead_bytes)) {
+  for (std::size_t i = 0; i < raster_count(sample_bytes_, ahead_bytes); ++i)
+    spare_.push(PageBuffer(sample_bytes_));
   decoding_ = std::async(std::launch::async, [this, most] { decode(most); });
 }
 
@@ -28,14 +30,14 @@ void ReadAhead::decode(std::uint64_t most) {
   const ClosedAtEnd closed(decoded_);
   for (std::uint64_t sample = 0; sample < most; ++sample) {
     auto raster = spare_.pop();
-    if (!raster || !clip_.read(*raster) || !decoded_.push(std::move(*raster))) return;
+    if (!raster || !clip_.read(raster->first(sample_bytes_)) || !decoded_.push(std::move(*raster))) return;
   }
 }
 
 std::span<const std::byte> ReadAhead::next() {
   if (current_) spare_.push(std::move(*current_));
   current_ = decoded_.pop();
-  if (current_) return *current_;
+  if (current_) return current_->first(sample_bytes_);
   if (decoding_.valid()) decoding_.get();
   return {};
 }

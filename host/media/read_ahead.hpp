@@ -7,10 +7,10 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "media/clip.hpp"
 #include "system/channel.hpp"
+#include "system/page_buffer.hpp"
 
 namespace nutik {
 
@@ -31,14 +31,14 @@ class ReadAhead {
   [[nodiscard]] std::span<const std::byte> next();
 
  private:
-  using Raster = std::vector<std::byte>;
-
   void decode(std::uint64_t most);
 
   Clip& clip_;
-  Channel<Raster> decoded_;
-  Channel<Raster> spare_;
-  std::optional<Raster> current_;
+  std::uint64_t sample_bytes_;
+  // Rasters on pages of their own, so that decoders may write whole vectors.
+  Channel<PageBuffer> decoded_;
+  Channel<PageBuffer> spare_;
+  std::optional<PageBuffer> current_;
   std::future<void> decoding_;
 };
 

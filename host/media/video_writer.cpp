@@ -26,7 +26,7 @@ class StillWriter final : public VideoWriter {
 
 std::unique_ptr<VideoWriter> open_video_writer(const std::filesystem::path& path, const VideoFormat& format,
                                                const VideoCodec& codec) {
-  return load_clip_module().open_video_writer(path, format, codec);
+  return video_module().open_writer(path, format, codec);
 }
 
 std::unique_ptr<VideoWriter> open_still_writer(const std::filesystem::path& path) {

@@ -3,9 +3,9 @@
 //   bench_decode CLIP      prints the seconds, whole process start excluded, and the samples
 #include <chrono>
 #include <cstdio>
-#include <vector>
 
 #include "media/clip.hpp"
+#include "system/page_buffer.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) {
@@ -15,9 +15,10 @@ int main(int argc, char** argv) {
   try {
     const auto start = std::chrono::steady_clock::now();
     const auto clip = nutik::open_clip(argv[1], {});
-    std::vector<std::byte> raster(clip->info().format.sample_bytes());
+    const std::uint64_t bytes = clip->info().format.sample_bytes();
+    nutik::PageBuffer raster(bytes);
     unsigned long samples = 0;
-    while (clip->read(raster)) ++samples;
+    while (clip->read(raster.first(bytes))) ++samples;
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     std::printf("%.4f %lu\n", seconds.count(), samples);
   } catch (const std::exception& error) {

@@ -145,7 +145,7 @@ std::string man_page() {
   text += section("ENVIRONMENT");
   constexpr std::pair<std::string_view, std::string_view> kVariables[] = {
       {"NUTIK_DEVICE", "the OpenCL device, as --device"},
-      {"NUTIK_MODULES", "the folder of nutik-clips.so, where it is not in its usual place"},
+      {"NUTIK_MODULES", "the folder of nutik-videos.so and nutik-stills.so, where they are not in their usual place"},
       {"NO_COLOR", "no colours on a terminal, whatever its value is, unless that is empty"},
       {"COLUMNS", "how wide help is, 60 to 100"},
       {"XDG_CACHE_HOME", "where built kernels are kept, in a folder nutik-cl (default: ~/.cache)"},

@@ -11,9 +11,9 @@
 #include <span>
 #include <string>
 
-#include "media/clips/libav.hpp"
+#include "media/videos/libav.hpp"
 
-namespace nutik::clips {
+namespace nutik::videos {
 
 struct PixelKind {
   bool is_grey = false;
@@ -42,6 +42,8 @@ class PixelConverter {
 
  private:
   const AVFrame& converted(const AVFrame& frame, const std::string& name);
+  void scale(const AVFrame& frame, AVPixelFormat wanted, const std::string& name, std::uint8_t* const* planes,
+             const int* strides);
   const AVFrame& scaled(const AVFrame& frame, AVPixelFormat wanted, const std::string& name);
 
   PixelKind kind_;
@@ -51,4 +53,4 @@ class PixelConverter {
   FramePointer rgb_;
 };
 
-}  // namespace nutik::clips
+}  // namespace nutik::videos

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "capture/rational.hpp"
-#include "media/clips/clips.hpp"
+#include "media/stills/stills.hpp"
 
-namespace nutik::clips {
+namespace nutik::stills {
 namespace {
 
 struct FreeExif {
@@ -75,4 +75,4 @@ StillTimes read_exif_times(const std::filesystem::path& file) {
   return times;
 }
 
-}  // namespace nutik::clips
+}  // namespace nutik::stills

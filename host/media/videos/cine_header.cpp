@@ -9,7 +9,7 @@
 // Tagged blocks follow the setup: u32 size (of all of it), u16 type, u16 reserved, data.
 //   1002   u64 for each picture: its time in units of 2^-32 s
 //   1003   u32 for each picture: its exposure in the same units
-#include "media/clips/cine_header.hpp"
+#include "media/videos/cine_header.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -18,7 +18,7 @@
 #include "capture/rational.hpp"
 #include "system/mapped_file.hpp"
 
-namespace nutik::clips {
+namespace nutik::videos {
 namespace {
 
 constexpr std::uint64_t kFileHeaderBytes = 44;
@@ -76,4 +76,4 @@ std::optional<CineHeader> read_cine_header(const std::filesystem::path& path) {
   return header;
 }
 
-}  // namespace nutik::clips
+}  // namespace nutik::videos

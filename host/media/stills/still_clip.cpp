@@ -7,13 +7,13 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/clips/clips.hpp"
 #include "media/extension.hpp"
 #include "media/netpbm.hpp"
+#include "media/stills/stills.hpp"
 #include "media/tiff_reader.hpp"
 #include "system/mapped_file.hpp"
 
-namespace nutik::clips {
+namespace nutik::stills {
 namespace {
 
 // One picture of a file.
@@ -172,4 +172,4 @@ std::unique_ptr<Clip> open_still_files(std::span<const std::filesystem::path> fi
   return std::make_unique<StillClip>(files, timing, options);
 }
 
-}  // namespace nutik::clips
+}  // namespace nutik::stills

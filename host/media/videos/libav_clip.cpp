@@ -1,9 +1,9 @@
-// Grey, deeper and raw video through libavcodec; pixels.hpp says what its codes become.
-#include "media/clips/clips.hpp"
-#include "media/clips/libav.hpp"
-#include "media/clips/pixels.hpp"
+// Video through libavcodec; pixels.hpp says what its codes become.
+#include "media/videos/libav.hpp"
+#include "media/videos/pixels.hpp"
+#include "media/videos/videos.hpp"
 
-namespace nutik::clips {
+namespace nutik::videos {
 namespace {
 
 class LibavClip final : public Clip {
@@ -119,4 +119,4 @@ std::unique_ptr<Clip> open_with_libav(const std::filesystem::path& path, const P
   return std::make_unique<LibavClip>(path, probe, options);
 }
 
-}  // namespace nutik::clips
+}  // namespace nutik::videos

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cstring>
 
-#include "media/clips/clips.hpp"
-#include "media/clips/libav.hpp"
+#include "media/videos/libav.hpp"
+#include "media/videos/videos.hpp"
 #include "system/output_file.hpp"
 
-namespace nutik::clips {
+namespace nutik::videos {
 namespace {
 
 struct FreeOutput {
@@ -263,4 +263,4 @@ std::unique_ptr<VideoWriter> open_libav_writer(const std::filesystem::path& path
   return std::make_unique<LibavVideoWriter>(path, format, codec);
 }
 
-}  // namespace nutik::clips
+}  // namespace nutik::videos

@@ -1,10 +1,10 @@
-#include "media/clips/pixels.hpp"
+#include "media/videos/pixels.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-namespace nutik::clips {
+namespace nutik::videos {
 namespace {
 
 AVPixelFormat raster_format(const PixelKind& kind) {
@@ -99,6 +99,12 @@ void yuv_to_rgb(const AVFrame& planes, std::uint32_t bits, AVFrame& rgb) {
   }
 }
 
+// Whether libswscale may write rows here: it does so in whole vectors.
+bool is_aligned(std::span<const std::byte> raster, std::size_t row_bytes) {
+  constexpr std::size_t kVectorBytes = 64;
+  return reinterpret_cast<std::uintptr_t>(raster.data()) % kVectorBytes == 0 && row_bytes % kVectorBytes == 0;
+}
+
 // Copies a row-major picture of `height` rows while it is turned.
 void copy_turned(const std::uint8_t* from, std::ptrdiff_t stride, std::size_t width, std::size_t height,
                  std::size_t pixel_bytes, int turns, std::span<std::byte> raster) {
@@ -171,20 +177,27 @@ int quarter_turns(const AVStream& stream) {
   return static_cast<int>((std::lround(-turned / 90.0) % 4 + 4) % 4);
 }
 
-const AVFrame& PixelConverter::scaled(const AVFrame& frame, AVPixelFormat wanted, const std::string& name) {
+void PixelConverter::scale(const AVFrame& frame, AVPixelFormat wanted, const std::string& name,
+                           std::uint8_t* const* planes, const int* strides) {
   const auto from = static_cast<AVPixelFormat>(frame.format);
-  if (from == wanted) return frame;
-  if (!scaled_ || scaled_->format != wanted) scaled_ = new_frame(wanted, frame.width, frame.height);
-  scaler_.reset(sws_getCachedContext(
-      scaler_.release(), frame.width, frame.height, from, frame.width, frame.height, wanted,
-      SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT, nullptr, nullptr, nullptr));
+  // Without the flags 8-bit pictures are what OpenCV makes of them, and converting costs less than decoding.
+  const bool is_plain = !kind_.is_grey && kind_.bits <= 8;
+  const int flags = SWS_BICUBIC | (is_plain ? 0 : SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT);
+  scaler_.reset(sws_getCachedContext(scaler_.release(), frame.width, frame.height, from, frame.width,
+                                     frame.height, wanted, flags, nullptr, nullptr, nullptr));
   if (!scaler_) {
     throw InputError(format("{}: pixels of {} cannot be converted", name, av_get_pix_fmt_name(from)));
   }
   if (is_yuv(from) && !is_yuv(wanted)) {
     set_colours(scaler_.get(), frame);
   }
-  sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, scaled_->data, scaled_->linesize);
+  sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, planes, strides);
+}
+
+const AVFrame& PixelConverter::scaled(const AVFrame& frame, AVPixelFormat wanted, const std::string& name) {
+  if (frame.format == wanted) return frame;
+  if (!scaled_ || scaled_->format != wanted) scaled_ = new_frame(wanted, frame.width, frame.height);
+  scale(frame, wanted, name, scaled_->data, scaled_->linesize);
   scaled_->colorspace = frame.colorspace;
   scaled_->color_range = frame.color_range;
   return *scaled_;
@@ -201,8 +214,16 @@ const AVFrame& PixelConverter::converted(const AVFrame& frame, const std::string
 }
 
 void PixelConverter::convert(const AVFrame& frame, std::span<std::byte> raster, const std::string& name) {
-  const AVFrame& picture = converted(frame, name);
   const std::size_t pixel_bytes = (kind_.is_grey ? 1u : 3u) * (kind_.bits > 8 ? 2u : 1u);
+  const std::size_t row_bytes = static_cast<std::size_t>(frame.width) * pixel_bytes;
+  const AVPixelFormat wanted = raster_format(kind_);
+  if (wanted == AV_PIX_FMT_RGB24 && frame.format != wanted && turns_ == 0 && is_aligned(raster, row_bytes)) {
+    auto* row = reinterpret_cast<std::uint8_t*>(raster.data());
+    const int stride = static_cast<int>(row_bytes);
+    scale(frame, wanted, name, &row, &stride);
+    return;
+  }
+  const AVFrame& picture = converted(frame, name);
   copy_turned(picture.data[0], picture.linesize[0], static_cast<std::size_t>(picture.width),
               static_cast<std::size_t>(picture.height), pixel_bytes, turns_, raster);
   if (kind_.padding_bits == 0) return;
@@ -212,4 +233,4 @@ void PixelConverter::convert(const AVFrame& frame, std::span<std::byte> raster, 
   }
 }
 
-}  // namespace nutik::clips
+}  // namespace nutik::videos

@@ -10,9 +10,9 @@
 #include "capture/picture.hpp"
 #include "capture/rational.hpp"
 #include "media/clip.hpp"
-#include "media/clips/pixels.hpp"
+#include "media/videos/pixels.hpp"
 
-namespace nutik::clips {
+namespace nutik::videos {
 
 struct Probe {
   int stream = 0;  // index of the picture stream
@@ -29,4 +29,4 @@ struct Probe {
 // stream.
 [[nodiscard]] Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& raw);
 
-}  // namespace nutik::clips
+}  // namespace nutik::videos

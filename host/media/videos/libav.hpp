@@ -24,7 +24,7 @@ extern "C" {
 #include "capture/format.hpp"
 #include "media/clip.hpp"
 
-namespace nutik::clips {
+namespace nutik::videos {
 
 struct FreeFormat {
   void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
@@ -108,4 +108,4 @@ inline OpenedVideo open_video(const std::filesystem::path& path, const std::opti
   return opened;
 }
 
-}  // namespace nutik::clips
+}  // namespace nutik::videos

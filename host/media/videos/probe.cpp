@@ -1,11 +1,11 @@
-#include "media/clips/probe.hpp"
+#include "media/videos/probe.hpp"
 
 #include <algorithm>
 
-#include "media/clips/cine_header.hpp"
-#include "media/clips/libav.hpp"
+#include "media/videos/cine_header.hpp"
+#include "media/videos/libav.hpp"
 
-namespace nutik::clips {
+namespace nutik::videos {
 namespace {
 
 std::optional<Transfer> transfer_of(AVColorTransferCharacteristic characteristic) {
@@ -186,4 +186,4 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   return result;
 }
 
-}  // namespace nutik::clips
+}  // namespace nutik::videos

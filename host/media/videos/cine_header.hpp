@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace nutik::clips {
+namespace nutik::videos {
 
 struct CineHeader {
   std::vector<std::int64_t> starts_ns;     // of each picture, by the camera's clock; the first is 0
@@ -19,4 +19,4 @@ struct CineHeader {
 // picture.
 [[nodiscard]] std::optional<CineHeader> read_cine_header(const std::filesystem::path& path);
 
-}  // namespace nutik::clips
+}  // namespace nutik::videos

@@ -1,0 +1,6 @@
+// What nutik-stills.so gives the program (media/module.hpp).
+#include "media/module.hpp"
+#include "media/stills/stills.hpp"
+
+extern "C" __attribute__((visibility("default")))
+const nutik::StillModule nutik_still_module{nutik::stills::open_still_files, nutik::stills::read_exif_times};
