@@ -15,6 +15,8 @@
 //     slot 0 …     index [64] sample numbers within the block, then codes [C][64];
 //                  pixels with fewer records than slots repeat their last codes at index = sample count
 //
+// In files bodies lie one behind the other; in memory there may be room between them.
+//
 // An index takes one byte where the block has at most 255 samples, else two. A tile with one row is
 // *still*, one with a row for every sample *dense*.
 //
@@ -110,6 +112,13 @@ struct BlockGeometry {
     if (entry.rows() == 1) return TileKind::still;
     return entry.rows() == sample_count ? TileKind::dense : TileKind::rows;
   }
+};
+
+// What building a block came to.
+struct FinishedBlock {
+  std::uint64_t payload_bytes = 0;  // without the room between bodies
+  std::uint64_t span_bytes = 0;     // with it: from the directory to the last body's end
+  std::uint64_t record_count = 0;   // change records, summed over pixels; starts are not counted
 };
 
 // One change record: from `sample` on (a number within the block) the pixel holds `codes`.

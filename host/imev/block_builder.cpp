@@ -27,10 +27,8 @@ namespace {
 // takes less than 2^26 bytes, so that only their number needs care.
 bool fits_payload(const CaptureFormat& capture, std::uint32_t samples, TilePolicy policy) {
   const BlockGeometry geometry(capture, samples);
-  const std::uint64_t rows = std::max(geometry.rows_bytes(samples), geometry.rows_bytes(samples - 1));
-  // Chosen for their cost, records take fewer bytes than the rows would.
-  const std::uint64_t body = policy == TilePolicy::records ? geometry.records_bytes(samples - 1) : rows;
-  return geometry.tile_count <= kLargestPayloadBytes / (body + sizeof(TileEntry) + kBlockAlignment);
+  const std::uint64_t room = largest_body_bytes(geometry, policy);
+  return geometry.tile_count <= kLargestPayloadBytes / (room + sizeof(TileEntry) + kBlockAlignment);
 }
 
 void check_block_samples(const CaptureFormat& capture, std::uint32_t samples, TilePolicy policy) {
@@ -108,7 +106,7 @@ class BlockBuilder::Implementation {
 
   FinishedBlock finish(PageBuffer& into) {
     if (is_empty()) throw std::logic_error("a block without samples was finished");
-    const FinishedBlock finished = write_block(into);
+    const FinishedBlock finished = close_block(into);
     begin_next();
     return finished;
   }
@@ -126,7 +124,7 @@ class BlockBuilder::Implementation {
 
  protected:
   virtual void add_sample(std::span<const std::byte> raster) = 0;
-  virtual FinishedBlock write_block(PageBuffer& into) = 0;
+  virtual FinishedBlock close_block(PageBuffer& into) = 0;
   virtual void clear() = 0;
 
   CaptureFormat source_;
@@ -152,7 +150,7 @@ class BlockBuilder::Comparing final : public Implementation {
         row_bytes_(BlockGeometry(source, block_samples).row_bytes()),
         step_(step_function(source)),
         held_(grid_.tile_count() * row_bytes_),
-        log_(source, block_samples) {}
+        log_(source, block_samples, policy) {}
 
  private:
   void add_sample(std::span<const std::byte> raster) override {
@@ -170,9 +168,7 @@ class BlockBuilder::Comparing final : public Implementation {
     });
   }
 
-  FinishedBlock write_block(PageBuffer& into) override {
-    return {log_.write(samples_, policy_, into), log_.record_count()};
-  }
+  FinishedBlock close_block(PageBuffer& into) override { return log_.finish(samples_, into); }
   void clear() override { log_.clear(); }
 
   std::uint64_t row_bytes_;
@@ -190,7 +186,7 @@ class BlockBuilder::Averaging final : public Implementation {
         gather_(gather_function(source)),
         expected_(source),
         codes_(grid_.tile_count() * block_samples * row_bytes_),
-        log_(held_format(source), block_samples) {}
+        log_(held_format(source), block_samples, policy) {}
 
  private:
   [[nodiscard]] std::byte* codes_at(std::uint64_t tile, std::uint32_t sample) {
@@ -203,7 +199,7 @@ class BlockBuilder::Averaging final : public Implementation {
     });
   }
 
-  FinishedBlock write_block(PageBuffer& into) override {
+  FinishedBlock close_block(PageBuffer& into) override {
     parallel_for(grid_.rows(), [this](std::uint64_t row) {
       ExpectedValues::Held held;
       const std::uint64_t first = row * grid_.columns();
@@ -212,7 +208,7 @@ class BlockBuilder::Averaging final : public Implementation {
         log_tile(tile, held);
       }
     });
-    return {log_.write(samples_, policy_, into), log_.record_count()};
+    return log_.finish(samples_, into);
   }
 
   void log_tile(std::uint64_t tile, const ExpectedValues::Held& held) {

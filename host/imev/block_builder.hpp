@@ -2,7 +2,7 @@
 //
 //   in:      samples as interleaved rasters, in time order
 //   out:     a block's payload each time it is full or the capture ends (layout: imev/block.hpp)
-//   always:  memory for one block, whatever the capture's length. With a tolerance the codes held at a
+//   always:  memory for one block besides those handed out, whatever the capture's length. With a tolerance the codes held at a
 //            block's end go over into the next, so that blocks change nothing about what is a change; with a
 //            camera's noise each block stands on its own samples (imev/expected_values.hpp)
 #pragma once
@@ -29,11 +29,6 @@ inline constexpr std::uint64_t kDefaultBlockBytes = 128ull << 20;
 [[nodiscard]] std::uint32_t default_block_samples(const CaptureFormat& capture,
                                                   std::uint64_t block_bytes = kDefaultBlockBytes);
 
-struct FinishedBlock {
-  std::uint64_t payload_bytes = 0;
-  std::uint64_t record_count = 0;  // change records, summed over pixels; starts are not counted
-};
-
 class BlockBuilder {
  public:
   // `source` is what samples are; payloads are in held_format(source). Throws UsageError where a block of so
@@ -53,8 +48,8 @@ class BlockBuilder {
   // Which samples the current block holds so far.
   [[nodiscard]] BlockExtent extent() const;
 
-  // Closes the current block (which must hold a sample) and begins the next. The payload is written to
-  // the front of `into`, which grows as needed.
+  // Closes the current block (which must hold a sample) and begins the next. The block was built where it lies,
+  // with room between its bodies: `into` is given that memory and what it held before is used for the next block.
   FinishedBlock finish(PageBuffer& into);
 
   // Takes a sample between blocks (the current one is empty) that will not be kept: only what it leaves

@@ -6,6 +6,7 @@
 
 #include "capture/format.hpp"
 #include "imev/expected_values.hpp"
+#include "imev/payload_parts.hpp"
 #include "system/interruption.hpp"
 
 namespace nutik {
@@ -18,9 +19,13 @@ MemoryCapture::MemoryCapture(const CaptureFormat& source, Timeline timeline,
     throw std::logic_error("a capture has another number of samples than its timeline");
   }
   BlockBuilder builder(source, block_samples, policy);
+  PageBuffer spread;
   const auto close = [&] {
-    Block block{builder.extent(), {}, 0};
-    block.bytes = builder.finish(block.payload).payload_bytes;
+    const BlockExtent extent = builder.extent();
+    const FinishedBlock finished = builder.finish(spread);
+    const PayloadParts parts(BlockGeometry(capture_, extent.sample_count), spread.first(finished.span_bytes));
+    Block block{extent, PageBuffer(parts.bytes()), parts.bytes()};
+    parts.copy_to(block.payload.first(parts.bytes()));
     blocks_.push_back(std::move(block));
   };
   for (const std::vector<std::byte>& raster : rasters) {
@@ -86,23 +91,23 @@ void StreamingCapture::read_samples(std::uint64_t until, bool keep) {
 }
 
 std::uint64_t StreamingCapture::prepare(std::uint64_t block) {
-  const BlockExtent extent = block_extent(block);
-  if (samples_read_ > extent.first_sample) {
+  extent_ = block_extent(block);
+  if (samples_read_ > extent_.first_sample) {
     throw std::logic_error("blocks of a stream must be asked for in increasing order");
   }
-  read_samples(extent.first_sample, false);
-  read_samples(extent.range().last, true);
-  payload_bytes_ = builder_.finish(payload_).payload_bytes;
+  read_samples(extent_.first_sample, false);
+  read_samples(extent_.range().last, true);
+  finished_ = builder_.finish(payload_);
   if (samples_read_ == timeline_.sample_count()) {
     std::uint64_t more = 0;
     for (; !next_sample_().empty(); ++more) check_interruption();
     if (more > 0) throw SampleCountMismatch(samples_read_ + more, timeline_.sample_count());
   }
-  return payload_bytes_;
+  return finished_.payload_bytes;
 }
 
 void StreamingCapture::read(std::uint64_t /*block*/, std::span<std::byte> into) {
-  std::memcpy(into.data(), payload_.data(), payload_bytes_);
+  PayloadParts(BlockGeometry(capture_, extent_.sample_count), lent()).copy_to(into);
 }
 
 }  // namespace nutik

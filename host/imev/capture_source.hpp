@@ -33,6 +33,10 @@ class CaptureSource {
   // Copies the payload of the block prepared last to the front of `into`.
   virtual void read(std::uint64_t block, std::span<std::byte> into) = 0;
 
+  // That payload where it lies, from a page border on and with room between its bodies, until prepare() has been
+  // called twice more; empty where it has to be read.
+  [[nodiscard]] virtual std::span<const std::byte> lent() const { return {}; }
+
   // Does ahead what prepare() and read() will take time for, while whoever will ask for the block is not
   // ready yet. A source may do nothing.
   virtual void preload(std::uint64_t /*block*/) {}
@@ -103,6 +107,9 @@ class StreamingCapture final : public CaptureSource {
   // Throws SampleCountMismatch where the stream ends too early, or goes on after the timeline's end.
   std::uint64_t prepare(std::uint64_t block) override;
   void read(std::uint64_t block, std::span<std::byte> into) override;
+  [[nodiscard]] std::span<const std::byte> lent() const override {
+    return {payload_.data(), finished_.span_bytes};
+  }
 
  private:
   void read_samples(std::uint64_t until, bool keep);
@@ -114,8 +121,9 @@ class StreamingCapture final : public CaptureSource {
   NextSample next_sample_;
   BlockBuilder builder_;
   std::uint64_t samples_read_ = 0;
-  PageBuffer payload_;
-  std::uint64_t payload_bytes_ = 0;
+  PageBuffer payload_;  // of the block prepared last; its memory and the builder's are used in turns
+  BlockExtent extent_;  // likewise
+  FinishedBlock finished_;
 };
 
 }  // namespace nutik

@@ -18,49 +18,61 @@ void write_index(const BlockGeometry& geometry, std::byte* list, std::uint64_t p
   }
 }
 
+std::uint64_t largest_index_bytes(const BlockGeometry& geometry) {
+  return align_up(std::uint64_t{geometry.sample_count} * geometry.index_bytes(), kBlockAlignment);
+}
+
 }  // namespace
 
-TileLog::TileLog(const CaptureFormat& capture, std::uint32_t block_samples)
+std::uint64_t largest_body_bytes(const BlockGeometry& geometry, TilePolicy policy) {
+  const std::uint64_t rows = largest_index_bytes(geometry) + geometry.sample_count * geometry.row_bytes();
+  // Chosen for their cost, records take fewer bytes than the rows would.
+  if (policy != TilePolicy::records) return rows;
+  return std::max(rows, geometry.records_bytes(geometry.sample_count - 1));
+}
+
+TileLog::TileLog(const CaptureFormat& capture, std::uint32_t block_samples, TilePolicy policy)
     : full_(capture, block_samples),
-      rows_(full_.tile_count * block_samples * full_.row_bytes()),
+      policy_(policy),
+      index_room_(largest_index_bytes(full_)),
+      tile_room_(largest_body_bytes(full_, policy)),
+      payload_(full_.directory_bytes() + full_.tile_count * tile_room_),
       changed_(full_.tile_count * block_samples * sizeof(std::uint64_t)),
       row_sample_(full_.tile_count * block_samples * sizeof(std::uint16_t)),
       row_count_(full_.tile_count),
       lane_records_(full_.tile_count * kTilePixels) {}
 
 std::byte* TileLog::add_row(std::uint64_t tile, std::uint32_t sample, std::uint64_t changes) {
-  const std::uint64_t slot = slot_of(tile, row_count_[tile]++);
+  const std::uint32_t row = row_count_[tile]++;
+  const std::uint64_t slot = slot_of(tile, row);
   reinterpret_cast<std::uint16_t*>(row_sample_.data())[slot] = static_cast<std::uint16_t>(sample);
   reinterpret_cast<std::uint64_t*>(changed_.data())[slot] = changes;
-  return rows_.data() + slot * full_.row_bytes();
+  return payload_.data() + rows_offset(tile) + row * full_.row_bytes();
 }
 
-std::uint64_t TileLog::record_count() const {
-  return std::accumulate(lane_records_.begin(), lane_records_.end(), std::uint64_t{0});
-}
-
-std::uint64_t TileLog::write(std::uint32_t samples, TilePolicy policy, PageBuffer& into) const {
+FinishedBlock TileLog::finish(std::uint32_t samples, PageBuffer& into) {
   BlockGeometry geometry = full_;
   geometry.sample_count = samples;
+  FinishedBlock finished;
+  finished.payload_bytes = geometry.directory_bytes();
   std::vector<TileEntry> entries(geometry.tile_count);
-  std::uint64_t offset = geometry.directory_bytes();
   for (std::uint64_t tile = 0; tile < entries.size(); ++tile) {
-    entries[tile] = choose(geometry, tile, policy);
-    entries[tile].offset = static_cast<std::uint32_t>(offset / kBlockAlignment);
-    offset += geometry.body_bytes(entries[tile]);
-  }
-  into.reserve(offset);
-  std::memset(into.data(), 0, geometry.directory_bytes());
-  std::memcpy(into.data(), entries.data(), entries.size() * sizeof(TileEntry));
-  for (std::uint64_t tile = 0; tile < entries.size(); ++tile) {
-    std::byte* body = into.data() + entries[tile].offset * kBlockAlignment;
-    if (entries[tile].is_records()) {
-      write_records(geometry, tile, entries[tile].slots(), body);
+    TileEntry& entry = entries[tile];
+    entry = choose(geometry, tile);
+    if (entry.is_records()) {
+      close_records(geometry, tile, entry);
     } else {
-      write_rows(geometry, tile, entries[tile].rows(), body);
+      close_rows(geometry, tile, entry);
     }
+    finished.payload_bytes += geometry.body_bytes(entry);
+    finished.span_bytes = entry.offset * kBlockAlignment + geometry.body_bytes(entry);
   }
-  return offset;
+  std::memset(payload_.data(), 0, geometry.directory_bytes());
+  std::memcpy(payload_.data(), entries.data(), entries.size() * sizeof(TileEntry));
+  finished.record_count = std::accumulate(lane_records_.begin(), lane_records_.end(), std::uint64_t{0});
+  std::swap(payload_, into);
+  payload_.reserve(full_.directory_bytes() + full_.tile_count * tile_room_);
+  return finished;
 }
 
 void TileLog::clear() {
@@ -68,43 +80,51 @@ void TileLog::clear() {
   std::fill(lane_records_.begin(), lane_records_.end(), 0);
 }
 
-TileEntry TileLog::choose(const BlockGeometry& geometry, std::uint64_t tile, TilePolicy policy) const {
+TileEntry TileLog::choose(const BlockGeometry& geometry, std::uint64_t tile) const {
   const std::uint16_t* counts = lane_records_.data() + tile * kTilePixels;
   const std::uint32_t slots = *std::max_element(counts, counts + kTilePixels);
   const std::uint32_t rows = row_count_[tile];
-  const bool as_records = policy == TilePolicy::records ||
-                          (policy == TilePolicy::automatic && records_are_cheaper(geometry, rows, slots));
+  const bool as_records = policy_ == TilePolicy::records ||
+                          (policy_ == TilePolicy::automatic && records_are_cheaper(geometry, rows, slots));
   return {0, as_records ? slots | TileEntry::kRecordsFlag : rows};
 }
 
-void TileLog::write_rows(const BlockGeometry& geometry, std::uint64_t tile, std::uint32_t rows,
-                         std::byte* body) const {
-  const std::uint64_t index_bytes = geometry.row_index_bytes(rows);
-  std::memset(body, 0, index_bytes);
-  for (std::uint32_t row = 0; index_bytes != 0 && row < rows; ++row) {
-    write_index(geometry, body, row, row_samples(tile)[row]);
-  }
-  std::memcpy(body + index_bytes, row_at(tile, 0), rows * geometry.row_bytes());
+// Puts the list of the rows' samples right before them.
+void TileLog::close_rows(const BlockGeometry& geometry, std::uint64_t tile, TileEntry& entry) {
+  const std::uint64_t index_bytes = geometry.row_index_bytes(entry.rows());
+  const std::uint64_t offset = rows_offset(tile) - index_bytes;
+  entry.offset = static_cast<std::uint32_t>(offset / kBlockAlignment);
+  if (index_bytes == 0) return;
+  std::byte* list = payload_.data() + offset;
+  std::memset(list, 0, index_bytes);
+  for (std::uint32_t row = 0; row < entry.rows(); ++row)
+    write_index(geometry, list, row, row_samples(tile)[row]);
 }
 
-void TileLog::write_records(const BlockGeometry& geometry, std::uint64_t tile, std::uint32_t slots,
-                            std::byte* body) const {
+// Puts records where the rows were.
+void TileLog::close_records(const BlockGeometry& geometry, std::uint64_t tile, TileEntry& entry) {
   const std::uint64_t row_bytes = geometry.row_bytes();
   const std::uint64_t slot_bytes = geometry.slot_bytes();
   const std::uint64_t index_bytes = kTilePixels * geometry.index_bytes();
-  const std::uint32_t rows = row_count_[tile];
-  std::memcpy(body, row_at(tile, 0), row_bytes);
+  const std::uint32_t rows = row_count_[tile], slots = entry.slots();
+  const std::uint64_t offset = rows_offset(tile) - index_room_;
+  entry.offset = static_cast<std::uint32_t>(offset / kBlockAlignment);
+  std::byte* body = payload_.data() + offset;
+  const std::byte* first_row = body + index_room_;
+  rows_.assign(first_row, first_row + rows * row_bytes);
+
+  std::memcpy(body, rows_.data(), row_bytes);
   // Padding first: every slot ends as "the last codes, at no sample of the block".
   for (std::uint32_t slot = 0; slot < slots; ++slot) {
     std::byte* index = body + row_bytes + slot * slot_bytes;
     for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
       write_index(geometry, index, lane, geometry.sample_count);
     }
-    std::memcpy(index + index_bytes, row_at(tile, rows - 1), row_bytes);
+    std::memcpy(index + index_bytes, rows_.data() + (rows - 1) * row_bytes, row_bytes);
   }
   std::array<std::uint16_t, kTilePixels> filled{};
   for (std::uint32_t row = 1; row < rows; ++row) {
-    const std::byte* codes = row_at(tile, row);
+    const std::byte* codes = rows_.data() + row * row_bytes;
     for (std::uint64_t lanes = row_changes(tile)[row]; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(__builtin_ctzll(lanes));
       std::byte* index = body + row_bytes + filled[lane]++ * slot_bytes;

@@ -57,6 +57,12 @@ std::optional<BlockFeed::Chunk> BlockFeed::next() {
 BlockFeed::Chunk BlockFeed::next_chunk() {
   if (info_.shares_host_memory && !source_->region().empty()) return in_place_chunk();
   if (source_ == held_source_ && holds(plan_->blocks[next_])) return held_chunk();
+  if (info_.shares_host_memory && source_ != held_source_) {
+    const std::uint64_t bytes = prepared_bytes(plan_->blocks[next_]);
+    const std::span<const std::byte> lent = source_->lent();
+    if (!lent.empty() && lent.size() <= info_.largest_allocation_bytes) return lent_chunk(lent, bytes);
+    pending_bytes_ = bytes;
+  }
   return read_chunk();
 }
 
@@ -101,6 +107,17 @@ BlockFeed::Chunk BlockFeed::in_place_chunk() {
   in_place_bytes_ = std::min(bytes, region.size() - begin);
   chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, in_place_bytes_,
                              const_cast<std::byte*>(region.data()) + begin);
+  return chunk;
+}
+
+// A block where its source built it.
+BlockFeed::Chunk BlockFeed::lent_chunk(std::span<const std::byte> lent, std::uint64_t bytes) {
+  Chunk chunk;
+  chunk.entries.push_back(entry(0));
+  chunk.payload_bytes = bytes;
+  chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, lent.size(),
+                             const_cast<std::byte*>(lent.data()));
+  ++next_;
   return chunk;
 }
 

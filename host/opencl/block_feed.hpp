@@ -4,7 +4,7 @@
 //   out:     chunks: blocks in one buffer, for one launch
 //   always:  copies of blocks take no more than two chunks (one block at least each); those of a capture that
 //            is held stay besides, up to a limit, and are not read again. Blocks that lie in the host's
-//            memory already, where the device reads it too, are not copied at all.
+//            memory already, or are built there, are not copied at all where the device reads it too.
 #pragma once
 
 #include <array>
@@ -76,6 +76,7 @@ class BlockFeed {
   BlockEntry entry(std::uint64_t offset) const;
 
   Chunk in_place_chunk();
+  Chunk lent_chunk(std::span<const std::byte> lent, std::uint64_t bytes);
   Chunk held_chunk();
   Chunk read_chunk();
   Chunk next_chunk();

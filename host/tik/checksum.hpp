@@ -12,6 +12,9 @@ namespace nutik::tik {
   return XXH3_64bits(bytes.data(), bytes.size());
 }
 
+// Of parts, as if they lay one behind the other.
+[[nodiscard]] std::uint64_t checksum(std::span<const std::span<const std::byte>> parts);
+
 // Of a structure's bytes before its own checksum.
 template <typename Struct>
 [[nodiscard]] std::uint64_t checksum_of(const Struct& structure, std::size_t bytes) {

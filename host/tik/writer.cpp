@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "capture/error.hpp"
+#include "imev/payload_parts.hpp"
 #include "tik/checksum.hpp"
 
 namespace nutik::tik {
@@ -56,11 +57,14 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
     throw std::logic_error("a block does not continue its .tik file");
   }
   const BlockGeometry geometry(header_.capture, block.extent.sample_count);
-  std::vector<std::byte> stored;
-  std::span<const std::byte> payload = block.payload;
+  const PayloadParts parts(geometry, block.payload);
+  std::vector<std::byte> packed;
+  std::span<const std::byte> packed_part;
+  std::span<const std::span<const std::byte>> stored = parts.parts();
   if (codec_.id != CodecId::none) {
-    stored = pack(codec_, geometry, block.payload);
-    payload = stored;
+    packed = pack(codec_, geometry, block.payload);
+    packed_part = packed;
+    stored = {&packed_part, 1};
   }
   BlockHeader header{};
   std::memcpy(header.magic, kBlockMagic, sizeof header.magic);
@@ -69,10 +73,10 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
   header.sample_count = block.extent.sample_count;
   header.codec = static_cast<std::uint32_t>(codec_.id);
   header.exposure_bytes = exposures.size_bytes();
-  header.stored_bytes = payload.size();
-  header.payload_bytes = block.payload.size();
+  header.stored_bytes = codec_.id == CodecId::none ? parts.bytes() : packed.size();
+  header.payload_bytes = parts.bytes();
   header.record_count = block.record_count;
-  header.payload_checksum = checksum(payload);
+  header.payload_checksum = checksum(stored);
   if (!exposures.empty()) header.exposures_checksum = checksum(std::as_bytes(exposures));
   header.front_checksum = front_checksum_;
   header.header_checksum = checksum_of(header, offsetof(BlockHeader, header_checksum));
@@ -82,7 +86,7 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
   file_.write(bytes_of(header));
   file_.write(std::as_bytes(exposures));
   pad(file_);
-  file_.write(payload);
+  file_.write(stored);
   pad(file_);
   sample_count_ += block.extent.sample_count;
 }

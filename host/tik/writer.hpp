@@ -14,7 +14,7 @@
 
 namespace nutik::tik {
 
-// A block as it comes from a BlockBuilder.
+// A block as it comes from a BlockBuilder: its payload may have room between its bodies.
 struct BuiltBlock {
   BlockExtent extent;
   std::span<const std::byte> payload;

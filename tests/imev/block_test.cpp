@@ -178,12 +178,12 @@ TEST(BlockBuilder, RefusesBlocksThatMayComeToMoreThanAnOffsetReaches) {
     }
     return std::string("nothing was thrown");
   };
-  // 129600 tiles: 2120998 bytes each, less 72 for entry and padding. Of 5495 samples 5494 rows of 384 bytes
-  // and their index take 2120704, of one more 2121088.
+  // 129600 tiles: 2120998 bytes each, less 72 for entry and padding. 5494 rows of 384 bytes and room for their
+  // index take 2120704, one more 2121088.
   EXPECT_EQ(
       message(65'535, TilePolicy::automatic),
       "a block of 65535 samples of 3840 x 2160 pixels may come to more than the 256 GiB that a block can "
-      "have; use --block-samples 5495 or less");
+      "have; use --block-samples 5494 or less");
   EXPECT_EQ(message(65'536, TilePolicy::automatic), "a block of 65536 samples is outside 1 … 65535");
   // A slot has an index of 128 bytes too: 384 + 512 (n - 1) bytes, n = 4142.
   EXPECT_NE(message(5495, TilePolicy::records).find("--block-samples 4142 or less"), std::string::npos);

@@ -56,6 +56,14 @@ TEST(ColourVideo, HasTheCodesOfOpenCvInRealClips) {
   }
 }
 
+// Everyday cameras name BT.709's curve whatever theirs is.
+TEST(ColourVideo, IsShownWithTheCurveOfSrgb) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  test::make(scratch, "-f lavfi -i color=red:s=16x16:d=0.2 -c:v ffv1 -pix_fmt yuv420p -color_trc bt709 clip.mkv");
+  EXPECT_EQ(test::open_test_clip(scratch / "clip.mkv")->info().format.transfer, Transfer::srgb());
+}
+
 // Saturated colours, for which BT.601 and BT.709 are up to 60 codes apart.
 TEST(ColourVideo, FollowsTheMatrixThatTheFileNames) {
   NEEDS_FFMPEG();

@@ -93,7 +93,7 @@ void Encoding::store() {
       exposures = times_.table().subspan(range.first, block->extent.sample_count);
     }
     writer_->append(
-        {block->extent, block->payload.first(block->finished.payload_bytes), block->finished.record_count},
+        {block->extent, block->payload.first(block->finished.span_bytes), block->finished.record_count},
         exposures);
     spare_payloads_.push(std::move(block->payload));
   }

@@ -36,7 +36,9 @@ class LibavClip final : public Clip {
     // Deep grey pictures, and those of 16 bits, come from scientific cameras, which are linear;
     // other deep colour from film cameras.
     const bool scientific = pixels.bits > 8 && (pixels.is_grey || pixels.bits == 16);
-    capture.transfer = probe.transfer.value_or(scientific ? Transfer::linear() : Transfer::srgb());
+    // Everyday cameras name BT.709's curve whatever theirs is, and players show sRGB's.
+    const auto named = pixels.is_everyday() ? std::nullopt : probe.transfer;
+    capture.transfer = named.value_or(scientific ? Transfer::linear() : Transfer::srgb());
     info_.notes = probe.notes;
     info_.timing = probe.timing;
     info_.sample_count = probe.sample_count;

@@ -181,8 +181,7 @@ void PixelConverter::scale(const AVFrame& frame, AVPixelFormat wanted, const std
                            std::uint8_t* const* planes, const int* strides) {
   const auto from = static_cast<AVPixelFormat>(frame.format);
   // Without the flags 8-bit pictures are what OpenCV makes of them, and converting costs less than decoding.
-  const bool is_plain = !kind_.is_grey && kind_.bits <= 8;
-  const int flags = SWS_BICUBIC | (is_plain ? 0 : SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT);
+  const int flags = SWS_BICUBIC | (kind_.is_everyday() ? 0 : SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT);
   scaler_.reset(sws_getCachedContext(scaler_.release(), frame.width, frame.height, from, frame.width,
                                      frame.height, wanted, flags, nullptr, nullptr, nullptr));
   if (!scaler_) {

@@ -21,6 +21,8 @@ struct PixelKind {
   // Empty low bits that the decoder puts below the codes of the file, to fill 16 bits.
   std::uint32_t padding_bits = 0;
 
+  // 8-bit colour, as players show it.
+  [[nodiscard]] bool is_everyday() const { return !is_grey && bits <= 8; }
   // The largest code of the rasters.
   [[nodiscard]] std::uint32_t white_code() const;
 };
