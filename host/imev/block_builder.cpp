@@ -16,6 +16,8 @@
 
 namespace nutik {
 
+static_assert(BlockBuilder::kSamplesAtOnce == kStepSamples);
+
 std::uint32_t default_block_samples(const CaptureFormat& capture, std::uint64_t block_bytes) {
   const std::uint64_t fitting = block_bytes / std::max<std::uint64_t>(capture.sample_bytes(), 1);
   return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fitting, 1, kDefaultBlockSamples));
@@ -47,25 +49,35 @@ void check_block_samples(const CaptureFormat& capture, std::uint32_t samples, Ti
       samples, capture.shape.width, capture.shape.height, kLargestPayloadBytes >> 30, fitting));
 }
 
-// Calls visit(tile, raster) for every tile of a sample. Tiles at the right and bottom edge are padded first.
+// Calls visit(first tile, count, rasters, row_values) for strips of neighbouring tiles, at most kStripTiles each:
+// where the first lies in every sample, and how many values a row of it is from the next. Tiles at the right and
+// bottom edge are padded first.
 template <typename Visit>
-void for_each_tile(const CaptureFormat& source, const TileGrid& grid, std::span<const std::byte> sample,
-                   Visit visit) {
+void for_each_strip(const CaptureFormat& source, const TileGrid& grid,
+                    std::span<const std::span<const std::byte>> samples, Visit visit) {
   const Shape& shape = source.shape;
   const std::size_t value_bytes = std::size_t{shape.channels} * source.code_bytes;
-  alignas(64) std::array<std::byte, kTilePixels * 3 * 2> padded;
-  std::uint64_t tile = 0;
-  for (std::uint32_t top = 0; top < shape.height; top += kTileSide) {
-    for (std::uint32_t left = 0; left < shape.width; left += kTileSide, ++tile) {
-      if (left + kTileSide <= shape.width && top + kTileSide <= shape.height) {
-        visit(tile, TileRaster{sample.data() + (std::size_t{top} * shape.width + left) * value_bytes,
-                               std::size_t{shape.width} * shape.channels});
-        continue;
+  const std::uint64_t whole_columns = shape.width / kTileSide;
+  alignas(64) std::array<std::array<std::byte, kTilePixels * 3 * 2>, kStepSamples> padded;
+  std::array<const std::byte*, kStepSamples> rasters{};
+  for (std::uint64_t row = 0; row < grid.rows(); ++row) {
+    const std::uint64_t first = row * grid.columns();
+    const std::uint64_t whole = (row + 1) * kTileSide <= shape.height ? whole_columns : 0;
+    for (std::uint64_t column = 0; column < whole; column += kStripTiles) {
+      const std::uint64_t pixel = row * kTileSide * shape.width + column * kTileSide;
+      for (std::size_t k = 0; k < samples.size(); ++k) rasters[k] = samples[k].data() + pixel * value_bytes;
+      visit(first + column, static_cast<std::uint32_t>(std::min<std::uint64_t>(kStripTiles, whole - column)),
+            rasters, std::size_t{shape.width} * shape.channels);
+    }
+    for (std::uint64_t tile = first + whole; tile < first + grid.columns(); ++tile) {
+      for (std::size_t k = 0; k < samples.size(); ++k) {
+        grid.for_each_lane(tile, [&](std::uint32_t lane, std::uint64_t pixel) {
+          std::memcpy(padded[k].data() + lane * value_bytes, samples[k].data() + pixel * value_bytes,
+                      value_bytes);
+        });
+        rasters[k] = padded[k].data();
       }
-      grid.for_each_lane(tile, [&](std::uint32_t lane, std::uint64_t pixel) {
-        std::memcpy(padded.data() + lane * value_bytes, sample.data() + pixel * value_bytes, value_bytes);
-      });
-      visit(tile, TileRaster{padded.data(), std::size_t{kTileSide} * shape.channels});
+      visit(tile, 1u, rasters, std::size_t{kTileSide} * shape.channels);
     }
   }
 }
@@ -90,22 +102,30 @@ class BlockBuilder::Implementation {
       : source_(source), grid_(source.shape), block_samples_(block_samples), policy_(policy) {}
   virtual ~Implementation() = default;
 
-  void add(std::span<const std::byte> raster) {
-    if (raster.size() != source_.sample_bytes()) {
-      throw std::logic_error("a sample's raster has the wrong size");
+  void add(std::span<const std::span<const std::byte>> rasters) {
+    if (rasters.size() > room()) throw std::logic_error("a full block was given another sample");
+    while (!rasters.empty()) {
+      // A block's first sample is compared with something else than those after it.
+      const std::size_t count = is_empty() ? 1 : std::min<std::size_t>(rasters.size(), kStepSamples);
+      for (std::size_t k = 0; k < count; ++k) {
+        if (rasters[k].size() != source_.sample_bytes()) {
+          throw std::logic_error("a sample's raster has the wrong size");
+        }
+        check_white(source_, rasters[k], first_sample_ + samples_ + k);
+      }
+      add_samples(rasters.first(count));
+      samples_ += static_cast<std::uint32_t>(count);
+      rasters = rasters.subspan(count);
     }
-    if (is_full()) throw std::logic_error("a full block was given another sample");
-    check_white(source_, raster, first_sample_ + samples_);
-    add_sample(raster);
-    ++samples_;
   }
 
-  [[nodiscard]] bool is_full() const { return samples_ == block_samples_; }
+  [[nodiscard]] std::uint32_t room() const { return block_samples_ - samples_; }
   [[nodiscard]] bool is_empty() const { return samples_ == 0; }
   [[nodiscard]] BlockExtent extent() const { return {first_sample_, samples_}; }
 
   FinishedBlock finish(PageBuffer& into) {
     if (is_empty()) throw std::logic_error("a block without samples was finished");
+    carry();
     const FinishedBlock finished = close_block(into);
     begin_next();
     return finished;
@@ -118,12 +138,16 @@ class BlockBuilder::Implementation {
       ++first_sample_;
       return;
     }
-    add(raster);
+    add({&raster, 1});
+    carry();
     begin_next();
   }
 
  protected:
-  virtual void add_sample(std::span<const std::byte> raster) = 0;
+  // At most kStepSamples; a block's first one alone.
+  virtual void add_samples(std::span<const std::span<const std::byte>> rasters) = 0;
+  // Keeps what the next block starts from, before this one is closed.
+  virtual void carry() {}
   virtual FinishedBlock close_block(PageBuffer& into) = 0;
   virtual void clear() = 0;
 
@@ -149,31 +173,55 @@ class BlockBuilder::Comparing final : public Implementation {
       : Implementation(source, block_samples, policy),
         row_bytes_(BlockGeometry(source, block_samples).row_bytes()),
         step_(step_function(source)),
-        held_(grid_.tile_count() * row_bytes_),
+        held_(source.noise.tolerance == 0 ? 0 : grid_.tile_count() * row_bytes_),
         log_(source, block_samples, policy) {}
 
  private:
-  void add_sample(std::span<const std::byte> raster) override {
-    const bool starts = samples_ == 0;  // and a start is no record
-    TileStep step{};
+  void add_samples(std::span<const std::span<const std::byte>> samples) override {
+    const bool starts = is_empty();  // and a start is no record
     // The capture's first sample is held whatever it is: nothing was held before.
-    step.tolerance = starts && first_sample_ == 0 ? 0 : source_.noise.tolerance;
-    for_each_tile(source_, grid_, raster, [&](std::uint64_t tile, const TileRaster& tile_raster) {
-      step.raster = tile_raster;
-      step.held = held_.data() + tile * row_bytes_;
-      step.counts = starts ? nullptr : log_.counts(tile);
-      const std::uint64_t changes = step_(step);
-      if (changes == 0 && !starts && policy_ != TilePolicy::dense) return;
-      std::memcpy(log_.add_row(tile, samples_, starts ? 0 : changes), step.held, row_bytes_);
-    });
+    const bool is_first = starts && first_sample_ == 0;
+    StripStep step{};
+    step.sample_count = static_cast<std::uint32_t>(samples.size());
+    step.tolerance = is_first ? 0 : source_.noise.tolerance;
+    step.writes_all = starts || policy_ == TilePolicy::dense;
+    const auto visit = [&](std::uint64_t first, std::uint32_t tiles, const auto& rasters,
+                           std::size_t row_values) {
+      step.rasters = rasters;
+      step.row_values = row_values;
+      step.tile_count = tiles;
+      for (std::uint32_t i = 0; i < tiles; ++i) {
+        step.held[i] = starts ? held_before(first + i) : log_.last_row(first + i);
+        step.next[i] = log_.next_row(first + i);
+      }
+      step_(step);
+      for (std::uint32_t k = 0; k < step.sample_count; ++k) {
+        for (std::uint32_t i = 0; i < tiles; ++i) {
+          const std::uint64_t changes = step.changes[k][i];
+          if (changes != 0 || step.writes_all) log_.add_row(first + i, samples_ + k, starts ? 0 : changes);
+        }
+      }
+    };
+    for_each_strip(source_, grid_, samples, visit);
   }
 
+  // What a tile held at the end of the block before. Without a tolerance a block starts from its own sample
+  // whatever that was, and the room for its first row serves as well.
+  [[nodiscard]] const std::byte* held_before(std::uint64_t tile) {
+    return source_.noise.tolerance == 0 ? log_.next_row(tile) : held_.data() + tile * row_bytes_;
+  }
+  void carry() override {
+    if (source_.noise.tolerance == 0) return;
+    for (std::uint64_t tile = 0; tile < grid_.tile_count(); ++tile) {
+      std::memcpy(held_.data() + tile * row_bytes_, log_.last_row(tile), row_bytes_);
+    }
+  }
   FinishedBlock close_block(PageBuffer& into) override { return log_.finish(samples_, into); }
   void clear() override { log_.clear(); }
 
   std::uint64_t row_bytes_;
   StepFunction step_;
-  PageBuffer held_;  // [tile][C][64] codes
+  PageBuffer held_;  // [tile][C][64] codes at the end of the block before, where there is a tolerance
   TileLog log_;
 };
 
@@ -193,10 +241,17 @@ class BlockBuilder::Averaging final : public Implementation {
     return codes_.data() + (tile * block_samples_ + sample) * row_bytes_;
   }
 
-  void add_sample(std::span<const std::byte> raster) override {
-    for_each_tile(source_, grid_, raster, [&](std::uint64_t tile, const TileRaster& tile_raster) {
-      gather_(tile_raster, codes_at(tile, samples_));
-    });
+  void add_samples(std::span<const std::span<const std::byte>> samples) override {
+    const std::size_t tile_bytes = std::size_t{kTileSide} * source_.shape.channels * source_.code_bytes;
+    const auto visit = [&](std::uint64_t first, std::uint32_t tiles, const auto& rasters,
+                           std::size_t row_values) {
+      for (std::uint32_t i = 0; i < tiles; ++i) {
+        for (std::uint32_t k = 0; k < samples.size(); ++k) {
+          gather_({rasters[k] + i * tile_bytes, row_values}, codes_at(first + i, samples_ + k));
+        }
+      }
+    };
+    for_each_strip(source_, grid_, samples, visit);
   }
 
   FinishedBlock close_block(PageBuffer& into) override {
@@ -213,15 +268,12 @@ class BlockBuilder::Averaging final : public Implementation {
 
   void log_tile(std::uint64_t tile, const ExpectedValues::Held& held) {
     const std::size_t row_values = held.codes.size() / samples_;
-    std::uint16_t* counts = log_.counts(tile);
     for (std::uint32_t sample = 0; sample < samples_; ++sample) {
       const std::uint64_t changes = held.changes[sample];
       if (changes == 0 && sample != 0 && policy_ != TilePolicy::dense) continue;
-      std::memcpy(log_.add_row(tile, sample, changes), held.codes.data() + sample * row_values,
+      std::memcpy(log_.next_row(tile), held.codes.data() + sample * row_values,
                   row_values * sizeof(std::uint16_t));
-      for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
-        counts[lane] = static_cast<std::uint16_t>(counts[lane] + (changes >> lane & 1));
-      }
+      log_.add_row(tile, sample, changes);
     }
   }
 
@@ -247,8 +299,9 @@ BlockBuilder::~BlockBuilder() = default;
 BlockBuilder::BlockBuilder(BlockBuilder&&) noexcept = default;
 BlockBuilder& BlockBuilder::operator=(BlockBuilder&&) noexcept = default;
 
-void BlockBuilder::add(std::span<const std::byte> raster) { implementation_->add(raster); }
-bool BlockBuilder::is_full() const { return implementation_->is_full(); }
+void BlockBuilder::add(std::span<const std::byte> raster) { implementation_->add({&raster, 1}); }
+void BlockBuilder::add(std::span<const std::span<const std::byte>> rasters) { implementation_->add(rasters); }
+std::uint32_t BlockBuilder::room() const { return implementation_->room(); }
 bool BlockBuilder::is_empty() const { return implementation_->is_empty(); }
 BlockExtent BlockBuilder::extent() const { return implementation_->extent(); }
 FinishedBlock BlockBuilder::finish(PageBuffer& into) { return implementation_->finish(into); }

@@ -58,12 +58,12 @@ SampleRange streamed_samples(const CaptureFormat& source, SampleRange needed, st
 }
 
 StreamingCapture::StreamingCapture(const CaptureFormat& source, Timeline timeline, SampleRange needed,
-                                   std::uint32_t block_samples, TilePolicy policy, NextSample next_sample)
+                                   std::uint32_t block_samples, TilePolicy policy, NextSamples next_samples)
     : capture_(held_format(source)),
       timeline_(std::move(timeline)),
       needed_(streamed_samples(source, needed, block_samples, timeline_.sample_count())),
       block_samples_(block_samples),
-      next_sample_(std::move(next_sample)),
+      next_samples_(std::move(next_samples)),
       builder_(source, block_samples, policy) {}
 
 std::uint64_t StreamingCapture::block_count() const {
@@ -79,13 +79,14 @@ BlockExtent StreamingCapture::block_extent(std::uint64_t block) const {
 void StreamingCapture::read_samples(std::uint64_t until, bool keep) {
   while (samples_read_ < until) {
     check_interruption();
-    const std::span<const std::byte> raster = next_sample_();
-    if (raster.empty()) throw SampleCountMismatch(samples_read_, timeline_.sample_count());
-    ++samples_read_;
+    const auto rasters =
+        next_samples_(std::min<std::uint64_t>(until - samples_read_, BlockBuilder::kSamplesAtOnce));
+    if (rasters.empty()) throw SampleCountMismatch(samples_read_, timeline_.sample_count());
+    samples_read_ += rasters.size();
     if (keep) {
-      builder_.add(raster);
+      builder_.add(rasters);
     } else {
-      builder_.pass(raster);
+      for (const std::span<const std::byte> raster : rasters) builder_.pass(raster);
     }
   }
 }
@@ -100,7 +101,7 @@ std::uint64_t StreamingCapture::prepare(std::uint64_t block) {
   finished_ = builder_.finish(payload_);
   if (samples_read_ == timeline_.sample_count()) {
     std::uint64_t more = 0;
-    for (; !next_sample_().empty(); ++more) check_interruption();
+    for (; !next_samples_(1).empty(); ++more) check_interruption();
     if (more > 0) throw SampleCountMismatch(samples_read_ + more, timeline_.sample_count());
   }
   return finished_.payload_bytes;

@@ -92,11 +92,12 @@ struct SampleCountMismatch : InputError {
 // streamed_samples() is kept, nothing after it is read.
 class StreamingCapture final : public CaptureSource {
  public:
-  // The next sample as an interleaved raster that stays until the next call; empty at the end.
-  using NextSample = std::function<std::span<const std::byte>()>;
+  // The next samples, at most so many and at least one, as interleaved rasters that stay until the next call;
+  // none at the end.
+  using NextSamples = std::function<std::span<const std::span<const std::byte>>(std::uint64_t most)>;
 
   StreamingCapture(const CaptureFormat& source, Timeline timeline, SampleRange needed,
-                   std::uint32_t block_samples, TilePolicy policy, NextSample next_sample);
+                   std::uint32_t block_samples, TilePolicy policy, NextSamples next_samples);
 
   [[nodiscard]] const CaptureFormat& format() const override { return capture_; }
   [[nodiscard]] const Timeline& timeline() const override { return timeline_; }
@@ -118,7 +119,7 @@ class StreamingCapture final : public CaptureSource {
   Timeline timeline_;
   SampleRange needed_;
   std::uint32_t block_samples_;
-  NextSample next_sample_;
+  NextSamples next_samples_;
   BlockBuilder builder_;
   std::uint64_t samples_read_ = 0;
   PageBuffer payload_;  // of the block prepared last; its memory and the builder's are used in turns

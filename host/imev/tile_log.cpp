@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <numeric>
 
@@ -36,19 +37,11 @@ TileLog::TileLog(const CaptureFormat& capture, std::uint32_t block_samples, Tile
       policy_(policy),
       index_room_(largest_index_bytes(full_)),
       tile_room_(largest_body_bytes(full_, policy)),
+      differ_(differ_function(full_.channels, full_.code_bytes)),
       payload_(full_.directory_bytes() + full_.tile_count * tile_room_),
-      changed_(full_.tile_count * block_samples * sizeof(std::uint64_t)),
-      row_sample_(full_.tile_count * block_samples * sizeof(std::uint16_t)),
+      samples_(full_.tile_count * block_samples * sizeof(std::uint16_t)),
       row_count_(full_.tile_count),
-      lane_records_(full_.tile_count * kTilePixels) {}
-
-std::byte* TileLog::add_row(std::uint64_t tile, std::uint32_t sample, std::uint64_t changes) {
-  const std::uint32_t row = row_count_[tile]++;
-  const std::uint64_t slot = slot_of(tile, row);
-  reinterpret_cast<std::uint16_t*>(row_sample_.data())[slot] = static_cast<std::uint16_t>(sample);
-  reinterpret_cast<std::uint64_t*>(changed_.data())[slot] = changes;
-  return payload_.data() + rows_offset(tile) + row * full_.row_bytes();
-}
+      change_count_(full_.tile_count) {}
 
 FinishedBlock TileLog::finish(std::uint32_t samples, PageBuffer& into) {
   BlockGeometry geometry = full_;
@@ -69,7 +62,7 @@ FinishedBlock TileLog::finish(std::uint32_t samples, PageBuffer& into) {
   }
   std::memset(payload_.data(), 0, geometry.directory_bytes());
   std::memcpy(payload_.data(), entries.data(), entries.size() * sizeof(TileEntry));
-  finished.record_count = std::accumulate(lane_records_.begin(), lane_records_.end(), std::uint64_t{0});
+  finished.record_count = std::accumulate(change_count_.begin(), change_count_.end(), std::uint64_t{0});
   std::swap(payload_, into);
   payload_.reserve(full_.directory_bytes() + full_.tile_count * tile_room_);
   return finished;
@@ -77,16 +70,33 @@ FinishedBlock TileLog::finish(std::uint32_t samples, PageBuffer& into) {
 
 void TileLog::clear() {
   std::fill(row_count_.begin(), row_count_.end(), 0);
-  std::fill(lane_records_.begin(), lane_records_.end(), 0);
+  std::fill(change_count_.begin(), change_count_.end(), 0);
 }
 
 TileEntry TileLog::choose(const BlockGeometry& geometry, std::uint64_t tile) const {
-  const std::uint16_t* counts = lane_records_.data() + tile * kTilePixels;
-  const std::uint32_t slots = *std::max_element(counts, counts + kTilePixels);
   const std::uint32_t rows = row_count_[tile];
-  const bool as_records = policy_ == TilePolicy::records ||
-                          (policy_ == TilePolicy::automatic && records_are_cheaper(geometry, rows, slots));
-  return {0, as_records ? slots | TileEntry::kRecordsFlag : rows};
+  const TileEntry as_rows{0, rows};
+  // The busiest pixel has no fewer changes than all of them have on average: rows are read again only where
+  // records may be worth it.
+  const std::uint32_t fewest_slots = (change_count_[tile] + kTilePixels - 1) / kTilePixels;
+  const bool is_free = policy_ == TilePolicy::automatic;
+  if (policy_ != TilePolicy::records && !(is_free && records_are_cheaper(geometry, rows, fewest_slots)))
+    return as_rows;
+  const std::uint32_t slot_count = slots(tile);
+  if (is_free && !records_are_cheaper(geometry, rows, slot_count)) return as_rows;
+  return {0, slot_count | TileEntry::kRecordsFlag};
+}
+
+// The change records of a tile's busiest pixel.
+std::uint32_t TileLog::slots(std::uint64_t tile) const {
+  std::array<std::uint32_t, kTilePixels> counts{};
+  const std::byte* row = payload_.data() + rows_offset(tile);
+  for (std::uint32_t r = 1; r < row_count_[tile]; ++r, row += full_.row_bytes()) {
+    for (std::uint64_t lanes = differ_(row, row + full_.row_bytes()); lanes != 0; lanes &= lanes - 1) {
+      ++counts[static_cast<std::uint32_t>(std::countr_zero(lanes))];
+    }
+  }
+  return *std::max_element(counts.begin(), counts.end());
 }
 
 // Puts the list of the rows' samples right before them.
@@ -97,8 +107,7 @@ void TileLog::close_rows(const BlockGeometry& geometry, std::uint64_t tile, Tile
   if (index_bytes == 0) return;
   std::byte* list = payload_.data() + offset;
   std::memset(list, 0, index_bytes);
-  for (std::uint32_t row = 0; row < entry.rows(); ++row)
-    write_index(geometry, list, row, row_samples(tile)[row]);
+  for (std::uint32_t row = 0; row < entry.rows(); ++row) write_index(geometry, list, row, samples(tile)[row]);
 }
 
 // Puts records where the rows were.
@@ -125,10 +134,10 @@ void TileLog::close_records(const BlockGeometry& geometry, std::uint64_t tile, T
   std::array<std::uint16_t, kTilePixels> filled{};
   for (std::uint32_t row = 1; row < rows; ++row) {
     const std::byte* codes = rows_.data() + row * row_bytes;
-    for (std::uint64_t lanes = row_changes(tile)[row]; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::uint32_t>(__builtin_ctzll(lanes));
+    for (std::uint64_t lanes = differ_(codes - row_bytes, codes); lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
       std::byte* index = body + row_bytes + filled[lane]++ * slot_bytes;
-      write_index(geometry, index, lane, row_samples(tile)[row]);
+      write_index(geometry, index, lane, samples(tile)[row]);
       for (std::uint32_t channel = 0; channel < geometry.channels; ++channel) {
         const std::size_t at = (channel * kTilePixels + lane) * geometry.code_bytes;
         std::memcpy(index + index_bytes + at, codes + at, geometry.code_bytes);

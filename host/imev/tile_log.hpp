@@ -7,12 +7,14 @@
 //            Different tiles may be written side by side
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
 #include "capture/picture.hpp"
 #include "imev/block.hpp"
 #include "imev/tile_cost.hpp"
+#include "imev/tile_step.hpp"
 #include "system/page_buffer.hpp"
 
 namespace nutik {
@@ -24,13 +26,19 @@ class TileLog {
  public:
   TileLog(const CaptureFormat& capture, std::uint32_t block_samples, TilePolicy policy);
 
-  // The next row of a tile, of which `changes` are the lanes, as bits, that changed (none at the block's
-  // first sample). Returns where its codes [C][64] belong.
-  std::byte* add_row(std::uint64_t tile, std::uint32_t sample, std::uint64_t changes);
-
-  // Change records of each of a tile's lanes: whoever adds a row counts them.
-  [[nodiscard]] std::uint16_t* counts(std::uint64_t tile) {
-    return lane_records_.data() + tile * kTilePixels;
+  // A tile's last row, codes [C][64]; there is none before the block's first sample.
+  [[nodiscard]] const std::byte* last_row(std::uint64_t tile) const {
+    return payload_.data() + rows_offset(tile) + (row_count_[tile] - 1) * full_.row_bytes();
+  }
+  // Where the codes of its next rows belong, one behind the other.
+  [[nodiscard]] std::byte* next_row(std::uint64_t tile) {
+    return payload_.data() + rows_offset(tile) + row_count_[tile] * full_.row_bytes();
+  }
+  // Takes the next of these, of which `changes` are the lanes, as bits, that differ from the row before (none at
+  // the block's first sample).
+  void add_row(std::uint64_t tile, std::uint32_t sample, std::uint64_t changes) {
+    samples(tile)[row_count_[tile]++] = static_cast<std::uint16_t>(sample);
+    change_count_[tile] += static_cast<std::uint32_t>(std::popcount(changes));
   }
 
   // Closes a block of `samples`: `into` is given the payload's memory, and its own is used for the next block.
@@ -42,32 +50,28 @@ class TileLog {
 
  private:
   [[nodiscard]] TileEntry choose(const BlockGeometry& geometry, std::uint64_t tile) const;
+  [[nodiscard]] std::uint32_t slots(std::uint64_t tile) const;
   void close_rows(const BlockGeometry& geometry, std::uint64_t tile, TileEntry& entry);
   void close_records(const BlockGeometry& geometry, std::uint64_t tile, TileEntry& entry);
 
-  [[nodiscard]] std::uint64_t slot_of(std::uint64_t tile, std::uint32_t row) const {
-    return tile * full_.sample_count + row;
-  }
   // Where a tile's rows lie in the payload; the room before them takes the largest list of their samples.
   [[nodiscard]] std::uint64_t rows_offset(std::uint64_t tile) const {
     return full_.directory_bytes() + tile * tile_room_ + index_room_;
   }
-  [[nodiscard]] const std::uint16_t* row_samples(std::uint64_t tile) const {
-    return reinterpret_cast<const std::uint16_t*>(row_sample_.data()) + slot_of(tile, 0);
-  }
-  [[nodiscard]] const std::uint64_t* row_changes(std::uint64_t tile) const {
-    return reinterpret_cast<const std::uint64_t*>(changed_.data()) + slot_of(tile, 0);
+  // Of each of its rows, within the block.
+  [[nodiscard]] std::uint16_t* samples(std::uint64_t tile) {
+    return reinterpret_cast<std::uint16_t*>(samples_.data()) + tile * full_.sample_count;
   }
 
   BlockGeometry full_;  // of a full block
   TilePolicy policy_;
-  std::uint64_t index_room_;                 // bytes
-  std::uint64_t tile_room_;                  // bytes
+  std::uint64_t index_room_;  // bytes
+  std::uint64_t tile_room_;   // bytes
+  DifferFunction differ_;
   PageBuffer payload_;                       // directory; [tile] index list, [row][C][64] codes
-  PageBuffer changed_;                       // [tile][sample_count] lanes that changed with the row, as bits
-  PageBuffer row_sample_;                    // [tile][sample_count] sample of each row within the block
+  PageBuffer samples_;                       // [tile][sample_count]
   std::vector<std::uint32_t> row_count_;     // [tile]
-  std::vector<std::uint16_t> lane_records_;  // [tile][64] change records of each pixel in the block
+  std::vector<std::uint32_t> change_count_;  // [tile] change records of its pixels together
   std::vector<std::byte> rows_;              // of a tile that is being stored as records
 };
 

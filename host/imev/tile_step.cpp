@@ -67,22 +67,15 @@ inline __attribute__((always_inline)) std::uint64_t pack_lanes(const std::uint8_
   return bits;
 }
 
-// The step that every tile of every sample takes: the lanes, as bits, in which any channel is further than
-// the tolerance from what is held.
+// The lanes, as bits, in which any channel of `now` is further than `limit` from `held`, which is given its codes
+// there.
 template <typename Code, std::uint32_t Channels>
-inline __attribute__((always_inline)) std::uint64_t step_tile(const TileStep& step) {
+inline __attribute__((always_inline)) std::uint64_t compare(const Code* now_codes, Code* held_codes,
+                                                            Code limit) {
   using Lanes = std::conditional_t<sizeof(Code) == 1, Lanes8, Lanes16>;
-  alignas(64) Code codes[Channels * kTilePixels];
-  gather_tile<Code, Channels>(reinterpret_cast<const Code*>(step.raster.codes), step.raster.row_values,
-                              codes);
-  if (std::memcmp(codes, step.held, sizeof codes) == 0) return 0;
-
   Lanes now[Channels], held[Channels], differs{};
-  std::memcpy(now, codes, sizeof now);
-  std::memcpy(held, step.held, sizeof held);
-  // No distance is above the largest code: a larger tolerance means the same, but would not fit.
-  const auto limit =
-      static_cast<Code>(std::min<std::uint32_t>(step.tolerance, std::numeric_limits<Code>::max()));
+  std::memcpy(now, now_codes, sizeof now);
+  std::memcpy(held, held_codes, sizeof held);
   for (std::uint32_t channel = 0; channel < Channels; ++channel) {
     const Lanes distance =
         now[channel] > held[channel] ? now[channel] - held[channel] : held[channel] - now[channel];
@@ -91,28 +84,43 @@ inline __attribute__((always_inline)) std::uint64_t step_tile(const TileStep& st
   for (std::uint32_t channel = 0; channel < Channels; ++channel) {
     held[channel] = differs != 0 ? now[channel] : held[channel];
   }
-  std::memcpy(step.held, held, sizeof held);
+  std::memcpy(held_codes, held, sizeof held);
   const Lanes8 marks = __builtin_convertvector(differs, Lanes8) & 1;
-  if (step.counts != nullptr) {
-    Lanes16 counts;
-    std::memcpy(&counts, step.counts, sizeof counts);
-    counts += __builtin_convertvector(marks, Lanes16);
-    std::memcpy(step.counts, &counts, sizeof counts);
-  }
   std::uint8_t bytes[kTilePixels];
   std::memcpy(bytes, &marks, sizeof bytes);
   return pack_lanes(bytes);
 }
 
-NUTIK_SIMD_CLONES std::uint64_t step_grey8(const TileStep& step) { return step_tile<std::uint8_t, 1>(step); }
-NUTIK_SIMD_CLONES std::uint64_t step_grey16(const TileStep& step) {
-  return step_tile<std::uint16_t, 1>(step);
+template <typename Code, std::uint32_t Channels>
+inline __attribute__((always_inline)) void step_strip(StripStep& step) {
+  constexpr std::size_t kRowBytes = sizeof(Code) * Channels * kTilePixels;
+  using Row = Code[Channels * kTilePixels];
+  alignas(64) Row now[kStripTiles], held[kStripTiles];
+  const std::uint32_t tiles = std::min(step.tile_count, kStripTiles),
+                      samples = std::min(step.sample_count, kStepSamples);
+  // No distance is above the largest code: a larger tolerance means the same, but would not fit.
+  const auto limit =
+      static_cast<Code>(std::min<std::uint32_t>(step.tolerance, std::numeric_limits<Code>::max()));
+  for (std::uint32_t i = 0; i < tiles; ++i) std::memcpy(held[i], step.held[i], kRowBytes);
+  for (std::uint32_t k = 0; k < samples; ++k) {
+    const auto* raster = reinterpret_cast<const Code*>(step.rasters[k]);
+    for (std::uint32_t i = 0; i < tiles; ++i) {
+      gather_tile<Code, Channels>(raster + i * kTileSide * Channels, step.row_values, now[i]);
+    }
+    for (std::uint32_t i = 0; i < tiles; ++i) {
+      step.changes[k][i] = compare<Code, Channels>(now[i], held[i], limit);
+      if (step.changes[k][i] == 0 && !step.writes_all) continue;
+      std::memcpy(step.next[i], held[i], kRowBytes);
+      step.next[i] += kRowBytes;
+    }
+  }
 }
-NUTIK_SIMD_CLONES std::uint64_t step_colour8(const TileStep& step) {
-  return step_tile<std::uint8_t, 3>(step);
-}
-NUTIK_SIMD_CLONES std::uint64_t step_colour16(const TileStep& step) {
-  return step_tile<std::uint16_t, 3>(step);
+
+template <typename Code, std::uint32_t Channels>
+inline __attribute__((always_inline)) std::uint64_t differ(const std::byte* a, const std::byte* b) {
+  Code held[Channels * kTilePixels];
+  std::memcpy(held, b, sizeof held);
+  return compare<Code, Channels>(reinterpret_cast<const Code*>(a), held, 0);
 }
 
 template <typename Code, std::uint32_t Channels>
@@ -121,29 +129,41 @@ inline __attribute__((always_inline)) void gather(const TileRaster& raster, std:
                               reinterpret_cast<Code*>(codes));
 }
 
-NUTIK_SIMD_CLONES void gather_grey8(const TileRaster& raster, std::byte* codes) {
-  gather<std::uint8_t, 1>(raster, codes);
-}
-NUTIK_SIMD_CLONES void gather_grey16(const TileRaster& raster, std::byte* codes) {
-  gather<std::uint16_t, 1>(raster, codes);
-}
-NUTIK_SIMD_CLONES void gather_colour8(const TileRaster& raster, std::byte* codes) {
-  gather<std::uint8_t, 3>(raster, codes);
-}
-NUTIK_SIMD_CLONES void gather_colour16(const TileRaster& raster, std::byte* codes) {
-  gather<std::uint16_t, 3>(raster, codes);
+// Each function for grey and colour, 8 and 16 bits.
+#define NUTIK_FOR_FORMAT(name, Code, channels)                                              \
+  NUTIK_SIMD_CLONES void step_##name(StripStep& step) { step_strip<Code, channels>(step); } \
+  NUTIK_SIMD_CLONES void gather_##name(const TileRaster& raster, std::byte* codes) {        \
+    gather<Code, channels>(raster, codes);                                                  \
+  }                                                                                         \
+  NUTIK_SIMD_CLONES std::uint64_t differ_##name(const std::byte* a, const std::byte* b) {   \
+    return differ<Code, channels>(a, b);                                                    \
+  }
+NUTIK_FOR_FORMAT(grey8, std::uint8_t, 1)
+NUTIK_FOR_FORMAT(grey16, std::uint16_t, 1)
+NUTIK_FOR_FORMAT(colour8, std::uint8_t, 3)
+NUTIK_FOR_FORMAT(colour16, std::uint16_t, 3)
+#undef NUTIK_FOR_FORMAT
+
+template <typename Function>
+Function pick(std::uint32_t channels, std::uint32_t code_bytes, const std::array<Function, 4>& functions) {
+  return functions[(channels == 1 ? 0 : 2) + code_bytes - 1];
 }
 
 }  // namespace
 
 StepFunction step_function(const CaptureFormat& capture) {
-  if (capture.shape.channels == 1) return capture.code_bytes == 1 ? step_grey8 : step_grey16;
-  return capture.code_bytes == 1 ? step_colour8 : step_colour16;
+  return pick<StepFunction>(capture.shape.channels, capture.code_bytes,
+                            {step_grey8, step_grey16, step_colour8, step_colour16});
 }
 
 GatherFunction gather_function(const CaptureFormat& capture) {
-  if (capture.shape.channels == 1) return capture.code_bytes == 1 ? gather_grey8 : gather_grey16;
-  return capture.code_bytes == 1 ? gather_colour8 : gather_colour16;
+  return pick<GatherFunction>(capture.shape.channels, capture.code_bytes,
+                              {gather_grey8, gather_grey16, gather_colour8, gather_colour16});
+}
+
+DifferFunction differ_function(std::uint32_t channels, std::uint32_t code_bytes) {
+  return pick<DifferFunction>(channels, code_bytes,
+                              {differ_grey8, differ_grey16, differ_colour8, differ_colour16});
 }
 
 }  // namespace nutik

@@ -1,7 +1,8 @@
-// What happens to a tile of every sample: its codes are moved from the interleaved raster to planes, and the
+// What happens to the tiles of every sample: their codes are moved from the interleaved raster to planes, and the
 // lanes found that differ from what they hold.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -17,20 +18,34 @@ struct TileRaster {
   std::size_t row_values;
 };
 
-// What a tile of a sample is compared with, and what its changes are counted in.
-struct TileStep {
-  TileRaster raster;
-  std::uint32_t tolerance;
-  std::byte* held;        // codes[channel][lane]; those that change are replaced
-  std::uint16_t* counts;  // change records of every lane; null where the change is none
-};
+// Neighbours in a row of tiles take the step together, several samples at a time: what is held stays in the
+// cache from one to the next, rows are written in runs, and no plane is read right after it was written in
+// smaller pieces, which processors have to wait for.
+inline constexpr std::uint32_t kStripTiles = 8;
+inline constexpr std::uint32_t kStepSamples = 4;
 
-// Returns the lanes, as bits, in which any channel is further than the tolerance from what is held.
-using StepFunction = std::uint64_t (*)(const TileStep&);
+struct StripStep {
+  std::array<const std::byte*, kStepSamples> rasters;  // in each sample, of the first tile
+  std::size_t row_values;
+  std::uint32_t sample_count;
+  std::uint32_t tile_count;
+  std::uint32_t tolerance;
+  bool writes_all;                                 // also rows in which nothing changed
+  std::array<const std::byte*, kStripTiles> held;  // in: what each tile holds, codes[channel][lane]
+  std::array<std::byte*, kStripTiles> next;        // out: what it holds from each sample on that is written
+
+  // out: the lanes, as bits, in which any channel was further than the tolerance from what was held.
+  std::array<std::array<std::uint64_t, kStripTiles>, kStepSamples> changes;
+};
+using StepFunction = void (*)(StripStep&);
 [[nodiscard]] StepFunction step_function(const CaptureFormat& capture);
 
 // Writes codes[channel][lane].
 using GatherFunction = void (*)(const TileRaster& raster, std::byte* codes);
 [[nodiscard]] GatherFunction gather_function(const CaptureFormat& capture);
+
+// The lanes, as bits, in which two rows of codes[channel][lane] differ.
+using DifferFunction = std::uint64_t (*)(const std::byte* a, const std::byte* b);
+[[nodiscard]] DifferFunction differ_function(std::uint32_t channels, std::uint32_t code_bytes);
 
 }  // namespace nutik

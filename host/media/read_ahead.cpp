@@ -14,10 +14,10 @@ std::size_t raster_count(std::uint64_t sample_bytes, std::uint64_t ahead_bytes) 
 ReadAhead::ReadAhead(Clip& clip, std::uint64_t ahead_bytes, std::uint64_t most)
     : clip_(clip),
       sample_bytes_(clip.info().format.sample_bytes()),
-      decoded_(raster_count(sample_bytes_, ahead_bytes)),
-      spare_(raster_count(sample_bytes_, ahead_bytes)) {
-  for (std::size_t i = 0; i < raster_count(sample_bytes_, ahead_bytes); ++i)
-    spare_.push(PageBuffer(sample_bytes_));
+      raster_count_(raster_count(sample_bytes_, ahead_bytes)),
+      decoded_(raster_count_),
+      spare_(raster_count_) {
+  for (std::size_t i = 0; i < raster_count_; ++i) spare_.push(PageBuffer(sample_bytes_));
   decoding_ = std::async(std::launch::async, [this, most] { decode(most); });
 }
 
@@ -34,12 +34,19 @@ void ReadAhead::decode(std::uint64_t most) {
   }
 }
 
-std::span<const std::byte> ReadAhead::next() {
-  if (current_) spare_.push(std::move(*current_));
-  current_ = decoded_.pop();
-  if (current_) return current_->first(sample_bytes_);
-  if (decoding_.valid()) decoding_.get();
-  return {};
+std::span<const std::span<const std::byte>> ReadAhead::next(std::uint64_t most) {
+  for (PageBuffer& raster : current_) spare_.push(std::move(raster));
+  current_.clear();
+  rasters_.clear();
+  const std::uint64_t count = std::clamp<std::uint64_t>(most, 1, raster_count_ / 2);
+  while (current_.size() < count) {
+    auto raster = decoded_.pop();
+    if (!raster) break;
+    rasters_.push_back(raster->first(sample_bytes_));
+    current_.push_back(std::move(*raster));
+  }
+  if (current_.empty() && decoding_.valid()) decoding_.get();
+  return rasters_;
 }
 
 }  // namespace nutik

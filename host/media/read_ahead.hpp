@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <future>
 #include <limits>
-#include <optional>
 #include <span>
+#include <vector>
 
 #include "media/clip.hpp"
 #include "system/channel.hpp"
@@ -26,19 +26,22 @@ class ReadAhead {
   ReadAhead(const ReadAhead&) = delete;
   ReadAhead& operator=(const ReadAhead&) = delete;
 
-  // The next sample, until the next call; empty at the clip's end, or after `most`. Throws what the clip
+  // The next samples, until the next call: at most so many, and at least one as long as there is one; fewer than
+  // asked at the clip's end, after `most`, or where that would leave nothing to decode into. Throws what the clip
   // threw.
-  [[nodiscard]] std::span<const std::byte> next();
+  [[nodiscard]] std::span<const std::span<const std::byte>> next(std::uint64_t most);
 
  private:
   void decode(std::uint64_t most);
 
   Clip& clip_;
   std::uint64_t sample_bytes_;
+  std::size_t raster_count_;
   // Rasters on pages of their own, so that decoders may write whole vectors.
   Channel<PageBuffer> decoded_;
   Channel<PageBuffer> spare_;
-  std::optional<PageBuffer> current_;
+  std::vector<PageBuffer> current_;
+  std::vector<std::span<const std::byte>> rasters_;  // of these
   std::future<void> decoding_;
 };
 

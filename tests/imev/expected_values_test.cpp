@@ -230,9 +230,10 @@ TEST(ExpectedValues, AStreamHoldsWhatAFileHolds) {
         random.whole(static_cast<std::int64_t>(first) + 1, static_cast<std::int64_t>(samples)));
     std::size_t next = 0;
     StreamingCapture stream(source, file.timeline(), {first, last}, block_samples, TilePolicy::automatic,
-                            [&]() -> std::span<const std::byte> {
-                              if (next == rasters.size()) return {};
-                              return rasters[next++];
+                            [&, raster = std::span<const std::byte>()](std::uint64_t) mutable {
+                              const bool is_end = next == rasters.size();
+                              if (!is_end) raster = rasters[next++];
+                              return std::span(&raster, is_end ? 0 : 1);
                             });
     EXPECT_EQ(stream.format(), file.format());
     for (std::uint64_t block = first / block_samples; block < stream.block_count(); ++block) {

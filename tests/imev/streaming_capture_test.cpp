@@ -15,9 +15,12 @@ struct CountingStream {
   std::uint64_t read = 0;
   std::uint64_t end;
 
-  std::span<const std::byte> operator()() {
-    if (read == end) return {};
-    return random.rasters[read++];
+  std::vector<std::span<const std::byte>> rasters = {};
+
+  std::span<const std::span<const std::byte>> operator()(std::uint64_t most) {
+    rasters.clear();
+    while (read < end && rasters.size() < most) rasters.emplace_back(random.rasters[read++]);
+    return rasters;
   }
 };
 

@@ -38,14 +38,20 @@ TEST(ReadAhead, GivesEverySampleInOrderAndNoMoreThanAsked) {
     NumberedClip clip(200, kWhole);
     ReadAhead ahead(clip, most == 1 ? 0 : 4000, most);
     const std::uint64_t expected = std::min<std::uint64_t>(most, 200);
-    for (std::uint64_t k = 0; k < expected; ++k) {
-      const auto raster = ahead.next();
-      ASSERT_EQ(raster.size(), 400u);
-      EXPECT_EQ(raster.front(), static_cast<std::byte>(k));
-      EXPECT_EQ(raster.back(), static_cast<std::byte>(k));
+    std::uint64_t asked = 1;
+    for (std::uint64_t k = 0; k < expected; asked = asked % 5 + 1) {
+      const auto rasters = ahead.next(asked);
+      ASSERT_FALSE(rasters.empty());
+      ASSERT_LE(rasters.size(), asked);
+      for (const std::span<const std::byte> raster : rasters) {
+        ASSERT_EQ(raster.size(), 400u);
+        EXPECT_EQ(raster.front(), static_cast<std::byte>(k));
+        EXPECT_EQ(raster.back(), static_cast<std::byte>(k));
+        ++k;
+      }
     }
-    EXPECT_TRUE(ahead.next().empty());
-    EXPECT_TRUE(ahead.next().empty());
+    EXPECT_TRUE(ahead.next(1).empty());
+    EXPECT_TRUE(ahead.next(4).empty());
     EXPECT_EQ(clip.samples_read(), expected);
   }
 }
@@ -53,14 +59,15 @@ TEST(ReadAhead, GivesEverySampleInOrderAndNoMoreThanAsked) {
 TEST(ReadAhead, ThrowsWhatTheClipThrewAfterTheSamplesBeforeIt) {
   NumberedClip clip(200, 3);
   ReadAhead ahead(clip, 4000);
-  for (int k = 0; k < 3; ++k) EXPECT_FALSE(ahead.next().empty());
-  EXPECT_THROW(static_cast<void>(ahead.next()), InputError);
+  EXPECT_EQ(ahead.next(2).size(), 2u);
+  EXPECT_EQ(ahead.next(2).size(), 1u);
+  EXPECT_THROW(static_cast<void>(ahead.next(2)), InputError);
 }
 
 TEST(ReadAhead, StopsWhereNobodyWantsMore) {
   NumberedClip clip(kWhole, kWhole);
   ReadAhead ahead(clip, 4000);
-  EXPECT_FALSE(ahead.next().empty());
+  EXPECT_FALSE(ahead.next(1).empty());
 }
 
 }  // namespace

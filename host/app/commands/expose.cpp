@@ -63,7 +63,7 @@ class Exposing {
       ReadAhead samples(*source.clip, source_options.memory.read_ahead_bytes(),
                         is_end ? ReadAhead::kAll : last);
       StreamingCapture stream(source.capture, timeline, needed, source.block_samples, source_options.tiles,
-                              [&] { return samples.next(); });
+                              [&](std::uint64_t most) { return samples.next(most); });
       try {
         return expose(stream, functions);
       } catch (const SampleCountMismatch& mismatch) {

@@ -25,7 +25,7 @@ Encoding::Encoding(SourceClip source, const SourceOptions& options, const tik::C
       // Before anything is read, so that times that cannot be used are said at once.
       times_(timeline_for(std::max<std::uint64_t>(source_.clip->info().sample_count, 1))),
       samples_(*source_.clip, options.memory.read_ahead_bytes()),
-      first_(samples_.next()),
+      first_(samples_.next(1)),
       blocks_(kPayloads),
       spare_payloads_(kPayloads) {
   if (first_.empty()) throw InputError(format("{} has no picture", input));
@@ -34,7 +34,7 @@ Encoding::Encoding(SourceClip source, const SourceOptions& options, const tik::C
   const ClipTiming& timing = source_.clip->info().timing;
   header.rate = options.clip.rate ? options.clip.rate : timing.rate;
   header.shutter_angle = times_.shutter_angle();
-  writer_.emplace(output, header, codec, to_held_codes(source_.capture, first_));
+  writer_.emplace(output, header, codec, to_held_codes(source_.capture, first_.front()));
   for (std::size_t i = 0; i < kPayloads; ++i) spare_payloads_.push(PageBuffer());
 }
 
@@ -65,10 +65,12 @@ void Encoding::warn_of_count(std::uint64_t samples) const {
 std::uint64_t Encoding::build(Progress& progress) {
   const ClosedAtEnd closed(blocks_);
   std::uint64_t samples = 0;
-  for (std::span<const std::byte> raster = first_; !raster.empty(); raster = samples_.next()) {
+  for (auto rasters = first_; !rasters.empty();
+       rasters = samples_.next(std::min(builder_.room(), BlockBuilder::kSamplesAtOnce))) {
     check_interruption();
-    progress.show(++samples);
-    builder_.add(raster);
+    samples += rasters.size();
+    progress.show(samples);
+    builder_.add(rasters);
     if (builder_.is_full() && !hand_over_block()) return samples;
   }
   if (!builder_.is_empty()) hand_over_block();

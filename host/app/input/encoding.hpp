@@ -56,8 +56,8 @@ class Encoding {
   std::optional<tik::Writer> writer_;
 
   ReadAhead samples_;
-  std::span<const std::byte> first_;  // the first sample, until the next is asked for
-  Channel<Block> blocks_;             // built
+  std::span<const std::span<const std::byte>> first_;  // the first sample, until the next are asked for
+  Channel<Block> blocks_;                              // built
   Channel<PageBuffer> spare_payloads_;
 };
 

@@ -7,14 +7,15 @@ namespace nutik::test {
 
 StreamingCapture HardCase::open(std::uint32_t samples, TilePolicy tiles) const {
   const SampleRange needed = needed_samples(timeline, functions, mask, {});
-  const auto next =
-      [draw = sample, first = needed.first / samples * samples, count = timeline.sample_count(),
-       k = std::uint64_t{0},
-       raster = std::vector<std::byte>(capture.sample_bytes())]() mutable -> std::span<const std::byte> {
+  const auto next = [draw = sample, first = needed.first / samples * samples, count = timeline.sample_count(),
+                     k = std::uint64_t{0}, raster = std::vector<std::byte>(capture.sample_bytes()),
+                     span = std::span<const std::byte>()](
+                        std::uint64_t) mutable -> std::span<const std::span<const std::byte>> {
     if (k == count) return {};
     if (k >= first) raster = draw(k);  // what lies before is not kept
     ++k;
-    return raster;
+    span = raster;
+    return {&span, 1};
   };
   return {capture, timeline, needed, samples, tiles, next};
 }
