@@ -30,6 +30,9 @@ class OutputFile {
   void write(std::string_view text);
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
+  // Replaces what was written at `offset`, as many bytes.
+  void replace(std::uint64_t offset, std::span<const std::byte> bytes);
+
   // Gives the file its name.
   void commit();
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 namespace nutik::tik {
@@ -12,8 +13,19 @@ namespace nutik::tik {
   return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-// Of parts, as if they lay one behind the other.
-[[nodiscard]] std::uint64_t checksum(std::span<const std::span<const std::byte>> parts);
+// Of parts that come one after the other.
+class Checksum {
+ public:
+  Checksum();
+  void add(std::span<const std::byte> part) { XXH3_64bits_update(state_.get(), part.data(), part.size()); }
+  [[nodiscard]] std::uint64_t value() const { return XXH3_64bits_digest(state_.get()); }
+
+ private:
+  struct Free {
+    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+  };
+  std::unique_ptr<XXH3_state_t, Free> state_;
+};
 
 // Of a structure's bytes before its own checksum.
 template <typename Struct>

@@ -76,19 +76,37 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
   header.stored_bytes = codec_.id == CodecId::none ? parts.bytes() : packed.size();
   header.payload_bytes = parts.bytes();
   header.record_count = block.record_count;
-  header.payload_checksum = checksum(stored);
   if (!exposures.empty()) header.exposures_checksum = checksum(std::as_bytes(exposures));
   header.front_checksum = front_checksum_;
-  header.header_checksum = checksum_of(header, offsetof(BlockHeader, header_checksum));
 
-  index_.push_back({file_.size(), header.first_sample, header.sample_count, header.codec, header.stored_bytes,
+  const std::uint64_t offset = file_.size();
+  index_.push_back({offset, header.first_sample, header.sample_count, header.codec, header.stored_bytes,
                     header.payload_bytes, header.record_count});
-  file_.write(bytes_of(header));
+  // The header, which holds the payload's checksum, comes last: what was summed up is in the cache when it is written.
+  file_.write(std::vector<std::byte>(sizeof header));
   file_.write(std::as_bytes(exposures));
   pad(file_);
-  file_.write(stored);
+  header.payload_checksum = write_summed(stored);
   pad(file_);
+  header.header_checksum = checksum_of(header, offsetof(BlockHeader, header_checksum));
+  file_.replace(offset, bytes_of(header));
   sample_count_ += block.extent.sample_count;
+}
+
+std::uint64_t Writer::write_summed(std::span<const std::span<const std::byte>> parts) {
+  constexpr std::uint64_t kRunBytes = 256 << 10;  // stays in a core's cache
+  Checksum checksum;
+  while (!parts.empty()) {
+    std::uint64_t bytes = 0;
+    std::size_t count = 0;
+    for (; count < parts.size() && bytes < kRunBytes; ++count) {
+      checksum.add(parts[count]);
+      bytes += parts[count].size();
+    }
+    file_.write(parts.first(count));
+    parts = parts.subspan(count);
+  }
+  return checksum.value();
 }
 
 void Writer::finish(const Timeline& timeline) {

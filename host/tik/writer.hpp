@@ -39,6 +39,9 @@ class Writer {
   [[nodiscard]] std::uint64_t bytes_written() const { return file_.size(); }
 
  private:
+  // Appends what lies in these parts; returns its checksum.
+  std::uint64_t write_summed(std::span<const std::span<const std::byte>> parts);
+
   OutputFile file_;
   Header header_;
   Codec codec_;
