@@ -64,7 +64,7 @@ TEST(FixedScale, FillsTheSumsAndNeverOverflows) {
     const MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const FixedScale scale = fixed_scale(plan);
-    const FixedTables tables = fixed_tables(plan, scale);
+    const FixedTables tables = FixedSweep(plan, scale).pack(plan.blocks.size());
     for (std::size_t f = 0; f < plan.functions.size(); ++f) {
       long double magnitude = 0, exact = 0;
       for (std::size_t at = f; at < tables.weights.size(); at += plan.function_count()) {
@@ -88,7 +88,7 @@ TEST(FixedScale, TablesDoNotDependOnBlocks) {
     for (const std::uint32_t block_samples : {1u, 7u, 64u, 1000u}) {
       const MemoryCapture capture = random.encode(block_samples, TilePolicy::dense);
       const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-      const FixedTables tables = fixed_tables(plan, fixed_scale(plan));
+      const FixedTables tables = FixedSweep(plan, fixed_scale(plan)).pack(plan.blocks.size());
       std::vector<std::vector<std::int64_t>> weights(plan.function_count());
       for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
         const PlannedBlock& block = plan.blocks[b];
