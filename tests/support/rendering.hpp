@@ -33,6 +33,14 @@ inline OpenClOptions renderer_options(std::optional<Precision> precision) {
   return options;
 }
 
+// A device of which no more is known than what it allocates at a time.
+inline DeviceInfo device_allocating(std::uint64_t bytes) {
+  DeviceInfo device;
+  device.name = "a small device";
+  device.largest_allocation_bytes = bytes;
+  return device;
+}
+
 // S of a value's function.
 inline double scale_of(const RenderPlan& plan, std::uint64_t value) {
   const std::size_t function = plan.function_of_pixel[value / plan.capture.shape.channels];
