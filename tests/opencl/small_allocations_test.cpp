@@ -145,6 +145,8 @@ TEST_P(SmallAllocations, GiveTheSamePictures) {
     OpenClRenderer plain(options());
     const Pictures expected = render(plain, plan, capture);
     EXPECT_EQ(plain.statistics().launches, 1u);
+    const RenderPlan other = make_plan(capture, scene.functions, Mask::uniform(45, 123, 2), {});
+    const Pictures others = render(plain, other, capture);
     const std::uint64_t smallest = smallest_allocation(plan, capture, GetParam());
     for (const std::uint64_t limit : {smallest, smallest * 5 / 4, smallest * 3 / 2, smallest * 3}) {
       const std::uint64_t bands =
@@ -186,6 +188,7 @@ TEST_P(SmallAllocations, GiveTheSamePictures) {
       EXPECT_TRUE(render(renderer, plan, capture) == expected) << "held";
       EXPECT_TRUE(render(renderer, plan, capture) == expected) << "held before";
       check_launches(renderer);
+      EXPECT_TRUE(render(renderer, other, capture) == others) << "held, and other slices";
     }
   }
 }

@@ -80,6 +80,27 @@ TEST(FixedScale, FillsTheSumsAndNeverOverflows) {
   }
 }
 
+TEST(FixedScale, TablesAreTheSameInAnyParts) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const RandomCase random(seed);
+    const MemoryCapture capture = random.encode(3, TilePolicy::automatic);
+    const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+    const FixedScale scale = fixed_scale(plan);
+    const FixedTables whole = FixedSweep(plan, scale).pack(plan.blocks.size());
+    ASSERT_EQ(whole.weights.size(), plan.weights.size());
+    FixedSweep sweep(plan, scale);
+    FixedTables joined;
+    for (std::size_t last = 0, step = 0; last < plan.blocks.size(); ++step) {
+      last = std::min(plan.blocks.size(), last + step % 3);
+      const FixedTables part = sweep.pack(last);
+      joined.weights.insert(joined.weights.end(), part.weights.begin(), part.weights.end());
+      joined.boundaries.insert(joined.boundaries.end(), part.boundaries.begin(), part.boundaries.end());
+    }
+    ASSERT_EQ(joined.weights, whole.weights) << random.text();
+    ASSERT_EQ(joined.boundaries, whole.boundaries) << random.text();
+  }
+}
+
 // Weights come from boundaries that are rounded once for the whole capture.
 TEST(FixedScale, TablesDoNotDependOnBlocks) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
