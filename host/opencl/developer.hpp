@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 
 #include "opencl/allocation_cuts.hpp"
 #include "opencl/build_options.hpp"

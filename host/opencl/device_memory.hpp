@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "opencl/device.hpp"
 #include "opencl/opencl_api.hpp"

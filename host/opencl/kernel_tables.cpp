@@ -161,7 +161,7 @@ void store_as(const RenderPlan& plan, Precision precision, std::span<const std::
 ExposureTables::ExposureTables(const RenderPlan& plan, Precision precision)
     : plan_(plan), precision_(precision), scale_(scale_of(plan, precision)), sweep_(plan, scale_) {}
 
-WeightTables ExposureTables::weights(const TableSlice& slice) {
+WeightTables ExposureTables::pack(const TableSlice& slice) {
   if (precision_ == Precision::fixed) {
     const FixedTables tables = sweep_.pack(slice.last_block);
     return {bytes_of(tables.weights), bytes_of(tables.boundaries)};

@@ -37,7 +37,7 @@ class ExposureTables {
   ExposureTables(const RenderPlan& plan, Precision precision);
 
   // The rows of a slice. Slices are asked for in time order, each once.
-  [[nodiscard]] WeightTables weights(const TableSlice& slice);
+  [[nodiscard]] WeightTables pack(const TableSlice& slice);
   // Light of every code, or a curve.
   [[nodiscard]] Bytes light(const LightSource& light) const;
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -43,6 +42,13 @@ bool has_fma(const cl::Device& device, Precision precision) {
   }
   return false;
 }
+
+// A slice's tables on the device.
+struct UploadedSlice {
+  cl::Buffer weights;
+  cl::Buffer boundaries;
+  cl::Buffer spans;
+};
 
 // Nothing is read from a capture any more when its exposure ends, however it does.
 class StoppedAtEnd {
@@ -249,8 +255,7 @@ class OpenClRenderer::Implementation {
     std::size_t block = 0;
     for (const TableSlice& slice : slices) {
       const DeviceMemory::Scope slice_scope(memory);
-      const auto [weights, boundaries] = upload(tables.weights(slice), memory);
-      const cl::Buffer spans = memory.upload(spans_of(plan, slice));
+      const UploadedSlice uploaded = upload(tables.pack(slice), plan, slice, memory);
       while (block < slice.last_block) {
         BlockFeed::Chunk chunk = next_chunk();
         if (options_.last_block_first) std::reverse(chunk.entries.begin(), chunk.entries.end());
@@ -261,9 +266,9 @@ class OpenClRenderer::Implementation {
           const Band& band = exposed.band;
           const cl::Event event =
               kernel(items(queue_, work.shape, band.tile_count), chunk.payload, entries,
-                     static_cast<cl_uint>(chunk.entries.size()), spans, weights, boundaries, function_count,
-                     exposed.function_of_tile, exposed.function_of_lane, transfer, exposed.sums,
-                     band.first_tile, band.tile_count, block == 0 ? 1u : 0u);
+                     static_cast<cl_uint>(chunk.entries.size()), uploaded.spans, uploaded.weights,
+                     uploaded.boundaries, function_count, exposed.function_of_tile, exposed.function_of_lane,
+                     transfer, exposed.sums, band.first_tile, band.tile_count, block == 0 ? 1u : 0u);
           event.wait();
           statistics_.expose_ms += milliseconds(event);
           ++statistics_.launches;
@@ -276,14 +281,12 @@ class OpenClRenderer::Implementation {
     return bands;
   }
 
-  static std::pair<cl::Buffer, cl::Buffer> upload(const WeightTables& tables, DeviceMemory& memory) {
-    return {memory.upload(tables.weights), memory.upload(tables.boundaries)};
-  }
-
-  static std::span<const SampleSpan> spans_of(const RenderPlan& plan, const TableSlice& slice) {
-    return std::span(plan.spans)
-        .subspan(slice.first_block * plan.function_count(),
-                 (slice.last_block - slice.first_block) * plan.function_count());
+  static UploadedSlice upload(const WeightTables& tables, const RenderPlan& plan, const TableSlice& slice,
+                              DeviceMemory& memory) {
+    const auto spans = std::span(plan.spans)
+                           .subspan(slice.first_block * plan.function_count(),
+                                    (slice.last_block - slice.first_block) * plan.function_count());
+    return {memory.upload(tables.weights), memory.upload(tables.boundaries), memory.upload(spans)};
   }
 
   BlockFeed::Chunk next_chunk() {
