@@ -64,4 +64,12 @@ std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, 
   return slices;
 }
 
+DeviceError too_large(const DeviceInfo& device, std::uint64_t bytes, std::string_view what,
+                      std::string_view way_out) {
+  const auto megabytes = [](std::uint64_t size) { return static_cast<double>(size) * 1e-6; };
+  return DeviceError(format("{} takes {:.1f} MB and {} allocates at most {:.1f} MB at a time; {}", what,
+                            megabytes(bytes), device.name, megabytes(device.largest_allocation_bytes),
+                            way_out));
+}
+
 }  // namespace nutik

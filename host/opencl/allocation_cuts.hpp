@@ -21,8 +21,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
+#include "capture/error.hpp"
 #include "opencl/device.hpp"
 #include "render/precision.hpp"
 #include "render/render_plan.hpp"
@@ -57,5 +59,9 @@ struct TableSlice {
 // single block does not fit.
 [[nodiscard]] std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision,
                                                  const DeviceInfo& device);
+
+// That `what` takes more than the device allocates at a time, and the way out.
+[[nodiscard]] DeviceError too_large(const DeviceInfo& device, std::uint64_t bytes, std::string_view what,
+                                    std::string_view way_out);
 
 }  // namespace nutik

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "opencl/opencl_api.hpp"
 
@@ -72,14 +73,6 @@ std::string to_text(DeviceKind kind) {
 
 std::string describe(const cl::Error& error, const std::string& doing) {
   return format("{}: {} in {}", doing, error_name(error.err()), error.what());
-}
-
-DeviceError too_large(const DeviceInfo& device, std::uint64_t bytes, std::string_view what,
-                      std::string_view way_out) {
-  const auto megabytes = [](std::uint64_t size) { return static_cast<double>(size) * 1e-6; };
-  return DeviceError(format("{} takes {:.1f} MB and {} allocates at most {:.1f} MB at a time; {}", what,
-                            megabytes(bytes), device.name, megabytes(device.largest_allocation_bytes),
-                            way_out));
 }
 
 std::vector<cl::Device> all_devices() {

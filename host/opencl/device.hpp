@@ -7,8 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "capture/error.hpp"
-
 namespace nutik {
 
 enum class DeviceKind { gpu, accelerator, cpu, other };
@@ -27,10 +25,6 @@ struct DeviceInfo {
   bool has_double = false;
   bool shares_host_memory = false;
 };
-
-// That `what` takes more than the device allocates at a time, and the way out.
-[[nodiscard]] DeviceError too_large(const DeviceInfo& device, std::uint64_t bytes, std::string_view what,
-                                    std::string_view way_out);
 
 // Every device of every platform, the ones to prefer first: GPUs, accelerators, CPUs; the position is the
 // index that --device takes. Throws DeviceError where there is no OpenCL platform at all.

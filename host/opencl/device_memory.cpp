@@ -1,5 +1,7 @@
 #include "opencl/device_memory.hpp"
 
+#include "opencl/allocation_cuts.hpp"
+
 namespace nutik {
 
 cl::Buffer DeviceMemory::allocate(std::uint64_t bytes, cl_mem_flags flags) {

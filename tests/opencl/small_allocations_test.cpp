@@ -220,6 +220,25 @@ TEST_P(SmallAllocations, GiveTheSamePicturesHoweverItemsAreCut) {
   }
 }
 
+// Sums of whole numbers are the same in any order of a chunk's blocks, chunks and slices being in order.
+TEST(SmallAllocationsOfWholeNumbers, GiveTheSamePicturesFromTheLastBlock) {
+  const Scene scene({3, 1, 255, Transfer::srgb()});
+  MemoryCapture capture = scene.encode(2, TilePolicy::automatic);
+  const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
+  OpenClOptions options = test::renderer_options(Precision::fixed);
+  OpenClRenderer plain(options);
+  options.last_block_first = true;
+  options.allocation_bytes = 2 * smallest_allocation(plan, capture, Precision::fixed);
+  OpenClRenderer renderer(options);
+  const OutputFormat light{ValueType::light64, 0};
+  EXPECT_TRUE(renderer.render(plan, capture, light).bytes == plain.render(plan, capture, light).bytes);
+  const DeviceInfo device = test::device_allocating(options.allocation_bytes);
+  const std::uint64_t bands = cut_picture(plan.capture.shape, Precision::fixed, device).size();
+  EXPECT_GE(bands, 2u);
+  EXPECT_GT(renderer.statistics().launches, bands);
+  EXPECT_LT(renderer.statistics().launches, bands * plan.blocks.size());  // chunks of several blocks
+}
+
 // Saturation is counted, and a picture in which nothing is live is black, over all bands.
 TEST_P(SmallAllocations, CountAndFillAllBands) {
   const Scene scene({3, 1, 255, Transfer::srgb()});
