@@ -37,14 +37,15 @@ TEST_F(Batch, GivesThePicturesOfSingleCommands) {
                  "--start 1f --exposure 2f scene.tik moment.png\r\n"
                  "-k trail.fn scene.tik 'a trail.pfm'\n"
                  "   -k trail.fn --depth 16 scene.tik -o trail.tif\n");
+  // Singly first: a program that is new on a machine says that it builds kernels.
+  ASSERT_EQ(run({"--start", "1f", "--exposure", "2f", "scene.tik", "single.png"}).status, 0);
+  ASSERT_EQ(run({"-k", "trail.fn", "scene.tik", "single.pfm"}).status, 0);
+  ASSERT_EQ(run({"-k", "trail.fn", "--depth", "16", "scene.tik", "single.tif"}).status, 0);
   const ProgramResult batch = run({"batch", "list.txt"});
   ASSERT_EQ(batch.status, 0) << batch.err;
   EXPECT_TRUE(batch.out.starts_with("3 of 3 pictures, ")) << batch.out;
   EXPECT_NE(batch.out.find(" exposures a second on "), std::string::npos) << batch.out;
   EXPECT_EQ(batch.err, "");
-  ASSERT_EQ(run({"--start", "1f", "--exposure", "2f", "scene.tik", "single.png"}).status, 0);
-  ASSERT_EQ(run({"-k", "trail.fn", "scene.tik", "single.pfm"}).status, 0);
-  ASSERT_EQ(run({"-k", "trail.fn", "--depth", "16", "scene.tik", "single.tif"}).status, 0);
   EXPECT_EQ(picture("moment.png"), picture("single.png"));
   EXPECT_EQ(picture("a trail.pfm"), picture("single.pfm"));
   EXPECT_EQ(picture("trail.tif"), picture("single.tif"));

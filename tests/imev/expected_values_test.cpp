@@ -11,6 +11,7 @@
 #include "imev/capture_source.hpp"
 #include "noise/noise_estimator.hpp"
 #include "support/noisy_scene.hpp"
+#include "support/raster_stream.hpp"
 
 namespace nutik {
 namespace {
@@ -228,13 +229,8 @@ TEST(ExpectedValues, AStreamHoldsWhatAFileHolds) {
     const auto first = static_cast<std::uint64_t>(random.whole(0, static_cast<std::int64_t>(samples) - 1));
     const auto last = static_cast<std::uint64_t>(
         random.whole(static_cast<std::int64_t>(first) + 1, static_cast<std::int64_t>(samples)));
-    std::size_t next = 0;
     StreamingCapture stream(source, file.timeline(), {first, last}, block_samples, TilePolicy::automatic,
-                            [&, raster = std::span<const std::byte>()](std::uint64_t) mutable {
-                              const bool is_end = next == rasters.size();
-                              if (!is_end) raster = rasters[next++];
-                              return std::span(&raster, is_end ? 0 : 1);
-                            });
+                            test::RasterStream(rasters));
     EXPECT_EQ(stream.format(), file.format());
     for (std::uint64_t block = first / block_samples; block < stream.block_count(); ++block) {
       ASSERT_EQ(stream.block_extent(block), file.block_extent(block)) << seed;

@@ -1,28 +1,17 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "capture/format.hpp"
 #include "imev/capture_source.hpp"
+#include "imev/payload_parts.hpp"
 #include "support/random_case.hpp"
+#include "support/raster_stream.hpp"
 
 namespace nutik {
 namespace {
 
 using test::RandomCase;
-
-// A stream of a random case's samples that counts how far it was read.
-struct CountingStream {
-  const RandomCase& random;
-  std::uint64_t read = 0;
-  std::uint64_t end;
-
-  std::vector<std::span<const std::byte>> rasters = {};
-
-  std::span<const std::span<const std::byte>> operator()(std::uint64_t most) {
-    rasters.clear();
-    while (read < end && rasters.size() < most) rasters.emplace_back(random.rasters[read++]);
-    return rasters;
-  }
-};
 
 TEST(StreamingCapture, GivesTheBlocksOfTheWholeCaptureAndReadsNoFurther) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
@@ -34,7 +23,7 @@ TEST(StreamingCapture, GivesTheBlocksOfTheWholeCaptureAndReadsNoFurther) {
     needed.last = static_cast<std::uint64_t>(
         draw.whole(static_cast<std::int64_t>(needed.first) + 1, static_cast<std::int64_t>(count)));
     const MemoryCapture whole = random.encode();
-    CountingStream stream{random, 0, count};
+    test::RasterStream stream(random.rasters, count);
     StreamingCapture streaming(random.capture, random.timeline, needed, random.block_samples, random.policy,
                                std::ref(stream));
     for (std::uint64_t block = 0; block < streaming.block_count(); ++block) {
@@ -50,7 +39,31 @@ TEST(StreamingCapture, GivesTheBlocksOfTheWholeCaptureAndReadsNoFurther) {
         ASSERT_EQ(a, b) << random.text() << ", block " << block << ", sample " << k;
       }
     }
-    EXPECT_EQ(stream.read, needed.last) << random.text();
+    EXPECT_EQ(stream.read(), needed.last) << random.text();
+  }
+}
+
+// A payload is lent where it was built, and stays while the next block is.
+TEST(StreamingCapture, LendsPayloadsForTwoBlocks) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const RandomCase random(seed);
+    MemoryCapture whole = random.encode();
+    StreamingCapture streaming(random.capture, random.timeline, {0, random.rasters.size()},
+                               random.block_samples, random.policy, test::RasterStream(random.rasters));
+    const auto expect_block = [&](std::uint64_t block, std::span<const std::byte> lent) {
+      const BlockExtent extent = streaming.block_extent(block);
+      const PayloadParts parts(BlockGeometry(random.capture, extent.sample_count), lent);
+      std::vector<std::byte> payload(parts.bytes());
+      parts.copy_to(payload);
+      ASSERT_TRUE(std::ranges::equal(payload, whole.view(block).payload())) << random.text() << ", " << block;
+    };
+    std::span<const std::byte> before;
+    for (std::uint64_t block = 0; block < streaming.block_count(); ++block) {
+      EXPECT_EQ(streaming.prepare(block), whole.prepare(block));
+      expect_block(block, streaming.lent());
+      if (block > 0) expect_block(block - 1, before);
+      before = streaming.lent();
+    }
   }
 }
 
@@ -59,7 +72,7 @@ TEST(StreamingCapture, TellsTheRealNumberOfSamples) {
   const std::uint64_t count = random.rasters.size();
   ASSERT_GT(count, 2u);
   for (const std::uint64_t announced : {count - 1, count + 5}) {
-    CountingStream stream{random, 0, count};
+    test::RasterStream stream(random.rasters, count);
     const Timeline timeline = Timeline::constant({30, 1}, Timeline::kFullShutter, announced);
     StreamingCapture streaming(random.capture, timeline, {0, announced}, 7, TilePolicy::automatic,
                                std::ref(stream));

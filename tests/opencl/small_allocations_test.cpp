@@ -10,6 +10,7 @@
 #include "opencl/opencl_renderer.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
+#include "support/raster_stream.hpp"
 #include "support/rendering.hpp"
 #include "support/scratch.hpp"
 #include "tik/reader.hpp"
@@ -172,12 +173,8 @@ TEST_P(SmallAllocations, GiveTheSamePictures) {
       EXPECT_TRUE(render(renderer, plan, file) == expected) << "mapped";
       check_launches(renderer);
       for (const bool codes : {false, true}) {
-        std::size_t next = 0;
         StreamingCapture stream(scene.format, scene.timeline, {0, Scene::kSamples}, block_samples, policy,
-                                [&]() -> std::span<const std::byte> {
-                                  if (next == Scene::kSamples) return {};
-                                  return scene.rasters[next++];
-                                });
+                                test::RasterStream(scene.rasters));
         const OutputFormat output =
             codes ? OutputFormat{ValueType::code8, 255} : OutputFormat{ValueType::light64, 0};
         EXPECT_TRUE(renderer.render(plan, stream, output).bytes == (codes ? expected.codes : expected.light))
