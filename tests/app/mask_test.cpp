@@ -192,6 +192,20 @@ TEST_F(MaskCommand, ReportsAndShows) {
   }
   // Picture 3 was exposed from 30 to 40 ms.
   EXPECT_EQ(test::read_file(scratch_ / "3f.png"), test::read_file(scratch_ / "30ms.png"));
+  EXPECT_NE(run({"mask", "--fill", "clip.tik", "one.png"}).out.find("one.png: 96 x 48, 1 tag\n"),
+            std::string::npos);
+}
+
+TEST_F(MaskCommand, WarnsOfAPreviewBeyondTheCapture) {
+  const auto said = [&](const std::string& length) {
+    return run({"mask", "--moving", "clip.tik", "m.png", "--preview", "p.png", "--start", "0.15s",
+                "--exposure", length})
+        .err;
+  };
+  EXPECT_EQ(said("50ms"), "");
+  EXPECT_EQ(said("51ms"),
+            "warning: the preview's exposure: parts that are not zero lie after the capture's end at 0.2 s "
+            "and do not count\n");
 }
 
 TEST_F(MaskCommand, RefusesWhatMakesNoSense) {

@@ -89,6 +89,10 @@ TEST_F(Moment, ContactSheetTakesTimesOfAnyKind) {
   EXPECT_EQ(
       json_of({"contact", "--every", "0.15s", "--exposure", "1s", "clip.tik"})["exposures"][1]["end_ns"],
       200'000'000);
+  EXPECT_EQ(run({"contact", "--every", "50ms", "--exposure", "51ms", "clip.tik"}).err,
+            "warning: 150 ms   15f: the exposure: parts that are not zero lie after the capture's end at "
+            "0.2 s and do not count\n");
+  EXPECT_EQ(run({"contact", "--every", "50ms", "--exposure", "50ms", "clip.tik"}).err, "");
   const auto later =
       json_of({"contact", "--start", "10f", "--every", "5f", "--columns", "1", "clip.tik", "x.ppm"});
   EXPECT_EQ(later["exposures"].size(), 2u);
@@ -240,6 +244,18 @@ TEST_F(Moment, SweepWarnsOnceOfWhatLiesOutside) {
       run({"sweep", "--start", "0.15s", "--exposure", "40ms", "--shift", "0..0.1s/20ms", "clip.tik"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.err.find("warning: +20 ms and 4 more: "), std::string::npos) << result.err;
+}
+
+// As expose warns of each of them.
+TEST_F(Moment, SweepWarnsOfPicturesThatComeOutBlack) {
+  scratch_.write("negative.fn", "M0 [0:-1], [10000000:-1], [10000001:0]\n");
+  const ProgramResult result =
+      run({"sweep", "-k", "negative.fn", "--shift", "0..20ms/10ms", "clip.tik", "sheet.png"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("warning: as it is and 2 more: M0: the still gain is -1: whatever does not move "
+                            "comes out black; --negative offset shows light below 0"),
+            std::string::npos)
+      << result.err;
 }
 
 TEST_F(Moment, SweepRefusesWhatMakesNoSense) {

@@ -13,6 +13,7 @@
 #include "app/output/progress.hpp"
 #include "app/output/shared_warnings.hpp"
 #include "app/output/stopwatch.hpp"
+#include "app/text/size_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/numbered_name.hpp"
@@ -104,9 +105,8 @@ int run_sweep(const Options& options) {
   const sheet::SheetLayout layout =
       sheet::lay_out(shape, static_cast<std::uint32_t>(combinations.size()), wishes);
   sheet::ContactSheet sheet(
-      layout,
-      format("{}: {}, {} pictures", std::filesystem::path(options.operands.front()).filename().string(),
-             request.label(), combinations.size()));
+      layout, format("{}: {}, {}", std::filesystem::path(options.operands.front()).filename().string(),
+                     request.label(), counted(combinations.size(), "picture")));
   SheetExposures exposing(options, capture, request.mask(shape), request.plan_options());
   SharedWarnings warnings;
   {
@@ -118,7 +118,7 @@ int run_sweep(const Options& options) {
         changed = varied(changed, ranges[r], combinations[i][r], timeline);
       const std::string label = label_of(ranges, combinations[i]);
       const Exposed exposed = exposing.expose(changed);
-      warnings.add(label, exposed.plan.warnings);
+      warnings.add(label, exposure_warnings(exposed));
       sheet.add(label, exposed.picture, exposing.transfer());
       if (!singles.empty()) write_picture(singles[i], exposed.picture);
     }
@@ -149,10 +149,10 @@ int run_sweep(const Options& options) {
     return 0;
   }
   if (ended_quietly(options, output)) return 0;
-  print_line(format("{}: {} pictures, {} columns, {} rows{}, {:.2f} s on {}", output.string(),
-                    combinations.size(), layout.columns, layout.rows,
-                    saturation_text(exposing.saturation(), exposing.type()), stopwatch.seconds(),
-                    exposing.exposer().renderer_name()));
+  print_line(format("{}: {}, {}, {}{}, {:.2f} s on {}", output.string(),
+                    counted(combinations.size(), "picture"), counted(layout.columns, "column"),
+                    counted(layout.rows, "row"), saturation_text(exposing.saturation(), exposing.type()),
+                    stopwatch.seconds(), exposing.exposer().renderer_name()));
   print_details(options, exposing.exposer(), opened.notes());
   return 0;
 }
