@@ -160,7 +160,7 @@ int run_again(const Options& options) {
   }
   check_options(*recipe, picture.string());
   const fs::path folder = picture.stem().string() + "-again";
-  std::string command = "nutik-cl expose";
+  std::string command = shell_word(options.program) + " expose";
   if (recipe->functions) command += " -k " + operand(files.find(*recipe->functions, "functions", folder));
   if (recipe->noise) {
     const fs::path here = ".";  // so that a file of the name `auto` is not taken for that word
