@@ -87,6 +87,41 @@ TEST_F(Again, MakesOnePictureOfASeries) {
   expect_same_bytes("t-3.png");
 }
 
+// As plain intervals where they are such, else from functions that the pictures carry.
+TEST_F(Again, MakesOnePictureOfASweep) {
+  const auto sweep = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "sweep");
+    words.insert(words.end(), {"clip.tik", "sheet.png"});
+    return run(words).err;
+  };
+  EXPECT_EQ(sweep({"--start", "1f", "--exposure", "3f", "--shift", "-1f..5f/3f", "--scale-gain",
+                   "0.3..1/0.35", "--ev", "0.5", "--normalize", "integral", "--each", "box-%d.png"}),
+            "");
+  const std::string box = run({"again", "box-4.png"}).out;
+  for (const char* part : {" --start 75ms ", " --exposure 75ms ", " --gain 0.9"})
+    EXPECT_NE(box.find(part), std::string::npos) << box;
+  EXPECT_EQ(sweep({"--exposure", "0.1s", "--shutter", "strobe:3", "--shift", "0..0.2s/0.1s", "--stretch",
+                   "1..2/1", "--each", "strobe-%d.tif"}),
+            "");
+  sweep({"-k", "it's f.fn", "-m", "mask.pgm", "--start", "20ms", "--shift", "-60ms..0.1s/80ms", "--stretch",
+         "0.7..2/1", "--each", "file-%d.pgm"});
+  EXPECT_NE(run({"again", "file-5.pgm"}).err.find("file-5.fn is gone; the functions"), std::string::npos);
+  EXPECT_EQ(
+      sweep({"--exposure", "0.1s", "--shutter", "hann", "--stretch", "0.5..2/0.5", "--each", "hann-%d.png"}),
+      "");
+  for (const char* picture : {"box-0.png", "box-4.png", "box-8.png", "strobe-2.tif", "strobe-4.tif",
+                              "file-0.pgm", "file-3.pgm", "file-5.pgm", "hann-0.png", "hann-1.png"}) {
+    expect_same_bytes(picture);
+  }
+
+  // expose refuses what lies outside the capture.
+  EXPECT_NE(sweep({"--start", "0.9s", "--exposure", "0.1s", "--shift", "0..0.1s/0.1s", "--each", "no-%d.png"})
+                .find("warning: no-1.png: it carries no recipe: "),
+            std::string::npos);
+  expect_same_bytes("no-0.png");
+  EXPECT_EQ(test::run_program({"again", "no-1.png"}, scratch_.folder()).status, 3);
+}
+
 TEST_F(Again, LooksForTheFilesItNeeds) {
   run({"-k", "it's f.fn", "-m", "mask.pgm", "clip.tik", "a.png"});
   const std::string picture = file("a.png");

@@ -203,7 +203,7 @@ TEST_F(Moment, ActivityWritesTableChartAndMap) {
 
 TEST_F(Moment, SweepExposesEachShift) {
   const auto json = json_of({"sweep", "--start", "0s", "--exposure", "10ms", "--shift", "0..50ms/10ms",
-                             "--each", "s%d.png", "clip.tik"});
+                             "--each", "s%d.png", "--no-recipe", "clip.tik"});
   ASSERT_EQ(json["pictures"].size(), 6u);
   EXPECT_EQ(json["pictures"][3], nlohmann::json::parse(R"({"shift_ns":30000000,"file":"s3.png"})"));
   for (const int k : {0, 3, 5}) {
@@ -216,7 +216,7 @@ TEST_F(Moment, SweepExposesEachShift) {
   EXPECT_EQ(json["sheet"], "clip-0s-10ms-sweep.png");
   EXPECT_FALSE(picture("clip-0s-10ms-sweep.png").empty());
   const auto pictures = json_of({"sweep", "--start", "9f", "--exposure", "1f", "--shift", "-5f..5f/5f",
-                                 "--each", "p%d.png", "clip.tik"});
+                                 "--each", "p%d.png", "--no-recipe", "clip.tik"});
   EXPECT_EQ(pictures["pictures"][0]["shift_samples"], -5);
   ASSERT_EQ(run({"--start", "4f", "--exposure", "1f", "--no-recipe", "clip.tik", "alone.png"}).status, 0);
   EXPECT_EQ(file("p0.png"), file("alone.png"));
@@ -225,7 +225,7 @@ TEST_F(Moment, SweepExposesEachShift) {
 TEST_F(Moment, SweepVariesGainAndLength) {
   scratch_.write("f.fn", "M0 [0:0], [20000000:0], [40000000:1], [40000001:0]\n");
   const auto json = json_of({"sweep", "-k", "f.fn", "--scale-gain", "0.5..1.5/0.5", "--stretch", "1..2/1",
-                             "--each", "v%02d.png", "clip.tik", "sheet.png"});
+                             "--each", "v%02d.png", "--no-recipe", "clip.tik", "sheet.png"});
   EXPECT_EQ(json["columns"], 3);
   EXPECT_EQ(json["rows"], 2);
   ASSERT_EQ(json["pictures"].size(), 6u);
