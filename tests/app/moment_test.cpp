@@ -93,6 +93,10 @@ TEST_F(Moment, ContactSheetTakesTimesOfAnyKind) {
             "warning: 150 ms   15f: the exposure: parts that are not zero lie after the capture's end at "
             "0.2 s and do not count\n");
   EXPECT_EQ(run({"contact", "--every", "50ms", "--exposure", "50ms", "clip.tik"}).err, "");
+  const ProgramResult pictures = run({"contact", "--every", "5f", "--exposure", "7f", "clip.tik"});
+  EXPECT_TRUE(pictures.err.starts_with("warning: 150 ms   15f: the exposure: parts")) << pictures.err;
+  EXPECT_EQ(json_of({"contact", "--every", "5f", "--exposure", "7f", "clip.tik"})["exposures"],
+            json_of({"contact", "--every", "5f", "--exposure", "70ms", "clip.tik"})["exposures"]);
   const auto later =
       json_of({"contact", "--start", "10f", "--every", "5f", "--columns", "1", "clip.tik", "x.ppm"});
   EXPECT_EQ(later["exposures"].size(), 2u);
@@ -106,6 +110,8 @@ TEST_F(Moment, ContactSheetRefusesWhatMakesNoSense) {
                  "makes 200000 pictures and a sheet holds 400; take --every 0.001s or more");
   expect_refused({"contact", "--every", "0s", "clip.tik"}, 2, "--every '0s' is not longer than nothing");
   expect_refused({"contact", "--every", "1.5f", "clip.tik"}, 2, "is not a whole number of pictures");
+  expect_refused({"contact", "--exposure", "1.5f", "clip.tik"}, 2, "is not a whole number of pictures");
+  expect_refused({"contact", "--exposure", "30.5f", "clip.tik"}, 2, "is not a whole number of pictures");
   expect_refused({"contact", "--every", "often", "clip.tik"}, 2, "--every 'often' is no time");
   expect_refused({"contact", "--start", "3s", "clip.tik"}, 2, "outside the capture, which lasts 200 ms");
   expect_refused({"contact", "--columns", "0", "clip.tik"}, 2, "--columns '0' is no whole number");

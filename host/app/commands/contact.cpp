@@ -87,13 +87,25 @@ std::vector<std::int64_t> starts_of(const ContactRequest& request, const Options
   return starts;
 }
 
+// As plain_interval has it; pictures that the capture no longer has may be counted, too. How far an exposure passes
+// the end is all the same, as long as it does: a warning then says so.
+Exposure interval_from(std::int64_t start_ns, const TimeText& length, const Timeline& timeline) {
+  const TimeText start = TimeText::of_nanoseconds(start_ns);
+  if (length.counts_samples() && length.number.denominator == 1) {
+    const std::uint64_t left = timeline.sample_count() - sample_at(start.text(), "start", timeline);
+    if (length.number.numerator > static_cast<std::int64_t>(left))
+      return {start_ns, timeline.duration_ns() + 1};
+  }
+  return plain_interval(start, length, timeline);
+}
+
 // From each start on, for the length that was asked for; without one, what the camera exposed at that time.
 std::vector<Exposure> exposures_of(const ContactRequest& request, const Options& options,
                                    const Timeline& timeline) {
   std::vector<Exposure> exposures;
   for (const std::int64_t start_ns : starts_of(request, options, timeline)) {
     if (request.length) {
-      exposures.push_back(plain_interval(format("{}ns", start_ns), *options.exposure, timeline));
+      exposures.push_back(interval_from(start_ns, *request.length, timeline));
     } else {
       const std::uint64_t sample = sample_at(format("{}ns", start_ns), "start", timeline);
       exposures.push_back({timeline.start_ns(sample), timeline.end_ns(sample)});
