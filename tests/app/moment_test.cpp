@@ -5,26 +5,15 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "support/moving_square.hpp"
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/moving_square_test.hpp"
 
 namespace nutik {
 namespace {
 
-using test::MovingSquare;
 using test::ProgramResult;
 
-class Moment : public testing::Test {
+class Moment : public test::MovingSquareTest {
  protected:
-  void SetUp() override {
-    scene_.write(scratch_);
-    ASSERT_EQ(run({"-f", "100", "frames", "clip.tik"}).status, 0);
-  }
-
-  ProgramResult run(const std::vector<std::string>& words) const {
-    return test::run_program(words, scratch_.folder());
-  }
   nlohmann::json json_of(std::vector<std::string> words) const {
     words.push_back("--json");
     const ProgramResult result = run(words);
@@ -36,13 +25,6 @@ class Moment : public testing::Test {
   }
   [[nodiscard]] std::string file(std::string_view name) const { return test::read_file(scratch_ / name); }
 
-  void expect_refused(const std::vector<std::string>& words, int status, std::string_view part) const {
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.status, status) << result.err;
-    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in: " << result.err;
-    EXPECT_EQ(result.out, "");
-  }
-
   // Pixels that differ between two neighbouring pictures by more than `ignored` codes.
   [[nodiscard]] int changed_pixels(std::size_t sample, int ignored) const {
     int count = 0;
@@ -51,9 +33,6 @@ class Moment : public testing::Test {
     }
     return count;
   }
-
-  test::Scratch scratch_;
-  MovingSquare scene_;
 };
 
 TEST_F(Moment, ContactSheetShowsEveryPictureOfAShortCapture) {

@@ -6,6 +6,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/expected_values.hpp"
+#include "support/messages.hpp"
 #include "support/program.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
@@ -205,15 +206,6 @@ RandomCase case_with_blocks(std::uint64_t at_least) {
   }
 }
 
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
-
 // Rate, shutter and size stand in the text: a changed digit would give another picture without a word.
 TEST(TikFile, RefusesAnyChangeBeforeItsFirstBlock) {
   const RandomCase random(3);
@@ -234,7 +226,7 @@ TEST(TikFile, IsNotRecoveredWithoutNeed) {
   const RandomCase random(3);
   const Scratch scratch;
   const auto path = write(random, {CodecId::none, 0}, scratch);
-  EXPECT_NE(message_of([&] { recover(path, scratch / "new.tik"); }).find("was not cut off"),
+  EXPECT_NE(test::message_of<InputError>([&] { recover(path, scratch / "new.tik"); }).find("was not cut off"),
             std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(scratch / "new.tik"));
 }
@@ -269,7 +261,7 @@ TEST(TikFile, ADamagedBlockCostsThatBlockOnly) {
   const SampleRange samples = reader.block_extent(1).range();
   EXPECT_NO_THROW(payload_of(reader, 0));
   EXPECT_NO_THROW(payload_of(reader, 2));
-  const std::string message = message_of([&] { payload_of(reader, 1); });
+  const std::string message = test::message_of<InputError>([&] { payload_of(reader, 1); });
   EXPECT_NE(message.find(format("the block of samples {} to {}", samples.first, samples.last - 1)),
             std::string::npos)
       << message;
@@ -300,10 +292,10 @@ TEST(TikFile, IsRecoveredUpToItsLastWholeBlock) {
       scratch.write("cut.tik", std::string_view(bytes).substr(0, cut));
       const auto whole = static_cast<std::uint64_t>(
           std::count_if(block_ends.begin(), block_ends.end(), [&](std::uint64_t end) { return end <= cut; }));
-      const std::string message = message_of([&] { Reader(scratch / "cut.tik"); });
+      const std::string message = test::message_of<InputError>([&] { Reader(scratch / "cut.tik"); });
       EXPECT_NE(message, "nothing was thrown");
       if (whole == 0) {
-        EXPECT_NE(message_of([&] { recover(scratch / "cut.tik", scratch / "new.tik"); }),
+        EXPECT_NE(test::message_of<InputError>([&] { recover(scratch / "cut.tik", scratch / "new.tik"); }),
                   "nothing was thrown");
         EXPECT_FALSE(std::filesystem::exists(scratch / "new.tik"));
         continue;
@@ -374,7 +366,7 @@ TEST(TikFile, BelievesNoHeaderThatCannotBe) {
     for (const Lie& lie : told) {
       SCOPED_TRACE(random.text() + ": " + lie.complaint);
       Reader reader(scratch.write("lie.tik", with_header(file, offset, lie.tell)));
-      const std::string message = message_of([&] { payload_of(reader, 1); });
+      const std::string message = test::message_of<InputError>([&] { payload_of(reader, 1); });
       EXPECT_NE(message.find(lie.complaint), std::string::npos) << message;
       EXPECT_NO_THROW(payload_of(reader, 0));
 
@@ -391,7 +383,7 @@ TEST(TikFile, TellsOtherFilesApart) {
   const Scratch scratch;
   const auto refusal = [&](std::string_view content) {
     const auto path = scratch.write("x.tik", content);
-    return message_of([&] { Reader reader(path); });
+    return test::message_of<InputError>([&] { Reader reader(path); });
   };
   EXPECT_NE(refusal("").find("no .tik file"), std::string::npos);
   EXPECT_NE(refusal("hello").find("no .tik file"), std::string::npos);
