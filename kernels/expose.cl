@@ -1,15 +1,12 @@
 // Exposes pixels: the integral of light times gain, from change records and boundary tables.
 //
-//   in:    a chunk of blocks (layout: host/imev/block.hpp), the packed tables, each pixel's function
+//   in:    a chunk of blocks (layout: host/imev/block.hpp), the packed tables; of a band of the picture, from its
+//          tile `first_tile` on, each pixel's function. Tiles are numbered from there, but in a block's directory
 //   out:   sums [tile][channel][plane][64]: Σ_k v_k w_k so far, in scaled gain; added to what is there,
 //          or stored where `first` is set
 //   items: see items.clh
 #include "items.clh"
 #include "tiles.clh"
-
-NUTIK_INLINE TileEntry tile_entry(global const uchar* restrict payload, const size_t tile) {
-  return ((global const TileEntry*)payload)[tile];
-}
 
 // Adds a block's sums to the picture's, which start with the first block.
 NUTIK_INLINE void add_sums(global Sum* restrict sums, const size_t tile, const uint lane,
@@ -31,7 +28,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
                    const uint function_count, global const ushort* restrict function_of_tile,
                    global const uchar* restrict function_of_lane,
                    global const Light* restrict transfer, global Sum* restrict sums,
-                   const ulong tile_count, const uint first) {
+                   const ulong first_tile, const ulong tile_count, const uint first) {
   const Item item = item_of(get_global_id(0), tile_count);
   const uint lane = item.lane;
 
@@ -42,6 +39,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
     const BlockEntry entry = blocks[b];
     const bool is_start = first && b == 0;
     global const uchar* payload = chunk + entry.payload_offset;
+    global const TileEntry* directory = (global const TileEntry*)payload + first_tile;
     global const SampleSpan* block_spans = spans + entry.span_row * function_count;
     Block block;
     block.sample_count = entry.sample_count;
@@ -67,7 +65,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
         block.first = block_spans[region.function].first;
         block.last = block_spans[region.function].last;
         if (block.first < block.last) {
-          expose_tile(payload, tile_entry(payload, tile), lane, &block, &region, transfer, sums_of_block);
+          expose_tile(payload, directory[tile], lane, &block, &region, transfer, sums_of_block);
         } else if (!is_start) {
           continue;
         }
@@ -80,7 +78,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
           region.functions[group] = NUTIK_TO_UINTS(NUTIK_LOAD(
               function_of_lane + tile * NUTIK_TILE_PIXELS + lane + group * NUTIK_LANES));
         }
-        expose_tile(payload, tile_entry(payload, tile), lane, &block, &region, transfer, sums_of_block);
+        expose_tile(payload, directory[tile], lane, &block, &region, transfer, sums_of_block);
       }
       add_sums(sums, tile, lane, sums_of_block, is_start);
     }

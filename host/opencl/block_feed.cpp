@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "capture/error.hpp"
 #include "capture/format.hpp"
 
 namespace nutik {
@@ -31,10 +30,12 @@ void BlockFeed::stop() {
   reading_ = {};
 }
 
-void BlockFeed::start(const RenderPlan& plan, CaptureSource& source) {
+void BlockFeed::start(const RenderPlan& plan, std::span<const TableSlice> slices, CaptureSource& source) {
   stop();
   plan_ = &plan;
+  slices_ = slices;
   source_ = &source;
+  slice_ = 0;
   next_ = 0;
   pending_bytes_ = 0;
   in_place_bytes_ = 0;
@@ -42,8 +43,7 @@ void BlockFeed::start(const RenderPlan& plan, CaptureSource& source) {
   for (Slab& slab : passing_) slab.used = 0;
 }
 
-std::optional<BlockFeed::Chunk> BlockFeed::next() {
-  if (!reading_.valid() && next_ == plan_->blocks.size()) return std::nullopt;
+BlockFeed::Chunk BlockFeed::next() {
   Chunk chunk = reading_.valid() ? reading_.get() : next_chunk();
   bytes_ = in_place_bytes_ + passing_[0].used + passing_[1].used + held_bytes_;
   // What is held or lies in place takes no time.
@@ -55,6 +55,7 @@ std::optional<BlockFeed::Chunk> BlockFeed::next() {
 }
 
 BlockFeed::Chunk BlockFeed::next_chunk() {
+  if (next_ == slice().last_block) ++slice_;
   if (info_.shares_host_memory && !source_->region().empty()) return in_place_chunk();
   if (source_ == held_source_ && holds(plan_->blocks[next_])) return held_chunk();
   return read_chunk();
@@ -62,7 +63,8 @@ BlockFeed::Chunk BlockFeed::next_chunk() {
 
 BlockEntry BlockFeed::entry(std::uint64_t offset) const {
   const PlannedBlock& planned = plan_->blocks[next_];
-  return {offset, planned.table_row, next_, planned.extent.sample_count, 0};
+  return {offset, planned.table_row - slice().first_row, next_ - slice().first_block,
+          planned.extent.sample_count, 0};
 }
 
 std::uint64_t BlockFeed::prepared_bytes(const PlannedBlock& planned) {
@@ -73,10 +75,8 @@ std::uint64_t BlockFeed::prepared_bytes(const PlannedBlock& planned) {
 
 void BlockFeed::check_size(const PlannedBlock& planned, std::uint64_t bytes) const {
   if (bytes <= info_.largest_allocation_bytes) return;
-  throw DeviceError(
-      format("a block of {} samples takes {} MB and {} allocates at most {} MB at a time; encode with fewer "
-             "samples a block (--block-samples)",
-             planned.extent.sample_count, bytes >> 20, info_.name, info_.largest_allocation_bytes >> 20));
+  throw too_large(info_, bytes, format("a block of {} samples", planned.extent.sample_count),
+                  "encode with fewer samples a block (--block-samples)");
 }
 
 BlockFeed::Chunk BlockFeed::in_place_chunk() {
@@ -84,7 +84,7 @@ BlockFeed::Chunk BlockFeed::in_place_chunk() {
   const std::span<const std::byte> region = source_->region();
   const std::uint64_t begin = source_->region_offset(plan_->blocks[next_].block) / kPageBytes * kPageBytes;
   std::uint64_t bytes = 0;
-  for (; next_ < plan_->blocks.size(); ++next_) {
+  for (; next_ < slice().last_block; ++next_) {
     const PlannedBlock& planned = plan_->blocks[next_];
     const std::uint64_t offset = source_->region_offset(planned.block) - begin;
     const std::uint64_t payload = prepared_bytes(planned);
@@ -107,7 +107,7 @@ BlockFeed::Chunk BlockFeed::in_place_chunk() {
 BlockFeed::Chunk BlockFeed::held_chunk() {
   Chunk chunk;
   Slab* slab = held_.at(plan_->blocks[next_].block).slab;
-  for (; next_ < plan_->blocks.size(); ++next_) {
+  for (; next_ < slice().last_block; ++next_) {
     const auto found = held_.find(plan_->blocks[next_].block);
     if (found == held_.end() || found->second.slab != slab) break;
     chunk.entries.push_back(entry(found->second.offset));
@@ -122,7 +122,7 @@ BlockFeed::Chunk BlockFeed::read_chunk() {
   Chunk chunk;
   bool stays = false;
   Slab* slab = nullptr;
-  for (; next_ < plan_->blocks.size(); ++next_) {
+  for (; next_ < slice().last_block; ++next_) {
     const PlannedBlock& planned = plan_->blocks[next_];
     if (source_ == held_source_ && holds(planned)) break;
     const std::uint64_t bytes = prepared_bytes(planned);

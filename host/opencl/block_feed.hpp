@@ -1,7 +1,7 @@
 // Brings the blocks of an exposure to where the kernel reads them, while it still reads those before.
 //
-//   in:      planned blocks, in time order, and the capture they are blocks of
-//   out:     chunks: blocks in one buffer, for one launch
+//   in:      planned blocks, in time order, the slices their tables are cut into, and the capture they are blocks of
+//   out:     chunks: blocks of one slice in one buffer, for one launch a band (allocation_cuts.hpp)
 //   always:  copies of blocks take no more than two chunks (one block at least each); those of a capture that
 //            is held stay besides, up to a limit, and are not read again. Blocks that lie in the host's
 //            memory already, where the device reads it too, are not copied at all.
@@ -11,11 +11,12 @@
 #include <cstdint>
 #include <future>
 #include <memory>
-#include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "imev/capture_source.hpp"
+#include "opencl/allocation_cuts.hpp"
 #include "opencl/device.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "opencl/opencl_api.hpp"
@@ -43,12 +44,13 @@ class BlockFeed {
   // live that long.
   void hold(const CaptureSource* source);
 
-  // `plan` and `source` must live until the last chunk has been taken, or stop().
-  void start(const RenderPlan& plan, CaptureSource& source);
+  // All three must live until the last chunk has been taken, or stop().
+  void start(const RenderPlan& plan, std::span<const TableSlice> slices, CaptureSource& source);
 
-  // The next chunk, in time order; nothing after the last. Whoever asks has no use for the chunk before
-  // any more. Throws InputError for a damaged block, DeviceError for one that the device cannot hold.
-  [[nodiscard]] std::optional<Chunk> next();
+  // The next chunk, in time order; not to be called after the last block. Whoever asks has no use for the
+  // chunk before any more. Throws InputError for a damaged block, DeviceError for one that the device cannot
+  // hold.
+  [[nodiscard]] Chunk next();
 
   // Waits for what is being read ahead, and forgets it: where an exposure fails.
   void stop();
@@ -74,6 +76,7 @@ class BlockFeed {
   std::uint64_t prepared_bytes(const PlannedBlock& planned);
   void check_size(const PlannedBlock& planned, std::uint64_t bytes) const;
   BlockEntry entry(std::uint64_t offset) const;
+  [[nodiscard]] const TableSlice& slice() const { return slices_[slice_]; }
 
   Chunk in_place_chunk();
   Chunk held_chunk();
@@ -91,6 +94,8 @@ class BlockFeed {
 
   const RenderPlan* plan_ = nullptr;
   CaptureSource* source_ = nullptr;
+  std::span<const TableSlice> slices_;
+  std::size_t slice_ = 0;            // that the next planned block is part of
   std::size_t next_ = 0;             // planned block
   std::uint64_t pending_bytes_ = 0;  // of a block that was prepared and did not fit the chunk before
   std::uint64_t in_place_bytes_ = 0;

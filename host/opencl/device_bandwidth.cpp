@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "capture/error.hpp"
+#include "opencl/launch.hpp"
 #include "opencl/opencl_api.hpp"
 
 namespace nutik {
@@ -21,9 +22,7 @@ double device_copy_bandwidth(std::size_t device, std::uint64_t bytes) {
       cl::Event event;
       queue.enqueueCopyBuffer(from, to, 0, 0, bytes, nullptr, &event);
       event.wait();
-      const auto nanoseconds = static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
-                                                   event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
-      best = std::max(best, 2.0 * static_cast<double>(bytes) / nanoseconds * 1e9);
+      best = std::max(best, 2.0 * static_cast<double>(bytes) / milliseconds(event) * 1e3);
     }
     return best;
   } catch (const cl::Error& error) {

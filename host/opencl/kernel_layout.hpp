@@ -12,8 +12,8 @@ namespace nutik {
 // A block within a chunk. Mirrors BlockEntry in kernels/layout.clh.
 struct BlockEntry {
   std::uint64_t payload_offset;  // bytes from the chunk's start
-  std::uint64_t table_row;       // of its first sample in the tables
-  std::uint64_t span_row;        // in the spans
+  std::uint64_t table_row;       // of its first sample in the tables of its slice
+  std::uint64_t span_row;        // in the spans of its slice
   std::uint32_t sample_count;
   std::uint32_t unused;
 };

@@ -18,15 +18,14 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // What white is in the kernel's fixed light, at most: leaves room for a sum that is larger.
 constexpr int kFixedLightBits = 61;
 
-template <typename T>
-Bytes bytes_of(const std::vector<T>& values) {
-  Bytes bytes(values.size() * sizeof(T));
-  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
-  return bytes;
+template <typename Values>
+Bytes bytes_of(const Values& values) {
+  const auto bytes = std::as_bytes(std::span(values));
+  return {bytes.begin(), bytes.end()};
 }
 
-template <typename To, typename From, typename Convert>
-Bytes converted(const std::vector<From>& values, Convert convert) {
+template <typename To, typename Values, typename Convert>
+Bytes converted(const Values& values, Convert convert) {
   std::vector<To> result(values.size());
   std::transform(values.begin(), values.end(), result.begin(), convert);
   return bytes_of(result);
@@ -39,7 +38,7 @@ FloatPair pair_of(double number) {
 
 double value_of(const FloatPair& pair) { return static_cast<double>(pair.high) + pair.low; }
 
-Bytes numbers_of(const std::vector<double>& values, Precision precision) {
+Bytes numbers_of(std::span<const double> values, Precision precision) {
   switch (precision) {
     case Precision::single_:
       return converted<float>(values, [](double value) { return static_cast<float>(value); });
@@ -109,6 +108,10 @@ CodeTables fixed_code_tables(const RenderPlan& plan, std::uint32_t white_code) {
           std::move(search.guesses)};
 }
 
+FixedScale scale_of(const RenderPlan& plan, Precision precision) {
+  return precision == Precision::fixed ? fixed_scale(plan) : FixedScale{};
+}
+
 // light = sum · factor · first · second
 struct Factors {
   double factor;
@@ -116,7 +119,7 @@ struct Factors {
 };
 
 std::vector<Factors> factors_of(const RenderPlan& plan, Precision precision) {
-  const FixedScale scale = precision == Precision::fixed ? fixed_scale(plan) : FixedScale{};
+  const FixedScale scale = scale_of(plan, precision);
   std::vector<Factors> factors;
   for (std::size_t f = 0; f < plan.functions.size(); ++f) {
     factors.push_back({precision == Precision::fixed ? scale.light_factor(f) : 1.0 / white_light_of(plan),
@@ -155,18 +158,26 @@ void store_as(const RenderPlan& plan, Precision precision, std::span<const std::
 
 }  // namespace
 
-ExposureTables exposure_tables(const RenderPlan& plan, Precision precision, const LightSource& light) {
-  if (precision != Precision::fixed) {
-    return {numbers_of(plan.weights, precision), numbers_of(plan.boundaries, precision),
-            numbers_of(light.values, precision)};
+ExposureTables::ExposureTables(const RenderPlan& plan, Precision precision)
+    : plan_(plan), precision_(precision), scale_(scale_of(plan, precision)), sweep_(plan, scale_) {}
+
+WeightTables ExposureTables::pack(const TableSlice& slice) {
+  if (precision_ == Precision::fixed) {
+    const FixedTables tables = sweep_.pack(slice.last_block);
+    return {bytes_of(tables.weights), bytes_of(tables.boundaries)};
   }
-  const FixedScale scale = fixed_scale(plan);
-  const FixedTables tables = fixed_tables(plan, scale);
-  const auto white = static_cast<double>(scale.white_light);
-  return {bytes_of(tables.weights), bytes_of(tables.boundaries),
-          converted<std::uint32_t>(light.values, [&](double value) {
-            return static_cast<std::uint32_t>(std::llrint(value * white));
-          })};
+  const auto rows = [&](const std::vector<double>& table) {
+    return std::span(table).subspan(slice.first_row * plan_.function_count(),
+                                    (slice.last_row - slice.first_row) * plan_.function_count());
+  };
+  return {numbers_of(rows(plan_.weights), precision_), numbers_of(rows(plan_.boundaries), precision_)};
+}
+
+Bytes ExposureTables::light(const LightSource& light) const {
+  if (precision_ != Precision::fixed) return numbers_of(light.values, precision_);
+  const auto white = static_cast<double>(scale_.white_light);
+  return converted<std::uint32_t>(
+      light.values, [&](double value) { return static_cast<std::uint32_t>(std::llrint(value * white)); });
 }
 
 CodeTables code_tables(const RenderPlan& plan, Precision precision, std::uint32_t white_code) {

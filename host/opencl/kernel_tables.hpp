@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "opencl/allocation_cuts.hpp"
 #include "opencl/light_source.hpp"
+#include "render/fixed_scale.hpp"
 #include "render/precision.hpp"
 #include "render/renderer.hpp"
 
@@ -20,13 +22,31 @@ inline constexpr std::size_t sum_bytes(Precision precision) {
   return precision == Precision::single_ ? 4 : 8;
 }
 
-struct ExposureTables {
+// Of one weight or boundary: as wide as the sums that it goes into.
+inline constexpr std::size_t weight_bytes(Precision precision) { return sum_bytes(precision); }
+
+struct WeightTables {
   Bytes weights;     // Weight [row][function]
   Bytes boundaries;  // likewise
-  Bytes light;       // Light of every code, or a curve
 };
-[[nodiscard]] ExposureTables exposure_tables(const RenderPlan& plan, Precision precision,
-                                             const LightSource& light);
+
+// The tables that a plan is exposed with.
+class ExposureTables {
+ public:
+  // The plan must live as long.
+  ExposureTables(const RenderPlan& plan, Precision precision);
+
+  // The rows of a slice. Slices are asked for in time order, each once.
+  [[nodiscard]] WeightTables pack(const TableSlice& slice);
+  // Light of every code, or a curve.
+  [[nodiscard]] Bytes light(const LightSource& light) const;
+
+ private:
+  const RenderPlan& plan_;
+  Precision precision_;
+  FixedScale scale_;  // of whole numbers
+  FixedSweep sweep_;  // likewise
+};
 
 struct CodeTables {
   Bytes scales;  // LightScale [function]

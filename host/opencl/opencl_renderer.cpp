@@ -6,17 +6,19 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "opencl/allocation_cuts.hpp"
 #include "opencl/block_feed.hpp"
 #include "opencl/build_options.hpp"
+#include "opencl/developer.hpp"
+#include "opencl/device_memory.hpp"
 #include "opencl/function_map.hpp"
-#include "opencl/kernel_layout.hpp"
 #include "opencl/kernel_sources.hpp"
 #include "opencl/kernel_tables.hpp"
+#include "opencl/launch.hpp"
 #include "opencl/light_pieces.hpp"
 #include "opencl/light_source.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
-#include "render/code_scale.hpp"
 
 namespace nutik {
 namespace {
@@ -27,10 +29,7 @@ constexpr std::uint64_t kDefaultMemoryBytes = 4ull << 30;
 
 using ExposeKernel =
     cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint,
-                      cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong, cl_uint>;
-using DevelopSumsKernel = cl::KernelFunctor<cl::Buffer, cl_uint, cl_uint, cl_ulong, cl::Buffer>;
-using DevelopCodesKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_ulong,
-                                             cl::Buffer, cl::Buffer, cl_uint, cl::Buffer>;
+                      cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong, cl_ulong, cl_uint>;
 
 // Whether fma() is the device's own. Devices that would emulate it do not report it, and a CPU's emulation
 // is 20 times slower than rounding twice.
@@ -44,12 +43,12 @@ bool has_fma(const cl::Device& device, Precision precision) {
   return false;
 }
 
-// Whether a value has the first code or the last.
-bool has_end_code(const Picture& codes) {
-  const auto is_end = [&](std::uint32_t code) { return code == 0 || code == codes.white_code; };
-  return codes.type == ValueType::code8 ? std::ranges::any_of(codes.values<std::uint8_t>(), is_end)
-                                        : std::ranges::any_of(codes.values<std::uint16_t>(), is_end);
-}
+// A slice's tables on the device.
+struct UploadedSlice {
+  cl::Buffer weights;
+  cl::Buffer boundaries;
+  cl::Buffer spans;
+};
 
 // Nothing is read from a capture any more when its exposure ends, however it does.
 class StoppedAtEnd {
@@ -61,19 +60,6 @@ class StoppedAtEnd {
 
  private:
   BlockFeed& feed_;
-};
-
-// Buffers made in a scope no longer count when it ends.
-class HeldBytes {
- public:
-  explicit HeldBytes(std::uint64_t& held) : held_(held), before_(held) {}
-  ~HeldBytes() { held_ = before_; }
-  HeldBytes(const HeldBytes&) = delete;
-  HeldBytes& operator=(const HeldBytes&) = delete;
-
- private:
-  std::uint64_t& held_;
-  std::uint64_t before_;
 };
 
 }  // namespace
@@ -89,7 +75,7 @@ std::span<const Precision> precisions_of(const DeviceInfo& device) {
 class OpenClRenderer::Implementation {
  public:
   explicit Implementation(const OpenClOptions& options)
-      : options_(options), device_(pick_device(options)), info_(describe_device(device_)) {
+      : options_(options), device_(pick_device(options)), info_(info_of(device_, options)) {
     set_precision(options.precision);
     context_ = cl::Context(device_);
     queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
@@ -153,15 +139,16 @@ class OpenClRenderer::Implementation {
     try {
       statistics_ = {};
       saturation_ = {};
-      held_bytes_ = 0;
       output_ = output;
       choice_ = choose(plan, output);
       const Work work = work_for(choice_.precision());
-      const FunctionMap map = map_functions(plan);
-      const cl::Buffer function_of_lane = upload(map.of_lane);
-      const cl::Buffer sums = expose(work, plan, source, map, function_of_lane);
-      Picture picture = holds_codes(output.type) ? develop_counted(work, plan, output, sums, function_of_lane)
-                                                 : develop_light(work, plan, output, output.type, sums);
+      DeviceMemory memory(context_, queue_, info_);
+      const std::vector<ExposedBand> bands = expose(work, plan, source, memory);
+      Developer developer(work, plan, output, develop_program(work, plan, output), queue_, memory);
+      Picture picture = developer.develop(bands);
+      saturation_ = developer.saturation();
+      statistics_.develop_ms = developer.develop_ms();
+      statistics_.device_bytes = memory.most_bytes();
       programs_->save_new_binaries();
       return picture;
     } catch (const cl::Error& error) {
@@ -176,6 +163,14 @@ class OpenClRenderer::Implementation {
       throw DeviceError(format("there is no OpenCL device {}", options.device));
     }
     return devices[options.device];
+  }
+
+  static DeviceInfo info_of(const cl::Device& device, const OpenClOptions& options) {
+    DeviceInfo info = describe_device(device);
+    if (options.allocation_bytes != 0) {
+      info.largest_allocation_bytes = std::min(info.largest_allocation_bytes, options.allocation_bytes);
+    }
+    return info;
   }
 
   [[nodiscard]] FeedLimits feed_limits() const {
@@ -206,33 +201,6 @@ class OpenClRenderer::Implementation {
     return text;
   }
 
-  // A read-only buffer with these values. Never of no bytes: OpenCL has no such thing.
-  template <typename T>
-  cl::Buffer upload(const std::vector<T>& values) {
-    const std::uint64_t bytes = std::max<std::uint64_t>(values.size() * sizeof(T), sizeof(T));
-    cl::Buffer buffer = allocate(bytes, CL_MEM_READ_ONLY);
-    if (!values.empty()) {
-      queue_.enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(T), values.data());
-    }
-    return buffer;
-  }
-
-  cl::Buffer allocate(std::uint64_t bytes, cl_mem_flags flags) {
-    if (bytes > info_.largest_allocation_bytes) {
-      throw DeviceError(
-          format("{} allocates at most {} MB at a time and {} MB are needed; use a device "
-                 "with more memory, or --renderer reference",
-                 info_.name, info_.largest_allocation_bytes >> 20, bytes >> 20));
-    }
-    count_device_bytes(bytes);
-    return {context_, flags, bytes};
-  }
-
-  void count_device_bytes(std::uint64_t bytes) {
-    held_bytes_ += bytes;
-    statistics_.device_bytes = std::max(statistics_.device_bytes, held_bytes_);
-  }
-
   [[nodiscard]] LightSource light_source_for(const Work& work, const RenderPlan& plan) const {
     const bool permutes = work.shape.lanes == kLightPieces && info_.native_float_lanes >= kLightPieces;
     return light_source(plan.capture, work.precision, permutes);
@@ -246,121 +214,87 @@ class OpenClRenderer::Implementation {
     return programs_->get("develop", kDevelopSource, develop_options(work, plan.capture, output));
   }
 
-  [[nodiscard]] cl::EnqueueArgs items(const WorkShape& shape, std::uint64_t tile_count) {
-    const std::uint64_t group = shape.group_items;
-    const std::uint64_t count = shape.items(tile_count);
-    return {queue_, cl::NDRange((count + group - 1) / group * group), cl::NDRange(group)};
-  }
-
-  static double milliseconds(const cl::Event& event) {
-    return static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
-                               event.getProfilingInfo<CL_PROFILING_COMMAND_START>()) *
-           1e-6;
-  }
-
-  // Σ_k v_k w_k of every pixel, tile-major.
-  cl::Buffer expose(const Work& work, const RenderPlan& plan, CaptureSource& source, const FunctionMap& map,
-                    const cl::Buffer& function_of_lane) {
-    const TileGrid grid(plan.capture.shape);
-    const std::uint64_t bytes =
-        grid.tile_count() * plan.capture.shape.channels * kTilePixels * sum_bytes(work.precision);
-    cl::Buffer sums = allocate(bytes, CL_MEM_READ_WRITE);
-    if (plan.blocks.empty()) {
-      queue_.enqueueFillBuffer(sums, std::uint8_t{0}, 0, bytes);  // 0 in every arithmetic
-      return sums;
+  // The bands of a picture with nothing in their sums yet.
+  std::vector<ExposedBand> bands_of(const Work& work, const RenderPlan& plan, DeviceMemory& memory) const {
+    const Shape& shape = plan.capture.shape;
+    const FunctionMap map = map_functions(plan);
+    std::vector<ExposedBand> bands;
+    for (const Band& band : cut_picture(shape, work.precision, info_)) {
+      const auto lanes =
+          std::span(map.of_lane).subspan(band.first_tile * kTilePixels, band.tile_count * kTilePixels);
+      const auto tiles = std::span(map.of_tile).subspan(band.first_tile, band.tile_count);
+      const std::uint64_t bytes = sums_bytes(band.tile_count, shape.channels, work.precision);
+      bands.push_back(
+          {band, memory.upload(lanes), memory.upload(tiles), memory.allocate(bytes, CL_MEM_READ_WRITE)});
     }
-    const HeldBytes scope(held_bytes_);  // of what is not the picture
+    return bands;
+  }
+
+  // Σ_k v_k w_k of every pixel, slice by slice, chunk by chunk, band by band.
+  std::vector<ExposedBand> expose(const Work& work, const RenderPlan& plan, CaptureSource& source,
+                                  DeviceMemory& memory) {
+    std::vector<ExposedBand> bands = bands_of(work, plan, memory);
+    if (plan.blocks.empty()) {
+      for (const ExposedBand& exposed : bands) {  // 0 in every arithmetic
+        const std::uint64_t bytes = exposed.sums.getInfo<CL_MEM_SIZE>();
+        queue_.enqueueFillBuffer(exposed.sums, std::uint8_t{0}, 0, bytes);
+      }
+      return bands;
+    }
+    const DeviceMemory::Scope scope(memory);  // of what is not the picture
     const LightSource light = light_source_for(work, plan);
     ExposeKernel kernel(expose_program(work, plan, light), "expose");
 
-    const ExposureTables tables = exposure_tables(plan, work.precision, light);
-    const cl::Buffer weights = upload(tables.weights);
-    const cl::Buffer boundaries = upload(tables.boundaries);
-    const cl::Buffer spans = upload(plan.spans);
-    const cl::Buffer function_of_tile = upload(map.of_tile);
-    const cl::Buffer transfer = upload(tables.light);
+    const std::vector<TableSlice> slices = cut_tables(plan, work.precision, info_);
+    ExposureTables tables(plan, work.precision);
+    const cl::Buffer transfer = memory.upload(tables.light(light));
+    const auto function_count = static_cast<cl_uint>(plan.function_count());
 
-    feed_->start(plan, source);
+    feed_->start(plan, slices, source);
     const StoppedAtEnd stopped(*feed_);
-    bool first = true;
-    while (std::optional<BlockFeed::Chunk> chunk = next_chunk()) {
-      if (options_.last_block_first) std::reverse(chunk->entries.begin(), chunk->entries.end());
-      const HeldBytes chunk_scope(held_bytes_);
-      count_device_bytes(feed_->bytes());
-      const cl::Buffer entries = upload(chunk->entries);
-      const cl::Event event = kernel(items(work.shape, grid.tile_count()), chunk->payload, entries,
-                                     static_cast<cl_uint>(chunk->entries.size()), spans, weights, boundaries,
-                                     static_cast<cl_uint>(plan.function_count()), function_of_tile,
-                                     function_of_lane, transfer, sums, grid.tile_count(), first ? 1u : 0u);
-      event.wait();
-      statistics_.expose_ms += milliseconds(event);
-      statistics_.blocks += chunk->entries.size();
-      statistics_.payload_bytes += chunk->payload_bytes;
-      ++statistics_.launches;
-      first = false;
+    std::size_t block = 0;
+    for (const TableSlice& slice : slices) {
+      const DeviceMemory::Scope slice_scope(memory);
+      const UploadedSlice uploaded = upload(tables.pack(slice), plan, slice, memory);
+      while (block < slice.last_block) {
+        BlockFeed::Chunk chunk = next_chunk();
+        if (options_.last_block_first) std::reverse(chunk.entries.begin(), chunk.entries.end());
+        const DeviceMemory::Scope chunk_scope(memory);
+        memory.count(feed_->bytes());
+        const cl::Buffer entries = memory.upload(chunk.entries);
+        for (const ExposedBand& exposed : bands) {
+          const Band& band = exposed.band;
+          const cl::Event event =
+              kernel(items(queue_, work.shape, band.tile_count), chunk.payload, entries,
+                     static_cast<cl_uint>(chunk.entries.size()), uploaded.spans, uploaded.weights,
+                     uploaded.boundaries, function_count, exposed.function_of_tile, exposed.function_of_lane,
+                     transfer, exposed.sums, band.first_tile, band.tile_count, block == 0 ? 1u : 0u);
+          event.wait();
+          statistics_.expose_ms += milliseconds(event);
+          ++statistics_.launches;
+        }
+        statistics_.blocks += chunk.entries.size();
+        statistics_.payload_bytes += chunk.payload_bytes;
+        block += chunk.entries.size();
+      }
     }
-    return sums;
+    return bands;
   }
 
-  std::optional<BlockFeed::Chunk> next_chunk() {
+  static UploadedSlice upload(const WeightTables& tables, const RenderPlan& plan, const TableSlice& slice,
+                              DeviceMemory& memory) {
+    const auto spans = std::span(plan.spans)
+                           .subspan(slice.first_block * plan.function_count(),
+                                    (slice.last_block - slice.first_block) * plan.function_count());
+    return {memory.upload(tables.weights), memory.upload(tables.boundaries), memory.upload(spans)};
+  }
+
+  BlockFeed::Chunk next_chunk() {
     const auto start = std::chrono::steady_clock::now();
-    auto chunk = feed_->next();
+    BlockFeed::Chunk chunk = feed_->next();
     statistics_.read_ms +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return chunk;
-  }
-
-  // As light of this type, for a picture that will be stored as `output`.
-  Picture develop_light(const Work& work, const RenderPlan& plan, const OutputFormat& output, ValueType type,
-                        const cl::Buffer& sums) {
-    const Shape& shape = plan.capture.shape;
-    const std::uint64_t tile_count = TileGrid(shape).tile_count();
-    Bytes of_sums(shape.value_count() * sum_bytes(work.precision));
-    const cl::Buffer raster = allocate(of_sums.size(), CL_MEM_WRITE_ONLY);
-    DevelopSumsKernel kernel(develop_program(work, plan, output), "develop_sums");
-    const cl::Event event =
-        kernel(items(work.shape, tile_count), sums, shape.width, shape.height, tile_count, raster);
-    queue_.enqueueReadBuffer(raster, CL_TRUE, 0, of_sums.size(), of_sums.data());
-    statistics_.develop_ms = milliseconds(event);
-    Picture picture(shape, type, output.white_code);
-    store_light(plan, work.precision, of_sums, picture);
-    return picture;
-  }
-
-  // Codes, and how many pixels saturate. The kernel knows no negative codes and counts nothing: where a plan's
-  // functions can saturate, or negative light is to be seen, the sums are read and turned into light here.
-  Picture develop_counted(const Work& work, const RenderPlan& plan, const OutputFormat& output,
-                          const cl::Buffer& sums, const cl::Buffer& function_of_lane) {
-    const CodeScale scale(plan.capture.transfer, output);
-    if (output.negative != NegativeLight::saturate) {
-      const Picture light = develop_light(work, plan, output, ValueType::light64, sums);
-      saturation_ = count_saturated(light, scale);
-      return encoded(light, scale, output);
-    }
-    Picture codes = develop_codes(work, plan, output, sums, function_of_lane);
-    if (can_saturate(plan, scale) && has_end_code(codes)) {
-      const double develop_ms = statistics_.develop_ms;
-      saturation_ = count_saturated(develop_light(work, plan, output, ValueType::light64, sums), scale);
-      statistics_.develop_ms += develop_ms;
-    }
-    return codes;
-  }
-
-  Picture develop_codes(const Work& work, const RenderPlan& plan, const OutputFormat& output,
-                        const cl::Buffer& sums, const cl::Buffer& function_of_lane) {
-    const Shape& shape = plan.capture.shape;
-    const std::uint64_t tile_count = TileGrid(shape).tile_count();
-    const CodeTables tables = code_tables(plan, work.precision, output.white_code);
-    Picture picture(shape, output.type, output.white_code);
-    const cl::Buffer raster = allocate(picture.bytes.size(), CL_MEM_WRITE_ONLY);
-    DevelopCodesKernel kernel(develop_program(work, plan, output), "develop_codes");
-    const cl::Event event =
-        kernel(items(work.shape, tile_count), sums, upload(tables.scales), function_of_lane, shape.width,
-               shape.height, tile_count, upload(tables.thresholds), upload(tables.guesses),
-               static_cast<cl_uint>(tables.guesses.size()), raster);
-    queue_.enqueueReadBuffer(raster, CL_TRUE, 0, picture.bytes.size(), picture.bytes.data());
-    statistics_.develop_ms = milliseconds(event);
-    return picture;
   }
 
   OpenClOptions options_;
@@ -371,7 +305,6 @@ class OpenClRenderer::Implementation {
   std::unique_ptr<ProgramStore> programs_;
   bool announced_ = false;
   std::unique_ptr<BlockFeed> feed_;
-  std::uint64_t held_bytes_ = 0;
   RenderStatistics statistics_;
   Saturation saturation_;
   OutputFormat output_;     // of the last picture

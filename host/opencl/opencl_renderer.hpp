@@ -30,13 +30,14 @@ struct OpenClOptions {
   std::uint64_t memory_bytes = 0;
 
   // How the work is cut. 0 leaves it to the device; the picture does not depend on it beyond rounding.
-  std::uint32_t item_pixels = 0;  // pixels of a tile that a work-item owns: 1 … 64, a power of two
-  std::uint32_t item_tiles = 0;   // tiles in a row that a work-item owns pixels of
-  std::uint32_t lanes = 0;        // of them that it works on at a time: 1, 4, 8 or 16
-  std::uint32_t group_items = 0;  // work-items in a work-group
-  bool use_fma = true;            // false: as on a device that does not fuse multiplication and addition
-  std::uint64_t chunk_bytes = 0;  // of blocks that one launch reads
-  bool last_block_first = false;  // within a chunk: sums of whole numbers do not depend on it
+  std::uint32_t item_pixels = 0;       // pixels of a tile that a work-item owns: 1 … 64, a power of two
+  std::uint32_t item_tiles = 0;        // tiles in a row that a work-item owns pixels of
+  std::uint32_t lanes = 0;             // of them that it works on at a time: 1, 4, 8 or 16
+  std::uint32_t group_items = 0;       // work-items in a work-group
+  bool use_fma = true;                 // false: as on a device that does not fuse multiplication and addition
+  std::uint64_t chunk_bytes = 0;       // of blocks that one launch reads
+  std::uint64_t allocation_bytes = 0;  // the largest buffer, at most the device's own (allocation_cuts.hpp)
+  bool last_block_first = false;       // within a chunk: sums of whole numbers do not depend on it
 };
 
 // What the last render did.
@@ -47,7 +48,7 @@ struct RenderStatistics {
   std::uint64_t payload_bytes = 0;  // read by the kernel
   std::uint64_t device_bytes = 0;   // largest sum of buffers at a time
   std::uint64_t blocks = 0;
-  std::uint64_t launches = 0;
+  std::uint64_t launches = 0;  // of the kernel that exposes: a chunk of blocks in a band of the picture each
 };
 
 class OpenClRenderer final : public Renderer {

@@ -4,8 +4,6 @@
 #include <bit>
 #include <cmath>
 
-#include "exposure/compensated_sum.hpp"
-
 namespace nutik {
 namespace {
 
@@ -68,26 +66,34 @@ FixedScale fixed_scale(const RenderPlan& plan) {
   return scale;
 }
 
-FixedTables fixed_tables(const RenderPlan& plan, const FixedScale& scale) {
-  const std::uint64_t count = plan.function_count();
-  FixedTables tables{std::vector<std::int64_t>(plan.weights.size(), 0),
-                     std::vector<std::int64_t>(plan.boundaries.size(), 0)};
-  for (std::size_t f = 0; f < count; ++f) {
-    CompensatedSum boundary;
-    std::int64_t rounded = 0;
-    for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
-      const PlannedBlock& block = plan.blocks[b];
-      const std::int64_t start = rounded;
-      for (std::uint32_t k = 0; k < block.extent.sample_count; ++k) {
-        const std::uint64_t at = (block.table_row + k) * count + f;
-        tables.boundaries[at] = rounded - start;
-        if (plan.weights[at] == 0.0) continue;
-        boundary.add(plan.weights[at]);
-        const std::int64_t next = std::llrint(std::scalbn(boundary.value(), scale.exponents[f]));
-        tables.weights[at] = next - rounded;
-        rounded = next;
+FixedSweep::FixedSweep(const RenderPlan& plan, const FixedScale& scale)
+    : plan_(plan), exponents_(scale.exponents), boundaries_(plan.functions.size()) {}
+
+FixedTables FixedSweep::pack(std::size_t last_block) {
+  const std::uint64_t count = plan_.function_count();
+  FixedTables tables;
+  if (next_block_ == last_block) return tables;
+  const std::uint64_t first_row = plan_.blocks[next_block_].table_row;
+  const PlannedBlock& last = plan_.blocks[last_block - 1];
+  tables.weights.assign((last.table_row + last.row_count() - first_row) * count, 0);
+  tables.boundaries = tables.weights;
+  for (; next_block_ < last_block; ++next_block_) {
+    const PlannedBlock& block = plan_.blocks[next_block_];
+    const std::uint64_t begin = (block.table_row - first_row) * count;
+    for (std::size_t f = 0; f < count; ++f) {
+      Boundary& boundary = boundaries_[f];
+      const std::int64_t start = boundary.rounded;
+      for (std::uint64_t k = 0; k < block.extent.sample_count; ++k) {
+        const std::uint64_t at = begin + k * count + f;
+        tables.boundaries[at] = boundary.rounded - start;
+        const double weight = plan_.weights[(block.table_row + k) * count + f];
+        if (weight == 0.0) continue;
+        boundary.exact.add(weight);
+        const std::int64_t next = std::llrint(std::scalbn(boundary.exact.value(), exponents_[f]));
+        tables.weights[at] = next - boundary.rounded;
+        boundary.rounded = next;
       }
-      tables.boundaries[(block.table_row + block.extent.sample_count) * count + f] = rounded - start;
+      tables.boundaries[begin + block.extent.sample_count * count + f] = boundary.rounded - start;
     }
   }
   return tables;

@@ -7,9 +7,11 @@
 //            result depends on the functions and the timeline alone, not on blocks or tiles
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "exposure/compensated_sum.hpp"
 #include "render/render_plan.hpp"
 
 namespace nutik {
@@ -32,6 +34,27 @@ struct FixedTables {
   std::vector<std::int64_t> weights;
   std::vector<std::int64_t> boundaries;
 };
-[[nodiscard]] FixedTables fixed_tables(const RenderPlan& plan, const FixedScale& scale);
+
+// Rounds a plan's tables from its first block to its last, in as many parts as wanted: the same numbers always.
+class FixedSweep {
+ public:
+  // The plan must live as long.
+  FixedSweep(const RenderPlan& plan, const FixedScale& scale);
+
+  // The rows of the planned blocks from where the last part ended up to `last_block`, which is not part of it.
+  [[nodiscard]] FixedTables pack(std::size_t last_block);
+
+ private:
+  // What a function's weights so far add up to.
+  struct Boundary {
+    CompensatedSum exact;
+    std::int64_t rounded = 0;
+  };
+
+  const RenderPlan& plan_;
+  std::vector<int> exponents_;
+  std::vector<Boundary> boundaries_;
+  std::size_t next_block_ = 0;
+};
 
 }  // namespace nutik

@@ -51,7 +51,7 @@ void plan_blocks(RenderPlan& plan, const CaptureSource& source) {
     const BlockExtent extent = source.block_extent(block);
     if (!is_live(plan, extent.range())) continue;
     plan.blocks.push_back({block, extent, row});
-    row += extent.sample_count + 1;
+    row += plan.blocks.back().row_count();
   }
   plan.weights.assign(row * plan.function_count(), 0.0);
   plan.boundaries.assign(row * plan.function_count(), 0.0);

@@ -49,6 +49,9 @@ struct PlannedBlock {
   std::uint64_t block;  // in the capture
   BlockExtent extent;
   std::uint64_t table_row;  // of its first sample in the tables
+
+  // Of the tables.
+  [[nodiscard]] std::uint64_t row_count() const { return std::uint64_t{extent.sample_count} + 1; }
 };
 
 struct RenderPlan {

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 
+#include "opencl/allocation_cuts.hpp"
 #include "render/reference_renderer.hpp"
 #include "support/precision_check.hpp"
 #include "support/rendering.hpp"
@@ -113,12 +115,36 @@ TEST_P(HardCases, DoNotDependOnTilesOrBlocks) {
 INSTANTIATE_TEST_SUITE_P(, HardCases, testing::ValuesIn(test::hard_cases().begin(), test::hard_cases().end()),
                          [](const auto& instance) { return instance.param.name; });
 
-TEST(TilesOfAllKinds, AreInTheCaseOfThatName) {
+HardCase hard_case(const std::string& name) {
   const auto cases = test::hard_cases();
-  const auto named = std::ranges::find_if(
-      cases, [](const NamedHardCase& each) { return std::string(each.name) == "TilesOfAllKinds"; });
-  ASSERT_NE(named, cases.end());
-  const HardCase hard = named->make();
+  const auto named =
+      std::ranges::find_if(cases, [&](const NamedHardCase& each) { return each.name == name; });
+  if (named == cases.end()) throw std::logic_error("there is no hard case " + name);
+  return named->make();
+}
+
+// With as many bytes at a time as tools/check_kernels allows for it; in one chunk, for Oclgrind does not bear a second
+// thread that copies the next one.
+TEST(LargerThanAnAllocation, IsCutIntoBands) {
+  const HardCase hard = hard_case("LargerThanAnAllocation");
+  const Layout layout(hard);
+  const RenderPlan plan = layout.plan();
+  for (const Precision precision : precisions_of(list_devices().front())) {
+    OpenClOptions options = test::renderer_options(precision);
+    options.allocation_bytes = 5000;
+    const std::uint64_t bands =
+        cut_picture(plan.capture.shape, precision, test::device_allocating(options.allocation_bytes)).size();
+    EXPECT_GE(bands, 2u) << to_text(precision);
+    OpenClRenderer small(options), plain(test::renderer_options(precision));
+    const OutputFormat codes = test::codes_like(plan.capture);
+    EXPECT_EQ(layout.render(small, plan, codes).bytes, layout.render(plain, plan, codes).bytes)
+        << to_text(precision);
+    EXPECT_EQ(small.statistics().launches, bands) << to_text(precision);
+  }
+}
+
+TEST(TilesOfAllKinds, AreInTheCaseOfThatName) {
+  const HardCase hard = hard_case("TilesOfAllKinds");
   StreamingCapture capture = hard.open();
   std::vector<std::byte> payload(capture.prepare(0));
   capture.read(0, payload);

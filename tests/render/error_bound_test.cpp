@@ -64,7 +64,7 @@ TEST(FixedScale, FillsTheSumsAndNeverOverflows) {
     const MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const FixedScale scale = fixed_scale(plan);
-    const FixedTables tables = fixed_tables(plan, scale);
+    const FixedTables tables = FixedSweep(plan, scale).pack(plan.blocks.size());
     for (std::size_t f = 0; f < plan.functions.size(); ++f) {
       long double magnitude = 0, exact = 0;
       for (std::size_t at = f; at < tables.weights.size(); at += plan.function_count()) {
@@ -80,6 +80,27 @@ TEST(FixedScale, FillsTheSumsAndNeverOverflows) {
   }
 }
 
+TEST(FixedScale, TablesAreTheSameInAnyParts) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const RandomCase random(seed);
+    const MemoryCapture capture = random.encode(3, TilePolicy::automatic);
+    const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+    const FixedScale scale = fixed_scale(plan);
+    const FixedTables whole = FixedSweep(plan, scale).pack(plan.blocks.size());
+    ASSERT_EQ(whole.weights.size(), plan.weights.size());
+    FixedSweep sweep(plan, scale);
+    FixedTables joined;
+    for (std::size_t last = 0, step = 0; last < plan.blocks.size(); ++step) {
+      last = std::min(plan.blocks.size(), last + step % 3);
+      const FixedTables part = sweep.pack(last);
+      joined.weights.insert(joined.weights.end(), part.weights.begin(), part.weights.end());
+      joined.boundaries.insert(joined.boundaries.end(), part.boundaries.begin(), part.boundaries.end());
+    }
+    ASSERT_EQ(joined.weights, whole.weights) << random.text();
+    ASSERT_EQ(joined.boundaries, whole.boundaries) << random.text();
+  }
+}
+
 // Weights come from boundaries that are rounded once for the whole capture.
 TEST(FixedScale, TablesDoNotDependOnBlocks) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
@@ -88,7 +109,7 @@ TEST(FixedScale, TablesDoNotDependOnBlocks) {
     for (const std::uint32_t block_samples : {1u, 7u, 64u, 1000u}) {
       const MemoryCapture capture = random.encode(block_samples, TilePolicy::dense);
       const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-      const FixedTables tables = fixed_tables(plan, fixed_scale(plan));
+      const FixedTables tables = FixedSweep(plan, fixed_scale(plan)).pack(plan.blocks.size());
       std::vector<std::vector<std::int64_t>> weights(plan.function_count());
       for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
         const PlannedBlock& block = plan.blocks[b];

@@ -19,7 +19,7 @@
 namespace nutik::test {
 
 // NUTIK_TEST_SHAPE=pixels,tiles,lanes,group cuts the work another way than suits the device (OpenClOptions): GPUs'
-// way on a CPU, say.
+// way on a CPU, say. NUTIK_TEST_ALLOCATION=bytes makes the device allocate no more at a time.
 inline OpenClOptions renderer_options(std::optional<Precision> precision) {
   OpenClOptions options;
   if (const char* shape = std::getenv("NUTIK_TEST_SHAPE")) {
@@ -28,9 +28,18 @@ inline OpenClOptions renderer_options(std::optional<Precision> precision) {
       throw UsageError(std::string("NUTIK_TEST_SHAPE is not pixels,tiles,lanes,group: ") + shape);
     }
   }
+  if (const char* bytes = std::getenv("NUTIK_TEST_ALLOCATION")) options.allocation_bytes = std::stoull(bytes);
   options.precision = precision;
   options.cache_folder = std::filesystem::temp_directory_path() / "nutik-test-kernels";
   return options;
+}
+
+// A device of which no more is known than what it allocates at a time.
+inline DeviceInfo device_allocating(std::uint64_t bytes) {
+  DeviceInfo device;
+  device.name = "a small device";
+  device.largest_allocation_bytes = bytes;
+  return device;
 }
 
 // S of a value's function.

@@ -97,6 +97,24 @@ HardCase blocks_of_one_sample() {
   return hard;
 }
 
+// Three columns of tiles, a few of which change at every sample: its sums take more memory than its one block.
+HardCase larger_than_an_allocation() {
+  const CaptureFormat capture = format_of({17, 75, 1}, Transfer::srgb());
+  const Timeline timeline = Timeline::constant({30, 1}, kHalfShutter, 9);
+  const DrawSample sample = [capture](std::uint64_t k) {
+    std::vector<std::byte> raster(capture.sample_bytes());
+    for (std::uint32_t i = 0; i < capture.shape.pixel_count(); ++i) {
+      const bool changes = i % 17 / 8 == 1 && i / 17 / 8 % 4 == 2;
+      set_code(capture, raster, i, (i * 37 + static_cast<std::uint32_t>(changes ? k * 91 : 0)) % 256);
+    }
+    return raster;
+  };
+  FunctionSet set = number(some_functions(timeline));
+  Mask mask = take_turns(capture.shape, set);
+  for (std::size_t i = 0; i < mask.tags.size() / 2; ++i) mask.tags[i] = 3;
+  return {capture, timeline, sample, std::move(set), std::move(mask)};
+}
+
 constexpr NamedHardCase kCases[] = {
     {"OnRoundingEdges", "the mean of two neighbouring codes is neither: half up, or within the bound of it",
      on_rounding_edges},
@@ -108,6 +126,8 @@ constexpr NamedHardCase kCases[] = {
      tiles_of_all_kinds},
     {"BlocksOfOneSample", "every sample starts a block: no record, no difference of boundaries",
      blocks_of_one_sample},
+    {"LargerThanAnAllocation", "more tiles than a small buffer holds: exposed and developed in bands there",
+     larger_than_an_allocation},
 };
 
 }  // namespace

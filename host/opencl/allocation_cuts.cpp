@@ -1,0 +1,75 @@
+#include "opencl/allocation_cuts.hpp"
+
+#include <algorithm>
+
+#include "capture/format.hpp"
+#include "opencl/kernel_layout.hpp"
+#include "opencl/kernel_tables.hpp"
+
+namespace nutik {
+
+std::uint64_t sums_bytes(std::uint64_t tile_count, std::uint32_t channels, Precision precision) {
+  return tile_count * channels * kTilePixels * sum_bytes(precision);
+}
+
+std::vector<Band> cut_picture(const Shape& shape, Precision precision, const DeviceInfo& device) {
+  const TileGrid grid(shape);
+  const std::uint64_t row_bytes = sums_bytes(grid.columns(), shape.channels, precision);
+  const std::uint64_t most_rows = device.largest_allocation_bytes / row_bytes;
+  if (most_rows == 0) {
+    throw too_large(device, row_bytes,
+                    format("a row of tiles of a picture {} pixels wide, in {} precision,", shape.width,
+                           to_text(precision)),
+                    format("use a device with more memory, {}or --renderer reference",
+                           precision == Precision::single_ ? "" : "--precision single, "));
+  }
+  const std::uint64_t band_count = (grid.rows() + most_rows - 1) / most_rows;
+  const auto band_rows = static_cast<std::uint32_t>((grid.rows() + band_count - 1) / band_count);
+  std::vector<Band> bands;
+  for (std::uint32_t row = 0; row < grid.rows(); row += band_rows) {
+    const std::uint32_t rows = std::min(band_rows, grid.rows() - row);
+    const std::uint32_t first_row = row * kTileSide;
+    const std::uint32_t height = std::min(rows * kTileSide, shape.height - first_row);
+    bands.push_back({std::uint64_t{row} * grid.columns(),
+                     std::uint64_t{rows} * grid.columns(),
+                     first_row,
+                     {shape.width, height, shape.channels}});
+  }
+  return bands;
+}
+
+std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, const DeviceInfo& device) {
+  const std::uint64_t row_bytes = plan.function_count() * weight_bytes(precision);
+  // Spans never decide: a block has one row of them, no wider than its rows of weights, of which it has two or more.
+  const std::uint64_t most_blocks = device.largest_allocation_bytes / sizeof(BlockEntry);
+  const auto fits = [&](std::uint64_t rows) { return rows * row_bytes <= device.largest_allocation_bytes; };
+  std::vector<TableSlice> slices;
+  for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
+    const PlannedBlock& block = plan.blocks[b];
+    const std::uint64_t last_row = block.table_row + block.row_count();
+    if (!fits(block.row_count())) {
+      throw too_large(
+          device, block.row_count() * row_bytes,
+          format("a table of {} functions for a block of {} samples", plan.function_count(),
+                 block.extent.sample_count),
+          "encode with fewer samples a block (--block-samples), or use fewer functions at a time");
+    }
+    if (slices.empty() || !fits(last_row - slices.back().first_row) ||
+        b - slices.back().first_block == most_blocks) {
+      slices.push_back({b, b, block.table_row, block.table_row});
+    }
+    slices.back().last_block = b + 1;
+    slices.back().last_row = last_row;
+  }
+  return slices;
+}
+
+DeviceError too_large(const DeviceInfo& device, std::uint64_t bytes, std::string_view what,
+                      std::string_view way_out) {
+  const auto megabytes = [](std::uint64_t size) { return static_cast<double>(size) * 1e-6; };
+  return DeviceError(format("{} takes {:.1f} MB and {} allocates at most {:.1f} MB at a time; {}", what,
+                            megabytes(bytes), device.name, megabytes(device.largest_allocation_bytes),
+                            way_out));
+}
+
+}  // namespace nutik

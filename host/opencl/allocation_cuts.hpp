@@ -1,0 +1,67 @@
+// How an exposure is cut so that no buffer is larger than the device allocates at a time.
+//
+//   in:      a picture's shape or a plan's tables, an arithmetic, the device
+//   out:     bands: whole rows of tiles, whose sums fit
+//            slices: planned blocks in a row, whose tables fit
+//   always:  one band and one slice where everything fits, which is usual
+//
+//              blocks in time order ──►
+//              slice 0              slice 1
+//              chunk 0   chunk 1    chunk 2   chunk 3
+//            ┌─────────┬──────────┬─────────┬─────────
+//     band 0 │ launch 1│ launch 3 │ launch 5│ …            each band has its own sums, from the first
+//     band 1 │ launch 2│ launch 4 │ launch 6│ …            launch until it is developed into its raster
+//            └─────────┴──────────┴─────────┴─────────
+//
+// Payloads come in chunks (block_feed.hpp), which end where a slice does. Chunks hold all tiles of their blocks,
+// so a kernel finds a tile by its number in the picture; everything else that it reads and writes is the band's
+// or the slice's own, and numbered from there. However it is cut, each pixel's sum is made of the same blocks in
+// the same order: the picture is the same to the last bit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "opencl/device.hpp"
+#include "render/precision.hpp"
+#include "render/render_plan.hpp"
+
+namespace nutik {
+
+// Rows of tiles of a picture; by itself a picture of fewer rows.
+struct Band {
+  std::uint64_t first_tile;  // in the picture
+  std::uint64_t tile_count;
+  std::uint32_t first_row;  // of pixels, in the picture
+  Shape shape;
+};
+
+// Planned blocks [first_block, last_block), and their rows of the plan's tables, [first_row, last_row).
+struct TableSlice {
+  std::size_t first_block;
+  std::size_t last_block;
+  std::uint64_t first_row;
+  std::uint64_t last_row;
+};
+
+// Of the sums of so many tiles.
+[[nodiscard]] std::uint64_t sums_bytes(std::uint64_t tile_count, std::uint32_t channels, Precision precision);
+
+// The bands of a picture from top to bottom, all but the last of the same height. A band's sums take no less than
+// its raster or its function of each pixel. Throws DeviceError where not even one row of tiles fits.
+[[nodiscard]] std::vector<Band> cut_picture(const Shape& shape, Precision precision,
+                                            const DeviceInfo& device);
+
+// The slices of a plan in time order; none of a plan without blocks. Throws DeviceError where the table of a
+// single block does not fit.
+[[nodiscard]] std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision,
+                                                 const DeviceInfo& device);
+
+// That `what` takes more than the device allocates at a time, and the way out.
+[[nodiscard]] DeviceError too_large(const DeviceInfo& device, std::uint64_t bytes, std::string_view what,
+                                    std::string_view way_out);
+
+}  // namespace nutik

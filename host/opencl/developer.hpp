@@ -1,0 +1,63 @@
+// Develops a picture: the sums of its bands to codes or light, with kernels/develop.cl.
+//
+//   in:      a plan, and the sums of its exposure, band by band
+//   out:     the picture; of codes also how many pixels saturate
+#pragma once
+
+#include <span>
+#include <utility>
+
+#include "opencl/allocation_cuts.hpp"
+#include "opencl/build_options.hpp"
+#include "opencl/device_memory.hpp"
+#include "opencl/opencl_api.hpp"
+#include "render/code_scale.hpp"
+#include "render/renderer.hpp"
+
+namespace nutik {
+
+// A band on the device.
+struct ExposedBand {
+  Band band;
+  cl::Buffer function_of_lane;  // function_map.hpp: the band's part
+  cl::Buffer function_of_tile;
+  cl::Buffer sums;  // Σ_k v_k w_k of every pixel, tile-major
+};
+
+class Developer {
+ public:
+  // `program` is kernels/develop.cl built for the picture. All that is given must live as long.
+  Developer(const Work& work, const RenderPlan& plan, const OutputFormat& output, cl::Program program,
+            cl::CommandQueue queue, DeviceMemory& memory)
+      : work_(work),
+        plan_(plan),
+        output_(output),
+        program_(std::move(program)),
+        queue_(std::move(queue)),
+        memory_(memory) {}
+
+  // Throws UsageError where codes lie too close together (code_search.hpp).
+  [[nodiscard]] Picture develop(std::span<const ExposedBand> bands);
+
+  [[nodiscard]] const Saturation& saturation() const { return saturation_; }
+  // Of the kernels, by the device's own clock.
+  [[nodiscard]] double develop_ms() const { return develop_ms_; }
+
+ private:
+  Picture light(std::span<const ExposedBand> bands, ValueType type);
+  Picture codes(std::span<const ExposedBand> bands);
+  Picture counted_codes(std::span<const ExposedBand> bands);
+  template <typename Launch>
+  void develop_band(const Band& band, std::span<std::byte> raster, Launch launch);
+
+  const Work& work_;
+  const RenderPlan& plan_;
+  const OutputFormat& output_;
+  cl::Program program_;
+  cl::CommandQueue queue_;
+  DeviceMemory& memory_;
+  Saturation saturation_;
+  double develop_ms_ = 0.0;
+};
+
+}  // namespace nutik
