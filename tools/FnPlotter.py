@@ -8,10 +8,10 @@ import sys
 from functools import partial
 from pathlib import Path
 
-from fnplot.errors import InputError, OutputError, PlotterError, UsageError
+from fnplot.errors import InputError, PlotterError, UsageError
 from fnplot.function_file import parse_functions
 from fnplot.mask import ranges_text, read_mask
-from fnplot.output import FORMATS, show_pages, write_pages
+from fnplot.output import check_output, missing_matplotlib, put_out
 from fnplot.times import parse_time
 
 LONGEST_TITLE = 50  # characters
@@ -91,14 +91,6 @@ def find_program():
     return shutil.which("nutik-cl") or (built if built.exists() else "nutik-cl")
 
 
-def check_output(output, inputs):
-    if output.suffix.lower() not in FORMATS:
-        raise UsageError(f"'{output}' is no .png, .svg or .pdf; these can be written")
-    for name in inputs:
-        if name and output.exists() and Path(name).exists() and output.samefile(name):
-            raise UsageError(f"'{output}' is the input; write the plot to another file")
-
-
 def warn(message):
     print(f"warning: {message}", file=sys.stderr)
 
@@ -150,8 +142,7 @@ def page_drawings(functions, pixels, options):
         from fnplot.capture import read_capture
         from fnplot.view import make_view
     except ImportError as error:
-        way_out = "on Debian: apt install python3-matplotlib"
-        raise OutputError(f"Matplotlib cannot be loaded ({error}); {way_out}") from None
+        raise missing_matplotlib(error) from None
 
     used = functions_in_use(functions, pixels, options.file, options.mask) if pixels else functions
     share = {tag: count / sum(pixels.values()) for tag, count in pixels.items()} if pixels else {}
@@ -186,11 +177,7 @@ def plot(options):
         check_output(options.output, (options.file, options.mask, options.capture))
     functions = read_functions(options.file)
     pixels = read_mask(options.mask) if options.mask else None
-    drawings = page_drawings(functions, pixels, options)
-    if options.output:
-        write_pages(drawings, options.output)
-    else:
-        show_pages(drawings)
+    put_out(page_drawings(functions, pixels, options), options.output)
 
 
 def main():

@@ -3,13 +3,12 @@
 
 import argparse
 import sys
+from functools import partial
 from pathlib import Path
 
-from fnplot.errors import InputError, OutputError, PlotterError, UsageError
+from fnplot.errors import PlotterError
+from fnplot.output import check_output, missing_matplotlib, put_out
 from noiseplot.noise_file import read_noise
-
-FORMATS = (".png", ".svg", ".pdf")
-PNG_DOTS_PER_INCH = 120
 
 DESCRIPTION = """\
 Draws a noise file, one graph for each channel: the standard deviation of a code over the code. Dots are
@@ -33,36 +32,20 @@ def command_line():
     return parser
 
 
-def check_output(output, file):
-    if output.suffix.lower() not in FORMATS:
-        raise UsageError(f"'{output}' is no .png, .svg or .pdf; these can be written")
-    if output.exists() and Path(file).exists() and output.samefile(file):
-        raise UsageError(f"'{output}' is the input; write the plot to another file")
-
-
-def load_pages():
+def page_drawing(noise, title):
+    """What draws the page, called with the figure to draw on."""
     try:
-        from noiseplot import page
+        from noiseplot.page import draw
     except ImportError as error:
-        way_out = "on Debian: apt install python3-matplotlib"
-        raise OutputError(f"Matplotlib cannot be loaded ({error}); {way_out}") from None
-    return page
+        raise missing_matplotlib(error) from None
+    return partial(draw, noise=noise, title=title)
 
 
 def plot(options):
     output = Path(options.output) if options.output else None
     if output:
-        check_output(output, options.file)
-    noise = read_noise(options.file)
-    page = load_pages()
-    title = Path(options.file).name
-    if output is None:
-        page.show(noise, title)
-        return
-    try:
-        page.draw(noise, title).savefig(output, dpi=PNG_DOTS_PER_INCH)
-    except OSError as error:
-        raise OutputError(f"{error.filename or output}: {error.strerror or error}") from None
+        check_output(output, (options.file,))
+    put_out([page_drawing(read_noise(options.file), Path(options.file).name)], output)
 
 
 def main():
@@ -70,7 +53,7 @@ def main():
     try:
         plot(options)
     except PlotterError as error:
-        print(error, file=sys.stderr)
+        print(f"NoisePlotter.py: {error}", file=sys.stderr)
         return error.status
     return 0
 

@@ -24,7 +24,8 @@ int main(int argc, char** argv) {
   nutik::catch_interruptions();
   try {
     const std::vector<std::string> words(argv + 1, argv + argc);
-    const nutik::app::ParsedCommandLine parsed = nutik::app::parse_command_line(words);
+    nutik::app::ParsedCommandLine parsed = nutik::app::parse_command_line(words);
+    parsed.options.program = argv[0];
     const int status = parsed.command == nullptr ? kOk : parsed.command->run(parsed.options);
     nutik::app::flush_output();
     return status;

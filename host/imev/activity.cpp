@@ -1,11 +1,8 @@
 #include "imev/activity.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <stdexcept>
-
-#include "capture/transfer.hpp"
 
 namespace nutik {
 
@@ -52,16 +49,6 @@ void Activity::add(const BlockView& block) {
 std::uint64_t Activity::pixel_count() const {
   if (options_.counted.empty()) return changes_.size();
   return static_cast<std::uint64_t>(std::ranges::count(options_.counted, std::uint8_t{1}));
-}
-
-Picture activity_map(const Shape& shape, const std::vector<std::uint64_t>& changes) {
-  Picture map({shape.width, shape.height, 1}, ValueType::code8, 255);
-  const double most = static_cast<double>(std::max<std::uint64_t>(*std::ranges::max_element(changes), 1));
-  const Transfer srgb = Transfer::srgb();
-  std::ranges::transform(changes, map.values<std::uint8_t>().begin(), [&](std::uint64_t count) {
-    return static_cast<std::uint8_t>(std::lround(255 * srgb.fraction_of(static_cast<double>(count) / most)));
-  });
-  return map;
 }
 
 }  // namespace nutik

@@ -42,8 +42,4 @@ class Activity {
   std::vector<ChangeRecord> last_;  // what each pixel held at the end of the block before; empty at first
 };
 
-// The map as a grey picture of 8 bits: light is the share of the most changes that any pixel has, shown
-// through the sRGB curve so that rare changes can be seen.
-[[nodiscard]] Picture activity_map(const Shape& shape, const std::vector<std::uint64_t>& changes);
-
 }  // namespace nutik

@@ -3,6 +3,10 @@
 // A pixel's span is its largest code less its smallest, of the channel where that is most. Unlike the number
 // of its changes it does not grow with the noise of ever more samples, and a slow edge, each of whose steps
 // is small, spans as much as a fast one.
+//
+//   in:      blocks of a capture; spans; pictures
+//   out:     a number of codes for each pixel, and regions by it
+//   always:  memory for two codes of each value, however many samples there are
 #pragma once
 
 #include <cstdint>

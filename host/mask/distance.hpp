@@ -1,4 +1,8 @@
 // Regions that grow and shrink, by exact distances between the centres of pixels.
+//
+//   in:      a region of any size
+//   out:     distances in pixels, straight ones; another region of the same size
+//   always:  no square or diamond stands in for a circle
 #pragma once
 
 #include "mask/region.hpp"

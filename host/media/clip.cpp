@@ -26,12 +26,37 @@ std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const ClipOp
   return module.open(files, options.rate ? ClipTiming{} : timing_of(path, stills, exif), options);
 }
 
+// A clip of which there is more to tell than its module knows.
+class NotedClip final : public Clip {
+ public:
+  NotedClip(std::unique_ptr<Clip> clip, std::string note) : clip_(std::move(clip)), info_(clip_->info()) {
+    info_.notes.push_back(std::move(note));
+  }
+
+  [[nodiscard]] const ClipInfo& info() const override { return info_; }
+  bool read(std::span<std::byte> raster) override { return clip_->read(raster); }
+
+ private:
+  std::unique_ptr<Clip> clip_;
+  ClipInfo info_;
+};
+
+std::unique_ptr<Clip> open_stills(const std::filesystem::path& path,
+                                  const std::vector<std::filesystem::path>& stills,
+                                  const ClipOptions& options) {
+  std::unique_ptr<Clip> clip = still_module().open(stills, {}, options);
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) return clip;
+  auto note = missing_still_note(path, stills);
+  return note ? std::make_unique<NotedClip>(std::move(clip), std::move(*note)) : std::move(clip);
+}
+
 }  // namespace
 
 std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options) {
   if (!options.raw) {
     if (is_stills_table(path)) return open_table(path, options);
-    if (const auto stills = list_stills(path)) return still_module().open(*stills, {}, options);
+    if (const auto stills = list_stills(path)) return open_stills(path, *stills, options);
   }
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {

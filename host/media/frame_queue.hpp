@@ -1,4 +1,8 @@
 // Writes a video's frames on a thread of its own, while the next ones are exposed.
+//
+//   in:      frames of one format
+//   out:     what a VideoWriter makes of them
+//   always:  frames are written in the order in which they were pushed
 #pragma once
 
 #include <cstdint>

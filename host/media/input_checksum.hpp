@@ -1,4 +1,8 @@
 // What the content of a clip, a sequence of stills or a mask is known by again.
+//
+//   in:      a file, or the files of a sequence in its order
+//   out:     text that names its algorithm
+//   always:  names and folders count for nothing, but in a table of stills, whose bytes they are
 #pragma once
 
 #include <cstddef>

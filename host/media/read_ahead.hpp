@@ -1,4 +1,8 @@
 // Decodes a clip on a thread of its own, some samples ahead of whoever uses them.
+//
+//   in:      a clip that nobody else reads
+//   out:     its samples, each once, in their order
+//   always:  an error of the clip comes up behind the last sample before it, at next()
 #pragma once
 
 #include <cstddef>

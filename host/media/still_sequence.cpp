@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -162,6 +163,28 @@ std::vector<fs::path> numbered_files(const fs::path& path, const NumberedName& n
   return files;
 }
 
+// A file's name round its last number, and that number.
+struct CountedName {
+  std::string before, digits, after;
+  std::uint64_t number = 0;
+};
+
+// Empty where the name has no number, or none of 64 bits.
+std::optional<CountedName> counted_name(const fs::path& file) {
+  constexpr const char* kDigits = "0123456789";
+  constexpr std::size_t kMostDigits = 18;
+  const std::string stem = file.stem().string();
+  const auto last = stem.find_last_of(kDigits);
+  if (last == stem.npos) return std::nullopt;
+  const auto other = stem.find_last_not_of(kDigits, last);
+  const std::size_t first = other == stem.npos ? 0 : other + 1;
+  if (last + 1 - first > kMostDigits) return std::nullopt;
+  CountedName name{stem.substr(0, first), stem.substr(first, last + 1 - first),
+                   stem.substr(last + 1) + file.extension().string()};
+  name.number = std::stoul(name.digits);
+  return name;
+}
+
 bool is_glob(const std::string& path) { return path.find_first_of("*?[") != std::string::npos; }
 
 }  // namespace
@@ -183,6 +206,40 @@ std::optional<std::vector<fs::path>> list_stills(const fs::path& path) {
   }
   if (is_glob(path.string())) return matching_files(path);
   return std::nullopt;
+}
+
+std::optional<std::string> missing_still_note(const fs::path& folder, std::span<const fs::path> files) {
+  std::vector<CountedName> names;
+  for (const fs::path& file : files) {
+    auto name = counted_name(file);
+    if (!name) return std::nullopt;
+    if (!names.empty() && (name->before != names.front().before || name->after != names.front().after ||
+                           name->number <= names.back().number)) {
+      return std::nullopt;
+    }
+    names.push_back(std::move(*name));
+  }
+  // Where pictures are counted in tens, 20 after 10 is no hole.
+  std::uint64_t step = std::numeric_limits<std::uint64_t>::max();
+  for (std::size_t i = 1; i < names.size(); ++i) step = std::min(step, names[i].number - names[i - 1].number);
+  std::uint64_t missing = 0;
+  std::size_t hole = 0;  // the first, before this picture
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    const std::uint64_t distance = names[i].number - names[i - 1].number;
+    if (distance % step != 0) return std::nullopt;  // times, say
+    if (distance == step) continue;
+    missing += distance / step - 1;
+    if (hole == 0) hole = i;
+  }
+  if (hole == 0) return std::nullopt;
+  const CountedName& before = names[hole - 1];
+  const NumberedName pattern{before.before, before.after, before.digits.size(), '0'};
+  return format(
+      "{}: {} is missing between {} and {}{}; pictures behind a hole get the times of earlier ones. A table "
+      "of stills (.csv) gives each its own time; if nothing was lost: '{}'",
+      folder.string(), pattern.with(before.number + step), files[hole - 1].filename().string(),
+      files[hole].filename().string(), missing > 1 ? format(", and {} more", missing - 1) : "",
+      (folder / ("*" + files.front().extension().string())).string());
 }
 
 std::string sequence_name(const fs::path& path) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,12 @@ namespace nutik {
 // file is there, or numbers of a numbered sequence are missing.
 [[nodiscard]] std::optional<std::vector<std::filesystem::path>> list_stills(
     const std::filesystem::path& path);
+
+// What to tell of a folder whose pictures, in their order, are numbered with a hole: a sentence that names the
+// first that is missing and the way out. Empty where none is missing, or names do not count pictures: they
+// differ in more than one number, or go up by this and that.
+[[nodiscard]] std::optional<std::string> missing_still_note(const std::filesystem::path& folder,
+                                                            std::span<const std::filesystem::path> files);
 
 // What to call that which is made from a clip: `clip` for clip.mp4, `frames` for the folder frames/
 // and for frames/*.png, `shot` for shot_%04d.png.

@@ -1,4 +1,8 @@
 // The build-time constants of the kernels (kernels/*.cl) for one picture.
+//
+//   in:      how and from what a picture is computed
+//   out:     `-D NAME=value …`
+//   always:  all that the kernels need: one that is missing stops their build (#error)
 #pragma once
 
 #include <string>

@@ -1,4 +1,8 @@
 // How the pixels of a picture are cut into work-items; kernels/items.clh is the kernels' side.
+//
+//   in:      a device and an arithmetic, or what somebody wants to try
+//   out:     pixels, tiles and lanes of a work-item
+//   always:  an item owns whole lanes, and a tile whole items
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,8 @@
 // `auto`: the fastest arithmetic that is right enough for the picture asked for.
+//
+//   in:      a plan, the format of the picture, what the device can do
+//   out:     an arithmetic, its bound, and those that were faster but not sure enough
+//   always:  known before a sample is read, and the same on every device that has the same arithmetics
 #pragma once
 
 #include <span>

@@ -1,4 +1,8 @@
 // A contact sheet: many pictures in a grid, each small, with a label.
+//
+//   in:      pictures of one shape, with labels
+//   out:     one of 8-bit colour
+//   always:  every picture as large as the others, however long its label
 #pragma once
 
 #include <cstdint>

@@ -28,15 +28,14 @@ class Again : public testing::Test {
   }
   [[nodiscard]] std::string file(const std::string& name) const { return test::read_file(scratch_ / name); }
 
-  // Runs the command that again prints, through a shell that finds the program by its name.
+  // Runs the command that again prints, which names the program as it was run.
   void expect_same_bytes(const std::string& picture) const {
     const std::string before = file(picture);
     ASSERT_FALSE(before.empty());
     const std::string command = run({"again", picture}).out;
-    ASSERT_TRUE(command.starts_with("nutik-cl expose ")) << command;
+    ASSERT_NE(command.find(" expose "), std::string::npos) << command;
     std::filesystem::remove(scratch_ / picture);
-    const std::string folder = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path().string();
-    scratch_.write("again.sh", "PATH='" + folder + "':$PATH\n" + command);
+    scratch_.write("again.sh", command);
     const auto made = test::run_shell("sh again.sh", scratch_.folder());
     EXPECT_EQ(made.status, 0) << command << made.err;
     EXPECT_TRUE(file(picture) == before) << command;
@@ -67,12 +66,60 @@ TEST_F(Again, MakesTheSameBytes) {
   expect_same_bytes("light.tif");
 }
 
+TEST_F(Again, NamesTheProgramAsItWasRun) {
+  run({"--exposure", "50ms", "clip.tik", "a.png"});
+  const std::filesystem::path program = NUTIK_TEST_PROGRAM;
+  std::filesystem::create_directory(scratch_ / "my tools");
+  std::filesystem::create_symlink(program, scratch_ / "my tools/nutik-cl");
+  const auto found = test::run_shell(
+      "PATH='" + program.parent_path().string() + "':$PATH; nutik-cl again a.png", scratch_.folder());
+  EXPECT_TRUE(found.out.starts_with("nutik-cl expose ")) << found.out << found.err;
+  const auto quoted = test::run_shell("'my tools/nutik-cl' again a.png", scratch_.folder());
+  EXPECT_TRUE(quoted.out.starts_with("'my tools/nutik-cl' expose ")) << quoted.out << quoted.err;
+  EXPECT_EQ(test::run_shell("'my tools/nutik-cl' again a.png | sh", scratch_.folder()).status, 0);
+}
+
 TEST_F(Again, MakesOnePictureOfASeries) {
   run({"-k", "it's f.fn", "-m", "mask.pgm", "--every", "1/7s", "--count", "3", "clip.tik", "s-%d.png"});
   EXPECT_NE(run({"again", "s-2.png"}).out.find(" --start 285714286ns "), std::string::npos);
   expect_same_bytes("s-2.png");
   run({"-f", "40", "--exposure", "20ms", "--every", "10f", "--start", "1f", "frames", "t-%d.png"});
   expect_same_bytes("t-3.png");
+}
+
+// As plain intervals where they are such, else from functions that the pictures carry.
+TEST_F(Again, MakesOnePictureOfASweep) {
+  const auto sweep = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "sweep");
+    words.insert(words.end(), {"clip.tik", "sheet.png"});
+    return run(words).err;
+  };
+  EXPECT_EQ(sweep({"--start", "1f", "--exposure", "3f", "--shift", "-1f..5f/3f", "--scale-gain",
+                   "0.3..1/0.35", "--ev", "0.5", "--normalize", "integral", "--each", "box-%d.png"}),
+            "");
+  const std::string box = run({"again", "box-4.png"}).out;
+  for (const char* part : {" --start 75ms ", " --exposure 75ms ", " --gain 0.9"})
+    EXPECT_NE(box.find(part), std::string::npos) << box;
+  EXPECT_EQ(sweep({"--exposure", "0.1s", "--shutter", "strobe:3", "--shift", "0..0.2s/0.1s", "--stretch",
+                   "1..2/1", "--each", "strobe-%d.tif"}),
+            "");
+  sweep({"-k", "it's f.fn", "-m", "mask.pgm", "--start", "20ms", "--shift", "-60ms..0.1s/80ms", "--stretch",
+         "0.7..2/1", "--each", "file-%d.pgm"});
+  EXPECT_NE(run({"again", "file-5.pgm"}).err.find("file-5.fn is gone; the functions"), std::string::npos);
+  EXPECT_EQ(
+      sweep({"--exposure", "0.1s", "--shutter", "hann", "--stretch", "0.5..2/0.5", "--each", "hann-%d.png"}),
+      "");
+  for (const char* picture : {"box-0.png", "box-4.png", "box-8.png", "strobe-2.tif", "strobe-4.tif",
+                              "file-0.pgm", "file-3.pgm", "file-5.pgm", "hann-0.png", "hann-1.png"}) {
+    expect_same_bytes(picture);
+  }
+
+  // expose refuses what lies outside the capture.
+  EXPECT_NE(sweep({"--start", "0.9s", "--exposure", "0.1s", "--shift", "0..0.1s/0.1s", "--each", "no-%d.png"})
+                .find("warning: no-1.png: it carries no recipe: "),
+            std::string::npos);
+  expect_same_bytes("no-0.png");
+  EXPECT_EQ(test::run_program({"again", "no-1.png"}, scratch_.folder()).status, 3);
 }
 
 TEST_F(Again, LooksForTheFilesItNeeds) {

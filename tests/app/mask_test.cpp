@@ -5,9 +5,7 @@
 
 #include "capture/format.hpp"
 #include "media/mask_reader.hpp"
-#include "support/moving_square.hpp"
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/moving_square_test.hpp"
 #include "support/stills.hpp"
 
 namespace nutik {
@@ -16,17 +14,8 @@ namespace {
 using test::MovingSquare;
 using test::ProgramResult;
 
-class MaskCommand : public testing::Test {
+class MaskCommand : public test::MovingSquareTest {
  protected:
-  void SetUp() override {
-    scene_.write(scratch_);
-    ASSERT_EQ(run({"-f", "100", "frames", "clip.tik"}).status, 0);
-  }
-
-  ProgramResult run(const std::vector<std::string>& words) const {
-    return test::run_program(words, scratch_.folder());
-  }
-
   // The tags that `nutik-cl mask` with these words gives, for a mask of the capture's size.
   std::vector<std::uint8_t> tags(std::vector<std::string> words) const {
     words.insert(words.begin(), {"mask", "-q"});
@@ -55,15 +44,6 @@ class MaskCommand : public testing::Test {
     }
     return tags;
   }
-
-  void expect_refused(const std::vector<std::string>& words, int status, std::string_view part) const {
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.status, status) << result.err;
-    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in: " << result.err;
-  }
-
-  test::Scratch scratch_;
-  MovingSquare scene_;
 };
 
 // A TIFF whose values pass the maximum that it states: neither a crash nor a mask.
@@ -192,6 +172,20 @@ TEST_F(MaskCommand, ReportsAndShows) {
   }
   // Picture 3 was exposed from 30 to 40 ms.
   EXPECT_EQ(test::read_file(scratch_ / "3f.png"), test::read_file(scratch_ / "30ms.png"));
+  EXPECT_NE(run({"mask", "--fill", "clip.tik", "one.png"}).out.find("one.png: 96 x 48, 1 tag\n"),
+            std::string::npos);
+}
+
+TEST_F(MaskCommand, WarnsOfAPreviewBeyondTheCapture) {
+  const auto said = [&](const std::string& length) {
+    return run({"mask", "--moving", "clip.tik", "m.png", "--preview", "p.png", "--start", "0.15s",
+                "--exposure", length})
+        .err;
+  };
+  EXPECT_EQ(said("50ms"), "");
+  EXPECT_EQ(said("51ms"),
+            "warning: the preview's exposure: parts that are not zero lie after the capture's end at 0.2 s "
+            "and do not count\n");
 }
 
 TEST_F(MaskCommand, RefusesWhatMakesNoSense) {

@@ -5,26 +5,15 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "support/moving_square.hpp"
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/moving_square_test.hpp"
 
 namespace nutik {
 namespace {
 
-using test::MovingSquare;
 using test::ProgramResult;
 
-class Moment : public testing::Test {
+class Moment : public test::MovingSquareTest {
  protected:
-  void SetUp() override {
-    scene_.write(scratch_);
-    ASSERT_EQ(run({"-f", "100", "frames", "clip.tik"}).status, 0);
-  }
-
-  ProgramResult run(const std::vector<std::string>& words) const {
-    return test::run_program(words, scratch_.folder());
-  }
   nlohmann::json json_of(std::vector<std::string> words) const {
     words.push_back("--json");
     const ProgramResult result = run(words);
@@ -36,13 +25,6 @@ class Moment : public testing::Test {
   }
   [[nodiscard]] std::string file(std::string_view name) const { return test::read_file(scratch_ / name); }
 
-  void expect_refused(const std::vector<std::string>& words, int status, std::string_view part) const {
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.status, status) << result.err;
-    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in: " << result.err;
-    EXPECT_EQ(result.out, "");
-  }
-
   // Pixels that differ between two neighbouring pictures by more than `ignored` codes.
   [[nodiscard]] int changed_pixels(std::size_t sample, int ignored) const {
     int count = 0;
@@ -51,9 +33,6 @@ class Moment : public testing::Test {
     }
     return count;
   }
-
-  test::Scratch scratch_;
-  MovingSquare scene_;
 };
 
 TEST_F(Moment, ContactSheetShowsEveryPictureOfAShortCapture) {
@@ -89,6 +68,14 @@ TEST_F(Moment, ContactSheetTakesTimesOfAnyKind) {
   EXPECT_EQ(
       json_of({"contact", "--every", "0.15s", "--exposure", "1s", "clip.tik"})["exposures"][1]["end_ns"],
       200'000'000);
+  EXPECT_EQ(run({"contact", "--every", "50ms", "--exposure", "51ms", "clip.tik"}).err,
+            "warning: 150 ms   15f: the exposure: parts that are not zero lie after the capture's end at "
+            "0.2 s and do not count\n");
+  EXPECT_EQ(run({"contact", "--every", "50ms", "--exposure", "50ms", "clip.tik"}).err, "");
+  const ProgramResult pictures = run({"contact", "--every", "5f", "--exposure", "7f", "clip.tik"});
+  EXPECT_TRUE(pictures.err.starts_with("warning: 150 ms   15f: the exposure: parts")) << pictures.err;
+  EXPECT_EQ(json_of({"contact", "--every", "5f", "--exposure", "7f", "clip.tik"})["exposures"],
+            json_of({"contact", "--every", "5f", "--exposure", "70ms", "clip.tik"})["exposures"]);
   const auto later =
       json_of({"contact", "--start", "10f", "--every", "5f", "--columns", "1", "clip.tik", "x.ppm"});
   EXPECT_EQ(later["exposures"].size(), 2u);
@@ -102,6 +89,8 @@ TEST_F(Moment, ContactSheetRefusesWhatMakesNoSense) {
                  "makes 200000 pictures and a sheet holds 400; take --every 0.001s or more");
   expect_refused({"contact", "--every", "0s", "clip.tik"}, 2, "--every '0s' is not longer than nothing");
   expect_refused({"contact", "--every", "1.5f", "clip.tik"}, 2, "is not a whole number of pictures");
+  expect_refused({"contact", "--exposure", "1.5f", "clip.tik"}, 2, "is not a whole number of pictures");
+  expect_refused({"contact", "--exposure", "30.5f", "clip.tik"}, 2, "is not a whole number of pictures");
   expect_refused({"contact", "--every", "often", "clip.tik"}, 2, "--every 'often' is no time");
   expect_refused({"contact", "--start", "3s", "clip.tik"}, 2, "outside the capture, which lasts 200 ms");
   expect_refused({"contact", "--columns", "0", "clip.tik"}, 2, "--columns '0' is no whole number");
@@ -199,7 +188,7 @@ TEST_F(Moment, ActivityWritesTableChartAndMap) {
 
 TEST_F(Moment, SweepExposesEachShift) {
   const auto json = json_of({"sweep", "--start", "0s", "--exposure", "10ms", "--shift", "0..50ms/10ms",
-                             "--each", "s%d.png", "clip.tik"});
+                             "--each", "s%d.png", "--no-recipe", "clip.tik"});
   ASSERT_EQ(json["pictures"].size(), 6u);
   EXPECT_EQ(json["pictures"][3], nlohmann::json::parse(R"({"shift_ns":30000000,"file":"s3.png"})"));
   for (const int k : {0, 3, 5}) {
@@ -212,7 +201,7 @@ TEST_F(Moment, SweepExposesEachShift) {
   EXPECT_EQ(json["sheet"], "clip-0s-10ms-sweep.png");
   EXPECT_FALSE(picture("clip-0s-10ms-sweep.png").empty());
   const auto pictures = json_of({"sweep", "--start", "9f", "--exposure", "1f", "--shift", "-5f..5f/5f",
-                                 "--each", "p%d.png", "clip.tik"});
+                                 "--each", "p%d.png", "--no-recipe", "clip.tik"});
   EXPECT_EQ(pictures["pictures"][0]["shift_samples"], -5);
   ASSERT_EQ(run({"--start", "4f", "--exposure", "1f", "--no-recipe", "clip.tik", "alone.png"}).status, 0);
   EXPECT_EQ(file("p0.png"), file("alone.png"));
@@ -221,7 +210,7 @@ TEST_F(Moment, SweepExposesEachShift) {
 TEST_F(Moment, SweepVariesGainAndLength) {
   scratch_.write("f.fn", "M0 [0:0], [20000000:0], [40000000:1], [40000001:0]\n");
   const auto json = json_of({"sweep", "-k", "f.fn", "--scale-gain", "0.5..1.5/0.5", "--stretch", "1..2/1",
-                             "--each", "v%02d.png", "clip.tik", "sheet.png"});
+                             "--each", "v%02d.png", "--no-recipe", "clip.tik", "sheet.png"});
   EXPECT_EQ(json["columns"], 3);
   EXPECT_EQ(json["rows"], 2);
   ASSERT_EQ(json["pictures"].size(), 6u);
@@ -240,6 +229,18 @@ TEST_F(Moment, SweepWarnsOnceOfWhatLiesOutside) {
       run({"sweep", "--start", "0.15s", "--exposure", "40ms", "--shift", "0..0.1s/20ms", "clip.tik"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.err.find("warning: +20 ms and 4 more: "), std::string::npos) << result.err;
+}
+
+// As expose warns of each of them.
+TEST_F(Moment, SweepWarnsOfPicturesThatComeOutBlack) {
+  scratch_.write("negative.fn", "M0 [0:-1], [10000000:-1], [10000001:0]\n");
+  const ProgramResult result =
+      run({"sweep", "-k", "negative.fn", "--shift", "0..20ms/10ms", "clip.tik", "sheet.png"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("warning: as it is and 2 more: M0: the still gain is -1: whatever does not move "
+                            "comes out black; --negative offset shows light below 0"),
+            std::string::npos)
+      << result.err;
 }
 
 TEST_F(Moment, SweepRefusesWhatMakesNoSense) {

@@ -109,6 +109,30 @@ TEST_F(Noise, InfoTellsWhatIsHeld) {
   EXPECT_LT(share, 2.0);
 }
 
+TEST_F(Noise, SaysThatItsTransferIsAnother) {
+  film("clip", 0.8, 6);
+  run({"noise", "-q", "clip", "-o", "camera.noise"});
+  const auto said = [&](const std::string& file, const std::string& transfer) {
+    return run({"encode", "-f", "100", "clip", "-o", "clip.tik", "--noise", file, "--transfer", transfer})
+        .err;
+  };
+  EXPECT_EQ(said("camera.noise", "srgb"), "");
+  EXPECT_NE(said("camera.noise", "linear")
+                .find("note: camera.noise says transfer srgb and the clip's is linear: "
+                      "read and shot noise are in light, and come to other codes"),
+            std::string::npos);
+  std::string edited = test::read_file(scratch_ / "camera.noise");
+  edited.replace(edited.find("transfer srgb"), 13, "transfer bt709");
+  scratch_.write("edited.noise", edited);
+  EXPECT_NE(said("edited.noise", "srgb").find("edited.noise says transfer bt709 and the clip's is srgb"),
+            std::string::npos);
+  // Points are in codes already.
+  scratch_.write("points.noise",
+                 "nutik noise 0\nwhite 255\ntransfer linear\nchannel red\ncurve points\npoint 9 2 1\n"
+                 "channel green\ncurve points\npoint 9 2 1\nchannel blue\ncurve points\npoint 9 2 1\n");
+  EXPECT_EQ(said("points.noise", "srgb"), "");
+}
+
 TEST_F(Noise, SaysWhatCannotBe) {
   film("clip", 0.8, 5, 4);
   film("short", 0.8, 5, 2);

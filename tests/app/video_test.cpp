@@ -89,6 +89,12 @@ TEST_F(Video, OfTheSourcesRateAndAngleIsTheSource) {
     const auto part = frames({"--out-fps", rate, "--out-angle", angle, "--from", "13f", "--to", "20f"});
     ASSERT_EQ(part.size(), 7u);
     for (std::size_t k = 0; k < part.size(); ++k) ASSERT_EQ(test::difference(part[k], stills_[13 + k]), "");
+    // An end behind the capture's own changes nothing, and is told.
+    const test::ProgramResult beyond = run({"video", "--to", "9s", "c.tik", "v.mkv"});
+    EXPECT_NE(beyond.err.find("warning: the video's end 9s lies after the capture's end at "),
+              std::string::npos)
+        << beyond.err;
+    EXPECT_EQ(run({"video", "--to", std::to_string(kCount) + "f", "c.tik", "v.mkv"}).err, "");
   }
 }
 

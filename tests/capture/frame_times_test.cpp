@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 #include "capture/error.hpp"
+#include "support/exact.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik {
@@ -13,19 +12,12 @@ namespace {
 
 using boost::multiprecision::cpp_int;
 using boost::multiprecision::cpp_rational;
+using test::rounded_half_up;
 
 constexpr ExactTime kFromTheStart{};
 constexpr Rational kLifeSpeed{1, 1};
 
 cpp_rational exact(Rational value) { return {value.numerator, value.denominator}; }
-
-// round(x), halves upward.
-std::int64_t rounded(const cpp_rational& x) {
-  const cpp_rational shifted = x + cpp_rational(1, 2);
-  cpp_int quotient = numerator(shifted) / denominator(shifted);
-  if (quotient * denominator(shifted) > numerator(shifted)) --quotient;
-  return static_cast<std::int64_t>(quotient);
-}
 
 TEST(FrameTimes, NeverDriftOverAnHourOfThirtyThousandByAThousandAndOne) {
   const FrameTimes frames(kFromTheStart, {30000, 1001}, kLifeSpeed, {180, 1});
@@ -33,8 +25,8 @@ TEST(FrameTimes, NeverDriftOverAnHourOfThirtyThousandByAThousandAndOne) {
   const std::uint64_t hour = frames.count_starting_by(3'600'000'000'000);
   ASSERT_EQ(hour, 107'893u);  // ⌊3600 · 30000 / 1001⌋ + 1
   for (std::uint64_t k = 0; k < hour; ++k) {
-    ASSERT_EQ(frames.start_ns(k), rounded(k * period)) << k;
-    ASSERT_EQ(frames.end_ns(k), rounded((k + cpp_rational(1, 2)) * period)) << k;
+    ASSERT_EQ(frames.start_ns(k), rounded_half_up(k * period)) << k;
+    ASSERT_EQ(frames.end_ns(k), rounded_half_up((k + cpp_rational(1, 2)) * period)) << k;
   }
   // Every 30000th frame starts on a whole multiple of 1001 s.
   EXPECT_EQ(frames.start_ns(90'000), 3'003'000'000'000);
@@ -71,8 +63,8 @@ TEST(FrameTimes, AreExactForAnyRateSpeedAngleAndStart) {
     const cpp_rational start =
         cpp_rational(static_cast<std::int64_t>(from.numerator), static_cast<std::int64_t>(from.denominator)) +
         k * period;
-    ASSERT_EQ(frames.start_ns(k), rounded(start)) << i;
-    ASSERT_EQ(frames.end_ns(k), rounded(start + exact(angle) / 360 * period)) << i;
+    ASSERT_EQ(frames.start_ns(k), rounded_half_up(start)) << i;
+    ASSERT_EQ(frames.end_ns(k), rounded_half_up(start + exact(angle) / 360 * period)) << i;
     ASSERT_LT(frames.start_ns(k), frames.end_ns(k)) << i;
     // Frames are counted up to and with the one that ends just then.
     EXPECT_EQ(frames.count_ending_by(frames.end_ns(k)), k + 1) << i;
@@ -90,8 +82,8 @@ TEST(FrameTimes, StayExactAtTheLimitsOfWhatCanBeWritten) {
   const std::uint64_t k = 1'000'000'007;
   const cpp_rational start =
       cpp_rational(cpp_int(1) << 61) + cpp_rational(7, 999'999'999'999'999) + k / exact(rate) * 1'000'000'000;
-  EXPECT_EQ(frames.start_ns(k), rounded(start));
-  EXPECT_EQ(frames.end_ns(k), rounded(start + exact(angle) / 360 / exact(rate) * 1'000'000'000));
+  EXPECT_EQ(frames.start_ns(k), rounded_half_up(start));
+  EXPECT_EQ(frames.end_ns(k), rounded_half_up(start + exact(angle) / 360 / exact(rate) * 1'000'000'000));
 }
 
 TEST(FrameTimes, RefuseWhatMakesNoSense) {

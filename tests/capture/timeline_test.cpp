@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 #include "capture/error.hpp"
+#include "support/exact.hpp"
+#include "support/messages.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik {
@@ -12,14 +12,7 @@ namespace {
 
 using boost::multiprecision::cpp_int;
 using boost::multiprecision::cpp_rational;
-
-// round(x), halves upward.
-std::int64_t rounded(const cpp_rational& x) {
-  const cpp_rational shifted = x + cpp_rational(1, 2);
-  cpp_int quotient = numerator(shifted) / denominator(shifted);
-  if (quotient * denominator(shifted) > numerator(shifted)) --quotient;
-  return static_cast<std::int64_t>(quotient);
-}
+using test::rounded_half_up;
 
 TEST(Timeline, AConstantRateRoundsEachTimeFromItsOwnExactValue) {
   for (const Rational rate : {Rational{30, 1}, Rational{30000, 1001}, Rational{2997, 100}, Rational{960, 1},
@@ -30,11 +23,12 @@ TEST(Timeline, AConstantRateRoundsEachTimeFromItsOwnExactValue) {
       for (const std::uint64_t k : {0ull, 1ull, 2ull, 29ull, 1000ull, 86'399'999ull, 999'999'999ull}) {
         const cpp_rational period(cpp_int(rate.denominator) * 1'000'000'000, rate.numerator);
         const cpp_rational open(angle.numerator, angle.denominator * 360);
-        EXPECT_EQ(timeline.start_ns(k), rounded(k * period)) << rate.text() << " " << k;
-        EXPECT_EQ(timeline.end_ns(k), rounded((k + open) * period)) << rate.text() << " " << k;
+        EXPECT_EQ(timeline.start_ns(k), rounded_half_up(k * period)) << rate.text() << " " << k;
+        EXPECT_EQ(timeline.end_ns(k), rounded_half_up((k + open) * period)) << rate.text() << " " << k;
       }
-      EXPECT_EQ(timeline.duration_ns(),
-                rounded(count * cpp_rational(cpp_int(rate.denominator) * 1'000'000'000, rate.numerator)));
+      EXPECT_EQ(
+          timeline.duration_ns(),
+          rounded_half_up(count * cpp_rational(cpp_int(rate.denominator) * 1'000'000'000, rate.numerator)));
     }
   }
 }
@@ -70,34 +64,31 @@ TEST(Timeline, ExplicitExposuresEndWithTheLast) {
   EXPECT_EQ(timeline.duration_ns(), 200);
 }
 
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
-
 TEST(Timeline, SaysWhatIsWrongWithTimes) {
   const auto contains = [](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   };
-  contains(message_of([] {
+  contains(test::message_of<Error>([] {
              Timeline::irregular({0, 10, 10}, {360, 1});
            }),
            "sample 2 starts at 10 ns, not after sample 1 at 10 ns");
-  contains(message_of([] {
+  contains(test::message_of<Error>([] {
              Timeline::explicit_exposures({{0, 10}, {5, 20}});
            }),
            "sample 1 starts at 5 ns, before sample 0 ends at 10 ns");
-  contains(message_of([] { Timeline::explicit_exposures({{0, 0}}); }), "sample 0 ends at 0 ns");
-  contains(message_of([] { Timeline::irregular({7}, {360, 1}); }), "--fps");
-  contains(message_of([] { Timeline::constant({0, 1}, {360, 1}, 1); }), "frame rate 0 is not positive");
-  contains(message_of([] { Timeline::constant({30, 1}, {0, 1}, 1); }), "0 < angle <= 360");
-  contains(message_of([] { Timeline::constant({30, 1}, {3601, 10}, 1); }), "360.1 is outside");
-  contains(message_of([] { Timeline::constant({1'000'000'000, 1}, {1, 1}, 1); }), "less than 1 ns");
-  contains(message_of([] { Timeline::constant({1, 1}, {360, 1}, 1ull << 62); }), "146 years");
+  contains(test::message_of<Error>([] { Timeline::explicit_exposures({{0, 0}}); }), "sample 0 ends at 0 ns");
+  contains(test::message_of<Error>([] { Timeline::irregular({7}, {360, 1}); }), "--fps");
+  contains(test::message_of<Error>([] {
+             Timeline::constant({0, 1}, {360, 1}, 1);
+           }),
+           "frame rate 0 is not positive");
+  contains(test::message_of<Error>([] { Timeline::constant({30, 1}, {0, 1}, 1); }), "0 < angle <= 360");
+  contains(test::message_of<Error>([] { Timeline::constant({30, 1}, {3601, 10}, 1); }), "360.1 is outside");
+  contains(test::message_of<Error>([] {
+             Timeline::constant({1'000'000'000, 1}, {1, 1}, 1);
+           }),
+           "less than 1 ns");
+  contains(test::message_of<Error>([] { Timeline::constant({1, 1}, {360, 1}, 1ull << 62); }), "146 years");
 }
 
 // The samples found by bisection are those that a look at every sample finds.

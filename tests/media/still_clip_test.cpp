@@ -256,5 +256,22 @@ TEST(StillClip, AStackThatIsCutOffNamesThePage) {
                  {"cut.tif, page 3, cannot be read: it is damaged or was cut off at row 0"});
 }
 
+// A folder says that a picture is missing; a pattern is taken at its word. Neither loses a code.
+TEST(StillClip, NotesAHoleInAFolderOfNumberedStills) {
+  const Scratch scratch;
+  std::filesystem::create_directory(scratch / "frames");
+  const auto stills = test::random_stills(kGrey, 255, 3, 11);
+  const char* names[] = {"frames/f1.pgm", "frames/f2.pgm", "frames/f4.pgm"};
+  for (std::size_t k = 0; k < 3; ++k) scratch.write(names[k], netpbm_file(stills[k], false));
+  const auto folder = open_test_clip(scratch / "frames");
+  ASSERT_EQ(folder->info().notes.size(), 1u);
+  EXPECT_NE(folder->info().notes[0].find("f3.pgm is missing between f2.pgm and f4.pgm"), std::string::npos)
+      << folder->info().notes[0];
+  expect_codes(*folder, stills);
+  const auto pattern = open_test_clip(scratch / "frames/*.pgm");
+  EXPECT_TRUE(pattern->info().notes.empty());
+  expect_codes(*pattern, stills);
+}
+
 }  // namespace
 }  // namespace nutik

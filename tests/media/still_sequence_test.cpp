@@ -87,6 +87,33 @@ TEST_F(StillSequence, SaysWhichNumberIsMissing) {
   expect_refused("absent/g%d.png", {"no file has such a name"});
 }
 
+TEST_F(StillSequence, TellsOfAHoleInAFolder) {
+  const auto note = [&](const std::string& folder, const std::vector<std::string>& names) {
+    std::vector<std::string> files;
+    for (const std::string& name : names) files.push_back(folder + "/" + name);
+    touch(files);
+    return missing_still_note(folder, *list_stills(scratch_ / folder)).value_or("nothing");
+  };
+  EXPECT_EQ(
+      note("one", {"frame_0001.png", "frame_0002.png", "frame_0004.png"}),
+      "one: frame_0003.png is missing between frame_0002.png and frame_0004.png; pictures behind a hole "
+      "get the times of earlier ones. A table of stills (.csv) gives each its own time; if nothing was "
+      "lost: 'one/*.png'");
+  const auto starts = [&](const std::string& text, std::string_view start) {
+    EXPECT_TRUE(text.starts_with(start)) << text;
+  };
+  starts(note("wide", {"cam2_8b.tif", "cam2_9b.tif", "cam2_12b.tif", "cam2_14b.tif"}),
+         "wide: cam2_10b.tif is missing between cam2_9b.tif and cam2_12b.tif, and 2 more;");
+  starts(note("tens", {"0010.png", "0020.png", "0040.png"}), "tens: 0030.png is missing");
+  EXPECT_EQ(note("whole", {"9.png", "10.png", "11.png"}), "nothing");
+  EXPECT_EQ(note("twos", {"f2.png", "f4.png", "f6.png"}), "nothing");
+  EXPECT_EQ(note("times", {"t0000.png", "t0033.png", "t0067.png", "t0100.png"}), "nothing");
+  EXPECT_EQ(note("cameras", {"a1.png", "a2.png", "b4.png"}), "nothing");
+  EXPECT_EQ(note("words", {"dawn.png", "noon.png", "dusk5.png"}), "nothing");
+  EXPECT_EQ(note("twice", {"f1.png", "f01.png", "f3.png"}), "nothing");
+  EXPECT_EQ(note("single", {"f7.png"}), "nothing");
+}
+
 TEST_F(StillSequence, LeavesOtherFilesToOthers) {
   touch({"clip.mp4", "still.png"});
   std::filesystem::create_directory(scratch_ / "empty");

@@ -5,6 +5,7 @@
 
 #include "capture/error.hpp"
 #include "support/clips.hpp"
+#include "support/messages.hpp"
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
 
@@ -148,19 +149,9 @@ TEST(VideoWriter, NumbersStillsFromZero) {
   EXPECT_TRUE(std::filesystem::exists(scratch / "f-000.pgm"));
 }
 
-template <typename Call>
-std::string message_of(Call call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(VideoWriter, RefusesWhatAContainerOrCodecCannotHold) {
   const auto codec = [](const char* path, const char* name) {
-    return message_of([&] { static_cast<void>(video_codec_for(path, name)); });
+    return test::message_of<Error>([&] { static_cast<void>(video_codec_for(path, name)); });
   };
   EXPECT_EQ(codec("v.mp4", "ffv1"), "v.mp4: a .mp4 file holds h264, h265, not ffv1");
   EXPECT_EQ(codec("v.mkv", "h263"),
@@ -168,13 +159,13 @@ TEST(VideoWriter, RefusesWhatAContainerOrCodecCannotHold) {
   EXPECT_NE(codec("v.ogg", "ffv1").find("videos are written as .mp4"), std::string::npos);
   EXPECT_EQ(video_codec_for("a/V.MKV", std::nullopt).name, "ffv1");
   const auto type = [](const char* path, std::optional<Depth> wish) {
-    return message_of([&] {
+    return test::message_of<Error>([&] {
       static_cast<void>(video_value_type(video_codec_for(path, std::nullopt), wish, ValueType::code8));
     });
   };
   EXPECT_NE(type("v.mp4", Depth::bits16).find("for 16 use --video-codec ffv1"), std::string::npos);
   EXPECT_NE(type("v.mkv", Depth::floating).find("write numbered stills"), std::string::npos);
-  EXPECT_EQ(type("v.mkv", Depth::bits16), "no error");
+  EXPECT_EQ(type("v.mkv", Depth::bits16), "");
   // A deep capture gives way to what the codec holds.
   EXPECT_EQ(video_value_type(video_codec_for("v.mp4", std::nullopt), std::nullopt, ValueType::code16),
             ValueType::code8);
@@ -183,7 +174,7 @@ TEST(VideoWriter, RefusesWhatAContainerOrCodecCannotHold) {
 TEST(VideoWriter, SaysWhatCannotBeWritten) {
   use_the_programs_modules();
   const auto pictures = test::random_stills({32, 32, 3}, 255, 1, 1);
-  const std::string message = message_of([&] {
+  const std::string message = test::message_of<Error>([&] {
     const auto writer = open_video_writer("/nowhere/v.mkv", format_of(pictures[0], {24, 1}),
                                           video_codec_for("v.mkv", std::nullopt));
   });

@@ -3,6 +3,7 @@
 #include "capture/error.hpp"
 #include "exposure/function_file.hpp"
 #include "render/render_plan.hpp"
+#include "support/messages.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik {
@@ -40,27 +41,20 @@ TEST(RenderPlan, TouchesOnlyTheBlocksThatUsedFunctionsNeed) {
   EXPECT_EQ(make_plan(capture, functions, Mask::uniform(4, 2, 0), all).blocks.size(), 10u);
 }
 
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
-
 TEST(RenderPlan, RefusesAMaskThatDoesNotFit) {
   const MemoryCapture capture = capture_of(10);
   const FunctionSet functions = functions_of("M0 [0:1]");
-  EXPECT_EQ(message_of([&] { static_cast<void>(make_plan(capture, functions, Mask::uniform(4, 3, 0), {})); }),
+  EXPECT_EQ(test::message_of<InputError>(
+                [&] { static_cast<void>(make_plan(capture, functions, Mask::uniform(4, 3, 0), {})); }),
             "the mask is 4 x 3 pixels, the capture 4 x 2; both must have the same size");
-  EXPECT_EQ(message_of([&] { static_cast<void>(make_plan(capture, functions, Mask::uniform(2, 4, 0), {})); }),
+  EXPECT_EQ(test::message_of<InputError>(
+                [&] { static_cast<void>(make_plan(capture, functions, Mask::uniform(2, 4, 0), {})); }),
             "the mask is 2 x 4 pixels, the capture 4 x 2; turn it by 90 degrees");
   Mask mask = Mask::uniform(4, 2, 0);
   mask.tags[1] = 7;
   mask.tags[5] = 9;
   mask.tags[6] = 9;
-  EXPECT_EQ(message_of([&] { static_cast<void>(make_plan(capture, functions, mask, {})); }),
+  EXPECT_EQ(test::message_of<InputError>([&] { static_cast<void>(make_plan(capture, functions, mask, {})); }),
             "mask values without a function: 7 (1 pixels), 9 (2 pixels); add a line M<value> for each, or "
             "expose them to black with --unmapped zero");
   PlanOptions zero;

@@ -17,6 +17,13 @@ double error_in(const Exact& scale, double value, const Exact& exact) {
   return std::fabs(Exact(error / scale).convert_to<double>());
 }
 
+std::int64_t rounded_half_up(const Exact& value) {
+  const Exact shifted = value + Exact(1, 2);
+  boost::multiprecision::cpp_int quotient = numerator(shifted) / denominator(shifted);
+  if (quotient * denominator(shifted) > numerator(shifted)) --quotient;
+  return static_cast<std::int64_t>(quotient);
+}
+
 std::vector<ExactStretch> exact_gain(const GainFunction& function, std::int64_t duration_ns) {
   std::vector<ExactStretch> stretches;
   const auto add = [&](std::int64_t begin, std::int64_t end, double from, double to) {

@@ -19,6 +19,9 @@ using Exact = boost::multiprecision::cpp_rational;
 // How far a double is from the exact value, in `scale`; infinite for what is not a number.
 [[nodiscard]] double error_in(const Exact& scale, double value, const Exact& exact);
 
+// The nearest whole number, of two that are as near the upper one.
+[[nodiscard]] std::int64_t rounded_half_up(const Exact& value);
+
 // A straight stretch of a function of time.
 struct ExactStretch {
   std::int64_t begin_ns;

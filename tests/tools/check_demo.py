@@ -16,6 +16,8 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from report import Report
+
 # Integral of the gain over the time that it is not zero, exactly, for the functions as printed.
 STILL_GAIN = {
     "figure4": 20.83350075 / 83.331001,
@@ -36,18 +38,6 @@ SPEED_SHARE = 0.10
 SHORT_STARTS_S = (0.4, 0.5, 0.6, 0.7, 0.8)
 # Single precision: about 1000 additions of terms up to 1.25 times the light, with 2^-24 each.
 FLOAT_LIGHT = 1e-4
-
-
-class Report:
-    """Prints what was measured, and remembers whether anything failed."""
-
-    def __init__(self):
-        self.failures = 0
-
-    def hold(self, condition, text):
-        """`condition` must be true; comparisons with NaN are not."""
-        self.failures += not condition
-        print(("ok      " if condition else "FAILED  ") + text, flush=True)
 
 
 class Demo:
@@ -233,8 +223,7 @@ def main():
     demo, report = Demo(options.program, options.scene, options.work), Report()
     for check in (check_regions, check_trail, check_background, check_negative_end, check_difference):
         check(demo, report)
-    if report.failures:
-        sys.exit(f"{report.failures} failed; the files are in {options.work}")
+    report.end(f"; the files are in {options.work}")
     for large in ("clip.mkv", "clip.tik"):
         (options.work / large).unlink()
 

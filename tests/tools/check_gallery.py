@@ -17,6 +17,8 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from report import Report
+
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 import gallery  # noqa: E402
@@ -26,15 +28,6 @@ LARGEST_GALLERY_BYTES = 2_500_000
 SIZE = "256x144"  # one pixel for each of the slit-scan's columns
 TOLERANCE = 2     # codes by which recipes let a capture differ from its clip
 NOISE_SIGMAS = 6  # 110 592 codes: one in 1e9 lies further out
-
-
-class Report:
-    def __init__(self):
-        self.failures = 0
-
-    def hold(self, condition, text):
-        self.failures += not condition
-        print(("ok      " if condition else "FAILED  ") + text, flush=True)
 
 
 def check_page(report):
@@ -140,8 +133,7 @@ def main():
         check_page(report)
     else:
         check_recipes(options.program.resolve(), options.work.resolve(), report)
-    if report.failures:
-        sys.exit(f"{report.failures} failed")
+    report.end()
 
 
 if __name__ == "__main__":

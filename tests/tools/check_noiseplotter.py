@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from report import Report
+
 GREY = """nutik noise 0
 white 255
 transfer srgb
@@ -19,13 +21,13 @@ point 20.5 2 50
 """
 
 
-class Checks:
+class Checks(Report):
     def __init__(self, plotter, work):
-        self.plotter, self.work, self.failures = plotter, work, 0
+        super().__init__()
+        self.plotter, self.work = plotter, work
 
     def holds(self, name, true, said=""):
-        print(f"  {'ok  ' if true else 'FAIL'} {name}{': ' + said if said and not true else ''}")
-        self.failures += not true
+        self.hold(true, name if true or not said else f"{name}: {said}")
 
     def run(self, text, *arguments):
         (self.work / "a.noise").write_text(text)
@@ -89,8 +91,8 @@ def main():
     check_drawing(checks)
     check_numbers(checks)
     check_mistakes(checks)
-    return 1 if checks.failures else 0
+    checks.end()
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -9,13 +9,12 @@ from the system's cache before. FFV1 (level 3, bgr0, as ffmpeg makes it) is the 
 the smallest; pictures are exposed straight from both. Times are medians, in seconds.
 """
 
-import argparse
 import os
 import pathlib
 import statistics
 import tempfile
 
-from tables import run, write_csv
+from tables import command_line, run, write_outputs
 
 CLIPS = ("bicycle-wheel.mp4", "diabolo-cm-trajectory.mp4", "BallTossOut.mp4",
          "one-by-one-person-detection.mp4", "bottle-detection.mp4", "bulk-water.mov", "realshort.mp4",
@@ -69,12 +68,9 @@ def measure(clip, build, folder, runs):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, required=True, help="folder with nutik-cl and bench_decode")
+    parser = command_line(__doc__, runs=5)
     parser.add_argument("--clips", type=pathlib.Path, required=True)
     parser.add_argument("--only", nargs="*", default=CLIPS)
-    parser.add_argument("--runs", type=int, default=5)
-    parser.add_argument("--csv", type=pathlib.Path)
     arguments = parser.parse_args()
 
     everything = []
@@ -88,8 +84,7 @@ def main():
                 encode = f"{row['encode_s']:7.3f} {row['encode_s'] / row['decode_s']:6.2f}" if row["encode_s"] else " " * 14
                 print(f"{row['clip']:34} {row['codec']:7} {row['bytes'] / 1e6:7.2f} {row['bytes'] / peer:6.2f} "
                       f"{encode} {row['cold_s']:6.3f} {row['warm_s']:6.3f}", flush=True)
-    if arguments.csv:
-        write_csv(arguments.csv, everything)
+    write_outputs(arguments, everything)
 
 
 if __name__ == "__main__":

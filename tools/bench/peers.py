@@ -13,14 +13,14 @@ Beside them the arithmetic alone, decoded frames being in memory: the loops' and
 device's own clock. Without --clip one is made: noise over moving shapes, H.264.
 """
 
-import argparse
 import pathlib
 import re
 import statistics
 import sys
 import tempfile
+from functools import partial
 
-from tables import output_of, peak_megabytes, run, write_csv
+from tables import command_line, output_of, peak_megabytes, pyplot, run, size_of, write_outputs
 
 LOOPS = pathlib.Path(__file__).with_name("peer_loops.py")
 KERNEL = re.compile(r"read by the kernel in ([\d.]+) ms")
@@ -84,10 +84,7 @@ def arithmetic(build, clip, folder):
 
 
 def chart(path, rows, title):
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
+    plt = pyplot()
 
     kinds = {"process": ("#0060a8", "whole process"), "arithmetic": ("#c85000", "arithmetic alone")}
     figure, axes = plt.subplots(figsize=(10, 0.36 * len(rows) + 1.4), layout="constrained")
@@ -106,15 +103,11 @@ def chart(path, rows, title):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, required=True, help="folder with nutik-cl")
+    parser = command_line(__doc__, runs=5, chart=True)
     parser.add_argument("--size", default="640x480")
     parser.add_argument("--frames", type=int, default=30)
     parser.add_argument("--clip", type=pathlib.Path)
-    parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--slow", action="store_true")
-    parser.add_argument("--csv", type=pathlib.Path)
-    parser.add_argument("--chart", type=pathlib.Path)
     arguments = parser.parse_args()
     build = arguments.build.resolve()
 
@@ -124,9 +117,7 @@ def main():
         if clip is None:
             clip = folder / "clip.mp4"
             make_clip(clip, arguments.size, arguments.frames)
-        probe = output_of("ffprobe", "-v", "error", "-count_packets", "-select_streams", "v", "-show_entries",
-                          "stream=width,height,nb_read_packets", "-of", "csv=p=0", clip)
-        width, height, frames = map(int, probe.strip().strip(",").split(",")[:3])
+        width, height, frames = size_of(clip)
         region_inputs(folder, width, height, frames)
         timed = list(programs(build, clip, folder, frames, width * height * frames, arguments.slow))
         seconds = {}
@@ -154,10 +145,7 @@ def main():
         each = f"{row['seconds_per_picture']:10.3f} {row['peak_mb']:8.0f}" if row["kind"] == "process" else ""
         print(f"{row['kind'] + ': ' if row['kind'] == 'arithmetic' else ''}{row['what']:{46 if row['kind'] == 'process' else 34}}"
               f" {row['seconds']:8.3f} {ratio:7.2f} {each}")
-    if arguments.csv:
-        write_csv(arguments.csv, rows)
-    if arguments.chart:
-        chart(arguments.chart, rows, f"{width} × {height}, {frames} frames, to one picture")
+    write_outputs(arguments, rows, partial(chart, title=f"{width} × {height}, {frames} frames, to one picture"))
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@ milliseconds by the device's own clock, the seconds of the whole process from .t
 memory that it held; medians.
 """
 
-import argparse
 import os
 import pathlib
 import re
@@ -17,7 +16,7 @@ import statistics
 import tempfile
 import time
 
-from tables import output_of, peak_megabytes, run, write_csv
+from tables import command_line, output_of, peak_megabytes, pyplot, run, write_outputs
 
 KERNEL = re.compile(r"read by the kernel in ([\d.]+) ms")
 BASE = {"samples": 240, "pixels": (640, 360), "functions": 1, "control points": 2, "cores": None}
@@ -81,10 +80,7 @@ def label_of(value):
 
 
 def chart(path, rows):
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
+    plt = pyplot()
 
     lines = {"kernel_ms": ("kernel, ms", "#c85000", "o"), "process_ms": ("whole process, ms", "#0060a8", "s"),
              "peak_mb": ("memory at most, MB", "#505050", "^")}
@@ -107,11 +103,7 @@ def chart(path, rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, required=True, help="folder with nutik-cl")
-    parser.add_argument("--runs", type=int, default=3)
-    parser.add_argument("--csv", type=pathlib.Path)
-    parser.add_argument("--chart", type=pathlib.Path)
+    parser = command_line(__doc__, runs=3, chart=True)
     arguments = parser.parse_args()
     program = arguments.build.resolve() / "nutik-cl"
     rows = []
@@ -125,10 +117,7 @@ def main():
                 rows.append({"varied": varied, "amount": amount, **measured})
                 print(f"{varied:16} {label_of(value):>11} {measured['kernel_ms']:10.2f} {measured['process_s']:10.3f} "
                       f"{measured['peak_mb']:8.0f}", flush=True)
-    if arguments.csv:
-        write_csv(arguments.csv, rows)
-    if arguments.chart:
-        chart(arguments.chart, rows)
+    write_outputs(arguments, rows, chart)
 
 
 if __name__ == "__main__":

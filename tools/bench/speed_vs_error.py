@@ -15,7 +15,6 @@ a mixed one (noise in one half). The chart draws the Pareto front: what nothing 
 the one of devices that have no double.
 """
 
-import argparse
 import json
 import pathlib
 import statistics
@@ -25,7 +24,7 @@ import tempfile
 import numpy as np
 
 from peers import LOOPS, PYTHON
-from tables import output_of, run, write_csv
+from tables import command_line, output_of, pyplot, run, size_of, write_outputs
 
 CLIPS = ("BallTossOut.mp4", "bicycle-wheel.mp4", "bikes.mp4")
 TOLERANCES = (0, 2, 4, 8)
@@ -170,10 +169,7 @@ def draw_panel(axes, rows, title, least):
 
 
 def chart(path, rows):
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
+    plt = pyplot()
     from matplotlib.lines import Line2D
 
     clips = list(dict.fromkeys(row["clip"] for row in rows))
@@ -213,15 +209,11 @@ def chart(path, rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, required=True, help="folder with nutik-cl")
+    parser = command_line(__doc__, runs=5, chart=True)
     parser.add_argument("--clips", type=pathlib.Path, help="folder of recorded clips; left out where it is missing")
     parser.add_argument("--only", nargs="*", default=CLIPS, metavar="NAME", help="of them")
     parser.add_argument("--size", default="640x360")
     parser.add_argument("--frames", type=int, default=120)
-    parser.add_argument("--runs", type=int, default=5)
-    parser.add_argument("--csv", type=pathlib.Path)
-    parser.add_argument("--chart", type=pathlib.Path)
     arguments = parser.parse_args()
     program = arguments.build.resolve() / "nutik-cl"
 
@@ -237,9 +229,7 @@ def main():
         if arguments.clips and arguments.clips.is_dir():
             clips |= {pathlib.Path(name).stem: arguments.clips / name for name in arguments.only}
         for name, clip in clips.items():
-            size = output_of("ffprobe", "-v", "error", "-count_packets", "-select_streams", "v", "-show_entries",
-                             "stream=width,height,nb_read_packets", "-of", "csv=p=0", clip)
-            size = " × ".join(size.strip().strip(",").split(",")[:3])
+            size = " × ".join(map(str, size_of(clip)))
             for row in measure(program, clip, folder, arguments.runs):
                 figures = " ".join(f"{row[key]:{width}.{digits}g}" if key in row else " " * width for key, width, digits in (
                     ("read_mb", 8, 4), ("arithmetic_worst", 10, 2), ("bound", 8, 2), ("capture_worst", 8, 2),
@@ -248,10 +238,7 @@ def main():
                 everything.append({"clip": name, "size": size, **row})
     columns = {key: None for row in everything for key in row}
     everything = [columns | row for row in everything]
-    if arguments.csv:
-        write_csv(arguments.csv, everything)
-    if arguments.chart:
-        chart(arguments.chart, everything)
+    write_outputs(arguments, everything, chart)
 
 
 if __name__ == "__main__":

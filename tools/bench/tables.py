@@ -1,9 +1,47 @@
 """What the benchmark scripts share."""
 
+import argparse
 import csv
+import pathlib
 import subprocess
 import sys
 import time
+
+
+def command_line(description, runs, chart=False):
+    """A parser with the options of every script: the build, how often, and where the figures go beside the terminal."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=pathlib.Path, required=True, help="folder with nutik-cl and benchmarks")
+    parser.add_argument("--runs", type=int, default=runs)
+    parser.add_argument("--csv", type=pathlib.Path, metavar="FILE")
+    if chart:
+        parser.add_argument("--chart", type=pathlib.Path, metavar="FILE.png")
+    return parser
+
+
+def write_outputs(arguments, rows, chart=None):
+    """Rows as CSV and, drawn by `chart` (path, rows), as a picture, where they were asked for."""
+    if arguments.csv:
+        write_csv(arguments.csv, rows)
+    if chart and arguments.chart:
+        chart(arguments.chart, rows)
+
+
+def pyplot():
+    """Matplotlib, to draw files; loaded only where a chart is asked for."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot
+
+    return matplotlib.pyplot
+
+
+def size_of(clip):
+    """Width, height and number of pictures."""
+    probe = output_of("ffprobe", "-v", "error", "-count_packets", "-select_streams", "v", "-show_entries",
+                      "stream=width,height,nb_read_packets", "-of", "csv=p=0", clip)
+    return tuple(map(int, probe.strip().strip(",").split(",")[:3]))
 
 
 def run(*command):

@@ -8,7 +8,6 @@ kernel reads, the milliseconds it takes by the device's own clock, the memory on
 seconds of the whole process; medians, and the share of what dense tiles take.
 """
 
-import argparse
 import pathlib
 import re
 import statistics
@@ -16,12 +15,12 @@ import subprocess
 import tempfile
 import time
 
-from tables import write_csv
+from tables import command_line, write_outputs
 
 KINDS = ("auto", "dense", "rows", "records")
 CLIPS = ("one-by-one-person-detection.mp4:4", "one-by-one-person-detection.mp4:0", "bikes.mp4:0", "bikes.mp4:4",
          "bicycle-wheel.mp4:0", "bottle-detection.mp4:0")
-REPORT = re.compile(r"(\w+) precision; \d+ blocks of ([\d.]+) MB made ready in [\d.]+ ms, read by the kernel in "
+REPORT = re.compile(r"(\w+) precision; \d+ blocks? of ([\d.]+) MB made ready in [\d.]+ ms, read by the kernel in "
                     r"([\d.]+) ms .* at most ([\d.]+) MB on the device")
 
 
@@ -55,13 +54,10 @@ def measure(clip, tolerance, build, folder, runs, precision):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, required=True)
+    parser = command_line(__doc__, runs=7)
     parser.add_argument("--clips", type=pathlib.Path, required=True)
     parser.add_argument("--only", nargs="*", default=CLIPS)
-    parser.add_argument("--runs", type=int, default=7)
     parser.add_argument("--precision", default="single")
-    parser.add_argument("--csv", type=pathlib.Path)
     arguments = parser.parse_args()
 
     everything = []
@@ -79,8 +75,7 @@ def main():
                                                       ("process_s", 9, 3))]
                 print(f"{name:32} {tolerance:>4} {row['tiles']:8} {' '.join(columns)}", flush=True)
             everything += rows
-    if arguments.csv:
-        write_csv(arguments.csv, everything)
+    write_outputs(arguments, everything)
 
 
 if __name__ == "__main__":

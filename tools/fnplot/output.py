@@ -8,11 +8,33 @@ import os
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from fnplot.errors import OutputError
+from fnplot.errors import OutputError, UsageError
 
 FORMATS = (".png", ".svg", ".pdf")
 PNG_DOTS_PER_INCH = 120
 BACKENDS_WITHOUT_WINDOWS = {"agg", "cairo", "pdf", "pgf", "ps", "svg", "template"}
+
+
+def check_output(output, inputs):
+    """Refuses a name of no format that is written, or that of an input (those that are None are not there)."""
+    if output.suffix.lower() not in FORMATS:
+        raise UsageError(f"'{output}' is no .png, .svg or .pdf; these can be written")
+    for name in inputs:
+        if name and output.exists() and Path(name).exists() and output.samefile(name):
+            raise UsageError(f"'{output}' is the input; write the plot to another file")
+
+
+def missing_matplotlib(error):
+    """The error to raise where drawing cannot be imported."""
+    return OutputError(f"Matplotlib cannot be loaded ({error}); on Debian: apt install python3-matplotlib")
+
+
+def put_out(drawings, output):
+    """Writes pages to a file, or shows them where none is named."""
+    if output:
+        write_pages(drawings, output)
+    else:
+        show_pages(drawings)
 
 
 def page_names(output, count):

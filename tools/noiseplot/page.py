@@ -2,18 +2,12 @@
 
 import math
 
-import matplotlib
-from matplotlib.figure import Figure
-
-from fnplot.errors import OutputError
-
 # Dark enough to be read on white, and apart in grey.
 COLOURS = {"grey": "#303030", "red": "#c02020", "green": "#107030", "blue": "#1040b0"}
 GRID_COLOUR = "#d8d8d8"
 WIDTH, GRAPH_HEIGHT, MARGIN = 8.5, 2.9, 0.9  # inches
 LINE_POINTS = 600
 SMALLEST_DOT, LARGEST_DOT = 6.0, 60.0  # square points
-BACKENDS_WITHOUT_WINDOWS = {"agg", "cairo", "pdf", "pgf", "ps", "svg", "template"}
 
 
 def _dot_sizes(points):
@@ -46,9 +40,8 @@ def _draw_channel(axes, noise, channel):
     axes.legend(fontsize=8, frameon=False, loc="best")
 
 
-def draw(noise, title, figure=None):
-    """A figure (a new one, or one of a window) with all channels."""
-    figure = figure or Figure()
+def draw(figure, noise, title):
+    """All channels, on a figure that is made to fit them."""
     count = len(noise.channels)
     figure.set_size_inches(WIDTH, MARGIN + count * GRAPH_HEIGHT)
     figure.set_layout_engine("constrained")
@@ -59,14 +52,3 @@ def draw(noise, title, figure=None):
     graphs[-1].set_ylim(bottom=0)
     graphs[-1].set_xlabel(f"code (white {noise.white}, {noise.transfer})", fontsize=9)
     figure.suptitle(title, fontsize=11, parse_math=False)
-    return figure
-
-
-def show(noise, title):
-    """A window, until it is closed."""
-    from matplotlib import pyplot
-
-    draw(noise, title, pyplot.figure())
-    if matplotlib.get_backend().lower() in BACKENDS_WITHOUT_WINDOWS:
-        raise OutputError("there is no display to open a window on; write a file: -o plot.png")
-    pyplot.show()

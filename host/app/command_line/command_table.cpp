@@ -111,7 +111,8 @@ std::span<const Command> commands() {
        run_shutter, Group::understanding},
       {Id::again, "again", "PICTURE [FOLDER...]",
        "Print the command that makes a picture again, byte for byte, from the recipe that the picture "
-       "carries. The files it was made from are looked for in the folders, the current one and the "
+       "carries, by the program that was run. The files it was made from are looked for in the folders, the "
+       "current one and the "
        "picture's.",
        "nutik-cl again picture.png\n"
        "nutik-cl again picture.png captures masks\n"

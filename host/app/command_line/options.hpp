@@ -15,6 +15,7 @@ struct Said {
 };
 
 struct Options {
+  std::string program = "nutik-cl";  // as it was run: by its name, or by a path
   std::vector<std::string> operands;
   std::vector<Said> said;  // every option, in the order of the command line
 

@@ -45,7 +45,7 @@ std::vector<Option> output_options() {
       flag(0, "json", kGroup, "answer with one JSON object, for scripts", kAnswersInJson, &Options::json),
       flag(0, "no-recipe", kGroup,
            "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)",
-           set_of(Id::expose, Id::batch), &Options::no_recipe),
+           set_of(Id::expose, Id::batch, Id::sweep), &Options::no_recipe),
       flag('q', "quiet", kGroup, "no progress bar and no summary", kAllCommands, &Options::quiet),
       flag('v', "verbose", kGroup,
            "say more: what is read and what is skipped, in which precision and why, how fast and with how "

@@ -17,6 +17,7 @@
 #include "imev/each_block.hpp"
 #include "media/picture_writer.hpp"
 #include "sheet/activity_chart.hpp"
+#include "sheet/activity_map.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {
@@ -206,7 +207,8 @@ int run_activity(const Options& options) {
                   sheet::activity_chart(std::filesystem::path(name).filename().string(), timeline,
                                         activity.changed_pixels(), activity.pixel_count(), moments));
   }
-  if (outputs.map) write_picture(*outputs.map, activity_map(capture.format().shape, activity.changes()));
+  if (outputs.map)
+    write_picture(*outputs.map, sheet::activity_map(capture.format().shape, activity.changes()));
   if (outputs.table) {
     OutputFile file(*outputs.table);
     file.write(table_text(timeline, activity));

@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // Looks for a recipe's inputs, by name and content.
-class Pantry {
+class RecipeFiles {
  public:
-  explicit Pantry(std::vector<fs::path> folders) : folders_(std::move(folders)) {}
+  explicit RecipeFiles(std::vector<fs::path> folders) : folders_(std::move(folders)) {}
 
   // The first file of that name with that checksum. Otherwise warns and returns the first of that name, or the name
   // alone; the picture cannot be made again then.
@@ -146,7 +146,7 @@ std::string operand(const fs::path& path) {
 int run_again(const Options& options) {
   if (options.operands.empty()) throw UsageError("again takes a picture: nutik-cl again picture.png");
   const fs::path picture = options.operands.front();
-  Pantry pantry(folders_to_search(options));
+  RecipeFiles files(folders_to_search(options));
   const std::optional<Recipe> recipe = read_recipe(picture);
   if (!recipe) {
     throw InputError(
@@ -160,21 +160,21 @@ int run_again(const Options& options) {
   }
   check_options(*recipe, picture.string());
   const fs::path folder = picture.stem().string() + "-again";
-  std::string command = "nutik-cl expose";
-  if (recipe->functions) command += " -k " + operand(pantry.find(*recipe->functions, "functions", folder));
+  std::string command = shell_word(options.program) + " expose";
+  if (recipe->functions) command += " -k " + operand(files.find(*recipe->functions, "functions", folder));
   if (recipe->noise) {
     const fs::path here = ".";  // so that a file of the name `auto` is not taken for that word
-    command += " --noise " + operand(here / pantry.find(*recipe->noise, "noise values", folder));
+    command += " --noise " + operand(here / files.find(*recipe->noise, "noise values", folder));
   }
-  if (recipe->mask) command += " -m " + operand(pantry.find(*recipe->mask, "mask", input_checksum));
+  if (recipe->mask) command += " -m " + operand(files.find(*recipe->mask, "mask", input_checksum));
   for (const auto& [name, value] : recipe->options)
     command += " " + shell_word("--" + name) + " " + shell_word(value);
   command += recipe->renderer == "opencl" ? " --precision " + shell_word(recipe->precision)
                                           : " --renderer " + shell_word(recipe->renderer);
-  command += " " + operand(pantry.find(recipe->capture, "capture", capture_checksum));
+  command += " " + operand(files.find(recipe->capture, "capture", capture_checksum));
   command += " -o " + operand(picture);
   print_line(command);
-  return pantry.is_complete() ? 0 : 3;
+  return files.is_complete() ? 0 : 3;
 }
 
 }  // namespace nutik::app

@@ -9,7 +9,9 @@
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
+#include "app/output/shared_warnings.hpp"
 #include "app/output/stopwatch.hpp"
+#include "app/text/size_text.hpp"
 #include "app/text/time_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -85,15 +87,25 @@ std::vector<std::int64_t> starts_of(const ContactRequest& request, const Options
   return starts;
 }
 
+// As plain_interval has it; pictures that the capture no longer has may be counted, too. How far an exposure passes
+// the end is all the same, as long as it does: a warning then says so.
+Exposure interval_from(std::int64_t start_ns, const TimeText& length, const Timeline& timeline) {
+  const TimeText start = TimeText::of_nanoseconds(start_ns);
+  if (length.counts_samples() && length.number.denominator == 1) {
+    const std::uint64_t left = timeline.sample_count() - sample_at(start.text(), "start", timeline);
+    if (length.number.numerator > static_cast<std::int64_t>(left))
+      return {start_ns, timeline.duration_ns() + 1};
+  }
+  return plain_interval(start, length, timeline);
+}
+
 // From each start on, for the length that was asked for; without one, what the camera exposed at that time.
 std::vector<Exposure> exposures_of(const ContactRequest& request, const Options& options,
                                    const Timeline& timeline) {
   std::vector<Exposure> exposures;
   for (const std::int64_t start_ns : starts_of(request, options, timeline)) {
     if (request.length) {
-      Exposure interval = plain_interval(format("{}ns", start_ns), *options.exposure, timeline);
-      interval.end_ns = std::min(interval.end_ns, timeline.duration_ns());
-      exposures.push_back(interval);
+      exposures.push_back(interval_from(start_ns, *request.length, timeline));
     } else {
       const std::uint64_t sample = sample_at(format("{}ns", start_ns), "start", timeline);
       exposures.push_back({timeline.start_ns(sample), timeline.end_ns(sample)});
@@ -153,39 +165,44 @@ int run_contact(const Options& options) {
   const sheet::SheetLayout layout =
       sheet::lay_out(shape, static_cast<std::uint32_t>(exposures.size()), wishes);
   const std::string length = options.exposure ? *options.exposure : "one picture";
-  sheet::ContactSheet sheet(layout,
-                            format("{}: {} exposures of {}", std::filesystem::path(input).filename().string(),
-                                   exposures.size(), length));
+  sheet::ContactSheet sheet(layout, format("{}: {} of {}", std::filesystem::path(input).filename().string(),
+                                           counted(exposures.size(), "exposure"), length));
   PlanOptions plan_options;
   plan_options.function_name = "the exposure";
   SheetExposures exposing(options, capture, Mask::uniform(shape.width, shape.height, 0), plan_options);
   const TimeLabels labels(exposures, capture.timeline());
+  SharedWarnings warnings;
   {
     Progress progress("exposing", exposures.size(), options.quiet);
     for (std::size_t i = 0; i < exposures.size(); ++i) {
       progress.show(i);
       FunctionSet functions;
       functions.emplace(0, GainFunction::boxcar(exposures[i].start_ns, exposures[i].end_ns));
-      sheet.add(labels.at(exposures[i]), exposing.expose(functions).picture, exposing.transfer());
+      const std::string label = labels.at(exposures[i]);
+      const Exposed exposed = exposing.expose(functions);
+      warnings.add(label, exposure_warnings(exposed));
+      sheet.add(label, exposed.picture, exposing.transfer());
     }
   }
+  warnings.print();
   write_picture(output, sheet.finished());
 
   if (options.json) {
     Json json{{"sheet", output.string()}, {"columns", layout.columns}, {"rows", layout.rows}};
     json["exposures"] = Json::array();
     for (const Exposure& exposure : exposures) {
-      json["exposures"].push_back({{"start_ns", exposure.start_ns}, {"end_ns", exposure.end_ns}});
+      const std::int64_t end_ns = std::min(exposure.end_ns, capture.timeline().duration_ns());
+      json["exposures"].push_back({{"start_ns", exposure.start_ns}, {"end_ns", end_ns}});
     }
     add_saturation(json, exposing.saturation(), exposing.type());
     print_json(json);
     return 0;
   }
   if (ended_quietly(options, output)) return 0;
-  print_line(format("{}: {} exposures of {}, {} columns, {} rows{}, {:.2f} s on {}", output.string(),
-                    exposures.size(), length, layout.columns, layout.rows,
-                    saturation_text(exposing.saturation(), exposing.type()), stopwatch.seconds(),
-                    exposing.exposer().renderer_name()));
+  print_line(format("{}: {} of {}, {}, {}{}, {:.2f} s on {}", output.string(),
+                    counted(exposures.size(), "exposure"), length, counted(layout.columns, "column"),
+                    counted(layout.rows, "row"), saturation_text(exposing.saturation(), exposing.type()),
+                    stopwatch.seconds(), exposing.exposer().renderer_name()));
   print_details(options, exposing.exposer(), opened.notes());
   return 0;
 }

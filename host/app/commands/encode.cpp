@@ -61,8 +61,8 @@ int run_encode(const Options& options) {
   if (ended_quietly(options, output)) return 0;
 
   const CaptureFormat& capture = encoding.source().capture;
-  print_line(format("{}: {}, {} samples, {}, {} of {} raw, {:.2f} s", output.string(),
-                    shape_text(capture.shape), timeline.sample_count(), timing_text(timeline, source_options),
+  print_line(format("{}: {}, {}, {}, {} of {} raw, {:.2f} s", output.string(), shape_text(capture.shape),
+                    counted(timeline.sample_count(), "sample"), timing_text(timeline, source_options),
                     bytes_text(encoding.bytes_written()),
                     bytes_text(capture.sample_bytes() * timeline.sample_count()), stopwatch.seconds()));
   for (const std::string& line : note_lines(notes, timeline, source_options)) print_note(line);

@@ -95,7 +95,7 @@ int expose_series(const Options& options) {
                                      request.plan_options(), format_of_all);
     for (const std::string& warning : exposure_warnings(exposed)) warnings.print(names[k], warning);
     pictures.push(k, names[k], std::move(exposed.picture),
-                  recipe.text(exposer.precision(), starts[k].text()));
+                  recipe.text(exposer.precision(), {{{"start", starts[k].text()}}, {}}));
     saturation += exposed.saturation;
     if (k == 0) first_plan = std::move(exposed.plan);
   }

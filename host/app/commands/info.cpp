@@ -15,6 +15,7 @@
 #include "imev/each_block.hpp"
 #include "imev/expected_values.hpp"
 #include "media/picture_writer.hpp"
+#include "sheet/activity_map.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik::app {
@@ -40,7 +41,7 @@ struct TileTally {
 std::uint64_t write_activity(tik::Reader& reader, const std::string& path) {
   Activity activity(reader.format());
   for_each_block(reader, [&](const BlockView& block) { activity.add(block); });
-  write_picture(path, activity_map(reader.format().shape, activity.changes()));
+  write_picture(path, sheet::activity_map(reader.format().shape, activity.changes()));
   return *std::ranges::max_element(activity.changes());
 }
 

@@ -6,9 +6,11 @@
 #include "app/input/mask_maker.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/input/standard_input.hpp"
+#include "app/output/console.hpp"
 #include "app/output/ending.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
+#include "app/text/size_text.hpp"
 #include "app/text/time_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -146,10 +148,10 @@ Picture backdrop(const Options& options, const MaskRequest& request, const Mask&
   functions.emplace(0, GainFunction::boxcar(interval.start_ns, interval.end_ns));
   PlanOptions plan_options;
   plan_options.function_name = "the preview's exposure";
-  return exposer
-      .expose(*capture, functions, Mask::uniform(mask.width, mask.height, 0), plan_options,
-              {code_type(format), format.white_code})
-      .picture;
+  Exposed exposed = exposer.expose(*capture, functions, Mask::uniform(mask.width, mask.height, 0),
+                                   plan_options, {code_type(format), format.white_code});
+  for (const std::string& warning : exposure_warnings(exposed)) print_warning(warning);
+  return std::move(exposed.picture);
 }
 
 double percent_of(std::uint64_t pixels, const Mask& mask) {
@@ -159,7 +161,8 @@ double percent_of(std::uint64_t pixels, const Mask& mask) {
 void report_text(const MaskRequest& request, const Mask& mask, const std::vector<StepReport>& steps) {
   const auto counts = mask.pixels_per_tag();
   const auto tag_count = kMaskValues - std::count(counts.begin(), counts.end(), 0u);
-  print_line(format("{}: {} x {}, {} tags", request.output.string(), mask.width, mask.height, tag_count));
+  print_line(format("{}: {} x {}, {}", request.output.string(), mask.width, mask.height,
+                    counted(static_cast<std::uint64_t>(tag_count), "tag")));
   for (const StepReport& step : steps) {
     const std::string tags =
         step.tag == step.last_tag ? format("M{}", step.tag) : format("M{} … M{}", step.tag, step.last_tag);

@@ -1,5 +1,6 @@
 #include <algorithm>
-#include <map>
+#include <array>
+#include <optional>
 
 #include "app/commands/commands.hpp"
 #include "app/input/exposure_request.hpp"
@@ -10,9 +11,12 @@
 #include "app/output/exposure_report.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
+#include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/shared_warnings.hpp"
 #include "app/output/stopwatch.hpp"
+#include "app/output/swept_recipe.hpp"
+#include "app/text/size_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/numbered_name.hpp"
@@ -20,6 +24,10 @@
 
 namespace nutik::app {
 namespace {
+
+constexpr const char* kNoRecipe =
+    "it carries no recipe: neither a plain interval in the capture nor a function file, which has no jumps, "
+    "says its gains";
 
 // One picture of the sweep: the number of its value in each range.
 using Combination = std::vector<std::uint64_t>;
@@ -104,10 +112,11 @@ int run_sweep(const Options& options) {
   const sheet::SheetLayout layout =
       sheet::lay_out(shape, static_cast<std::uint32_t>(combinations.size()), wishes);
   sheet::ContactSheet sheet(
-      layout,
-      format("{}: {}, {} pictures", std::filesystem::path(options.operands.front()).filename().string(),
-             request.label(), combinations.size()));
+      layout, format("{}: {}, {}", std::filesystem::path(options.operands.front()).filename().string(),
+                     request.label(), counted(combinations.size(), "picture")));
   SheetExposures exposing(options, capture, request.mask(shape), request.plan_options());
+  std::optional<PictureRecipe> recipe;  // of single pictures
+  if (!singles.empty() && !options.no_recipe) recipe.emplace(options);
   SharedWarnings warnings;
   {
     Progress progress("exposing", combinations.size(), options.quiet);
@@ -118,9 +127,16 @@ int run_sweep(const Options& options) {
         changed = varied(changed, ranges[r], combinations[i][r], timeline);
       const std::string label = label_of(ranges, combinations[i]);
       const Exposed exposed = exposing.expose(changed);
-      warnings.add(label, exposed.plan.warnings);
+      warnings.add(label, exposure_warnings(exposed));
       sheet.add(label, exposed.picture, exposing.transfer());
-      if (!singles.empty()) write_picture(singles[i], exposed.picture);
+      if (singles.empty()) continue;
+      std::string text;
+      if (recipe) {
+        const auto own = swept_recipe(changed, options, timeline, singles[i].stem().string() + ".fn");
+        if (own) text = recipe->text(exposing.exposer().precision(), *own);
+        if (!own) warnings.add(singles[i].string(), std::array{std::string(kNoRecipe)});
+      }
+      write_picture(singles[i], exposed.picture, text);
     }
   }
   warnings.print();
@@ -149,10 +165,10 @@ int run_sweep(const Options& options) {
     return 0;
   }
   if (ended_quietly(options, output)) return 0;
-  print_line(format("{}: {} pictures, {} columns, {} rows{}, {:.2f} s on {}", output.string(),
-                    combinations.size(), layout.columns, layout.rows,
-                    saturation_text(exposing.saturation(), exposing.type()), stopwatch.seconds(),
-                    exposing.exposer().renderer_name()));
+  print_line(format("{}: {}, {}, {}{}, {:.2f} s on {}", output.string(),
+                    counted(combinations.size(), "picture"), counted(layout.columns, "column"),
+                    counted(layout.rows, "row"), saturation_text(exposing.saturation(), exposing.type()),
+                    stopwatch.seconds(), exposing.exposer().renderer_name()));
   print_details(options, exposing.exposer(), opened.notes());
   return 0;
 }

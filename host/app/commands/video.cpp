@@ -95,11 +95,11 @@ int run_video(const Options& options) {
   if (ended_quietly(options, output.path())) return 0;
 
   const FrameTimes& times = frames.times;
-  print_line(format("{}: {}, {} frames ({}), from {} to {} of the capture, {}{}, {:.2f} s on {}",
-                    output.path().string(), shape_text(reader.format().shape), frames.count, request.text(),
-                    duration_text(times.start_ns(0)), duration_text(times.end_ns(frames.count - 1)),
-                    output.kind(), saturation_text(saturation, frame_format.type), stopwatch.seconds(),
-                    exposer.renderer_name()));
+  print_line(
+      format("{}: {}, {} ({}), from {} to {} of the capture, {}{}, {:.2f} s on {}", output.path().string(),
+             shape_text(reader.format().shape), counted(frames.count, "frame"), request.text(),
+             duration_text(times.start_ns(0)), duration_text(times.end_ns(frames.count - 1)), output.kind(),
+             saturation_text(saturation, frame_format.type), stopwatch.seconds(), exposer.renderer_name()));
   std::vector<std::string> notes;
   for (const std::string& note : queue.notes()) notes.push_back(format("note: {}", note));
   notes.insert(notes.end(), capture.notes().begin(), capture.notes().end());

@@ -113,6 +113,9 @@ SourceClip open_source(const std::filesystem::path& path, const SourceOptions& o
     for (const std::string& note : noise_notes(estimate)) source.notes.push_back(note);
   } else if (options.noise_source) {
     source.capture.noise.camera = read_noise_file(*options.noise_source);
+    if (auto note =
+            transfer_note(*options.noise_source, *source.capture.noise.camera, source.capture.transfer))
+      source.notes.push_back(std::move(*note));
   }
   source.block_samples = options.block_samples.value_or(
       default_block_samples(source.capture, std::min(kDefaultBlockBytes, options.memory.block_bytes())));

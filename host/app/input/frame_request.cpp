@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/output/console.hpp"
 #include "app/text/time_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -42,7 +43,13 @@ Frames FrameRequest::frames(const Timeline& timeline) const {
   std::int64_t end_ns = timeline.duration_ns();
   if (to_) {
     const ExactTime to = exact_time(*to_, "the video's end", timeline);
-    end_ns = std::min(end_ns, round_half_up(to.numerator, to.denominator));
+    const std::int64_t to_ns = round_half_up(to.numerator, to.denominator);
+    if (to_ns > end_ns) {
+      print_warning(
+          format("the video's end {} lies after the capture's end at {}; the video ends with the capture",
+                 *to_, duration_text(end_ns)));
+    }
+    end_ns = std::min(end_ns, to_ns);
   }
   if (start_ns < 0 || start_ns >= timeline.duration_ns()) {
     throw UsageError(format("the video's start {} lies outside the capture, which lasts {}", from_,

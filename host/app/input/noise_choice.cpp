@@ -27,6 +27,18 @@ CameraNoise read_noise_file(const std::filesystem::path& path) {
   return parse_noise({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 
+std::optional<std::string> transfer_note(const std::string& name, const CameraNoise& noise,
+                                         const Transfer& of_clip) {
+  // Measured points are in codes, whatever they stand for.
+  const bool is_in_light = std::ranges::any_of(
+      noise.channels, [](const ChannelNoise& channel) { return channel.curve == NoiseCurve::sensor; });
+  if (!is_in_light || noise.transfer == of_clip) return std::nullopt;
+  return format(
+      "{} says transfer {} and the clip's is {}: read and shot noise are in light, and come to other codes; "
+      "where the file's is wrong, measure the noise again or correct that line",
+      name, noise.transfer.text(), of_clip.text());
+}
+
 NoiseEstimate measure_noise(std::span<const std::string> clips, const SourceOptions& options,
                             std::uint64_t most_samples, std::vector<std::string>& clip_notes) {
   std::optional<CaptureFormat> first;

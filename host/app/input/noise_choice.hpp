@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -15,6 +16,11 @@ inline constexpr std::uint64_t kAutomaticNoiseSamples = 256;
 
 // Reads a noise file. Throws InputError naming file, line and column of what is wrong with it.
 [[nodiscard]] CameraNoise read_noise_file(const std::filesystem::path& path);
+
+// What a person should know where codes stand for light by another transfer function in the noise than in the
+// clip, and the noise depends on it; empty where all is well. `name` is the noise file's.
+[[nodiscard]] std::optional<std::string> transfer_note(const std::string& name, const CameraNoise& noise,
+                                                       const Transfer& of_clip);
 
 // Measures noise on clips of one format: several exposures of a still scene. Throws InputError where a clip
 // is of another format than the first, naming both. What the clips say of themselves is added to `clip_notes`.

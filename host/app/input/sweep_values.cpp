@@ -85,7 +85,7 @@ SweepRange factor_range(SweepParameter parameter, const std::string& text) {
   return range;
 }
 
-// from + number · step, in lowest terms.
+// from + number · step, not reduced.
 struct WideFraction {
   int128 numerator;
   int128 denominator;

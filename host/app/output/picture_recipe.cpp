@@ -85,12 +85,17 @@ PictureRecipe::PictureRecipe(const Options& options, std::optional<std::string> 
   }
 }
 
-std::string PictureRecipe::text(const std::string& precision, const std::optional<std::string>& start) {
+std::string PictureRecipe::text(const std::string& precision, const OwnRecipe& own) {
   if (options_.no_recipe) return {};
   if (!recipe_) recipe_ = reading_.get();
-  recipe_->precision = precision;
-  if (start) recipe_->options["start"] = *start;
-  std::string text = recipe_->text();
+  Recipe recipe = *recipe_;
+  recipe.precision = precision;
+  if (own.functions) recipe.functions = own.functions;
+  for (const auto& [name, value] : own.options) {
+    recipe.options.erase(name);
+    if (value) recipe.options.emplace(name, *value);
+  }
+  std::string text = recipe.text();
   if (text.size() >= kMostPictureTextBytes) {
     throw InputError(
         format("the recipe has {} bytes and a picture carries {} MiB at most; leave it out: --no-recipe",

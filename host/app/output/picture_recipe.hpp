@@ -2,6 +2,7 @@
 #pragma once
 
 #include <future>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,12 @@
 
 namespace nutik::app {
 
+// What the recipe of one of many pictures states in place of the command's options.
+struct OwnRecipe {
+  std::map<std::string, std::optional<std::string>> options;  // by long names; none: left out
+  std::optional<Recipe::Text> functions;
+};
+
 class PictureRecipe {
  public:
   // Reads the checksums of capture and mask beside whatever the caller does next; `options` must outlive
@@ -18,10 +25,10 @@ class PictureRecipe {
   // does nothing.
   explicit PictureRecipe(const Options& options, std::optional<std::string> known_capture = {});
 
-  // The recipe's text, for a picture that was computed in this precision; empty with --no-recipe. Of a series, each
-  // picture's is that of a single one from its own `start` on. Throws InputError where an input cannot
+  // The recipe's text, for a picture that was computed in this precision; empty with --no-recipe. Of many
+  // pictures, each one's is that of a single picture, with what is its own. Throws InputError where an input cannot
   // be read, or the text is longer than a picture carries (kMostPictureTextBytes).
-  [[nodiscard]] std::string text(const std::string& precision, const std::optional<std::string>& start = {});
+  [[nodiscard]] std::string text(const std::string& precision, const OwnRecipe& own = {});
 
  private:
   const Options& options_;

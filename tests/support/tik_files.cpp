@@ -1,0 +1,72 @@
+#include "support/tik_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include "imev/expected_values.hpp"
+#include "tik/writer.hpp"
+
+namespace nutik::test {
+
+std::filesystem::path write_tik(const RandomCase& random, const tik::Codec& codec, const Scratch& scratch) {
+  const std::filesystem::path path = scratch / "capture.tik";
+  tik::Header header;
+  header.capture = held_format(random.capture);
+  if (random.timeline.is_constant()) header.rate = random.timeline.rate();
+  header.shutter_angle = random.timeline.shutter_angle();
+  tik::Writer writer(path, header, codec, to_held_codes(random.capture, random.rasters.front()));
+  const MemoryCapture capture = random.encode();
+  for (std::uint64_t b = 0; b < capture.block_count(); ++b) {
+    const BlockView view = capture.view(b);
+    std::span<const Exposure> exposures;
+    if (!random.timeline.is_constant()) {
+      exposures = random.timeline.table().subspan(view.extent().first_sample, view.extent().sample_count);
+    }
+    writer.append({view.extent(), view.payload(), 0}, exposures);
+  }
+  writer.finish(random.timeline);
+  return path;
+}
+
+RandomCase noisy_case(std::uint64_t seed) {
+  RandomCase random(seed);
+  CaptureFormat& capture = random.capture;
+  capture.noise = {};
+  capture.noise.sigmas = 2.0 + 1.0 / 3;
+  capture.noise.camera = CameraNoise{capture.white_code, capture.transfer, {}};
+  for (std::uint32_t c = 0; c < capture.shape.channels; ++c) {
+    const NoiseCurve curve = (seed + c) % 2 == 0 ? NoiseCurve::sensor : NoiseCurve::points;
+    capture.noise.camera->channels.push_back(
+        {curve, 0.01 / 3, 0.001 / 3, {{1.0 / 3, 1.5, 7}, {200.0 / 3, 10.0 / 3, 1'000'000}}});
+  }
+  return random;
+}
+
+std::vector<std::byte> payload_of(tik::Reader& reader, std::uint64_t block) {
+  std::vector<std::byte> payload(reader.prepare(block));
+  reader.read(block, payload);
+  return payload;
+}
+
+void expect_same_capture(const RandomCase& random, tik::Reader& reader) {
+  const MemoryCapture capture = random.encode();
+  EXPECT_EQ(reader.format(), held_format(random.capture));
+  ASSERT_EQ(reader.block_count(), capture.block_count());
+  ASSERT_EQ(reader.timeline().sample_count(), random.timeline.sample_count());
+  EXPECT_EQ(reader.timeline().duration_ns(), random.timeline.duration_ns());
+  for (std::uint64_t k = 0; k < random.timeline.sample_count(); ++k) {
+    ASSERT_EQ(reader.timeline().start_ns(k), random.timeline.start_ns(k));
+    ASSERT_EQ(reader.timeline().end_ns(k), random.timeline.end_ns(k));
+  }
+  for (std::uint64_t b = 0; b < reader.block_count(); ++b) {
+    const auto payload = payload_of(reader, b);
+    const auto expected = capture.view(b).payload();
+    ASSERT_TRUE(std::equal(payload.begin(), payload.end(), expected.begin(), expected.end()));
+    if (!reader.region().empty()) {
+      const auto mapped = reader.region().subspan(reader.region_offset(b), payload.size());
+      ASSERT_TRUE(std::equal(payload.begin(), payload.end(), mapped.begin()));
+      EXPECT_EQ(reader.region_offset(b) % kBlockAlignment, 0u);
+    }
+  }
+}
+
+}  // namespace nutik::test

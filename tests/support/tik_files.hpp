@@ -1,0 +1,28 @@
+// .tik files of random cases, and what is read back from them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "support/random_case.hpp"
+#include "support/scratch.hpp"
+#include "tik/codec.hpp"
+#include "tik/reader.hpp"
+
+namespace nutik::test {
+
+// Encodes a case into `capture.tik` and returns its path.
+std::filesystem::path write_tik(const RandomCase& random, const tik::Codec& codec, const Scratch& scratch);
+
+// A random case whose camera's noise is known: points or a sensor, with as many digits as doubles have.
+[[nodiscard]] RandomCase noisy_case(std::uint64_t seed);
+
+// A block as it was before it was packed.
+std::vector<std::byte> payload_of(tik::Reader& reader, std::uint64_t block);
+
+// Format, timeline and every block are those of the case.
+void expect_same_capture(const RandomCase& random, tik::Reader& reader);
+
+}  // namespace nutik::test
