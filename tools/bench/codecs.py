@@ -14,11 +14,8 @@ import pathlib
 import statistics
 import tempfile
 
-from tables import command_line, run, write_outputs
+from tables import CLIPS, command_line, run, write_outputs
 
-CLIPS = ("bicycle-wheel.mp4", "diabolo-cm-trajectory.mp4", "BallTossOut.mp4",
-         "one-by-one-person-detection.mp4", "bottle-detection.mp4", "bulk-water.mov", "realshort.mp4",
-         "bikes.mp4")
 CODECS = ("none", "lz4", "zstd:1", "zstd:3", "zstd:9")
 
 

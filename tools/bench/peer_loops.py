@@ -3,6 +3,7 @@
 
     peer_loops.py loop CLIP PICTURE          the mean of all frames in light: OpenCV, a table, an accumulator
     peer_loops.py regions CLIP PICTURE       16 regions of a mask, each with a gain of its own at each frame
+    peer_loops.py decode CLIP                prints the seconds of decoding it with OpenCV, nothing else done
     peer_loops.py loop|regions --memory CLIP [LIGHT.npy]
                                              prints the seconds of the arithmetic alone, on decoded frames; may keep
                                              the light
@@ -63,11 +64,17 @@ def expose(frames, kind, count):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("kind", choices=("loop", "regions"))
+    parser.add_argument("kind", choices=("loop", "regions", "decode"))
     parser.add_argument("--memory", action="store_true")
     parser.add_argument("clip")
     parser.add_argument("picture", nargs="?")
     arguments = parser.parse_args()
+    if arguments.kind == "decode":
+        start = time.perf_counter()
+        for _ in frames_of(arguments.clip):
+            pass
+        print(time.perf_counter() - start)
+        return
     count = int(cv2.VideoCapture(arguments.clip).get(cv2.CAP_PROP_FRAME_COUNT))
     if not arguments.memory:
         cv2.imwrite(arguments.picture, srgb_codes(expose(frames_of(arguments.clip), arguments.kind, count)))

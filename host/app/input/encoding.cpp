@@ -12,7 +12,7 @@
 namespace nutik::app {
 namespace {
 
-constexpr std::size_t kPayloads = 2;
+constexpr std::size_t kPayloads = 1;  // besides the one that is being built
 
 }  // namespace
 

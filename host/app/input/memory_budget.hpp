@@ -16,8 +16,8 @@ struct MemoryBudget {
   // size.
   static MemoryBudget from(const Options& options);
 
-  // Of a block's samples as rasters. Encoding holds about five: one being built, two waiting, one being packed,
-  // and what it is packed into.
+  // Of a block's samples as rasters. Encoding holds about four: one being built, one being packed, and what it is
+  // packed into, in parts and whole.
   [[nodiscard]] std::uint64_t block_bytes() const { return bytes / 6; }
   // Of samples decoded ahead.
   [[nodiscard]] std::uint64_t read_ahead_bytes() const {
