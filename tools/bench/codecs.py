@@ -14,7 +14,7 @@ import pathlib
 import statistics
 import tempfile
 
-from tables import CLIPS, command_line, run, write_outputs
+from tables import CLIPS, command_line, run, run_once, write_outputs
 
 CODECS = ("none", "lz4", "zstd:1", "zstd:3", "zstd:9")
 
@@ -41,16 +41,14 @@ def measure(clip, build, folder, runs):
     for _ in range(runs):
         times["decode"].append(run(build / "bench_decode", clip))
         for codec in CODECS:
-            # To replace a file the system first writes what it holds back: not what is measured here.
-            sources[codec].unlink(missing_ok=True)
             times.setdefault(("encode", codec), []).append(
-                run(program, "encode", "-q", "--codec", codec, clip, sources[codec]))
+                run(program, "encode", "-q", "--codec", codec, clip, sources[codec], makes=sources[codec]))
         times.setdefault(("encode", "FFV1"), []).append(encode_ffv1(clip, sources["FFV1"]))
     for _ in range(runs):
         for codec, source in sources.items():
             render = (program, "expose", "-q", "--start", "0s", "--exposure", "24h", "--live", "all", source, picture)
             drop_from_cache(source)
-            times.setdefault(("cold", codec), []).append(run(*render))
+            times.setdefault(("cold", codec), []).append(run_once(*render))
             times.setdefault(("warm", codec), []).append(run(*render))
     medians = {key: statistics.median(values) for key, values in times.items()}
     rows = []

@@ -12,29 +12,23 @@ import pathlib
 import statistics
 import tempfile
 
-from tables import CLIPS, command_line, output_of, run, take_memory, write_outputs
+from tables import CLIPS, command_line, output_of, run, write_outputs
 
 LOOPS = pathlib.Path(__file__).with_name("peer_loops.py")
 PYTHON = "/usr/bin/python3"
-
-
-def decode_with_opencv(clip):
-    take_memory()
-    return float(output_of(PYTHON, LOOPS, "decode", clip))
 
 
 def measure(clip, build, folder, runs):
     program, capture, picture = build / "nutik-cl", folder / "capture.tik", folder / "picture.png"
 
     def encode(codec):
-        capture.unlink(missing_ok=True)  # to replace it the system would first write what it holds back
-        return run(program, "encode", "-q", "--codec", codec, clip, capture)
+        return run(program, "encode", "-q", "--codec", codec, clip, capture, makes=capture)
 
     timed = {
         "decode": lambda: run(build / "bench_decode", clip),
         "ffmpeg": lambda: run("ffmpeg", "-v", "error", "-i", clip, "-f", "rawvideo", "-pix_fmt", "rgb24", "-y",
                               "/dev/null"),
-        "opencv": lambda: decode_with_opencv(clip),
+        "opencv": lambda: float(output_of(PYTHON, LOOPS, "decode", clip)),
         "encode, none": lambda: encode("none"),
         "encode, zstd": lambda: encode("zstd"),
         "expose": lambda: run(program, "expose", "-q", "--start", "0s", "--exposure", "24h", clip, picture),

@@ -20,7 +20,7 @@ import sys
 import tempfile
 from functools import partial
 
-from tables import command_line, output_of, peak_megabytes, pyplot, run, size_of, write_outputs
+from tables import command_line, output_of, peak_megabytes, pyplot, run, run_once, size_of, write_outputs
 
 LOOPS = pathlib.Path(__file__).with_name("peer_loops.py")
 KERNEL = re.compile(r"read by the kernel in ([\d.]+) ms")
@@ -30,7 +30,7 @@ PYTHON = "/usr/bin/python3"
 
 
 def make_clip(path, size, frames):
-    run("ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", f"testsrc2=size={size}:rate=240,noise=alls=6:allf=t",
+    run_once("ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", f"testsrc2=size={size}:rate=240,noise=alls=6:allf=t",
         "-frames:v", str(frames), "-c:v", "libx264", "-preset", "veryfast", "-pix_fmt", "yuv420p", path)
 
 
@@ -52,7 +52,7 @@ def programs(build, clip, folder, frames, values, slow):
     masked = ("-m", folder / "regions.pgm", "-k", folder / "regions.fn")
     picture = folder / "picture.png"
     for codec in ("none", "zstd"):
-        run(program, "encode", "-q", "--codec", codec, clip, folder / f"{codec}.tik")
+        run_once(program, "encode", "-q", "--codec", codec, clip, folder / f"{codec}.tik")
     yield "nutik-cl, from the clip", (program, "expose", "-q", *plain, clip, picture), 1
     yield "nutik-cl, from a capture (zstd)", (program, "expose", "-q", *plain, folder / "zstd.tik", picture), 1
     yield "nutik-cl, from a capture (none)", (program, "expose", "-q", *plain, folder / "none.tik", picture), 1
@@ -68,7 +68,7 @@ def programs(build, clip, folder, frames, values, slow):
                           "-"), frames
     stills = folder / "stills"
     stills.mkdir()
-    run("ffmpeg", "-v", "error", "-i", clip, stills / "%05d.png")
+    run_once("ffmpeg", "-v", "error", "-i", clip, stills / "%05d.png")
     yield "ImageMagick mean (of stills)", ("convert", f"{stills}/*.png", "-evaluate-sequence", "mean", picture), 1
 
 

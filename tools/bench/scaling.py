@@ -16,7 +16,7 @@ import statistics
 import tempfile
 import time
 
-from tables import command_line, output_of, peak_megabytes, pyplot, run, write_outputs
+from tables import command_line, output_of, peak_megabytes, pyplot, run_once, write_outputs
 
 KERNEL = re.compile(r"read by the kernel in ([\d.]+) ms")
 BASE = {"samples": 240, "pixels": (640, 360), "functions": 1, "control points": 2, "cores": None}
@@ -36,10 +36,10 @@ def make_capture(program, folder, samples, pixels):
     capture = folder / f"{width}x{height}x{samples}.tik"
     if not capture.exists():
         clip = folder / "clip.mkv"
-        run("ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i",
+        run_once("ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i",
             f"testsrc2=size={width}x{height}:rate={RATE},noise=alls=6:allf=t", "-frames:v", str(samples), "-c:v",
             "libx264", "-preset", "ultrafast", clip)
-        run(program, "encode", "-q", "--codec", "none", clip, capture)
+        run_once(program, "encode", "-q", "--codec", "none", clip, capture)
     return capture
 
 

@@ -2,7 +2,6 @@
 
 import argparse
 import csv
-import mmap
 import pathlib
 import subprocess
 import sys
@@ -51,24 +50,24 @@ def size_of(clip):
     return tuple(map(int, probe.strip().strip(",").split(",")[:3]))
 
 
-def take_memory(gigabytes=2):
-    """Takes memory and gives it back. Virtual machines return what is free to their host, and have to fetch it again
-    at up to 2 s a gigabyte, which a process that is timed right after another is spared."""
-    size = gigabytes << 30
-    with mmap.mmap(-1, size) as memory:
-        memory.madvise(mmap.MADV_HUGEPAGE)
-        for page in range(0, size, mmap.PAGESIZE):
-            memory[page] = 1
-
-
-def run(*command):
-    """Runs a command to its end and returns its seconds; leaves with its messages where it fails."""
-    take_memory()
+def run_once(*command):
+    """Runs a command and returns its seconds; leaves with its messages where it fails."""
     start = time.perf_counter()
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"{' '.join(map(str, command))}\n{done.stderr}")
     return time.perf_counter() - start
+
+
+def run(*command, makes=None):
+    """Runs a command twice and returns the seconds of the second time, by run_once(). Virtual
+    machines give free memory to their host and fetch it again at up to 2 s a gigabyte: what the first run held, the
+    second finds at hand. `makes` is a file that is removed before each, which replacing it would write to disk first."""
+    for _ in range(2):
+        if makes:
+            makes.unlink(missing_ok=True)
+        seconds = run_once(*command)
+    return seconds
 
 
 def output_of(*command):
