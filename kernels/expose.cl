@@ -73,11 +73,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
         region.is_uniform = false;
         block.first = 0;
         block.last = entry.sample_count;
-#pragma unroll
-        for (uint group = 0; group < NUTIK_GROUPS; ++group) {
-          region.functions[group] = NUTIK_TO_UINTS(NUTIK_LOAD(
-              function_of_lane + tile * NUTIK_TILE_PIXELS + lane + group * NUTIK_LANES));
-        }
+        region.functions = function_of_lane + tile * NUTIK_TILE_PIXELS + lane;
         expose_tile(payload, directory[tile], lane, &block, &region, transfer, sums_of_block);
       }
       add_sums(sums, tile, lane, sums_of_block, is_start);
