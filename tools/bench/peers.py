@@ -98,7 +98,7 @@ def chart(path, rows, title):
     axes.set_xlabel("seconds, median")
     axes.set_title(title, fontsize=11)
     handles = [plt.Rectangle((0, 0), 1, 1, color=colour) for colour, _ in kinds.values()]
-    axes.legend(handles, [name for _, name in kinds.values()], loc="lower right")
+    axes.legend(handles, [name for _, name in kinds.values()], loc="upper right")
     figure.savefig(path, dpi=110)
 
 

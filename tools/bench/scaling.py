@@ -3,7 +3,8 @@
 
     tools/bench/scaling.py --build build [--runs 3] [--csv FILE] [--chart FILE.png]
 
-One thing is varied at a time from 640 x 360, 240 samples, one function with two control points, all cores.
+One thing is varied at a time from 640 x 360, 240 samples, one function with two control points, all cores; cores at
+1920 x 1080, where a kernel takes long enough for all of them to wake up.
 Captures are uncompressed, made from a noisy clip so that nearly every tile is dense. Given are the kernel's
 milliseconds by the device's own clock, the seconds of the whole process from .tik to PNG, and the most
 memory that it held; medians.
@@ -27,6 +28,7 @@ VALUES = {
     "control points": (2, 10, 100, 1000, 10_000, 100_000),
     "cores": tuple(range(1, len(os.sched_getaffinity(0)) + 1)),
 }
+ELSEWHERE = {"cores": {"pixels": (1920, 1080)}}
 RATE = 240
 
 
@@ -111,7 +113,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         for varied, values in VALUES.items():
             for value in values:
-                setting = BASE | {varied: value}
+                setting = BASE | ELSEWHERE.get(varied, {}) | {varied: value}
                 amount = value[0] * value[1] if varied == "pixels" else value
                 measured = measure(program, pathlib.Path(scratch), setting, arguments.runs)
                 rows.append({"varied": varied, "amount": amount, **measured})
