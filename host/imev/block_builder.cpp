@@ -4,7 +4,6 @@
 #include <array>
 #include <cstring>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 
 #include "capture/error.hpp"

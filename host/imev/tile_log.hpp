@@ -1,8 +1,9 @@
 // What the open block says of each tile so far: a row of codes for every sample at which anything in the tile
-// changed, and which lanes did. From it each tile is stored the cheapest way.
+// changed, and how many change records they come to. From it each tile is stored the cheapest way.
 //
 //   in:      rows, in time order within each tile; the first at the block's first sample
-//   out:     a block's payload (layout: imev/block.hpp), built where it lies: rows are written once
+//   out:     a block's payload (layout: imev/block.hpp), built where it lies: rows stay where they are written,
+//            unless records replace them
 //   always:  room for the largest body of every tile in address space; only what is used is ever touched.
 //            Different tiles may be written side by side
 #pragma once

@@ -30,9 +30,10 @@ struct StripStep {
   std::uint32_t sample_count;
   std::uint32_t tile_count;
   std::uint32_t tolerance;
-  bool writes_all;                                 // also rows in which nothing changed
-  std::array<const std::byte*, kStripTiles> held;  // in: what each tile holds, codes[channel][lane]
-  std::array<std::byte*, kStripTiles> next;        // out: what it holds from each sample on that is written
+  bool writes_all;  // also rows in which nothing changed
+  std::array<const std::byte*, kStripTiles>
+      held;                                  // in: what each tile holds, codes[channel][lane]; may be next
+  std::array<std::byte*, kStripTiles> next;  // out: what it holds from each sample on that is written
 
   // out: the lanes, as bits, in which any channel was further than the tolerance from what was held.
   std::array<std::array<std::uint64_t, kStripTiles>, kStepSamples> changes;

@@ -28,8 +28,8 @@ std::vector<std::filesystem::path> module_folders() {
   return folders;
 }
 
-// The entry points of the module in `name`, which stand behind its `symbol`.
-const void* load_module(const char* name, const char* symbol) {
+// The entry points of the module in `name`, which stand behind its `symbol`; `without` says what lacks without it.
+const void* load_module(const char* name, const char* symbol, const char* without) {
   std::string tried;
   for (const std::filesystem::path& folder : module_folders()) {
     const std::filesystem::path file = folder / name;
@@ -47,15 +47,14 @@ const void* load_module(const char* name, const char* symbol) {
     tried += format("\n  {}: not a module of this program", file.string());
   }
   throw InputError(
-      format("the module {}, which reads and writes such files, was not found; install it beside the "
-             "program, or set "
-             "NUTIK_MODULES to its folder. Looked for:{}",
-             name, tried));
+      format("{}: {} was not found; install it beside the program, or set NUTIK_MODULES to its folder. "
+             "Looked for:{}",
+             without, name, tried));
 }
 
 template <typename Module>
 const Module& module() {
-  static const void* const loaded = load_module(Module::kFile, Module::kSymbol);
+  static const void* const loaded = load_module(Module::kFile, Module::kSymbol, Module::kWithout);
   return *static_cast<const Module*>(loaded);
 }
 

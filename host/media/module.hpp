@@ -16,6 +16,7 @@ namespace nutik {
 struct VideoModule {
   static constexpr const char* kFile = "nutik-videos.so";
   static constexpr const char* kSymbol = "nutik_video_module";
+  static constexpr const char* kWithout = "videos cannot be read or written";
 
   std::unique_ptr<Clip> (*open)(const std::filesystem::path& path, const ClipOptions& options);
   std::unique_ptr<VideoWriter> (*open_writer)(const std::filesystem::path& path, const VideoFormat& format,
@@ -26,6 +27,7 @@ struct VideoModule {
 struct StillModule {
   static constexpr const char* kFile = "nutik-stills.so";
   static constexpr const char* kSymbol = "nutik_still_module";
+  static constexpr const char* kWithout = "stills cannot be read";
 
   // Stills, one sample each; a TIFF may hold several, but not where `timing` has times for them.
   std::unique_ptr<Clip> (*open)(std::span<const std::filesystem::path> files, const ClipTiming& timing,

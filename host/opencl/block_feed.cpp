@@ -8,6 +8,8 @@ namespace nutik {
 namespace {
 
 constexpr std::uint64_t kPageBytes = 4096;
+// Where a payload lies wider apart, copying it costs less than what a device may do with the room between.
+constexpr std::uint64_t kMostSpread = 4;
 
 }  // namespace
 
@@ -39,13 +41,14 @@ void BlockFeed::start(const RenderPlan& plan, std::span<const TableSlice> slices
   next_ = 0;
   pending_bytes_ = 0;
   in_place_bytes_ = 0;
+  lent_bytes_ = 0;
   is_read_by_kernel_ = false;
   for (Slab& slab : passing_) slab.used = 0;
 }
 
 BlockFeed::Chunk BlockFeed::next() {
   Chunk chunk = reading_.valid() ? reading_.get() : next_chunk();
-  bytes_ = in_place_bytes_ + passing_[0].used + passing_[1].used + held_bytes_;
+  bytes_ = in_place_bytes_ + lent_bytes_ + passing_[0].used + passing_[1].used + held_bytes_;
   // What is held or lies in place takes no time.
   if (next_ < plan_->blocks.size() && in_place_bytes_ == 0 &&
       !(source_ == held_source_ && holds(plan_->blocks[next_]))) {
@@ -61,7 +64,9 @@ BlockFeed::Chunk BlockFeed::next_chunk() {
   if (info_.shares_host_memory && source_ != held_source_) {
     const std::uint64_t bytes = prepared_bytes(plan_->blocks[next_]);
     const std::span<const std::byte> lent = source_->lent();
-    if (!lent.empty() && lent.size() <= info_.largest_allocation_bytes) return lent_chunk(lent, bytes);
+    if (lent.size() <= std::min(info_.largest_allocation_bytes, kMostSpread * bytes) && !lent.empty()) {
+      return lent_chunk(lent, bytes);
+    }
     pending_bytes_ = bytes;
   }
   return read_chunk();
@@ -115,6 +120,7 @@ BlockFeed::Chunk BlockFeed::lent_chunk(std::span<const std::byte> lent, std::uin
   Chunk chunk;
   chunk.entries.push_back(entry(0));
   chunk.payload_bytes = bytes;
+  lent_bytes_ = lent.size();
   chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, lent.size(),
                              const_cast<std::byte*>(lent.data()));
   ++next_;
@@ -154,6 +160,10 @@ BlockFeed::Chunk BlockFeed::read_chunk() {
     chunk.entries.push_back(entry(place.offset));
     chunk.payload_bytes += bytes;
     if (stays) held_.emplace(planned.block, place);
+    if (!source_->lent().empty()) {  // the kernel may still read the one before, where it was built
+      ++next_;
+      break;
+    }
   }
   is_read_by_kernel_ |= stays;
   chunk.payload = buffer_of(*slab);

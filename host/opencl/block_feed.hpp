@@ -100,6 +100,7 @@ class BlockFeed {
   std::size_t next_ = 0;             // planned block
   std::uint64_t pending_bytes_ = 0;  // of a block that was prepared and did not fit the chunk before
   std::uint64_t in_place_bytes_ = 0;
+  std::uint64_t lent_bytes_ = 0;
   std::uint64_t bytes_ = 0;
 
   std::array<Slab, 2> passing_;  // used in turns

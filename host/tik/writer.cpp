@@ -1,5 +1,6 @@
 #include "tik/writer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <stdexcept>
@@ -82,7 +83,7 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
   const std::uint64_t offset = file_.size();
   index_.push_back({offset, header.first_sample, header.sample_count, header.codec, header.stored_bytes,
                     header.payload_bytes, header.record_count});
-  // The header, which holds the payload's checksum, comes last: what was summed up is in the cache when it is written.
+  // The header comes last: it holds the checksum of the payload, which is summed up while it is written.
   file_.write(std::vector<std::byte>(sizeof header));
   file_.write(std::as_bytes(exposures));
   pad(file_);
@@ -94,18 +95,25 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
 }
 
 std::uint64_t Writer::write_summed(std::span<const std::span<const std::byte>> parts) {
-  constexpr std::uint64_t kRunBytes = 256 << 10;  // stays in a core's cache
+  constexpr std::size_t kRunBytes = 256 << 10;  // stays in a core's cache
   Checksum checksum;
-  while (!parts.empty()) {
-    std::uint64_t bytes = 0;
-    std::size_t count = 0;
-    for (; count < parts.size() && bytes < kRunBytes; ++count) {
-      checksum.add(parts[count]);
-      bytes += parts[count].size();
+  std::vector<std::span<const std::byte>> run;
+  std::size_t room = kRunBytes;
+  const auto write_run = [&] {
+    file_.write(run);
+    run.clear();
+    room = kRunBytes;
+  };
+  for (std::span<const std::byte> part : parts) {
+    while (!part.empty()) {
+      run.push_back(part.first(std::min(part.size(), room)));
+      checksum.add(run.back());
+      part = part.subspan(run.back().size());
+      room -= run.back().size();
+      if (room == 0) write_run();
     }
-    file_.write(parts.first(count));
-    parts = parts.subspan(count);
   }
+  write_run();
   return checksum.value();
 }
 

@@ -17,7 +17,7 @@ struct MemoryBudget {
   static MemoryBudget from(const Options& options);
 
   // Of a block's samples as rasters. Encoding holds about four: one being built, one being packed, and what it is
-  // packed into, in parts and whole.
+  // packed into, in parts and whole; with a camera's noise a fifth, the samples as they came.
   [[nodiscard]] std::uint64_t block_bytes() const { return bytes / 6; }
   // Of samples decoded ahead.
   [[nodiscard]] std::uint64_t read_ahead_bytes() const {

@@ -55,7 +55,10 @@ class LibavClip final : public Clip {
     }
     // A decoder fills damaged parts with what was there before, which would pass for a still scene.
     if (frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0) {
-      throw InputError(format("{}: picture {} is damaged", name_, frames_read_));
+      throw InputError(format(
+          "{}: picture {} is damaged; cut the clip before it, or encode it anew with what is left of it: "
+          "ffmpeg -i {} -c:v ffv1 mended.mkv",
+          name_, frames_read_, name_));
     }
     converter_.convert(*frame_, raster, name_);
     ++frames_read_;
@@ -94,7 +97,9 @@ class LibavClip final : public Clip {
       const bool wanted = packet_->stream_index == opened_.stream;
       const int code = wanted ? avcodec_send_packet(codec_.get(), packet_.get()) : 0;
       av_packet_unref(packet_.get());
-      if (code < 0) fail(code);
+      // A clip that was cut starts with packets that refer to pictures before it.
+      const bool is_cut = code == AVERROR_INVALIDDATA && frames_read_ == 0;
+      if (code < 0 && !is_cut) fail(code);
       if (wanted) return;
     }
   }
