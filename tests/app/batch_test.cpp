@@ -1,8 +1,7 @@
 // Many exposures by one command.
 #include <gtest/gtest.h>
 
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/program_test.hpp"
 
 namespace nutik {
 namespace {
@@ -11,7 +10,7 @@ using test::ProgramResult;
 using test::read_file;
 using test::Scratch;
 
-class Batch : public testing::Test {
+class Batch : public test::ProgramTest {
  protected:
   void SetUp() override {
     for (int k = 0; k < 6; ++k) {
@@ -22,12 +21,7 @@ class Batch : public testing::Test {
     ASSERT_EQ(run({"-f", "100", "still%d.pgm", "scene.tik"}).status, 0);
     scratch_.write("trail.fn", "M0 [0:0], [10000000:1], [40000000:0]\n");
   }
-  ProgramResult run(const std::vector<std::string>& words) {
-    return test::run_program(words, scratch_.folder());
-  }
   std::string picture(const std::string& name) { return read_file(scratch_ / name); }
-
-  Scratch scratch_;
 };
 
 TEST_F(Batch, GivesThePicturesOfSingleCommands) {

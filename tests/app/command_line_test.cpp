@@ -3,8 +3,7 @@
 
 #include <opencv2/videoio.hpp>
 
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/program_test.hpp"
 
 namespace nutik {
 namespace {
@@ -13,7 +12,7 @@ using test::ProgramResult;
 using test::Scratch;
 
 // A clip of 6 pictures of 16 × 16 pixels, and its capture, in each test's folder.
-class CommandLine : public testing::Test {
+class CommandLine : public test::ProgramTest {
  protected:
   void SetUp() override {
     cv::VideoWriter writer((scratch_ / "clip.avi").string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 25,
@@ -29,19 +28,7 @@ class CommandLine : public testing::Test {
     scratch_.write("mask.pgm", mask);
   }
 
-  ProgramResult run(const std::vector<std::string>& words) const {
-    return test::run_program(words, scratch_.folder());
-  }
   [[nodiscard]] bool exists(std::string_view name) const { return std::filesystem::exists(scratch_ / name); }
-
-  void expect_refused(const std::vector<std::string>& words, int status, std::string_view part) const {
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.status, status) << result.err;
-    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in: " << result.err;
-    EXPECT_EQ(result.out, "");
-  }
-
-  Scratch scratch_;
 };
 
 TEST_F(CommandLine, TakesThePapersForms) {
