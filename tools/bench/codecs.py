@@ -14,7 +14,7 @@ import pathlib
 import statistics
 import tempfile
 
-from tables import CLIPS, command_line, run, run_once, write_outputs
+from tables import command_line, run, run_once, write_outputs
 
 CODECS = ("none", "lz4", "zstd:1", "zstd:3", "zstd:9")
 
@@ -63,10 +63,7 @@ def measure(clip, build, folder, runs):
 
 
 def main():
-    parser = command_line(__doc__, runs=5)
-    parser.add_argument("--clips", type=pathlib.Path, required=True)
-    parser.add_argument("--only", nargs="*", default=CLIPS)
-    arguments = parser.parse_args()
+    arguments = command_line(__doc__, runs=5, clips=True).parse_args()
 
     everything = []
     print(f"{'clip':34} {'codec':7} {'MB':>7} {'/ FFV1':>6} {'encode':>7} {'/ dec.':>6} {'cold':>6} {'warm':>6}")

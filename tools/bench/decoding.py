@@ -12,7 +12,7 @@ import pathlib
 import statistics
 import tempfile
 
-from tables import CLIPS, command_line, output_of, run, write_outputs
+from tables import command_line, output_of, run, write_outputs
 
 LOOPS = pathlib.Path(__file__).with_name("peer_loops.py")
 PYTHON = "/usr/bin/python3"
@@ -41,10 +41,7 @@ def measure(clip, build, folder, runs):
 
 
 def main():
-    parser = command_line(__doc__, runs=7)
-    parser.add_argument("--clips", type=pathlib.Path, required=True)
-    parser.add_argument("--only", nargs="*", default=CLIPS)
-    arguments = parser.parse_args()
+    arguments = command_line(__doc__, runs=7, clips=True).parse_args()
     rows = []
     print(f"{'':34} {'decode':>7} {'ffmpeg':>7} {'opencv':>7}  encode, none: s, / decode, / ffmpeg, / opencv   "
           "zstd: s, / decode   expose: s, / decode, / ffmpeg, / opencv")

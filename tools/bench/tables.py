@@ -14,12 +14,15 @@ CLIPS = ("bicycle-wheel.mp4", "diabolo-cm-trajectory.mp4", "BallTossOut.mp4",
          "bikes.mp4")
 
 
-def command_line(description, runs, chart=False):
+def command_line(description, runs, chart=False, clips=False):
     """A parser with the options of every script: the build, how often, and where the figures go beside the terminal."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, required=True, help="folder with nutik-cl and benchmarks")
     parser.add_argument("--runs", type=int, default=runs)
     parser.add_argument("--csv", type=pathlib.Path, metavar="FILE")
+    if clips:
+        parser.add_argument("--clips", type=pathlib.Path, required=True, help="folder of recorded clips")
+        parser.add_argument("--only", nargs="*", default=CLIPS, metavar="NAME", help="of them")
     if chart:
         parser.add_argument("--chart", type=pathlib.Path, metavar="FILE.png")
     return parser
