@@ -2,9 +2,9 @@
 //
 //   in:      samples as interleaved rasters, in time order
 //   out:     a block's payload each time it is full or the capture ends (layout: imev/block.hpp)
-//   always:  memory for one block besides those handed out, whatever the capture's length. With a tolerance the codes held at a
-//            block's end go over into the next, so that blocks change nothing about what is a change; with a
-//            camera's noise each block stands on its own samples (imev/expected_values.hpp)
+//   always:  memory for one block besides those handed out, whatever the capture's length. With a tolerance the
+//            codes held at a block's end go over into the next, so that blocks change nothing about what is a
+//            change; with a camera's noise each block stands on its own samples (imev/expected_values.hpp)
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,7 @@ class BlockBuilder {
   void add(std::span<const std::byte> raster);
   // The next samples, of which the block has room() for as many: faster than one by one.
   void add(std::span<const std::span<const std::byte>> rasters);
-  static constexpr std::uint32_t kSamplesAtOnce = 4;  // more at a time are no faster
+  static constexpr std::uint32_t kSamplesAtOnce = 4;  // no more are compared in one go
 
   [[nodiscard]] std::uint32_t room() const;
   [[nodiscard]] bool is_full() const { return room() == 0; }

@@ -25,8 +25,8 @@ struct WorkShape {
   }
 };
 
-// The shape that suits a device and an arithmetic, or what the options ask for: see the table in docs/performance.md. Throws
-// UsageError where it does not divide a tile.
+// The shape that suits a device and an arithmetic, or what the options ask for: see the table in
+// docs/performance.md. Throws UsageError where it does not divide a tile.
 [[nodiscard]] WorkShape work_shape(const OpenClOptions& options, Precision precision,
                                    const DeviceInfo& device);
 

@@ -64,7 +64,7 @@ TEST(ColourVideo, IsShownWithTheCurveOfSrgb) {
   EXPECT_EQ(test::open_test_clip(scratch / "clip.mkv")->info().format.transfer, Transfer::srgb());
 }
 
-// Saturated colours, for which BT.601 and BT.709 are up to 60 codes apart.
+// Saturated colours, for which BT.601 and BT.709 are up to 29 codes apart.
 TEST(ColourVideo, FollowsTheMatrixThatTheFileNames) {
   NEEDS_FFMPEG();
   const Scratch scratch;
