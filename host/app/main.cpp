@@ -6,6 +6,7 @@
 
 #include "app/command_line/command_line.hpp"
 #include "app/output/console.hpp"
+#include "app/text/message_text.hpp"
 #include "capture/error.hpp"
 #include "system/interruption.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 enum ExitStatus { kOk = 0, kOther = 1, kUsage = 2, kInput = 3, kDevice = 4, kOutput = 5, kSignal = 128 };
 
 int fail(const std::exception& error, ExitStatus status) {
-  nutik::app::print_error(error.what());
+  nutik::app::print_error(nutik::app::message_text(error));
   return status;
 }
 

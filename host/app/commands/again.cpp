@@ -3,6 +3,7 @@
 #include "app/commands/commands.hpp"
 #include "app/output/console.hpp"
 #include "app/output/picture_recipe.hpp"
+#include "app/text/message_text.hpp"
 #include "app/text/shell_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -35,7 +36,7 @@ class RecipeFiles {
         if (!is_there(path)) continue;
         if (checksum(path.string()) == input.checksum) return path;
       } catch (const InputError& error) {
-        print_warning(error.what());
+        print_warning(message_text(error));
         continue;
       }
       if (!other_folder) other_folder = folder;

@@ -20,9 +20,10 @@
 #include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
-#include "app/text/size_text.hpp"
+#include "app/text/message_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "session/size_text.hpp"
 
 namespace nutik::app {
 namespace {
@@ -136,9 +137,9 @@ class Batch {
         print_line(format("{}: {}", output.string(), exposer_.report()));
       pictures_.push(listed.line, output, std::move(exposed.picture), recipe_text(line));
     } catch (const UsageError& error) {
-      report(listed.line, error.what());
+      report(listed.line, message_text(error));
     } catch (const InputError& error) {
-      report(listed.line, error.what());
+      report(listed.line, message_text(error));
     }
   }
 

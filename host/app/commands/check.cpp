@@ -6,6 +6,7 @@
 #include "app/input/standard_input.hpp"
 #include "app/output/console.hpp"
 #include "app/text/check_text.hpp"
+#include "app/text/message_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "exposure/mask_check.hpp"
@@ -53,7 +54,7 @@ class Checking {
     try {
       read();
     } catch (const InputError& error) {
-      std::string message = error.what();
+      std::string message = message_text(error);
       // Findings start with the file's name anyway.
       for (const char* behind : {": ", " "}) {
         if (message.starts_with(name + behind)) message.erase(0, message.find(' ', name.size()) + 1);

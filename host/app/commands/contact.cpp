@@ -11,11 +11,11 @@
 #include "app/output/progress.hpp"
 #include "app/output/shared_warnings.hpp"
 #include "app/output/stopwatch.hpp"
-#include "app/text/size_text.hpp"
 #include "app/text/time_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
+#include "session/size_text.hpp"
 
 namespace nutik::app {
 namespace {

@@ -1,10 +1,10 @@
 #include "app/commands/commands.hpp"
 #include "app/output/console.hpp"
 #include "app/output/json.hpp"
-#include "app/text/size_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "opencl/device.hpp"
+#include "session/size_text.hpp"
 
 namespace nutik::app {
 

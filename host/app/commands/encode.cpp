@@ -9,10 +9,10 @@
 #include "app/output/output_name.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/text/shell_text.hpp"
-#include "app/text/size_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/still_sequence.hpp"
+#include "session/size_text.hpp"
 
 namespace nutik::app {
 namespace {

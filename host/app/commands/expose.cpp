@@ -12,12 +12,12 @@
 #include "app/output/output_name.hpp"
 #include "app/output/picture_recipe.hpp"
 #include "app/output/stopwatch.hpp"
-#include "app/text/size_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
 #include "media/read_ahead.hpp"
 #include "render/render_plan.hpp"
+#include "session/size_text.hpp"
 
 namespace nutik::app {
 namespace {

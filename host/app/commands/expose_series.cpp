@@ -17,11 +17,11 @@
 #include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
-#include "app/text/size_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/numbered_name.hpp"
 #include "media/still_sequence.hpp"
+#include "session/size_text.hpp"
 #include "system/channel.hpp"
 
 namespace nutik::app {

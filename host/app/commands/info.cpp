@@ -6,8 +6,8 @@
 #include "app/output/console.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
+#include "app/text/message_text.hpp"
 #include "app/text/shell_text.hpp"
-#include "app/text/size_text.hpp"
 #include "app/text/time_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -15,6 +15,7 @@
 #include "imev/each_block.hpp"
 #include "imev/expected_values.hpp"
 #include "media/picture_writer.hpp"
+#include "session/size_text.hpp"
 #include "sheet/activity_map.hpp"
 #include "tik/reader.hpp"
 
@@ -87,7 +88,7 @@ int run_info(const Options& options) {
       for (const TileEntry& entry : reader.directory(block)) tally.count(geometry.kind_of(entry));
     } catch (const InputError& error) {
       is_damaged = true;
-      print_warning(error.what());
+      print_warning(message_text(error));
     }
     payload_bytes += reader.index()[block].payload_bytes;
     record_count += reader.index()[block].record_count;

@@ -10,12 +10,12 @@
 #include "app/output/ending.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
-#include "app/text/size_text.hpp"
 #include "app/text/time_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
 #include "media/still_sequence.hpp"
+#include "session/size_text.hpp"
 #include "sheet/mask_overlay.hpp"
 
 namespace nutik::app {

@@ -5,9 +5,9 @@
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/text/shell_text.hpp"
-#include "app/text/size_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "session/size_text.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik::app {

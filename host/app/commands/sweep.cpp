@@ -16,11 +16,11 @@
 #include "app/output/shared_warnings.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/output/swept_recipe.hpp"
-#include "app/text/size_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/numbered_name.hpp"
 #include "media/picture_writer.hpp"
+#include "session/size_text.hpp"
 
 namespace nutik::app {
 namespace {

@@ -8,11 +8,11 @@
 #include "app/output/output_format.hpp"
 #include "app/output/progress.hpp"
 #include "app/text/number_text.hpp"
-#include "app/text/size_text.hpp"
 #include "app/text/validation_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "opencl/validation.hpp"
+#include "session/size_text.hpp"
 
 namespace nutik::app {
 namespace {

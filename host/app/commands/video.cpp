@@ -12,11 +12,11 @@
 #include "app/output/shared_warnings.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/output/video_output.hpp"
-#include "app/text/size_text.hpp"
 #include "app/text/time_text.hpp"
 #include "capture/format.hpp"
 #include "media/frame_queue.hpp"
 #include "media/still_sequence.hpp"
+#include "session/size_text.hpp"
 #include "system/interruption.hpp"
 
 namespace nutik::app {

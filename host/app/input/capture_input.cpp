@@ -3,6 +3,7 @@
 #include <array>
 
 #include "app/input/noise_choice.hpp"
+#include "app/requests/source_words.hpp"
 #include "app/text/number_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -67,7 +68,7 @@ SourceOptions SourceOptions::from(const Options& options) {
     source.block_samples =
         parse_whole_number(*options.block_samples, "block length", 1, kLargestBlockSamples);
   }
-  source.memory = MemoryBudget::from(options);
+  source.memory = memory_budget(options);
   // Made here so that a senseless rate or angle is refused before anything is opened.
   static_cast<void>(Timeline::constant(source.clip.rate.value_or(Rational{1, 1}), source.shutter_angle, 1));
   return source;

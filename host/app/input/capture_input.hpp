@@ -8,9 +8,9 @@
 #include <string>
 
 #include "app/command_line/options.hpp"
-#include "app/input/memory_budget.hpp"
 #include "imev/capture_source.hpp"
 #include "media/clip.hpp"
+#include "session/memory_budget.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik::app {

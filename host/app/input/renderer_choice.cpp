@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "app/command_line/suggestion.hpp"
-#include "app/input/memory_budget.hpp"
 #include "app/output/console.hpp"
+#include "app/requests/source_words.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "opencl/device.hpp"
@@ -59,7 +59,7 @@ std::unique_ptr<OpenClRenderer> start_device(const Options& options) {
   OpenClOptions opencl;
   opencl.device = chosen_device(devices, wanted);
   if (options.precision.value_or("auto") != "auto") opencl.precision = parse_precision(*options.precision);
-  opencl.memory_bytes = MemoryBudget::from(options).rendering_bytes();
+  opencl.memory_bytes = memory_budget(options).rendering_bytes();
   opencl.cache_folder = default_cache_folder();
   if (!options.quiet) opencl.announce = print_note;
   return std::make_unique<OpenClRenderer>(opencl);

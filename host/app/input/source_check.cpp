@@ -2,11 +2,11 @@
 
 #include "app/input/capture_input.hpp"
 #include "app/output/progress.hpp"
-#include "app/text/size_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/each_block.hpp"
 #include "imev/expected_values.hpp"
+#include "session/size_text.hpp"
 
 namespace nutik::app {
 namespace {

@@ -5,10 +5,10 @@
 #include <iterator>
 #include <utility>
 
-#include "app/text/size_text.hpp"
 #include "app/text/text_table.hpp"
 #include "app/text/time_text.hpp"
 #include "capture/format.hpp"
+#include "session/size_text.hpp"
 
 namespace nutik::app {
 namespace {

@@ -4,8 +4,8 @@
 #include <map>
 #include <utility>
 
-#include "app/text/size_text.hpp"
 #include "capture/format.hpp"
+#include "session/size_text.hpp"
 
 namespace nutik::app {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "app/text/size_text.hpp"
 #include "app/text/text_table.hpp"
 #include "capture/format.hpp"
+#include "session/size_text.hpp"
 
 namespace nutik::app {
 

@@ -1,8 +1,8 @@
-#include "app/text/size_text.hpp"
+#include "session/size_text.hpp"
 
 #include "capture/format.hpp"
 
-namespace nutik::app {
+namespace nutik {
 
 std::string counted(std::uint64_t count, std::string_view name) {
   return format("{} {}{}", count, name, count == 1 ? "" : "s");
@@ -20,4 +20,4 @@ std::string shape_text(const Shape& shape) {
   return format("{} x {} {}", shape.width, shape.height, shape.channels == 1 ? "grey" : "colour");
 }
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -7,10 +7,10 @@
 
 #include "capture/picture.hpp"
 
-namespace nutik::app {
+namespace nutik {
 
 [[nodiscard]] std::string counted(std::uint64_t count, std::string_view name);  // `1 block`, `2 blocks`
 [[nodiscard]] std::string bytes_text(std::uint64_t bytes);                      // `94 kB`, `1.49 GB`
 [[nodiscard]] std::string shape_text(const Shape& shape);                       // `640 x 480 colour`
 
-}  // namespace nutik::app
+}  // namespace nutik
