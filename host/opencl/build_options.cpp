@@ -35,7 +35,7 @@ std::string expose_options(const Work& work, const CaptureFormat& capture, const
 std::string develop_options(const Work& work, const CaptureFormat& capture, const OutputFormat& output) {
   const std::size_t raster_bytes = holds_codes(output.type) ? value_bytes(output.type) : 1;
   return format(
-      "{} -DNUTIK_CODE_BYTES=1 -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} -DNUTIK_LANES={} "
+      "{} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} -DNUTIK_LANES={} "
       "-DNUTIK_RASTER_BYTES={}",
       common_options(work, capture), work.shape.item_pixels, work.shape.item_tiles,
       std::min(work.shape.lanes, kTileSide), raster_bytes);

@@ -207,11 +207,11 @@ class OpenClRenderer::Implementation {
   }
 
   cl::Program expose_program(const Work& work, const RenderPlan& plan, const LightSource& light) {
-    return programs_->get("expose", kExposeSource, expose_options(work, plan.capture, light));
+    return programs_->get("expose", kernel_source("expose"), expose_options(work, plan.capture, light));
   }
 
   cl::Program develop_program(const Work& work, const RenderPlan& plan, const OutputFormat& output) {
-    return programs_->get("develop", kDevelopSource, develop_options(work, plan.capture, output));
+    return programs_->get("develop", kernel_source("develop"), develop_options(work, plan.capture, output));
   }
 
   // The bands of a picture with nothing in their sums yet.

@@ -27,7 +27,7 @@ TEST(KernelLayout, IsTheHosts) {
   for (const cl::Device& device : all_devices()) {
     const cl::Context context(device);
     cl::CommandQueue queue(context, device);
-    cl::Program program(context, std::string(kLayoutProbeSource));
+    cl::Program program(context, std::string(kernel_source("layout_probe")));
     program.build({device}, "-cl-std=CL1.2");
     const cl::Buffer sizes(context, CL_MEM_READ_WRITE, expected.size() * sizeof(cl_uint));
     cl::KernelFunctor<cl::Buffer> probe(program, "layout_probe");
