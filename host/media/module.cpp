@@ -16,15 +16,27 @@
 namespace nutik {
 namespace {
 
+// The file that this code was linked into: a program, or a library that another program has loaded.
+std::filesystem::path own_file() {
+  Dl_info info{};
+  std::error_code error;
+  if (dladdr(reinterpret_cast<const void*>(&own_file), &info) == 0 || info.dli_fname == nullptr) return {};
+  const auto loaded = std::filesystem::canonical(info.dli_fname, error);
+  if (!error) return loaded;
+  // A program is named as it was called, which may be by a name in PATH.
+  return std::filesystem::read_symlink("/proc/self/exe", error);
+}
+
+// Where modules may be, in the order of the search. An empty folder leaves it to the loader, which knows the run
+// path that find_package(nutik) gives to whatever is linked to this library.
 std::vector<std::filesystem::path> module_folders() {
   std::vector<std::filesystem::path> folders;
   if (const char* folder = std::getenv("NUTIK_MODULES"); folder != nullptr) folders.emplace_back(folder);
-  std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    folders.push_back(program.parent_path());
-    folders.push_back(program.parent_path() / NUTIK_INSTALLED_MODULES);
+  if (const std::filesystem::path own = own_file(); !own.empty()) {
+    folders.push_back(own.parent_path());
+    folders.push_back(own.parent_path() / NUTIK_INSTALLED_MODULES);
   }
+  folders.emplace_back();
   return folders;
 }
 
@@ -33,14 +45,14 @@ const void* load_module(const char* name, const char* symbol, const char* withou
   std::string tried;
   for (const std::filesystem::path& folder : module_folders()) {
     const std::filesystem::path file = folder / name;
-    if (!std::filesystem::exists(file)) {
+    if (!folder.empty() && !std::filesystem::exists(file)) {
       tried += format("\n  {}: no such file", file.string());
       continue;
     }
     // Never closed: OpenCV's and FFmpeg's threads may outlive any place where that would be safe.
     void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) {
-      tried += format("\n  {}", dlerror());
+      tried += format("\n  {}", dlerror());  // which names the file
       continue;
     }
     if (const void* module = dlsym(library, symbol)) return module;

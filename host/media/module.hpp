@@ -37,8 +37,9 @@ struct StillModule {
   StillTimes (*read_exif_times)(const std::filesystem::path& file);
 };
 
-// These look for their module in the folder that NUTIK_MODULES names, beside the program, and in the installed
-// place. They throw InputError naming where it was looked for.
+// These look for their module in the folder that NUTIK_MODULES names, beside the program or library that this code
+// is part of, in the installed place seen from there, and where the loader looks. They throw InputError naming all
+// of these.
 [[nodiscard]] const VideoModule& video_module();
 [[nodiscard]] const StillModule& still_module();
 

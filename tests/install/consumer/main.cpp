@@ -1,8 +1,11 @@
 // A program of somebody else's: it uses a room of each kind of dependency, and says so.
 #include <cstdio>
+#include <fstream>
+#include <string>
 
 #include "capture/error.hpp"
 #include "capture/timeline.hpp"
+#include "media/clip.hpp"
 #include "media/picture_writer.hpp"
 #include "opencl/device.hpp"
 #include "tik/reader.hpp"
@@ -16,6 +19,12 @@ int main() {
   } catch (const nutik::DeviceError& error) {
     std::printf("%s\n", error.what());
   }
+  // Videos are read by a module, which is found though this program does not lie beside it.
+  std::ofstream("consumer.raw", std::ios::binary) << std::string(3 * 8 * 8, 'x');
+  nutik::ClipOptions options;
+  options.raw = nutik::RawVideo{8, 8, "gray"};
+  options.rate = nutik::Rational{30, 1};
+  std::printf("%u pixels wide\n", nutik::open_clip("consumer.raw", options)->info().format.shape.width);
   try {
     const nutik::tik::Reader reader("absent.tik");
   } catch (const nutik::InputError& error) {
