@@ -1,0 +1,12 @@
+"""Differences between two programs that are on purpose."""
+
+from typing import NamedTuple
+
+
+class Expected(NamedTuple):
+    command: str  # a line of commands.txt
+    what: tuple   # of "status", "stdout", "stderr" and names of files: all that may differ
+    reason: str
+
+
+EXPECTED = []
