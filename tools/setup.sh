@@ -11,7 +11,7 @@ program_packages=(
   ocl-icd-opencl-dev opencl-headers opencl-clhpp-headers pocl-opencl-icd
   libopencv-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
   libexif-dev libpng-dev libtiff-dev libzstd-dev liblz4-dev libxxhash-dev libcairo2-dev fonts-dejavu-core
-  libcli11-dev libfmt-dev nlohmann-json3-dev
+  libfmt-dev nlohmann-json3-dev
 )
 # The scene generator and the plotter.
 script_packages=(python3 python3-numpy python3-opencv python3-matplotlib)

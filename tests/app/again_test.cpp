@@ -240,6 +240,22 @@ TEST_F(Again, KeepsTheNoiseOfAClip) {
   expect_same_bytes("m.png");
 }
 
+// Each picture of a batch has what its line states and what the batch does.
+TEST_F(Again, MakesOnePictureOfABatch) {
+  run({"noise", "frames", "-o", "camera.noise"});
+  for (const std::string noise : {"auto", "camera.noise"}) {
+    scratch_.write("list", "--exposure 0.2s a.png\n-k \"it's f.fn\" -m mask.pgm b.png\n");
+    run({"batch", "-f", "40", "--noise", noise, "--sigmas", "1.5", "--block-samples", "16", "--transfer",
+         "gamma:2", "list", "frames"});
+    for (const char* picture : {"a.png", "b.png"}) {
+      const std::string command = run({"again", picture}).out;
+      EXPECT_NE(command.find(" --noise "), std::string::npos) << command;
+      EXPECT_NE(command.find(" --sigmas 1.5 "), std::string::npos) << command;
+      expect_same_bytes(picture);
+    }
+  }
+}
+
 // What a picture says of where it was made: names of files, no folders.
 TEST_F(Again, KeepsFoldersToItself) {
   run({"--exposure", "33ms", (scratch_ / "clip.tik").string(), (scratch_ / "a.png").string()});

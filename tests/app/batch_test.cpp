@@ -56,6 +56,57 @@ TEST_F(Batch, LeavesTheCaptureToTheCommandAndReadsFromStandardInput) {
   EXPECT_EQ(picture("b.png"), picture("single.png"));
 }
 
+TEST_F(Batch, TakesWordsAsAShellDoes) {
+  scratch_.write("it's a.fn", "M0 [0:0], [10000000:1], [40000000:0]\n");
+  scratch_.write("list",
+                 "-k 'it'\\''s a.fn' \"a \\\"b\\\".png\"\n"
+                 "\t--functions=\"it's a.fn\" 'c d'.png\n"
+                 "-kit\\'s\\ a.fn e\\ f.png\n"
+                 "-k 'trail.fn g.png\n");
+  const ProgramResult batch = run({"batch", "list", "scene.tik"});
+  EXPECT_EQ(batch.status, 1);
+  EXPECT_TRUE(batch.out.starts_with("3 of 4 pictures, ")) << batch.out << batch.err;
+  EXPECT_NE(batch.err.find("list:4: the quote ' is not closed: -k 'trail.fn g.png"), std::string::npos)
+      << batch.err;
+  const std::string first = picture("a \"b\".png");
+  EXPECT_FALSE(first.empty());
+  EXPECT_EQ(first, picture("c d.png"));
+  EXPECT_EQ(first, picture("e f.png"));
+}
+
+TEST_F(Batch, KeepsNoRecipesWhereNoneAreWanted) {
+  scratch_.write("list", "-k trail.fn a.png\n-k trail.fn --no-recipe b.png\n");
+  ASSERT_EQ(run({"batch", "list", "scene.tik"}).status, 0);
+  EXPECT_EQ(run({"again", "a.png"}).status, 0);
+  EXPECT_EQ(run({"again", "b.png"}).status, 3);
+  ASSERT_EQ(run({"batch", "--no-recipe", "list", "scene.tik"}).status, 0);
+  EXPECT_EQ(run({"again", "a.png"}).status, 3);
+}
+
+TEST_F(Batch, SharesWhatDescribesTheClip) {
+  for (const char* shared :
+       {"--fps 100", "-a 90", "--white 200", "--raw 9x7:gray", "--tolerance 1", "--noise auto", "--sigmas 2",
+        "--tiles dense", "--block-samples 2", "--device 0", "--memory 1GB", "--json"}) {
+    scratch_.write("list", std::string(shared) + " --start 0f --exposure 1f a.png\n");
+    const ProgramResult batch = run({"batch", "-f", "100", "list", "still%d.pgm"});
+    EXPECT_EQ(batch.status, 1) << shared;
+    EXPECT_NE(batch.err.find(" holds for all exposures: nutik-cl batch --"), std::string::npos) << batch.err;
+  }
+}
+
+TEST_F(Batch, ReadsLightAnewInEachLineUnlessNoiseWasToldByIt) {
+  ASSERT_EQ(run({"-f", "100", "-k", "trail.fn", "--transfer", "gamma:2", "still%d.pgm", "single.png"}).status,
+            0);
+  scratch_.write("list", "-k trail.fn --transfer gamma:2 a.png\n");
+  ASSERT_EQ(run({"batch", "-f", "100", "--transfer", "linear", "list", "still%d.pgm"}).status, 0);
+  EXPECT_EQ(picture("a.png"), picture("single.png"));
+  const ProgramResult batch = run({"batch", "-f", "100", "--noise", "auto", "list", "still%d.pgm"});
+  EXPECT_EQ(batch.status, 1);
+  EXPECT_NE(batch.err.find("list:1: --transfer holds for all exposures where --noise does"),
+            std::string::npos)
+      << batch.err;
+}
+
 TEST_F(Batch, LeavesSeriesToExpose) {
   scratch_.write("list", "--exposure 10ms --every 10ms s-%d.png\n");
   const ProgramResult batch = run({"batch", "list", "scene.tik"});

@@ -107,6 +107,25 @@ TEST_F(CommandLine, OnlyTheFirstWordCanBeACommand) {
   EXPECT_TRUE(exists("x.tik") && exists("y.tik") && exists("z.tik"));
 }
 
+TEST_F(CommandLine, TellsValuesFromOptionsAndOperands) {
+  EXPECT_EQ(run({"--ev", "-1", "-qk", "one.fn", "clip.tik", "a.png"}).status, 0);
+  EXPECT_EQ(run({"-vqkone.fn", "--ev=-1", "clip.tik", "b.png"}).status, 0);
+  EXPECT_EQ(run({"-q", "-q", "--ev", "-1", "-k", "one.fn", "--", "clip.tik", "-c.png"}).status, 0);
+  EXPECT_EQ(test::read_file(scratch_ / "a.png"), test::read_file(scratch_ / "b.png"));
+  EXPECT_TRUE(exists("-c.png"));
+  EXPECT_EQ(run({"mask", "--threshold=0f", "40..90", "clip.tik", "m.pgm"}).status, 0);
+  expect_refused({"--gain=", "-k", "one.fn", "clip.tik"}, 2, "--gain  is no number");
+  expect_refused({"--quiet=yes", "-k", "one.fn", "clip.tik"}, 2, "-q takes no value");
+  expect_refused({"-qx", "clip.tik"}, 2, "there is no option -x");
+  expect_refused({"mask", "--threshold=0f"}, 2,
+                 "--threshold needs more words: --threshold PICTURE LOW..HIGH");
+  expect_refused({"-ko", "clip.tik"}, 3, "o cannot be read");
+  // What only an exposure takes means one; what others take too does not.
+  expect_refused({"--gain", "2", "clip.tik", "d.png"}, 2, "an exposure needs a plain interval");
+  expect_refused({"--renderer", "opencl", "clip.avi", "d.tik"}, 2, "--renderer does not go with encode");
+  EXPECT_EQ(run({"--transfer", "linear", "clip.avi", "d.tik"}).status, 0);
+}
+
 TEST_F(CommandLine, NamesTheOutputWhereNoneIsGiven) {
   const ProgramResult result = run({"-k", "one.fn", "clip.tik"});
   EXPECT_EQ(result.status, 0);

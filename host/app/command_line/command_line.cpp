@@ -1,14 +1,13 @@
 #include "app/command_line/command_line.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "app/command_line/help.hpp"
 #include "app/command_line/suggestion.hpp"
 #include "app/command_line/value_check.hpp"
 #include "app/input/standard_input.hpp"
-#include "app/output/console.hpp"
 #include "app/text/shell_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -16,96 +15,111 @@
 namespace nutik::app {
 namespace {
 
-// What the first pass over the words learns: which of them are operands, and which options occur.
-struct Scan {
-  std::vector<std::size_t> operands;  // positions in the words
-  std::vector<const Option*> options;
-  std::size_t operands_end = 0;  // position of `--`, or the number of words
+// An option as it was met. Which row of its name is meant depends on the command.
+struct Given {
+  const Option* option;
+  std::vector<std::string> words;
+};
+
+// The words of a command line, told apart. This needs no command: an option takes as many words in each.
+class Words {
+ public:
+  explicit Words(std::span<const std::string> words) : words_(words) {
+    while (at_ < words_.size()) {
+      const std::string& word = words_[at_++];
+      if (word == "--") {
+        operands.insert(operands.end(), words_.begin() + static_cast<std::ptrdiff_t>(at_), words_.end());
+        return;
+      }
+      if (word == "--help" || word == "-h") {
+        help = true;
+      } else if (word == "--version") {
+        version = true;
+      } else if (word.starts_with("--")) {
+        take_long(word);
+      } else if (word.size() > 1 && word[0] == '-') {
+        take_short(word);
+      } else {
+        take_operand(word);
+      }
+    }
+  }
+
+  const Command* command = nullptr;   // the first operand, where it is a command's name and not behind `--`
+  std::vector<std::string> operands;  // the others
+  std::vector<Given> given;
   bool help = false;
   bool version = false;
 
-  [[nodiscard]] bool has(std::string_view long_name) const {
-    return std::any_of(options.begin(), options.end(),
-                       [&](const Option* option) { return option->long_name == long_name; });
+ private:
+  void take_operand(const std::string& word) {
+    if (command == nullptr && operands.empty()) {
+      command = find_command(word);
+      if (command != nullptr) return;
+    }
+    operands.push_back(word);
   }
-};
 
-// Suggests options of the command that is named, if any, before those of others.
-[[noreturn]] void fail_unknown_option(const std::string& word, std::span<const std::string> words) {
-  const std::string name = word.substr(0, word.find('='));
-  const auto named =
-      std::ranges::find_if(words, [](const std::string& each) { return find_command(each) != nullptr; });
-  std::vector<std::string> known{"--help", "--version"};
-  if (named != words.end()) {
-    for (const Option* option : options_of(*find_command(*named)))
-      known.push_back("--" + std::string(option->long_name));
-    if (const std::string suggestion = did_you_mean(name, known); !suggestion.empty()) {
-      throw UsageError(format("there is no option {}{}; see nutik-cl {} --help", name, suggestion, *named));
+  void take_long(const std::string& word) {
+    const auto equals = word.find('=');
+    const std::string name = word.substr(0, equals);
+    const Option* option = find_option(std::string_view(name).substr(2));
+    if (option == nullptr) fail_unknown(name);
+    if (equals == std::string::npos) return take(*option, name);
+    take(*option, name, word.substr(equals + 1));
+    check_choice(name, given.back().words.front(), *option);
+  }
+
+  // Flags may stand together, and the last letter may take a value: -qo out.png, -k trail.fn, -f120.
+  void take_short(const std::string& word) {
+    for (std::size_t letter = 1; letter < word.size(); ++letter) {
+      const std::string name{'-', word[letter]};
+      const Option* option = find_option(word[letter]);
+      if (option == nullptr) fail_unknown(name);
+      const std::string rest = word.substr(letter + 1);
+      if (option->is_flag() || rest.empty()) {
+        take(*option, name);
+      } else {
+        return take(*option, name, rest);
+      }
     }
   }
-  for (const Option& option : options()) known.push_back("--" + std::string(option.long_name));
-  throw UsageError(format("there is no option {}{}; see nutik-cl --help", name, did_you_mean(name, known)));
-}
 
-Scan scan(std::span<const std::string> words) {
-  Scan scan;
-  scan.operands_end = words.size();
-  const auto take = [&](const Option* option, const std::string& word, bool has_value, std::size_t& i) {
-    if (option == nullptr) fail_unknown_option(word, words);
-    scan.options.push_back(option);
-    if (option->value.empty()) {
-      if (has_value) throw UsageError(format("{} takes no value", option->display_name()));
+  // The words of an option, the first of which may have stood in the same word as its name.
+  void take(const Option& option, const std::string& name, const std::optional<std::string>& first = {}) {
+    Given& said = given.emplace_back(&option, std::vector<std::string>());
+    if (option.is_flag()) {
+      if (first) throw UsageError(format("{} takes no value", option.display_name()));
       return;
     }
-    i += option->word_count() - (has_value ? 1 : 0);
-    if (i >= words.size()) {
-      const std::string name = word.substr(0, word.find('='));
-      throw UsageError(format("{} needs {}: {} {}", name,
-                              option->word_count() == 1 ? "a value" : "more words", name, option->value));
-    }
-    if (has_value && word.find('=') != std::string::npos) {
-      check_choice(word.substr(0, word.find('=')), word.substr(word.find('=') + 1), option->choices);
-    }
-    if (!has_value && option->word_count() == 1) check_value(*option, word, words[i]);
-  };
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string& word = words[i];
-    if (word == "--") {
-      scan.operands_end = i;
-      for (std::size_t j = i + 1; j < words.size(); ++j) scan.operands.push_back(j);
-      break;
-    }
-    if (word == "--help" || word == "-h") {
-      scan.help = true;
-    } else if (word == "--version") {
-      scan.version = true;
-    } else if (word.starts_with("--")) {
-      const auto equals = word.find('=');
-      take(find_option(std::string_view(word).substr(2, equals == std::string::npos ? equals : equals - 2)),
-           word, equals != std::string::npos, i);
-    } else if (word.size() > 1 && word[0] == '-') {
-      const Option* option = find_option(word[1]);
-      const bool is_flag = option != nullptr && option->value.empty();
-      take(option, word.substr(0, 2), !is_flag && word.size() > 2, i);
-      // Flags may stand together, the last letter may take a value: -qo out.png
-      std::size_t letter = 1;
-      while (is_flag && ++letter < word.size()) {
-        const Option* next = find_option(word[letter]);
-        take(next, std::string{'-', word[letter]}, next && !next->value.empty() && letter + 1 < word.size(),
-             i);
-        if (next->value.empty()) continue;
-        break;
+    if (first) said.words.push_back(*first);
+    while (said.words.size() < option.word_count()) {
+      if (at_ == words_.size()) {
+        throw UsageError(format("{} needs {}: {} {}", name,
+                                option.word_count() == 1 ? "a value" : "more words", name, option.value));
       }
-    } else {
-      scan.operands.push_back(i);
+      said.words.push_back(words_[at_++]);
     }
+    if (!first && option.word_count() == 1) check_value(option, name, said.words.front());
   }
-  return scan;
-}
 
-bool ends_with_tik(const std::string& word) {
-  return word.size() >= 4 && word.compare(word.size() - 4, 4, ".tik") == 0;
-}
+  // Suggests options of the command that is named, if any, before those of others.
+  [[noreturn]] void fail_unknown(const std::string& name) const {
+    const auto named =
+        std::ranges::find_if(words_, [](const std::string& each) { return find_command(each) != nullptr; });
+    std::vector<std::string> known{"--help", "--version"};
+    if (named != words_.end()) {
+      for (const Option* option : options_of(*find_command(*named))) known.push_back(option->name());
+      if (const std::string suggestion = did_you_mean(name, known); !suggestion.empty())
+        throw UsageError(format("there is no option {}{}; see nutik-cl {} --help", name, suggestion, *named));
+    }
+    for (const Option& option : options()) known.push_back(option.name());
+    throw UsageError(format("there is no option {}{}; see nutik-cl --help", name, did_you_mean(name, known)));
+  }
+
+  std::span<const std::string> words_;
+  std::size_t at_ = 0;
+};
 
 // A first word that names no file and looks like no file's name was meant as a command.
 void fail_misspelt_command(const std::string& word) {
@@ -118,115 +132,81 @@ void fail_misspelt_command(const std::string& word) {
       format("there is no file and no command '{}'{}; see nutik-cl --help", word, did_you_mean(word, known)));
 }
 
+// Whether an option says what is exposed, which encoding has no use for.
+bool implies_exposure(const Given& given) {
+  const Option* option = option_of(command(CommandId::expose), given.option->long_name);
+  return option != nullptr && !option->is_of(CommandId::encode) &&
+         (option->scope == Scope::exposure || option->scope == Scope::series);
+}
+
 // The paper's forms: no command, only what belongs to it.
-const Command& shorthand(const Scan& scan, std::span<const std::string> words) {
-  const bool exposes = scan.has("functions") || scan.has("start") || scan.has("exposure") ||
-                       scan.has("every") || scan.has("count") || scan.has("shutter");
-  if (exposes) return command(CommandId::expose);
-  const std::string first = scan.operands.empty() ? std::string() : words[scan.operands.front()];
-  const std::string clip = first.empty() ? "clip.tik" : first;
-  if (scan.has("mask")) {
-    throw UsageError(
-        format("a mask needs gain functions: nutik-cl -m mask.pgm -k functions.fn {}", shell_word(clip)));
-  }
-  if (scan.operands.empty()) {
-    throw UsageError("a clip or a capture is missing: nutik-cl clip.mp4 clip.tik");
-  }
+const Command& shorthand(const Words& words) {
+  if (std::ranges::any_of(words.given, implies_exposure)) return command(CommandId::expose);
+  if (words.operands.empty()) throw UsageError("a clip or a capture is missing: nutik-cl clip.mp4 clip.tik");
+  const std::string& first = words.operands.front();
   fail_misspelt_command(first);
-  if (scan.operands.size() == 1 && !scan.has("output")) {
-    if (ends_with_tik(first) && scan.options.size() == scan.has("quiet")) return command(CommandId::info);
-    if (ends_with_tik(first)) {
-      throw UsageError(
-          format("what should be done with {}? To expose a picture: nutik-cl --start 0s "
-                 "--exposure 10ms {} picture.png",
-                 first, shell_word(first)));
-    }
+  const auto is_given = [&](std::string_view name) {
+    return std::ranges::any_of(words.given,
+                               [&](const Given& given) { return given.option->long_name == name; });
+  };
+  if (words.operands.size() > 1 || is_given("output")) return command(CommandId::encode);
+  if (!first.ends_with(".tik")) {
     const std::string stem = std::filesystem::path(first).stem().string();
     throw UsageError(
         format("the output is missing: nutik-cl {} {}", shell_word(first), shell_word(stem + ".tik")));
   }
-  return command(CommandId::encode);
+  if (words.given.empty() || (words.given.size() == 1 && is_given("quiet"))) return command(CommandId::info);
+  throw UsageError(
+      format("what should be done with {}? To expose a picture: nutik-cl --start 0s "
+             "--exposure 10ms {} picture.png",
+             first, shell_word(first)));
 }
 
-void check_options(const Scan& scan, const Command& command) {
-  for (auto said = scan.options.begin(); said != scan.options.end(); ++said) {
-    const Option* option = option_of(command, (*said)->long_name);
-    if (option == nullptr) {
-      std::string takers;
-      for (const Command& other : commands()) {
-        if (option_of(other, (*said)->long_name) == nullptr) continue;
-        takers += format("{}{}", takers.empty() ? "" : ", ", other.name);
-      }
-      throw UsageError(format("{} does not go with {}; it is an option of: {}", (*said)->display_name(),
-                              command.name, takers));
-    }
-    if (!option->value.empty() && !option->is_repeatable &&
-        std::find(scan.options.begin(), said, *said) != said) {
-      throw UsageError(format("{} is given twice", option->display_name()));
-    }
+[[noreturn]] void fail_other_command(const Option& option, const Command& command) {
+  std::string takers;
+  for (const Command& other : commands()) {
+    if (option_of(other, option.long_name) == nullptr) continue;
+    takers += format("{}{}", takers.empty() ? "" : ", ", other.name);
   }
+  throw UsageError(
+      format("{} does not go with {}; it is an option of: {}", option.display_name(), command.name, takers));
 }
 
-// CLI11 does the parsing itself, from the table's entries for one command.
-Options parse_options(const Command& command, std::vector<std::string> words) {
-  Options parsed;
-  CLI::App app;
-  app.set_help_flag();
-  for (const Option& option : options()) {
-    if ((option.commands & bit(command.id)) == 0) continue;
-    const std::string names = (option.short_name != 0 ? std::string{'-', option.short_name} + "," : "") +
-                              "--" + std::string(option.long_name);
-    // Each time it is met, so that Options::said has the order of the command line.
-    const auto take = [&parsed, &option](const std::vector<std::string>& values) {
-      parsed.said.push_back({option.long_name, values});
-      if (option.set) option.set(parsed, values.empty() ? std::string() : values.front());
-    };
-    if (option.value.empty()) {
-      app.add_flag_callback(names, [take] { take({}); })->trigger_on_parse();
-    } else {
-      app.add_option_function<std::vector<std::string>>(names, take)
-          ->type_size(static_cast<int>(option.word_count()))
-          ->expected(1)
-          ->allow_extra_args(false)
-          ->trigger_on_parse();
+Options options_for(const Command& command, Words words) {
+  Options options;
+  options.operands = std::move(words.operands);
+  for (Given& given : words.given) {
+    const Option* option = option_of(command, given.option->long_name);
+    if (option == nullptr) fail_other_command(*given.option, command);
+    if (const auto* flag = std::get_if<bool Options::*>(&option->member)) {
+      options.** flag = true;
+    } else if (const auto* value = std::get_if<std::optional<std::string> Options::*>(&option->member)) {
+      if (options.**value) throw UsageError(format("{} is given twice", option->display_name()));
+      options.** value = given.words.front();
     }
+    options.said.push_back({option->long_name, std::move(given.words)});
   }
-  app.add_option("operands", parsed.operands);
-  std::reverse(words.begin(), words.end());  // CLI11 takes them from the back
-  try {
-    app.parse(words);
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(format("{}; see nutik-cl {} --help", error.what(), command.name));
-  }
-  return parsed;
+  return options;
 }
 
 }  // namespace
 
 ParsedCommandLine parse_command_line(std::span<const std::string> words) {
-  const Scan found = scan(words);
+  Words found(words);
   if (found.version) {
     print_version();
     return {};
   }
-  // The command's name, if any, stands before all operands and before `--`.
-  const Command* named = nullptr;
-  std::vector<std::string> rest(words.begin(), words.end());
-  if (!found.operands.empty() && found.operands.front() < found.operands_end) {
-    named = find_command(words[found.operands.front()]);
-    if (named != nullptr) rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(found.operands.front()));
-  }
   if (found.help) {
-    named != nullptr ? print_command_help(*named) : print_help();
+    found.command != nullptr ? print_command_help(*found.command) : print_help();
     return {};
   }
   if (words.empty()) {
     throw UsageError("say what to do: nutik-cl clip.mp4 clip.tik encodes a clip; nutik-cl --help says more");
   }
-  const Command& chosen = named != nullptr ? *named : shorthand(found, words);
-  check_options(found, chosen);
-  ParsedCommandLine parsed{&chosen, parse_options(chosen, std::move(rest))};
-  check_standard_input(parsed.options);
+  const Command& chosen = found.command != nullptr ? *found.command : shorthand(found);
+  ParsedCommandLine parsed{&chosen, options_for(chosen, std::move(found))};
+  static_cast<void>(reads_standard_input(parsed.options));  // by two at a time is refused
   return parsed;
 }
 

@@ -21,7 +21,7 @@ std::string joined(const std::vector<std::string>& words, std::string_view betwe
 std::vector<std::string> names_of(const Option& option) {
   std::vector<std::string> names;
   if (option.short_name != 0) names.push_back({'-', option.short_name});
-  names.push_back("--" + std::string(option.long_name));
+  names.push_back(option.name());
   return names;
 }
 
@@ -49,7 +49,7 @@ std::vector<const Option*> distinct_options() {
 std::vector<const Option*> options_without_command() {
   std::vector<const Option*> found;
   for (const Option* option : distinct_options()) {
-    if (std::ranges::any_of(kShorthand, [&](CommandId id) { return (option->commands & bit(id)) != 0; })) {
+    if (std::ranges::any_of(kShorthand, [&](CommandId id) { return option->is_of(id); })) {
       found.push_back(option);
     }
   }
@@ -136,7 +136,7 @@ _nutik_cl() {
                  names);
   std::vector<std::string> free;
   for (const Option* option : distinct_options()) {
-    if (option->value.empty()) continue;
+    if (option->is_flag()) continue;
     const std::string pattern = joined(names_of(*option), "|");
     if (option->takes_file()) {
       text += format("    {}) _nutik_cl_files {}; return ;;\n", pattern, joined(extensions_of(*option)));
@@ -151,7 +151,7 @@ _nutik_cl() {
   const auto add_options = [&](std::string_view command, const std::vector<const Option*>& options) {
     std::vector<std::string> words{"--help"};
     if (command.empty()) words.emplace_back("--version");
-    for (const Option* option : options) words.push_back("--" + std::string(option->long_name));
+    for (const Option* option : options) words.push_back(option->name());
     text += format("      {}) _nutik_cl_words '{}' ;;\n", command.empty() ? "''" : command, joined(words));
   };
   add_options("", options_without_command());
@@ -211,7 +211,7 @@ std::string zsh_values(const Option& option) {
 std::string zsh_option(const Option& option) {
   const std::vector<std::string> names = names_of(option);
   const std::string rest = format("[{}]{}", zsh_text(brief(option.help)), zsh_values(option));
-  const std::string repeat = option.is_repeatable ? "*" : "";
+  const std::string repeat = option.is_repeatable() ? "*" : "";
   if (names.size() == 1) return format("'{}{}{}'", repeat, names.front(), rest);
   return format("'({0} {1})'{{{0},{1}}}'{2}'", names[0], names[1], rest);
 }
@@ -285,7 +285,7 @@ std::string fish_script() {
     std::vector<std::string> takers;
     bool is_shorthand = false;
     for (const Command& command : commands()) {
-      if ((option.commands & bit(command.id)) == 0) continue;
+      if (!option.is_of(command.id)) continue;
       takers.emplace_back(command.name);
       is_shorthand = is_shorthand || std::ranges::find(kShorthand, command.id) != std::end(kShorthand);
     }
@@ -300,7 +300,7 @@ std::string fish_script() {
       text += format(" -x -a {}", fish_word(fish_files(extensions)));
     } else if (option.takes_file()) {
       text += " -r -F";
-    } else if (!option.value.empty()) {
+    } else if (!option.is_flag()) {
       text += " -x";
     }
     text += format(" -d {}\n", fish_word(brief(option.help)));

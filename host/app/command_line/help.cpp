@@ -68,7 +68,7 @@ std::string wrapped(std::string_view text, std::size_t indent, std::string_view 
 std::string option_lines(const Option& option) {
   std::string names = "  ";
   names += option.short_name != 0 ? format("-{}, ", option.short_name) : "    ";
-  names += format("--{}{}{}", option.long_name, option.value.empty() ? "" : " ", option.value);
+  names += format("--{}{}{}", option.long_name, option.is_flag() ? "" : " ", option.value);
   if (names.size() + 2 > kOptionColumn) {
     names += '\n' + std::string(kOptionColumn, ' ');
   } else {
@@ -122,9 +122,9 @@ void print_command_help(const Command& command) {
              command.operands, wrapped(command.summary, 0));
   std::vector<std::string_view> groups;
   for (const Option* option : options_of(command)) {
-    if (groups.empty() || groups.back() != option->group) {
-      text += format("\n{}:\n", option->group);
-      groups.push_back(option->group);
+    if (groups.empty() || groups.back() != option->heading) {
+      text += format("\n{}:\n", option->heading);
+      groups.push_back(option->heading);
     }
     text += option_lines(*option);
   }

@@ -56,23 +56,22 @@ std::string bold(std::string_view text) { return format("\\fB{}\\fR", escaped(te
 std::string option_term(const Option& option) {
   std::string term;
   if (option.short_name != 0) term += bold(std::string{'-', option.short_name}) + ", ";
-  term += bold("--" + std::string(option.long_name));
-  if (!option.value.empty()) term += format(" \\fI{}\\fR", escaped(option.value));
+  term += bold(option.name());
+  if (!option.is_flag()) term += format(" \\fI{}\\fR", escaped(option.value));
   return term;
 }
 
 std::string takers_of(const Option& option) {
   std::string takers;
   for (const Command& command : commands()) {
-    if ((option.commands & bit(command.id)) == 0) continue;
+    if (!option.is_of(command.id)) continue;
     takers += (takers.empty() ? "" : ", ") + std::string(command.name);
   }
   return takers;
 }
 
 bool is_of_all(const Option& option) {
-  return std::ranges::all_of(commands(),
-                             [&](const Command& entry) { return (option.commands & bit(entry.id)) != 0; });
+  return std::ranges::all_of(commands(), [&](const Command& entry) { return option.is_of(entry.id); });
 }
 
 std::string commands_section() {
@@ -93,7 +92,7 @@ std::string options_section() {
   text += escaped("Behind each stand the commands that take it.") + "\n";
   std::string_view group;
   for (const Option& option : options()) {
-    if (option.group != group) text += format(".SS {}\n", escaped(group = option.group));
+    if (option.heading != group) text += format(".SS {}\n", escaped(group = option.heading));
     const std::string takers = is_of_all(option) ? "all commands" : takers_of(option);
     text += item(option_term(option), format("{} [{}]", option.help, takers));
   }
@@ -145,7 +144,8 @@ std::string man_page() {
   text += section("ENVIRONMENT");
   constexpr std::pair<std::string_view, std::string_view> kVariables[] = {
       {"NUTIK_DEVICE", "the OpenCL device, as --device"},
-      {"NUTIK_MODULES", "the folder of nutik-videos.so and nutik-stills.so, where they are not in their usual place"},
+      {"NUTIK_MODULES",
+       "the folder of nutik-videos.so and nutik-stills.so, where they are not in their usual place"},
       {"NO_COLOR", "no colours on a terminal, whatever its value is, unless that is empty"},
       {"COLUMNS", "how wide help is, 60 to 100"},
       {"XDG_CACHE_HOME", "where built kernels are kept, in a folder nutik-cl (default: ~/.cache)"},

@@ -1,14 +1,30 @@
 #include "app/command_line/option_table.hpp"
 
 #include <algorithm>
-#include <vector>
 
-#include "app/command_line/option_groups.hpp"
+#include "app/command_line/option_rows.hpp"
 
 namespace nutik::app {
+namespace {
 
-std::string Option::display_name() const {
-  return short_name != 0 ? std::string{'-', short_name} : "--" + std::string(long_name);
+template <typename Wanted>
+const Option* first_option(Wanted wanted) {
+  const auto found = std::ranges::find_if(options(), wanted);
+  return found == options().end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::string Option::display_name() const { return short_name != 0 ? std::string{'-', short_name} : name(); }
+
+std::size_t Option::word_count() const {
+  return value.empty() ? 0 : 1 + static_cast<std::size_t>(std::ranges::count(value, ' '));
+}
+
+bool Option::knows(std::string_view stated) const {
+  return std::ranges::any_of(choices, [&](std::string_view choice) {
+    return stated == choice || (choice.ends_with(':') && stated.starts_with(choice));
+  });
 }
 
 std::string_view Option::file_extension() const {
@@ -24,47 +40,49 @@ bool Option::takes_file() const {
          !file_extension().empty();
 }
 
-std::size_t Option::word_count() const {
-  return value.empty() ? 0 : 1 + static_cast<std::size_t>(std::count(value.begin(), value.end(), ' '));
+const std::string* Option::stated(const Options& options) const {
+  const auto* holder = std::get_if<std::optional<std::string> Options::*>(&member);
+  return holder != nullptr && options.**holder ? &*(options.**holder) : nullptr;
+}
+
+bool Option::is_in(const Options& options) const {
+  const auto* holder = std::get_if<bool Options::*>(&member);
+  return holder != nullptr ? options.**holder : stated(options) != nullptr;
+}
+
+void Option::copy(Options& options, const Options& other) const {
+  if (const auto* value_holder = std::get_if<std::optional<std::string> Options::*>(&member)) {
+    options.** value_holder = other.**value_holder;
+  } else if (const auto* flag_holder = std::get_if<bool Options::*>(&member)) {
+    options.** flag_holder = other.**flag_holder;
+  }
 }
 
 std::span<const Option> options() {
-  static const std::vector<Option> table = [] {
-    std::vector<Option> all;
-    for (const OptionGroup group : kOptionGroups) {
-      for (Option& option : group()) all.push_back(std::move(option));
-    }
-    return all;
-  }();
+  static const std::vector<Option> table = option_rows();
   return table;
 }
 
 const Option* find_option(std::string_view long_name) {
-  const auto found = std::find_if(options().begin(), options().end(),
-                                  [&](const Option& option) { return option.long_name == long_name; });
-  return found == options().end() ? nullptr : &*found;
+  return first_option([&](const Option& option) { return option.long_name == long_name; });
+}
+
+const Option* find_option(char short_name) {
+  return first_option(
+      [&](const Option& option) { return option.short_name != 0 && option.short_name == short_name; });
 }
 
 const Option* option_of(const Command& command, std::string_view long_name) {
-  const auto found = std::find_if(options().begin(), options().end(), [&](const Option& option) {
-    return option.long_name == long_name && (option.commands & bit(command.id)) != 0;
-  });
-  return found == options().end() ? nullptr : &*found;
+  return first_option(
+      [&](const Option& option) { return option.long_name == long_name && option.is_of(command.id); });
 }
 
 std::vector<const Option*> options_of(const Command& command) {
   std::vector<const Option*> found;
   for (const Option& option : options()) {
-    if ((option.commands & bit(command.id)) != 0) found.push_back(&option);
+    if (option.is_of(command.id)) found.push_back(&option);
   }
   return found;
-}
-
-const Option* find_option(char short_name) {
-  const auto found = std::find_if(options().begin(), options().end(), [&](const Option& option) {
-    return option.short_name != 0 && option.short_name == short_name;
-  });
-  return found == options().end() ? nullptr : &*found;
 }
 
 }  // namespace nutik::app

@@ -1,11 +1,11 @@
-// The one table of options: what the command line is parsed with, and what help shows.
+// The one table of options: what a command line is parsed with, what help shows, and what holds for which option.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "app/command_line/command_table.hpp"
@@ -13,33 +13,73 @@
 
 namespace nutik::app {
 
+// What an option is about. What holds for some options and not for others follows from it, and is asked of
+// the row: nowhere else is there a list of options.
+enum class Scope {
+  decoding,   // what a clip's codes are
+  timing,     // when its pictures were exposed
+  encoding,   // what is kept of it
+  exposure,   // what a picture is made of
+  series,     // how many there are, and what each of them is of
+  subject,    // what a command looks at or draws
+  computing,  // by which device, how exactly, within which memory
+  output,     // where and how results are written
+  answer,     // what scripts read
+};
+
 struct Option {
   char short_name;  // 0: none
   std::string_view long_name;
   std::string_view value;  // as in help, a word for each that is needed; empty: a flag
-  std::string_view group;
-  std::string_view help;
+  Scope scope;
   CommandSet commands;
-  // For an option of one value. What an option of several was given stands in Options::said alone.
-  std::function<void(Options& options, const std::string& value)> set;
-  std::optional<std::string> Options::*member = nullptr;  // that holds its value
-  bool is_repeatable = false;
+  // What of Options holds it. Nothing: the option may be given again and again, and what it says stands in
+  // Options::said alone.
+  std::variant<std::monostate, std::optional<std::string> Options::*, bool Options::*> member;
+  std::string_view help;
   // The values it knows; one that ends with `:` goes on as a person likes, `gamma:2.2`. Empty: told by `value`.
   std::vector<std::string_view> choices = {};
+  std::string_view heading = {};  // in help
 
+  // `--fps`
+  [[nodiscard]] std::string name() const { return "--" + std::string(long_name); }
+  // `-f`, or `--fps` where it has no short name.
+  [[nodiscard]] std::string display_name() const;
   // How many words its value takes.
   [[nodiscard]] std::size_t word_count() const;
+  [[nodiscard]] bool is_flag() const { return value.empty(); }
+  [[nodiscard]] bool is_repeatable() const { return member.index() == 0; }
+  [[nodiscard]] bool is_of(CommandId command) const { return (commands & bit(command)) != 0; }
+  [[nodiscard]] bool knows(std::string_view value) const;
 
   // `fn` where `value` is FILE.fn; empty where no kind of file is named.
   [[nodiscard]] std::string_view file_extension() const;
-  // Whether a value is a file's name.
+  // Whether a value is a file's name, and whether that is read: no output may replace it.
   [[nodiscard]] bool takes_file() const;
+  [[nodiscard]] bool reads_file() const { return takes_file() && scope != Scope::output; }
+  // Whether that may be `-`: functions and masks, which are not large.
+  [[nodiscard]] bool reads_standard_input() const { return reads_file() && !file_extension().empty(); }
 
-  // `-f`, or `--fps` where it has no short name.
-  [[nodiscard]] std::string display_name() const;
+  // Whether it says how a clip is turned into a capture: nothing for a .tik, which is one.
+  [[nodiscard]] bool describes_clip() const {
+    return scope == Scope::decoding || scope == Scope::timing || scope == Scope::encoding;
+  }
+  // Whether another value makes another picture, so that a recipe states it.
+  [[nodiscard]] bool makes_picture() const { return describes_clip() || scope == Scope::exposure; }
+  // Whether lines of a batch share it: they share the capture, the device and the answer.
+  [[nodiscard]] bool is_shared_by_batch() const {
+    return describes_clip() || scope == Scope::computing || scope == Scope::answer;
+  }
+
+  // What is stated for it; null where nothing is, and for flags and repeatable options.
+  [[nodiscard]] const std::string* stated(const Options& options) const;
+  // Whether a flag is set, or a value stated.
+  [[nodiscard]] bool is_in(const Options& options) const;
+  // Takes over what `other` says of it, be it nothing.
+  void copy(Options& options, const Options& other) const;
 };
 
-// Group by group, as help shows them.
+// Heading by heading, as help shows them.
 [[nodiscard]] std::span<const Option> options();
 // By `--fps` or `-f` without its dashes; null where there is none. Several rows may share a name, for commands
 // that mean different things by it: as many words belong to it in each.

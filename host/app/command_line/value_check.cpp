@@ -16,12 +16,6 @@ namespace fs = std::filesystem;
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
-bool is_known(const std::string& value, std::span<const std::string_view> choices) {
-  return std::ranges::any_of(choices, [&](std::string_view choice) {
-    return value == choice || (choice.ends_with(':') && value.starts_with(choice));
-  });
-}
-
 // `clip.tik`, not `29.97` or `0.4s`.
 bool looks_like_file(const std::string& value) {
   const std::string extension = fs::path(value).extension().string();
@@ -37,12 +31,11 @@ bool is_option(const std::string& value) {
 
 }  // namespace
 
-void check_choice(std::string_view what, const std::string& value,
-                  std::span<const std::string_view> choices) {
-  if (choices.empty() || is_known(value, choices)) return;
+void check_choice(std::string_view what, const std::string& value, const Option& option) {
+  if (option.choices.empty() || option.knows(value)) return;
   // A number is another number, not a mistyped one.
   if (std::ranges::count_if(value, is_letter) < 2) return;
-  std::vector<std::string> known(choices.begin(), choices.end());
+  std::vector<std::string> known(option.choices.begin(), option.choices.end());
   std::string lower = value;  // no choice has capitals
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const std::string suggestion = did_you_mean(lower, known);
@@ -60,9 +53,7 @@ void check_value(const Option& option, const std::string& name, const std::strin
                "is meant as the value",
                name, option.value, value));
   }
-  const std::string extension(option.file_extension());
-  const bool wants_text = extension == "fn" || extension == "pgm";
-  if (wants_text && fs::path(value).extension() == ".tik") {
+  if (option.reads_standard_input() && fs::path(value).extension() == ".tik") {
     throw UsageError(
         format("{0} needs a file of another kind, {0} {1}, and {2} is a capture; is the value of {0} "
                "missing?",
@@ -76,7 +67,7 @@ void check_value(const Option& option, const std::string& name, const std::strin
   if (!option.takes_file() || value.find_first_of("./") == std::string::npos) {
     std::error_code error;
     if (option.takes_file() && fs::exists(value, error)) return;
-    check_choice(name, value, option.choices);
+    check_choice(name, value, option);
   }
 }
 

@@ -1,7 +1,6 @@
 // Values that cannot be what an option takes, before anything is done with them.
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -14,7 +13,7 @@ namespace nutik::app {
 // whoever reads the value to judge. `name` is the option as it was written.
 void check_value(const Option& option, const std::string& name, const std::string& value);
 
-// The same for an operand that is one of `choices`; `what` says what it is.
-void check_choice(std::string_view what, const std::string& value, std::span<const std::string_view> choices);
+// Throws UsageError where a value is most likely a mistyped one of the option's choices; `what` says what it is.
+void check_choice(std::string_view what, const std::string& value, const Option& option);
 
 }  // namespace nutik::app

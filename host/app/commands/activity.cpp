@@ -33,7 +33,7 @@ struct ActivityOutputs {
 ActivityOutputs outputs_of(const Options& options) {
   ActivityOutputs outputs;
   outputs.chart = stated_output(options.output, options.operands, "activity");
-  std::vector<std::string> inputs = exposure_inputs(options);
+  std::vector<std::string> inputs = input_files(options);
   const auto check = [&](const std::filesystem::path& path, OutputKind kind) {
     check_output(path, kind, inputs);
     inputs.push_back(path.string());  // no two outputs of one name either

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -7,6 +6,7 @@
 #include <utility>
 
 #include "app/command_line/command_line.hpp"
+#include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
 #include "app/input/exposer.hpp"
 #include "app/input/exposure_request.hpp"
@@ -21,6 +21,7 @@
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/text/message_text.hpp"
+#include "app/text/shell_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "session/size_text.hpp"
@@ -31,7 +32,7 @@ namespace {
 // A line of the list: an exposure as it would be asked for on the command line.
 struct ListedExposure {
   std::size_t line;  // from 1 on
-  std::vector<std::string> words;
+  std::string text;
 };
 
 std::vector<ListedExposure> read_list(std::istream& stream) {
@@ -39,10 +40,8 @@ std::vector<ListedExposure> read_list(std::istream& stream) {
   std::string text;
   for (std::size_t line = 1; std::getline(stream, text); ++line) {
     if (!text.empty() && text.back() == '\r') text.pop_back();
-    std::vector<std::string> words = CLI::detail::split_up(text);
-    for (std::string& word : words) CLI::detail::remove_quotes(word);
-    if (words.empty() || words.front().empty() || words.front().front() == '#') continue;
-    exposures.push_back({line, std::move(words)});
+    const auto start = text.find_first_not_of(" \t");
+    if (start != std::string::npos && text[start] != '#') exposures.push_back({line, text});
   }
   return exposures;
 }
@@ -56,23 +55,10 @@ std::vector<ListedExposure> read_list(const std::string& name) {
   return exposures;
 }
 
-// What holds for all lines, and so belongs behind `batch`: value, name.
-constexpr std::pair<std::optional<std::string> Options::*, std::string_view> kOfTheWholeBatch[] = {
-    {&Options::renderer, "--renderer"},
-    {&Options::device, "--device"},
-    {&Options::precision, "--precision"},
-    {&Options::memory, "--memory"},
-    {&Options::fps, "--fps"},
-    {&Options::shutter_angle, "--shutter-angle"},
-    {&Options::white, "--white"},
-    {&Options::raw, "--raw"},
-    {&Options::tolerance, "--tolerance"},
-    {&Options::tiles, "--tiles"},
-    {&Options::block_samples, "--block-samples"},
-};
-
-// The options of one line. `capture`, if any, is the operand that lines leave out.
-Options line_options(std::vector<std::string> words, const std::optional<std::string>& capture) {
+// The options of one line, with those of the whole batch. `capture`, if any, is the operand that lines leave out.
+Options line_options(const std::string& text, const Options& batch,
+                     const std::optional<std::string>& capture) {
+  std::vector<std::string> words = shell_words(text);
   for (const std::string& word : words) {
     if (word == "--help" || word == "-h" || word == "--version") {
       throw UsageError(format("{} is no exposure; see nutik-cl expose --help", word));
@@ -80,13 +66,23 @@ Options line_options(std::vector<std::string> words, const std::optional<std::st
   }
   words.insert(words.begin(), "expose");
   Options options = parse_command_line(words).options;
-  for (const auto& [member, name] : kOfTheWholeBatch) {
-    if (options.*member) {
-      throw UsageError(
-          format("{} holds for all exposures: nutik-cl batch {} {} …", name, name, *(options.*member)));
+  const bool stated_transfer = options.transfer.has_value();
+  for (const Option& option : app::options()) {
+    if (option.is_shared_by_batch() && option.is_in(options)) {
+      const std::string* value = option.stated(options);
+      throw UsageError(format("{0} holds for all exposures: nutik-cl batch {0}{1} …", option.name(),
+                              value != nullptr ? " " + *value : ""));
     }
+    // What a line leaves open.
+    if (option.is_of(CommandId::batch) && !option.is_in(options)) option.copy(options, batch);
   }
-  if (options.json) throw UsageError("--json holds for all exposures: nutik-cl batch --json …");
+  if (stated_transfer && batch.noise) {
+    throw UsageError(
+        format("--transfer holds for all exposures where --noise does, whose light it tells: nutik-cl batch "
+               "--transfer "
+               "{} …",
+               *options.transfer));
+  }
   if (options.every || options.count) {
     throw UsageError("--every and --count make a series; a line of a batch is one picture");
   }
@@ -110,16 +106,15 @@ class Batch {
 
   void expose(const ListedExposure& listed, const std::optional<std::string>& capture_name) {
     try {
-      Options line = line_options(listed.words, capture_name);
-      if (is_standard_input(list_name_) && (line.functions == "-" || line.mask == "-")) {
+      Options line = line_options(listed.text, options_, capture_name);
+      if (is_standard_input(list_name_) && reads_standard_input(line)) {
         throw UsageError("standard input holds the list already; name a file for functions and mask");
       }
-      if (!line.transfer) line.transfer = options_.transfer;
       ExposureRequest request = ExposureRequest::from(line);
       const auto stated = stated_output(line.output, line.operands, "expose");
       const std::filesystem::path output =
           stated.value_or(picture_name(line.operands.front(), request.label()));
-      check_output(output, OutputKind::picture, exposure_inputs(line));
+      check_output(output, OutputKind::picture, input_files(line));
       const auto [earlier, is_new] =
           line_of_output_.try_emplace(std::filesystem::absolute(output).lexically_normal(), listed.line);
       if (!is_new) {
@@ -157,9 +152,7 @@ class Batch {
   [[nodiscard]] std::string renderer_name() const { return exposer_.renderer_name(); }
 
  private:
-  // Of the picture of a line, with what holds for the whole batch.
-  std::string recipe_text(Options line) {
-    for (const auto& [member, name] : kOfTheWholeBatch) line.*member = options_.*member;
+  std::string recipe_text(const Options& line) {
     if (line.no_recipe) return {};
     if (!capture_checksum_) capture_checksum_ = capture_checksum(capture_name_);
     return PictureRecipe(line, capture_checksum_).text(exposer_.precision());

@@ -156,7 +156,7 @@ int run_contact(const Options& options) {
   const sheet::SheetWishes wishes = sheet_wishes(options);
   const std::filesystem::path output = sheet_output(options, "contact", "contact");
   const std::string& input = options.operands.front();
-  check_sheet_output(output, exposure_inputs(options));
+  check_sheet_output(output, input_files(options));
 
   OpenedCapture opened(input, options);
   tik::Reader& capture = opened.reader();

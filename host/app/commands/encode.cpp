@@ -1,5 +1,3 @@
-#include <array>
-
 #include "app/commands/commands.hpp"
 #include "app/input/capture_input.hpp"
 #include "app/input/encoding.hpp"
@@ -36,7 +34,7 @@ int run_encode(const Options& options) {
                "--exposure 10ms {} picture.png",
                input, shell_word(input)));
   }
-  check_output(output, OutputKind::tik, std::array{input, source_options.noise_source.value_or(input)});
+  check_output(output, OutputKind::tik, input_files(options));
 
   SourceClip source = open_source(input, source_options);
   const std::uint64_t announced = source.clip->info().sample_count;

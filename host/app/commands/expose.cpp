@@ -112,7 +112,7 @@ int run_expose(const Options& options) {
     output = picture_name(input, exposing.label());
     exposing.set_output(output);
   }
-  check_output(output, OutputKind::picture, exposure_inputs(options));
+  check_output(output, OutputKind::picture, input_files(options));
 
   PictureRecipe recipe(options);
   const bool captured = is_tik(input);

@@ -70,7 +70,7 @@ int expose_series(const Options& options) {
   ExposureRequest request = ExposureRequest::from(options);
   const ExposureSeries series = ExposureSeries::from(options);
   const PictureNames names(stated.value_or(sequence_name(input) + "-" + request.label() + "-%04d.png"));
-  const std::vector<std::string> inputs = exposure_inputs(options);
+  const std::vector<std::string> inputs = input_files(options);
   check_output(names[0], OutputKind::picture, inputs);  // before a clip is read
   Exposer exposer(options);
   PictureRecipe recipe(options);

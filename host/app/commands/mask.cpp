@@ -55,12 +55,12 @@ MaskRequest request_of(const Options& options) {
     }
     request.output = stated_output(options.output, options.operands, "mask")
                          .value_or(sequence_name(*request.capture) + "-mask.pgm");
-    request.inputs = exposure_inputs(options);
   } else if (options.output && !options.output->empty()) {
     request.output = *options.output;
   } else {
     throw UsageError("the output is missing: nutik-cl mask --moving clip.tik mask.pgm");
   }
+  request.inputs = input_files(options);
   if (request.steps.empty() && !options.base) {
     throw UsageError(
         "what is the mask made of? Add a step: --moving, or --rectangle 100,50,200,120 for example");
@@ -72,7 +72,6 @@ MaskRequest request_of(const Options& options) {
     }
     for (const std::string& file : step.picture_files()) request.inputs.push_back(file);
   }
-  if (options.base) request.inputs.push_back(*options.base);
   if (!is_mask_name(request.output)) {
     throw UsageError(
         format("{}: masks are written as .pgm or .png, which keep every tag", request.output.string()));

@@ -48,7 +48,7 @@ int run_shutter(const Options& options) {
   if (options.operands.size() != 1) {
     throw UsageError("shutter takes one shape: nutik-cl shutter hann --start 0.4s --exposure 10ms");
   }
-  check_choice("shutter", options.operands.front(), find_option("shutter")->choices);
+  check_choice("shutter", options.operands.front(), *find_option("shutter"));
   if (!options.exposure) throw UsageError("how long is the exposure? Add --exposure 10ms");
   Shutter shutter = parse_shutter(options.operands.front(), options.shutter_error);
   const TimeText start = TimeText::parse(options.start.value_or("0s"), "start");

@@ -97,7 +97,7 @@ int run_sweep(const Options& options) {
   if (options.operands.empty()) throw UsageError("an input is missing; see nutik-cl sweep --help");
   ExposureRequest request = ExposureRequest::from(options);
   const std::filesystem::path output = sheet_output(options, "sweep", request.label() + "-sweep");
-  const std::vector<std::string> inputs = exposure_inputs(options);
+  const std::vector<std::string> inputs = input_files(options);
   check_sheet_output(output, inputs);
   const std::vector<std::filesystem::path> singles = single_names(options, combinations.size(), inputs);
 

@@ -102,7 +102,7 @@ int run_trace(const Options& options) {
                               output->string()));
     }
     check_output(*output, is_table_name(*output) ? OutputKind::table : OutputKind::picture,
-                 exposure_inputs(options));
+                 input_files(options));
     constexpr std::uint32_t kColour = 3;
     if (!is_table_name(*output)) {
       static_cast<void>(value_type_for(*output, Depth::bits8, ValueType::code8, kColour));

@@ -1,3 +1,4 @@
+#include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
 #include "app/input/capture_input.hpp"
 #include "app/input/exposure_request.hpp"
@@ -20,12 +21,12 @@ namespace {
 constexpr std::uint32_t kUsualRuns = 5;
 constexpr std::uint32_t kMostRuns = 10'000;
 
-// --white and --raw may describe --source, where the capture is a .tik and needs no description.
+// What codes are may be said of --source, where the capture is a .tik and needs no description.
 Options options_of_capture(const Options& options) {
   Options own = options;
-  if (options.source && is_tik(options.operands.front())) {
-    own.white.reset();
-    own.raw.reset();
+  if (!options.source || !is_tik(options.operands.front())) return own;
+  for (const Option& option : app::options()) {
+    if (option.scope == Scope::decoding) option.copy(own, Options());
   }
   return own;
 }

@@ -36,7 +36,7 @@ int run_video(const Options& options) {
   FrameRequest request = FrameRequest::from(options);
   const std::string& input = options.operands.front();
   const VideoOutput output(options, stated.value_or(usual_name(input, request.rate())), request.rate());
-  const std::vector<std::string> inputs = exposure_inputs(options);
+  const std::vector<std::string> inputs = input_files(options);
   output.check(0, inputs);  // a container's name, before the clip is read
 
   Exposer exposer(options);

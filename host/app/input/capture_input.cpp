@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "app/command_line/option_table.hpp"
 #include "app/input/noise_choice.hpp"
 #include "app/requests/source_words.hpp"
 #include "app/text/number_text.hpp"
@@ -156,22 +157,12 @@ std::vector<std::string> note_lines(const std::vector<std::string>& notes, const
 }
 
 void refuse_source_options(const Options& options, const std::string& capture) {
-  const auto refuse = [&](bool stated, std::string_view name) {
-    if (!stated) return;
+  for (const Option& option : app::options()) {
+    if (!option.describes_clip() || !option.is_in(options)) continue;
     throw UsageError(
-        format("{} describes a clip that is encoded; {} was encoded already. Encode the clip "
-               "again with it",
-               name, capture));
-  };
-  refuse(options.fps.has_value(), "--fps");
-  refuse(options.shutter_angle.has_value(), "--shutter-angle");
-  refuse(options.white.has_value(), "--white");
-  refuse(options.raw.has_value(), "--raw");
-  refuse(options.tolerance.has_value(), "--tolerance");
-  refuse(options.noise.has_value(), "--noise");
-  refuse(options.sigmas.has_value(), "--sigmas");
-  refuse(options.tiles.has_value(), "--tiles");
-  refuse(options.block_samples.has_value(), "--block-samples");
+        format("{} describes a clip that is encoded; {} was encoded already. Encode the clip again with it",
+               option.name(), capture));
+  }
 }
 
 }  // namespace nutik::app

@@ -7,6 +7,7 @@
 #include "app/input/standard_input.hpp"
 #include "app/output/console.hpp"
 #include "app/text/number_text.hpp"
+#include "app/text/shell_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 
@@ -97,9 +98,13 @@ ExposureRequest ExposureRequest::common(const Options& options) {
 
 ExposureRequest ExposureRequest::from(const Options& options) {
   if (!options.functions && !options.start && !options.exposure) {
-    throw UsageError(options.mask ? "a mask needs gain functions: -k functions.fn"
-                                  : "an exposure needs a plain interval (--start 0.4s --exposure 10ms) or "
-                                    "gain functions (-k functions.fn)");
+    if (options.mask) {
+      throw UsageError(format("a mask needs gain functions: nutik-cl -m {} -k functions.fn {}",
+                              shell_word(*options.mask), options.operands.empty() ? "clip.tik" : shell_word(options.operands.front())));
+    }
+    throw UsageError(
+        "an exposure needs a plain interval (--start 0.4s --exposure 10ms) or "
+        "gain functions (-k functions.fn)");
   }
   ExposureRequest request = common(options);
   request.start_ = TimeText::parse(options.start.value_or("0s"), "start");

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <cstring>
 #include <string_view>
-#include <utility>
 
+#include "app/command_line/option_table.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/mask_reader.hpp"
@@ -59,18 +59,18 @@ Mask read_mask_input(const std::string& name) {
   return Mask::from_picture(read_mask(input.bytes(), input_title(name)));
 }
 
-void check_standard_input(const Options& options) {
-  const std::pair<const std::optional<std::string>&, std::string_view> readers[] = {
-      {options.functions, "-k"}, {options.mask, "-m"}, {options.base, "--base"}};
-  std::string_view first;
-  for (const auto& [value, name] : readers) {
-    if (!value || !is_standard_input(*value)) continue;
-    if (!first.empty()) {
-      throw UsageError(
-          format("{} - and {} - would both read standard input; name a file for one", first, name));
+bool reads_standard_input(const Options& options) {
+  const Option* first = nullptr;
+  for (const Option& option : app::options()) {
+    const std::string* name = option.reads_standard_input() ? option.stated(options) : nullptr;
+    if (name == nullptr || !is_standard_input(*name)) continue;
+    if (first != nullptr) {
+      throw UsageError(format("{} - and {} - would both read standard input; name a file for one",
+                              first->display_name(), option.display_name()));
     }
-    first = name;
+    first = &option;
   }
+  return first != nullptr;
 }
 
 }  // namespace nutik::app

@@ -33,7 +33,7 @@ class InputBytes {
 // Throws InputError that says what was found and what is needed (media/mask_reader.hpp).
 [[nodiscard]] Mask read_mask_input(const std::string& name);
 
-// Throws UsageError where two of the inputs would be read from standard input.
-void check_standard_input(const Options& options);
+// Whether an input is read from standard input. Throws UsageError where two would be.
+bool reads_standard_input(const Options& options);
 
 }  // namespace nutik::app

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "app/command_line/option_table.hpp"
 #include "app/input/standard_input.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -127,18 +128,19 @@ std::filesystem::path picture_name(const std::string& input, const std::string& 
   return sequence_name(input) + "-" + label + ".png";
 }
 
-std::vector<std::string> exposure_inputs(const Options& options) {
-  std::vector<std::string> inputs{options.operands.front()};
-  if (!options.raw) {
+std::vector<std::string> input_files(const Options& options) {
+  std::vector<std::string> inputs(options.operands.begin(),
+                                  options.operands.begin() + !options.operands.empty());
+  if (!inputs.empty() && !options.raw) {
     // Each still of a sequence is an input that the picture must not replace.
     for (const auto& still : list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{})) {
       inputs.push_back(still.string());
     }
   }
-  for (const auto* input : {&options.mask, &options.functions}) {
-    if (*input && !is_standard_input(**input)) inputs.push_back(**input);
+  for (const Option& option : app::options()) {
+    const std::string* name = option.reads_file() ? option.stated(options) : nullptr;
+    if (name != nullptr && !is_standard_input(*name) && !option.knows(*name)) inputs.push_back(*name);
   }
-  if (options.noise) inputs.push_back(*options.noise);
   return inputs;
 }
 

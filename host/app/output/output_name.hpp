@@ -26,7 +26,8 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
 // The name of a picture of `input` that nobody gave one: `clip-motion.png` for the exposure `motion`.
 [[nodiscard]] std::filesystem::path picture_name(const std::string& input, const std::string& label);
 
-// The files that an exposure reads, each still of a sequence among them: its picture must not replace any.
-[[nodiscard]] std::vector<std::string> exposure_inputs(const Options& options);
+// The files that a command reads, each still of a sequence among them: no output may replace one. Its first operand is
+// one of them, where it has any.
+[[nodiscard]] std::vector<std::string> input_files(const Options& options);
 
 }  // namespace nutik::app

@@ -1,7 +1,6 @@
 #include "app/output/picture_recipe.hpp"
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 
 #include "app/command_line/option_table.hpp"
@@ -16,23 +15,17 @@
 namespace nutik::app {
 namespace {
 
-// Options of `expose` that do not make the picture, or that the recipe has in another place.
-constexpr std::array<std::string_view, 9> kLeftOut{"output", "mask",     "functions", "every", "count",
-                                                   "device", "renderer", "precision", "memory"};
-
+// Files have a place of their own in a recipe, with their text or checksum.
 bool is_stated(const Option& option, std::string_view value) {
-  if ((option.commands & bit(CommandId::expose)) == 0 || option.member == nullptr) return false;
-  // A file's text is in the recipe.
-  if (option.member == &Options::noise) return value == kAutomaticNoise;
-  return std::ranges::find(kLeftOut, option.long_name) == kLeftOut.end();
+  return option.is_of(CommandId::expose) && option.makes_picture() &&
+         (!option.reads_file() || option.knows(value));
 }
 
 std::map<std::string, std::string> stated_options(const Options& options) {
   std::map<std::string, std::string> stated;
   for (const Option& option : app::options()) {
-    if (option.member == nullptr) continue;
-    const auto& value = options.*option.member;
-    if (value && is_stated(option, *value)) stated.emplace(option.long_name, *value);
+    const std::string* value = option.stated(options);
+    if (value != nullptr && is_stated(option, *value)) stated.emplace(option.long_name, *value);
   }
   return stated;
 }

@@ -1,5 +1,6 @@
 #include "app/text/number_text.hpp"
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -31,6 +32,26 @@ double parse_number(std::string_view text, std::string_view what, double low, do
     throw UsageError(format("{} '{}' is no number of {} … {}", what, text, low, high));
   }
   return *value;
+}
+
+std::optional<std::uint64_t> parse_bytes(std::string_view text) {
+  std::uint64_t bytes = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), bytes);
+  if (error != std::errc()) return std::nullopt;
+  std::string unit;  // in small letters, without the B of bytes
+  for (const char c : text.substr(static_cast<std::size_t>(end - text.data()))) {
+    if (c != ' ' || !unit.empty()) unit += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  if (unit.ends_with('b')) unit.pop_back();
+  const std::uint64_t factor = unit.ends_with('i') ? 1024 : 1000;
+  if (factor == 1024) unit.pop_back();
+  if (unit.empty()) return factor == 1000 ? std::optional(bytes) : std::nullopt;
+  const auto power = std::string_view("kmgtpe").find(unit);
+  if (unit.size() > 1 || power == std::string_view::npos) return std::nullopt;
+  for (std::size_t k = 0; k <= power; ++k) {
+    if (__builtin_mul_overflow(bytes, factor, &bytes)) return std::nullopt;
+  }
+  return bytes;
 }
 
 std::vector<double> parse_numbers(std::string_view text, std::string_view what) {

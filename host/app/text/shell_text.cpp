@@ -1,6 +1,7 @@
 #include "app/text/shell_text.hpp"
 
-#include <algorithm>
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 
 namespace nutik::app {
 
@@ -11,6 +12,35 @@ std::string shell_word(std::string_view word) {
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
+}
+
+std::vector<std::string> shell_words(std::string_view line) {
+  constexpr std::string_view kEscapedInQuotes = "\"\\$`";
+  std::vector<std::string> words;
+  bool is_in_word = false;
+  char quote = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quote == 0 && (c == ' ' || c == '\t')) {
+      is_in_word = false;
+      continue;
+    }
+    if (!is_in_word) words.emplace_back();
+    is_in_word = true;
+    const bool escapes = c == '\\' && quote != '\'' && i + 1 < line.size() &&
+                         (quote == 0 || kEscapedInQuotes.find(line[i + 1]) != std::string_view::npos);
+    if (escapes) {
+      words.back() += line[++i];
+    } else if (quote == 0 && (c == '\'' || c == '"')) {
+      quote = c;
+    } else if (quote != 0 && c == quote) {
+      quote = 0;
+    } else {
+      words.back() += c;
+    }
+  }
+  if (quote != 0) throw UsageError(format("the quote {} is not closed: {}", quote, line));
+  return words;
 }
 
 }  // namespace nutik::app

@@ -3,10 +3,15 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace nutik::app {
 
 // The word as it is where a shell takes it literally, else in single quotes.
 [[nodiscard]] std::string shell_word(std::string_view word);
+
+// The words of a line, without their quotes and backslashes; nothing else has a meaning. Throws UsageError where a
+// quote is not closed.
+[[nodiscard]] std::vector<std::string> shell_words(std::string_view line);
 
 }  // namespace nutik::app
