@@ -30,4 +30,9 @@ struct OutputError : Error {
   using Error::Error;
 };
 
+// Whoever asked does not want the result any more.
+struct Cancelled : Error {
+  Cancelled() : Error("it was cancelled") {}
+};
+
 }  // namespace nutik

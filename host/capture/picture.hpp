@@ -26,6 +26,22 @@ struct Shape {
   friend bool operator==(const Shape&, const Shape&) = default;
 };
 
+// Some pixels of a picture, counted from its top left.
+struct Rectangle {
+  std::uint32_t x = 0;
+  std::uint32_t y = 0;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+
+  [[nodiscard]] static Rectangle whole(const Shape& shape) { return {0, 0, shape.width, shape.height}; }
+  // Whether it has pixels, and all of them are the picture's.
+  [[nodiscard]] bool lies_in(const Shape& shape) const {
+    return width > 0 && height > 0 && std::uint64_t{x} + width <= shape.width &&
+           std::uint64_t{y} + height <= shape.height;
+  }
+  friend bool operator==(const Rectangle&, const Rectangle&) = default;
+};
+
 // `grey`, or `red`, `green`, `blue` of three.
 [[nodiscard]] constexpr const char* channel_name(std::size_t channels, std::size_t channel) {
   constexpr const char* kNames[] = {"red", "green", "blue"};

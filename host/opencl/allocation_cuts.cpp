@@ -12,28 +12,38 @@ std::uint64_t sums_bytes(std::uint64_t tile_count, std::uint32_t channels, Preci
   return tile_count * channels * kTilePixels * sum_bytes(precision);
 }
 
-std::vector<Band> cut_picture(const Shape& shape, Precision precision, const DeviceInfo& device) {
+std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle, Precision precision,
+                              const DeviceInfo& device) {
   const TileGrid grid(shape);
-  const std::uint64_t row_bytes = sums_bytes(grid.columns(), shape.channels, precision);
+  const std::uint32_t left = rectangle.x / kTileSide;
+  const std::uint32_t top = rectangle.y / kTileSide;
+  const std::uint32_t columns = (rectangle.x + rectangle.width - 1) / kTileSide + 1 - left;
+  const std::uint32_t rows = (rectangle.y + rectangle.height - 1) / kTileSide + 1 - top;
+  const std::uint64_t row_bytes = sums_bytes(columns, shape.channels, precision);
   const std::uint64_t most_rows = device.largest_allocation_bytes / row_bytes;
   if (most_rows == 0) {
     throw too_large(device, row_bytes,
-                    format("a row of tiles of a picture {} pixels wide, in {} precision,", shape.width,
-                           to_text(precision)),
+                    format("a row of tiles of a picture {} pixels wide, in {} precision,",
+                           std::min(shape.width, columns * kTileSide), to_text(precision)),
                     format("use a device with more memory, {}or --renderer reference",
                            precision == Precision::single_ ? "" : "--precision single, "));
   }
-  const std::uint64_t band_count = (grid.rows() + most_rows - 1) / most_rows;
-  const auto band_rows = static_cast<std::uint32_t>((grid.rows() + band_count - 1) / band_count);
+  const std::uint64_t band_count = (rows + most_rows - 1) / most_rows;
+  const auto band_rows = static_cast<std::uint32_t>((rows + band_count - 1) / band_count);
+  const std::uint32_t first_column = left * kTileSide;
+  const std::uint32_t width = std::min(columns * kTileSide, shape.width - first_column);
   std::vector<Band> bands;
-  for (std::uint32_t row = 0; row < grid.rows(); row += band_rows) {
-    const std::uint32_t rows = std::min(band_rows, grid.rows() - row);
+  for (std::uint32_t row = top; row < top + rows; row += band_rows) {
+    const std::uint32_t count = std::min(band_rows, top + rows - row);
     const std::uint32_t first_row = row * kTileSide;
-    const std::uint32_t height = std::min(rows * kTileSide, shape.height - first_row);
-    bands.push_back({std::uint64_t{row} * grid.columns(),
-                     std::uint64_t{rows} * grid.columns(),
+    const std::uint32_t height = std::min(count * kTileSide, shape.height - first_row);
+    bands.push_back({std::uint64_t{row} * grid.columns() + left,
+                     std::uint64_t{count} * columns,
+                     columns,
+                     grid.columns() - columns,
                      first_row,
-                     {shape.width, height, shape.channels}});
+                     first_column,
+                     {width, height, shape.channels}});
   }
   return bands;
 }

@@ -1,7 +1,7 @@
 // How an exposure is cut so that no buffer is larger than the device allocates at a time.
 //
 //   in:      a picture's shape or a plan's tables, an arithmetic, the device
-//   out:     bands: whole rows of tiles, whose sums fit
+//   out:     bands: rows of tiles, whole or cut to what a rectangle needs, whose sums fit
 //            slices: planned blocks in a row, whose tables fit
 //   always:  one band and one slice where everything fits, which is usual
 //
@@ -14,7 +14,7 @@
 //            └─────────┴──────────┴─────────┴─────────
 //
 // Payloads come in chunks (block_feed.hpp), which end where a slice does. Chunks hold all tiles of their blocks,
-// so a kernel finds a tile by its number in the picture; everything else that it reads and writes is the band's
+// so a kernel finds a tile by its number in the picture (Band::first_tile, skipped_columns); everything else that it reads and writes is the band's
 // or the slice's own, and numbered from there. However it is cut, each pixel's sum is made of the same blocks in
 // the same order: the picture is the same to the last bit.
 #pragma once
@@ -31,12 +31,20 @@
 
 namespace nutik {
 
-// Rows of tiles of a picture; by itself a picture of fewer rows.
+// Rows of tiles of a picture, or the same part of each; by itself a picture.
 struct Band {
   std::uint64_t first_tile;  // in the picture
   std::uint64_t tile_count;
-  std::uint32_t first_row;  // of pixels, in the picture
+  std::uint32_t columns;          // of tiles
+  std::uint32_t skipped_columns;  // of the picture's, between a row of the band and its next
+  std::uint32_t first_row;        // of pixels, in the picture
+  std::uint32_t first_column;     // likewise
   Shape shape;
+
+  // Tile `tile` of the band, in the picture.
+  [[nodiscard]] std::uint64_t tile_in_picture(std::uint64_t tile) const {
+    return first_tile + tile + tile / columns * skipped_columns;
+  }
 };
 
 // Planned blocks [first_block, last_block), and their rows of the plan's tables, [first_row, last_row).
@@ -50,10 +58,11 @@ struct TableSlice {
 // Of the sums of so many tiles.
 [[nodiscard]] std::uint64_t sums_bytes(std::uint64_t tile_count, std::uint32_t channels, Precision precision);
 
-// The bands of a picture from top to bottom, all but the last of the same height. A band's sums take no less than
-// its raster or its function of each pixel. Throws DeviceError where not even one row of tiles fits.
-[[nodiscard]] std::vector<Band> cut_picture(const Shape& shape, Precision precision,
-                                            const DeviceInfo& device);
+// The bands of the tiles that a rectangle of a picture meets, from top to bottom, all but the last of the same
+// height. A band's sums take no less than its raster or its function of each pixel. Throws DeviceError where not
+// even one row of tiles fits.
+[[nodiscard]] std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle,
+                                            Precision precision, const DeviceInfo& device);
 
 // The slices of a plan in time order; none of a plan without blocks. Throws DeviceError where the table of a
 // single block does not fit.

@@ -9,7 +9,7 @@
 
 #include "opencl/light_source.hpp"
 #include "opencl/work_shape.hpp"
-#include "render/renderer.hpp"
+#include "render/output_format.hpp"
 
 namespace nutik {
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "capture/picture.hpp"
-#include "render/renderer.hpp"
 
 namespace nutik {
 

@@ -43,8 +43,7 @@ Picture Developer::counted_codes(std::span<const ExposedBand> bands) {
 
 // As light of this type, for a picture that will be stored as the output says.
 Picture Developer::light(std::span<const ExposedBand> bands, ValueType type) {
-  const Shape& shape = plan_.capture.shape;
-  Bytes of_sums(shape.value_count() * sum_bytes(work_.precision));
+  Bytes of_sums(shape_.value_count() * sum_bytes(work_.precision));
   DevelopSumsKernel kernel(program_, "develop_sums");
   for (const ExposedBand& exposed : bands) {
     const Band& band = exposed.band;
@@ -53,8 +52,8 @@ Picture Developer::light(std::span<const ExposedBand> bands, ValueType type) {
                     band.shape.height, band.tile_count, raster);
     });
   }
-  Picture picture(shape, type, output_.white_code);
-  store_light(plan_, work_.precision, of_sums, picture);
+  Picture picture(shape_, type, output_.white_code);
+  store_light(plan_, rectangle_, work_.precision, of_sums, picture);
   return picture;
 }
 
@@ -64,7 +63,7 @@ Picture Developer::codes(std::span<const ExposedBand> bands) {
   const cl::Buffer scales = memory_.upload(tables.scales);
   const cl::Buffer thresholds = memory_.upload(tables.thresholds);
   const cl::Buffer guesses = memory_.upload(tables.guesses);
-  Picture picture(plan_.capture.shape, output_.type, output_.white_code);
+  Picture picture(shape_, output_.type, output_.white_code);
   DevelopCodesKernel kernel(program_, "develop_codes");
   for (const ExposedBand& exposed : bands) {
     const Band& band = exposed.band;
@@ -77,16 +76,32 @@ Picture Developer::codes(std::span<const ExposedBand> bands) {
   return picture;
 }
 
-// Has `launch` fill a band's own raster, and copies it to where it lies in the picture's.
+// Has `launch` fill a band's own raster, and copies what belongs to the rectangle to where it lies there.
 template <typename Launch>
 void Developer::develop_band(const Band& band, std::span<std::byte> raster, Launch launch) {
   const DeviceMemory::Scope scope(memory_);
-  const std::uint64_t row_bytes = raster.size() / plan_.capture.shape.height;
-  const std::uint64_t bytes = row_bytes * band.shape.height;
-  const cl::Buffer of_band = memory_.allocate(bytes, CL_MEM_WRITE_ONLY);
+  const std::uint64_t pixel_bytes = raster.size() / shape_.pixel_count();
+  const cl::Buffer of_band = memory_.allocate(band.shape.pixel_count() * pixel_bytes, CL_MEM_WRITE_ONLY);
   const cl::Event event = launch(of_band);
-  queue_.enqueueReadBuffer(of_band, CL_TRUE, 0, bytes, raster.data() + row_bytes * band.first_row);
+  read_band(of_band, band, raster);
   develop_ms_ += milliseconds(event);
+}
+
+void Developer::read_band(const cl::Buffer& of_band, const Band& band, std::span<std::byte> raster) {
+  const std::uint64_t pixel_bytes = raster.size() / shape_.pixel_count();
+  const std::uint32_t top = std::max(band.first_row, rectangle_.y);
+  const std::uint32_t bottom = std::min(band.first_row + band.shape.height, rectangle_.y + rectangle_.height);
+  const std::uint64_t band_row = band.shape.width * pixel_bytes;
+  const std::uint64_t row = rectangle_.width * pixel_bytes;
+  std::byte* to = raster.data() + (top - rectangle_.y) * row;
+  if (row == band_row) {
+    queue_.enqueueReadBuffer(of_band, CL_TRUE, (top - band.first_row) * row, (bottom - top) * row, to);
+    return;
+  }
+  const cl::array<cl::size_type, 3> from{(rectangle_.x - band.first_column) * pixel_bytes,
+                                         top - band.first_row, 0};
+  queue_.enqueueReadBufferRect(of_band, CL_TRUE, from, {0, 0, 0}, {row, bottom - top, 1}, band_row, 0, row, 0,
+                               to);
 }
 
 }  // namespace nutik

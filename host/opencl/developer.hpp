@@ -1,7 +1,7 @@
 // Develops a picture: the sums of its bands to codes or light, with kernels/develop.cl.
 //
-//   in:      a plan, and the sums of its exposure, band by band
-//   out:     the picture; of codes also how many pixels saturate
+//   in:      a plan, a rectangle of its picture, and the sums of its exposure, band by band
+//   out:     the rectangle's picture; of codes also how many pixels saturate
 #pragma once
 
 #include <span>
@@ -27,11 +27,13 @@ struct ExposedBand {
 class Developer {
  public:
   // `program` is kernels/develop.cl built for the picture. All that is given must live as long.
-  Developer(const Work& work, const RenderPlan& plan, const OutputFormat& output, cl::Program program,
-            cl::CommandQueue queue, DeviceMemory& memory)
+  Developer(const Work& work, const RenderPlan& plan, const OutputFormat& output, const Rectangle& rectangle,
+            cl::Program program, cl::CommandQueue queue, DeviceMemory& memory)
       : work_(work),
         plan_(plan),
         output_(output),
+        rectangle_(rectangle),
+        shape_{rectangle.width, rectangle.height, plan.capture.shape.channels},
         program_(std::move(program)),
         queue_(std::move(queue)),
         memory_(memory) {}
@@ -49,10 +51,13 @@ class Developer {
   Picture counted_codes(std::span<const ExposedBand> bands);
   template <typename Launch>
   void develop_band(const Band& band, std::span<std::byte> raster, Launch launch);
+  void read_band(const cl::Buffer& of_band, const Band& band, std::span<std::byte> raster);
 
   const Work& work_;
   const RenderPlan& plan_;
   const OutputFormat& output_;
+  const Rectangle& rectangle_;
+  Shape shape_;  // of what is developed
   cl::Program program_;
   cl::CommandQueue queue_;
   DeviceMemory& memory_;

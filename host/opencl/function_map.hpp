@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "opencl/allocation_cuts.hpp"
 #include "render/render_plan.hpp"
 
 namespace nutik {
@@ -15,6 +16,7 @@ struct FunctionMap {
   std::vector<std::uint16_t> of_tile;
 };
 
-[[nodiscard]] FunctionMap map_functions(const RenderPlan& plan);
+// Of the tiles of a band.
+[[nodiscard]] FunctionMap map_functions(const RenderPlan& plan, const Band& band);
 
 }  // namespace nutik

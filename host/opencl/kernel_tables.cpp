@@ -143,15 +143,20 @@ double sum_at(std::span<const std::byte> raster, Precision precision, std::uint6
 }
 
 template <typename Value>
-void store_as(const RenderPlan& plan, Precision precision, std::span<const std::byte> raster,
-              std::span<Value> values) {
+void store_as(const RenderPlan& plan, const Rectangle& rectangle, Precision precision,
+              std::span<const std::byte> raster, std::span<Value> values) {
   const std::vector<Factors> factors = factors_of(plan, precision);
-  const std::uint64_t row_values = std::uint64_t{plan.capture.shape.width} * plan.capture.shape.channels;
-  parallel_for(plan.capture.shape.height, [&](std::uint64_t row) {
-    for (std::uint64_t i = row * row_values; i < (row + 1) * row_values; ++i) {
-      const Factors& light = factors[plan.function_of_pixel[i / plan.capture.shape.channels]];
-      values[i] = static_cast<Value>(sum_at(raster, precision, i) * light.factor * light.exponent.first *
-                                     light.exponent.second);
+  const std::uint32_t channels = plan.capture.shape.channels;
+  parallel_for(rectangle.height, [&](std::uint64_t row) {
+    const std::uint8_t* functions =
+        plan.function_of_pixel.data() + (rectangle.y + row) * plan.capture.shape.width + rectangle.x;
+    std::uint64_t i = row * rectangle.width * channels;
+    for (std::uint32_t column = 0; column < rectangle.width; ++column) {
+      const Factors& light = factors[functions[column]];
+      for (std::uint32_t channel = 0; channel < channels; ++channel, ++i) {
+        values[i] = static_cast<Value>(sum_at(raster, precision, i) * light.factor * light.exponent.first *
+                                       light.exponent.second);
+      }
     }
   });
 }
@@ -185,12 +190,12 @@ CodeTables code_tables(const RenderPlan& plan, Precision precision, std::uint32_
                                        : floating_code_tables(plan, precision, white_code);
 }
 
-void store_light(const RenderPlan& plan, Precision precision, std::span<const std::byte> raster,
-                 Picture& picture) {
+void store_light(const RenderPlan& plan, const Rectangle& rectangle, Precision precision,
+                 std::span<const std::byte> raster, Picture& picture) {
   if (picture.type == ValueType::light32) {
-    store_as(plan, precision, raster, picture.values<float>());
+    store_as(plan, rectangle, precision, raster, picture.values<float>());
   } else {
-    store_as(plan, precision, raster, picture.values<double>());
+    store_as(plan, rectangle, precision, raster, picture.values<double>());
   }
 }
 

@@ -10,8 +10,8 @@
 #include "opencl/allocation_cuts.hpp"
 #include "opencl/light_source.hpp"
 #include "render/fixed_scale.hpp"
+#include "render/output_format.hpp"
 #include "render/precision.hpp"
-#include "render/renderer.hpp"
 
 namespace nutik {
 
@@ -57,9 +57,9 @@ struct CodeTables {
 // Throws UsageError where the codes lie too close together (code_search.hpp).
 [[nodiscard]] CodeTables code_tables(const RenderPlan& plan, Precision precision, std::uint32_t white_code);
 
-// The light of `raster`, sums [pixel][channel][plane] as develop_sums writes them, into a picture of light32 or
-// light64. Done by the host in double, so that it is the same for every device.
-void store_light(const RenderPlan& plan, Precision precision, std::span<const std::byte> raster,
-                 Picture& picture);
+// The light of `raster`, sums [pixel][channel][plane] of a rectangle as develop_sums writes them, into a picture of
+// light32 or light64. Done by the host in double, so that it is the same for every device.
+void store_light(const RenderPlan& plan, const Rectangle& rectangle, Precision precision,
+                 std::span<const std::byte> raster, Picture& picture);
 
 }  // namespace nutik

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <mutex>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -27,9 +28,9 @@ namespace {
 constexpr std::uint64_t kChunkBytes = 64ull << 20;
 constexpr std::uint64_t kDefaultMemoryBytes = 4ull << 30;
 
-using ExposeKernel =
-    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint,
-                      cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong, cl_ulong, cl_uint>;
+using ExposeKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer,
+                                       cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong,
+                                       cl_ulong, cl_uint, cl_uint, cl_uint>;
 
 // Whether fma() is the device's own. Devices that would emulate it do not report it, and a CPU's emulation
 // is 20 times slower than rounding twice.
@@ -48,6 +49,15 @@ struct UploadedSlice {
   cl::Buffer weights;
   cl::Buffer boundaries;
   cl::Buffer spans;
+};
+
+// What one render is made of.
+struct Request {
+  const RenderPlan& plan;
+  CaptureSource& source;
+  const OutputFormat& output;
+  const Rectangle& rectangle;
+  const RenderControl& control;
 };
 
 // Nothing is read from a capture any more when its exposure ends, however it does.
@@ -76,7 +86,7 @@ class OpenClRenderer::Implementation {
  public:
   explicit Implementation(const OpenClOptions& options)
       : options_(options), device_(pick_device(options)), info_(info_of(device_, options)) {
-    set_precision(options.precision);
+    if (options.precision) check_precision(*options.precision);
     context_ = cl::Context(device_);
     queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
     feed_ = std::make_unique<BlockFeed>(context_, device_, info_, feed_limits());
@@ -87,47 +97,18 @@ class OpenClRenderer::Implementation {
     });
   }
 
-  void set_precision(std::optional<Precision> precision) {
-    if (precision == Precision::double_ && !info_.has_double) {
-      throw DeviceError(
-          format("{} has no double precision; use --precision auto, compensated or fixed", info_.name));
-    }
-    options_.precision = precision;
-  }
   [[nodiscard]] std::span<const Precision> precisions() const { return precisions_of(info_); }
-
   [[nodiscard]] const std::string& name() const { return info_.name; }
-  [[nodiscard]] std::string precision() const { return to_text(choice_.precision()); }
-  [[nodiscard]] const RenderStatistics& statistics() const { return statistics_; }
-  [[nodiscard]] Saturation saturation() const { return saturation_; }
-  [[nodiscard]] const PrecisionChoice& choice() const { return choice_; }
 
-  // Said only of what the program chose: a person who asks for an arithmetic gets it.
-  [[nodiscard]] std::string warning() const {
-    if (options_.precision || choice_.is_right_enough()) return {};
-    return format("no arithmetic of {} is sure to be right to {} of a code here; {} is the closest: {}",
-                  info_.name, kMostSteps, to_text(choice_.precision()),
-                  error_text(choice_.bound.worst, output_));
+  void keep_resident(const CaptureSource* source) {
+    const std::scoped_lock turn(turn_);
+    feed_->hold(source);
   }
-
-  [[nodiscard]] std::string report() const {
-    const double megabytes = static_cast<double>(statistics_.payload_bytes) * 1e-6;
-    return format(
-               "{} precision; {} block{} of {:.1f} MB made ready in {:.1f} ms, read by the kernel in {:.1f} "
-               "ms "
-               "({:.1f} GB/s); codes or light in {:.1f} ms; at most {:.1f} MB on the device",
-               to_text(choice_.precision()), statistics_.blocks, statistics_.blocks == 1 ? "" : "s",
-               megabytes, statistics_.read_ms, statistics_.expose_ms,
-               statistics_.expose_ms > 0 ? megabytes / statistics_.expose_ms : 0.0, statistics_.develop_ms,
-               static_cast<double>(statistics_.device_bytes) * 1e-6) +
-           choice_text();
-  }
-
-  void hold(const CaptureSource* source) { feed_->hold(source); }
 
   void prepare(const RenderPlan& plan, const OutputFormat& output) {
+    const Work work = work_for(choose(plan, output, options_.precision).precision());
+    const std::scoped_lock turn(turn_);
     try {
-      const Work work = work_for(choose(plan, output).precision());
       if (!plan.blocks.empty()) expose_program(work, plan, light_source_for(work, plan));
       develop_program(work, plan, output);
     } catch (const cl::Error& error) {
@@ -135,22 +116,29 @@ class OpenClRenderer::Implementation {
     }
   }
 
-  Picture render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
+  Rendered render(const Request& request) {
+    const RenderPlan& plan = request.plan;
+    const std::optional<Precision> asked =
+        request.control.precision ? request.control.precision : options_.precision;
+    if (asked) check_precision(*asked);
+    Rendered rendered;
+    rendered.choice = choose(plan, request.output, asked);
+    rendered.precision = rendered.choice->precision();
+    if (!asked) warn(rendered, request.output);
+    const Work work = work_for(rendered.precision);
+    const std::scoped_lock turn(turn_);
     try {
-      statistics_ = {};
-      saturation_ = {};
-      output_ = output;
-      choice_ = choose(plan, output);
-      const Work work = work_for(choice_.precision());
       DeviceMemory memory(context_, queue_, info_);
-      const std::vector<ExposedBand> bands = expose(work, plan, source, memory);
-      Developer developer(work, plan, output, develop_program(work, plan, output), queue_, memory);
-      Picture picture = developer.develop(bands);
-      saturation_ = developer.saturation();
-      statistics_.develop_ms = developer.develop_ms();
-      statistics_.device_bytes = memory.most_bytes();
+      const std::vector<ExposedBand> bands = expose(work, request, memory, rendered.statistics);
+      throw_if_cancelled(request.control);
+      Developer developer(work, plan, request.output, request.rectangle,
+                          develop_program(work, plan, request.output), queue_, memory);
+      rendered.picture = developer.develop(bands);
+      rendered.saturation = developer.saturation();
+      rendered.statistics.develop_ms = developer.develop_ms();
+      rendered.statistics.device_bytes = memory.most_bytes();
       programs_->save_new_binaries();
-      return picture;
+      return rendered;
     } catch (const cl::Error& error) {
       throw DeviceError(describe(error, format("{} failed", info_.name)));
     }
@@ -181,24 +169,29 @@ class OpenClRenderer::Implementation {
     return limits;
   }
 
-  [[nodiscard]] PrecisionChoice choose(const RenderPlan& plan, const OutputFormat& output) const {
-    if (options_.precision) return choose_precision(plan, output, std::array{*options_.precision});
+  void check_precision(Precision precision) const {
+    if (precision != Precision::double_ || info_.has_double) return;
+    throw DeviceError(
+        format("{} has no double precision; use --precision auto, compensated or fixed", info_.name));
+  }
+
+  [[nodiscard]] PrecisionChoice choose(const RenderPlan& plan, const OutputFormat& output,
+                                       std::optional<Precision> asked) const {
+    if (asked) return choose_precision(plan, output, std::array{*asked});
     return choose_precision(plan, output, precisions_of(info_));
+  }
+
+  // Said only of what the program chose: a person who asks for an arithmetic gets it.
+  void warn(Rendered& rendered, const OutputFormat& output) const {
+    if (rendered.choice->is_right_enough()) return;
+    rendered.warnings.push_back(format(
+        "no arithmetic of {} is sure to be right to {} of a code here; {} is the closest: {}", info_.name,
+        kMostSteps, to_text(rendered.precision), error_text(rendered.choice->bound.worst, output)));
   }
 
   [[nodiscard]] Work work_for(Precision precision) const {
     return {precision, work_shape(options_, precision, info_),
             options_.use_fma && has_fma(device_, precision)};
-  }
-
-  // A line of its own: what the arithmetic may err by, and what faster ones would have.
-  [[nodiscard]] std::string choice_text() const {
-    std::string text =
-        format("\n{}: {}", to_text(choice_.precision()), error_text(choice_.bound.worst, output_));
-    for (const ErrorBound& bound : choice_.rejected) {
-      text += format("; not {}: only {}", to_text(bound.precision), error_text(bound.worst, output_));
-    }
-    return text;
   }
 
   [[nodiscard]] LightSource light_source_for(const Work& work, const RenderPlan& plan) const {
@@ -214,26 +207,24 @@ class OpenClRenderer::Implementation {
     return programs_->get("develop", kernel_source("develop"), develop_options(work, plan.capture, output));
   }
 
-  // The bands of a picture with nothing in their sums yet.
-  std::vector<ExposedBand> bands_of(const Work& work, const RenderPlan& plan, DeviceMemory& memory) const {
-    const Shape& shape = plan.capture.shape;
-    const FunctionMap map = map_functions(plan);
+  // The bands of a rectangle with nothing in their sums yet.
+  std::vector<ExposedBand> bands_of(const Work& work, const Request& request, DeviceMemory& memory) const {
+    const Shape& shape = request.plan.capture.shape;
     std::vector<ExposedBand> bands;
-    for (const Band& band : cut_picture(shape, work.precision, info_)) {
-      const auto lanes =
-          std::span(map.of_lane).subspan(band.first_tile * kTilePixels, band.tile_count * kTilePixels);
-      const auto tiles = std::span(map.of_tile).subspan(band.first_tile, band.tile_count);
+    for (const Band& band : cut_picture(shape, request.rectangle, work.precision, info_)) {
+      const FunctionMap map = map_functions(request.plan, band);
       const std::uint64_t bytes = sums_bytes(band.tile_count, shape.channels, work.precision);
-      bands.push_back(
-          {band, memory.upload(lanes), memory.upload(tiles), memory.allocate(bytes, CL_MEM_READ_WRITE)});
+      bands.push_back({band, memory.upload(map.of_lane), memory.upload(map.of_tile),
+                       memory.allocate(bytes, CL_MEM_READ_WRITE)});
     }
     return bands;
   }
 
   // Σ_k v_k w_k of every pixel, slice by slice, chunk by chunk, band by band.
-  std::vector<ExposedBand> expose(const Work& work, const RenderPlan& plan, CaptureSource& source,
-                                  DeviceMemory& memory) {
-    std::vector<ExposedBand> bands = bands_of(work, plan, memory);
+  std::vector<ExposedBand> expose(const Work& work, const Request& request, DeviceMemory& memory,
+                                  RenderStatistics& statistics) {
+    const RenderPlan& plan = request.plan;
+    std::vector<ExposedBand> bands = bands_of(work, request, memory);
     if (plan.blocks.empty()) {
       for (const ExposedBand& exposed : bands) {  // 0 in every arithmetic
         const std::uint64_t bytes = exposed.sums.getInfo<CL_MEM_SIZE>();
@@ -250,14 +241,15 @@ class OpenClRenderer::Implementation {
     const cl::Buffer transfer = memory.upload(tables.light(light));
     const auto function_count = static_cast<cl_uint>(plan.function_count());
 
-    feed_->start(plan, slices, source);
+    feed_->start(plan, slices, request.source);
     const StoppedAtEnd stopped(*feed_);
     std::size_t block = 0;
     for (const TableSlice& slice : slices) {
       const DeviceMemory::Scope slice_scope(memory);
       const UploadedSlice uploaded = upload(tables.pack(slice), plan, slice, memory);
       while (block < slice.last_block) {
-        BlockFeed::Chunk chunk = next_chunk();
+        throw_if_cancelled(request.control);
+        BlockFeed::Chunk chunk = next_chunk(statistics);
         if (options_.last_block_first) std::reverse(chunk.entries.begin(), chunk.entries.end());
         const DeviceMemory::Scope chunk_scope(memory);
         memory.count(feed_->bytes());
@@ -268,13 +260,14 @@ class OpenClRenderer::Implementation {
               kernel(items(queue_, work.shape, band.tile_count), chunk.payload, entries,
                      static_cast<cl_uint>(chunk.entries.size()), uploaded.spans, uploaded.weights,
                      uploaded.boundaries, function_count, exposed.function_of_tile, exposed.function_of_lane,
-                     transfer, exposed.sums, band.first_tile, band.tile_count, block == 0 ? 1u : 0u);
+                     transfer, exposed.sums, band.first_tile, band.tile_count, band.columns,
+                     band.skipped_columns, block == 0 ? 1u : 0u);
           event.wait();
-          statistics_.expose_ms += milliseconds(event);
-          ++statistics_.launches;
+          statistics.expose_ms += milliseconds(event);
+          ++statistics.launches;
         }
-        statistics_.blocks += chunk.entries.size();
-        statistics_.payload_bytes += chunk.payload_bytes;
+        statistics.blocks += chunk.entries.size();
+        statistics.payload_bytes += chunk.payload_bytes;
         block += chunk.entries.size();
       }
     }
@@ -289,10 +282,10 @@ class OpenClRenderer::Implementation {
     return {memory.upload(tables.weights), memory.upload(tables.boundaries), memory.upload(spans)};
   }
 
-  BlockFeed::Chunk next_chunk() {
+  BlockFeed::Chunk next_chunk(RenderStatistics& statistics) {
     const auto start = std::chrono::steady_clock::now();
     BlockFeed::Chunk chunk = feed_->next();
-    statistics_.read_ms +=
+    statistics.read_ms +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return chunk;
   }
@@ -305,10 +298,7 @@ class OpenClRenderer::Implementation {
   std::unique_ptr<ProgramStore> programs_;
   bool announced_ = false;
   std::unique_ptr<BlockFeed> feed_;
-  RenderStatistics statistics_;
-  Saturation saturation_;
-  OutputFormat output_;     // of the last picture
-  PrecisionChoice choice_;  // likewise
+  std::mutex turn_;  // at the device: all that follows from a plan's choice of arithmetic on
 };
 
 OpenClRenderer::OpenClRenderer(const OpenClOptions& options) {
@@ -325,30 +315,16 @@ void OpenClRenderer::prepare(const RenderPlan& plan, const OutputFormat& output)
   implementation_->prepare(plan, output);
 }
 
-Picture OpenClRenderer::render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
-  return implementation_->render(plan, source, output);
-}
-
-void OpenClRenderer::set_precision(std::optional<Precision> precision) {
-  implementation_->set_precision(precision);
+Rendered OpenClRenderer::render_part(const RenderPlan& plan, CaptureSource& source,
+                                     const OutputFormat& output, const Rectangle& rectangle,
+                                     const RenderControl& control) {
+  return implementation_->render({plan, source, output, rectangle, control});
 }
 
 std::span<const Precision> OpenClRenderer::precisions() const { return implementation_->precisions(); }
 
-void OpenClRenderer::hold(const CaptureSource* source) { implementation_->hold(source); }
-
-Saturation OpenClRenderer::saturation() const { return implementation_->saturation(); }
+void OpenClRenderer::keep_resident(const CaptureSource* source) { implementation_->keep_resident(source); }
 
 std::string OpenClRenderer::name() const { return implementation_->name(); }
-
-std::string OpenClRenderer::precision() const { return implementation_->precision(); }
-
-std::string OpenClRenderer::report() const { return implementation_->report(); }
-
-std::string OpenClRenderer::warning() const { return implementation_->warning(); }
-
-const PrecisionChoice& OpenClRenderer::choice() const { return implementation_->choice(); }
-
-const RenderStatistics& OpenClRenderer::statistics() const { return implementation_->statistics(); }
 
 }  // namespace nutik

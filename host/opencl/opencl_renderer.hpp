@@ -10,7 +10,6 @@
 #include <string>
 
 #include "opencl/device.hpp"
-#include "render/precision_choice.hpp"
 #include "render/renderer.hpp"
 
 namespace nutik {
@@ -20,11 +19,12 @@ namespace nutik {
 
 struct OpenClOptions {
   std::size_t device = 0;              // index into list_devices()
-  std::optional<Precision> precision;  // none: the fastest that is right enough, chosen for each picture
+  std::optional<Precision> precision;  // none: the fastest that is right enough, chosen for each picture. A
+                                       // render may ask for another (RenderControl)
   std::filesystem::path cache_folder;  // of built kernels; empty: none
   std::function<void(const std::string& message)> announce;  // told what takes long; may be empty
 
-  // For blocks of captures, on the device or where it reads the host's memory: half of it for those of a held
+  // For blocks of captures, on the device or where it reads the host's memory: half of it for those of a resident
   // capture, half at most for those on their way. A block that is larger is taken all the same. 0: 4 GB. Never
   // more than half of the device's memory.
   std::uint64_t memory_bytes = 0;
@@ -40,44 +40,26 @@ struct OpenClOptions {
   bool last_block_first = false;       // within a chunk: sums of whole numbers do not depend on it
 };
 
-// What the last render did.
-struct RenderStatistics {
-  double read_ms = 0.0;    // waited for payloads to be where the kernel reads them: unpacking, copying
-  double expose_ms = 0.0;  // of the kernels, by the device's own clock
-  double develop_ms = 0.0;
-  std::uint64_t payload_bytes = 0;  // read by the kernel
-  std::uint64_t device_bytes = 0;   // largest sum of buffers at a time
-  std::uint64_t blocks = 0;
-  std::uint64_t launches = 0;  // of the kernel that exposes: a chunk of blocks in a band of the picture each
-};
-
+// Renders take turns at the device: any number of threads may ask. What they share is the device, its kernels and the
+// blocks of the resident capture.
 class OpenClRenderer final : public Renderer {
  public:
   // Throws DeviceError where the device is absent or cannot compute in the precision asked for.
   explicit OpenClRenderer(const OpenClOptions& options);
   ~OpenClRenderer() override;
 
-  // For the pictures that follow: what OpenClOptions::precision says for the first. Throws DeviceError where the
-  // device cannot compute in it.
-  void set_precision(std::optional<Precision> precision);
   // What the device has, the fastest first.
   [[nodiscard]] std::span<const Precision> precisions() const;
 
-  void hold(const CaptureSource* source) override;
+  void keep_resident(const CaptureSource* source) override;
   void prepare(const RenderPlan& plan, const OutputFormat& output) override;
-  [[nodiscard]] Picture render(const RenderPlan& plan, CaptureSource& source,
-                               const OutputFormat& output) override;
-  [[nodiscard]] Saturation saturation() const override;
   [[nodiscard]] std::string name() const override;
-  [[nodiscard]] std::string precision() const override;
-  [[nodiscard]] std::string report() const override;
-  [[nodiscard]] std::string warning() const override;
-  [[nodiscard]] const RenderStatistics& statistics() const;
-
-  // The arithmetic of the last render, its error bound, and what was not taken for it.
-  [[nodiscard]] const PrecisionChoice& choice() const;
 
  private:
+  [[nodiscard]] Rendered render_part(const RenderPlan& plan, CaptureSource& source,
+                                     const OutputFormat& output, const Rectangle& rectangle,
+                                     const RenderControl& control) override;
+
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };

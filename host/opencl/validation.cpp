@@ -50,35 +50,38 @@ Validation validate(const RenderPlan& plan, CaptureSource& capture, const Output
   validation.chosen = static_cast<std::size_t>(std::ranges::find(precisions, chosen) - precisions.begin());
 
   const Clock::time_point start = Clock::now();
-  const Picture expected = ReferenceRenderer().render(plan, capture, kLight);
+  const Picture expected = ReferenceRenderer().render(plan, capture, kLight).picture;
   validation.reference_ms = milliseconds_since(start);
   step();
 
-  renderer.hold(&capture);
+  renderer.keep_resident(&capture);
+  const auto render = [&](Precision precision, const OutputFormat& format) {
+    RenderControl control;
+    control.precision = precision;
+    return renderer.render(plan, capture, format, control);
+  };
   for (const Precision precision : precisions) {
-    renderer.set_precision(precision);
     ValidatedVariant& variant = validation.variants.emplace_back();
     variant.bound = error_bound(plan, precision, output);
-    variant.light = light_errors(plan, variant.bound, expected, renderer.render(plan, capture, kLight));
+    variant.light = light_errors(plan, variant.bound, expected, render(precision, kLight).picture);
     step();
-    variant.stored = stored_errors(plan, variant.bound, expected, renderer.render(plan, capture, output));
+    variant.stored = stored_errors(plan, variant.bound, expected, render(precision, output).picture);
     step();
   }
 
   std::vector<Times> times(precisions.size());
   for (std::uint32_t run = 0; run < runs; ++run) {
     for (std::size_t i = 0; i < precisions.size(); ++i) {
-      renderer.set_precision(precisions[i]);
       const Clock::time_point begin = Clock::now();
-      static_cast<void>(renderer.render(plan, capture, output));
+      const RenderStatistics took = render(precisions[i], output).statistics;
       times[i].render_ms.push_back(milliseconds_since(begin));
-      times[i].expose_ms.push_back(renderer.statistics().expose_ms);
-      times[i].develop_ms.push_back(renderer.statistics().develop_ms);
-      validation.variants[i].payload_bytes = renderer.statistics().payload_bytes;
+      times[i].expose_ms.push_back(took.expose_ms);
+      times[i].develop_ms.push_back(took.develop_ms);
+      validation.variants[i].payload_bytes = took.payload_bytes;
       step();
     }
   }
-  renderer.hold(nullptr);
+  renderer.keep_resident(nullptr);
   for (std::size_t i = 0; i < precisions.size(); ++i) {
     validation.variants[i].expose_ms = median(std::move(times[i].expose_ms));
     validation.variants[i].develop_ms = median(std::move(times[i].develop_ms));

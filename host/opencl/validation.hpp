@@ -2,7 +2,7 @@
 //
 //   in:      a plan, its capture, the picture's format, a device
 //   out:     for each arithmetic its bound, its errors against the reference, its times
-//   always:  the capture is held on the device and all kernels are built before anything is timed; timed renders take
+//   always:  the capture is resident on the device and all kernels are built before anything is timed; timed renders take
 //            turns, so that what else the machine does hits all arithmetics alike
 #pragma once
 
@@ -41,7 +41,7 @@ struct Validation {
 };
 
 // `runs` renders are timed in each arithmetic; at least 1. `progress` is told how many of `total` renders are done.
-// Holds the capture meanwhile; leaves the renderer with the last arithmetic set.
+// The capture is the renderer's resident one meanwhile; none is afterwards.
 [[nodiscard]] Validation validate(
     const RenderPlan& plan, CaptureSource& capture, const OutputFormat& output, OpenClRenderer& renderer,
     std::uint32_t runs, const std::function<void(std::uint64_t done, std::uint64_t total)>& progress);

@@ -10,7 +10,8 @@
 #include <cstdint>
 
 #include "capture/picture.hpp"
-#include "render/renderer.hpp"
+#include "render/output_format.hpp"
+#include "render/render_plan.hpp"
 
 namespace nutik {
 

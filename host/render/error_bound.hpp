@@ -14,8 +14,9 @@
 
 #include <vector>
 
+#include "render/output_format.hpp"
 #include "render/precision.hpp"
-#include "render/renderer.hpp"
+#include "render/render_plan.hpp"
 
 namespace nutik {
 

@@ -1,5 +1,7 @@
 #include "render/reference_renderer.hpp"
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "imev/block.hpp"
@@ -11,13 +13,15 @@
 namespace nutik {
 namespace {
 
+// Walks along the values of a rectangle, block by block.
 class Reference {
  public:
-  Reference(const RenderPlan& plan, const Timeline& timeline)
+  Reference(const RenderPlan& plan, const Timeline& timeline, const Rectangle& rectangle)
       : plan_(plan),
         timeline_(timeline),
+        rectangle_(rectangle),
         grid_(plan.capture.shape),
-        walks_(plan.capture.shape.value_count()) {
+        walks_(std::size_t{rectangle.width} * rectangle.height * plan.capture.shape.channels) {
     for (const PlannedFunction& planned : plan.functions) {
       gains_.emplace_back(planned.function.pieces(plan.duration_ns));
     }
@@ -28,32 +32,53 @@ class Reference {
     const WalkedBlock walked{times, follows_the_one_before, times.back().after_ns == plan_.duration_ns};
     std::vector<std::size_t> first_pieces;  // where each function's walk starts
     for (const GainWalk& gain : gains_) first_pieces.push_back(gain.piece_at(times.front().before_ns));
-    parallel_for(grid_.rows(), [&](std::uint64_t tile_row) {
+    const std::uint32_t first_row = rectangle_.y / kTileSide;
+    const std::uint32_t last_row = (rectangle_.y + rectangle_.height - 1) / kTileSide;
+    const std::uint32_t first_column = rectangle_.x / kTileSide;
+    const std::uint32_t last_column = (rectangle_.x + rectangle_.width - 1) / kTileSide;
+    parallel_for(last_row - first_row + 1, [&](std::uint64_t row) {
       std::vector<ChangeRecord> history;
-      for (std::uint32_t column = 0; column < grid_.columns(); ++column) {
-        const std::uint64_t tile = tile_row * grid_.columns() + column;
-        grid_.for_each_lane(tile, [&](std::uint32_t lane, std::uint64_t pixel) {
-          if (TileGrid::lane_of(static_cast<std::uint32_t>(pixel % plan_.capture.shape.width),
-                                static_cast<std::uint32_t>(pixel / plan_.capture.shape.width)) != lane) {
-            return;  // padding
-          }
-          block.read_history(tile, lane, history);
-          walk_pixel(pixel, history, walked, first_pieces[plan_.function_of_pixel[pixel]]);
-        });
+      for (std::uint32_t column = first_column; column <= last_column; ++column) {
+        for_each_pixel(column, static_cast<std::uint32_t>(first_row + row),
+                       [&](std::uint32_t x, std::uint32_t y, std::uint64_t pixel) {
+                         block.read_history(grid_.tile_of(x, y), TileGrid::lane_of(x, y), history);
+                         const std::size_t function = function_at(x, y);
+                         walk_pixel(pixel, history, walked, gains_[function], first_pieces[function]);
+                       });
       }
     });
   }
 
-  // Light of value i once all blocks were added.
+  // Light of value i of the rectangle once all blocks were added.
   [[nodiscard]] double light(std::uint64_t i) const {
-    return exposed_light(walks_[i].sum, gains_[plan_.function_of_pixel[i / plan_.capture.shape.channels]]);
+    const auto pixel = static_cast<std::uint32_t>(i / plan_.capture.shape.channels);
+    const std::size_t function =
+        function_at(rectangle_.x + pixel % rectangle_.width, rectangle_.y + pixel / rectangle_.width);
+    return exposed_light(walks_[i].sum, gains_[function]);
   }
 
  private:
+  [[nodiscard]] std::size_t function_at(std::uint32_t x, std::uint32_t y) const {
+    return plan_.function_of_pixel[std::uint64_t{y} * plan_.capture.shape.width + x];
+  }
+
+  // Calls visit(x, y, pixel of the rectangle) for the pixels that a tile shares with the rectangle.
+  template <typename Visit>
+  void for_each_pixel(std::uint32_t tile_column, std::uint32_t tile_row, Visit visit) const {
+    const std::uint32_t left = std::max(rectangle_.x, tile_column * kTileSide);
+    const std::uint32_t right = std::min(rectangle_.x + rectangle_.width, (tile_column + 1) * kTileSide);
+    const std::uint32_t top = std::max(rectangle_.y, tile_row * kTileSide);
+    const std::uint32_t bottom = std::min(rectangle_.y + rectangle_.height, (tile_row + 1) * kTileSide);
+    for (std::uint32_t y = top; y < bottom; ++y) {
+      for (std::uint32_t x = left; x < right; ++x) {
+        visit(x, y, std::uint64_t{y - rectangle_.y} * rectangle_.width + (x - rectangle_.x));
+      }
+    }
+  }
+
   void walk_pixel(std::uint64_t pixel, const std::vector<ChangeRecord>& history, const WalkedBlock& block,
-                  std::size_t first_piece) {
+                  const GainWalk& gain, std::size_t first_piece) {
     const std::uint32_t channels = plan_.capture.shape.channels;
-    const GainWalk& gain = gains_[plan_.function_of_pixel[pixel]];
     for (std::uint32_t channel = 0; channel < channels; ++channel) {
       const auto sample_of = [&](std::size_t r) { return history[r].sample; };
       const auto light_of = [&](std::size_t r) {
@@ -66,17 +91,21 @@ class Reference {
 
   const RenderPlan& plan_;
   const Timeline& timeline_;
+  Rectangle rectangle_;
   TileGrid grid_;
   std::vector<GainWalk> gains_;   // by planned function
-  std::vector<ValueWalk> walks_;  // by value
+  std::vector<ValueWalk> walks_;  // by value of the rectangle
 };
 
 }  // namespace
 
-Picture ReferenceRenderer::render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
-  Reference reference(plan, source.timeline());
+Rendered ReferenceRenderer::render_part(const RenderPlan& plan, CaptureSource& source,
+                                        const OutputFormat& output, const Rectangle& rectangle,
+                                        const RenderControl& control) {
+  Reference reference(plan, source.timeline(), rectangle);
   PageBuffer payload;
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
+    throw_if_cancelled(control);
     const PlannedBlock& planned = plan.blocks[b];
     const std::uint64_t bytes = source.prepare(planned.block);
     payload.reserve(bytes);
@@ -84,23 +113,27 @@ Picture ReferenceRenderer::render(const RenderPlan& plan, CaptureSource& source,
     const bool follows = b > 0 && plan.blocks[b - 1].block + 1 == planned.block;
     reference.add_block(planned, BlockView(plan.capture, planned.extent, payload.first(bytes)), follows);
   }
+  throw_if_cancelled(control);
 
-  saturation_ = {};
+  const Shape shape{rectangle.width, rectangle.height, plan.capture.shape.channels};
+  Rendered rendered;
   if (output.type == ValueType::light32) {
-    Picture picture(plan.capture.shape, output.type, output.white_code);
-    for (std::uint64_t i = 0; i < picture.shape.value_count(); ++i) {
-      picture.values<float>()[i] = static_cast<float>(reference.light(i));
+    rendered.picture = Picture(shape, output.type, output.white_code);
+    for (std::uint64_t i = 0; i < shape.value_count(); ++i) {
+      rendered.picture.values<float>()[i] = static_cast<float>(reference.light(i));
     }
-    return picture;
+    return rendered;
   }
-  Picture light(plan.capture.shape, ValueType::light64, output.white_code);
-  for (std::uint64_t i = 0; i < light.shape.value_count(); ++i) {
-    light.values<double>()[i] = reference.light(i);
+  Picture light(shape, ValueType::light64, output.white_code);
+  for (std::uint64_t i = 0; i < shape.value_count(); ++i) light.values<double>()[i] = reference.light(i);
+  if (output.type == ValueType::light64) {
+    rendered.picture = std::move(light);
+    return rendered;
   }
-  if (output.type == ValueType::light64) return light;
   const CodeScale scale(plan.capture.transfer, output);
-  saturation_ = count_saturated(light, scale);
-  return encoded(light, scale, output);
+  rendered.saturation = count_saturated(light, scale);
+  rendered.picture = encoded(light, scale, output);
+  return rendered;
 }
 
 }  // namespace nutik

@@ -10,14 +10,12 @@ namespace nutik {
 // evaluation code with the packed tables or the kernels: it reads the plan's functions, not its tables.
 class ReferenceRenderer final : public Renderer {
  public:
-  [[nodiscard]] Picture render(const RenderPlan& plan, CaptureSource& source,
-                               const OutputFormat& output) override;
-  [[nodiscard]] Saturation saturation() const override { return saturation_; }
   [[nodiscard]] std::string name() const override { return "scalar reference"; }
-  [[nodiscard]] std::string precision() const override { return "double"; }
 
  private:
-  Saturation saturation_;
+  [[nodiscard]] Rendered render_part(const RenderPlan& plan, CaptureSource& source,
+                                     const OutputFormat& output, const Rectangle& rectangle,
+                                     const RenderControl& control) override;
 };
 
 }  // namespace nutik

@@ -1,38 +1,50 @@
-// What every renderer offers: a plan and the capture it was made for in, a picture out.
+// What every renderer offers: a plan and the capture it was made for in, a picture and all that is to be said of it
+// out.
+//
+//   always:  what a render did comes back with its picture; a renderer remembers nothing of it
+//   threads: any number may ask one renderer at a time. Renders that share a device take turns
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <stop_token>
 #include <string>
+#include <vector>
 
 #include "capture/picture.hpp"
 #include "imev/capture_source.hpp"
+#include "render/output_format.hpp"
+#include "render/precision_choice.hpp"
 #include "render/render_plan.hpp"
 
 namespace nutik {
 
-// What codes say of light below 0. saturate: code 0; offset: light 0 has the middle code, each sign half of
-// the codes; absolute: as much light above 0.
-enum class NegativeLight { saturate, offset, absolute };
-
-// How a picture's values are to be stored. Codes are made with the capture's transfer function and
-// saturate at 0 and at the white code; light is kept as it is.
-struct OutputFormat {
-  ValueType type = ValueType::code8;
-  std::uint32_t white_code = 255;
-  NegativeLight negative = NegativeLight::saturate;  // of codes
+// What one render is asked for beside its picture.
+struct RenderControl {
+  std::stop_token stop;                // looked at between launches: render() throws Cancelled
+  std::optional<Rectangle> rectangle;  // only these pixels, which are the whole picture's; none: all
+  std::optional<Precision> precision;  // instead of what the renderer was made with
 };
 
-// How many pixels hold light that no code was left for (render/code_scale.hpp).
-struct Saturation {
-  std::uint64_t below = 0;
-  std::uint64_t above = 0;
+// What a render took.
+struct RenderStatistics {
+  double read_ms = 0.0;    // waited for payloads to be where the kernel reads them: unpacking, copying
+  double expose_ms = 0.0;  // of the kernels, by the device's own clock
+  double develop_ms = 0.0;
+  std::uint64_t payload_bytes = 0;  // read by the kernel
+  std::uint64_t device_bytes = 0;   // largest sum of buffers at a time
+  std::uint64_t blocks = 0;
+  std::uint64_t launches = 0;  // of the kernel that exposes: a chunk of blocks in a band of the picture each
+};
 
-  Saturation& operator+=(const Saturation& other) {
-    below += other.below;
-    above += other.above;
-    return *this;
-  }
-  friend bool operator==(const Saturation&, const Saturation&) = default;
+struct Rendered {
+  Picture picture;
+  Precision precision = Precision::double_;
+  Saturation saturation;  // none where light was kept
+  std::optional<PrecisionChoice>
+      choice;  // the arithmetic's bound and what was not taken; none of the reference
+  RenderStatistics statistics;
+  std::vector<std::string> warnings;  // what is doubtful about the picture, whole sentences
 };
 
 class Renderer {
@@ -40,32 +52,31 @@ class Renderer {
   virtual ~Renderer() = default;
 
   // Blocks of this capture stay where they are rendered from once they have been read, as far as memory
-  // allows, so that the next picture of it needs not read them again. Until another is held; null: none. The
+  // allows, so that the next picture of it needs not read them again. Until another is named; null: of none. The
   // capture must live that long. A renderer may do without.
-  virtual void hold(const CaptureSource* /*source*/) {}
+  virtual void keep_resident(const CaptureSource* /*source*/) {}
 
   // Does ahead what render() needs no capture for, kernels to load for example. May be left out.
   virtual void prepare(const RenderPlan& /*plan*/, const OutputFormat& /*output*/) {}
 
   // Exposes a picture. `source` is the capture that the plan was made for; its blocks are read in time
-  // order. Throws InputError for a damaged block, DeviceError where the device fails.
-  [[nodiscard]] virtual Picture render(const RenderPlan& plan, CaptureSource& source,
-                                       const OutputFormat& output) = 0;
-
-  // Of the last render; none where it kept light.
-  [[nodiscard]] virtual Saturation saturation() const = 0;
+  // order. Throws InputError for a damaged block, DeviceError where the device fails, UsageError for a rectangle
+  // that is empty or leaves the picture, Cancelled.
+  [[nodiscard]] Rendered render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output,
+                                const RenderControl& control = {});
 
   // What does the work, as a person would call it: a device's name, "scalar reference".
   [[nodiscard]] virtual std::string name() const = 0;
 
-  // The arithmetic of the last render, by the name that asks for it: `double`, `single`.
-  [[nodiscard]] virtual std::string precision() const = 0;
-
-  // What the last render did and took, in lines for a person; empty where there is nothing to say.
-  [[nodiscard]] virtual std::string report() const { return {}; }
-
-  // What is doubtful about the last picture, a whole sentence; empty where nothing is.
-  [[nodiscard]] virtual std::string warning() const { return {}; }
+ private:
+  // Renders a rectangle that lies within the picture.
+  [[nodiscard]] virtual Rendered render_part(const RenderPlan& plan, CaptureSource& source,
+                                             const OutputFormat& output, const Rectangle& rectangle,
+                                             const RenderControl& control) = 0;
 };
+
+inline void throw_if_cancelled(const RenderControl& control) {
+  if (control.stop.stop_requested()) throw Cancelled();
+}
 
 }  // namespace nutik

@@ -24,7 +24,8 @@ TEST(AllocationCuts, BandsTileAnyPicture) {
       const std::uint64_t row_bytes = sums_bytes(grid.columns(), shape.channels, precision);
       for (std::uint32_t rows = 1; rows <= grid.rows() + 1; ++rows) {
         const std::uint64_t limit = (rows + 1) * row_bytes - 1;
-        const std::vector<Band> bands = cut_picture(shape, precision, test::device_allocating(limit));
+        const std::vector<Band> bands =
+            cut_picture(shape, Rectangle::whole(shape), precision, test::device_allocating(limit));
         ASSERT_EQ(bands.size(), (grid.rows() + rows - 1) / rows) << limit;
         std::uint64_t tile = 0;
         std::uint32_t row = 0;
@@ -43,6 +44,34 @@ TEST(AllocationCuts, BandsTileAnyPicture) {
         EXPECT_EQ(tile, grid.tile_count());
         EXPECT_EQ(row, shape.height);
       }
+    }
+  }
+}
+
+// The tiles that a rectangle meets and no others, each once.
+TEST(AllocationCuts, BandsOfARectangleHoldItsTiles) {
+  const Shape shape{43, 77, 1};
+  const TileGrid grid(shape);
+  for (const Rectangle& rectangle : {Rectangle{0, 0, 43, 77}, Rectangle{42, 76, 1, 1}, Rectangle{7, 8, 2, 9},
+                                     Rectangle{8, 15, 24, 50}, Rectangle{0, 30, 43, 3}}) {
+    std::vector<std::uint64_t> wanted;
+    for (std::uint32_t y = rectangle.y; y < rectangle.y + rectangle.height; ++y) {
+      for (std::uint32_t x = rectangle.x; x < rectangle.x + rectangle.width; ++x) {
+        wanted.push_back(grid.tile_of(x, y));
+      }
+    }
+    std::ranges::sort(wanted);
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    for (const std::uint64_t limit : {6 * 64 * 4u, 3 * 6 * 64 * 4u, 1u << 20}) {
+      std::vector<std::uint64_t> tiles;
+      for (const Band& band :
+           cut_picture(shape, rectangle, Precision::single_, test::device_allocating(limit))) {
+        EXPECT_EQ(band.tile_count, TileGrid(band.shape).tile_count());
+        for (std::uint64_t tile = 0; tile < band.tile_count; ++tile) {
+          tiles.push_back(band.tile_in_picture(tile));
+        }
+      }
+      EXPECT_EQ(tiles, wanted) << limit;
     }
   }
 }

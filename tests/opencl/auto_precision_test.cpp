@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/reference_renderer.hpp"
+#include "render/rendering_report.hpp"
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
 
@@ -40,12 +41,12 @@ TEST(AutoPrecision, TakesSingleForOrdinaryExposuresOf8Bits) {
        {GainFunction::boxcar(0, 1'000'000'000), GainFunction::boxcar(100'000'000, 104'000'000),
         GainFunction({{0, 0.0}, {200'000'000, 1.0}, {300'000'000, -0.5}, {400'000'000, 0.0}})}) {
     const RenderPlan plan = make_plan(capture, {{0, function}}, Mask::uniform(24, 16, 0), {});
-    const Picture picture = renderer.render(plan, capture, {ValueType::code8, 255});
-    EXPECT_EQ(renderer.choice().precision(), Precision::single_)
-        << error_text(renderer.choice().bound.worst, {ValueType::code8, 255});
-    EXPECT_TRUE(renderer.warning().empty());
-    const Picture expected = ReferenceRenderer().render(plan, capture, {ValueType::code8, 255});
-    EXPECT_LE(worst_code_difference(picture, expected), 1);
+    const Rendered rendered = renderer.render(plan, capture, {ValueType::code8, 255});
+    EXPECT_EQ(rendered.precision, Precision::single_)
+        << error_text(rendered.choice->bound.worst, {ValueType::code8, 255});
+    EXPECT_TRUE(rendered.warnings.empty());
+    const Picture expected = ReferenceRenderer().render(plan, capture, {ValueType::code8, 255}).picture;
+    EXPECT_LE(worst_code_difference(rendered.picture, expected), 1);
   }
 }
 
@@ -55,16 +56,18 @@ TEST(AutoPrecision, TakesMoreWhereSingleIsWrong) {
   const RenderPlan plan = make_plan(capture, nearly_nothing_of(1e9), Mask::uniform(24, 16, 0), {});
   EXPECT_NEAR(plan.functions[0].summary.still_gain(), 1.0, 1e-6);
   const OutputFormat codes{ValueType::code8, 255};
-  const Picture expected = ReferenceRenderer().render(plan, capture, codes);
+  const Picture expected = ReferenceRenderer().render(plan, capture, codes).picture;
   OpenClRenderer chosen(test::renderer_options(std::nullopt));
   OpenClRenderer single(test::renderer_options(Precision::single_));
-  EXPECT_GT(worst_code_difference(single.render(plan, capture, codes), expected), 1);
-  EXPECT_LE(worst_code_difference(chosen.render(plan, capture, codes), expected), 1);
-  EXPECT_NE(chosen.choice().precision(), Precision::single_);
-  EXPECT_TRUE(chosen.choice().is_right_enough());
-  ASSERT_FALSE(chosen.choice().rejected.empty());
-  EXPECT_EQ(chosen.choice().rejected.front().precision, Precision::single_);
-  EXPECT_NE(chosen.report().find("not single: only light within"), std::string::npos) << chosen.report();
+  EXPECT_GT(worst_code_difference(single.render(plan, capture, codes).picture, expected), 1);
+  const Rendered rendered = chosen.render(plan, capture, codes);
+  EXPECT_LE(worst_code_difference(rendered.picture, expected), 1);
+  EXPECT_NE(rendered.precision, Precision::single_);
+  EXPECT_TRUE(rendered.choice->is_right_enough());
+  ASSERT_FALSE(rendered.choice->rejected.empty());
+  EXPECT_EQ(rendered.choice->rejected.front().precision, Precision::single_);
+  const std::string report = rendering_report(rendered, codes);
+  EXPECT_NE(report.find("not single: only light within"), std::string::npos) << report;
 }
 
 // What costs more than the format can show is left out; what a finer format shows is not.
@@ -84,12 +87,13 @@ TEST(AutoPrecision, SaysWhereNoArithmeticIsRightEnough) {
   MemoryCapture capture = clip();
   const RenderPlan plan = make_plan(capture, nearly_nothing_of(1e15), Mask::uniform(24, 16, 0), {});
   OpenClRenderer renderer(test::renderer_options(std::nullopt));
-  static_cast<void>(renderer.render(plan, capture, {ValueType::code8, 255}));
-  EXPECT_FALSE(renderer.choice().is_right_enough());
-  for (const ErrorBound& bound : renderer.choice().rejected) {
-    EXPECT_LE(renderer.choice().bound.worst.steps, bound.worst.steps) << to_text(bound.precision);
+  const Rendered rendered = renderer.render(plan, capture, {ValueType::code8, 255});
+  EXPECT_FALSE(rendered.choice->is_right_enough());
+  for (const ErrorBound& bound : rendered.choice->rejected) {
+    EXPECT_LE(rendered.choice->bound.worst.steps, bound.worst.steps) << to_text(bound.precision);
   }
-  EXPECT_NE(renderer.warning().find("is the closest"), std::string::npos) << renderer.warning();
+  ASSERT_EQ(rendered.warnings.size(), 1u);
+  EXPECT_NE(rendered.warnings.front().find("is the closest"), std::string::npos) << rendered.warnings.front();
 }
 
 }  // namespace

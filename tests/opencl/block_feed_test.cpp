@@ -63,15 +63,15 @@ struct Scene {
 constexpr OutputFormat kLight{ValueType::light64, 0};
 
 std::vector<std::byte> render(OpenClRenderer& renderer, const RenderPlan& plan, CaptureSource& source) {
-  return renderer.render(plan, source, kLight).bytes;
+  return renderer.render(plan, source, kLight).picture.bytes;
 }
 
-TEST(BlockFeed, ReadsBlocksOfAHeldCaptureOnce) {
+TEST(BlockFeed, ReadsBlocksOfAResidentCaptureOnce) {
   Scene scene;
   CountingCapture counted(*scene.capture);
   OpenClRenderer plain(test::renderer_options(Precision::double_));
   OpenClRenderer holding(test::renderer_options(Precision::double_));
-  holding.hold(&counted);
+  holding.keep_resident(&counted);
   const auto expect_same = [&](std::int64_t first, std::int64_t last, std::uint64_t reads) {
     const RenderPlan plan = scene.plan(first, last);
     const std::uint64_t before = counted.reads;
@@ -84,14 +84,14 @@ TEST(BlockFeed, ReadsBlocksOfAHeldCaptureOnce) {
   expect_same(20, 72, 13 - 5);  // 5 … 17
   expect_same(0, 90, 23 - 13);
   expect_same(0, 90, 0);
-  holding.hold(&counted);
+  holding.keep_resident(&counted);
   expect_same(0, 90, 23);
-  holding.hold(nullptr);
+  holding.keep_resident(nullptr);
   expect_same(0, 90, 23);
   expect_same(0, 90, 23);
 }
 
-TEST(BlockFeed, HoldsNoMoreThanItsMemory) {
+TEST(BlockFeed, KeepsNoMoreThanItsMemory) {
   Scene scene;
   CountingCapture counted(*scene.capture);
   const RenderPlan plan = scene.plan(0, 90);
@@ -106,9 +106,10 @@ TEST(BlockFeed, HoldsNoMoreThanItsMemory) {
     options.chunk_bytes = 1;  // a block each
     options.memory_bytes = std::max<std::uint64_t>(2 * held_blocks * (block_bytes + 64), 1);
     OpenClRenderer renderer(options);
-    renderer.hold(&counted);
-    EXPECT_EQ(render(renderer, plan, counted), expected);
-    EXPECT_EQ(renderer.statistics().launches, 23u);
+    renderer.keep_resident(&counted);
+    const Rendered rendered = renderer.render(plan, counted, kLight);
+    EXPECT_EQ(rendered.picture.bytes, expected);
+    EXPECT_EQ(rendered.statistics.launches, 23u);
     const std::uint64_t before = counted.reads;
     EXPECT_EQ(render(renderer, plan, counted), expected);
     EXPECT_LE(counted.reads - before, 23 - held_blocks);
@@ -126,10 +127,11 @@ TEST(BlockFeed, ReadsInChunksOfAnySize) {
     OpenClOptions options = test::renderer_options(Precision::double_);
     options.chunk_bytes = chunk_bytes;
     OpenClRenderer renderer(options);
-    EXPECT_EQ(render(renderer, plan, *scene.capture), expected) << chunk_bytes;
-    EXPECT_LT(renderer.statistics().launches, launches) << chunk_bytes;
-    launches = renderer.statistics().launches;
-    EXPECT_EQ(renderer.statistics().blocks, plan.blocks.size());
+    const Rendered rendered = renderer.render(plan, *scene.capture, kLight);
+    EXPECT_EQ(rendered.picture.bytes, expected) << chunk_bytes;
+    EXPECT_LT(rendered.statistics.launches, launches) << chunk_bytes;
+    launches = rendered.statistics.launches;
+    EXPECT_EQ(rendered.statistics.blocks, plan.blocks.size());
   }
   EXPECT_EQ(launches, 1u);
 }
@@ -144,7 +146,7 @@ TEST(BlockFeed, RecoversFromADamagedBlock) {
     options.chunk_bytes = 1;
     OpenClRenderer renderer(options);
     for (const std::uint64_t damaged : {0u, 1u, 7u, 22u}) {
-      if (holds) renderer.hold(&counted);
+      if (holds) renderer.keep_resident(&counted);
       counted.damaged = damaged;
       EXPECT_THROW(static_cast<void>(render(renderer, scene.plan(0, 90), counted)), InputError) << damaged;
       counted.damaged = ~std::uint64_t{0};

@@ -34,9 +34,13 @@ struct Layout {
   [[nodiscard]] RenderPlan plan() const {
     return make_plan(hard.open(block_samples, policy), hard.functions, hard.mask, {});
   }
-  [[nodiscard]] Picture render(Renderer& renderer, const RenderPlan& plan, const OutputFormat& output) const {
+  [[nodiscard]] Rendered rendered(Renderer& renderer, const RenderPlan& plan,
+                                  const OutputFormat& output) const {
     StreamingCapture capture = hard.open(block_samples, policy);
     return renderer.render(plan, capture, output);
+  }
+  [[nodiscard]] Picture render(Renderer& renderer, const RenderPlan& plan, const OutputFormat& output) const {
+    return rendered(renderer, plan, output).picture;
   }
 };
 
@@ -63,11 +67,12 @@ TEST_P(HardCases, AreRightInTheArithmeticThatIsChosen) {
   const RenderPlan plan = layout.plan();
   const OutputFormat output = test::codes_like(plan.capture);
   OpenClRenderer renderer(test::renderer_options({}));
-  const Picture codes = layout.render(renderer, plan, output);
-  const PrecisionChoice& choice = renderer.choice();
+  const Rendered rendered = layout.rendered(renderer, plan, output);
+  const Picture& codes = rendered.picture;
+  const PrecisionChoice& choice = *rendered.choice;
   std::printf("%s, within %.3g codes\n", to_text(choice.precision()).c_str(), choice.bound.worst.steps);
   if (!choice.is_right_enough()) {
-    EXPECT_FALSE(renderer.warning().empty());
+    EXPECT_FALSE(rendered.warnings.empty());
     return;
   }
   ReferenceRenderer reference;
@@ -132,14 +137,15 @@ TEST(LargerThanAnAllocation, IsCutIntoBands) {
   for (const Precision precision : precisions_of(list_devices().front())) {
     OpenClOptions options = test::renderer_options(precision);
     options.allocation_bytes = 5000;
-    const std::uint64_t bands =
-        cut_picture(plan.capture.shape, precision, test::device_allocating(options.allocation_bytes)).size();
+    const std::uint64_t bands = cut_picture(plan.capture.shape, Rectangle::whole(plan.capture.shape),
+                                            precision, test::device_allocating(options.allocation_bytes))
+                                    .size();
     EXPECT_GE(bands, 2u) << to_text(precision);
     OpenClRenderer small(options), plain(test::renderer_options(precision));
     const OutputFormat codes = test::codes_like(plan.capture);
-    EXPECT_EQ(layout.render(small, plan, codes).bytes, layout.render(plain, plan, codes).bytes)
-        << to_text(precision);
-    EXPECT_EQ(small.statistics().launches, bands) << to_text(precision);
+    const Rendered cut = layout.rendered(small, plan, codes);
+    EXPECT_EQ(cut.picture.bytes, layout.render(plain, plan, codes).bytes) << to_text(precision);
+    EXPECT_EQ(cut.statistics.launches, bands) << to_text(precision);
   }
 }
 

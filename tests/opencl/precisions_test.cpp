@@ -25,7 +25,7 @@ class Precisions : public testing::Test {
     check.check(
         plan,
         [&](Renderer& renderer, const OutputFormat& output) {
-          return renderer.render(plan, capture, output);
+          return renderer.render(plan, capture, output).picture;
         },
         what, rerun);
   }
@@ -129,8 +129,9 @@ TEST_F(Precisions, BoundOfSingleIsUseful) {
     }
     if (points[1].time_ns == 0) points.resize(1);  // a timeline of some nanoseconds
     const RenderPlan plan = make_plan(capture, {{0, GainFunction(points)}}, Mask::uniform(16, 16, 0), {});
-    const Picture light = check_.of(Precision::single_).render(plan, capture, {ValueType::light64, 0});
-    const Picture expected = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
+    const Picture light =
+        check_.of(Precision::single_).render(plan, capture, {ValueType::light64, 0}).picture;
+    const Picture expected = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
     shares.push_back(test::share_of_bound(plan, Precision::single_, light, expected).worst);
     ASSERT_LE(shares.back(), 1.0) << samples << " samples, case " << i;
   }
@@ -178,8 +179,8 @@ TEST(FixedPoint, GivesTheSameBytesHoweverTheWorkIsCut) {
                                                   {300u, TilePolicy::records}}) {
         MemoryCapture capture(format, timeline, rasters, block_samples, policy);
         const RenderPlan plan = make_plan(capture, functions, mask, {});
-        const Picture codes = renderer.render(plan, capture, {ValueType::code8, 255});
-        const Picture light = renderer.render(plan, capture, {ValueType::light64, 0});
+        const Picture codes = renderer.render(plan, capture, {ValueType::code8, 255}).picture;
+        const Picture light = renderer.render(plan, capture, {ValueType::light64, 0}).picture;
         if (combinations++ == 0) {
           first_codes = codes;
           first_light = light;

@@ -43,8 +43,8 @@ TEST(OpenClRenderer, DoesNotDependOnHowTheWorkIsCut) {
       MemoryCapture capture = random.encode();
       const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
       const Difference difference = test::share_of_bound(
-          plan, Precision::double_, renderer.render(plan, capture, {ValueType::light64, 0}),
-          reference.render(plan, capture, {ValueType::light64, 0}));
+          plan, Precision::double_, renderer.render(plan, capture, {ValueType::light64, 0}).picture,
+          reference.render(plan, capture, {ValueType::light64, 0}).picture);
       ASSERT_LE(difference.worst, 1.0)
           << random.text() << ", " << cut.item_pixels << " pixels of " << cut.item_tiles
           << " tiles an item in " << cut.lanes << " lanes, value " << difference.value;
@@ -59,14 +59,14 @@ TEST(OpenClRenderer, DoesNotDependOnTilesOrBlocks) {
     const RandomCase random(seed);
     MemoryCapture plain = random.encode(64, TilePolicy::dense);
     const RenderPlan plan = make_plan(plain, random.functions, random.mask, {});
-    const Picture expected = renderer.render(plan, plain, {ValueType::light64, 0});
+    const Picture expected = renderer.render(plan, plain, {ValueType::light64, 0}).picture;
     for (const std::uint32_t block_samples : {1u, 2u, 64u, 1000u}) {
       for (const TilePolicy policy :
            {TilePolicy::automatic, TilePolicy::dense, TilePolicy::rows, TilePolicy::records}) {
         MemoryCapture capture = random.encode(block_samples, policy);
         const RenderPlan other = make_plan(capture, random.functions, random.mask, {});
-        const Difference difference =
-            test::difference_of(plan, renderer.render(other, capture, {ValueType::light64, 0}), expected);
+        const Difference difference = test::difference_of(
+            plan, renderer.render(other, capture, {ValueType::light64, 0}).picture, expected);
         ASSERT_LE(difference.worst, test::kDoubleAgainstReference)
             << random.text() << ", blocks of " << block_samples << ", tiles " << to_text(policy);
       }
@@ -96,8 +96,8 @@ TEST(OpenClRenderer, ReadsBlocksOfAnyLength) {
       }
       const RenderPlan plan = make_plan(capture, functions, mask, {});
       const Difference difference = test::share_of_bound(
-          plan, Precision::double_, renderer.render(plan, capture, {ValueType::light64, 0}),
-          reference.render(plan, capture, {ValueType::light64, 0}));
+          plan, Precision::double_, renderer.render(plan, capture, {ValueType::light64, 0}).picture,
+          reference.render(plan, capture, {ValueType::light64, 0}).picture);
       ASSERT_LE(difference.worst, 1.0)
           << "blocks of " << block_samples << ", tiles " << to_text(policy) << ", value " << difference.value;
     }
@@ -111,9 +111,9 @@ TEST(OpenClRenderer, NothingLiveIsBlack) {
   const Mask mask = Mask::uniform(random.capture.shape.width, random.capture.shape.height, 0);
   const RenderPlan plan = make_plan(capture, zero, mask, {});
   OpenClRenderer renderer(test::renderer_options(Precision::double_));
-  const Picture picture = renderer.render(plan, capture, {ValueType::code8, 255});
-  for (const std::uint8_t code : picture.values<std::uint8_t>()) ASSERT_EQ(code, 0);
-  EXPECT_EQ(renderer.statistics().launches, 0u);
+  const Rendered rendered = renderer.render(plan, capture, {ValueType::code8, 255});
+  for (const std::uint8_t code : rendered.picture.values<std::uint8_t>()) ASSERT_EQ(code, 0);
+  EXPECT_EQ(rendered.statistics.launches, 0u);
 }
 
 TEST(OpenClRenderer, ReadsOnlyTheBlocksOfThePlan) {
@@ -124,11 +124,11 @@ TEST(OpenClRenderer, ReadsOnlyTheBlocksOfThePlan) {
   const FunctionSet functions{{0, GainFunction::boxcar(250'000'000, 260'000'000)}};
   const RenderPlan plan = make_plan(capture, functions, Mask::uniform(16, 16, 0), {});
   OpenClRenderer renderer(test::renderer_options(Precision::double_));
-  const Picture picture = renderer.render(plan, capture, {ValueType::code8, 255});
-  EXPECT_EQ(renderer.statistics().blocks, 1u);
-  EXPECT_EQ(renderer.statistics().payload_bytes,
+  const Rendered rendered = renderer.render(plan, capture, {ValueType::code8, 255});
+  EXPECT_EQ(rendered.statistics.blocks, 1u);
+  EXPECT_EQ(rendered.statistics.payload_bytes,
             64u + 4 * 64u);  // a directory and four still tiles
-  EXPECT_EQ(picture.values<std::uint8_t>()[0], 90);
+  EXPECT_EQ(rendered.picture.values<std::uint8_t>()[0], 90);
 }
 
 }  // namespace

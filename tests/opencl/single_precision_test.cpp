@@ -58,7 +58,7 @@ TEST(SinglePrecision, TurnsEveryCodeIntoItsLight) {
     for (const Transfer& transfer : {Transfer::srgb(), Transfer::bt709()}) {
       for (const auto& [bytes, white] : {std::pair{1u, 255u}, {2u, 1023u}, {2u, 4095u}, {2u, 65'535u}}) {
         EveryCode every({1, bytes, white, transfer});
-        const Picture light = renderer.render(every.plan, every.capture, {ValueType::light64, 0});
+        const Picture light = renderer.render(every.plan, every.capture, {ValueType::light64, 0}).picture;
         const std::vector<double> exact = transfer.light_of_codes(white);
         double worst = 0.0;
         for (std::uint32_t code = 0; code <= white; ++code) {
@@ -82,7 +82,7 @@ TEST(SinglePrecision, GivesEveryCodeBack) {
         CodeFormat{1, 1, 255, Transfer::gamma(2.2)}}) {
     EveryCode every(codes);
     const ValueType type = codes.code_bytes == 1 ? ValueType::code8 : ValueType::code16;
-    const Picture picture = renderer.render(every.plan, every.capture, {type, codes.white_code});
+    const Picture picture = renderer.render(every.plan, every.capture, {type, codes.white_code}).picture;
     for (std::uint32_t code = 0; code <= codes.white_code; ++code) {
       ASSERT_EQ(test::code_at(every.format, picture.bytes, code), code)
           << codes.transfer.text() << ", white " << codes.white_code;
@@ -110,9 +110,9 @@ TEST(SinglePrecision, StaysWithinItsBoundOfTheReference) {
         MemoryCapture capture = random.encode(block_samples, policy);
         const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
         if (policy == TilePolicy::dense) {
-          expected = reference.render(plan, capture, {ValueType::light64, 0});
+          expected = reference.render(plan, capture, {ValueType::light64, 0}).picture;
         }
-        const Picture light = renderer.render(plan, capture, {ValueType::light64, 0});
+        const Picture light = renderer.render(plan, capture, {ValueType::light64, 0}).picture;
         const Difference difference = test::difference_of(plan, light, expected);
         const Difference share = test::share_of_bound(plan, Precision::single_, light, expected);
         ASSERT_LE(share.worst, 1.0) << random.text() << ", here in blocks of " << block_samples << ", tiles "

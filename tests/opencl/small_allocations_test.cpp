@@ -87,7 +87,10 @@ std::uint64_t smallest_allocation(const RenderPlan& plan, MemoryCapture& capture
 
 struct Pictures {
   std::vector<std::byte> codes, light;
-  friend bool operator==(const Pictures&, const Pictures&) = default;
+  RenderStatistics statistics;  // of light
+  friend bool operator==(const Pictures& a, const Pictures& b) {
+    return a.codes == b.codes && a.light == b.light;
+  }
 };
 
 class SmallAllocations : public testing::TestWithParam<Precision> {
@@ -106,8 +109,9 @@ class SmallAllocations : public testing::TestWithParam<Precision> {
   static Pictures render(OpenClRenderer& renderer, const RenderPlan& plan, CaptureSource& source) {
     const OutputFormat codes{plan.capture.code_bytes == 1 ? ValueType::code8 : ValueType::code16,
                              plan.capture.white_code};
-    return {renderer.render(plan, source, codes).bytes,
-            renderer.render(plan, source, {ValueType::light64, 0}).bytes};
+    std::vector<std::byte> of_codes = renderer.render(plan, source, codes).picture.bytes;
+    Rendered light = renderer.render(plan, source, {ValueType::light64, 0});
+    return {std::move(of_codes), std::move(light.picture.bytes), light.statistics};
   }
 };
 
@@ -145,22 +149,23 @@ TEST_P(SmallAllocations, GiveTheSamePictures) {
     const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
     OpenClRenderer plain(options());
     const Pictures expected = render(plain, plan, capture);
-    EXPECT_EQ(plain.statistics().launches, 1u);
+    EXPECT_EQ(expected.statistics.launches, 1u);
     const RenderPlan other = make_plan(capture, scene.functions, Mask::uniform(45, 123, 2), {});
     const Pictures others = render(plain, other, capture);
     const std::uint64_t smallest = smallest_allocation(plan, capture, GetParam());
     for (const std::uint64_t limit : {smallest, smallest * 5 / 4, smallest * 3 / 2, smallest * 3}) {
-      const std::uint64_t bands =
-          cut_picture(plan.capture.shape, GetParam(), test::device_allocating(limit)).size();
+      const std::uint64_t bands = cut_picture(plan.capture.shape, Rectangle::whole(plan.capture.shape),
+                                              GetParam(), test::device_allocating(limit))
+                                      .size();
       const std::uint64_t slices = cut_tables(plan, GetParam(), test::device_allocating(limit)).size();
       const std::string what = nutik::format("{}, blocks of {}, {} bytes at a time, {} bands, {} slices",
                                              to_text(policy), block_samples, limit, bands, slices);
       SCOPED_TRACE(what);
-      const auto check_launches = [&](const OpenClRenderer& renderer) {
-        const std::uint64_t launches = renderer.statistics().launches;
+      const auto check = [&](const RenderStatistics& took) {
+        const std::uint64_t launches = took.launches;
         EXPECT_EQ(launches % bands, 0u);
         EXPECT_GE(launches / bands, slices);
-        EXPECT_EQ(renderer.statistics().blocks, plan.blocks.size());
+        EXPECT_EQ(took.blocks, plan.blocks.size());
         if (limit == smallest) {
           EXPECT_GE(bands, 2u);
           EXPECT_GE(slices, 2u);
@@ -168,24 +173,26 @@ TEST_P(SmallAllocations, GiveTheSamePictures) {
         }
       };
       OpenClRenderer renderer(options(limit));
-      EXPECT_TRUE(render(renderer, plan, capture) == expected);
-      check_launches(renderer);
-      EXPECT_TRUE(render(renderer, plan, file) == expected) << "mapped";
-      check_launches(renderer);
+      const auto expect_same = [&](CaptureSource& source, const char* how) {
+        const Pictures pictures = render(renderer, plan, source);
+        EXPECT_TRUE(pictures == expected) << how;
+        check(pictures.statistics);
+      };
+      expect_same(capture, "read");
+      expect_same(file, "mapped");
       for (const bool codes : {false, true}) {
         StreamingCapture stream(scene.format, scene.timeline, {0, Scene::kSamples}, block_samples, policy,
                                 test::RasterStream(scene.rasters));
         const OutputFormat output =
             codes ? OutputFormat{ValueType::code8, 255} : OutputFormat{ValueType::light64, 0};
-        EXPECT_TRUE(renderer.render(plan, stream, output).bytes == (codes ? expected.codes : expected.light))
-            << "streamed";
-        check_launches(renderer);
+        const Rendered rendered = renderer.render(plan, stream, output);
+        EXPECT_TRUE(rendered.picture.bytes == (codes ? expected.codes : expected.light)) << "streamed";
+        check(rendered.statistics);
       }
-      renderer.hold(&capture);
-      EXPECT_TRUE(render(renderer, plan, capture) == expected) << "held";
-      EXPECT_TRUE(render(renderer, plan, capture) == expected) << "held before";
-      check_launches(renderer);
-      EXPECT_TRUE(render(renderer, other, capture) == others) << "held, and other slices";
+      renderer.keep_resident(&capture);
+      expect_same(capture, "kept");
+      expect_same(capture, "kept before");
+      EXPECT_TRUE(render(renderer, other, capture) == others) << "kept, and other slices";
     }
   }
 }
@@ -196,8 +203,9 @@ TEST_P(SmallAllocations, GiveTheSamePicturesHoweverItemsAreCut) {
   MemoryCapture capture = scene.encode(3, TilePolicy::automatic);
   const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
   const std::uint64_t limit = smallest_allocation(plan, capture, GetParam());
-  const std::uint64_t bands =
-      cut_picture(plan.capture.shape, GetParam(), test::device_allocating(limit)).size();
+  const std::uint64_t bands = cut_picture(plan.capture.shape, Rectangle::whole(plan.capture.shape),
+                                          GetParam(), test::device_allocating(limit))
+                                  .size();
   ASSERT_GE(bands, 2u);
   struct Items {
     std::uint32_t pixels, tiles, lanes, group;
@@ -211,9 +219,10 @@ TEST_P(SmallAllocations, GiveTheSamePicturesHoweverItemsAreCut) {
       each->group_items = items.group;
     }
     OpenClRenderer plain(whole), renderer(cut);
-    EXPECT_TRUE(render(renderer, plan, capture) == render(plain, plan, capture)) << items.pixels;
-    EXPECT_EQ(plain.statistics().launches, 1u);
-    EXPECT_GT(renderer.statistics().launches, bands);
+    const Pictures in_parts = render(renderer, plan, capture), at_once = render(plain, plan, capture);
+    EXPECT_TRUE(in_parts == at_once) << items.pixels;
+    EXPECT_EQ(at_once.statistics.launches, 1u);
+    EXPECT_GT(in_parts.statistics.launches, bands);
   }
 }
 
@@ -228,12 +237,14 @@ TEST(SmallAllocationsOfWholeNumbers, GiveTheSamePicturesFromTheLastBlock) {
   options.allocation_bytes = 2 * smallest_allocation(plan, capture, Precision::fixed);
   OpenClRenderer renderer(options);
   const OutputFormat light{ValueType::light64, 0};
-  EXPECT_TRUE(renderer.render(plan, capture, light).bytes == plain.render(plan, capture, light).bytes);
+  const Rendered rendered = renderer.render(plan, capture, light);
+  EXPECT_TRUE(rendered.picture.bytes == plain.render(plan, capture, light).picture.bytes);
   const DeviceInfo device = test::device_allocating(options.allocation_bytes);
-  const std::uint64_t bands = cut_picture(plan.capture.shape, Precision::fixed, device).size();
+  const std::uint64_t bands =
+      cut_picture(plan.capture.shape, Rectangle::whole(plan.capture.shape), Precision::fixed, device).size();
   EXPECT_GE(bands, 2u);
-  EXPECT_GT(renderer.statistics().launches, bands);
-  EXPECT_LT(renderer.statistics().launches, bands * plan.blocks.size());  // chunks of several blocks
+  EXPECT_GT(rendered.statistics.launches, bands);
+  EXPECT_LT(rendered.statistics.launches, bands * plan.blocks.size());  // chunks of several blocks
 }
 
 // Saturation is counted, and a picture in which nothing is live is black, over all bands.
@@ -244,16 +255,17 @@ TEST_P(SmallAllocations, CountAndFillAllBands) {
   OpenClRenderer plain(options());
   OpenClRenderer renderer(options(smallest_allocation(plan, capture, GetParam())));
   const OutputFormat codes{ValueType::code8, 255};
-  const Picture expected = plain.render(plan, capture, codes);
-  EXPECT_TRUE(renderer.render(plan, capture, codes).bytes == expected.bytes);
-  EXPECT_NE(plain.saturation(), Saturation{});
-  EXPECT_EQ(renderer.saturation(), plain.saturation());
+  const Rendered expected = plain.render(plan, capture, codes);
+  const Rendered rendered = renderer.render(plan, capture, codes);
+  EXPECT_TRUE(rendered.picture.bytes == expected.picture.bytes);
+  EXPECT_NE(expected.saturation, Saturation{});
+  EXPECT_EQ(rendered.saturation, expected.saturation);
 
   const FunctionSet zero{{0, GainFunction({{0, 0.0}})}};
   const RenderPlan dark = make_plan(capture, zero, Mask::uniform(45, 123, 0), {});
-  const Picture black = renderer.render(dark, capture, codes);
-  EXPECT_TRUE(std::ranges::all_of(black.bytes, [](std::byte code) { return code == std::byte{0}; }));
-  EXPECT_EQ(renderer.statistics().launches, 0u);
+  const Rendered black = renderer.render(dark, capture, codes);
+  EXPECT_TRUE(std::ranges::all_of(black.picture.bytes, [](std::byte code) { return code == std::byte{0}; }));
+  EXPECT_EQ(black.statistics.launches, 0u);
 }
 
 // A row of tiles is the least that is computed at a time, a block's tables and its payload the least that is uploaded.

@@ -32,14 +32,14 @@ TEST(Validation, FiguresAreThoseOfASecondComputation) {
   EXPECT_EQ(validation.variants[validation.chosen].precision(),
             choose_precision(plan, output, renderer.precisions()).precision());
 
-  const Picture expected = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
-  const Picture expected_codes = ReferenceRenderer().render(plan, capture, output);
+  const Picture expected = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
+  const Picture expected_codes = ReferenceRenderer().render(plan, capture, output).picture;
   std::uint64_t payload_bytes = 0;
   for (const PlannedBlock& block : plan.blocks) payload_bytes += capture.prepare(block.block);
   for (const ValidatedVariant& variant : validation.variants) {
     SCOPED_TRACE(to_text(variant.precision()));
     OpenClRenderer own(test::renderer_options(variant.precision()));
-    const Picture light = own.render(plan, capture, {ValueType::light64, 0});
+    const Picture light = own.render(plan, capture, {ValueType::light64, 0}).picture;
     long double squares = 0;
     double worst = 0;
     for (std::uint64_t i = 0; i < light.shape.value_count(); ++i) {
@@ -53,7 +53,7 @@ TEST(Validation, FiguresAreThoseOfASecondComputation) {
                 1e-9 * worst);
     EXPECT_EQ(variant.light.share_of_bound,
               test::share_of_bound(plan, variant.precision(), light, expected).worst);
-    const Picture codes = own.render(plan, capture, output);
+    const Picture codes = own.render(plan, capture, output).picture;
     std::uint64_t differing = 0;
     for (std::size_t i = 0; i < codes.bytes.size(); ++i)
       differing += codes.bytes[i] != expected_codes.bytes[i];

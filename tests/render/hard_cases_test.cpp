@@ -38,7 +38,7 @@ TEST_P(ReferenceOnHardCases, StaysWithinAFewUlpOfExactArithmetic) {
   const auto render = [&](OutputFormat output) {
     StreamingCapture capture = hard.open();
     const RenderPlan plan = make_plan(capture, hard.functions, hard.mask, {});
-    return ReferenceRenderer().render(plan, capture, output);
+    return ReferenceRenderer().render(plan, capture, output).picture;
   };
   const StreamingCapture capture = hard.open();
   const RenderPlan plan = make_plan(capture, hard.functions, hard.mask, {});

@@ -122,12 +122,12 @@ TEST_F(PictureErrors, TheReferenceAgreesWithItself) {
     SCOPED_TRACE(random.text());
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-    const Picture expected = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
+    const Picture expected = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
     for (const OutputFormat& output :
          {OutputFormat{ValueType::code8, 255}, OutputFormat{ValueType::code16, 65'535},
           OutputFormat{ValueType::light32, 0}, OutputFormat{ValueType::light64, 0}}) {
       const ErrorBound none = error_bound(plan, Precision::double_, output);
-      const Picture picture = ReferenceRenderer().render(plan, capture, output);
+      const Picture picture = ReferenceRenderer().render(plan, capture, output).picture;
       EXPECT_EQ(stored_errors(plan, none, expected, picture).differing, 0u);
     }
   }

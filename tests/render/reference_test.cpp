@@ -23,7 +23,7 @@ TEST(Reference, StaysWithinAFewUlpOfExactArithmetic) {
     random.capture.noise.tolerance = 0;  // held codes are the source's
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-    const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
+    const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
     const test::ExactExposure exact(plan, random.timeline,
                                     [&](std::uint64_t k) { return random.rasters[k]; });
     for (const std::uint64_t value : test::values_to_compare(plan, 12, seed)) {
@@ -49,7 +49,8 @@ class ByHand : public testing::Test {
     for (int k = 0; k < 8; ++k) rasters.push_back({static_cast<std::byte>(10 * k)});
     MemoryCapture source(capture, Timeline::constant({100, 1}, {180, 1}, 8), rasters, 3);
     const RenderPlan plan = make_plan(source, {{0, function}}, Mask::uniform(1, 1, 0), {});
-    return ReferenceRenderer().render(plan, source, {ValueType::light64, 0}).values<double>()[0] * 255.0;
+    return ReferenceRenderer().render(plan, source, {ValueType::light64, 0}).picture.values<double>()[0] *
+           255.0;
   }
 };
 

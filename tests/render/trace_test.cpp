@@ -23,7 +23,7 @@ TEST(Trace, EqualsTheReferenceToTheLastBit) {
     SCOPED_TRACE(random.text());
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-    const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
+    const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
     test::Random draw(seed);
     for (int i = 0; i < 10; ++i) {
       const auto x = static_cast<std::uint32_t>(draw.whole(0, picture.shape.width - 1));
@@ -88,7 +88,7 @@ TEST(Trace, ARegionIsTheMeanOfItsPixels) {
     SCOPED_TRACE(random.text());
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-    const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
+    const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
     for (std::size_t f = 0; f < plan.functions.size(); ++f) {
       const PlannedFunction& planned = plan.functions[f];
       const Trace trace = trace_region(plan, capture, planned.tag);

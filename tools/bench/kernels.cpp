@@ -129,18 +129,20 @@ struct Measurement {
 
 Measurement measure(OpenClRenderer& renderer, const RenderPlan& plan, SyntheticCapture& capture, int runs) {
   std::vector<double> expose, develop;
+  std::uint64_t bytes = 0;
   for (int run = -1; run < runs; ++run) {  // the first warms up
-    static_cast<void>(renderer.render(plan, capture, {ValueType::code8, 255}));
+    const RenderStatistics took = renderer.render(plan, capture, {ValueType::code8, 255}).statistics;
     if (run < 0) continue;
-    expose.push_back(renderer.statistics().expose_ms);
-    develop.push_back(renderer.statistics().develop_ms);
+    expose.push_back(took.expose_ms);
+    develop.push_back(took.develop_ms);
+    bytes = took.payload_bytes;
   }
   const auto median = [](std::vector<double>& values) {
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
                      values.end());
     return values[values.size() / 2];
   };
-  return {median(expose), median(develop), renderer.statistics().payload_bytes};
+  return {median(expose), median(develop), bytes};
 }
 
 // The worst difference from the reference on a small capture of the same kind, in S.
@@ -155,8 +157,8 @@ double check(OpenClRenderer& renderer, const Case& one) {
   options.unmapped_is_zero = true;
   const RenderPlan plan = make_plan(capture, functions_for(one.regions, capture.timeline().duration_ns(), 5),
                                     mask_for(format.shape, one.regions), options);
-  const Picture a = renderer.render(plan, capture, {ValueType::light64, 0});
-  const Picture b = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0});
+  const Picture a = renderer.render(plan, capture, {ValueType::light64, 0}).picture;
+  const Picture b = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
   double worst = 0.0;
   for (std::uint64_t i = 0; i < a.shape.value_count(); ++i) {
     const double scale = plan.functions[plan.function_of_pixel[i / 3]].summary.error_scale();

@@ -40,7 +40,7 @@ double seconds_of(Work work) {
 int run(const std::filesystem::path& capture, const std::filesystem::path& video, int runs) {
   tik::Reader reader(capture);
   OpenClRenderer renderer({});
-  renderer.hold(&reader);
+  renderer.keep_resident(&reader);
   const FrameTimes times({0, 1}, kRate, kSpeed, kAngle);
   const std::uint64_t count = std::min(kMostFrames, times.count_ending_by(reader.timeline().duration_ns()));
   const Shape shape = reader.format().shape;
@@ -49,7 +49,7 @@ int run(const std::filesystem::path& capture, const std::filesystem::path& video
   const auto expose = [&](std::uint64_t k) {
     FunctionSet functions;
     functions.emplace(0, GainFunction::boxcar(times.start_ns(k), times.end_ns(k)));
-    return renderer.render(make_plan(reader, functions, mask, {}), reader, format);
+    return renderer.render(make_plan(reader, functions, mask, {}), reader, format).picture;
   };
   const auto open = [&]() -> std::unique_ptr<VideoWriter> {
     if (is_picture_name(video)) return open_still_writer(video);

@@ -165,7 +165,7 @@ class Batch {
       capture_ = std::make_unique<OpenedCapture>(name, options_);
       capture_name_ = name;
       capture_checksum_.reset();
-      exposer_.hold(capture_->reader());
+      exposer_.keep_resident(capture_->reader());
       if (!options_.quiet) {
         for (const std::string& note : capture_->notes()) print_note(note);
       }

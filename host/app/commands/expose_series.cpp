@@ -76,7 +76,7 @@ int expose_series(const Options& options) {
   PictureRecipe recipe(options);
   OpenedCapture opened(input, options);
   tik::Reader& capture = opened.reader();
-  exposer.hold(capture);
+  exposer.keep_resident(capture);
   const std::vector<TimeText> starts = series.starts(request, capture.timeline());
   for (std::uint64_t k = 1; k < starts.size(); ++k) check_output(names[k], OutputKind::picture, inputs);
   const OutputFormat format_of_all = output_format(options, names[0], capture.format());

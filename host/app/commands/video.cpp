@@ -42,7 +42,7 @@ int run_video(const Options& options) {
   Exposer exposer(options);
   OpenedCapture capture(input, options);
   tik::Reader& reader = capture.reader();
-  exposer.hold(reader);
+  exposer.keep_resident(reader);
   const Frames frames = request.frames(reader.timeline());
   const Mask mask = request.exposure().mask(reader.format().shape);
   const OutputFormat frame_format = output.frame_format(reader.format());

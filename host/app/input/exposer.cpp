@@ -2,6 +2,7 @@
 
 #include "app/input/renderer_choice.hpp"
 #include "capture/format.hpp"
+#include "render/rendering_report.hpp"
 
 namespace nutik::app {
 
@@ -23,9 +24,9 @@ std::vector<std::string> exposure_warnings(const Exposed& exposed) {
 Exposer::Exposer(const Options& options)
     : starting_(std::async(std::launch::async, [&options] { return choose_renderer(options); })) {}
 
-void Exposer::hold(const CaptureSource& source) {
-  held_ = &source;
-  if (renderer_) renderer_->hold(held_);
+void Exposer::keep_resident(const CaptureSource& source) {
+  resident_ = &source;
+  if (renderer_) renderer_->keep_resident(resident_);
 }
 
 Exposed Exposer::expose(CaptureSource& source, const FunctionSet& functions, const Mask& mask,
@@ -35,16 +36,17 @@ Exposed Exposer::expose(CaptureSource& source, const FunctionSet& functions, con
     // Kernels are loaded beside the first block. Where that fails the device is there for the next exposure.
     auto ready = std::async(std::launch::async, [&] {
       renderer_ = starting_.get();
-      renderer_->hold(held_);
+      renderer_->keep_resident(resident_);
       renderer_->prepare(plan, format);
     });
     if (!plan.blocks.empty()) source.preload(plan.blocks.front().block);
     ready.get();
   }
-  Picture picture = renderer_->render(plan, source, format);
-  if (std::string warning = renderer_->warning(); !warning.empty())
-    plan.warnings.push_back(std::move(warning));
-  return {std::move(plan), std::move(picture), format.negative, renderer_->saturation()};
+  Rendered rendered = renderer_->render(plan, source, format);
+  plan.warnings.insert(plan.warnings.end(), rendered.warnings.begin(), rendered.warnings.end());
+  precision_ = to_text(rendered.precision);
+  report_ = rendering_report(rendered, format);
+  return {std::move(plan), std::move(rendered.picture), format.negative, rendered.saturation};
 }
 
 }  // namespace nutik::app

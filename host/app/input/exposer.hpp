@@ -29,8 +29,8 @@ class Exposer {
   // thrown by the first exposure.
   explicit Exposer(const Options& options);
 
-  // Several pictures of this capture will be exposed: its blocks stay ready (Renderer::hold).
-  void hold(const CaptureSource& source);
+  // Several pictures of this capture will be exposed: its blocks stay ready (Renderer::keep_resident).
+  void keep_resident(const CaptureSource& source);
 
   // Throws InputError where mask, functions and capture do not fit or a block is damaged, DeviceError
   // where the device fails.
@@ -39,13 +39,14 @@ class Exposer {
 
   // What makes the pictures, and what the last one took. After the first exposure.
   [[nodiscard]] std::string renderer_name() const { return renderer_->name(); }
-  [[nodiscard]] std::string precision() const { return renderer_->precision(); }
-  [[nodiscard]] std::string report() const { return renderer_->report(); }
+  [[nodiscard]] const std::string& precision() const { return precision_; }
+  [[nodiscard]] const std::string& report() const { return report_; }
 
  private:
   std::future<std::unique_ptr<Renderer>> starting_;
   std::unique_ptr<Renderer> renderer_;
-  const CaptureSource* held_ = nullptr;
+  const CaptureSource* resident_ = nullptr;
+  std::string precision_, report_;
 };
 
 }  // namespace nutik::app

@@ -39,7 +39,7 @@ SheetExposures::SheetExposures(const Options& options, CaptureSource& capture, M
   format_.type = code_type(format);
   format_.white_code = format.white_code;
   format_.negative = negative_light(options, format_.type, {});
-  exposer_.hold(capture);
+  exposer_.keep_resident(capture);
   if (options.transfer) plan_options_.transfer = transfer_ = Transfer::parse(*options.transfer);
 }
 

@@ -1,0 +1,193 @@
+// What a render is asked for beside its picture: a rectangle of it, an arithmetic, an end before it is whole. And many
+// of them at once.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstring>
+#include <thread>
+
+#include "render/reference_renderer.hpp"
+#include "support/messages.hpp"
+#include "support/random_case.hpp"
+#include "support/rendering.hpp"
+
+namespace nutik {
+namespace {
+
+using test::RandomCase;
+
+const test::CodeFormat kColour{3, 1, 255, Transfer::srgb()};
+
+std::vector<std::byte> part_of(const Picture& picture, const Rectangle& rectangle) {
+  std::vector<std::byte> part;
+  const std::size_t pixel_bytes = picture.bytes.size() / picture.shape.pixel_count();
+  for (std::uint32_t y = 0; y < rectangle.height; ++y) {
+    const std::byte* from =
+        picture.bytes.data() +
+        ((rectangle.y + std::size_t{y}) * picture.shape.width + rectangle.x) * pixel_bytes;
+    part.insert(part.end(), from, from + rectangle.width * pixel_bytes);
+  }
+  return part;
+}
+
+std::vector<Rectangle> rectangles_of(const Shape& shape) {
+  const std::uint32_t right = shape.width - 1, bottom = shape.height - 1;
+  return {{0, 0, 1, 1},
+          {right, bottom, 1, 1},
+          {0, bottom / 2, shape.width, 1},
+          {right / 2, 0, 1, shape.height},
+          {right / 3, bottom / 3, shape.width - right / 3, shape.height - bottom / 3},
+          {right / 4, bottom / 4, shape.width / 2 + 1, shape.height / 2 + 1},
+          Rectangle::whole(shape)};
+}
+
+void expect_rectangles(Renderer& renderer, const RandomCase& random, RenderControl control) {
+  MemoryCapture capture = random.encode();
+  const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+  for (const OutputFormat& output :
+       {OutputFormat{ValueType::code8, 255}, OutputFormat{ValueType::code16, 1000, NegativeLight::offset},
+        OutputFormat{ValueType::light32, 0}, OutputFormat{ValueType::light64, 0}}) {
+    control.rectangle.reset();
+    const Picture whole = renderer.render(plan, capture, output, control).picture;
+    for (const Rectangle& rectangle : rectangles_of(plan.capture.shape)) {
+      control.rectangle = rectangle;
+      const Picture part = renderer.render(plan, capture, output, control).picture;
+      ASSERT_EQ(part.shape, (Shape{rectangle.width, rectangle.height, plan.capture.shape.channels}));
+      EXPECT_EQ(part.bytes, part_of(whole, rectangle))
+          << rectangle.x << "," << rectangle.y << " " << rectangle.width << " x " << rectangle.height << ": "
+          << random.text();
+    }
+  }
+}
+
+TEST(RenderControl, RectanglesArePartsOfThePicture) {
+  OpenClOptions options = test::renderer_options(std::nullopt);
+  OpenClRenderer usual(options);
+  options.item_pixels = options.item_tiles = options.lanes = 1;
+  options.group_items = 64;
+  OpenClRenderer lane_by_lane(options);
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const RandomCase random =
+        seed % 4 == 3 ? RandomCase(seed, {1, 2, 1023, Transfer::linear()}) : RandomCase(seed, kColour);
+    RenderControl control;
+    for (const Precision precision : usual.precisions()) {
+      control.precision = precision;
+      expect_rectangles(seed == 1 ? lane_by_lane : usual, random, control);
+    }
+    ReferenceRenderer reference;
+    expect_rectangles(reference, random, {});
+  }
+}
+
+TEST(RenderControl, RefusesRectanglesThatAreNoPart) {
+  const RandomCase random(1);
+  MemoryCapture capture = random.encode();
+  const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+  const Shape& shape = plan.capture.shape;
+  ReferenceRenderer reference;
+  for (const Rectangle& rectangle : {Rectangle{0, 0, 0, 1}, Rectangle{shape.width, 0, 1, 1},
+                                     Rectangle{0, 0, 1, shape.height + 1}, Rectangle{~0u, 0, 2, 1}}) {
+    RenderControl control;
+    control.rectangle = rectangle;
+    const std::string message = test::message_of<UsageError>([&] {
+      static_cast<void>(reference.render(plan, capture, {ValueType::code8, 255}, control));
+    });
+    EXPECT_NE(message.find("is no part of a picture of"), std::string::npos) << message;
+  }
+}
+
+// Asks for the end of the render while its blocks are read.
+class CancellingCapture final : public CaptureSource {
+ public:
+  CancellingCapture(MemoryCapture& capture, std::uint64_t block) : capture_(capture), block_(block) {}
+
+  [[nodiscard]] const CaptureFormat& format() const override { return capture_.format(); }
+  [[nodiscard]] const Timeline& timeline() const override { return capture_.timeline(); }
+  [[nodiscard]] std::uint64_t block_count() const override { return capture_.block_count(); }
+  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
+    return capture_.block_extent(block);
+  }
+  std::uint64_t prepare(std::uint64_t block) override {
+    if (block == block_) source_.request_stop();
+    return capture_.prepare(block);
+  }
+  void read(std::uint64_t block, std::span<std::byte> into) override { capture_.read(block, into); }
+
+  [[nodiscard]] std::stop_token stop() const { return source_.get_token(); }
+
+ private:
+  MemoryCapture& capture_;
+  std::uint64_t block_;
+  std::stop_source source_;
+};
+
+TEST(RenderControl, EndsWhenItIsCancelled) {
+  const RandomCase random(3, kColour);
+  MemoryCapture capture = random.encode(1, TilePolicy::automatic);
+  PlanOptions every;
+  every.live_all = true;
+  const RenderPlan plan = make_plan(capture, random.functions, random.mask, every);
+  const std::uint64_t last = capture.block_count() - 1;
+  OpenClOptions options = test::renderer_options(std::nullopt);
+  options.chunk_bytes = 1;
+  OpenClRenderer opencl(options);
+  ReferenceRenderer reference;
+  const OutputFormat output{ValueType::code8, 255};
+  for (Renderer* renderer : {static_cast<Renderer*>(&opencl), static_cast<Renderer*>(&reference)}) {
+    for (const std::uint64_t block : {std::uint64_t{0}, last / 2}) {
+      CancellingCapture cancelling(capture, block);
+      RenderControl control;
+      control.stop = cancelling.stop();
+      EXPECT_THROW(static_cast<void>(renderer->render(plan, cancelling, output, control)), Cancelled);
+    }
+    // The next render starts anew.
+    EXPECT_NO_THROW(static_cast<void>(renderer->render(plan, capture, output)));
+  }
+}
+
+// Each thread its own plans, arithmetics and rectangles; some give up. Everybody gets what is asked for.
+TEST(RenderControl, ManyThreadsMayAskAtATime) {
+  const RandomCase random(5, kColour);
+  MemoryCapture capture = random.encode(7, TilePolicy::automatic);
+  OpenClRenderer renderer(test::renderer_options(std::nullopt));
+  const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+  const OutputFormat output{ValueType::light64, 0};
+  std::vector<Picture> expected;
+  for (const Precision precision : renderer.precisions()) {
+    RenderControl control;
+    control.precision = precision;
+    expected.push_back(renderer.render(plan, capture, output, control).picture);
+  }
+  renderer.keep_resident(&capture);
+  const std::vector<Rectangle> rectangles = rectangles_of(plan.capture.shape);
+  std::atomic<int> wrong{0}, cancelled{0};
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t thread = 0; thread < 4; ++thread) {
+      threads.emplace_back([&, thread] {
+        for (std::size_t i = 0; i < 12; ++i) {
+          const std::size_t p = (thread + i) % renderer.precisions().size();
+          RenderControl control;
+          control.precision = renderer.precisions()[p];
+          control.rectangle = rectangles[(thread * 3 + i) % rectangles.size()];
+          std::stop_source stop;
+          control.stop = stop.get_token();
+          if (i % 3 == 0) stop.request_stop();
+          try {
+            const Rendered rendered = renderer.render(plan, capture, output, control);
+            wrong += rendered.precision != *control.precision ||
+                     rendered.picture.bytes != part_of(expected[p], *control.rectangle);
+          } catch (const Cancelled&) {
+            ++cancelled;
+          }
+        }
+      });
+    }
+  }
+  renderer.keep_resident(nullptr);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(cancelled, 16);
+}
+
+}  // namespace
+}  // namespace nutik
