@@ -38,6 +38,7 @@ struct RawVideo {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::string pixel_format;  // as FFmpeg names it: yuv420p10le, gray16le
+  friend bool operator==(const RawVideo&, const RawVideo&) = default;
 };
 
 // What a person states about a clip; it goes before what the files say.
@@ -46,6 +47,7 @@ struct ClipOptions {
   std::optional<std::uint32_t> white_code;
   std::optional<Transfer> transfer;
   std::optional<RawVideo> raw;
+  friend bool operator==(const ClipOptions&, const ClipOptions&) = default;
 };
 
 class Clip {

@@ -33,6 +33,7 @@ struct Codec {
   // `none`, `lz4`, `zstd` or `zstd:9`; throws UsageError listing these.
   static Codec parse(std::string_view text);
   [[nodiscard]] std::string text() const;
+  friend bool operator==(const Codec&, const Codec&) = default;
 };
 
 // The stored form of a payload; `geometry` is its block's.

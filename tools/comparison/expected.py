@@ -9,4 +9,10 @@ class Expected(NamedTuple):
     reason: str
 
 
-EXPECTED = []
+NOISE_NOTE = "the note on noise that is no sensor's says \"transfer function\": libraries name no option"
+
+EXPECTED = [
+    Expected("nutik-cl encode noisy.mkv out.tik --noise auto", ("stderr",), NOISE_NOTE),
+    Expected("nutik-cl -m mask.pgm -k regions.fn noisy.mkv picture.png --noise auto --sigmas 4", ("stderr",), NOISE_NOTE),
+    Expected("nutik-cl noise still.mkv -o camera.noise", ("stderr",), NOISE_NOTE),
+]

@@ -16,7 +16,6 @@
 #include "app/output/exposure_report.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
-#include "app/output/picture_queue.hpp"
 #include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
@@ -24,6 +23,7 @@
 #include "app/text/shell_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "session/picture_queue.hpp"
 #include "session/size_text.hpp"
 
 namespace nutik::app {
@@ -102,7 +102,7 @@ class Batch {
       : options_(options),
         list_name_(std::move(list_name)),
         exposer_(options),
-        pictures_([this](std::size_t line, const std::string& message) { report(line, message); }) {}
+        pictures_([this](std::size_t line, const Error& error) { report(line, error); }) {}
 
   void expose(const ListedExposure& listed, const std::optional<std::string>& capture_name) {
     try {
@@ -132,9 +132,9 @@ class Batch {
         print_line(format("{}: {}", output.string(), exposer_.report()));
       pictures_.push(listed.line, output, std::move(exposed.picture), recipe_text(line));
     } catch (const UsageError& error) {
-      report(listed.line, message_text(error));
+      report(listed.line, error);
     } catch (const InputError& error) {
-      report(listed.line, message_text(error));
+      report(listed.line, error);
     }
   }
 
@@ -174,10 +174,10 @@ class Batch {
   }
 
   // From either thread.
-  void report(std::size_t line, const std::string& message) {
+  void report(std::size_t line, const Error& error) {
     const std::lock_guard lock(reporting_);
     failed_lines_.insert(line);
-    print_error(format("{}:{}: {}", list_name_, line, message));
+    print_error(format("{}:{}: {}", list_name_, line, message_text(error)));
   }
 
   const Options& options_;

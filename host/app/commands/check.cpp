@@ -2,14 +2,16 @@
 #include <array>
 
 #include "app/commands/commands.hpp"
-#include "app/input/capture_input.hpp"
 #include "app/input/standard_input.hpp"
 #include "app/output/console.hpp"
+#include "app/requests/source_words.hpp"
 #include "app/text/check_text.hpp"
 #include "app/text/message_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "exposure/mask_check.hpp"
+#include "session/clip_source.hpp"
+#include "tik/reader.hpp"
 
 namespace nutik::app {
 namespace {
@@ -89,17 +91,14 @@ class Checking {
   }
 
   void open_capture(const std::string& name) {
+    const SourceRequest request = source_request(options_, name);
     if (!is_tik(name)) {
-      const SourceOptions source_options = SourceOptions::from(options_);
-      const SourceClip source = open_source(name, source_options);
-      const ClipInfo info = source.clip->info();
+      const ClipSource source = open_clip_source(request, memory_budget(options_));
       checked_.capture.emplace(CheckedCapture{name, source.capture, std::nullopt});
-      if (info.sample_count == 0) return;
-      checked_.capture->timeline =
-          timeline_of(name, info, source_options.clip, source_options.shutter_angle, info.sample_count);
+      if (source.announced_samples() == 0) return;
+      checked_.capture->timeline = source.timeline(source.announced_samples());
       return;
     }
-    refuse_source_options(options_, name);
     tik::Reader reader(name);
     checked_.capture.emplace(CheckedCapture{name, reader.format(), reader.timeline()});
     for (std::uint64_t block = 0; block < reader.block_count(); ++block) {

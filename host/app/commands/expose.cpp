@@ -2,7 +2,6 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/expose_series.hpp"
-#include "app/input/capture_input.hpp"
 #include "app/input/exposer.hpp"
 #include "app/input/exposure_request.hpp"
 #include "app/output/console.hpp"
@@ -12,12 +11,16 @@
 #include "app/output/output_name.hpp"
 #include "app/output/picture_recipe.hpp"
 #include "app/output/stopwatch.hpp"
+#include "app/requests/source_words.hpp"
+#include "app/text/timing_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
 #include "media/read_ahead.hpp"
 #include "render/render_plan.hpp"
+#include "session/clip_source.hpp"
 #include "session/size_text.hpp"
+#include "tik/reader.hpp"
 
 namespace nutik::app {
 namespace {
@@ -34,7 +37,6 @@ class Exposing {
       : options_(options), output_(output), request_(ExposureRequest::from(options)), exposer_(options) {}
 
   ExposedCapture from_tik(const std::string& input) {
-    refuse_source_options(options_, input);
     tik::Reader reader(input);
     block_count_ = reader.block_count();
     return expose(reader, request_.functions(reader.timeline()));
@@ -43,14 +45,13 @@ class Exposing {
   // The timeline is known for sure only when the clip has been read to its end, which an exposure of its
   // beginning never does. So the clip's word is taken, and where decoding proves it wrong, it is read
   // once more with the right number of pictures.
-  ExposedCapture from_clip(const std::string& input, const SourceOptions& source_options) {
+  ExposedCapture from_clip(const std::string& input, const SourceRequest& request,
+                           const MemoryBudget& memory) {
     std::optional<std::uint64_t> sample_count;
     for (;;) {
-      SourceClip source = open_source(input, source_options);
+      ClipSource source = open_clip_source(request, memory);
       notes_ = source.notes;
-      const Timeline timeline =
-          timeline_of(input, source.clip->info(), source_options.clip, source_options.shutter_angle,
-                      sample_count.value_or(source.clip->info().sample_count));
+      const Timeline timeline = source.timeline(sample_count.value_or(source.announced_samples()));
       const FunctionSet functions = request_.functions(timeline);
       PlanOptions plan_options = request_.plan_options();
       plan_options.transfer.reset();  // it went into the capture's format
@@ -60,9 +61,8 @@ class Exposing {
           streamed_samples(source.capture, needed, source.block_samples, timeline.sample_count()).last;
       // At the timeline's end samples that follow are counted: they prove it wrong.
       const bool is_end = last == timeline.sample_count();
-      ReadAhead samples(*source.clip, source_options.memory.read_ahead_bytes(),
-                        is_end ? ReadAhead::kAll : last);
-      StreamingCapture stream(source.capture, timeline, needed, source.block_samples, source_options.tiles,
+      ReadAhead samples(*source.clip, memory.read_ahead_bytes(), is_end ? ReadAhead::kAll : last);
+      StreamingCapture stream(source.capture, timeline, needed, source.block_samples, request.tiles,
                               [&](std::uint64_t most) { return samples.next(most); });
       try {
         return expose(stream, functions);
@@ -116,9 +116,9 @@ int run_expose(const Options& options) {
 
   PictureRecipe recipe(options);
   const bool captured = is_tik(input);
-  const SourceOptions source_options = SourceOptions::from(options);
+  const SourceRequest request = source_request(options, input);
   const auto [exposed, timeline] =
-      captured ? exposing.from_tik(input) : exposing.from_clip(input, source_options);
+      captured ? exposing.from_tik(input) : exposing.from_clip(input, request, memory_budget(options));
   for (const std::string& warning : exposure_warnings(exposed)) print_warning(warning);
   write_picture(output, exposed.picture, recipe.text(exposing.exposer().precision()));
   if (options.json) {
@@ -143,8 +143,8 @@ int run_expose(const Options& options) {
   if (options.verbose) print_line(plan_text(plan, timeline, exposing.block_count()));
   print_details(options, exposing.exposer(), {});
   if (!captured) {
-    print_line(format("source: {}", timing_text(timeline, source_options)));
-    for (const std::string& line : note_lines(exposing.notes(), timeline, source_options)) print_note(line);
+    print_line(format("source: {}", timing_text(timeline, request)));
+    for (const std::string& line : note_lines(exposing.notes(), timeline, request)) print_note(line);
   }
   return 0;
 }

@@ -13,14 +13,15 @@
 #include "app/output/exposure_report.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
-#include "app/output/picture_queue.hpp"
 #include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
+#include "app/text/message_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/numbered_name.hpp"
 #include "media/still_sequence.hpp"
+#include "session/picture_queue.hpp"
 #include "session/size_text.hpp"
 #include "system/channel.hpp"
 
@@ -86,7 +87,7 @@ int expose_series(const Options& options) {
   Progress progress("exposing", starts.size(), options.quiet);
   Warnings warnings;
   Channel<std::string> failures(starts.size());  // of pictures that could not be written
-  PictureQueue pictures([&](std::size_t, const std::string& message) { failures.push(message); });
+  PictureQueue pictures([&](std::size_t, const Error& error) { failures.push(message_text(error)); });
   std::optional<RenderPlan> first_plan;
   Saturation saturation;  // of all pictures together
   for (std::uint64_t k = 0; k < starts.size(); ++k) {

@@ -2,7 +2,6 @@
 #include <array>
 
 #include "app/commands/commands.hpp"
-#include "app/input/capture_input.hpp"
 #include "app/output/console.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
@@ -15,6 +14,7 @@
 #include "imev/each_block.hpp"
 #include "imev/expected_values.hpp"
 #include "media/picture_writer.hpp"
+#include "session/clip_source.hpp"
 #include "session/size_text.hpp"
 #include "sheet/activity_map.hpp"
 #include "tik/reader.hpp"

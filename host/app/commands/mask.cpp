@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "app/commands/commands.hpp"
-#include "app/input/capture_input.hpp"
 #include "app/input/exposer.hpp"
 #include "app/input/mask_maker.hpp"
 #include "app/input/opened_capture.hpp"

@@ -1,14 +1,16 @@
 #include "app/commands/commands.hpp"
-#include "app/input/noise_choice.hpp"
 #include "app/output/console.hpp"
 #include "app/output/ending.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/stopwatch.hpp"
+#include "app/requests/source_words.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/noise_file.hpp"
 #include "media/still_sequence.hpp"
+#include "session/clip_source.hpp"
+#include "session/measured_noise.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {
@@ -46,7 +48,8 @@ int run_noise(const Options& options) {
 
   std::vector<std::string> clip_notes;
   const NoiseEstimate estimate =
-      measure_noise(options.operands, SourceOptions::from(options), NoiseEstimator::kMostSamples, clip_notes);
+      measure_noise(options.operands, clip_request(options, options.operands.front()).clip,
+                    NoiseEstimator::kMostSamples, clip_notes);
   std::vector<std::string> comments;
   for (const std::string& name : options.operands) {
     comments.push_back("measured on " + std::filesystem::path(name).filename().string());

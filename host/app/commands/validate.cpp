@@ -1,19 +1,20 @@
 #include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
-#include "app/input/capture_input.hpp"
 #include "app/input/exposure_request.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/input/renderer_choice.hpp"
-#include "app/input/source_check.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/progress.hpp"
+#include "app/requests/source_words.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/validation_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "opencl/validation.hpp"
+#include "session/clip_source.hpp"
 #include "session/size_text.hpp"
+#include "session/source_check.hpp"
 
 namespace nutik::app {
 namespace {
@@ -78,7 +79,10 @@ int run_validate(const Options& options) {
       });
   progress.reset();
   std::optional<SourceCheck> source;
-  if (options.source) source = compare_with_source(capture, *options.source, options);
+  if (options.source) {
+    source = compare_with_source(capture, clip_request(options, *options.source), memory_budget(options),
+                                 progress_bar("comparing with the source", options.quiet));
+  }
 
   if (options.json) {
     Json json = validation_json(validation, plan, input, renderer->name(), runs);

@@ -24,8 +24,6 @@ class OpenedCapture {
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  void encode(const std::string& name, const Options& options);
-
   std::unique_ptr<tik::Reader> reader_;
   std::vector<std::string> notes_;
 };

@@ -4,12 +4,13 @@
 #include <string_view>
 
 #include "app/command_line/option_table.hpp"
-#include "app/input/capture_input.hpp"
 #include "app/input/standard_input.hpp"
+#include "app/requests/source_words.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/input_checksum.hpp"
 #include "media/picture_text.hpp"
+#include "session/clip_source.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik::app {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <utility>
 
 #include "capture/format.hpp"
 
@@ -55,6 +57,14 @@ void Progress::show(std::uint64_t done) {
   }
   std::fprintf(stderr, "\r%s\x1b[K", line.c_str());
   std::fflush(stderr);
+}
+
+ReportedProgress progress_bar(std::string what, bool quiet) {
+  return [what = std::move(what), quiet, bar = std::shared_ptr<Progress>()](std::uint64_t done,
+                                                                            std::uint64_t total) mutable {
+    if (!bar) bar = std::make_shared<Progress>(what, total, quiet);
+    bar->show(done);
+  };
 }
 
 }  // namespace nutik::app

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "session/reported_progress.hpp"
+
 namespace nutik::app {
 
 class Progress {
@@ -27,5 +29,8 @@ class Progress {
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_;
 };
+
+// The same for what the session does: the bar is there from the first report on, and gone with the last copy of this.
+[[nodiscard]] ReportedProgress progress_bar(std::string what, bool quiet);
 
 }  // namespace nutik::app

@@ -1,10 +1,63 @@
 #include "app/requests/source_words.hpp"
 
+#include "app/command_line/option_table.hpp"
 #include "app/text/number_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "imev/capture_source.hpp"
+#include "session/clip_source.hpp"
+#include "session/measured_noise.hpp"
 
 namespace nutik::app {
+namespace {
+
+constexpr double kLeastSigmas = 0.1, kLargestSigmas = 100;
+
+RawVideo parse_raw_video(const std::string& text) {
+  const auto cross = text.find('x');
+  const auto colon = text.find(':');
+  if (cross == std::string::npos || colon == std::string::npos || colon < cross) {
+    throw UsageError(
+        format("raw video '{}' is not described; write its size and pixel format, as in "
+               "480x270:yuv420p10le",
+               text));
+  }
+  constexpr std::uint32_t kLargestSide = 65'536;
+  return {parse_whole_number(text.substr(0, cross), "width", 1, kLargestSide),
+          parse_whole_number(text.substr(cross + 1, colon - cross - 1), "height", 1, kLargestSide),
+          text.substr(colon + 1)};
+}
+
+// A .tik was described when it was made.
+void refuse_source_options(const Options& options, const std::string& capture) {
+  for (const Option& option : app::options()) {
+    if (!option.describes_clip() || !option.is_in(options)) continue;
+    throw UsageError(
+        format("{} describes a clip that is encoded; {} was encoded already. Encode the clip again with it",
+               option.name(), capture));
+  }
+}
+
+void read_noise(SourceRequest& request, const Options& options) {
+  if (options.tolerance) {
+    request.tolerance = parse_whole_number(*options.tolerance, "tolerance", 0, 65'535);
+  }
+  if (options.noise && options.tolerance) {
+    throw UsageError("--noise and --tolerance both say what is no change; leave one out");
+  }
+  if (options.sigmas && !options.noise) {
+    throw UsageError(
+        "--sigmas counts standard deviations of a camera's noise: it needs --noise FILE or --noise auto");
+  }
+  if (options.sigmas) request.sigmas = parse_number(*options.sigmas, "sigmas", kLeastSigmas, kLargestSigmas);
+  if (options.noise == kAutomaticNoise) {
+    request.noise = NoiseOfClip{};
+  } else if (options.noise) {
+    request.noise = StatedNoise{*options.noise, read_noise_file(*options.noise)};
+  }
+}
+
+}  // namespace
 
 MemoryBudget memory_budget(const Options& options) {
   if (!options.memory) return MemoryBudget::of_machine();
@@ -12,6 +65,35 @@ MemoryBudget memory_budget(const Options& options) {
   if (!stated || *stated == 0)
     throw UsageError(format("--memory '{}' is no size; write 500MB, 2GB or 1GiB", *options.memory));
   return MemoryBudget{*stated};
+}
+
+SourceRequest source_request(const Options& options, const std::string& name) {
+  if (!is_tik(name)) return clip_request(options, name);
+  refuse_source_options(options, name);
+  SourceRequest request;
+  request.path = name;
+  if (options.transfer) request.clip.transfer = Transfer::parse(*options.transfer);
+  return request;
+}
+
+SourceRequest clip_request(const Options& options, const std::string& name) {
+  SourceRequest request;
+  request.path = name;
+  if (options.fps) request.clip.rate = Rational::parse(*options.fps, "frame rate");
+  if (options.shutter_angle) request.shutter_angle = Rational::parse(*options.shutter_angle, "shutter angle");
+  if (options.white) request.clip.white_code = parse_whole_number(*options.white, "white code", 1, 65'535);
+  if (options.raw) request.clip.raw = parse_raw_video(*options.raw);
+  if (options.transfer) request.clip.transfer = Transfer::parse(*options.transfer);
+  read_noise(request, options);
+  if (options.tiles) request.tiles = parse_tile_policy(*options.tiles);
+  if (options.block_samples) {
+    request.block_samples =
+        parse_whole_number(*options.block_samples, "block length", 1, kLargestBlockSamples);
+  }
+  // Made here so that a senseless rate or angle is refused before anything is opened.
+  static_cast<void>(Timeline::constant(request.clip.rate.value_or(Rational{1, 1}),
+                                       request.shutter_angle.value_or(Timeline::kFullShutter), 1));
+  return request;
 }
 
 }  // namespace nutik::app

@@ -1,6 +1,7 @@
 #include "app/text/message_text.hpp"
 
 #include "capture/format.hpp"
+#include "session/clip_source.hpp"
 #include "session/memory_budget.hpp"
 
 namespace nutik::app {
@@ -13,6 +14,9 @@ std::string message_text(const std::exception& error) {
   if (const auto* blocks = dynamic_cast<const BlocksTooLong*>(&error)) {
     return format("{} (--memory); use fewer samples a block (--block-samples {})", message,
                   blocks->most_samples);
+  }
+  if (dynamic_cast<const ExposuresAreListed*>(&error) != nullptr) {
+    return message + "; leave --shutter-angle out, or the exposure_ns column empty";
   }
   return message;
 }

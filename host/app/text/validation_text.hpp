@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "app/input/source_check.hpp"
 #include "app/output/json.hpp"
 #include "opencl/validation.hpp"
+#include "session/source_check.hpp"
 
 namespace nutik::app {
 

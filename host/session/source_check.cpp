@@ -1,14 +1,13 @@
-#include "app/input/source_check.hpp"
+#include "session/source_check.hpp"
 
-#include "app/input/capture_input.hpp"
-#include "app/output/progress.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/each_block.hpp"
 #include "imev/expected_values.hpp"
+#include "session/clip_source.hpp"
 #include "session/size_text.hpp"
 
-namespace nutik::app {
+namespace nutik {
 namespace {
 
 std::string samples_text(const CaptureFormat& format) {
@@ -28,17 +27,17 @@ CaptureFormat source_format(const CaptureFormat& capture) {
 
 }  // namespace
 
-SourceCheck compare_with_source(tik::Reader& capture, const std::filesystem::path& clip,
-                                const Options& options) {
+SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const MemoryBudget& memory,
+                                const ReportedProgress& progress) {
   const CaptureFormat wanted = source_format(capture.format());
-  SourceOptions source_options = SourceOptions::from(options);
-  source_options.noise_source.reset();  // the capture has its noise model
-  if (!options.white && wanted.code_bytes == 2) source_options.clip.white_code = wanted.white_code;
-  const SourceClip source = open_source(clip, source_options);
+  const std::string name = clip.path.string();
+  clip.noise = NoNoise{};  // the capture has its noise model
+  if (!clip.clip.white_code && wanted.code_bytes == 2) clip.clip.white_code = wanted.white_code;
+  const ClipSource source = open_clip_source(clip, memory);
   if (source.capture.shape != wanted.shape || source.capture.code_bytes != wanted.code_bytes ||
       source.capture.white_code != wanted.white_code) {
-    throw InputError(format("{} is not what the capture was made from: it has {}, the capture {}",
-                            clip.string(), samples_text(source.capture), samples_text(wanted)));
+    throw InputError(format("{} is not what the capture was made from: it has {}, the capture {}", name,
+                            samples_text(source.capture), samples_text(wanted)));
   }
 
   SourceCheck check{SourceComparison(wanted), 0, capture.file_bytes(), 0, false};
@@ -46,21 +45,20 @@ SourceCheck compare_with_source(tik::Reader& capture, const std::filesystem::pat
   const std::uint64_t sample_count = capture.timeline().sample_count();
   check.source_bytes = wanted.sample_bytes() * sample_count;
   std::vector<std::byte> raster(wanted.sample_bytes());
-  Progress progress("comparing with the source", sample_count, options.quiet);
   for_each_block(capture, [&](const BlockView& block) {
     for (std::uint32_t k = 0; k < block.extent().sample_count; ++k) {
       const std::uint64_t sample = block.extent().first_sample + k;
       if (!source.clip->read(raster)) {
         throw InputError(
-            format("{} is not what the capture was made from: it has {} pictures, the capture {}",
-                   clip.string(), sample, sample_count));
+            format("{} is not what the capture was made from: it has {} pictures, the capture {}", name,
+                   sample, sample_count));
       }
       check.comparison.add(block, k, raster);
-      progress.show(sample);
+      if (progress) progress(sample, sample_count);
     }
   });
   check.clip_goes_on = source.clip->read(raster);
   return check;
 }
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -7,16 +7,17 @@
 #include <future>
 #include <string>
 
+#include "capture/error.hpp"
 #include "capture/picture.hpp"
 #include "system/channel.hpp"
 
-namespace nutik::app {
+namespace nutik {
 
 class PictureQueue {
  public:
   // `failed` is called on that thread, one call at a time, for a picture that could not be written, with
-  // what was given to push() and the reason.
-  using Failed = std::function<void(std::size_t number, const std::string& message)>;
+  // what was given to push() and why.
+  using Failed = std::function<void(std::size_t number, const Error& error)>;
   explicit PictureQueue(Failed failed);
   // Waits until everything is written.
   ~PictureQueue();
@@ -44,4 +45,4 @@ class PictureQueue {
   std::future<void> writing_;
 };
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -1,11 +1,11 @@
-#include "app/output/picture_queue.hpp"
+#include "session/picture_queue.hpp"
 
 #include <utility>
 
 #include "capture/error.hpp"
 #include "media/picture_writer.hpp"
 
-namespace nutik::app {
+namespace nutik {
 
 PictureQueue::PictureQueue(Failed failed)
     : writing_(std::async(std::launch::async, [this, failed = std::move(failed)] {
@@ -14,9 +14,9 @@ PictureQueue::PictureQueue(Failed failed)
           try {
             write_picture(job->path, job->picture, job->text);
           } catch (const OutputError& error) {
-            failed(job->number, error.what());
+            failed(job->number, error);
           } catch (const UsageError& error) {
-            failed(job->number, error.what());
+            failed(job->number, error);
           }
         }
       })) {}
@@ -32,4 +32,4 @@ void PictureQueue::finish() {
   writing_.get();
 }
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -1,13 +1,14 @@
-#include "app/input/noise_choice.hpp"
+#include "session/measured_noise.hpp"
 
 #include <algorithm>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/noise_file.hpp"
+#include "session/clip_source.hpp"
 #include "system/mapped_file.hpp"
 
-namespace nutik::app {
+namespace nutik {
 namespace {
 
 constexpr double kLittleStill = 0.5;  // of the pixels
@@ -27,8 +28,8 @@ CameraNoise read_noise_file(const std::filesystem::path& path) {
   return parse_noise({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 
-std::optional<std::string> transfer_note(const std::string& name, const CameraNoise& noise,
-                                         const Transfer& of_clip) {
+std::optional<std::string> transfer_note(const StatedNoise& stated, const Transfer& of_clip) {
+  const CameraNoise& noise = stated.noise;
   // Measured points are in codes, whatever they stand for.
   const bool is_in_light = std::ranges::any_of(
       noise.channels, [](const ChannelNoise& channel) { return channel.curve == NoiseCurve::sensor; });
@@ -36,15 +37,15 @@ std::optional<std::string> transfer_note(const std::string& name, const CameraNo
   return format(
       "{} says transfer {} and the clip's is {}: read and shot noise are in light, and come to other codes; "
       "where the file's is wrong, measure the noise again or correct that line",
-      name, noise.transfer.text(), of_clip.text());
+      stated.name, noise.transfer.text(), of_clip.text());
 }
 
-NoiseEstimate measure_noise(std::span<const std::string> clips, const SourceOptions& options,
+NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOptions& options,
                             std::uint64_t most_samples, std::vector<std::string>& clip_notes) {
   std::optional<CaptureFormat> first;
   std::optional<NoiseEstimator> estimator;
   for (const std::string& name : clips) {
-    const std::unique_ptr<Clip> clip = open_clip(name, options.clip);
+    const std::unique_ptr<Clip> clip = open_clip(name, options);
     const CaptureFormat format = clip_format(*clip, options);
     for (const std::string& note : clip->info().notes) clip_notes.push_back(note);
     if (!first) {
@@ -76,10 +77,10 @@ std::vector<std::string> noise_notes(const NoiseEstimate& estimate) {
   }
   if (!is_sensor) {
     notes.push_back(
-        "the noise is not that of a sensor (compressed clips are not, nor those whose --transfer is "
+        "the noise is not that of a sensor (compressed clips are not, nor those whose transfer function is "
         "another): lines between the points are used, and nothing is known beyond them");
   }
   return notes;
 }
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -1,0 +1,39 @@
+#include "app/text/timing_text.hpp"
+
+#include "capture/format.hpp"
+
+namespace nutik::app {
+namespace {
+
+// Rates up to this are what players show; a clip filmed faster often says one of them.
+constexpr double kHighestPlaybackRate = 60.0;
+
+}  // namespace
+
+std::string timing_text(const Timeline& timeline, const SourceRequest& request) {
+  const std::string rate =
+      request.clip.rate ? format("{} pictures a second (--fps)", timeline.rate().text())
+      : timeline.is_constant()
+          ? format("{} pictures a second (from the file)", timeline.rate().text())
+          : format("irregular times (from the file), {:.4g} pictures a second on average",
+                   timeline.rate().value());
+  return format("{}, shutter {} degrees ({})", rate, timeline.shutter_angle().text(),
+                request.shutter_angle                                ? "--shutter-angle"
+                : timeline.shutter_angle() != Timeline::kFullShutter ? "mean of the listed exposures"
+                                                                     : "assumed");
+}
+
+std::vector<std::string> note_lines(std::span<const std::string> notes, const Timeline& timeline,
+                                    const SourceRequest& request) {
+  std::vector<std::string> lines;
+  for (const std::string& note : notes) lines.push_back(format("note: {}", note));
+  if (!request.clip.rate && timeline.rate().value() <= kHighestPlaybackRate) {
+    lines.push_back(format(
+        "note: the rate of {} a second comes from the file; slow-motion files state their playback rate: "
+        "if it was filmed faster, say so with --fps",
+        timeline.rate().text()));
+  }
+  return lines;
+}
+
+}  // namespace nutik::app

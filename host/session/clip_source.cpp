@@ -1,0 +1,91 @@
+#include "session/clip_source.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "capture/format.hpp"
+#include "imev/capture_source.hpp"
+#include "session/measured_noise.hpp"
+#include "system/mapped_file.hpp"
+#include "tik/header.hpp"
+
+namespace nutik {
+namespace {
+
+// The file is read once to count and once to decode.
+void refuse_streams(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status) || !std::filesystem::is_other(status)) return;
+  throw InputError(
+      format("{} is no regular file: a clip is read more than once; save the stream to a file first",
+             path.string()));
+}
+
+NoiseModel noise_model(ClipSource& source) {
+  const SourceRequest& request = source.request;
+  NoiseModel model{request.tolerance, std::nullopt, request.sigmas};
+  if (std::holds_alternative<NoiseOfClip>(request.noise)) {
+    std::vector<std::string> known;  // the clip is this one
+    const NoiseEstimate estimate =
+        measure_noise(std::array{request.path.string()}, request.clip, kSamplesOfOwnNoise, known);
+    model.camera = estimate.noise;
+    for (const std::string& note : noise_notes(estimate)) source.notes.push_back(note);
+  } else if (const auto* stated = std::get_if<StatedNoise>(&request.noise)) {
+    model.camera = stated->noise;
+    if (auto note = transfer_note(*stated, source.capture.transfer)) source.notes.push_back(std::move(*note));
+  }
+  return model;
+}
+
+}  // namespace
+
+ExposuresAreListed::ExposuresAreListed(const std::string& name)
+    : UsageError(format("{} says how long each picture was exposed", name)) {}
+
+bool is_tik(const std::filesystem::path& path) {
+  const std::string start = first_bytes(path);
+  return tik::looks_like_tik(std::as_bytes(std::span(start))) || path.extension() == ".tik";
+}
+
+CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
+  CaptureFormat capture = clip.info().format;
+  if (options.transfer) capture.transfer = *options.transfer;
+  if (options.white_code) {
+    if (capture.code_bytes == 1 && *options.white_code > 255) {
+      throw UsageError(
+          format("white code {} does not fit the clip's 8-bit codes (255 at most)", *options.white_code));
+    }
+    capture.white_code = *options.white_code;
+  }
+  return capture;
+}
+
+Timeline ClipSource::timeline(std::uint64_t sample_count) const {
+  return timeline_of(request.path.string(), clip->info(), request.clip,
+                     request.shutter_angle.value_or(Timeline::kFullShutter), sample_count);
+}
+
+ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory) {
+  ClipSource source;
+  source.request = request;
+  refuse_streams(request.path);
+  source.clip = open_clip(request.path, request.clip);
+  if (request.shutter_angle && !request.clip.rate && !source.clip->info().timing.exposures.empty()) {
+    throw ExposuresAreListed(request.path.string());
+  }
+  source.capture = clip_format(*source.clip, request.clip);
+  source.notes = source.clip->info().notes;
+  source.capture.noise = noise_model(source);
+  source.block_samples = request.block_samples.value_or(
+      default_block_samples(source.capture, std::min(kDefaultBlockBytes, memory.block_bytes())));
+  // A block takes memory for the samples it may hold: no more than there are.
+  if (const std::uint64_t announced = source.announced_samples(); announced != 0) {
+    source.block_samples =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(source.block_samples, announced));
+  }
+  memory.check(source.capture, source.block_samples);
+  return source;
+}
+
+}  // namespace nutik

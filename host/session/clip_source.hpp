@@ -1,0 +1,51 @@
+// Clips as a session reads them.
+//
+//   in:      a request, the memory that blocks may take
+//   out:     the clip, the format of its samples with the noise model, how many samples a block has
+//   always:  nothing of the clip has been read but what its noise was measured on
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "media/clip.hpp"
+#include "session/memory_budget.hpp"
+#include "session/source_request.hpp"
+
+namespace nutik {
+
+// Whether a file is to be read as a .tik: by its content, else by its name.
+[[nodiscard]] bool is_tik(const std::filesystem::path& path);
+
+// A clip's format as it is or as it was stated, without noise. Throws UsageError where the white code that was
+// stated does not fit its codes.
+[[nodiscard]] CaptureFormat clip_format(const Clip& clip, const ClipOptions& options);
+
+// A clip and how it is to be encoded.
+struct ClipSource {
+  SourceRequest request;
+  std::unique_ptr<Clip> clip;
+  CaptureFormat capture;  // of its samples; what is held of them has held_format()
+  std::uint32_t block_samples = 0;
+  std::vector<std::string> notes;  // on the clip and its noise: what a person should know
+
+  // As the files announce it; 0: they do not.
+  [[nodiscard]] std::uint64_t announced_samples() const { return clip->info().sample_count; }
+  // Of so many samples. Throws InputError where nothing tells how fast they were taken.
+  [[nodiscard]] Timeline timeline(std::uint64_t sample_count) const;
+};
+
+// Throws InputError where the clip cannot be read, UsageError where the request does not fit it: ExposuresAreListed,
+// BlocksTooLong, PicturesTooLarge.
+[[nodiscard]] ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory);
+
+// A shutter angle was stated for pictures whose exposures are listed.
+struct ExposuresAreListed : UsageError {
+  explicit ExposuresAreListed(const std::string& name);
+};
+
+}  // namespace nutik

@@ -1,0 +1,23 @@
+// A clip as a capture that can be read from any place on, as often as one likes.
+#pragma once
+
+#include <memory>
+#include <stop_token>
+
+#include "session/encoding.hpp"
+#include "tik/reader.hpp"
+
+namespace nutik {
+
+struct ScratchCapture {
+  std::unique_ptr<tik::Reader> reader;
+  Encoded encoded;
+};
+
+// Encodes into a temporary file, in TMPDIR, else /tmp. It has no name any more when this returns, and takes no space
+// once the reader is gone. Throws as encode() does, OutputError where there is no space.
+[[nodiscard]] ScratchCapture encode_to_scratch(const SourceRequest& source, const MemoryBudget& memory,
+                                               const ReportedProgress& progress = {},
+                                               std::stop_token stop = {});
+
+}  // namespace nutik
