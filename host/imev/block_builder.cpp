@@ -103,6 +103,7 @@ class BlockBuilder::Implementation {
 
   void add(std::span<const std::span<const std::byte>> rasters) {
     if (rasters.size() > room()) throw std::logic_error("a full block was given another sample");
+    if (is_empty() && !rasters.empty()) begin_block();
     while (!rasters.empty()) {
       // A block's first sample is compared with something else than those after it.
       const std::size_t count = is_empty() ? 1 : std::min<std::size_t>(rasters.size(), kStepSamples);
@@ -130,6 +131,11 @@ class BlockBuilder::Implementation {
     return finished;
   }
 
+  void build_in(PageBuffer memory) {
+    if (!is_empty()) throw std::logic_error("a block's memory was replaced within it");
+    if (memory.size() > 0) take_memory(std::move(memory));
+  }
+
   void pass(std::span<const std::byte> raster) {
     if (!is_empty()) throw std::logic_error("a sample was passed over within a block");
     // Where a block starts from its own samples, whatever was held before.
@@ -148,7 +154,8 @@ class BlockBuilder::Implementation {
   // Keeps what the next block starts from, before this one is closed.
   virtual void carry() {}
   virtual FinishedBlock close_block(PageBuffer& into) = 0;
-  virtual void clear() = 0;
+  virtual void begin_block() = 0;
+  virtual void take_memory(PageBuffer memory) = 0;
 
   CaptureFormat source_;
   TileGrid grid_;
@@ -161,7 +168,6 @@ class BlockBuilder::Implementation {
   void begin_next() {
     first_sample_ += samples_;
     samples_ = 0;
-    clear();
   }
 };
 
@@ -216,7 +222,8 @@ class BlockBuilder::Comparing final : public Implementation {
     }
   }
   FinishedBlock close_block(PageBuffer& into) override { return log_.finish(samples_, into); }
-  void clear() override { log_.clear(); }
+  void begin_block() override { log_.begin(); }
+  void take_memory(PageBuffer memory) override { log_.take_memory(std::move(memory)); }
 
   std::uint64_t row_bytes_;
   StepFunction step_;
@@ -276,7 +283,8 @@ class BlockBuilder::Averaging final : public Implementation {
     }
   }
 
-  void clear() override { log_.clear(); }
+  void begin_block() override { log_.begin(); }
+  void take_memory(PageBuffer memory) override { log_.take_memory(std::move(memory)); }
 
   std::uint64_t row_bytes_;  // of the source's codes
   GatherFunction gather_;
@@ -304,6 +312,7 @@ std::uint32_t BlockBuilder::room() const { return implementation_->room(); }
 bool BlockBuilder::is_empty() const { return implementation_->is_empty(); }
 BlockExtent BlockBuilder::extent() const { return implementation_->extent(); }
 FinishedBlock BlockBuilder::finish(PageBuffer& into) { return implementation_->finish(into); }
+void BlockBuilder::build_in(PageBuffer memory) { implementation_->build_in(std::move(memory)); }
 void BlockBuilder::pass(std::span<const std::byte> raster) { implementation_->pass(raster); }
 
 }  // namespace nutik

@@ -52,9 +52,12 @@ class BlockBuilder {
   // Which samples the current block holds so far.
   [[nodiscard]] BlockExtent extent() const;
 
-  // Closes the current block (which must hold a sample) and begins the next. The block was built where it lies,
-  // with room between its bodies: `into` is given that memory and what it held before is used for the next block.
+  // Closes the current block (which must hold a sample). It was built where it lies, with room between its bodies:
+  // `into` is given that memory and what it held before is used for the next block.
   FinishedBlock finish(PageBuffer& into);
+
+  // Memory for the next block, which has not begun; what is too small is enlarged then, what is empty is not taken.
+  void build_in(PageBuffer memory);
 
   // Takes a sample between blocks (the current one is empty) that will not be kept: only what it leaves
   // held counts.

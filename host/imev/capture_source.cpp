@@ -1,7 +1,7 @@
 #include "imev/capture_source.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <mutex>
 #include <stdexcept>
 
 #include "capture/format.hpp"
@@ -35,8 +35,9 @@ MemoryCapture::MemoryCapture(const CaptureFormat& source, Timeline timeline,
   if (!builder.is_empty()) close();
 }
 
-void MemoryCapture::read(std::uint64_t block, std::span<std::byte> into) {
-  std::memcpy(into.data(), blocks_[block].payload.data(), blocks_[block].bytes);
+BlockLease MemoryCapture::lend(std::uint64_t block, const LeaseTerms& /*terms*/) {
+  const Block& at = blocks_[block];
+  return {at.extent, {at.payload.data(), at.bytes}};
 }
 
 BlockView MemoryCapture::view(std::uint64_t block) const {
@@ -57,6 +58,26 @@ SampleRange streamed_samples(const CaptureFormat& source, SampleRange needed, st
   return needed;
 }
 
+class StreamingCapture::SparePayloads {
+ public:
+  void put(PageBuffer payload) {
+    const std::scoped_lock lock(mutex_);
+    payloads_.push_back(std::move(payload));
+  }
+  // Empty where none is spare.
+  PageBuffer take() {
+    const std::scoped_lock lock(mutex_);
+    if (payloads_.empty()) return {};
+    PageBuffer payload = std::move(payloads_.back());
+    payloads_.pop_back();
+    return payload;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<PageBuffer> payloads_;
+};
+
 StreamingCapture::StreamingCapture(const CaptureFormat& source, Timeline timeline, SampleRange needed,
                                    std::uint32_t block_samples, TilePolicy policy, NextSamples next_samples)
     : capture_(held_format(source)),
@@ -64,7 +85,8 @@ StreamingCapture::StreamingCapture(const CaptureFormat& source, Timeline timelin
       needed_(streamed_samples(source, needed, block_samples, timeline_.sample_count())),
       block_samples_(block_samples),
       next_samples_(std::move(next_samples)),
-      builder_(source, block_samples, policy) {}
+      builder_(source, block_samples, policy),
+      spares_(std::make_shared<SparePayloads>()) {}
 
 std::uint64_t StreamingCapture::block_count() const {
   return (needed_.last + block_samples_ - 1) / block_samples_;
@@ -91,24 +113,25 @@ void StreamingCapture::read_samples(std::uint64_t until, bool keep) {
   }
 }
 
-std::uint64_t StreamingCapture::prepare(std::uint64_t block) {
-  extent_ = block_extent(block);
-  if (samples_read_ > extent_.first_sample) {
+BlockLease StreamingCapture::lend(std::uint64_t block, const LeaseTerms& /*terms*/) {
+  const BlockExtent extent = block_extent(block);
+  if (samples_read_ > extent.first_sample) {
     throw std::logic_error("blocks of a stream must be asked for in increasing order");
   }
-  read_samples(extent_.first_sample, false);
-  read_samples(extent_.range().last, true);
-  finished_ = builder_.finish(payload_);
+  read_samples(extent.first_sample, false);
+  builder_.build_in(spares_->take());
+  read_samples(extent.range().last, true);
+  const auto payload = std::shared_ptr<PageBuffer>(new PageBuffer, [spares = spares_](PageBuffer* built) {
+    spares->put(std::move(*built));
+    delete built;
+  });
+  const FinishedBlock finished = builder_.finish(*payload);
   if (samples_read_ == timeline_.sample_count()) {
     std::uint64_t more = 0;
     for (; !next_samples_(1).empty(); ++more) check_interruption();
     if (more > 0) throw SampleCountMismatch(samples_read_ + more, timeline_.sample_count());
   }
-  return finished_.payload_bytes;
-}
-
-void StreamingCapture::read(std::uint64_t /*block*/, std::span<std::byte> into) {
-  PayloadParts(BlockGeometry(capture_, extent_.sample_count), lent()).copy_to(into);
+  return BlockLease::spread(extent, payload->first(finished.span_bytes), finished.payload_bytes, payload);
 }
 
 }  // namespace nutik

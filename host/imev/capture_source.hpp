@@ -1,11 +1,13 @@
-// Where a renderer gets a capture from: its format, its timeline and its blocks, one after another.
+// Where a renderer gets a capture from: its format, its timeline, and its blocks on loan.
 //
-// A source may be a .tik file, a capture in memory, or a clip that is decoded while it is rendered; the
-// last can only go forward, so blocks are asked for in increasing order.
+// A source may be a .tik file, a capture in memory, or a clip that is decoded while it is rendered. Format, timeline
+// and extents may be asked for by any thread at any time; each source says how blocks may be acquired.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,9 +16,18 @@
 #include "capture/timeline.hpp"
 #include "imev/block.hpp"
 #include "imev/block_builder.hpp"
+#include "imev/block_lease.hpp"
 #include "system/page_buffer.hpp"
 
 namespace nutik {
+
+// How a source's blocks may be acquired.
+struct SourceAccess {
+  static constexpr std::uint32_t kAnyNumber = std::numeric_limits<std::uint32_t>::max();
+
+  std::uint32_t threads = kAnyNumber;  // that may acquire blocks, different ones or the same, at a time
+  bool is_forward_only = false;        // each block once at most, in increasing order
+};
 
 class CaptureSource {
  public:
@@ -26,25 +37,19 @@ class CaptureSource {
   [[nodiscard]] virtual const Timeline& timeline() const = 0;
   [[nodiscard]] virtual std::uint64_t block_count() const = 0;
   [[nodiscard]] virtual BlockExtent block_extent(std::uint64_t block) const = 0;
+  [[nodiscard]] virtual SourceAccess access() const { return {}; }
 
-  // Makes a block ready and returns its payload's bytes. Throws InputError where it is damaged.
-  virtual std::uint64_t prepare(std::uint64_t block) = 0;
+  // A block's payload, checked; empty only where terms.room had none. Throws InputError where it is damaged.
+  [[nodiscard]] BlockLease acquire(std::uint64_t block, const LeaseTerms& terms = {}) {
+    return lend(block, terms);
+  }
 
-  // Copies the payload of the block prepared last to the front of `into`.
-  virtual void read(std::uint64_t block, std::span<std::byte> into) = 0;
-
-  // That payload where it lies, from a page border on and with room between its bodies, until prepare() has been
-  // called twice more; empty where it has to be read.
-  [[nodiscard]] virtual std::span<const std::byte> lent() const { return {}; }
-
-  // Does ahead what prepare() and read() will take time for, while whoever will ask for the block is not
-  // ready yet. A source may do nothing.
+  // Does ahead what acquire() will take time for, while whoever will ask for the block is not ready yet. A source
+  // may do nothing. Any thread may ask, besides those that acquire.
   virtual void preload(std::uint64_t /*block*/) {}
 
-  // Where every payload already lies in memory, ready to be used in place: that memory, which starts on
-  // a page border, and the payload's offset in it. Otherwise the region is empty.
-  [[nodiscard]] virtual std::span<const std::byte> region() const { return {}; }
-  [[nodiscard]] virtual std::uint64_t region_offset(std::uint64_t /*block*/) const { return 0; }
+ private:
+  virtual BlockLease lend(std::uint64_t block, const LeaseTerms& terms) = 0;
 };
 
 // A capture held in memory, block by block.
@@ -59,12 +64,12 @@ class MemoryCapture final : public CaptureSource {
   [[nodiscard]] const Timeline& timeline() const override { return timeline_; }
   [[nodiscard]] std::uint64_t block_count() const override { return blocks_.size(); }
   [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override { return blocks_[block].extent; }
-  std::uint64_t prepare(std::uint64_t block) override { return blocks_[block].bytes; }
-  void read(std::uint64_t block, std::span<std::byte> into) override;
 
   [[nodiscard]] BlockView view(std::uint64_t block) const;
 
  private:
+  BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override;
+
   struct Block {
     BlockExtent extent;
     PageBuffer payload;
@@ -105,14 +110,15 @@ class StreamingCapture final : public CaptureSource {
   [[nodiscard]] std::uint64_t block_count() const override;
   [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override;
 
-  // Throws SampleCountMismatch where the stream ends too early, or goes on after the timeline's end.
-  std::uint64_t prepare(std::uint64_t block) override;
-  void read(std::uint64_t block, std::span<std::byte> into) override;
-  [[nodiscard]] std::span<const std::byte> lent() const override {
-    return {payload_.data(), finished_.span_bytes};
-  }
+  [[nodiscard]] SourceAccess access() const override { return {1, true}; }
 
  private:
+  // Memory that was lent and came back, from whatever thread.
+  class SparePayloads;
+
+  // Builds the block; its memory is the lease's as long as that lives, and then that of a later block. Throws
+  // SampleCountMismatch where the stream ends too early, or goes on after the timeline's end.
+  BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override;
   void read_samples(std::uint64_t until, bool keep);
 
   CaptureFormat capture_;
@@ -122,9 +128,7 @@ class StreamingCapture final : public CaptureSource {
   NextSamples next_samples_;
   BlockBuilder builder_;
   std::uint64_t samples_read_ = 0;
-  PageBuffer payload_;  // of the block prepared last; its memory and the builder's are used in turns
-  BlockExtent extent_;  // likewise
-  FinishedBlock finished_;
+  std::shared_ptr<SparePayloads> spares_;
 };
 
 }  // namespace nutik

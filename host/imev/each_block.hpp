@@ -5,18 +5,36 @@
 
 namespace nutik {
 
+// Looks at one block at a time; packed ones are unpacked into the same memory, one after another.
+class BlockCursor {
+ public:
+  explicit BlockCursor(CaptureSource& source) : source_(source) {}
+
+  // The block, until the next call. Throws InputError where it is damaged.
+  [[nodiscard]] BlockView at(std::uint64_t block) {
+    lease_ = {};  // a source may use its memory again
+    lease_ = source_.acquire(block, {[this](std::uint64_t bytes) {
+                               room_.reserve(bytes);
+                               return room_.first(bytes);
+                             }});
+    return {source_.format(), lease_.extent(), lease_.payload()};
+  }
+
+ private:
+  CaptureSource& source_;
+  PageBuffer room_;
+  BlockLease lease_;
+};
+
 // Calls visit(BlockView) for each block that holds any of the samples [first, last), in time order. Throws
 // InputError where a block is damaged.
 template <typename Visit>
 void for_each_block(CaptureSource& source, SampleRange samples, Visit visit) {
-  PageBuffer payload;
+  BlockCursor cursor(source);
   for (std::uint64_t block = 0; block < source.block_count(); ++block) {
     const SampleRange held = source.block_extent(block).range();
     if (held.last <= samples.first || held.first >= samples.last) continue;
-    const std::uint64_t bytes = source.prepare(block);
-    payload.reserve(bytes);
-    source.read(block, payload.first(bytes));
-    visit(BlockView(source.format(), source.block_extent(block), payload.first(bytes)));
+    visit(cursor.at(block));
   }
 }
 

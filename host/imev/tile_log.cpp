@@ -38,10 +38,15 @@ TileLog::TileLog(const CaptureFormat& capture, std::uint32_t block_samples, Tile
       index_room_(largest_index_bytes(full_)),
       tile_room_(largest_body_bytes(full_, policy)),
       differ_(differ_function(full_.channels, full_.code_bytes)),
-      payload_(full_.directory_bytes() + full_.tile_count * tile_room_),
       samples_(full_.tile_count * block_samples * sizeof(std::uint16_t)),
       row_count_(full_.tile_count),
       change_count_(full_.tile_count) {}
+
+void TileLog::begin() {
+  payload_.reserve(full_.directory_bytes() + full_.tile_count * tile_room_);
+  std::fill(row_count_.begin(), row_count_.end(), 0);
+  std::fill(change_count_.begin(), change_count_.end(), 0);
+}
 
 FinishedBlock TileLog::finish(std::uint32_t samples, PageBuffer& into) {
   BlockGeometry geometry = full_;
@@ -64,13 +69,7 @@ FinishedBlock TileLog::finish(std::uint32_t samples, PageBuffer& into) {
   std::memcpy(payload_.data(), entries.data(), entries.size() * sizeof(TileEntry));
   finished.record_count = std::accumulate(change_count_.begin(), change_count_.end(), std::uint64_t{0});
   std::swap(payload_, into);
-  payload_.reserve(full_.directory_bytes() + full_.tile_count * tile_room_);
   return finished;
-}
-
-void TileLog::clear() {
-  std::fill(row_count_.begin(), row_count_.end(), 0);
-  std::fill(change_count_.begin(), change_count_.end(), 0);
 }
 
 TileEntry TileLog::choose(const BlockGeometry& geometry, std::uint64_t tile) const {

@@ -42,12 +42,12 @@ class TileLog {
     change_count_[tile] += static_cast<std::uint32_t>(std::popcount(changes));
   }
 
-  // Closes a block of `samples`: `into` is given the payload's memory, and its own is used for the next block.
-  // clear() must follow.
+  // Begins a block.
+  void begin();
+  // Closes it with so many samples: `into` is given the payload's memory, and its own is used for the next block.
   FinishedBlock finish(std::uint32_t samples, PageBuffer& into);
-
-  // Begins the next block.
-  void clear();
+  // Memory to be used for the next block.
+  void take_memory(PageBuffer memory) { payload_ = std::move(memory); }
 
  private:
   [[nodiscard]] TileEntry choose(const BlockGeometry& geometry, std::uint64_t tile) const;

@@ -1,6 +1,7 @@
 #include "opencl/block_feed.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "capture/format.hpp"
 
@@ -10,6 +11,8 @@ namespace {
 constexpr std::uint64_t kPageBytes = 4096;
 // Where a payload lies wider apart, copying it costs less than what a device may do with the room between.
 constexpr std::uint64_t kMostSpread = 4;
+// Copying fewer bytes than these into a chunk of many blocks costs less than a launch of their own.
+constexpr std::uint64_t kLeastLent = 1 << 20;
 
 }  // namespace
 
@@ -30,6 +33,7 @@ void BlockFeed::hold(const CaptureSource* source) {
 void BlockFeed::stop() {
   if (reading_.valid()) reading_.wait();
   reading_ = {};
+  pending_ = {};
 }
 
 void BlockFeed::start(const RenderPlan& plan, std::span<const TableSlice> slices, CaptureSource& source) {
@@ -39,7 +43,6 @@ void BlockFeed::start(const RenderPlan& plan, std::span<const TableSlice> slices
   source_ = &source;
   slice_ = 0;
   next_ = 0;
-  pending_bytes_ = 0;
   in_place_bytes_ = 0;
   lent_bytes_ = 0;
   is_read_by_kernel_ = false;
@@ -50,8 +53,7 @@ BlockFeed::Chunk BlockFeed::next() {
   Chunk chunk = reading_.valid() ? reading_.get() : next_chunk();
   bytes_ = in_place_bytes_ + lent_bytes_ + passing_[0].used + passing_[1].used + held_bytes_;
   // What is held or lies in place takes no time.
-  if (next_ < plan_->blocks.size() && in_place_bytes_ == 0 &&
-      !(source_ == held_source_ && holds(plan_->blocks[next_]))) {
+  if (next_ < plan_->blocks.size() && in_place_bytes_ == 0 && !holds(plan_->blocks[next_])) {
     reading_ = std::async(std::launch::async, [this] { return next_chunk(); });
   }
   return chunk;
@@ -59,17 +61,7 @@ BlockFeed::Chunk BlockFeed::next() {
 
 BlockFeed::Chunk BlockFeed::next_chunk() {
   if (next_ == slice().last_block) ++slice_;
-  if (info_.shares_host_memory && !source_->region().empty()) return in_place_chunk();
-  if (source_ == held_source_ && holds(plan_->blocks[next_])) return held_chunk();
-  if (info_.shares_host_memory && source_ != held_source_) {
-    const std::uint64_t bytes = prepared_bytes(plan_->blocks[next_]);
-    const std::span<const std::byte> lent = source_->lent();
-    if (lent.size() <= std::min(info_.largest_allocation_bytes, kMostSpread * bytes) && !lent.empty()) {
-      return lent_chunk(lent, bytes);
-    }
-    pending_bytes_ = bytes;
-  }
-  return read_chunk();
+  return holds(plan_->blocks[next_]) ? held_chunk() : filled_chunk();
 }
 
 BlockEntry BlockFeed::entry(std::uint64_t offset) const {
@@ -78,53 +70,10 @@ BlockEntry BlockFeed::entry(std::uint64_t offset) const {
           planned.extent.sample_count, 0};
 }
 
-std::uint64_t BlockFeed::prepared_bytes(const PlannedBlock& planned) {
-  const std::uint64_t bytes = pending_bytes_ != 0 ? pending_bytes_ : source_->prepare(planned.block);
-  pending_bytes_ = 0;
-  return bytes;
-}
-
 void BlockFeed::check_size(const PlannedBlock& planned, std::uint64_t bytes) const {
   if (bytes <= info_.largest_allocation_bytes) return;
   throw too_large(info_, bytes, format("a block of {} samples", planned.extent.sample_count),
                   "encode with fewer samples a block (--block-samples)");
-}
-
-BlockFeed::Chunk BlockFeed::in_place_chunk() {
-  Chunk chunk;
-  const std::span<const std::byte> region = source_->region();
-  const std::uint64_t begin = source_->region_offset(plan_->blocks[next_].block) / kPageBytes * kPageBytes;
-  std::uint64_t bytes = 0;
-  for (; next_ < slice().last_block; ++next_) {
-    const PlannedBlock& planned = plan_->blocks[next_];
-    const std::uint64_t offset = source_->region_offset(planned.block) - begin;
-    const std::uint64_t payload = prepared_bytes(planned);
-    const std::uint64_t end = align_up(offset + payload, kBlockAlignment);
-    check_size(planned, end - (chunk.entries.empty() ? 0 : bytes));
-    if (!chunk.entries.empty() && end > info_.largest_allocation_bytes) {
-      pending_bytes_ = payload;
-      break;
-    }
-    chunk.entries.push_back(entry(offset));
-    chunk.payload_bytes += payload;
-    bytes = end;
-  }
-  in_place_bytes_ = std::min(bytes, region.size() - begin);
-  chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, in_place_bytes_,
-                             const_cast<std::byte*>(region.data()) + begin);
-  return chunk;
-}
-
-// A block where its source built it.
-BlockFeed::Chunk BlockFeed::lent_chunk(std::span<const std::byte> lent, std::uint64_t bytes) {
-  Chunk chunk;
-  chunk.entries.push_back(entry(0));
-  chunk.payload_bytes = bytes;
-  lent_bytes_ = lent.size();
-  chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, lent.size(),
-                             const_cast<std::byte*>(lent.data()));
-  ++next_;
-  return chunk;
 }
 
 BlockFeed::Chunk BlockFeed::held_chunk() {
@@ -141,39 +90,115 @@ BlockFeed::Chunk BlockFeed::held_chunk() {
   return chunk;
 }
 
-BlockFeed::Chunk BlockFeed::read_chunk() {
+BlockFeed::Chunk BlockFeed::in_place_chunk(BlockLease lease) {
   Chunk chunk;
-  bool stays = false;
-  Slab* slab = nullptr;
+  const std::span<const std::byte> region = lease.region();
+  const std::uint64_t begin = lease.region_offset() / kPageBytes * kPageBytes;
+  std::uint64_t bytes = 0;
+  // As far as blocks lie behind the first one in its region.
+  while (lease.region().data() == region.data() && lease.region_offset() >= begin) {
+    const PlannedBlock& planned = plan_->blocks[next_];
+    const std::uint64_t offset = lease.region_offset() - begin;
+    const std::uint64_t end = align_up(offset + lease.bytes(), kBlockAlignment);
+    check_size(planned, end - (chunk.entries.empty() ? 0 : bytes));
+    if (!chunk.entries.empty() && end > info_.largest_allocation_bytes) break;
+    chunk.entries.push_back(entry(offset));
+    chunk.payload_bytes += lease.bytes();
+    bytes = end;
+    lease = {};
+    if (++next_ == slice().last_block) break;
+    lease = source_->acquire(plan_->blocks[next_].block,
+                             {[](std::uint64_t) -> std::span<std::byte> { return {}; }});
+  }
+  pending_ = std::move(lease);
+  in_place_bytes_ = std::min(bytes, region.size() - begin);
+  chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, in_place_bytes_,
+                             const_cast<std::byte*>(region.data()) + begin);
+  return chunk;
+}
+
+// A block where its source has it.
+BlockFeed::Chunk BlockFeed::lent_chunk(BlockLease lease) {
+  Chunk chunk;
+  chunk.entries.push_back(entry(0));
+  chunk.payload_bytes = lease.bytes();
+  lent_bytes_ = lease.payload().size();
+  chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, lent_bytes_,
+                             const_cast<std::byte*>(lease.payload().data()));
+  chunk.leases.push_back(std::move(lease));
+  ++next_;
+  return chunk;
+}
+
+// Blocks that are copied or unpacked to the feed's own memory, unless the first of them need not be.
+BlockFeed::Chunk BlockFeed::filled_chunk() {
+  Chunk chunk;
+  Filling filling;
   for (; next_ < slice().last_block; ++next_) {
     const PlannedBlock& planned = plan_->blocks[next_];
-    if (source_ == held_source_ && holds(planned)) break;
-    const std::uint64_t bytes = prepared_bytes(planned);
-    check_size(planned, bytes);
-    if (slab == nullptr) {
-      slab = &slab_for(bytes, stays);
-    } else if (slab->used + bytes > slab->capacity) {
-      pending_bytes_ = bytes;
-      break;
+    if (holds(planned)) break;
+    BlockLease lease = lease_next(filling);
+    if (lease.is_empty()) break;
+    if (!was_unpacked(filling, lease)) {
+      const bool is_first = chunk.entries.empty();
+      if (is_first && lies_in_place(lease)) return in_place_chunk(std::move(lease));
+      if (is_first && is_read_where_it_lies(lease)) return lent_chunk(std::move(lease));
+      check_size(planned, lease.bytes());
+      if (lies_in_place(lease) || is_read_where_it_lies(lease) || !has_room(filling, lease.bytes())) {
+        pending_ = std::move(lease);
+        break;
+      }
     }
-    const Place place = read_block(*slab, planned, bytes);
+    const Place place = store(*filling.slab, lease);
     chunk.entries.push_back(entry(place.offset));
-    chunk.payload_bytes += bytes;
-    if (stays) held_.emplace(planned.block, place);
-    if (!source_->lent().empty()) {  // the kernel may still read the one before, where it was built
-      ++next_;
-      break;
-    }
+    chunk.payload_bytes += place.bytes;
+    if (filling.stays) held_.emplace(planned.block, place);
   }
-  is_read_by_kernel_ |= stays;
-  chunk.payload = buffer_of(*slab);
+  is_read_by_kernel_ |= filling.stays;
+  chunk.payload = buffer_of(*filling.slab);
   return chunk;
+}
+
+// The next planned block, which its source may unpack to where the chunk is filled; empty where that is full.
+BlockLease BlockFeed::lease_next(Filling& filling) {
+  if (!pending_.is_empty()) return std::exchange(pending_, {});
+  const PlannedBlock& planned = plan_->blocks[next_];
+  return source_->acquire(planned.block, {[&](std::uint64_t bytes) -> std::span<std::byte> {
+                            check_size(planned, bytes);
+                            if (!has_room(filling, bytes)) return {};
+                            if (!info_.shares_host_memory) upload_memory_.reserve(bytes);
+                            return {unpacking_place(filling), bytes};
+                          }});
+}
+
+std::byte* BlockFeed::unpacking_place(const Filling& filling) {
+  return info_.shares_host_memory ? filling.slab->host.data() + filling.slab->used : upload_memory_.data();
+}
+
+bool BlockFeed::was_unpacked(const Filling& filling, const BlockLease& lease) {
+  return filling.slab != nullptr && lease.payload().data() == unpacking_place(filling);
+}
+
+// Whether the device reads a block, with those behind it, as part of the lasting memory they lie in.
+bool BlockFeed::lies_in_place(const BlockLease& lease) const {
+  return info_.shares_host_memory && !lease.region().empty();
+}
+
+bool BlockFeed::is_read_where_it_lies(const BlockLease& lease) const {
+  return info_.shares_host_memory && !is_held() && lease.bytes() >= kLeastLent &&
+         lease.payload().size() <= std::min(info_.largest_allocation_bytes, kMostSpread * lease.bytes());
+}
+
+bool BlockFeed::has_room(Filling& filling, std::uint64_t bytes) {
+  if (filling.slab != nullptr) return filling.slab->used + bytes <= filling.slab->capacity;
+  filling.slab = &slab_for(bytes, filling.stays);
+  return true;
 }
 
 // Memory for a chunk that starts with a block of `bytes`.
 BlockFeed::Slab& BlockFeed::slab_for(std::uint64_t bytes, bool& stays) {
   const std::uint64_t room = std::max(align_up(bytes, kBlockAlignment), limits_.chunk_bytes);
-  if (source_ == held_source_) {
+  if (is_held()) {
     stays = true;
     const bool has_open = !held_slabs_.empty() && !is_read_by_kernel_;
     if (has_open && held_slabs_.back()->used + bytes <= held_slabs_.back()->capacity) {
@@ -205,16 +230,21 @@ void BlockFeed::make_room(Slab& slab, std::uint64_t bytes) {
   slab.capacity = bytes;
 }
 
-BlockFeed::Place BlockFeed::read_block(Slab& slab, const PlannedBlock& planned, std::uint64_t bytes) {
-  const Place place{&slab, slab.used, bytes};
+BlockFeed::Place BlockFeed::store(Slab& slab, const BlockLease& lease) {
+  const Place place{&slab, slab.used, lease.bytes()};
   if (info_.shares_host_memory) {
-    source_->read(planned.block, {slab.host.data() + place.offset, bytes});
+    std::byte* to = slab.host.data() + place.offset;
+    if (lease.payload().data() != to) lease.copy_to(source_->format(), {to, place.bytes});
   } else {
-    upload_memory_.reserve(bytes);
-    source_->read(planned.block, upload_memory_.first(bytes));
-    copies_.enqueueWriteBuffer(slab.device, CL_TRUE, place.offset, bytes, upload_memory_.data());
+    const std::byte* from = lease.payload().data();
+    if (lease.payload().size() != place.bytes) {
+      upload_memory_.reserve(place.bytes);
+      lease.copy_to(source_->format(), upload_memory_.first(place.bytes));
+      from = upload_memory_.data();
+    }
+    copies_.enqueueWriteBuffer(slab.device, CL_TRUE, place.offset, place.bytes, from);
   }
-  slab.used = std::min(align_up(place.offset + bytes, kBlockAlignment), slab.capacity);
+  slab.used = std::min(align_up(place.offset + place.bytes, kBlockAlignment), slab.capacity);
   return place;
 }
 

@@ -33,6 +33,7 @@ struct FeedLimits {
 class BlockFeed {
  public:
   struct Chunk {
+    std::vector<BlockLease> leases;  // of what lies in other memory than the feed's
     cl::Buffer payload;
     std::vector<BlockEntry> entries;
     std::uint64_t payload_bytes = 0;  // of the blocks, without what lies between them
@@ -47,8 +48,8 @@ class BlockFeed {
   // All three must live until the last chunk has been taken, or stop().
   void start(const RenderPlan& plan, std::span<const TableSlice> slices, CaptureSource& source);
 
-  // The next chunk, in time order; not to be called after the last block. Whoever asks has no use for the
-  // chunk before any more. Throws InputError for a damaged block, DeviceError for one that the device cannot
+  // The next chunk, in time order; not to be called after the last block. Whoever asks has given the chunk before
+  // back. Throws InputError for a damaged block, DeviceError for one that the device cannot
   // hold.
   [[nodiscard]] Chunk next();
 
@@ -72,20 +73,34 @@ class BlockFeed {
     std::uint64_t bytes;
   };
 
-  [[nodiscard]] bool holds(const PlannedBlock& planned) const { return held_.contains(planned.block); }
-  std::uint64_t prepared_bytes(const PlannedBlock& planned);
+  // Where a chunk's blocks are copied or unpacked to; chosen with the first of them.
+  struct Filling {
+    Slab* slab = nullptr;
+    bool stays = false;  // it is part of a held capture's
+  };
+
+  [[nodiscard]] bool is_held() const { return source_ == held_source_; }
+  [[nodiscard]] bool holds(const PlannedBlock& planned) const {
+    return is_held() && held_.contains(planned.block);
+  }
+  [[nodiscard]] bool lies_in_place(const BlockLease& lease) const;
+  [[nodiscard]] bool is_read_where_it_lies(const BlockLease& lease) const;
   void check_size(const PlannedBlock& planned, std::uint64_t bytes) const;
   BlockEntry entry(std::uint64_t offset) const;
   [[nodiscard]] const TableSlice& slice() const { return slices_[slice_]; }
 
-  Chunk in_place_chunk();
-  Chunk lent_chunk(std::span<const std::byte> lent, std::uint64_t bytes);
-  Chunk held_chunk();
-  Chunk read_chunk();
   Chunk next_chunk();
+  Chunk held_chunk();
+  Chunk in_place_chunk(BlockLease lease);
+  Chunk lent_chunk(BlockLease lease);
+  Chunk filled_chunk();
+  BlockLease lease_next(Filling& filling);
+  [[nodiscard]] std::byte* unpacking_place(const Filling& filling);
+  [[nodiscard]] bool was_unpacked(const Filling& filling, const BlockLease& lease);
+  bool has_room(Filling& filling, std::uint64_t bytes);
   Slab& slab_for(std::uint64_t bytes, bool& stays);
   void make_room(Slab& slab, std::uint64_t bytes);
-  Place read_block(Slab& slab, const PlannedBlock& planned, std::uint64_t bytes);
+  Place store(Slab& slab, const BlockLease& lease);
   cl::Buffer buffer_of(Slab& slab) const;
 
   cl::Context context_;
@@ -96,9 +111,9 @@ class BlockFeed {
   const RenderPlan* plan_ = nullptr;
   CaptureSource* source_ = nullptr;
   std::span<const TableSlice> slices_;
-  std::size_t slice_ = 0;            // that the next planned block is part of
-  std::size_t next_ = 0;             // planned block
-  std::uint64_t pending_bytes_ = 0;  // of a block that was prepared and did not fit the chunk before
+  std::size_t slice_ = 0;  // that the next planned block is part of
+  std::size_t next_ = 0;   // planned block
+  BlockLease pending_;     // of that block, where it did not fit the chunk before
   std::uint64_t in_place_bytes_ = 0;
   std::uint64_t lent_bytes_ = 0;
   std::uint64_t bytes_ = 0;

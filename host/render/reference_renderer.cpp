@@ -4,10 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "imev/block.hpp"
+#include "imev/each_block.hpp"
 #include "render/code_scale.hpp"
 #include "render/value_walk.hpp"
-#include "system/page_buffer.hpp"
 #include "system/parallel.hpp"
 
 namespace nutik {
@@ -103,15 +102,12 @@ Rendered ReferenceRenderer::render_part(const RenderPlan& plan, CaptureSource& s
                                         const OutputFormat& output, const Rectangle& rectangle,
                                         const RenderControl& control) {
   Reference reference(plan, source.timeline(), rectangle);
-  PageBuffer payload;
+  BlockCursor cursor(source);
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     throw_if_cancelled(control);
     const PlannedBlock& planned = plan.blocks[b];
-    const std::uint64_t bytes = source.prepare(planned.block);
-    payload.reserve(bytes);
-    source.read(planned.block, payload.first(bytes));
     const bool follows = b > 0 && plan.blocks[b - 1].block + 1 == planned.block;
-    reference.add_block(planned, BlockView(plan.capture, planned.extent, payload.first(bytes)), follows);
+    reference.add_block(planned, cursor.at(planned.block), follows);
   }
   throw_if_cancelled(control);
 

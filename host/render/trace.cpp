@@ -6,8 +6,8 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "imev/each_block.hpp"
 #include "render/value_walk.hpp"
-#include "system/page_buffer.hpp"
 
 namespace nutik {
 namespace {
@@ -31,17 +31,14 @@ Trace trace(const RenderPlan& plan, CaptureSource& source, std::size_t function,
   const GainWalk gain(plan.functions[function].function.pieces(plan.duration_ns));
   const auto unscaled = [&](double value) { return std::scalbn(value, gain.exponent()); };
   std::array<ValueWalk, 3> walks;
-  PageBuffer payload;
+  BlockCursor cursor(source);
   std::optional<std::uint64_t> block_before;
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     const PlannedBlock& planned = plan.blocks[b];
     // The reference also walks through what other functions need: there it adds zeros, which change no bit.
     const SampleSpan& needed = plan.spans[b * plan.function_count() + function];
     if (needed.first == needed.last) continue;
-    const std::uint64_t bytes = source.prepare(planned.block);
-    payload.reserve(bytes);
-    source.read(planned.block, payload.first(bytes));
-    const auto records = read_light(BlockView(plan.capture, planned.extent, payload.first(bytes)));
+    const auto records = read_light(cursor.at(planned.block));
     const std::vector<SampleTimes> times = source.timeline().times(planned.extent.range());
     const bool follows = block_before && *block_before + 1 == planned.block;
     block_before = planned.block;

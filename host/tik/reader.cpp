@@ -31,6 +31,10 @@ bool is_whole(const BlockHeader& header) {
          header.header_checksum == checksum_of(header, offsetof(BlockHeader, header_checksum));
 }
 
+bool is_packed(const BlockHeader& header) {
+  return header.codec != static_cast<std::uint32_t>(CodecId::none);
+}
+
 std::uint64_t exposures_offset(std::uint64_t block_offset) { return block_offset + sizeof(BlockHeader); }
 
 std::uint64_t payload_offset(std::uint64_t block_offset, const BlockHeader& header) {
@@ -63,9 +67,8 @@ std::string flaw_of(const BlockHeader& header, const HeaderPlace& place, std::ui
   if (header.exposure_bytes != exposure_bytes) {
     return format("its header tells of {} bytes of exposures, not {}", header.exposure_bytes, exposure_bytes);
   }
-  const bool is_plain = header.codec == static_cast<std::uint32_t>(CodecId::none);
   if (header.payload_bytes > kLargestPayloadBytes ||
-      (is_plain && header.payload_bytes != header.stored_bytes)) {
+      (!is_packed(header) && header.payload_bytes != header.stored_bytes)) {
     return format("its header tells of {} bytes of payload", header.payload_bytes);
   }
   // The block's start lies in the file and exposures take a mebibyte at most: no sum comes near 2^64.
@@ -183,9 +186,12 @@ BlockHeader Reader::block_header(std::uint64_t block) const {
   return header;
 }
 
-std::span<const std::byte> Reader::stored_payload(std::uint64_t block) const {
-  const BlockHeader header = block_header(block);
-  return file_.bytes().subspan(payload_offset(index_[block].offset, header), header.stored_bytes);
+std::uint64_t Reader::mapped_offset(std::uint64_t block, const BlockHeader& header) const {
+  return payload_offset(index_[block].offset, header);
+}
+
+std::span<const std::byte> Reader::stored_payload(std::uint64_t block, const BlockHeader& header) const {
+  return file_.bytes().subspan(mapped_offset(block, header), header.stored_bytes);
 }
 
 void Reader::fail_block(std::uint64_t block, const std::string& why) const {
@@ -197,62 +203,75 @@ void Reader::fail_block(std::uint64_t block, const std::string& why) const {
       static_cast<double>(timeline_.reach_end_ns(samples.last - 1)) * 1e-9, why));
 }
 
-std::uint64_t Reader::prepare(std::uint64_t block) {
+void Reader::check(std::uint64_t block) const { check(block, block_header(block)); }
+
+void Reader::check(std::uint64_t block, const BlockHeader& header) const {
   check_interruption();
-  const BlockHeader header = block_header(block);
-  const std::span<const std::byte> stored = stored_payload(block);
+  const std::span<const std::byte> stored = stored_payload(block, header);
   if (checksum(stored) != header.payload_checksum) fail_block(block, "its checksum does not match");
-  if (header.codec == static_cast<std::uint32_t>(CodecId::none)) {
-    BlockView(header_.capture, block_extent(block), stored);  // checks the directory
-  }
-  return header.payload_bytes;
+  if (!is_packed(header)) BlockView(header_.capture, block_extent(block), stored);  // checks the directory
 }
 
-void Reader::preload(std::uint64_t block) {
-  constexpr std::uint64_t kLargest = 64 << 20;  // what is unpacked in the time that a device takes to start
-  const std::uint64_t bytes = index_[block].payload_bytes;
-  if (index_[block].codec == static_cast<std::uint32_t>(CodecId::none) || bytes > kLargest) return;
-  prepare(block);
-  preloaded_.reserve(bytes);
-  read(block, preloaded_.first(bytes));
-  preloaded_block_ = block;
+BlockLease Reader::lend(std::uint64_t block, const LeaseTerms& terms) {
+  if (BlockLease preloaded = take_preloaded(block); !preloaded.is_empty()) return preloaded;
+  const BlockHeader header = block_header(block);
+  if (is_packed(header)) return unpacked(block, terms);
+  check(block, header);
+  return BlockLease::within(block_extent(block), file_.bytes(), mapped_offset(block, header),
+                            header.payload_bytes);
 }
 
-void Reader::read(std::uint64_t block, std::span<std::byte> into) {
-  if (preloaded_block_ == block) {
-    std::memcpy(into.data(), preloaded_.data(), into.size());
-    return;
+BlockLease Reader::unpacked(std::uint64_t block, const LeaseTerms& terms) const {
+  const BlockHeader header = block_header(block);
+  std::shared_ptr<PageBuffer> own;
+  std::span<std::byte> room;
+  if (terms.room) {
+    room = terms.room(header.payload_bytes);
+    if (room.empty()) return {};
+  } else {
+    own = std::make_shared<PageBuffer>(header.payload_bytes);
+    room = {own->data(), own->size()};
   }
-  const BlockGeometry geometry(header_.capture, index_[block].sample_count);
-  const std::span<const std::byte> stored = stored_payload(block);
+  check(block, header);
+  const std::span<const std::byte> stored = stored_payload(block, header);
+  const std::span<std::byte> payload = room.first(header.payload_bytes);
   try {
-    unpack(static_cast<CodecId>(index_[block].codec), geometry, stored, into);
+    unpack(static_cast<CodecId>(header.codec), BlockGeometry(header_.capture, header.sample_count), stored,
+           payload);
   } catch (const InputError& error) {
     fail_block(block, error.what());
   }
   file_.release(stored);  // a capture may be larger than memory
+  return {block_extent(block), payload, std::move(own)};
+}
+
+void Reader::preload(std::uint64_t block) {
+  constexpr std::uint64_t kLargest = 64 << 20;  // what is unpacked in the time that a device takes to start
+  const BlockHeader header = block_header(block);
+  if (!is_packed(header) || header.payload_bytes > kLargest) return;
+  BlockLease lease = unpacked(block, {});
+  const std::scoped_lock lock(preloading_);
+  preloaded_ = {block, std::move(lease)};
+}
+
+// Once: whoever wants to have it again later keeps the lease.
+BlockLease Reader::take_preloaded(std::uint64_t block) {
+  const std::scoped_lock lock(preloading_);
+  if (!preloaded_ || preloaded_->block != block) return {};
+  BlockLease lease = std::move(preloaded_->lease);
+  preloaded_.reset();
+  return lease;
 }
 
 std::vector<TileEntry> Reader::directory(std::uint64_t block) const {
-  const BlockGeometry geometry(header_.capture, index_[block].sample_count);
-  const std::span<const std::byte> stored = stored_payload(block);
+  const BlockHeader header = block_header(block);
+  const BlockGeometry geometry(header_.capture, header.sample_count);
+  const std::span<const std::byte> stored = stored_payload(block, header);
   try {
-    return unpack_directory(static_cast<CodecId>(index_[block].codec), geometry, stored,
-                            index_[block].payload_bytes);
+    return unpack_directory(static_cast<CodecId>(header.codec), geometry, stored, header.payload_bytes);
   } catch (const InputError& error) {
     fail_block(block, error.what());
   }
-}
-
-std::span<const std::byte> Reader::region() const {
-  const bool all_plain = std::all_of(index_.begin(), index_.end(), [](const IndexEntry& entry) {
-    return entry.codec == static_cast<std::uint32_t>(CodecId::none);
-  });
-  return all_plain ? file_.bytes() : std::span<const std::byte>{};
-}
-
-std::uint64_t Reader::region_offset(std::uint64_t block) const {
-  return payload_offset(index_[block].offset, block_header(block));
 }
 
 namespace {

@@ -3,18 +3,19 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "imev/capture_source.hpp"
 #include "system/mapped_file.hpp"
-#include "system/page_buffer.hpp"
 #include "tik/format.hpp"
 #include "tik/header.hpp"
 
 namespace nutik::tik {
 
+// Any number of threads may acquire blocks and ask for everything else, at a time.
 class Reader final : public CaptureSource {
  public:
   // Throws InputError where the file is no .tik, of another version, damaged at front or end, or cut
@@ -28,18 +29,16 @@ class Reader final : public CaptureSource {
     return {index_[block].first_sample, index_[block].sample_count};
   }
 
-  // Checks the block's checksums; throws InputError naming its samples and times where it is damaged.
-  std::uint64_t prepare(std::uint64_t block) override;
-  void read(std::uint64_t block, std::span<std::byte> into) override;
-  void preload(std::uint64_t block) override;  // unpacks it, unless it is large
+  // Unpacks a packed block, unless it is large.
+  void preload(std::uint64_t block) override;
+
+  // Checks the block's checksums, and of one that is not packed the directory; throws InputError naming its samples
+  // and times where it is damaged.
+  void check(std::uint64_t block) const;
 
   // A block's tile directory alone: what kinds of tiles it has costs no look at their bodies. Only the
   // header's checksum is checked.
   [[nodiscard]] std::vector<TileEntry> directory(std::uint64_t block) const;
-
-  // The mapped file where no block is packed.
-  [[nodiscard]] std::span<const std::byte> region() const override;
-  [[nodiscard]] std::uint64_t region_offset(std::uint64_t block) const override;
 
   [[nodiscard]] const Header& header() const { return header_; }
   [[nodiscard]] std::span<const IndexEntry> index() const { return index_; }
@@ -51,8 +50,16 @@ class Reader final : public CaptureSource {
  private:
   void read_footer();
   void check_front() const;
+  // A block that is not packed is lent where it is mapped; a packed one where it is unpacked. Throws as check() does.
+  BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override;
+  [[nodiscard]] BlockLease unpacked(std::uint64_t block, const LeaseTerms& terms) const;
+  [[nodiscard]] BlockLease take_preloaded(std::uint64_t block);
+  void check(std::uint64_t block, const BlockHeader& header) const;
+  [[nodiscard]] std::uint64_t mapped_offset(std::uint64_t block, const BlockHeader& header) const;
+
   [[nodiscard]] BlockHeader block_header(std::uint64_t block) const;
-  [[nodiscard]] std::span<const std::byte> stored_payload(std::uint64_t block) const;
+  [[nodiscard]] std::span<const std::byte> stored_payload(std::uint64_t block,
+                                                          const BlockHeader& header) const;
   [[noreturn]] void fail(const std::string& why) const;
   [[noreturn]] void fail_block(std::uint64_t block, const std::string& why) const;
 
@@ -60,9 +67,14 @@ class Reader final : public CaptureSource {
   MappedFile file_;
   Header header_;
   std::vector<IndexEntry> index_;
-  std::optional<std::uint64_t> preloaded_block_;
-  PageBuffer preloaded_;
   Timeline timeline_ = Timeline::constant({1, 1}, Timeline::kFullShutter, 0);
+
+  struct Preloaded {
+    std::uint64_t block;
+    BlockLease lease;
+  };
+  std::mutex preloading_;  // guards what follows
+  std::optional<Preloaded> preloaded_;
 };
 
 // What could be saved of a file that was cut off.

@@ -195,9 +195,9 @@ TEST(BlockView, RefusesADirectoryThatPointsOutside) {
   const auto everything = [](std::uint32_t k, std::vector<std::byte>& raster) {
     for (std::byte& code : raster) code = static_cast<std::byte>(k);
   };
-  MemoryCapture capture = one_tile(8, 8, TilePolicy::automatic, everything);
-  std::vector<std::byte> payload(capture.prepare(0));
-  capture.read(0, payload);
+  const MemoryCapture capture = one_tile(8, 8, TilePolicy::automatic, everything);
+  const auto lent = capture.view(0).payload();
+  const std::vector<std::byte> payload(lent.begin(), lent.end());
   const BlockExtent extent = capture.block_extent(0);
   for (const std::uint32_t word : {0u, 1u}) {
     for (const std::uint32_t value : {0u, 9u, 0x7FFF'FFFFu, 0x8000'0008u, 0xFFFF'FFFFu}) {

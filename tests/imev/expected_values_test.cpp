@@ -11,6 +11,7 @@
 #include "imev/capture_source.hpp"
 #include "noise/noise_estimator.hpp"
 #include "support/noisy_scene.hpp"
+#include "support/payloads.hpp"
 #include "support/raster_stream.hpp"
 
 namespace nutik {
@@ -234,8 +235,7 @@ TEST(ExpectedValues, AStreamHoldsWhatAFileHolds) {
     EXPECT_EQ(stream.format(), file.format());
     for (std::uint64_t block = first / block_samples; block < stream.block_count(); ++block) {
       ASSERT_EQ(stream.block_extent(block), file.block_extent(block)) << seed;
-      std::vector<std::byte> payload(stream.prepare(block));
-      stream.read(block, payload);
+      const auto payload = test::payload_of(stream, block);
       const auto expected = file.view(block).payload();
       ASSERT_TRUE(std::ranges::equal(payload, expected)) << "seed " << seed << ", block " << block;
     }

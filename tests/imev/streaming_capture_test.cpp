@@ -4,7 +4,7 @@
 
 #include "capture/format.hpp"
 #include "imev/capture_source.hpp"
-#include "imev/payload_parts.hpp"
+#include "support/payloads.hpp"
 #include "support/random_case.hpp"
 #include "support/raster_stream.hpp"
 
@@ -29,8 +29,7 @@ TEST(StreamingCapture, GivesTheBlocksOfTheWholeCaptureAndReadsNoFurther) {
     for (std::uint64_t block = 0; block < streaming.block_count(); ++block) {
       const BlockExtent extent = streaming.block_extent(block);
       if (extent.range().last <= needed.first) continue;
-      std::vector<std::byte> payload(streaming.prepare(block));
-      streaming.read(block, payload);
+      const auto payload = test::payload_of(streaming, block);
       const BlockView view(random.capture, extent, payload);
       std::vector<std::byte> a(random.capture.sample_bytes()), b(a.size());
       for (std::uint32_t k = 0; k < extent.sample_count; ++k) {
@@ -43,28 +42,55 @@ TEST(StreamingCapture, GivesTheBlocksOfTheWholeCaptureAndReadsNoFurther) {
   }
 }
 
-// A payload is lent where it was built, and stays while the next block is.
-TEST(StreamingCapture, LendsPayloadsForTwoBlocks) {
+// A payload is lent where it was built, and stays for as long as that, whatever is built meanwhile.
+TEST(StreamingCapture, LeavesAlonePayloadsThatAreLent) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const RandomCase random(seed);
-    MemoryCapture whole = random.encode();
+    const MemoryCapture whole = random.encode();
     StreamingCapture streaming(random.capture, random.timeline, {0, random.rasters.size()},
                                random.block_samples, random.policy, test::RasterStream(random.rasters));
-    const auto expect_block = [&](std::uint64_t block, std::span<const std::byte> lent) {
-      const BlockExtent extent = streaming.block_extent(block);
-      const PayloadParts parts(BlockGeometry(random.capture, extent.sample_count), lent);
-      std::vector<std::byte> payload(parts.bytes());
-      parts.copy_to(payload);
-      ASSERT_TRUE(std::ranges::equal(payload, whole.view(block).payload())) << random.text() << ", " << block;
-    };
-    std::span<const std::byte> before;
+    EXPECT_TRUE(streaming.access().is_forward_only);
+    test::Random draw(seed);
+    std::vector<BlockLease> leases;
     for (std::uint64_t block = 0; block < streaming.block_count(); ++block) {
-      EXPECT_EQ(streaming.prepare(block), whole.prepare(block));
-      expect_block(block, streaming.lent());
-      if (block > 0) expect_block(block - 1, before);
-      before = streaming.lent();
+      leases.push_back(streaming.acquire(block));
+      EXPECT_EQ(leases.back().extent(), streaming.block_extent(block));
+      for (const BlockLease& lease : leases) {
+        const BlockView expected = whole.view(lease.extent().first_sample / random.block_samples);
+        EXPECT_EQ(lease.bytes(), expected.payload().size());
+        ASSERT_TRUE(std::ranges::equal(test::payload_of(random.capture, lease), expected.payload()))
+            << random.text() << ", " << block;
+      }
+      // Some are given back, in any order, and their memory is used again.
+      std::erase_if(leases, [&](const BlockLease&) { return draw.chance(0.4); });
     }
   }
+}
+
+// Whoever gives each block back before the next one never has a stream build in other memory.
+TEST(StreamingCapture, BuildsWhereBlocksWereGivenBack) {
+  CaptureFormat format;
+  format.shape = {64, 48, 3};
+  const std::vector<std::vector<std::byte>> rasters(20, std::vector<std::byte>(format.sample_bytes()));
+  StreamingCapture streaming(format, Timeline::constant({30, 1}, Timeline::kFullShutter, 20), {0, 20}, 4,
+                             TilePolicy::automatic, test::RasterStream(rasters));
+  const std::byte* first = streaming.acquire(0).payload().data();
+  for (std::uint64_t block = 1; block < 5; ++block) {
+    EXPECT_EQ(streaming.acquire(block).payload().data(), first);
+  }
+}
+
+TEST(StreamingCapture, IsAskedForBlocksInOrder) {
+  const std::vector<std::vector<std::byte>> rasters(9, std::vector<std::byte>(3));
+  CaptureFormat format;
+  format.shape = {1, 1, 3};
+  StreamingCapture streaming(format, Timeline::constant({30, 1}, Timeline::kFullShutter, 9), {0, 9}, 3,
+                             TilePolicy::automatic, test::RasterStream(rasters));
+  EXPECT_EQ(streaming.acquire(1).extent(), (BlockExtent{3, 3}));
+  for (const std::uint64_t block : {0u, 1u}) {
+    EXPECT_THROW(static_cast<void>(streaming.acquire(block)), std::logic_error);
+  }
+  EXPECT_EQ(streaming.acquire(2).extent(), (BlockExtent{6, 3}));
 }
 
 TEST(StreamingCapture, TellsTheRealNumberOfSamples) {
@@ -79,7 +105,7 @@ TEST(StreamingCapture, TellsTheRealNumberOfSamples) {
     std::uint64_t found = 0;
     try {
       for (std::uint64_t block = 0; block < streaming.block_count(); ++block) {
-        static_cast<void>(streaming.prepare(block));
+        static_cast<void>(streaming.acquire(block));
       }
     } catch (const SampleCountMismatch& mismatch) {
       found = mismatch.sample_count;

@@ -24,19 +24,16 @@ class CountingCapture final : public CaptureSource {
   [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
     return capture_.block_extent(block);
   }
-  std::uint64_t prepare(std::uint64_t block) override {
-    if (block == damaged) throw InputError("damaged");
-    return capture_.prepare(block);
-  }
-  void read(std::uint64_t block, std::span<std::byte> into) override {
-    ++reads;
-    capture_.read(block, into);
-  }
-
   std::atomic<std::uint64_t> reads = 0;
   std::uint64_t damaged = ~std::uint64_t{0};
 
  private:
+  BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override {
+    if (block == damaged) throw InputError("damaged");
+    ++reads;
+    return capture_.acquire(block, terms);
+  }
+
   MemoryCapture& capture_;
 };
 
@@ -97,9 +94,9 @@ TEST(BlockFeed, KeepsNoMoreThanItsMemory) {
   const RenderPlan plan = scene.plan(0, 90);
   OpenClRenderer plain(test::renderer_options(Precision::double_));
   const std::vector<std::byte> expected = render(plain, plan, *scene.capture);
-  std::uint64_t block_bytes = 0;
+  std::size_t block_bytes = 0;
   for (std::uint64_t block = 0; block < counted.block_count(); ++block) {
-    block_bytes = std::max(block_bytes, counted.prepare(block));
+    block_bytes = std::max(block_bytes, scene.capture->view(block).payload().size());
   }
   for (const std::uint64_t held_blocks : {0u, 1u, 5u, 22u}) {
     OpenClOptions options = test::renderer_options(Precision::double_);

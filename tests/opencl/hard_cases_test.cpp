@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "imev/each_block.hpp"
 #include "opencl/allocation_cuts.hpp"
 #include "render/reference_renderer.hpp"
 #include "support/precision_check.hpp"
@@ -152,9 +153,8 @@ TEST(LargerThanAnAllocation, IsCutIntoBands) {
 TEST(TilesOfAllKinds, AreInTheCaseOfThatName) {
   const HardCase hard = hard_case("TilesOfAllKinds");
   StreamingCapture capture = hard.open();
-  std::vector<std::byte> payload(capture.prepare(0));
-  capture.read(0, payload);
-  const BlockView block(hard.capture, capture.block_extent(0), payload);
+  BlockCursor cursor(capture);
+  const BlockView block = cursor.at(0);
   std::vector<TileKind> kinds;
   for (std::uint64_t tile = 0; tile < 4; ++tile) {
     kinds.push_back(block.geometry().kind_of(block.entry(tile)));

@@ -107,15 +107,15 @@ class CancellingCapture final : public CaptureSource {
   [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
     return capture_.block_extent(block);
   }
-  std::uint64_t prepare(std::uint64_t block) override {
-    if (block == block_) source_.request_stop();
-    return capture_.prepare(block);
-  }
-  void read(std::uint64_t block, std::span<std::byte> into) override { capture_.read(block, into); }
 
   [[nodiscard]] std::stop_token stop() const { return source_.get_token(); }
 
  private:
+  BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override {
+    if (block == block_) source_.request_stop();
+    return capture_.acquire(block, terms);
+  }
+
   MemoryCapture& capture_;
   std::uint64_t block_;
   std::stop_source source_;

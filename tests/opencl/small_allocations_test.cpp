@@ -73,14 +73,15 @@ struct Scene {
 
 // The least that a device must allocate at a time for an exposure of this capture: a block's payload where it lies
 // in a file, a block's tables, a row of tiles; and what is not cut.
-std::uint64_t smallest_allocation(const RenderPlan& plan, MemoryCapture& capture, Precision precision) {
+std::uint64_t smallest_allocation(const RenderPlan& plan, const MemoryCapture& capture, Precision precision) {
   const CodeTables tables = code_tables(plan, precision, plan.capture.white_code);
   std::uint64_t bytes =
       sums_bytes(TileGrid(plan.capture.shape).columns(), plan.capture.shape.channels, precision);
   bytes = std::max({bytes, tables.thresholds.size(), tables.guesses.size() * sizeof(std::uint32_t)});
   for (const PlannedBlock& block : plan.blocks) {
-    bytes = std::max({bytes, kPageBytes + align_up(capture.prepare(block.block), kBlockAlignment),
-                      block.row_count() * plan.function_count() * weight_bytes(precision)});
+    bytes =
+        std::max({bytes, kPageBytes + align_up(capture.view(block.block).payload().size(), kBlockAlignment),
+                  block.row_count() * plan.function_count() * weight_bytes(precision)});
   }
   return bytes;
 }
@@ -145,7 +146,7 @@ TEST_P(SmallAllocations, GiveTheSamePictures) {
     MemoryCapture capture = scene.encode(block_samples, policy);
     const test::Scratch scratch;
     tik::Reader file = mapped(scene, capture, scratch);
-    ASSERT_FALSE(file.region().empty());
+    ASSERT_FALSE(file.acquire(0).region().empty());
     const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
     OpenClRenderer plain(options());
     const Pictures expected = render(plain, plan, capture);
@@ -313,7 +314,7 @@ TEST_P(SmallAllocations, RefuseWhatCannotBeCut) {
 
   MemoryCapture dense = scene.encode(Scene::kSamples, TilePolicy::dense);
   const RenderPlan of_block = make_plan(dense, {{0, scene.functions.at(0)}}, Mask::uniform(45, 123, 0), {});
-  const std::uint64_t block_bytes = dense.prepare(0);
+  const std::uint64_t block_bytes = dense.view(0).payload().size();
   EXPECT_EQ(message(align_up(block_bytes, kBlockAlignment), of_block, dense), "");
   expect_parts(message(block_bytes - 1, of_block, dense),
                {"a block of 72 samples takes", "allocates at most", "--block-samples"});

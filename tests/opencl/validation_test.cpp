@@ -35,7 +35,7 @@ TEST(Validation, FiguresAreThoseOfASecondComputation) {
   const Picture expected = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
   const Picture expected_codes = ReferenceRenderer().render(plan, capture, output).picture;
   std::uint64_t payload_bytes = 0;
-  for (const PlannedBlock& block : plan.blocks) payload_bytes += capture.prepare(block.block);
+  for (const PlannedBlock& block : plan.blocks) payload_bytes += capture.view(block.block).payload().size();
   for (const ValidatedVariant& variant : validation.variants) {
     SCOPED_TRACE(to_text(variant.precision()));
     OpenClRenderer own(test::renderer_options(variant.precision()));

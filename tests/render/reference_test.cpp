@@ -7,6 +7,7 @@
 #include "render/reference_renderer.hpp"
 #include "support/bounds.hpp"
 #include "support/exact_exposure.hpp"
+#include "support/payloads.hpp"
 #include "support/random_case.hpp"
 #include "support/seeds.hpp"
 
@@ -99,13 +100,14 @@ class CraftedCapture final : public CaptureSource {
   [[nodiscard]] const Timeline& timeline() const override { return capture_.timeline(); }
   [[nodiscard]] std::uint64_t block_count() const override { return capture_.block_count(); }
   [[nodiscard]] BlockExtent block_extent(std::uint64_t b) const override { return capture_.block_extent(b); }
-  std::uint64_t prepare(std::uint64_t block) override { return capture_.prepare(block); }
-  void read(std::uint64_t block, std::span<std::byte> into) override {
-    capture_.read(block, into);
-    into[at_] = value_;
-  }
 
  private:
+  BlockLease lend(std::uint64_t block, const LeaseTerms& /*terms*/) override {
+    const auto payload = std::make_shared<std::vector<std::byte>>(test::payload_of(capture_, block));
+    (*payload)[at_] = value_;
+    return {capture_.block_extent(block), *payload, payload};
+  }
+
   MemoryCapture& capture_;
   std::uint64_t at_;
   std::byte value_;

@@ -19,9 +19,6 @@ std::filesystem::path write_tik(const RandomCase& random, const tik::Codec& code
 // A random case whose camera's noise is known: points or a sensor, with as many digits as doubles have.
 [[nodiscard]] RandomCase noisy_case(std::uint64_t seed);
 
-// A block as it was before it was packed.
-std::vector<std::byte> payload_of(tik::Reader& reader, std::uint64_t block);
-
 // Format, timeline and every block are those of the case.
 void expect_same_capture(const RandomCase& random, tik::Reader& reader);
 

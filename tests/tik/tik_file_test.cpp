@@ -1,12 +1,16 @@
 // What a .tik file gives back, says in words, and is told apart by.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <opencv2/imgcodecs.hpp>
+#include <thread>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/expected_values.hpp"
 #include "support/messages.hpp"
+#include "support/payloads.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
@@ -132,6 +136,59 @@ TEST(TikFile, UnpacksAheadWhatItIsAskedFor) {
     ASSERT_GE(reader.block_count(), 2u);
     reader.preload(1);
     test::expect_same_capture(random, reader);
+  }
+}
+
+// A payload is unpacked once, straight to where it is used; one that is not packed is lent where it is mapped.
+TEST(TikFile, UnpacksToWhereThereIsRoom) {
+  const RandomCase random(5);
+  MemoryCapture capture = random.encode();
+  const std::vector<std::byte> expected = test::payload_of(capture, 0);
+  for (const CodecId codec : {CodecId::none, CodecId::lz4, CodecId::zstd}) {
+    const Scratch scratch;
+    Reader reader(write_tik(random, {codec, 0}, scratch));
+    PageBuffer room(expected.size() + 1);
+    std::uint64_t asked = 0;
+    const BlockLease lease = reader.acquire(0, {[&](std::uint64_t bytes) {
+                                              asked = bytes;
+                                              return room.first(room.size());
+                                            }});
+    EXPECT_TRUE(std::ranges::equal(lease.payload(), expected));
+    EXPECT_EQ(asked, codec == CodecId::none ? 0 : expected.size());
+    EXPECT_EQ(lease.payload().data() == room.data(), codec != CodecId::none);
+    const BlockLease none = reader.acquire(0, {[](std::uint64_t) { return std::span<std::byte>(); }});
+    EXPECT_EQ(none.is_empty(), codec != CodecId::none);
+  }
+}
+
+// Different blocks and the same one, some ahead, each lease for a while.
+TEST(TikFile, IsReadBySeveralThreads) {
+  RandomCase random(9);
+  random.block_samples = 1;
+  const MemoryCapture capture = random.encode();
+  for (const CodecId codec : {CodecId::none, CodecId::zstd}) {
+    const Scratch scratch;
+    Reader reader(write_tik(random, {codec, 0}, scratch));
+    EXPECT_GE(reader.access().threads, 4u);
+    std::atomic<std::uint64_t> right = 0;
+    const auto read = [&](std::uint64_t seed) {
+      test::Random draw(seed);
+      std::vector<BlockLease> leases;
+      for (int turn = 0; turn < 50; ++turn) {
+        const auto block =
+            static_cast<std::uint64_t>(draw.whole(0, static_cast<std::int64_t>(reader.block_count()) - 1));
+        if (draw.chance(0.3)) reader.preload(block);
+        leases.push_back(reader.acquire(block));
+        const BlockLease& any = draw.pick(leases);
+        right += std::ranges::equal(any.payload(), capture.view(any.extent().first_sample).payload());
+        if (leases.size() > 5) leases.erase(leases.begin() + draw.whole(0, 5));
+      }
+    };
+    {
+      std::vector<std::jthread> threads;
+      for (std::uint64_t seed = 0; seed < 4; ++seed) threads.emplace_back(read, seed);
+    }
+    EXPECT_EQ(right, 200u);
   }
 }
 

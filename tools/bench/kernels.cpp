@@ -200,7 +200,7 @@ int run(const Settings& settings) {
   // another, and the rate may change from minute to minute. Small captures say nothing: they fit caches.
   double last_limit = 0.0;
   const auto measure_limit = [&](const SyntheticCapture& capture) {
-    const auto memory = capture.region();
+    const auto memory = capture.memory();
     if (memory.size() < (256u << 20)) return last_limit;
     last_limit = device.shares_host_memory ? read_bandwidth(memory)
                                            : device_copy_bandwidth(settings.device, memory.size() / 2);

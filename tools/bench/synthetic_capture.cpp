@@ -78,8 +78,4 @@ SyntheticCapture::SyntheticCapture(const CaptureFormat& capture, std::uint64_t s
   }
 }
 
-void SyntheticCapture::read(std::uint64_t block, std::span<std::byte> into) {
-  std::memcpy(into.data(), memory_.data() + blocks_[block].offset, blocks_[block].bytes);
-}
-
 }  // namespace nutik::bench

@@ -24,14 +24,15 @@ class SyntheticCapture final : public CaptureSource {
   [[nodiscard]] const Timeline& timeline() const override { return timeline_; }
   [[nodiscard]] std::uint64_t block_count() const override { return blocks_.size(); }
   [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override { return blocks_[block].extent; }
-  std::uint64_t prepare(std::uint64_t block) override { return blocks_[block].bytes; }
-  void read(std::uint64_t block, std::span<std::byte> into) override;
-  [[nodiscard]] std::span<const std::byte> region() const override { return {memory_.data(), bytes_}; }
-  [[nodiscard]] std::uint64_t region_offset(std::uint64_t block) const override {
-    return blocks_[block].offset;
-  }
+  // All blocks.
+  [[nodiscard]] std::span<const std::byte> memory() const { return {memory_.data(), bytes_}; }
 
  private:
+  BlockLease lend(std::uint64_t block, const LeaseTerms& /*terms*/) override {
+    const Block& at = blocks_[block];
+    return BlockLease::within(at.extent, memory(), at.offset, at.bytes);
+  }
+
   struct Block {
     BlockExtent extent;
     std::uint64_t offset;

@@ -102,7 +102,7 @@ class Checking {
     tik::Reader reader(name);
     checked_.capture.emplace(CheckedCapture{name, reader.format(), reader.timeline()});
     for (std::uint64_t block = 0; block < reader.block_count(); ++block) {
-      attempt(name, "capture_block", [&] { reader.prepare(block); });
+      attempt(name, "capture_block", [&] { reader.check(block); });
     }
   }
 

@@ -1,0 +1,73 @@
+// A block's payload on loan from its source.
+//
+//   always:  the payload stays where it is and as it is while the lease lives, whatever else is acquired meanwhile.
+//            The source must outlive its leases; they may be given back by any thread, in any order
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "imev/block.hpp"
+#include "system/page_buffer.hpp"
+
+namespace nutik {
+
+// Finds room for a payload of so many bytes: at least as much, from a multiple of 64 bytes on, to be left alone while
+// the lease lives. An empty span: there is none, and the block is not wanted now.
+using RoomForPayload = std::function<std::span<std::byte>(std::uint64_t bytes)>;
+
+// What whoever acquires a block has to say about it.
+struct LeaseTerms {
+  // Asked once by a source that has to unpack the payload, before it does any slow work. A source that has the payload
+  // in memory anyway does not ask. Without it a payload is unpacked into memory of the source's own.
+  RoomForPayload room;
+};
+
+class BlockLease {
+ public:
+  // Of nothing: what a source returns when there was no room.
+  BlockLease() = default;
+
+  // Of a payload as files hold it. `keeper` owns its memory; null where that outlives the lease anyway.
+  BlockLease(const BlockExtent& extent, std::span<const std::byte> payload,
+             std::shared_ptr<const void> keeper = {})
+      : extent_(extent), payload_(payload), bytes_(payload.size()), keeper_(std::move(keeper)) {}
+
+  // Of a payload with room between its bodies; as files hold it, it has `bytes`.
+  static BlockLease spread(const BlockExtent& extent, std::span<const std::byte> payload, std::uint64_t bytes,
+                           std::shared_ptr<const void> keeper);
+
+  // Of a payload within memory that starts on a page border and lasts as long as the source.
+  static BlockLease within(const BlockExtent& extent, std::span<const std::byte> region, std::uint64_t offset,
+                           std::uint64_t bytes);
+
+  BlockLease(BlockLease&&) = default;
+  BlockLease& operator=(BlockLease&&) = default;
+
+  [[nodiscard]] bool is_empty() const { return payload_.empty(); }
+  [[nodiscard]] const BlockExtent& extent() const { return extent_; }
+  // From a multiple of 64 bytes on.
+  [[nodiscard]] std::span<const std::byte> payload() const { return payload_; }
+  // What the payload takes without room between its bodies.
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+  // The lasting memory that the payload is part of, and where it begins there; empty where there is none.
+  [[nodiscard]] std::span<const std::byte> region() const { return region_; }
+  [[nodiscard]] std::uint64_t region_offset() const { return region_offset_; }
+
+  // Writes the payload as files hold it, bytes() of them, to the front of `into`.
+  void copy_to(const CaptureFormat& capture, std::span<std::byte> into) const;
+
+ private:
+  BlockExtent extent_;
+  std::span<const std::byte> payload_;
+  std::uint64_t bytes_ = 0;
+  std::span<const std::byte> region_;
+  std::uint64_t region_offset_ = 0;
+  std::shared_ptr<const void> keeper_;
+};
+
+}  // namespace nutik
