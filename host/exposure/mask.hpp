@@ -42,6 +42,8 @@ struct Mask {
     for (const std::uint8_t tag : tags) ++counts[tag];
     return counts;
   }
+
+  friend bool operator==(const Mask&, const Mask&) = default;
 };
 
 }  // namespace nutik

@@ -3,6 +3,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numbers>
 
 #include "capture/error.hpp"
@@ -246,13 +248,31 @@ GainFunction ShutterShape::function(Interval exposure, double error) const {
   return GainFunction(std::move(points));
 }
 
-GainFunction Shutter::function(Interval exposure) {
+struct Shutter::Fits {
+  Fits(ShutterShape of, double largest_error) : shape(std::move(of)), error(largest_error) {}
+
+  const ShutterShape shape;
+  const double error;
+  std::mutex making;
+  std::map<std::int64_t, GainFunction> by_length;  // starting at 0
+};
+
+Shutter::Shutter(ShutterShape shape, double error) : fits_(std::make_shared<Fits>(std::move(shape), error)) {}
+
+GainFunction Shutter::function(Interval exposure) const {
   const std::int64_t length_ns = exposure.end_ns - exposure.begin_ns;
-  auto found = by_length_.find(length_ns);
-  if (found == by_length_.end()) {
-    found = by_length_.emplace(length_ns, shape_.function({0, length_ns}, error_)).first;
+  const std::lock_guard lock(fits_->making);
+  auto found = fits_->by_length.find(length_ns);
+  if (found == fits_->by_length.end()) {
+    found =
+        fits_->by_length.emplace(length_ns, fits_->shape.function({0, length_ns}, fits_->error)).first;
   }
   return found->second.shifted(exposure.begin_ns);
+}
+
+bool operator==(const Shutter& a, const Shutter& b) {
+  if (a.fits_ == b.fits_) return true;
+  return a.fits_->shape == b.fits_->shape && (!a.fits_->shape.is_curve() || a.fits_->error == b.fits_->error);
 }
 
 }  // namespace nutik

@@ -22,7 +22,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,11 +51,18 @@ class ShutterShape {
   // short for the shape's corners, or for whole nanoseconds to keep within the error.
   [[nodiscard]] GainFunction function(Interval exposure, double error = kUsualError) const;
 
+  [[nodiscard]] bool is_curve() const { return corners_.empty(); }
+  // Whether they are one shape, however it was written; of curves, whether they were written alike.
+  friend bool operator==(const ShutterShape& a, const ShutterShape& b) {
+    return a.corners_ == b.corners_ && (!a.is_curve() || a.text_ == b.text_);
+  }
+
  private:
   // A corner of a shape of straight lines. Two at one place are a jump.
   struct Corner {
     Rational at;
     double gain;
+    friend bool operator==(const Corner&, const Corner&) = default;
   };
   // A stretch of a curve with a bound on |second derivative|, in gain per square of the exposure.
   struct Section {
@@ -80,20 +87,21 @@ class ShutterShape {
   double most_ = 1.0;
 };
 
-// A shape and its error, for exposure after exposure: a length is fitted once.
+// A shape and its error, for exposure after exposure: a length is fitted once, for this shutter and its copies.
 class Shutter {
  public:
-  Shutter() = default;
-  Shutter(ShutterShape shape, double error) : shape_(std::move(shape)), error_(error) {}
+  Shutter() : Shutter(ShutterShape(), ShutterShape::kUsualError) {}
+  Shutter(ShutterShape shape, double error);
 
-  [[nodiscard]] const ShutterShape& shape() const { return shape_; }
-  // As ShutterShape::function(). Not for several threads at a time.
-  [[nodiscard]] GainFunction function(Interval exposure);
+  // As ShutterShape::function(). Safe for several threads at a time.
+  [[nodiscard]] GainFunction function(Interval exposure) const;
+
+  // Whether every exposure has the same function: of straight lines whatever the error.
+  friend bool operator==(const Shutter& a, const Shutter& b);
 
  private:
-  ShutterShape shape_;
-  double error_ = ShutterShape::kUsualError;
-  std::map<std::int64_t, GainFunction> by_length_;  // starting at 0
+  struct Fits;
+  std::shared_ptr<Fits> fits_;
 };
 
 }  // namespace nutik

@@ -9,7 +9,6 @@
 #include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
 #include "app/input/exposer.hpp"
-#include "app/input/exposure_request.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/input/standard_input.hpp"
 #include "app/output/console.hpp"
@@ -19,6 +18,7 @@
 #include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
+#include "app/requests/exposure_words.hpp"
 #include "app/text/message_text.hpp"
 #include "app/text/shell_text.hpp"
 #include "capture/error.hpp"
@@ -110,10 +110,10 @@ class Batch {
       if (is_standard_input(list_name_) && reads_standard_input(line)) {
         throw UsageError("standard input holds the list already; name a file for functions and mask");
       }
-      ExposureRequest request = ExposureRequest::from(line);
+      const ExposureRequest request = exposure_request(line);
       const auto stated = stated_output(line.output, line.operands, "expose");
       const std::filesystem::path output =
-          stated.value_or(picture_name(line.operands.front(), request.label()));
+          stated.value_or(picture_name(line.operands.front(), exposure_label(line)));
       check_output(output, OutputKind::picture, input_files(line));
       const auto [earlier, is_new] =
           line_of_output_.try_emplace(std::filesystem::absolute(output).lexically_normal(), listed.line);
@@ -121,9 +121,9 @@ class Batch {
         throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
       }
       CaptureSource& source = capture(line.operands.front()).reader();
-      Exposed exposed =
-          exposer_.expose(source, request.functions(source.timeline()), request.mask(source.format().shape),
-                          request.plan_options(), output_format(line, output, source.format()));
+      Exposed exposed = exposer_.expose(source, functions_of(request, source.timeline()),
+                                        mask_of(request, source.format().shape), plan_options_of(request),
+                                        output_format(line, output, source.format()));
       for (const std::string& warning : exposure_warnings(exposed)) {
         print_warning(format("{}:{}: {}", list_name_, listed.line, warning));
       }

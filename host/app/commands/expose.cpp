@@ -3,7 +3,6 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/expose_series.hpp"
 #include "app/input/exposer.hpp"
-#include "app/input/exposure_request.hpp"
 #include "app/output/console.hpp"
 #include "app/output/ending.hpp"
 #include "app/output/exposure_report.hpp"
@@ -11,6 +10,7 @@
 #include "app/output/output_name.hpp"
 #include "app/output/picture_recipe.hpp"
 #include "app/output/stopwatch.hpp"
+#include "app/requests/exposure_words.hpp"
 #include "app/requests/source_words.hpp"
 #include "app/text/timing_text.hpp"
 #include "capture/error.hpp"
@@ -34,12 +34,12 @@ struct ExposedCapture {
 class Exposing {
  public:
   Exposing(const Options& options, const std::filesystem::path& output)
-      : options_(options), output_(output), request_(ExposureRequest::from(options)), exposer_(options) {}
+      : options_(options), output_(output), request_(exposure_request(options)), exposer_(options) {}
 
   ExposedCapture from_tik(const std::string& input) {
     tik::Reader reader(input);
     block_count_ = reader.block_count();
-    return expose(reader, request_.functions(reader.timeline()));
+    return expose(reader, functions_of(request_, reader.timeline()));
   }
 
   // The timeline is known for sure only when the clip has been read to its end, which an exposure of its
@@ -52,11 +52,11 @@ class Exposing {
       ClipSource source = open_clip_source(request, memory);
       notes_ = source.notes;
       const Timeline timeline = source.timeline(sample_count.value_or(source.announced_samples()));
-      const FunctionSet functions = request_.functions(timeline);
-      PlanOptions plan_options = request_.plan_options();
+      const FunctionSet functions = functions_of(request_, timeline);
+      PlanOptions plan_options = plan_options_of(request_);
       plan_options.transfer.reset();  // it went into the capture's format
       const SampleRange needed =
-          needed_samples(timeline, functions, request_.mask(source.capture.shape), plan_options);
+          needed_samples(timeline, functions, mask_of(request_, source.capture.shape), plan_options);
       const std::uint64_t last =
           streamed_samples(source.capture, needed, source.block_samples, timeline.sample_count()).last;
       // At the timeline's end samples that follow are counted: they prove it wrong.
@@ -77,7 +77,6 @@ class Exposing {
 
   // What makes the picture, for the summary.
   [[nodiscard]] const Exposer& exposer() const { return exposer_; }
-  [[nodiscard]] const std::string& label() const { return request_.label(); }
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   // Of a .tik.
   [[nodiscard]] std::optional<std::uint64_t> block_count() const { return block_count_; }
@@ -85,8 +84,8 @@ class Exposing {
 
  private:
   ExposedCapture expose(CaptureSource& source, const FunctionSet& functions) {
-    return {exposer_.expose(source, functions, request_.mask(source.format().shape), request_.plan_options(),
-                            output_format(options_, output_, source.format())),
+    return {exposer_.expose(source, functions, mask_of(request_, source.format().shape),
+                            plan_options_of(request_), output_format(options_, output_, source.format())),
             source.timeline()};
   }
 
@@ -109,7 +108,7 @@ int run_expose(const Options& options) {
   std::filesystem::path output = stated.value_or("");
   Exposing exposing(options, output);
   if (!stated) {
-    output = picture_name(input, exposing.label());
+    output = picture_name(input, exposure_label(options));
     exposing.set_output(output);
   }
   check_output(output, OutputKind::picture, input_files(options));

@@ -5,8 +5,6 @@
 #include <set>
 
 #include "app/input/exposer.hpp"
-#include "app/input/exposure_request.hpp"
-#include "app/input/exposure_series.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/output/console.hpp"
 #include "app/output/ending.hpp"
@@ -16,6 +14,7 @@
 #include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
+#include "app/requests/exposure_words.hpp"
 #include "app/text/message_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -68,9 +67,10 @@ class Warnings {
 int expose_series(const Options& options) {
   const auto stated = stated_output(options.output, options.operands, "expose");
   const std::string& input = options.operands.front();
-  ExposureRequest request = ExposureRequest::from(options);
-  const ExposureSeries series = ExposureSeries::from(options);
-  const PictureNames names(stated.value_or(sequence_name(input) + "-" + request.label() + "-%04d.png"));
+  ExposureRequest request = exposure_request(options);
+  const SeriesRequest series = series_request(options);
+  const PictureNames names(
+      stated.value_or(sequence_name(input) + "-" + exposure_label(options) + "-%04d.png"));
   const std::vector<std::string> inputs = input_files(options);
   check_output(names[0], OutputKind::picture, inputs);  // before a clip is read
   Exposer exposer(options);
@@ -78,10 +78,10 @@ int expose_series(const Options& options) {
   OpenedCapture opened(input, options);
   tik::Reader& capture = opened.reader();
   exposer.keep_resident(capture);
-  const std::vector<TimeText> starts = series.starts(request, capture.timeline());
+  const std::vector<StatedTime> starts = starts_of(series, request, capture.timeline());
   for (std::uint64_t k = 1; k < starts.size(); ++k) check_output(names[k], OutputKind::picture, inputs);
   const OutputFormat format_of_all = output_format(options, names[0], capture.format());
-  const Mask mask = request.mask(capture.format().shape);
+  const Mask mask = mask_of(request, capture.format().shape);
 
   const Stopwatch stopwatch;
   Progress progress("exposing", starts.size(), options.quiet);
@@ -92,8 +92,9 @@ int expose_series(const Options& options) {
   Saturation saturation;  // of all pictures together
   for (std::uint64_t k = 0; k < starts.size(); ++k) {
     progress.show(k);
-    Exposed exposed = exposer.expose(capture, request.functions(starts[k], capture.timeline()), mask,
-                                     request.plan_options(), format_of_all);
+    request.start = starts[k];
+    Exposed exposed = exposer.expose(capture, functions_of(request, capture.timeline()), mask,
+                                     plan_options_of(request), format_of_all);
     for (const std::string& warning : exposure_warnings(exposed)) warnings.print(names[k], warning);
     pictures.push(k, names[k], std::move(exposed.picture),
                   recipe.text(exposer.precision(), {{{"start", starts[k].text()}}, {}}));
@@ -120,7 +121,7 @@ int expose_series(const Options& options) {
   const double seconds = stopwatch.seconds();
   print_line(format("{} … {}: {} exposures every {}, {}{}{}, {:.1f} exposures a second, {:.2f} s on {}",
                     names[0].string(), names[starts.size() - 1].filename().string(), starts.size(),
-                    series.every_text(), shape_text(capture.format().shape),
+                    series.every.text(), shape_text(capture.format().shape),
                     still_gains_text(*first_plan, request.is_plain()),
                     saturation_text(saturation, format_of_all.type),
                     static_cast<double>(starts.size()) / seconds, seconds, exposer.renderer_name()));

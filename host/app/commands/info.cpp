@@ -7,7 +7,6 @@
 #include "app/output/output_name.hpp"
 #include "app/text/message_text.hpp"
 #include "app/text/shell_text.hpp"
-#include "app/text/time_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/activity.hpp"
@@ -16,6 +15,7 @@
 #include "media/picture_writer.hpp"
 #include "session/clip_source.hpp"
 #include "session/size_text.hpp"
+#include "session/time_text.hpp"
 #include "sheet/activity_map.hpp"
 #include "tik/reader.hpp"
 

@@ -9,12 +9,12 @@
 #include "app/output/ending.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
-#include "app/text/time_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
 #include "media/still_sequence.hpp"
 #include "session/size_text.hpp"
+#include "session/stated_time.hpp"
 #include "sheet/mask_overlay.hpp"
 
 namespace nutik::app {
@@ -135,9 +135,10 @@ Picture backdrop(const Options& options, const MaskRequest& request, const Mask&
   const Timeline& timeline = capture->timeline();
   Exposure interval{0, timeline.duration_ns()};
   if (options.exposure) {
-    interval = plain_interval(options.start.value_or("0s"), *options.exposure, timeline);
+    interval = plain_interval(StatedTime::parse(options.start.value_or("0s"), "start"),
+                              StatedTime::parse(*options.exposure, "exposure"), timeline);
   } else if (options.start) {
-    const std::uint64_t sample = sample_at(*options.start, "start", timeline);
+    const std::uint64_t sample = sample_at(StatedTime::parse(*options.start, "start"), "start", timeline);
     interval = {timeline.start_ns(sample), timeline.end_ns(sample)};
   }
   Exposer exposer(options);

@@ -4,12 +4,12 @@
 #include "app/command_line/option_table.hpp"
 #include "app/command_line/value_check.hpp"
 #include "app/commands/commands.hpp"
-#include "app/input/exposure_request.hpp"
 #include "app/output/console.hpp"
-#include "app/text/time_text.hpp"
+#include "app/requests/exposure_words.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "exposure/function_text.hpp"
+#include "session/stated_time.hpp"
 
 namespace nutik::app {
 namespace {
@@ -27,7 +27,7 @@ std::uint8_t parse_tag(const std::optional<std::string>& text) {
 }
 
 // Pictures can be counted where the rate of the capture is stated.
-Timeline timeline_for(const Options& options, const TimeText& start, const TimeText& length) {
+Timeline timeline_for(const Options& options, const StatedTime& start, const StatedTime& length) {
   const Rational angle = options.shutter_angle ? Rational::parse(*options.shutter_angle, "shutter angle")
                                                : Timeline::kFullShutter;
   if (options.fps) {
@@ -42,6 +42,14 @@ Timeline timeline_for(const Options& options, const TimeText& start, const TimeT
   return Timeline::constant({1, 1}, angle, 1);
 }
 
+// In whole numbers, of nanoseconds at the least.
+std::string whole_text(const StatedTime& time) {
+  if (time.counts_samples()) return time.text();
+  const StatedTime rounded = StatedTime::of_nanoseconds(time.nanoseconds());
+  if (rounded == time) return rounded.text();
+  return StatedTime{{time.number.numerator * time.unit_ns, time.number.denominator}, 1}.text();
+}
+
 }  // namespace
 
 int run_shutter(const Options& options) {
@@ -50,14 +58,14 @@ int run_shutter(const Options& options) {
   }
   check_choice("shutter", options.operands.front(), *find_option("shutter"));
   if (!options.exposure) throw UsageError("how long is the exposure? Add --exposure 10ms");
-  Shutter shutter = parse_shutter(options.operands.front(), options.shutter_error);
-  const TimeText start = TimeText::parse(options.start.value_or("0s"), "start");
-  const TimeText length = TimeText::parse(*options.exposure, "exposure");
+  const Shutter shutter = parse_shutter(options.operands.front(), options.shutter_error);
+  const StatedTime start = StatedTime::parse(options.start.value_or("0s"), "start");
+  const StatedTime length = StatedTime::parse(*options.exposure, "exposure");
   const std::uint8_t tag = parse_tag(options.tag);
   const Exposure interval = plain_interval(start, length, timeline_for(options, start, length));
   const double gain = brightening(options);
   const GainFunction function = shutter.function({interval.start_ns, interval.end_ns});
-  print_line(format("# {} from {} for {}", options.operands.front(), start.text(), length.text()));
+  print_line(format("# {} from {} for {}", options.operands.front(), whole_text(start), whole_text(length)));
   print_line(function_text(tag, gain == 1.0 ? function : function.scaled(gain)));
   return 0;
 }

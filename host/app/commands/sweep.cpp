@@ -3,10 +3,8 @@
 #include <optional>
 
 #include "app/commands/commands.hpp"
-#include "app/input/exposure_request.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/input/sheet_exposures.hpp"
-#include "app/input/sweep_values.hpp"
 #include "app/output/ending.hpp"
 #include "app/output/exposure_report.hpp"
 #include "app/output/json.hpp"
@@ -16,6 +14,8 @@
 #include "app/output/shared_warnings.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/output/swept_recipe.hpp"
+#include "app/requests/exposure_words.hpp"
+#include "app/requests/sweep_words.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/numbered_name.hpp"
@@ -28,33 +28,6 @@ namespace {
 constexpr const char* kNoRecipe =
     "it carries no recipe: neither a plain interval in the capture nor a function file, which has no jumps, "
     "says its gains";
-
-// One picture of the sweep: the number of its value in each range.
-using Combination = std::vector<std::uint64_t>;
-
-// The first range runs fastest.
-std::vector<Combination> combinations_of(const std::vector<SweepRange>& ranges) {
-  std::vector<Combination> combinations{{}};
-  for (auto range = ranges.rbegin(); range != ranges.rend(); ++range) {
-    std::vector<Combination> longer;
-    for (const Combination& combination : combinations) {
-      for (std::uint64_t number = 0; number < range->count(); ++number) {
-        longer.push_back(combination);
-        longer.back().insert(longer.back().begin(), number);
-      }
-    }
-    combinations = std::move(longer);
-  }
-  return combinations;
-}
-
-std::string label_of(const std::vector<SweepRange>& ranges, const Combination& combination) {
-  std::string label;
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    label += (i == 0 ? "" : ", ") + ranges[i].label(combination[i]);
-  }
-  return label;
-}
 
 // Names for the single pictures; empty where none are asked for.
 std::vector<std::filesystem::path> single_names(const Options& options, std::size_t count,
@@ -86,20 +59,20 @@ const char* key_of(SweepParameter parameter) {
 
 int run_sweep(const Options& options) {
   const Stopwatch stopwatch;
-  const std::vector<SweepRange> ranges = sweep_ranges(options);
-  const std::vector<Combination> combinations = combinations_of(ranges);
+  const SweepRequest sweep = sweep_request(options);
+  const std::vector<SweepPoint> points = sweep.points();
   sheet::SheetWishes wishes = sheet_wishes(options);
-  if (ranges.size() == 2) {
+  if (sweep.ranges.size() == 2) {
     if (wishes.columns)
       throw UsageError("two ranges make rows and columns by themselves; leave out --columns");
-    wishes.columns = static_cast<std::uint32_t>(ranges.front().count());
+    wishes.columns = static_cast<std::uint32_t>(sweep.ranges.front().count());
   }
   if (options.operands.empty()) throw UsageError("an input is missing; see nutik-cl sweep --help");
-  ExposureRequest request = ExposureRequest::from(options);
-  const std::filesystem::path output = sheet_output(options, "sweep", request.label() + "-sweep");
+  const ExposureRequest request = exposure_request(options);
+  const std::filesystem::path output = sheet_output(options, "sweep", exposure_label(options) + "-sweep");
   const std::vector<std::string> inputs = input_files(options);
   check_sheet_output(output, inputs);
-  const std::vector<std::filesystem::path> singles = single_names(options, combinations.size(), inputs);
+  const std::vector<std::filesystem::path> singles = single_names(options, points.size(), inputs);
 
   OpenedCapture opened(options.operands.front(), options);
   tik::Reader& capture = opened.reader();
@@ -108,31 +81,28 @@ int run_sweep(const Options& options) {
   for (const std::filesystem::path& single : singles) {
     static_cast<void>(value_type_for(single, std::nullopt, ValueType::code8, shape.channels));
   }
-  const FunctionSet functions = request.functions(timeline);
-  const sheet::SheetLayout layout =
-      sheet::lay_out(shape, static_cast<std::uint32_t>(combinations.size()), wishes);
+  const FunctionSet functions = functions_of(request, timeline);
+  const sheet::SheetLayout layout = sheet::lay_out(shape, static_cast<std::uint32_t>(points.size()), wishes);
   sheet::ContactSheet sheet(
       layout, format("{}: {}, {}", std::filesystem::path(options.operands.front()).filename().string(),
-                     request.label(), counted(combinations.size(), "picture")));
-  SheetExposures exposing(options, capture, request.mask(shape), request.plan_options());
+                     exposure_label(options), counted(points.size(), "picture")));
+  SheetExposures exposing(options, capture, mask_of(request, shape), plan_options_of(request));
   std::optional<PictureRecipe> recipe;  // of single pictures
   if (!singles.empty() && !options.no_recipe) recipe.emplace(options);
   SharedWarnings warnings;
   {
-    Progress progress("exposing", combinations.size(), options.quiet);
-    for (std::size_t i = 0; i < combinations.size(); ++i) {
+    Progress progress("exposing", points.size(), options.quiet);
+    for (std::size_t i = 0; i < points.size(); ++i) {
       progress.show(i);
-      FunctionSet changed = functions;
-      for (std::size_t r = 0; r < ranges.size(); ++r)
-        changed = varied(changed, ranges[r], combinations[i][r], timeline);
-      const std::string label = label_of(ranges, combinations[i]);
+      const FunctionSet changed = sweep.varied(functions, points[i], timeline);
+      const std::string label = sweep.label(points[i]);
       const Exposed exposed = exposing.expose(changed);
       warnings.add(label, exposure_warnings(exposed));
       sheet.add(label, exposed.picture, exposing.transfer());
       if (singles.empty()) continue;
       std::string text;
       if (recipe) {
-        const auto own = swept_recipe(changed, options, timeline, singles[i].stem().string() + ".fn");
+        const auto own = swept_recipe(changed, request, timeline, singles[i].stem().string() + ".fn");
         if (own) text = recipe->text(exposing.exposer().precision(), *own);
         if (!own) warnings.add(singles[i].string(), std::array{std::string(kNoRecipe)});
       }
@@ -145,13 +115,13 @@ int run_sweep(const Options& options) {
   if (options.json) {
     Json json{{"sheet", output.string()}, {"columns", layout.columns}, {"rows", layout.rows}};
     json["pictures"] = Json::array();
-    for (std::size_t i = 0; i < combinations.size(); ++i) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
       Json picture;
-      for (std::size_t r = 0; r < ranges.size(); ++r) {
-        const Rational value = ranges[r].value(combinations[i][r]);
-        if (ranges[r].parameter != SweepParameter::shift) {
-          picture[key_of(ranges[r].parameter)] = value.value();
-        } else if (ranges[r].unit_ns == 0) {
+      for (std::size_t r = 0; r < sweep.ranges.size(); ++r) {
+        const Rational value = sweep.ranges[r].value(points[i][r]);
+        if (sweep.ranges[r].parameter != SweepParameter::shift) {
+          picture[key_of(sweep.ranges[r].parameter)] = value.value();
+        } else if (sweep.ranges[r].counts_pictures) {
           picture["shift_samples"] = value.numerator;
         } else {
           picture["shift_ns"] = value.numerator;
@@ -165,10 +135,10 @@ int run_sweep(const Options& options) {
     return 0;
   }
   if (ended_quietly(options, output)) return 0;
-  print_line(format("{}: {}, {}, {}{}, {:.2f} s on {}", output.string(),
-                    counted(combinations.size(), "picture"), counted(layout.columns, "column"),
-                    counted(layout.rows, "row"), saturation_text(exposing.saturation(), exposing.type()),
-                    stopwatch.seconds(), exposing.exposer().renderer_name()));
+  print_line(format("{}: {}, {}, {}{}, {:.2f} s on {}", output.string(), counted(points.size(), "picture"),
+                    counted(layout.columns, "column"), counted(layout.rows, "row"),
+                    saturation_text(exposing.saturation(), exposing.type()), stopwatch.seconds(),
+                    exposing.exposer().renderer_name()));
   print_details(options, exposing.exposer(), opened.notes());
   return 0;
 }

@@ -4,19 +4,19 @@
 #include <utility>
 
 #include "app/commands/commands.hpp"
-#include "app/input/exposure_request.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/output/console.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/trace_picture.hpp"
+#include "app/requests/exposure_words.hpp"
 #include "app/text/number_text.hpp"
-#include "app/text/time_text.hpp"
 #include "app/text/trace_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
 #include "render/trace.hpp"
+#include "session/time_text.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {
@@ -95,7 +95,7 @@ int run_trace(const Options& options) {
   const auto output = stated_output(options.output, options.operands, "trace");
   const std::string& input = options.operands.front();
   const Traced traced = Traced::from(options);
-  ExposureRequest request = ExposureRequest::from(options);
+  const ExposureRequest request = exposure_request(options);
   if (output) {
     if (!is_table_name(*output) && !is_picture_name(*output)) {
       throw UsageError(format("{}: traces are written as a table, .csv, or as a picture: .png, .tif or .ppm",
@@ -111,8 +111,8 @@ int run_trace(const Options& options) {
 
   OpenedCapture capture(input, options);
   tik::Reader& reader = capture.reader();
-  const RenderPlan plan = make_plan(reader, request.functions(reader.timeline()),
-                                    request.mask(reader.format().shape), request.plan_options());
+  const RenderPlan plan = make_plan(reader, functions_of(request, reader.timeline()),
+                                    mask_of(request, reader.format().shape), plan_options_of(request));
   for (const std::string& warning : plan.warnings) print_warning(warning);
   const Trace trace = traced.follow(plan, reader);
   const PlannedFunction& function = plan.functions[trace.function];

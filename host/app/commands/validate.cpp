@@ -1,11 +1,11 @@
 #include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
-#include "app/input/exposure_request.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/input/renderer_choice.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/progress.hpp"
+#include "app/requests/exposure_words.hpp"
 #include "app/requests/source_words.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/validation_text.hpp"
@@ -60,15 +60,15 @@ int run_validate(const Options& options) {
   const std::string& input = options.operands.front();
   const std::uint32_t runs =
       options.runs ? parse_whole_number(*options.runs, "--runs", 1, kMostRuns) : kUsualRuns;
-  ExposureRequest request = ExposureRequest::from(options);
+  const ExposureRequest request = exposure_request(options);
   std::unique_ptr<OpenClRenderer> device = start_device(options);  // refused before a clip is read
   OpenedCapture opened(input, options_of_capture(options));
   const std::unique_ptr<OpenClRenderer> renderer = std::move(device);  // which must not outlive what it reads
   tik::Reader& capture = opened.reader();
   const Shape& shape = capture.format().shape;
   const OutputFormat output = output_format(options, capture.format());
-  const RenderPlan plan =
-      make_plan(capture, request.functions(capture.timeline()), request.mask(shape), request.plan_options());
+  const RenderPlan plan = make_plan(capture, functions_of(request, capture.timeline()),
+                                    mask_of(request, shape), plan_options_of(request));
   for (const std::string& warning : plan.warnings) print_warning(warning);
 
   std::optional<Progress> progress;

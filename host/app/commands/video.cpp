@@ -2,7 +2,6 @@
 
 #include "app/commands/commands.hpp"
 #include "app/input/exposer.hpp"
-#include "app/input/frame_request.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/output/console.hpp"
 #include "app/output/ending.hpp"
@@ -12,11 +11,12 @@
 #include "app/output/shared_warnings.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/output/video_output.hpp"
-#include "app/text/time_text.hpp"
+#include "app/requests/exposure_words.hpp"
 #include "capture/format.hpp"
 #include "media/frame_queue.hpp"
 #include "media/still_sequence.hpp"
 #include "session/size_text.hpp"
+#include "session/time_text.hpp"
 #include "system/interruption.hpp"
 
 namespace nutik::app {
@@ -33,9 +33,9 @@ std::filesystem::path usual_name(const std::string& input, Rational rate) {
 int run_video(const Options& options) {
   const Stopwatch stopwatch;
   const auto stated = stated_output(options.output, options.operands, "video");
-  FrameRequest request = FrameRequest::from(options);
+  const FramesRequest request = frames_request(options);
   const std::string& input = options.operands.front();
-  const VideoOutput output(options, stated.value_or(usual_name(input, request.rate())), request.rate());
+  const VideoOutput output(options, stated.value_or(usual_name(input, request.rate)), request.rate);
   const std::vector<std::string> inputs = input_files(options);
   output.check(0, inputs);  // a container's name, before the clip is read
 
@@ -43,12 +43,14 @@ int run_video(const Options& options) {
   OpenedCapture capture(input, options);
   tik::Reader& reader = capture.reader();
   exposer.keep_resident(reader);
-  const Frames frames = request.frames(reader.timeline());
-  const Mask mask = request.exposure().mask(reader.format().shape);
+  const Frames frames = frames_of(request, reader.timeline());
+  if (!frames.warning.empty()) print_warning(frames.warning);
+  const PlanOptions plan_options = plan_options_of(request.exposure);
+  const Mask mask = mask_of(request.exposure, reader.format().shape);
   const OutputFormat frame_format = output.frame_format(reader.format());
   output.check(frames.count, inputs);
 
-  const Transfer transfer = request.plan_options().transfer.value_or(reader.format().transfer);
+  const Transfer transfer = plan_options.transfer.value_or(reader.format().transfer);
   FrameQueue queue([&] { return output.open(reader.format().shape, frame_format, transfer); });
   SharedWarnings warnings;
   Saturation saturation;  // of all frames together
@@ -61,8 +63,8 @@ int run_video(const Options& options) {
         check_interruption();
         progress.show(exposed_frames);
         const FunctionSet functions =
-            request.exposure().functions(frames.times.exposure(exposed_frames), reader.timeline());
-        Exposed exposed = exposer.expose(reader, functions, mask, request.plan_options(), frame_format);
+            functions_of(request.exposure, frames.times.exposure(exposed_frames), reader.timeline());
+        Exposed exposed = exposer.expose(reader, functions, mask, plan_options, frame_format);
         saturation += exposed.saturation;
         warnings.add(format("frame {}", exposed_frames), exposure_warnings(exposed));
         if (!queue.push(std::move(exposed.picture))) break;
@@ -84,7 +86,7 @@ int run_video(const Options& options) {
     Json json{{"video", output.path().string()}, {"kind", output.kind()}};
     add_shape(json, reader.format().shape);
     json["frames"] = frames.count;
-    json["frames_a_second"] = request.rate().text();
+    json["frames_a_second"] = request.rate.text();
     json["start_ns"] = frames.times.start_ns(0);
     json["end_ns"] = frames.times.end_ns(frames.count - 1);
     add_saturation(json, saturation, frame_format.type);

@@ -2,13 +2,13 @@
 
 #include <filesystem>
 
-#include "app/text/time_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/each_block.hpp"
 #include "mask/code_span.hpp"
 #include "media/clip.hpp"
 #include "media/still_sequence.hpp"
+#include "session/stated_time.hpp"
 
 namespace nutik::app {
 namespace {
@@ -97,8 +97,10 @@ Region MaskMaker::region_of(const MaskStep& step, StepReport& report) {
           [&](const select::Motion& motion) {
             if (motion.from.empty()) return moving(whole(), step, report);
             const Timeline& timeline = capture_->timeline();
-            const std::uint64_t from = sample_at(motion.from, step.option, timeline);
-            const std::uint64_t to = sample_at(motion.to, step.option, timeline);
+            const std::uint64_t from =
+                sample_at(StatedTime::parse(motion.from, step.option), step.option, timeline);
+            const std::uint64_t to =
+                sample_at(StatedTime::parse(motion.to, step.option), step.option, timeline);
             if (from >= to) {
               throw UsageError(format(
                   "--changed-between {} {}: both times lie in picture {} or in the wrong order, so nothing "
@@ -130,7 +132,9 @@ Region MaskMaker::changed(const std::vector<std::uint32_t>& spans, std::uint32_t
 }
 
 Picture MaskMaker::picture_at(const PictureOrTime& word, const MaskStep& step) {
-  if (is_time(word)) return picture_of_sample(*capture_, sample_at(word, step.option, capture_->timeline()));
+  if (is_time(word))
+    return picture_of_sample(
+        *capture_, sample_at(StatedTime::parse(word, step.option), step.option, capture_->timeline()));
   Picture picture = read_picture(word);
   if (picture.shape.width != mask_.width || picture.shape.height != mask_.height) {
     throw InputError(format("{} {}: the picture is {} x {}, the mask {} x {}; they must be of one size",

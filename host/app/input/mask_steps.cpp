@@ -6,10 +6,10 @@
 #include <string_view>
 
 #include "app/text/number_text.hpp"
-#include "app/text/time_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "mask/distance.hpp"
+#include "session/stated_time.hpp"
 
 namespace nutik::app {
 namespace {
@@ -112,7 +112,7 @@ MaskStep grid_step(const Said& said, std::optional<std::uint8_t> first_tag) {
 }
 
 PictureOrTime picture_or_time(const std::string& word) {
-  if (is_time(word)) static_cast<void>(TimeText::parse(word, "time"));
+  if (is_time(word)) static_cast<void>(StatedTime::parse(word, "time"));
   return word;
 }
 
@@ -126,7 +126,7 @@ Selection selection_of(const Said& said) {
     return select::Difference{picture_or_time(said.words[0]), picture_or_time(said.words[1])};
   if (said.option == "moving") return select::Motion{};
   if (said.option == "still") return select::Stillness{};
-  for (const std::string& word : said.words) static_cast<void>(TimeText::parse(word, "--changed-between"));
+  for (const std::string& word : said.words) static_cast<void>(StatedTime::parse(word, "--changed-between"));
   return select::Motion{said.words[0], said.words[1]};
 }
 
@@ -164,7 +164,7 @@ bool is_one_of(std::string_view option, std::initializer_list<std::string_view> 
 bool is_time(const PictureOrTime& word) {
   // A file's name ends in an extension that is no unit: bright.png, frame.7.
   try {
-    static_cast<void>(TimeText::parse(word, "time"));
+    static_cast<void>(StatedTime::parse(word, "time"));
     return true;
   } catch (const UsageError&) {
     return false;

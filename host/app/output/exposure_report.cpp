@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "app/text/time_text.hpp"
 #include "capture/format.hpp"
 #include "session/size_text.hpp"
+#include "session/time_text.hpp"
 
 namespace nutik::app {
 namespace {

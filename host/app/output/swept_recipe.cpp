@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/input/exposure_request.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "exposure/function_text.hpp"
@@ -16,39 +15,38 @@ const std::map<std::string, std::optional<std::string>> kAsItIs{
     {"gain", std::nullopt}, {"ev", std::nullopt}, {"normalize", std::nullopt}};
 
 // The interval from the function's first point to its last, as bright as the function.
-std::optional<OwnRecipe> plain_recipe(const FunctionSet& functions, Options options,
+std::optional<OwnRecipe> plain_recipe(const FunctionSet& functions, ExposureRequest request,
                                       const Timeline& timeline) {
   const auto points = functions.begin()->second.points();
-  const std::int64_t start_ns = points.front().time_ns;
-  options.start = TimeText::of_nanoseconds(start_ns).text();
-  options.exposure = TimeText::of_nanoseconds(points.back().time_ns - start_ns).text();
-  for (auto* member : {&options.gain, &options.ev, &options.normalize}) member->reset();
+  auto& plain = std::get<PlainInterval>(request.gains);
+  request.start = StatedTime::of_nanoseconds(points.front().time_ns);
+  plain.length = StatedTime::of_nanoseconds(points.back().time_ns - points.front().time_ns);
+  request.normalization = {};
+  request.gain = 1.0;
   try {
-    const FunctionSet made = ExposureRequest::from(options).functions(timeline);
+    const FunctionSet made = functions_of(request, timeline);
     const auto made_points = made.begin()->second.points();
     if (made_points.size() != points.size()) return std::nullopt;
     const auto strongest = std::ranges::max_element(
         made_points, {}, [](const ControlPoint& point) { return std::fabs(point.gain); });
-    const double gain =
-        points[static_cast<std::size_t>(strongest - made_points.begin())].gain / strongest->gain;
-    if (gain != 1.0) options.gain = format("{}", gain);
-    if (ExposureRequest::from(options).functions(timeline) != functions) return std::nullopt;
+    request.gain = points[static_cast<std::size_t>(strongest - made_points.begin())].gain / strongest->gain;
+    if (functions_of(request, timeline) != functions) return std::nullopt;
   } catch (const UsageError&) {  // no gain in the capture, or an interval that is too short for the shutter
     return std::nullopt;
   }
   OwnRecipe own{kAsItIs, {}};
-  own.options["start"] = options.start;
-  own.options["exposure"] = options.exposure;
-  own.options["gain"] = options.gain;
+  own.options["start"] = request.start.text();
+  own.options["exposure"] = plain.length.text();
+  if (request.gain != 1.0) own.options["gain"] = format("{}", request.gain);
   return own;
 }
 
 }  // namespace
 
-std::optional<OwnRecipe> swept_recipe(const FunctionSet& functions, const Options& options,
+std::optional<OwnRecipe> swept_recipe(const FunctionSet& functions, const ExposureRequest& request,
                                       const Timeline& timeline, const std::string& functions_name) {
-  if (!options.functions) {
-    if (auto own = plain_recipe(functions, options, timeline)) return own;
+  if (request.is_plain()) {
+    if (auto own = plain_recipe(functions, request, timeline)) return own;
   }
   std::string text;
   for (const auto& [tag, function] : functions) {

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "app/text/time_text.hpp"
 #include "app/text/trace_text.hpp"
 #include "capture/format.hpp"
 #include "plot/graph.hpp"
+#include "session/time_text.hpp"
 
 namespace nutik::app {
 namespace {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "app/text/text_table.hpp"
-#include "app/text/time_text.hpp"
 #include "capture/format.hpp"
 #include "session/size_text.hpp"
+#include "session/time_text.hpp"
 
 namespace nutik::app {
 namespace {

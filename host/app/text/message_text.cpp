@@ -2,7 +2,9 @@
 
 #include "capture/format.hpp"
 #include "session/clip_source.hpp"
+#include "session/contact_request.hpp"
 #include "session/memory_budget.hpp"
+#include "session/series_request.hpp"
 
 namespace nutik::app {
 
@@ -17,6 +19,17 @@ std::string message_text(const std::exception& error) {
   }
   if (dynamic_cast<const ExposuresAreListed*>(&error) != nullptr) {
     return message + "; leave --shutter-angle out, or the exposure_ns column empty";
+  }
+  if (dynamic_cast<const SeriesTooLong*>(&error) != nullptr) return message + "; say how many with --count";
+  if (const auto* series = dynamic_cast<const SeriesBehindEnd*>(&error)) {
+    return format("{}; --count {} at most", message, series->possible_count);
+  }
+  if (dynamic_cast<const NothingInCapture*>(&error) != nullptr) {
+    return message + "; --count 1 makes one that goes on behind its end";
+  }
+  if (const auto* sheet = dynamic_cast<const TooManyForSheet*>(&error)) {
+    return format("--every {}; take --every {:.3g}s or more, or begin later with --start", message,
+                  sheet->least_every_s);
   }
   return message;
 }

@@ -1,11 +1,11 @@
-#include "app/input/sweep_values.hpp"
+#include "app/requests/sweep_words.hpp"
 
-#include <algorithm>
 #include <cstdlib>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "exposure/gain_function.hpp"
+#include "session/stated_time.hpp"
+#include "sheet/contact_sheet.hpp"
 
 namespace nutik::app {
 namespace {
@@ -48,20 +48,20 @@ void require_modest(const std::string& text, std::string_view option,
 SweepRange shift_range(const std::string& text) {
   const RangeText parts = split(SweepParameter::shift, text);
   SweepRange range;
-  const TimeText step = TimeText::parse(parts.step, "--shift's step");
+  const StatedTime step = StatedTime::parse(parts.step, "--shift's step");
   const auto parse = [&](const std::string& part) {
     if (part == "0") return Rational{0, 1};
-    const TimeText time = TimeText::parse(part, "--shift");
+    const StatedTime time = StatedTime::parse(part, "--shift");
     if (time.counts_samples() != step.counts_samples()) {
       throw UsageError(format("--shift '{}' mixes times and pictures; use one of them", text));
     }
     return time.counts_samples() ? time.number : Rational{time.nanoseconds(), 1};
   };
-  range.unit_ns = step.counts_samples() ? 0 : 1;
+  range.counts_pictures = step.counts_samples();
   range.step = step.counts_samples() ? step.number : Rational{step.nanoseconds(), 1};
   range.from = parse(parts.from);
   range.to = parse(parts.to);
-  if (range.unit_ns != 0) return range;
+  if (!range.counts_pictures) return range;
   require_modest(text, "--shift", {range.from, range.to, range.step});
   for (const Rational& pictures : {range.from, range.to, range.step}) {
     if (pictures.denominator == 1) continue;
@@ -85,59 +85,9 @@ SweepRange factor_range(SweepParameter parameter, const std::string& text) {
   return range;
 }
 
-// from + number · step, not reduced.
-struct WideFraction {
-  int128 numerator;
-  int128 denominator;
-};
-WideFraction sum_of(const SweepRange& range, std::uint64_t number) {
-  return {static_cast<int128>(range.from.numerator) * range.step.denominator +
-              static_cast<int128>(number) * range.step.numerator * range.from.denominator,
-          static_cast<int128>(range.from.denominator) * range.step.denominator};
-}
-
-int128 common_divisor(int128 a, int128 b) {
-  while (b != 0) {
-    const int128 rest = a % b;
-    a = b;
-    b = rest;
-  }
-  return a < 0 ? -a : a;
-}
-
 }  // namespace
 
-std::uint64_t SweepRange::count() const {
-  // floor((to - from) / step) + 1
-  const int128 numerator = (static_cast<int128>(to.numerator) * from.denominator -
-                            static_cast<int128>(from.numerator) * to.denominator) *
-                           step.denominator;
-  const int128 denominator = static_cast<int128>(from.denominator) * to.denominator * step.numerator;
-  return static_cast<std::uint64_t>(numerator / denominator) + 1;
-}
-
-Rational SweepRange::value(std::uint64_t number) const {
-  const WideFraction sum = sum_of(*this, number);
-  const int128 divisor = common_divisor(sum.numerator, sum.denominator);
-  return Rational::of(static_cast<std::int64_t>(sum.numerator / divisor),
-                      static_cast<std::int64_t>(sum.denominator / divisor));
-}
-
-std::string SweepRange::label(std::uint64_t number) const {
-  const Rational at = value(number);
-  switch (parameter) {
-    case SweepParameter::gain: return format("gain × {}", at.text());
-    case SweepParameter::stretch: return format("length × {}", at.text());
-    case SweepParameter::shift: break;
-  }
-  if (at.numerator == 0) return "as it is";
-  const char* sign = at.numerator < 0 ? "−" : "+";
-  const Rational distance{at.numerator < 0 ? -at.numerator : at.numerator, at.denominator};
-  if (unit_ns == 0) return format("{}{} f", sign, distance.text());
-  return format("{}{}", sign, duration_text(distance.numerator));
-}
-
-std::vector<SweepRange> sweep_ranges(const Options& options) {
+SweepRequest sweep_request(const Options& options) {
   std::vector<SweepRange> ranges;
   for (const Said& said : options.said) {
     if (said.option == "shift") {
@@ -167,41 +117,13 @@ std::vector<SweepRange> sweep_ranges(const Options& options) {
   std::uint64_t pictures = 1;
   for (const SweepRange& range : ranges) {
     const std::uint64_t count = range.count();
-    if (count > kMostOnASheet || pictures * count > kMostOnASheet) {
+    if (count > sheet::kMostPictures || pictures * count > sheet::kMostPictures) {
       throw UsageError(format("a sheet holds {} pictures and this sweep makes {}{}; take a larger STEP",
-                              kMostOnASheet, pictures > 1 ? format("{} x ", pictures) : "", count));
+                              sheet::kMostPictures, pictures > 1 ? format("{} x ", pictures) : "", count));
     }
     pictures *= count;
   }
-  return ranges;
-}
-
-FunctionSet varied(const FunctionSet& functions, const SweepRange& range, std::uint64_t number,
-                   const Timeline& timeline) {
-  const Rational value = range.value(number);
-  FunctionSet result;
-  if (range.parameter == SweepParameter::gain) {
-    for (const auto& [tag, function] : functions) result.emplace(tag, function.scaled(value.value()));
-    return result;
-  }
-  if (range.parameter == SweepParameter::shift) {
-    const Rational rate = timeline.rate();
-    // A whole number of nanoseconds, or periods of the clip.
-    const std::int64_t by_ns =
-        range.unit_ns == 0
-            ? round_half_up(static_cast<int128>(value.numerator) * rate.denominator * 1'000'000'000,
-                            static_cast<int128>(value.denominator) * rate.numerator)
-            : value.numerator;
-    for (const auto& [tag, function] : functions) result.emplace(tag, function.shifted(by_ns));
-    return result;
-  }
-  std::int64_t fixed_ns = timeline.duration_ns();
-  for (const auto& [tag, function] : functions) {
-    const GainSummary summary = summarize(function, timeline.duration_ns());
-    if (summary.support_ns > 0) fixed_ns = std::min(fixed_ns, summary.live.begin_ns);
-  }
-  for (const auto& [tag, function] : functions) result.emplace(tag, function.stretched(value, fixed_ns));
-  return result;
+  return {std::move(ranges)};
 }
 
 }  // namespace nutik::app

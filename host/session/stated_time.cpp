@@ -1,13 +1,16 @@
-#include "app/text/time_text.hpp"
+#include "session/stated_time.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "session/time_text.hpp"
 
-namespace nutik::app {
+namespace nutik {
 namespace {
 
 struct Unit {
@@ -15,6 +18,7 @@ struct Unit {
   std::int64_t nanoseconds;
 };
 
+// The first of a length is the one that is written; times are written in those up to a second, the coarsest first.
 constexpr std::array<Unit, 8> kUnits{{{"s", 1'000'000'000},
                                       {"ms", 1'000'000},
                                       {"us", 1000},
@@ -36,7 +40,7 @@ std::uint64_t existing_sample(std::int64_t sample, const Timeline& timeline) {
   return static_cast<std::uint64_t>(sample);
 }
 
-std::int64_t whole_samples(const TimeText& time, std::string_view what) {
+std::int64_t whole_samples(const StatedTime& time, std::string_view what) {
   if (time.number.denominator != 1) {
     throw UsageError(format("{} {}f is not a whole number of pictures", what, time.number.text()));
   }
@@ -45,8 +49,7 @@ std::int64_t whole_samples(const TimeText& time, std::string_view what) {
 
 // How long `count` periods from the picture at a time are.
 std::int64_t periods_ns(std::int64_t time_ns, std::int64_t count, const Timeline& timeline) {
-  const std::int64_t inside_ns = std::clamp<std::int64_t>(time_ns, 0, timeline.duration_ns() - 1);
-  const std::uint64_t first = timeline.samples_reaching(inside_ns, inside_ns + 1).first;
+  const std::uint64_t first = sample_at(time_ns, timeline);
   const std::uint64_t last = existing_sample(static_cast<std::int64_t>(first) + count - 1, timeline);
   const bool at_end = last + 1 == timeline.sample_count();
   return (at_end ? timeline.duration_ns() : timeline.start_ns(last + 1)) - timeline.start_ns(first);
@@ -54,7 +57,7 @@ std::int64_t periods_ns(std::int64_t time_ns, std::int64_t count, const Timeline
 
 }  // namespace
 
-TimeText TimeText::parse(std::string_view text, std::string_view what) {
+StatedTime StatedTime::parse(std::string_view text, std::string_view what) {
   const auto unit_at = text.find_first_not_of("0123456789./-");
   const std::string_view name = unit_at == std::string_view::npos ? std::string_view() : text.substr(unit_at);
   const auto unit = std::find_if(kUnits.begin(), kUnits.end(),
@@ -65,7 +68,7 @@ TimeText TimeText::parse(std::string_view text, std::string_view what) {
                "37f for pictures of the clip",
                what, text));
   }
-  TimeText time{Rational::parse(text.substr(0, unit_at), what), unit->nanoseconds};
+  StatedTime time{Rational::parse(text.substr(0, unit_at), what), unit->nanoseconds};
   if (!time.counts_samples() &&
       static_cast<double>(time.unit_ns) * std::abs(time.number.value()) > static_cast<double>(kLongestNs)) {
     throw UsageError(format("{} '{}' is longer than 126 years", what, text));
@@ -73,40 +76,51 @@ TimeText TimeText::parse(std::string_view text, std::string_view what) {
   return time;
 }
 
-std::int64_t TimeText::nanoseconds() const {
+std::int64_t StatedTime::nanoseconds() const {
   return round_half_up(static_cast<int128>(number.numerator) * unit_ns, number.denominator);
 }
 
-std::string TimeText::text() const {
-  if (counts_samples()) return format("{}f", number.text());
-  // The coarsest unit that holds it in whole numbers.
-  for (const Unit& unit : kUnits) {
-    if (unit.nanoseconds == 0 || unit.nanoseconds > kUnits.front().nanoseconds) continue;
-    const int128 nanoseconds = static_cast<int128>(number.numerator) * unit_ns;
-    const int128 whole = static_cast<int128>(number.denominator) * unit.nanoseconds;
-    if (nanoseconds % whole == 0)
-      return format("{}{}", static_cast<std::int64_t>(nanoseconds / whole), unit.name);
-  }
-  return format("{}ns", Rational{number.numerator * unit_ns, number.denominator}.text());
+StatedTime StatedTime::of_nanoseconds(std::int64_t nanoseconds) {
+  const auto unit = std::find_if(kUnits.begin(), kUnits.end(), [&](const Unit& candidate) {
+    return candidate.nanoseconds > 0 && nanoseconds % candidate.nanoseconds == 0;
+  });
+  return {{nanoseconds / unit->nanoseconds, 1}, unit->nanoseconds};
 }
 
-std::int64_t moment_ns(const TimeText& time, const Timeline& timeline) {
+std::string StatedTime::text() const {
+  const auto unit = std::ranges::find(kUnits, unit_ns, &Unit::nanoseconds);
+  return format("{}{}", number.text(), unit->name);
+}
+
+bool operator==(const StatedTime& a, const StatedTime& b) {
+  if (a.counts_samples() != b.counts_samples()) return false;
+  if (a.counts_samples()) return a.number == b.number;
+  // Both in lowest terms, in nanoseconds: products of the terms themselves could leave 128 bits.
+  const auto lowest = [](const StatedTime& time) {
+    const std::int64_t shared = std::gcd(time.unit_ns, time.number.denominator);
+    return std::pair(static_cast<int128>(time.number.numerator) * (time.unit_ns / shared),
+                     time.number.denominator / shared);
+  };
+  return lowest(a) == lowest(b);
+}
+
+std::int64_t moment_ns(const StatedTime& time, const Timeline& timeline) {
   if (!time.counts_samples()) return time.nanoseconds();
   return timeline.start_ns(existing_sample(whole_samples(time, "start"), timeline));
 }
 
-Exposure plain_interval(const TimeText& from, const TimeText& length, const Timeline& timeline) {
+Exposure plain_interval(const StatedTime& start, const StatedTime& length, const Timeline& timeline) {
   const auto fail = [&](std::string_view why) {
     throw UsageError(format("exposure '{}' is {}", length.text(), why));
   };
   if (length.number.numerator <= 0) fail("not longer than nothing");
   const std::int64_t count = length.counts_samples() ? whole_samples(length, "exposure") : 0;
   Exposure interval;
-  interval.start_ns = moment_ns(from, timeline);
+  interval.start_ns = moment_ns(start, timeline);
   if (count == 0) {
     interval.end_ns = interval.start_ns + length.nanoseconds();
-  } else if (from.counts_samples()) {
-    const std::int64_t first = whole_samples(from, "start");
+  } else if (start.counts_samples()) {
+    const std::int64_t first = whole_samples(start, "start");
     interval.end_ns = timeline.end_ns(existing_sample(first + count - 1, timeline));
   } else {
     interval.end_ns = interval.start_ns + periods_ns(interval.start_ns, count, timeline);
@@ -117,24 +131,22 @@ Exposure plain_interval(const TimeText& from, const TimeText& length, const Time
   return interval;
 }
 
-Exposure plain_interval(std::string_view start, std::string_view exposure, const Timeline& timeline) {
-  return plain_interval(TimeText::parse(start, "start"), TimeText::parse(exposure, "exposure"), timeline);
-}
-
-std::uint64_t sample_at(std::string_view text, std::string_view what, const Timeline& timeline) {
-  const TimeText time = TimeText::parse(text, what);
-  if (time.counts_samples()) return existing_sample(whole_samples(time, what), timeline);
-  const std::int64_t time_ns = time.nanoseconds();
-  if (time_ns < 0 || time_ns > timeline.duration_ns()) {
-    throw UsageError(format("{} {} lies outside the capture, which lasts {}", what, text,
-                            duration_text(timeline.duration_ns())));
-  }
-  const std::int64_t inside_ns = std::min(time_ns, timeline.duration_ns() - 1);
+std::uint64_t sample_at(std::int64_t time_ns, const Timeline& timeline) {
+  const std::int64_t inside_ns = std::clamp<std::int64_t>(time_ns, 0, timeline.duration_ns() - 1);
   return timeline.samples_reaching(inside_ns, inside_ns + 1).first;
 }
 
-ExactTime exact_time(std::string_view text, std::string_view what, const Timeline& timeline) {
-  const TimeText time = TimeText::parse(text, what);
+std::uint64_t sample_at(const StatedTime& time, std::string_view what, const Timeline& timeline) {
+  if (time.counts_samples()) return existing_sample(whole_samples(time, what), timeline);
+  const std::int64_t time_ns = time.nanoseconds();
+  if (time_ns < 0 || time_ns > timeline.duration_ns()) {
+    throw UsageError(format("{} {} lies outside the capture, which lasts {}", what, time.text(),
+                            duration_text(timeline.duration_ns())));
+  }
+  return sample_at(time_ns, timeline);
+}
+
+ExactTime exact_time(const StatedTime& time, std::string_view what, const Timeline& timeline) {
   if (!time.counts_samples()) {
     return {static_cast<int128>(time.number.numerator) * time.unit_ns, time.number.denominator};
   }
@@ -143,22 +155,4 @@ ExactTime exact_time(std::string_view text, std::string_view what, const Timelin
   return ExactTime::of_sample(timeline, existing_sample(sample, timeline));
 }
 
-std::string duration_text(std::int64_t nanoseconds) {
-  const auto value = static_cast<double>(nanoseconds);
-  if (nanoseconds < 1000) return format("{} ns", nanoseconds);
-  if (nanoseconds < 1'000'000) return format("{:.4g} us", value * 1e-3);
-  if (nanoseconds < 1'000'000'000) return format("{:.4g} ms", value * 1e-6);
-  return format("{:.4g} s", value * 1e-9);
-}
-
-std::string integral_text(double nanoseconds) {
-  if (nanoseconds == 0.0) return "0 s";
-  const double length = std::fabs(nanoseconds);
-  // What would be rounded up to the next unit is shown in it.
-  if (length >= 999'999'500.0) return format("{:.6g} s", nanoseconds * 1e-9);
-  if (length >= 999'999.5) return format("{:.6g} ms", nanoseconds * 1e-6);
-  if (length >= 999.9995) return format("{:.6g} us", nanoseconds * 1e-3);
-  return format("{:.6g} ns", nanoseconds);
-}
-
-}  // namespace nutik::app
+}  // namespace nutik

@@ -1,0 +1,162 @@
+#include "app/requests/exposure_words.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "app/input/standard_input.hpp"
+#include "app/output/console.hpp"
+#include "app/text/number_text.hpp"
+#include "app/text/shell_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "session/function_input.hpp"
+
+namespace nutik::app {
+namespace {
+
+constexpr const char* kFilmRate = "24";
+constexpr const char* kFilmAngle = "180";
+
+Shared<FunctionSet> read_function_file(const std::string& name) {
+  FunctionInput input = read_functions(InputBytes(name).text(), input_title(name));
+  if (!input.warnings.empty()) print_note(input.warnings);
+  return std::move(input.functions);
+}
+
+// The one value that an option with one value may have.
+bool parse_only(const std::optional<std::string>& text, std::string_view option, std::string_view only) {
+  if (!text) return false;
+  if (*text == only) return true;
+  throw UsageError(format("{} {} is not known; the only choice is {} {}", option, *text, option, only));
+}
+
+double parse_signed_number(std::string_view text, std::string_view option) {
+  const auto value = parse_number(text.substr(text.starts_with('+') ? 1 : 0));
+  if (!value) throw UsageError(format("{} {} is no number", option, text));
+  return *value;
+}
+
+// All but when it is exposed.
+ExposureRequest timeless_request(const Options& options) {
+  ExposureRequest request;
+  request.unmapped_is_zero = parse_only(options.unmapped, "--unmapped", "zero");
+  request.live_all = parse_only(options.live, "--live", "all");
+  if (options.transfer) request.transfer = Transfer::parse(*options.transfer);
+  request.normalization = Normalization::parse(options.normalize.value_or("support"));
+  request.gain = brightening(options);
+  if (!options.functions) {
+    if (options.mask) throw UsageError("a mask goes with gain functions (-k), not with a plain interval");
+    request.gains = PlainInterval{{}, parse_shutter(options.shutter.value_or("box"), options.shutter_error)};
+    return request;
+  }
+  const auto refuse = [&](const std::optional<std::string>& option, std::string_view name) {
+    if (option)
+      throw UsageError(format("{} describes a plain interval, -k a file of functions; use one", name));
+  };
+  refuse(options.exposure, "--exposure");
+  refuse(options.shutter, "--shutter");
+  refuse(options.shutter_error, "--shutter-error");
+  const Shared<FunctionSet> functions = read_function_file(*options.functions);
+  if (!options.mask && functions->size() > 1) {
+    throw UsageError(format("{} holds {} functions; a mask says where each applies: -m mask.pgm",
+                            input_title(*options.functions), functions->size()));
+  }
+  request.gains = functions;
+  if (options.mask) request.mask = Shared(CountedMask(read_mask_input(*options.mask)));
+  return request;
+}
+
+}  // namespace
+
+double brightening(const Options& options) {
+  double gain = 1.0;
+  if (options.gain) gain = parse_signed_number(*options.gain, "--gain");
+  if (options.ev) gain *= std::exp2(parse_signed_number(*options.ev, "--ev"));
+  if (!std::isfinite(gain) || gain == 0.0) {
+    throw UsageError(format("{}{} makes a picture of nothing but {}; choose a number nearer to {}",
+                            options.gain ? "--gain " + *options.gain : "",
+                            options.ev ? " --ev " + *options.ev : "",
+                            gain == 0.0 ? "black" : "infinite light", options.gain ? "1" : "0"));
+  }
+  return gain;
+}
+
+Shutter parse_shutter(const std::string& shape, const std::optional<std::string>& error_text) {
+  double error = ShutterShape::kUsualError;
+  if (error_text) {
+    error = parse_signed_number(*error_text, "--shutter-error");
+    if (!(error >= ShutterShape::kLeastError && error < 1.0)) {
+      throw UsageError(
+          format("--shutter-error {} is no share from {} to 1", *error_text, ShutterShape::kLeastError));
+    }
+  }
+  return {ShutterShape::parse(shape), error};
+}
+
+ExposureRequest exposure_request(const Options& options) {
+  if (!options.functions && !options.start && !options.exposure) {
+    if (options.mask) {
+      throw UsageError(format("a mask needs gain functions: nutik-cl -m {} -k functions.fn {}",
+                              shell_word(*options.mask),
+                              options.operands.empty() ? "clip.tik" : shell_word(options.operands.front())));
+    }
+    throw UsageError(
+        "an exposure needs a plain interval (--start 0.4s --exposure 10ms) or "
+        "gain functions (-k functions.fn)");
+  }
+  ExposureRequest request = timeless_request(options);
+  request.start = StatedTime::parse(options.start.value_or("0s"), "start");
+  if (auto* plain = std::get_if<PlainInterval>(&request.gains)) {
+    if (!options.exposure) throw UsageError("how long is the exposure? Add --exposure 10ms");
+    plain->length = StatedTime::parse(*options.exposure, "exposure");
+  }
+  return request;
+}
+
+std::string exposure_label(const Options& options) {
+  std::string label;
+  if (options.functions) {
+    label = is_standard_input(*options.functions) ? "standard-input"
+                                                  : std::filesystem::path(*options.functions).stem().string();
+    if (options.start) label += "-" + *options.start;
+  } else {
+    label = format("{}-{}", options.start.value_or("0s"), options.exposure.value_or(""));
+  }
+  std::ranges::replace(label, '/', '_');
+  return label;
+}
+
+SeriesRequest series_request(const Options& options) {
+  SeriesRequest series{StatedTime::parse(*options.every, "every"), std::nullopt};
+  if (series.every.number.numerator <= 0) {
+    throw UsageError(format("every '{}' is not longer than nothing", *options.every));
+  }
+  if (series.every.counts_samples() && series.every.number.denominator != 1) {
+    throw UsageError(format("every '{}' is not a whole number of pictures", *options.every));
+  }
+  if (options.count) {
+    series.count = parse_whole_number(*options.count, "count", 1, SeriesRequest::kMostExposures);
+  }
+  return series;
+}
+
+FramesRequest frames_request(const Options& options) {
+  if (options.functions && options.out_angle) {
+    throw UsageError(
+        "--out-angle describes plain exposures; with -k the functions say how each frame is exposed, from "
+        "its start on. Use one");
+  }
+  FramesRequest request;
+  request.exposure = timeless_request(options);
+  request.rate = Rational::parse(options.out_fps.value_or(kFilmRate), "frame rate of the video");
+  request.speed = Rational::parse(options.speed.value_or("1"), "speed");
+  request.angle = Rational::parse(options.out_angle.value_or(kFilmAngle), "shutter angle of the video");
+  if (options.from) request.from = StatedTime::parse(*options.from, "the video's start");
+  if (options.to) request.to = StatedTime::parse(*options.to, "the video's end");
+  // Before anything is opened.
+  static_cast<void>(FrameTimes({}, request.rate, request.speed, request.angle));
+  return request;
+}
+
+}  // namespace nutik::app

@@ -1,0 +1,113 @@
+#include "session/sweep_request.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "capture/format.hpp"
+#include "exposure/gain_function.hpp"
+#include "session/time_text.hpp"
+
+namespace nutik {
+namespace {
+
+int128 common_divisor(int128 a, int128 b) {
+  while (b != 0) {
+    const int128 rest = a % b;
+    a = b;
+    b = rest;
+  }
+  return a < 0 ? -a : a;
+}
+
+// The functions with one value applied.
+FunctionSet with_value(const FunctionSet& functions, const SweepRange& range, const Rational& value,
+                       const Timeline& timeline) {
+  const auto each = [&](auto change) {
+    FunctionSet changed;
+    for (const auto& [tag, function] : functions) changed.emplace(tag, change(function));
+    return changed;
+  };
+  if (range.parameter == SweepParameter::gain) {
+    return each([&](const GainFunction& function) { return function.scaled(value.value()); });
+  }
+  if (range.parameter == SweepParameter::shift) {
+    const Rational rate = timeline.rate();
+    // A whole number of nanoseconds, or periods of the clip.
+    const std::int64_t by_ns =
+        range.counts_pictures
+            ? round_half_up(static_cast<int128>(value.numerator) * rate.denominator * kSecondNs,
+                            static_cast<int128>(value.denominator) * rate.numerator)
+            : value.numerator;
+    return each([&](const GainFunction& function) { return function.shifted(by_ns); });
+  }
+  std::int64_t fixed_ns = timeline.duration_ns();
+  for (const auto& [tag, function] : functions) {
+    const GainSummary summary = summarize(function, timeline.duration_ns());
+    if (summary.support_ns > 0) fixed_ns = std::min(fixed_ns, summary.live.begin_ns);
+  }
+  return each([&](const GainFunction& function) { return function.stretched(value, fixed_ns); });
+}
+
+}  // namespace
+
+std::uint64_t SweepRange::count() const {
+  // floor((to - from) / step) + 1
+  const int128 numerator = (static_cast<int128>(to.numerator) * from.denominator -
+                            static_cast<int128>(from.numerator) * to.denominator) *
+                           step.denominator;
+  const int128 denominator = static_cast<int128>(from.denominator) * to.denominator * step.numerator;
+  return static_cast<std::uint64_t>(numerator / denominator) + 1;
+}
+
+Rational SweepRange::value(std::uint64_t number) const {
+  const int128 numerator = static_cast<int128>(from.numerator) * step.denominator +
+                           static_cast<int128>(number) * step.numerator * from.denominator;
+  const int128 denominator = static_cast<int128>(from.denominator) * step.denominator;
+  const int128 divisor = common_divisor(numerator, denominator);
+  return Rational::of(static_cast<std::int64_t>(numerator / divisor),
+                      static_cast<std::int64_t>(denominator / divisor));
+}
+
+std::string SweepRange::label(std::uint64_t number) const {
+  const Rational at = value(number);
+  switch (parameter) {
+    case SweepParameter::gain: return format("gain × {}", at.text());
+    case SweepParameter::stretch: return format("length × {}", at.text());
+    case SweepParameter::shift: break;
+  }
+  if (at.numerator == 0) return "as it is";
+  const char* sign = at.numerator < 0 ? "−" : "+";
+  const Rational distance{at.numerator < 0 ? -at.numerator : at.numerator, at.denominator};
+  if (counts_pictures) return format("{}{} f", sign, distance.text());
+  return format("{}{}", sign, duration_text(distance.numerator));
+}
+
+std::vector<SweepPoint> SweepRequest::points() const {
+  std::uint64_t count = 1;
+  for (const SweepRange& range : ranges) count *= range.count();
+  std::vector<SweepPoint> points(count);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    std::uint64_t rest = i;
+    for (const SweepRange& range : ranges) {
+      points[i].push_back(rest % range.count());
+      rest /= range.count();
+    }
+  }
+  return points;
+}
+
+std::string SweepRequest::label(const SweepPoint& point) const {
+  std::string label;
+  for (std::size_t i = 0; i < ranges.size(); ++i) label += (i == 0 ? "" : ", ") + ranges[i].label(point[i]);
+  return label;
+}
+
+FunctionSet SweepRequest::varied(FunctionSet functions, const SweepPoint& point,
+                                 const Timeline& timeline) const {
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    functions = with_value(functions, ranges[i], ranges[i].value(point[i]), timeline);
+  }
+  return functions;
+}
+
+}  // namespace nutik
