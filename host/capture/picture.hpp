@@ -110,6 +110,8 @@ struct Picture {
     return {reinterpret_cast<const T*>(bytes.data()), shape.value_count()};
   }
 
+  friend bool operator==(const Picture&, const Picture&) = default;
+
  private:
   void check_size(std::size_t size) const {
     if (size != value_bytes(type)) throw std::logic_error("a picture was read as another value type");

@@ -37,6 +37,7 @@ struct Region {
 struct Point {
   double x = 0.0;
   double y = 0.0;
+  friend bool operator==(const Point&, const Point&) = default;
 };
 
 // Shapes; what of them lies outside the picture is cut off. A rectangle from its top left corner; an ellipse

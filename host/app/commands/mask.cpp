@@ -2,17 +2,18 @@
 
 #include "app/commands/commands.hpp"
 #include "app/input/exposer.hpp"
-#include "app/input/mask_maker.hpp"
 #include "app/input/opened_capture.hpp"
 #include "app/input/standard_input.hpp"
 #include "app/output/console.hpp"
 #include "app/output/ending.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
+#include "app/requests/mask_words.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
 #include "media/still_sequence.hpp"
+#include "session/mask_making.hpp"
 #include "session/size_text.hpp"
 #include "session/stated_time.hpp"
 #include "sheet/mask_overlay.hpp"
@@ -22,18 +23,11 @@ namespace {
 
 constexpr std::ptrdiff_t kMostTagsListed = 32;
 
-// What the command line asks for, before anything large is read.
-struct MaskRequest {
-  std::vector<MaskStep> steps;
+// What the command line asks for.
+struct MaskJob {
+  MaskRequest request;
   std::optional<std::string> capture;
   std::filesystem::path output;
-  std::vector<std::string> inputs;  // that no output may replace
-};
-
-// What a mask's size follows from, and which it is.
-struct StatedSize {
-  std::string source;
-  MaskSize size;
 };
 
 bool is_mask_name(const std::filesystem::path& path) {
@@ -41,80 +35,51 @@ bool is_mask_name(const std::filesystem::path& path) {
   return extension == ".pgm" || extension == ".png" || extension == ".PGM" || extension == ".PNG";
 }
 
-MaskRequest request_of(const Options& options) {
-  MaskRequest request;
-  request.steps = mask_steps(options);
+// Nothing large is read before all of it makes sense.
+MaskJob job_of(const Options& options) {
+  MaskJob job;
+  job.request = mask_request(options);
+  const std::vector<MaskStep>& steps = job.request.steps;
   if (!options.operands.empty()) {
-    request.capture = options.operands.front();
-    const bool is_output = !options.output && options.operands.size() == 1 &&
-                           is_mask_name(*request.capture) && !std::filesystem::exists(*request.capture);
+    job.capture = options.operands.front();
+    const bool is_output = !options.output && options.operands.size() == 1 && is_mask_name(*job.capture) &&
+                           !std::filesystem::exists(*job.capture);
     if (is_output) {
-      throw UsageError(format("'{}' stands where a capture or clip is read; to write it: -o {}",
-                              *request.capture, *request.capture));
+      throw UsageError(format("'{}' stands where a capture or clip is read; to write it: -o {}", *job.capture,
+                              *job.capture));
     }
-    request.output = stated_output(options.output, options.operands, "mask")
-                         .value_or(sequence_name(*request.capture) + "-mask.pgm");
+    job.output = stated_output(options.output, options.operands, "mask")
+                     .value_or(sequence_name(*job.capture) + "-mask.pgm");
   } else if (options.output && !options.output->empty()) {
-    request.output = *options.output;
+    job.output = *options.output;
   } else {
     throw UsageError("the output is missing: nutik-cl mask --moving clip.tik mask.pgm");
   }
-  request.inputs = input_files(options);
-  if (request.steps.empty() && !options.base) {
+  std::vector<std::string> inputs = input_files(options);  // that no output may replace
+  if (steps.empty() && !options.base) {
     throw UsageError(
         "what is the mask made of? Add a step: --moving, or --rectangle 100,50,200,120 for example");
   }
-  for (const MaskStep& step : request.steps) {
-    if (step.reads_capture() && !request.capture) {
-      throw UsageError(format("{} needs a capture or a clip: nutik-cl mask … clip.tik -o {}", step.option,
-                              request.output.string()));
+  for (const MaskStep& step : steps) {
+    if (step.reads_capture() && !job.capture) {
+      throw UsageError(format("{} needs a capture or a clip: nutik-cl mask … clip.tik -o {}", step.name.text,
+                              job.output.string()));
     }
-    for (const std::string& file : step.picture_files()) request.inputs.push_back(file);
+    for (const NamedPicture* picture : step.pictures()) inputs.push_back(picture->name.text);
   }
-  if (!is_mask_name(request.output)) {
+  if (!is_mask_name(job.output)) {
     throw UsageError(
-        format("{}: masks are written as .pgm or .png, which keep every tag", request.output.string()));
+        format("{}: masks are written as .pgm or .png, which keep every tag", job.output.string()));
   }
-  check_output(request.output, OutputKind::picture, request.inputs);
+  check_output(job.output, OutputKind::picture, inputs);
   if (options.preview) {
-    std::vector<std::string> inputs = request.inputs;
-    inputs.push_back(request.output.string());
+    inputs.push_back(job.output.string());
     check_output(*options.preview, OutputKind::picture, inputs);
   } else if (options.start || options.exposure) {
     throw UsageError("--start and --exposure say what --preview shows; add --preview picture.png");
   }
-  return request;
-}
-
-// The mask that steps are painted on: of the size that everything stated agrees on.
-Mask base_of(const Options& options, const MaskRequest& request, const CaptureSource* capture) {
-  std::vector<StatedSize> sizes;
-  std::optional<Mask> base;
-  if (options.size) sizes.push_back({"--size", parse_mask_size(*options.size)});
-  if (capture != nullptr) {
-    sizes.push_back({*request.capture, {capture->format().shape.width, capture->format().shape.height}});
-  }
-  if (options.base) {
-    base = read_mask_input(*options.base);
-    sizes.push_back({input_title(*options.base), {base->width, base->height}});
-  }
-  for (const MaskStep& step : request.steps) {
-    if (!sizes.empty()) break;
-    for (const std::string& file : step.picture_files()) {
-      const Shape shape = read_picture(file).shape;
-      sizes.push_back({file, {shape.width, shape.height}});
-    }
-  }
-  if (sizes.empty()) {
-    throw UsageError("how large is the mask? Name the capture it is for, or say --size 640x360");
-  }
-  for (const StatedSize& other : sizes) {
-    if (other.size == sizes.front().size) continue;
-    throw UsageError(format("{} is {} x {}, {} is {} x {}: the sizes must agree", sizes.front().source,
-                            sizes.front().size.width, sizes.front().size.height, other.source,
-                            other.size.width, other.size.height));
-  }
-  return base ? *base : Mask::uniform(sizes.front().size.width, sizes.front().size.height, 0);
+  read_inputs(job.request, options);
+  return job;
 }
 
 // What the mask is laid over: an exposure of the capture, all of it where none was asked for; else a picture
@@ -126,7 +91,7 @@ Picture backdrop(const Options& options, const MaskRequest& request, const Mask&
       throw UsageError("--start and --exposure need a capture: nutik-cl mask … clip.tik");
     }
     for (const MaskStep& step : request.steps) {
-      for (const std::string& file : step.picture_files()) return read_picture(file);
+      for (const NamedPicture* picture : step.pictures()) return *picture->picture;
     }
     Picture grey({mask.width, mask.height, 1}, ValueType::code8, 255);
     std::fill(grey.bytes.begin(), grey.bytes.end(), std::byte{200});
@@ -157,15 +122,16 @@ double percent_of(std::uint64_t pixels, const Mask& mask) {
   return 100.0 * static_cast<double>(pixels) / static_cast<double>(mask.tags.size());
 }
 
-void report_text(const MaskRequest& request, const Mask& mask, const std::vector<StepReport>& steps) {
+void report_text(const std::filesystem::path& output, const Mask& mask,
+                 const std::vector<StepReport>& steps) {
   const auto counts = mask.pixels_per_tag();
   const auto tag_count = kMaskValues - std::count(counts.begin(), counts.end(), 0u);
-  print_line(format("{}: {} x {}, {}", request.output.string(), mask.width, mask.height,
+  print_line(format("{}: {} x {}, {}", output.string(), mask.width, mask.height,
                     counted(static_cast<std::uint64_t>(tag_count), "tag")));
   for (const StepReport& step : steps) {
     const std::string tags =
         step.tag == step.last_tag ? format("M{}", step.tag) : format("M{} … M{}", step.tag, step.last_tag);
-    print_line(format("  {:<18} {:<5}{:>10} pixels {:6.2f} %{}", step.option, tags, step.pixel_count,
+    print_line(format("  {:<18} {:<5}{:>10} pixels {:6.2f} %{}", step.name, tags, step.pixel_count,
                       percent_of(step.pixel_count, mask),
                       step.by_codes ? format(", by more than {} codes", *step.by_codes) : ""));
   }
@@ -185,11 +151,12 @@ void report_text(const MaskRequest& request, const Mask& mask, const std::vector
   }
 }
 
-void report_json(const MaskRequest& request, const Mask& mask, const std::vector<StepReport>& steps) {
-  Json json{{"mask", request.output.string()}, {"width", mask.width}, {"height", mask.height}};
+void report_json(const std::filesystem::path& output, const Mask& mask,
+                 const std::vector<StepReport>& steps) {
+  Json json{{"mask", output.string()}, {"width", mask.width}, {"height", mask.height}};
   json["steps"] = Json::array();
   for (const StepReport& step : steps) {
-    Json entry{{"step", step.option}, {"tag", step.tag}, {"pixel_count", step.pixel_count}};
+    Json entry{{"step", step.name}, {"tag", step.tag}, {"pixel_count", step.pixel_count}};
     if (step.last_tag != step.tag) entry["last_tag"] = step.last_tag;
     if (step.by_codes) entry["more_than_codes"] = *step.by_codes;
     json["steps"].push_back(std::move(entry));
@@ -205,29 +172,25 @@ void report_json(const MaskRequest& request, const Mask& mask, const std::vector
 }  // namespace
 
 int run_mask(const Options& options) {
-  const MaskRequest request = request_of(options);
+  const MaskJob job = job_of(options);
   std::optional<OpenedCapture> opened;
-  if (request.capture) opened.emplace(*request.capture, options);
+  if (job.capture) opened.emplace(*job.capture, options);
   CaptureSource* capture = opened ? &opened->reader() : nullptr;
 
-  MaskMaker maker(base_of(options, request, capture), capture);
-  for (const MaskStep& step : request.steps) {
-    maker.add(step);
-    if (maker.reports().back().pixel_count == 0) {
-      print_warning(format("{} for M{} selects no pixel", step.option, step.tag));
-    }
+  const auto [mask, steps] = make_mask(job.request, capture, job.capture.value_or(""));
+  for (const StepReport& step : steps) {
+    if (step.pixel_count == 0) print_warning(format("{} for M{} selects no pixel", step.name, step.tag));
   }
-  const Mask& mask = maker.mask();
   if (options.preview) {
     const Transfer transfer = capture != nullptr ? capture->format().transfer : Transfer::srgb();
     write_picture(*options.preview,
-                  sheet::mask_overlay(mask, backdrop(options, request, mask, capture), transfer));
+                  sheet::mask_overlay(mask, backdrop(options, job.request, mask, capture), transfer));
   }
-  write_picture(request.output, mask.to_picture());
+  write_picture(job.output, mask.to_picture());
   if (options.json) {
-    report_json(request, mask, maker.reports());
-  } else if (!ended_quietly(options, request.output)) {
-    report_text(request, mask, maker.reports());
+    report_json(job.output, mask, steps);
+  } else if (!ended_quietly(options, job.output)) {
+    report_text(job.output, mask, steps);
   }
   if (opened && !options.quiet) {
     for (const std::string& note : opened->notes()) print_note(note);

@@ -3,7 +3,9 @@
 #include "capture/format.hpp"
 #include "session/clip_source.hpp"
 #include "session/contact_request.hpp"
+#include "session/mask_making.hpp"
 #include "session/memory_budget.hpp"
+#include "session/picture_input.hpp"
 #include "session/series_request.hpp"
 
 namespace nutik::app {
@@ -30,6 +32,10 @@ std::string message_text(const std::exception& error) {
   if (const auto* sheet = dynamic_cast<const TooManyForSheet*>(&error)) {
     return format("--every {}; take --every {:.3g}s or more, or begin later with --start", message,
                   sheet->least_every_s);
+  }
+  if (dynamic_cast<const NoMaskSize*>(&error) != nullptr) return message + ", or say --size 640x360";
+  if (dynamic_cast<const NoSinglePicture*>(&error) != nullptr) {
+    return message + ", or a time of the capture: 0.3s, 12f";
   }
   return message;
 }

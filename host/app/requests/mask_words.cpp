@@ -1,15 +1,15 @@
-#include "app/input/mask_steps.hpp"
+#include "app/requests/mask_words.hpp"
 
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
 
+#include "app/input/standard_input.hpp"
 #include "app/text/number_text.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "mask/distance.hpp"
-#include "session/stated_time.hpp"
+#include "session/picture_input.hpp"
 
 namespace nutik::app {
 namespace {
@@ -32,20 +32,16 @@ void require_positive(const Said& said, double value, std::string_view what) {
   throw UsageError(format("--{} {}: {} must be above 0", said.option, said.words.front(), what));
 }
 
-Selection rectangle_of(const Said& said) {
+select::Rectangle rectangle_of(const Said& said) {
   const auto n = numbers_of(said, 4, "X,Y,WIDTH,HEIGHT");
   require_positive(said, std::min(n[2], n[3]), "width and height");
-  return select::Shape{[n](std::uint32_t width, std::uint32_t height) {
-    return rectangle(width, height, {n[0], n[1]}, n[2], n[3]);
-  }};
+  return {{n[0], n[1]}, n[2], n[3]};
 }
 
 Selection ellipse_of(const Said& said) {
   const auto n = numbers_of(said, 4, "CENTRE_X,CENTRE_Y,RADIUS_X,RADIUS_Y");
   require_positive(said, std::min(n[2], n[3]), "both radii");
-  return select::Shape{[n](std::uint32_t width, std::uint32_t height) {
-    return ellipse(width, height, {n[0], n[1]}, n[2], n[3]);
-  }};
+  return select::Ellipse{{n[0], n[1]}, n[2], n[3]};
 }
 
 Selection polygon_of(const Said& said) {
@@ -56,8 +52,22 @@ Selection polygon_of(const Said& said) {
   }
   std::vector<Point> corners;
   for (std::size_t i = 0; i < n.size(); i += 2) corners.push_back({n[i], n[i + 1]});
-  return select::Shape{
-      [corners](std::uint32_t width, std::uint32_t height) { return polygon(width, height, corners); }};
+  return select::Polygon{std::move(corners)};
+}
+
+std::optional<StatedTime> time_of(const std::string& word) {
+  // A file's name ends in an extension that is no unit: bright.png, frame.7.
+  try {
+    return StatedTime::parse(word, "time");
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+}
+
+// A picture is read later, when all that was said is known to make sense.
+PictureSource picture_or_time(const std::string& word) {
+  if (const auto time = time_of(word)) return *time;
+  return NamedPicture{{word}, Shared(Picture())};
 }
 
 // `100..255`, `100` (and above), or shares of white: `40%..100%`.
@@ -70,7 +80,7 @@ Selection threshold_of(const Said& said) {
         said.words[0], text, text));
   };
   select::Threshold threshold;
-  threshold.picture = said.words[0];
+  threshold.picture = picture_or_time(said.words[0]);
   const auto dots = text.find("..");
   std::string low = text.substr(0, dots);
   std::string high = dots == std::string::npos ? std::string() : text.substr(dots + 2);
@@ -108,12 +118,7 @@ MaskStep grid_step(const Said& said, std::optional<std::uint8_t> first_tag) {
     throw UsageError(format("--grid {} has {} cells, tagged from {} on: tags end at {}", said.words.front(),
                             cells, first, kMaskValues - 1));
   }
-  return {"--grid", first, grid, 0, {}};
-}
-
-PictureOrTime picture_or_time(const std::string& word) {
-  if (is_time(word)) static_cast<void>(StatedTime::parse(word, "time"));
-  return word;
+  return {{"--grid"}, first, grid, std::nullopt, {}};
 }
 
 Selection selection_of(const Said& said) {
@@ -126,8 +131,8 @@ Selection selection_of(const Said& said) {
     return select::Difference{picture_or_time(said.words[0]), picture_or_time(said.words[1])};
   if (said.option == "moving") return select::Motion{};
   if (said.option == "still") return select::Stillness{};
-  for (const std::string& word : said.words) static_cast<void>(StatedTime::parse(word, "--changed-between"));
-  return select::Motion{said.words[0], said.words[1]};
+  return select::Motion{std::pair(StatedTime::parse(said.words[0], "--changed-between"),
+                                  StatedTime::parse(said.words[1], "--changed-between"))};
 }
 
 double radius_of(const Said& said) {
@@ -139,68 +144,23 @@ double radius_of(const Said& said) {
   return *radius;
 }
 
-std::function<Region(const Region&)> change_of(const Said& said) {
-  if (said.option == "largest") return largest_part;
-  if (said.option == "invert") return inverted;
-  if (said.option == "within") {
-    const auto n = numbers_of(said, 4, "X,Y,WIDTH,HEIGHT");
-    require_positive(said, std::min(n[2], n[3]), "width and height");
-    return [n](const Region& region) {
-      return intersection(region, rectangle(region.width, region.height, {n[0], n[1]}, n[2], n[3]));
-    };
-  }
-  const double radius = radius_of(said);
-  if (said.option == "grow") return [radius](const Region& region) { return grown(region, radius); };
-  if (said.option == "shrink") return [radius](const Region& region) { return shrunk(region, radius); };
-  return [radius](const Region& region) { return smoothed(region, radius); };
+RegionChange change_of(const Said& said) {
+  using Kind = RegionChange::Kind;
+  if (said.option == "largest") return {Kind::largest, 0.0, {}};
+  if (said.option == "invert") return {Kind::invert, 0.0, {}};
+  if (said.option == "within") return {Kind::within, 0.0, rectangle_of(said)};
+  const Kind kind = said.option == "grow"     ? Kind::grow
+                    : said.option == "shrink" ? Kind::shrink
+                                              : Kind::smooth;
+  return {kind, radius_of(said), {}};
 }
 
 bool is_one_of(std::string_view option, std::initializer_list<std::string_view> names) {
   return std::find(names.begin(), names.end(), option) != names.end();
 }
 
-}  // namespace
-
-bool is_time(const PictureOrTime& word) {
-  // A file's name ends in an extension that is no unit: bright.png, frame.7.
-  try {
-    static_cast<void>(StatedTime::parse(word, "time"));
-    return true;
-  } catch (const UsageError&) {
-    return false;
-  }
-}
-
-bool MaskStep::compares() const {
-  return std::holds_alternative<select::Difference>(selection) ||
-         std::holds_alternative<select::Motion>(selection) ||
-         std::holds_alternative<select::Stillness>(selection);
-}
-
-std::uint8_t MaskStep::last_tag() const {
-  const auto* grid = std::get_if<select::Grid>(&selection);
-  return grid == nullptr ? tag : static_cast<std::uint8_t>(tag + grid->columns * grid->rows - 1);
-}
-
-bool MaskStep::reads_capture() const {
-  if (const auto* threshold = std::get_if<select::Threshold>(&selection)) return is_time(threshold->picture);
-  if (const auto* difference = std::get_if<select::Difference>(&selection)) {
-    return is_time(difference->before) || is_time(difference->after);
-  }
-  return compares();
-}
-
-std::vector<std::string> MaskStep::picture_files() const {
-  std::vector<std::string> words;
-  if (const auto* threshold = std::get_if<select::Threshold>(&selection)) words = {threshold->picture};
-  if (const auto* difference = std::get_if<select::Difference>(&selection)) {
-    words = {difference->before, difference->after};
-  }
-  std::erase_if(words, is_time);
-  return words;
-}
-
-std::vector<MaskStep> mask_steps(const Options& options) {
+// All steps, in order.
+std::vector<MaskStep> steps_of(const Options& options) {
   std::vector<MaskStep> steps;
   std::optional<std::uint8_t> tag;
   bool has_region = false;  // since the last --tag
@@ -211,7 +171,7 @@ std::vector<MaskStep> mask_steps(const Options& options) {
       has_region = false;
     } else if (is_one_of(said.option, {"fill", "rectangle", "ellipse", "polygon", "threshold", "difference",
                                        "moving", "still", "changed-between"})) {
-      steps.push_back({name, tag.value_or(255), selection_of(said), 0, {}});
+      steps.push_back({{name}, tag.value_or(255), selection_of(said), std::nullopt, {}});
       has_region = true;
     } else if (said.option == "grid") {
       steps.push_back(grid_step(said, tag));
@@ -228,7 +188,7 @@ std::vector<MaskStep> mask_steps(const Options& options) {
         continue;
       }
       if (!step.compares()) {
-        throw UsageError(format("--by says how much codes must change; {} compares none", step.option));
+        throw UsageError(format("--by says how much codes must change; {} compares none", step.name.text));
       }
       step.by_codes = parse_whole_number(said.words.front(), "--by", 1, 65'535);
     }
@@ -242,6 +202,35 @@ MaskSize parse_mask_size(const std::string& text) {
     throw UsageError(format("size '{}' is none; write WIDTHxHEIGHT: 640x360", text));
   return {parse_whole_number(text.substr(0, cross), "width", 1, kLargestSide),
           parse_whole_number(text.substr(cross + 1), "height", 1, kLargestSide)};
+}
+
+// Reads the picture of a source, where it is one.
+void read(PictureSource& source) {
+  if (auto* picture = std::get_if<NamedPicture>(&source)) {
+    picture->picture = Shared(read_picture(picture->name.text));
+  }
+}
+
+}  // namespace
+
+MaskRequest mask_request(const Options& options) {
+  MaskRequest request;
+  request.steps = steps_of(options);
+  if (options.size) request.size = NamedSize{{"--size"}, parse_mask_size(*options.size)};
+  return request;
+}
+
+void read_inputs(MaskRequest& request, const Options& options) {
+  if (options.base) {
+    request.base = NamedMask{{input_title(*options.base)}, Shared(read_mask_input(*options.base))};
+  }
+  for (MaskStep& step : request.steps) {
+    if (auto* threshold = std::get_if<select::Threshold>(&step.selection)) read(threshold->picture);
+    if (auto* difference = std::get_if<select::Difference>(&step.selection)) {
+      read(difference->before);
+      read(difference->after);
+    }
+  }
 }
 
 }  // namespace nutik::app

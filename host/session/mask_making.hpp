@@ -1,0 +1,41 @@
+// Makes a mask as it was asked for.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "exposure/mask.hpp"
+#include "imev/capture_source.hpp"
+#include "session/mask_request.hpp"
+
+namespace nutik {
+
+// What a step came to.
+struct StepReport {
+  std::string name;
+  std::uint8_t tag = 0;                   // of a grid, the first
+  std::uint8_t last_tag = 0;              // of a grid; else the same
+  std::uint64_t pixel_count = 0;          // that it gave its tag
+  std::optional<std::uint32_t> by_codes;  // more than which a code had to change
+};
+
+// Neither capture nor picture nor anything else says how large the mask is.
+struct NoMaskSize : UsageError {
+  using UsageError::UsageError;
+};
+
+struct MadeMask {
+  Mask mask;
+  std::vector<StepReport> steps;
+};
+
+// Of the size that everything stated agrees on. `capture` is null where no step reads one; `capture_name` is for
+// messages. Throws NoMaskSize, UsageError where sizes differ or a time lies outside the capture, InputError
+// where a picture has another size than the mask, or the capture is damaged.
+[[nodiscard]] MadeMask make_mask(const MaskRequest& request, CaptureSource* capture,
+                                 const std::string& capture_name);
+
+}  // namespace nutik
