@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/commands/commands.hpp"
-#include "app/input/opened_capture.hpp"
+#include "app/commands/opened_session.hpp"
 #include "app/input/standard_input.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
@@ -188,8 +188,8 @@ int run_activity(const Options& options) {
   ActivityOptions counting;
   if (options.by) counting.ignored_codes = parse_whole_number(*options.by, "--by", 0, 65'535);
 
-  OpenedCapture opened(name, options);
-  tik::Reader& capture = opened.reader();
+  Session session = open_session(name, options);
+  tik::Reader& capture = session.capture();
   const Timeline& timeline = capture.timeline();
   counting.counted = counted_pixels(options, capture.format().shape);
   Activity activity(capture.format(), std::move(counting));
@@ -228,7 +228,7 @@ int run_activity(const Options& options) {
     }
   }
   if (!options.quiet) {
-    for (const std::string& note : opened.notes()) print_note(note);
+    for (const std::string& line : source_lines(session)) print_note(line);
   }
   return 0;
 }

@@ -8,16 +8,17 @@
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
-#include "app/input/exposer.hpp"
-#include "app/input/opened_capture.hpp"
+#include "app/commands/opened_session.hpp"
 #include "app/input/standard_input.hpp"
 #include "app/output/console.hpp"
 #include "app/output/exposure_report.hpp"
+#include "app/output/exposure_tally.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
+#include "app/requests/computing_words.hpp"
 #include "app/requests/exposure_words.hpp"
 #include "app/text/message_text.hpp"
 #include "app/text/shell_text.hpp"
@@ -101,8 +102,10 @@ class Batch {
   Batch(const Options& options, std::string list_name)
       : options_(options),
         list_name_(std::move(list_name)),
-        exposer_(options),
-        pictures_([this](std::size_t line, const Error& error) { report(line, error); }) {}
+        devices_(make_devices(options)),
+        pictures_([this](std::size_t line, const Error& error) { report(line, error); }) {
+    devices_->start();
+  }
 
   void expose(const ListedExposure& listed, const std::optional<std::string>& capture_name) {
     try {
@@ -120,16 +123,13 @@ class Batch {
       if (!is_new) {
         throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
       }
-      CaptureSource& source = capture(line.operands.front()).reader();
-      Exposed exposed = exposer_.expose(source, functions_of(request, source.timeline()),
-                                        mask_of(request, source.format().shape), plan_options_of(request),
-                                        output_format(line, output, source.format()));
+      Session& session = session_of(line.operands.front());
+      ExposedPicture exposed = session.render(request, output_format(line, output, session.format()));
+      tally_.add(exposed);
       for (const std::string& warning : exposure_warnings(exposed)) {
         print_warning(format("{}:{}: {}", list_name_, listed.line, warning));
       }
-      saturation_ += exposed.saturation;
-      if (options_.verbose && !options_.json)
-        print_line(format("{}: {}", output.string(), exposer_.report()));
+      if (options_.verbose && !options_.json) print_line(format("{}: {}", output.string(), tally_.report()));
       pictures_.push(listed.line, output, std::move(exposed.picture), recipe_text(line));
     } catch (const UsageError& error) {
       report(listed.line, error);
@@ -145,32 +145,30 @@ class Batch {
   }
 
   // Of all pictures together.
-  [[nodiscard]] const Saturation& saturation() const { return saturation_; }
+  [[nodiscard]] const Saturation& saturation() const { return tally_.saturation(); }
   // The lines whose pictures are missing. After finish().
   [[nodiscard]] const std::set<std::size_t>& failed_lines() const { return failed_lines_; }
   // After an exposure that did not fail.
-  [[nodiscard]] std::string renderer_name() const { return exposer_.renderer_name(); }
+  [[nodiscard]] std::string renderer_name() const { return devices_->renderer().name(); }
 
  private:
   std::string recipe_text(const Options& line) {
     if (line.no_recipe) return {};
-    if (!capture_checksum_) capture_checksum_ = capture_checksum(capture_name_);
-    return PictureRecipe(line, capture_checksum_).text(exposer_.precision());
+    if (!capture_checksum_) capture_checksum_ = capture_checksum(session_->source().path.string());
+    return PictureRecipe(line, capture_checksum_).text(tally_.precision());
   }
 
   // Lines mostly expose one capture, or one after another: the last one stays open.
-  OpenedCapture& capture(const std::string& name) {
-    if (!capture_ || capture_name_ != name) {
-      capture_.reset();
-      capture_ = std::make_unique<OpenedCapture>(name, options_);
-      capture_name_ = name;
+  Session& session_of(const std::string& name) {
+    if (!session_ || session_->source().path != name) {
+      session_.reset();
       capture_checksum_.reset();
-      exposer_.keep_resident(capture_->reader());
+      session_.emplace(open_session(name, options_, devices_));
       if (!options_.quiet) {
-        for (const std::string& note : capture_->notes()) print_note(note);
+        for (const std::string& line : source_lines(*session_)) print_note(line);
       }
     }
-    return *capture_;
+    return *session_;
   }
 
   // From either thread.
@@ -182,12 +180,11 @@ class Batch {
 
   const Options& options_;
   std::string list_name_;
-  Exposer exposer_;
-  std::string capture_name_;
+  std::shared_ptr<Devices> devices_;
+  ExposureTally tally_;
   std::optional<std::string> capture_checksum_;  // where a recipe needed it
-  std::unique_ptr<OpenedCapture> capture_;
+  std::optional<Session> session_;
   std::map<std::filesystem::path, std::size_t> line_of_output_;
-  Saturation saturation_;
   std::mutex reporting_;
   std::set<std::size_t> failed_lines_;
   PictureQueue pictures_;

@@ -1,12 +1,12 @@
 #include "app/commands/commands.hpp"
-#include "app/input/opened_capture.hpp"
-#include "app/input/sheet_exposures.hpp"
+#include "app/commands/opened_session.hpp"
 #include "app/output/ending.hpp"
 #include "app/output/exposure_report.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/shared_warnings.hpp"
+#include "app/output/sheet_exposures.hpp"
 #include "app/output/stopwatch.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -41,10 +41,9 @@ int run_contact(const Options& options) {
   const std::string& input = options.operands.front();
   check_sheet_output(output, input_files(options));
 
-  OpenedCapture opened(input, options);
-  tik::Reader& capture = opened.reader();
-  const Shape& shape = capture.format().shape;
-  const std::vector<Exposure> exposures = exposures_of(request, capture.timeline());
+  Session session = open_session(input, options);
+  const Shape& shape = session.format().shape;
+  const std::vector<Exposure> exposures = exposures_of(request, session.timeline());
   const sheet::SheetLayout layout =
       sheet::lay_out(shape, static_cast<std::uint32_t>(exposures.size()), wishes);
   const std::string length = options.exposure ? *options.exposure : "one picture";
@@ -52,8 +51,8 @@ int run_contact(const Options& options) {
                                            counted(exposures.size(), "exposure"), length));
   PlanOptions plan_options;
   plan_options.function_name = "the exposure";
-  SheetExposures exposing(options, capture, Mask::uniform(shape.width, shape.height, 0), plan_options);
-  const std::vector<std::string> labels = labels_of(exposures, capture.timeline());
+  SheetExposures exposing(options, session, Mask::uniform(shape.width, shape.height, 0), plan_options);
+  const std::vector<std::string> labels = labels_of(exposures, session.timeline());
   SharedWarnings warnings;
   {
     Progress progress("exposing", exposures.size(), options.quiet);
@@ -61,7 +60,7 @@ int run_contact(const Options& options) {
       progress.show(i);
       FunctionSet functions;
       functions.emplace(0, GainFunction::boxcar(exposures[i].start_ns, exposures[i].end_ns));
-      const Exposed exposed = exposing.expose(functions);
+      const ExposedPicture exposed = exposing.expose(functions);
       warnings.add(labels[i], exposure_warnings(exposed));
       sheet.add(labels[i], exposed.picture, exposing.transfer());
     }
@@ -73,19 +72,20 @@ int run_contact(const Options& options) {
     Json json{{"sheet", output.string()}, {"columns", layout.columns}, {"rows", layout.rows}};
     json["exposures"] = Json::array();
     for (const Exposure& exposure : exposures) {
-      const std::int64_t end_ns = std::min(exposure.end_ns, capture.timeline().duration_ns());
+      const std::int64_t end_ns = std::min(exposure.end_ns, session.timeline().duration_ns());
       json["exposures"].push_back({{"start_ns", exposure.start_ns}, {"end_ns", end_ns}});
     }
-    add_saturation(json, exposing.saturation(), exposing.type());
+    add_saturation(json, exposing.tally().saturation(), exposing.type());
     print_json(json);
     return 0;
   }
   if (ended_quietly(options, output)) return 0;
   print_line(format("{}: {} of {}, {}, {}{}, {:.2f} s on {}", output.string(),
                     counted(exposures.size(), "exposure"), length, counted(layout.columns, "column"),
-                    counted(layout.rows, "row"), saturation_text(exposing.saturation(), exposing.type()),
-                    stopwatch.seconds(), exposing.exposer().renderer_name()));
-  print_details(options, exposing.exposer(), opened.notes());
+                    counted(layout.rows, "row"),
+                    saturation_text(exposing.tally().saturation(), exposing.type()), stopwatch.seconds(),
+                    session.devices().renderer().name()));
+  print_details(options, exposing.tally(), source_lines(session));
   return 0;
 }
 

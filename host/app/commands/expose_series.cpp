@@ -4,8 +4,7 @@
 #include <optional>
 #include <set>
 
-#include "app/input/exposer.hpp"
-#include "app/input/opened_capture.hpp"
+#include "app/commands/opened_session.hpp"
 #include "app/output/console.hpp"
 #include "app/output/ending.hpp"
 #include "app/output/exposure_report.hpp"
@@ -14,6 +13,7 @@
 #include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
+#include "app/requests/computing_words.hpp"
 #include "app/requests/exposure_words.hpp"
 #include "app/text/message_text.hpp"
 #include "capture/error.hpp"
@@ -73,33 +73,30 @@ int expose_series(const Options& options) {
       stated.value_or(sequence_name(input) + "-" + exposure_label(options) + "-%04d.png"));
   const std::vector<std::string> inputs = input_files(options);
   check_output(names[0], OutputKind::picture, inputs);  // before a clip is read
-  Exposer exposer(options);
+  const std::shared_ptr<Devices> devices = make_devices(options);
+  devices->start();
   PictureRecipe recipe(options);
-  OpenedCapture opened(input, options);
-  tik::Reader& capture = opened.reader();
-  exposer.keep_resident(capture);
-  const std::vector<StatedTime> starts = starts_of(series, request, capture.timeline());
+  Session session = open_session(input, options, devices);
+  const std::vector<StatedTime> starts = starts_of(series, request, session.timeline());
   for (std::uint64_t k = 1; k < starts.size(); ++k) check_output(names[k], OutputKind::picture, inputs);
-  const OutputFormat format_of_all = output_format(options, names[0], capture.format());
-  const Mask mask = mask_of(request, capture.format().shape);
+  const OutputFormat format_of_all = output_format(options, names[0], session.format());
 
   const Stopwatch stopwatch;
   Progress progress("exposing", starts.size(), options.quiet);
   Warnings warnings;
   Channel<std::string> failures(starts.size());  // of pictures that could not be written
   PictureQueue pictures([&](std::size_t, const Error& error) { failures.push(message_text(error)); });
-  std::optional<RenderPlan> first_plan;
-  Saturation saturation;  // of all pictures together
+  std::optional<ExposureFigures> first;
+  ExposureTally tally;
   for (std::uint64_t k = 0; k < starts.size(); ++k) {
     progress.show(k);
     request.start = starts[k];
-    Exposed exposed = exposer.expose(capture, functions_of(request, capture.timeline()), mask,
-                                     plan_options_of(request), format_of_all);
+    ExposedPicture exposed = session.render(request, format_of_all);
+    tally.add(exposed);
     for (const std::string& warning : exposure_warnings(exposed)) warnings.print(names[k], warning);
     pictures.push(k, names[k], std::move(exposed.picture),
-                  recipe.text(exposer.precision(), {{{"start", starts[k].text()}}, {}}));
-    saturation += exposed.saturation;
-    if (k == 0) first_plan = std::move(exposed.plan);
+                  recipe.text(tally.precision(), {{{"start", starts[k].text()}}, {}}));
+    if (k == 0) first = std::move(exposed.figures);
   }
   pictures.finish();
   failures.close();
@@ -109,10 +106,10 @@ int expose_series(const Options& options) {
     for (std::uint64_t k = 0; k < starts.size(); ++k) {
       json["pictures"].push_back({{"picture", names[k].string()}, {"start", starts[k].text()}});
     }
-    add_shape(json, capture.format().shape);
-    json["functions"] = functions_json(*first_plan);
-    add_saturation(json, saturation, format_of_all.type);
-    add_rendering(json, exposer, stopwatch);
+    add_shape(json, session.format().shape);
+    json["functions"] = functions_json(*first);
+    add_saturation(json, tally.saturation(), format_of_all.type);
+    add_rendering(json, session, tally, stopwatch);
     print_json(json);
     return 0;
   }
@@ -121,13 +118,12 @@ int expose_series(const Options& options) {
   const double seconds = stopwatch.seconds();
   print_line(format("{} … {}: {} exposures every {}, {}{}{}, {:.1f} exposures a second, {:.2f} s on {}",
                     names[0].string(), names[starts.size() - 1].filename().string(), starts.size(),
-                    series.every.text(), shape_text(capture.format().shape),
-                    still_gains_text(*first_plan, request.is_plain()),
-                    saturation_text(saturation, format_of_all.type),
-                    static_cast<double>(starts.size()) / seconds, seconds, exposer.renderer_name()));
-  if (options.verbose)
-    print_line("first " + plan_text(*first_plan, capture.timeline(), capture.block_count()));
-  print_details(options, exposer, opened.notes());
+                    series.every.text(), shape_text(session.format().shape),
+                    still_gains_text(*first, request.is_plain()),
+                    saturation_text(tally.saturation(), format_of_all.type),
+                    static_cast<double>(starts.size()) / seconds, seconds, devices->renderer().name()));
+  if (options.verbose) print_line("first " + plan_text(*first));
+  print_details(options, tally, source_lines(session));
   return 0;
 }
 

@@ -1,11 +1,11 @@
 #include <algorithm>
 
 #include "app/commands/commands.hpp"
-#include "app/input/exposer.hpp"
-#include "app/input/opened_capture.hpp"
+#include "app/commands/opened_session.hpp"
 #include "app/input/standard_input.hpp"
 #include "app/output/console.hpp"
 #include "app/output/ending.hpp"
+#include "app/output/exposure_report.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/requests/mask_words.hpp"
@@ -84,9 +84,8 @@ MaskJob job_of(const Options& options) {
 
 // What the mask is laid over: an exposure of the capture, all of it where none was asked for; else a picture
 // that the mask was made from, else plain grey.
-Picture backdrop(const Options& options, const MaskRequest& request, const Mask& mask,
-                 CaptureSource* capture) {
-  if (capture == nullptr) {
+Picture backdrop(const Options& options, const MaskRequest& request, const Mask& mask, Session* session) {
+  if (session == nullptr) {
     if (options.start || options.exposure) {
       throw UsageError("--start and --exposure need a capture: nutik-cl mask … clip.tik");
     }
@@ -97,7 +96,7 @@ Picture backdrop(const Options& options, const MaskRequest& request, const Mask&
     std::fill(grey.bytes.begin(), grey.bytes.end(), std::byte{200});
     return grey;
   }
-  const Timeline& timeline = capture->timeline();
+  const Timeline& timeline = session->timeline();
   Exposure interval{0, timeline.duration_ns()};
   if (options.exposure) {
     interval = plain_interval(StatedTime::parse(options.start.value_or("0s"), "start"),
@@ -106,14 +105,13 @@ Picture backdrop(const Options& options, const MaskRequest& request, const Mask&
     const std::uint64_t sample = sample_at(StatedTime::parse(*options.start, "start"), "start", timeline);
     interval = {timeline.start_ns(sample), timeline.end_ns(sample)};
   }
-  Exposer exposer(options);
-  const CaptureFormat& format = capture->format();
+  const CaptureFormat& format = session->format();
   FunctionSet functions;
   functions.emplace(0, GainFunction::boxcar(interval.start_ns, interval.end_ns));
   PlanOptions plan_options;
   plan_options.function_name = "the preview's exposure";
-  Exposed exposed = exposer.expose(*capture, functions, Mask::uniform(mask.width, mask.height, 0),
-                                   plan_options, {code_type(format), format.white_code});
+  ExposedPicture exposed = session->render(functions, Mask::uniform(mask.width, mask.height, 0), plan_options,
+                                           {code_type(format), format.white_code});
   for (const std::string& warning : exposure_warnings(exposed)) print_warning(warning);
   return std::move(exposed.picture);
 }
@@ -173,18 +171,19 @@ void report_json(const std::filesystem::path& output, const Mask& mask,
 
 int run_mask(const Options& options) {
   const MaskJob job = job_of(options);
-  std::optional<OpenedCapture> opened;
-  if (job.capture) opened.emplace(*job.capture, options);
-  CaptureSource* capture = opened ? &opened->reader() : nullptr;
+  std::optional<Session> session;
+  if (job.capture) session.emplace(open_session(*job.capture, options));
 
-  const auto [mask, steps] = make_mask(job.request, capture, job.capture.value_or(""));
+  const auto [mask, steps] =
+      make_mask(job.request, session ? &session->capture() : nullptr, job.capture.value_or(""));
   for (const StepReport& step : steps) {
     if (step.pixel_count == 0) print_warning(format("{} for M{} selects no pixel", step.name, step.tag));
   }
   if (options.preview) {
-    const Transfer transfer = capture != nullptr ? capture->format().transfer : Transfer::srgb();
+    const Transfer transfer = session ? session->format().transfer : Transfer::srgb();
     write_picture(*options.preview,
-                  sheet::mask_overlay(mask, backdrop(options, job.request, mask, capture), transfer));
+                  sheet::mask_overlay(
+                      mask, backdrop(options, job.request, mask, session ? &*session : nullptr), transfer));
   }
   write_picture(job.output, mask.to_picture());
   if (options.json) {
@@ -192,8 +191,8 @@ int run_mask(const Options& options) {
   } else if (!ended_quietly(options, job.output)) {
     report_text(job.output, mask, steps);
   }
-  if (opened && !options.quiet) {
-    for (const std::string& note : opened->notes()) print_note(note);
+  if (session && !options.quiet) {
+    for (const std::string& line : source_lines(*session)) print_note(line);
   }
   return 0;
 }

@@ -3,8 +3,7 @@
 #include <optional>
 
 #include "app/commands/commands.hpp"
-#include "app/input/opened_capture.hpp"
-#include "app/input/sheet_exposures.hpp"
+#include "app/commands/opened_session.hpp"
 #include "app/output/ending.hpp"
 #include "app/output/exposure_report.hpp"
 #include "app/output/json.hpp"
@@ -12,6 +11,7 @@
 #include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/shared_warnings.hpp"
+#include "app/output/sheet_exposures.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/output/swept_recipe.hpp"
 #include "app/requests/exposure_words.hpp"
@@ -74,10 +74,9 @@ int run_sweep(const Options& options) {
   check_sheet_output(output, inputs);
   const std::vector<std::filesystem::path> singles = single_names(options, points.size(), inputs);
 
-  OpenedCapture opened(options.operands.front(), options);
-  tik::Reader& capture = opened.reader();
-  const Timeline& timeline = capture.timeline();
-  const Shape& shape = capture.format().shape;
+  Session session = open_session(options.operands.front(), options);
+  const Timeline& timeline = session.timeline();
+  const Shape& shape = session.format().shape;
   for (const std::filesystem::path& single : singles) {
     static_cast<void>(value_type_for(single, std::nullopt, ValueType::code8, shape.channels));
   }
@@ -86,7 +85,7 @@ int run_sweep(const Options& options) {
   sheet::ContactSheet sheet(
       layout, format("{}: {}, {}", std::filesystem::path(options.operands.front()).filename().string(),
                      exposure_label(options), counted(points.size(), "picture")));
-  SheetExposures exposing(options, capture, mask_of(request, shape), plan_options_of(request));
+  SheetExposures exposing(options, session, mask_of(request, shape), plan_options_of(request));
   std::optional<PictureRecipe> recipe;  // of single pictures
   if (!singles.empty() && !options.no_recipe) recipe.emplace(options);
   SharedWarnings warnings;
@@ -96,14 +95,14 @@ int run_sweep(const Options& options) {
       progress.show(i);
       const FunctionSet changed = sweep.varied(functions, points[i], timeline);
       const std::string label = sweep.label(points[i]);
-      const Exposed exposed = exposing.expose(changed);
+      const ExposedPicture exposed = exposing.expose(changed);
       warnings.add(label, exposure_warnings(exposed));
       sheet.add(label, exposed.picture, exposing.transfer());
       if (singles.empty()) continue;
       std::string text;
       if (recipe) {
         const auto own = swept_recipe(changed, request, timeline, singles[i].stem().string() + ".fn");
-        if (own) text = recipe->text(exposing.exposer().precision(), *own);
+        if (own) text = recipe->text(exposing.tally().precision(), *own);
         if (!own) warnings.add(singles[i].string(), std::array{std::string(kNoRecipe)});
       }
       write_picture(singles[i], exposed.picture, text);
@@ -130,16 +129,16 @@ int run_sweep(const Options& options) {
       if (!singles.empty()) picture["file"] = singles[i].string();
       json["pictures"].push_back(std::move(picture));
     }
-    add_saturation(json, exposing.saturation(), exposing.type());
+    add_saturation(json, exposing.tally().saturation(), exposing.type());
     print_json(json);
     return 0;
   }
   if (ended_quietly(options, output)) return 0;
   print_line(format("{}: {}, {}, {}{}, {:.2f} s on {}", output.string(), counted(points.size(), "picture"),
                     counted(layout.columns, "column"), counted(layout.rows, "row"),
-                    saturation_text(exposing.saturation(), exposing.type()), stopwatch.seconds(),
-                    exposing.exposer().renderer_name()));
-  print_details(options, exposing.exposer(), opened.notes());
+                    saturation_text(exposing.tally().saturation(), exposing.type()), stopwatch.seconds(),
+                    session.devices().renderer().name()));
+  print_details(options, exposing.tally(), source_lines(session));
   return 0;
 }
 

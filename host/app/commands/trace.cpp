@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "app/commands/commands.hpp"
-#include "app/input/opened_capture.hpp"
+#include "app/commands/opened_session.hpp"
 #include "app/output/console.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
@@ -49,8 +49,9 @@ struct Traced {
     return traced;
   }
 
-  [[nodiscard]] Trace follow(const RenderPlan& plan, CaptureSource& source) const {
-    return pixel ? trace_pixel(plan, source, pixel->first, pixel->second) : trace_region(plan, source, tag);
+  [[nodiscard]] TracedExposure follow(Session& session, const ExposureRequest& request) const {
+    return pixel ? session.trace(request, TracedPixel{pixel->first, pixel->second})
+                 : session.trace(request, TracedTag{tag});
   }
 
   [[nodiscard]] std::string text(const Trace& trace) const {
@@ -109,13 +110,11 @@ int run_trace(const Options& options) {
     }
   }
 
-  OpenedCapture capture(input, options);
-  tik::Reader& reader = capture.reader();
-  const RenderPlan plan = make_plan(reader, functions_of(request, reader.timeline()),
-                                    mask_of(request, reader.format().shape), plan_options_of(request));
-  for (const std::string& warning : plan.warnings) print_warning(warning);
-  const Trace trace = traced.follow(plan, reader);
-  const PlannedFunction& function = plan.functions[trace.function];
+  Session session = open_session(input, options);
+  const TracedExposure exposure = traced.follow(session, request);
+  for (const std::string& warning : exposure.warnings) print_warning(warning);
+  const Trace& trace = exposure.trace;
+  const PlannedFunction& function = exposure.function();
   const std::string title = heading(input, traced, trace, function, !options.functions);
   if (output) {
     if (trace.steps.empty() && !is_table_name(*output)) {
@@ -139,10 +138,10 @@ int run_trace(const Options& options) {
   if (!options.quiet) {
     const GainSummary& summary = function.summary;
     print_line(format("{}{}: light {}, code {}; {} steps, D {}, ∫g {}", output ? output->string() + ": " : "",
-                      title, light_text(trace), codes_text(trace, plan.capture), trace.steps.size(),
-                      integral_text(static_cast<double>(summary.support_ns)),
+                      title, light_text(trace), codes_text(trace, exposure.figures.capture),
+                      trace.steps.size(), integral_text(static_cast<double>(summary.support_ns)),
                       integral_text(std::scalbn(summary.integral_ns, summary.exponent))));
-    for (const std::string& note : capture.notes()) print_note(note);
+    for (const std::string& line : source_lines(session)) print_note(line);
   }
   return 0;
 }

@@ -1,10 +1,10 @@
 #include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
-#include "app/input/opened_capture.hpp"
-#include "app/input/renderer_choice.hpp"
+#include "app/commands/opened_session.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_format.hpp"
 #include "app/output/progress.hpp"
+#include "app/requests/computing_words.hpp"
 #include "app/requests/exposure_words.hpp"
 #include "app/requests/source_words.hpp"
 #include "app/text/number_text.hpp"
@@ -32,15 +32,15 @@ Options options_of_capture(const Options& options) {
   return own;
 }
 
-Json validation_json(const Validation& validation, const RenderPlan& plan, const std::string& input,
+Json validation_json(const Validation& validation, const ExposureFigures& figures, const std::string& input,
                      const std::string& device, std::uint32_t runs) {
-  const Shape& shape = plan.capture.shape;
+  const Shape& shape = figures.capture.shape;
   Json json{{"capture", input},
             {"device", device},
             {"width", shape.width},
             {"height", shape.height},
             {"channels", shape.channels},
-            {"live_samples", plan.live_sample_count()},
+            {"live_samples", figures.live_samples},
             {"format", format_name(validation.output.type)}};
   if (holds_codes(validation.output.type)) json["white_code"] = validation.output.white_code;
   json.update({{"runs", runs},
@@ -61,44 +61,35 @@ int run_validate(const Options& options) {
   const std::uint32_t runs =
       options.runs ? parse_whole_number(*options.runs, "--runs", 1, kMostRuns) : kUsualRuns;
   const ExposureRequest request = exposure_request(options);
-  std::unique_ptr<OpenClRenderer> device = start_device(options);  // refused before a clip is read
-  OpenedCapture opened(input, options_of_capture(options));
-  const std::unique_ptr<OpenClRenderer> renderer = std::move(device);  // which must not outlive what it reads
-  tik::Reader& capture = opened.reader();
-  const Shape& shape = capture.format().shape;
-  const OutputFormat output = output_format(options, capture.format());
-  const RenderPlan plan = make_plan(capture, functions_of(request, capture.timeline()),
-                                    mask_of(request, shape), plan_options_of(request));
-  for (const std::string& warning : plan.warnings) print_warning(warning);
-
-  std::optional<Progress> progress;
-  const Validation validation =
-      validate(plan, capture, output, *renderer, runs, [&](std::uint64_t done, std::uint64_t total) {
-        if (!progress) progress.emplace("rendering", total, options.quiet);
-        progress->show(done);
-      });
-  progress.reset();
+  const std::shared_ptr<Devices> devices = make_devices(options);
+  const std::string device = devices->opencl().name();  // refused before a clip is read
+  Session session = open_session(input, options_of_capture(options), devices);
+  const Shape& shape = session.format().shape;
+  const OutputFormat output = output_format(options, session.format());
+  const auto [validation, figures, warnings] =
+      session.validate(request, output, runs, progress_bar("rendering", options.quiet));
+  for (const std::string& warning : warnings) print_warning(warning);
   std::optional<SourceCheck> source;
   if (options.source) {
-    source = compare_with_source(capture, clip_request(options, *options.source), memory_budget(options),
-                                 progress_bar("comparing with the source", options.quiet));
+    source = session.compare_with(clip_request(options, *options.source),
+                                  progress_bar("comparing with the source", options.quiet));
   }
 
   if (options.json) {
-    Json json = validation_json(validation, plan, input, renderer->name(), runs);
+    Json json = validation_json(validation, figures, input, device, runs);
     if (source) json["source"] = source_json(*source, shape, *options.source);
     print_json(json);
   } else {
     if (!options.quiet) {
       print_line(format("{}: {}, {} of {} samples, as {}; medians of {} on {}", input, shape_text(shape),
-                        plan.live_sample_count(), capture.timeline().sample_count(), format_name(output.type),
-                        runs, renderer->name()));
+                        figures.live_samples, session.timeline().sample_count(), format_name(output.type),
+                        runs, device));
     }
     print_line(variants_text(validation));
     if (!options.quiet) print_line(choice_text(validation));
     if (source) print_line(source_text(*source, shape, *options.source));
     if (!options.quiet) {
-      for (const std::string& note : opened.notes()) print_note(note);
+      for (const std::string& line : source_lines(session)) print_note(line);
     }
   }
   if (source && source->clip_goes_on) {

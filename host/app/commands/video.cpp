@@ -1,8 +1,7 @@
 #include <algorithm>
 
 #include "app/commands/commands.hpp"
-#include "app/input/exposer.hpp"
-#include "app/input/opened_capture.hpp"
+#include "app/commands/opened_session.hpp"
 #include "app/output/console.hpp"
 #include "app/output/ending.hpp"
 #include "app/output/exposure_report.hpp"
@@ -11,6 +10,7 @@
 #include "app/output/shared_warnings.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/output/video_output.hpp"
+#include "app/requests/computing_words.hpp"
 #include "app/requests/exposure_words.hpp"
 #include "capture/format.hpp"
 #include "media/frame_queue.hpp"
@@ -39,21 +39,21 @@ int run_video(const Options& options) {
   const std::vector<std::string> inputs = input_files(options);
   output.check(0, inputs);  // a container's name, before the clip is read
 
-  Exposer exposer(options);
-  OpenedCapture capture(input, options);
-  tik::Reader& reader = capture.reader();
-  exposer.keep_resident(reader);
-  const Frames frames = frames_of(request, reader.timeline());
+  const std::shared_ptr<Devices> devices = make_devices(options);
+  devices->start();
+  Session session = open_session(input, options, devices);
+  const CaptureFormat& capture = session.format();
+  const Frames frames = frames_of(request, session.timeline());
   if (!frames.warning.empty()) print_warning(frames.warning);
   const PlanOptions plan_options = plan_options_of(request.exposure);
-  const Mask mask = mask_of(request.exposure, reader.format().shape);
-  const OutputFormat frame_format = output.frame_format(reader.format());
+  const Mask mask = mask_of(request.exposure, capture.shape);
+  const OutputFormat frame_format = output.frame_format(capture);
   output.check(frames.count, inputs);
 
-  const Transfer transfer = plan_options.transfer.value_or(reader.format().transfer);
-  FrameQueue queue([&] { return output.open(reader.format().shape, frame_format, transfer); });
+  const Transfer transfer = plan_options.transfer.value_or(capture.transfer);
+  FrameQueue queue([&] { return output.open(capture.shape, frame_format, transfer); });
   SharedWarnings warnings;
-  Saturation saturation;  // of all frames together
+  ExposureTally tally;
   std::optional<Interrupted> interruption;
   std::uint64_t exposed_frames = 0;
   {
@@ -63,9 +63,9 @@ int run_video(const Options& options) {
         check_interruption();
         progress.show(exposed_frames);
         const FunctionSet functions =
-            functions_of(request.exposure, frames.times.exposure(exposed_frames), reader.timeline());
-        Exposed exposed = exposer.expose(reader, functions, mask, plan_options, frame_format);
-        saturation += exposed.saturation;
+            functions_of(request.exposure, frames.times.exposure(exposed_frames), session.timeline());
+        ExposedPicture exposed = session.render(functions, mask, plan_options, frame_format);
+        tally.add(exposed);
         warnings.add(format("frame {}", exposed_frames), exposure_warnings(exposed));
         if (!queue.push(std::move(exposed.picture))) break;
       }
@@ -84,28 +84,29 @@ int run_video(const Options& options) {
   }
   if (options.json) {
     Json json{{"video", output.path().string()}, {"kind", output.kind()}};
-    add_shape(json, reader.format().shape);
+    add_shape(json, capture.shape);
     json["frames"] = frames.count;
     json["frames_a_second"] = request.rate.text();
     json["start_ns"] = frames.times.start_ns(0);
     json["end_ns"] = frames.times.end_ns(frames.count - 1);
-    add_saturation(json, saturation, frame_format.type);
-    add_rendering(json, exposer, stopwatch);
+    add_saturation(json, tally.saturation(), frame_format.type);
+    add_rendering(json, session, tally, stopwatch);
     print_json(json);
     return 0;
   }
   if (ended_quietly(options, output.path())) return 0;
 
   const FrameTimes& times = frames.times;
-  print_line(
-      format("{}: {}, {} ({}), from {} to {} of the capture, {}{}, {:.2f} s on {}", output.path().string(),
-             shape_text(reader.format().shape), counted(frames.count, "frame"), request.text(),
-             duration_text(times.start_ns(0)), duration_text(times.end_ns(frames.count - 1)), output.kind(),
-             saturation_text(saturation, frame_format.type), stopwatch.seconds(), exposer.renderer_name()));
+  print_line(format("{}: {}, {} ({}), from {} to {} of the capture, {}{}, {:.2f} s on {}",
+                    output.path().string(), shape_text(capture.shape), counted(frames.count, "frame"),
+                    request.text(), duration_text(times.start_ns(0)),
+                    duration_text(times.end_ns(frames.count - 1)), output.kind(),
+                    saturation_text(tally.saturation(), frame_format.type), stopwatch.seconds(),
+                    devices->renderer().name()));
   std::vector<std::string> notes;
   for (const std::string& note : queue.notes()) notes.push_back(format("note: {}", note));
-  notes.insert(notes.end(), capture.notes().begin(), capture.notes().end());
-  print_details(options, exposer, notes);
+  for (std::string& line : source_lines(session)) notes.push_back(std::move(line));
+  print_details(options, tally, notes);
   return 0;
 }
 

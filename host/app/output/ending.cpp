@@ -13,14 +13,15 @@ bool ended_quietly(const Options& options, const std::filesystem::path& output, 
   return options.quiet;
 }
 
-void print_details(const Options& options, const Exposer& exposer, std::span<const std::string> notes) {
-  if (const std::string report = exposer.report(); options.verbose && !report.empty()) print_line(report);
+void print_details(const Options& options, const ExposureTally& tally, std::span<const std::string> notes) {
+  if (options.verbose && !tally.report().empty()) print_line(tally.report());
   for (const std::string& note : notes) print_note(note);
 }
 
-void add_rendering(Json& json, const Exposer& exposer, const Stopwatch& stopwatch) {
-  json["precision"] = exposer.precision();
-  json["renderer"] = exposer.renderer_name();
+void add_rendering(Json& json, const Session& session, const ExposureTally& tally,
+                   const Stopwatch& stopwatch) {
+  json["precision"] = tally.precision();
+  json["renderer"] = session.devices().renderer().name();
   json["seconds"] = stopwatch.seconds();
 }
 

@@ -13,17 +13,33 @@ constexpr std::size_t kFunctionsInSummary = 6;
 
 }  // namespace
 
-std::string still_gains_text(const RenderPlan& plan, bool plain) {
-  if (plain && !plan.functions.empty()) {
-    return format(", still gain {:.6g}", plan.functions.front().summary.still_gain());
+std::vector<std::string> exposure_warnings(const ExposedPicture& exposed) {
+  std::vector<std::string> warnings = exposed.warnings;
+  if (!holds_codes(exposed.output.type) || exposed.output.negative != NegativeLight::saturate)
+    return warnings;
+  // Light below 0 is black in a picture of codes: a still scene under a negative still gain disappears.
+  for (const PlannedFunction& function : exposed.figures.functions) {
+    const double still_gain = function.summary.still_gain();
+    if (still_gain >= 0.0) continue;
+    warnings.push_back(
+        format("M{}: the still gain is {:.6g}: whatever does not move comes out black; --negative "
+               "offset shows light below 0, a .pfm or a .tif with --depth float keeps it",
+               function.tag, still_gain));
+  }
+  return warnings;
+}
+
+std::string still_gains_text(const ExposureFigures& figures, bool plain) {
+  if (plain && !figures.functions.empty()) {
+    return format(", still gain {:.6g}", figures.functions.front().summary.still_gain());
   }
   std::string text = ", still gain";
-  for (std::size_t f = 0; f < std::min(plan.functions.size(), kFunctionsInSummary); ++f) {
-    const PlannedFunction& function = plan.functions[f];
+  for (std::size_t f = 0; f < std::min(figures.functions.size(), kFunctionsInSummary); ++f) {
+    const PlannedFunction& function = figures.functions[f];
     text += format("{} M{} {:.6g}", f == 0 ? "" : ",", function.tag, function.summary.still_gain());
   }
-  if (plan.functions.size() > kFunctionsInSummary) {
-    text += format(" and {} more", plan.functions.size() - kFunctionsInSummary);
+  if (figures.functions.size() > kFunctionsInSummary) {
+    text += format(" and {} more", figures.functions.size() - kFunctionsInSummary);
   }
   return text;
 }
@@ -37,43 +53,40 @@ std::string saturation_text(const Saturation& saturation, ValueType type) {
   return format(", {} saturated below 0 and {} above 1", pixels(saturation.below), saturation.above);
 }
 
-std::string plan_text(const RenderPlan& plan, const Timeline& timeline,
-                      std::optional<std::uint64_t> block_count) {
+std::string plan_text(const ExposureFigures& figures) {
   std::string text = "plan: ";
-  if (plan.blocks.empty()) {
+  if (figures.blocks_read == 0) {
     text += "nothing is read: no gain within the capture differs from 0";
   } else {
-    const std::uint64_t first = plan.blocks.front().extent.range().first;
-    const std::uint64_t last = plan.blocks.back().extent.range().last;
-    text += format("{} of {} samples have a gain that differs from 0; ", plan.live_sample_count(),
-                   timeline.sample_count());
-    text += format("read: {} (samples {} … {})", counted(plan.blocks.size(), "block"), first, last - 1);
-    if (block_count) {
-      text += format(", skipped: {}", counted(*block_count - plan.blocks.size(), "block"));
-    } else if (last < timeline.sample_count()) {
+    const auto [first, last] = figures.read;
+    text += format("{} of {} samples have a gain that differs from 0; ", figures.live_samples,
+                   figures.timeline.sample_count());
+    text += format("read: {} (samples {} … {})", counted(figures.blocks_read, "block"), first, last - 1);
+    if (figures.block_count) {
+      text += format(", skipped: {}", counted(*figures.block_count - figures.blocks_read, "block"));
+    } else if (last < figures.timeline.sample_count()) {
       text += format("; the clip is decoded up to there");
     }
   }
   const auto time = [](std::int64_t ns) { return integral_text(static_cast<double>(ns)); };
-  for (std::size_t f = 0; f < std::min(plan.functions.size(), kFunctionsInSummary); ++f) {
-    const PlannedFunction& function = plan.functions[f];
+  for (std::size_t f = 0; f < std::min(figures.functions.size(), kFunctionsInSummary); ++f) {
+    const PlannedFunction& function = figures.functions[f];
     const Interval& live = function.summary.live;
     text +=
         format("\n  M{}: {}, {}, {}", function.tag, counted(function.pixel_count, "pixel"),
                live.empty() ? "never live" : format("live {} … {}", time(live.begin_ns), time(live.end_ns)),
                counted(function.live.size(), "sample"));
   }
-  if (plan.functions.size() > kFunctionsInSummary) {
-    text += format("\n  and {} functions more", plan.functions.size() - kFunctionsInSummary);
+  if (figures.functions.size() > kFunctionsInSummary) {
+    text += format("\n  and {} functions more", figures.functions.size() - kFunctionsInSummary);
   }
-  const std::uint64_t tables = (plan.weights.size() + plan.boundaries.size()) * sizeof(double);
-  return text + format("\n  tables of gains: {}; map of functions: {}", bytes_text(tables),
-                       bytes_text(plan.function_of_pixel.size()));
+  return text + format("\n  tables of gains: {}; map of functions: {}", bytes_text(figures.table_bytes),
+                       bytes_text(figures.map_bytes));
 }
 
-Json functions_json(const RenderPlan& plan) {
+Json functions_json(const ExposureFigures& figures) {
   Json functions = Json::array();
-  for (const PlannedFunction& function : plan.functions) {
+  for (const PlannedFunction& function : figures.functions) {
     functions.push_back({{"mask_value", function.tag},
                          {"pixels", function.pixel_count},
                          {"live_start_ns", function.summary.live.begin_ns},

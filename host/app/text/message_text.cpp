@@ -1,14 +1,52 @@
 #include "app/text/message_text.hpp"
 
+#include <cctype>
+#include <utility>
+#include <vector>
+
+#include "app/command_line/suggestion.hpp"
 #include "capture/format.hpp"
 #include "session/clip_source.hpp"
 #include "session/contact_request.hpp"
+#include "session/devices.hpp"
 #include "session/mask_making.hpp"
 #include "session/memory_budget.hpp"
 #include "session/picture_input.hpp"
 #include "session/series_request.hpp"
 
 namespace nutik::app {
+
+namespace {
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+// Words of the devices' names, in small letters.
+std::vector<std::string> words_of(const std::vector<DeviceInfo>& devices) {
+  std::vector<std::string> words;
+  for (const DeviceInfo& device : devices) {
+    std::string word;
+    for (const char c : device.name + " " + device.platform + " ") {
+      if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+        word += c;
+      } else if (!word.empty()) {
+        words.push_back(lower(std::exchange(word, {})));
+      }
+    }
+  }
+  return words;
+}
+
+// `\ndid you mean oclgrind?`. Case does not count in a device's name.
+std::string device_suggestion(const DeviceNotFound& error) {
+  if (error.wanted.size() < 3) return {};
+  const std::string suggestion = did_you_mean(lower(error.wanted), words_of(error.devices));
+  return suggestion.empty() ? std::string() : "\n" + suggestion.substr(2);
+}
+
+}  // namespace
 
 std::string message_text(const std::exception& error) {
   const std::string message = error.what();
@@ -36,6 +74,9 @@ std::string message_text(const std::exception& error) {
   if (dynamic_cast<const NoMaskSize*>(&error) != nullptr) return message + ", or say --size 640x360";
   if (dynamic_cast<const NoSinglePicture*>(&error) != nullptr) {
     return message + ", or a time of the capture: 0.3s, 12f";
+  }
+  if (const auto* device = dynamic_cast<const DeviceNotFound*>(&error)) {
+    return message + device_suggestion(*device);
   }
   return message;
 }

@@ -1,4 +1,4 @@
-#include "app/input/sheet_exposures.hpp"
+#include "app/output/sheet_exposures.hpp"
 
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
@@ -28,24 +28,21 @@ std::filesystem::path sheet_output(const Options& options, const std::string& co
   return stated.value_or(sequence_name(options.operands.front()) + "-" + suffix + ".png");
 }
 
-SheetExposures::SheetExposures(const Options& options, CaptureSource& capture, Mask mask,
-                               PlanOptions plan_options)
-    : capture_(capture),
+SheetExposures::SheetExposures(const Options& options, Session& session, Mask mask, PlanOptions plan_options)
+    : session_(session),
       mask_(std::move(mask)),
       plan_options_(std::move(plan_options)),
-      transfer_(capture.format().transfer),
-      exposer_(options) {
-  const CaptureFormat& format = capture.format();
+      transfer_(session.format().transfer) {
+  const CaptureFormat& format = session.format();
   format_.type = code_type(format);
   format_.white_code = format.white_code;
   format_.negative = negative_light(options, format_.type, {});
-  exposer_.keep_resident(capture);
   if (options.transfer) plan_options_.transfer = transfer_ = Transfer::parse(*options.transfer);
 }
 
-Exposed SheetExposures::expose(const FunctionSet& functions) {
-  Exposed exposed = exposer_.expose(capture_, functions, mask_, plan_options_, format_);
-  saturation_ += exposed.saturation;
+ExposedPicture SheetExposures::expose(const FunctionSet& functions) {
+  ExposedPicture exposed = session_.render(functions, mask_, plan_options_, format_);
+  tally_.add(exposed);
   return exposed;
 }
 

@@ -5,7 +5,9 @@
 #include <span>
 #include <string>
 
-#include "app/input/exposer.hpp"
+#include "app/command_line/options.hpp"
+#include "app/output/exposure_tally.hpp"
+#include "session/session.hpp"
 #include "sheet/contact_sheet.hpp"
 
 namespace nutik::app {
@@ -22,27 +24,25 @@ void check_sheet_output(const std::filesystem::path& output, std::span<const std
 
 class SheetExposures {
  public:
-  // The options and the capture must outlive it.
-  SheetExposures(const Options& options, CaptureSource& capture, Mask mask, PlanOptions plan_options);
+  // The session must outlive it.
+  SheetExposures(const Options& options, Session& session, Mask mask, PlanOptions plan_options);
 
   // A picture of the capture's own codes, as expose would write it.
-  [[nodiscard]] Exposed expose(const FunctionSet& functions);
+  [[nodiscard]] ExposedPicture expose(const FunctionSet& functions);
 
   // What codes stand for: what was stated, else the capture's own.
   [[nodiscard]] const Transfer& transfer() const { return transfer_; }
   // Of all pictures so far, together.
-  [[nodiscard]] const Saturation& saturation() const { return saturation_; }
+  [[nodiscard]] const ExposureTally& tally() const { return tally_; }
   [[nodiscard]] ValueType type() const { return format_.type; }
-  [[nodiscard]] const Exposer& exposer() const { return exposer_; }
 
  private:
-  CaptureSource& capture_;
+  Session& session_;
   Mask mask_;
   PlanOptions plan_options_;
   Transfer transfer_;
   OutputFormat format_;
-  Saturation saturation_;
-  Exposer exposer_;
+  ExposureTally tally_;
 };
 
 }  // namespace nutik::app

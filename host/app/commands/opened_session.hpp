@@ -1,0 +1,23 @@
+// What a command works on.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/command_line/options.hpp"
+#include "session/session.hpp"
+
+namespace nutik::app {
+
+// A clip that is read whole is read with a progress bar. Prints what is doubtful about what came of it. Throws
+// UsageError where options describe a clip and `name` is a .tik, and what Session throws.
+[[nodiscard]] Session open_session(const std::string& name, const Options& options,
+                                   std::shared_ptr<Devices> devices, Reading reading = Reading::whole);
+// With devices that start when the first picture is asked for.
+[[nodiscard]] Session open_session(const std::string& name, const Options& options);
+
+// On a clip, what its timing was taken from, and what else to know: whole lines. Empty for a .tik.
+[[nodiscard]] std::vector<std::string> source_lines(const Session& session);
+
+}  // namespace nutik::app

@@ -1,0 +1,13 @@
+#include "app/output/exposure_tally.hpp"
+
+#include "render/rendering_report.hpp"
+
+namespace nutik::app {
+
+void ExposureTally::add(const ExposedPicture& exposed) {
+  saturation_ += exposed.saturation;
+  precision_ = to_text(exposed.precision);
+  report_ = rendering_report(exposed, exposed.output);
+}
+
+}  // namespace nutik::app

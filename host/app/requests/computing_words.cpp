@@ -1,0 +1,36 @@
+#include "app/requests/computing_words.hpp"
+
+#include <cstdlib>
+
+#include "app/output/console.hpp"
+#include "app/requests/source_words.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
+namespace nutik::app {
+
+ComputingRequest computing_request(const Options& options) {
+  ComputingRequest request;
+  request.memory = memory_budget(options);
+  const std::string name = options.renderer.value_or("opencl");
+  if (name == "reference") {
+    if (options.device) throw UsageError("--device chooses an OpenCL device; the reference uses none");
+    if (options.precision) throw UsageError("--precision goes with OpenCL; the reference uses double");
+    request.renderer = RendererKind::reference;
+    return request;
+  }
+  if (name != "opencl") {
+    throw UsageError(format("renderer '{}' is not known; choose opencl or reference", name));
+  }
+  const char* environment = std::getenv("NUTIK_DEVICE");
+  request.device = options.device.value_or(environment != nullptr ? environment : "");
+  if (options.precision.value_or("auto") != "auto") request.precision = parse_precision(*options.precision);
+  return request;
+}
+
+std::shared_ptr<Devices> make_devices(const Options& options) {
+  return std::make_shared<Devices>(computing_request(options),
+                                   options.quiet ? Devices::Announce() : Devices::Announce(print_note));
+}
+
+}  // namespace nutik::app

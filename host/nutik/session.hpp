@@ -1,0 +1,29 @@
+// All that an application needs: sessions, the requests they answer, and what comes of them.
+//
+//   nutik::SourceRequest source;
+//   source.path = "clip.tik";
+//   nutik::Session session(source);
+//   nutik::ExposureRequest request;
+//   request.gains = nutik::PlainInterval{nutik::StatedTime::parse("10ms", "length"), nutik::Shutter()};
+//   nutik::write_picture("picture.png", session.render(request, {}).picture);
+#pragma once
+
+#include "session/activity.hpp"
+#include "session/capture.hpp"
+#include "session/computing_request.hpp"
+#include "session/contact_request.hpp"
+#include "session/encoding.hpp"
+#include "session/error.hpp"
+#include "session/exposure_request.hpp"
+#include "session/frames_request.hpp"
+#include "session/function_input.hpp"
+#include "session/functions.hpp"
+#include "session/mask_making.hpp"
+#include "session/measured_noise.hpp"
+#include "session/picture_queue.hpp"
+#include "session/pictures.hpp"
+#include "session/series_request.hpp"
+#include "session/session.hpp"
+#include "session/sheets.hpp"
+#include "session/sweep_request.hpp"
+#include "session/videos.hpp"

@@ -1,0 +1,31 @@
+// What computes pictures, and what that may take. A value: two are equal when they ask for the same.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "render/precision.hpp"
+#include "session/memory_budget.hpp"
+
+namespace nutik {
+
+// The reference computes in double on the processor, slowly, and needs no OpenCL.
+enum class RendererKind { opencl, reference };
+
+struct ComputingRequest {
+  RendererKind renderer = RendererKind::opencl;
+
+  // Of OpenCL. A device is meant by its number in list_devices(), or by part of its name or platform in any case;
+  // empty: the first.
+  std::string device;
+  std::optional<Precision> precision;  // none: the fastest that is right enough, chosen for each picture
+  // Of built kernels; none: default_cache_folder(); an empty path: they are not kept.
+  std::optional<std::filesystem::path> cache_folder;
+
+  MemoryBudget memory = MemoryBudget::of_machine();
+
+  friend bool operator==(const ComputingRequest&, const ComputingRequest&) = default;
+};
+
+}  // namespace nutik

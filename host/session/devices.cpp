@@ -1,0 +1,70 @@
+#include "session/devices.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "capture/error.hpp"
+#include "opencl/program_store.hpp"
+#include "render/reference_renderer.hpp"
+
+namespace nutik {
+namespace {
+
+std::size_t chosen(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
+  try {
+    return choose_device(devices, wanted);
+  } catch (const DeviceError& error) {
+    throw DeviceNotFound(error, wanted, devices);
+  }
+}
+
+std::shared_ptr<Renderer> made(const ComputingRequest& request, Devices::Announce announce) {
+  if (request.renderer == RendererKind::reference) return std::make_shared<ReferenceRenderer>();
+  OpenClOptions options;
+  options.device = chosen(list_devices(), request.device);
+  options.precision = request.precision;
+  options.memory_bytes = request.memory.rendering_bytes();
+  options.cache_folder = request.cache_folder.value_or(default_cache_folder());
+  options.announce = std::move(announce);
+  return std::make_shared<OpenClRenderer>(options);
+}
+
+}  // namespace
+
+Devices::Devices(const ComputingRequest& request, Announce announce)
+    : request_(request), announce_(std::move(announce)) {}
+
+void Devices::start() {
+  std::call_once(started_,
+                 [this] { starting_ = std::async(std::launch::async, made, request_, announce_).share(); });
+}
+
+Renderer& Devices::renderer() {
+  start();
+  return *starting_.get();
+}
+
+OpenClRenderer& Devices::opencl() {
+  if (auto* renderer = dynamic_cast<OpenClRenderer*>(&this->renderer())) return *renderer;
+  throw UsageError("the reference is no OpenCL device");
+}
+
+bool Devices::is_ready() {
+  start();
+  return starting_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+void Devices::keep_resident(const CaptureSource* source) {
+  Renderer& named = renderer();
+  const std::lock_guard lock(naming_);
+  if (std::exchange(resident_, source) != source) named.keep_resident(source);
+}
+
+void Devices::release(const CaptureSource* source) {
+  const std::lock_guard lock(naming_);
+  if (resident_ != source || source == nullptr) return;
+  resident_ = nullptr;
+  renderer().keep_resident(nullptr);
+}
+
+}  // namespace nutik

@@ -1,0 +1,4 @@
+// What the engine throws.
+#pragma once
+
+#include "capture/error.hpp"

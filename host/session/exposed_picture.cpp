@@ -1,0 +1,20 @@
+#include "session/exposed_picture.hpp"
+
+#include <utility>
+
+namespace nutik {
+
+ExposureFigures ExposureFigures::of(RenderPlan&& plan, const Timeline& timeline,
+                                    std::optional<std::uint64_t> block_count) {
+  ExposureFigures figures{plan.capture, timeline, {}, plan.live_sample_count(), {}, plan.blocks.size(),
+                          block_count,  0,        0};
+  if (!plan.blocks.empty()) {
+    figures.read = {plan.blocks.front().extent.range().first, plan.blocks.back().extent.range().last};
+  }
+  figures.table_bytes = (plan.weights.size() + plan.boundaries.size()) * sizeof(double);
+  figures.map_bytes = plan.function_of_pixel.size();
+  figures.functions = std::move(plan.functions);
+  return figures;
+}
+
+}  // namespace nutik

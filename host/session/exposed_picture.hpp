@@ -1,0 +1,38 @@
+// A picture, and all that is to be said of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "capture/timeline.hpp"
+#include "render/render_plan.hpp"
+#include "render/renderer.hpp"
+
+namespace nutik {
+
+// What an exposure touches of a capture.
+struct ExposureFigures {
+  CaptureFormat capture;
+  Timeline timeline;                       // of a clip that was read once, as it turned out to be
+  std::vector<PlannedFunction> functions;  // that the mask uses, by increasing mask value
+  std::uint64_t live_samples = 0;          // that some function needs
+  SampleRange read;                        // whole blocks
+  std::uint64_t blocks_read = 0;
+  std::optional<std::uint64_t>
+      block_count;                // of the capture; none of a clip, whose blocks are made as it is read
+  std::uint64_t table_bytes = 0;  // of gains
+  std::uint64_t map_bytes = 0;    // of functions by pixel
+
+  // Takes the functions out of the plan.
+  static ExposureFigures of(RenderPlan&& plan, const Timeline& timeline,
+                            std::optional<std::uint64_t> block_count);
+};
+
+// `warnings` are those of the plan and of the renderer.
+struct ExposedPicture : Rendered {
+  ExposureFigures figures;
+  OutputFormat output;
+};
+
+}  // namespace nutik

@@ -1,0 +1,4 @@
+// format(), as the standard library has it.
+#pragma once
+
+#include "capture/format.hpp"

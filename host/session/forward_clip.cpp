@@ -1,0 +1,50 @@
+#include "session/forward_clip.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/read_ahead.hpp"
+
+namespace nutik {
+namespace {
+
+ExposedPicture expose_once(ClipSource& source, std::uint64_t sample_count, const MemoryBudget& memory,
+                           const ExposureRequest& request, const ExposeStream& expose) {
+  const Timeline timeline = source.timeline(sample_count);
+  const FunctionSet functions = functions_of(request, timeline);
+  const Mask mask = mask_of(request, source.capture.shape);
+  PlanOptions options = plan_options_of(request);
+  options.transfer.reset();  // it went into the capture's format
+  const SampleRange needed = needed_samples(timeline, functions, mask, options);
+  const std::uint64_t last =
+      streamed_samples(source.capture, needed, source.block_samples, timeline.sample_count()).last;
+  // At the timeline's end samples that follow are counted: they prove it wrong.
+  const bool is_end = last == timeline.sample_count();
+  ReadAhead samples(*source.clip, memory.read_ahead_bytes(), is_end ? ReadAhead::kAll : last);
+  StreamingCapture stream(source.capture, timeline, needed, source.block_samples, source.request.tiles,
+                          [&](std::uint64_t most) { return samples.next(most); });
+  return expose(stream, functions, mask, options);
+}
+
+}  // namespace
+
+ExposedPicture expose_forward(ClipSource source, const MemoryBudget& memory, const ExposureRequest& request,
+                              const ExposeStream& expose) {
+  std::optional<std::uint64_t> decoded;  // samples, where they are not those announced
+  for (;;) {
+    try {
+      return expose_once(source, decoded.value_or(source.announced_samples()), memory, request, expose);
+    } catch (const SampleCountMismatch& mismatch) {
+      if (decoded == mismatch.sample_count || mismatch.sample_count == 0) {
+        throw InputError(format("{}: only {} pictures can be decoded", source.request.path.string(),
+                                mismatch.sample_count));
+      }
+      decoded = mismatch.sample_count;
+    }
+    source = open_clip_source(source.request, memory);
+  }
+}
+
+}  // namespace nutik

@@ -1,0 +1,23 @@
+// A clip that is exposed while it is read, no further than one picture needs.
+#pragma once
+
+#include <functional>
+
+#include "imev/capture_source.hpp"
+#include "session/clip_source.hpp"
+#include "session/exposed_picture.hpp"
+#include "session/exposure_request.hpp"
+
+namespace nutik {
+
+// Exposes what was planned of a stream of blocks.
+using ExposeStream = std::function<ExposedPicture(CaptureSource& stream, const FunctionSet& functions,
+                                                  const Mask& mask, const PlanOptions& options)>;
+
+// How many samples a clip has is known for sure only when it has been read to its end, which an exposure of its
+// beginning never does. So its files' word is taken, and where decoding proves it wrong, the clip is read once more
+// with the right number. Throws InputError where fewer can be decoded each time.
+[[nodiscard]] ExposedPicture expose_forward(ClipSource source, const MemoryBudget& memory,
+                                            const ExposureRequest& request, const ExposeStream& expose);
+
+}  // namespace nutik

@@ -1,0 +1,13 @@
+// Gain functions and masks: their files, and what is wrong with them.
+#pragma once
+
+#include "capture/source_text.hpp"
+#include "exposure/function_check.hpp"
+#include "exposure/function_diagnostics.hpp"
+#include "exposure/function_file.hpp"
+#include "exposure/function_text.hpp"
+#include "exposure/mask.hpp"
+#include "exposure/mask_check.hpp"
+#include "exposure/normalization.hpp"
+#include "exposure/shutter_shape.hpp"
+#include "render/render_plan.hpp"

@@ -1,0 +1,233 @@
+#include "session/session.hpp"
+
+#include <atomic>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "imev/expected_values.hpp"
+#include "session/clip_source.hpp"
+#include "session/forward_clip.hpp"
+#include "session/scratch_capture.hpp"
+
+namespace nutik {
+
+SessionIsSpent::SessionIsSpent()
+    : UsageError(
+          "the session reads its capture forward, for one picture and nothing else; open it to be read "
+          "whole") {}
+
+class Session::Implementation {
+ public:
+  Implementation(const SourceRequest& source, std::shared_ptr<Devices> devices, const Terms& terms);
+  ~Implementation() {
+    if (reader_) devices_->release(reader_.get());
+  }
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  [[nodiscard]] const SourceRequest& source() const { return source_; }
+  [[nodiscard]] Devices& devices() const { return *devices_; }
+  [[nodiscard]] bool is_clip() const { return is_clip_; }
+  [[nodiscard]] const CaptureFormat& format() const { return format_; }
+  [[nodiscard]] const Timeline& timeline() const { return reader_ ? reader_->timeline() : *announced_; }
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+  [[nodiscard]] tik::Reader& capture();
+
+  [[nodiscard]] ExposedPicture render(const ExposureRequest& request, const OutputFormat& output,
+                                      const RenderControl& control);
+  [[nodiscard]] ExposedPicture render(const FunctionSet& functions, const Mask& mask,
+                                      const PlanOptions& options, const OutputFormat& output,
+                                      const RenderControl& control);
+  template <typename Follow>
+  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const Follow& follow);
+  [[nodiscard]] ValidatedExposure validate(const ExposureRequest& request, const OutputFormat& output,
+                                           std::uint32_t runs, const ReportedProgress& progress);
+  [[nodiscard]] SourceCheck compare_with(const SourceRequest& clip, const ReportedProgress& progress);
+
+ private:
+  [[nodiscard]] const MemoryBudget& memory() const { return devices_->request().memory; }
+  [[nodiscard]] RenderPlan plan(const ExposureRequest& request);
+  [[nodiscard]] ExposedPicture expose(CaptureSource& source, const FunctionSet& functions, const Mask& mask,
+                                      const PlanOptions& options, const OutputFormat& output,
+                                      const RenderControl& control);
+  void warm_up(CaptureSource& source, const RenderPlan& plan, const OutputFormat& output);
+  void spend();
+
+  SourceRequest source_;
+  std::shared_ptr<Devices> devices_;
+  Reading reading_;
+  bool is_clip_;
+  CaptureFormat format_;
+  std::vector<std::string> notes_, warnings_;
+
+  // A capture, or a clip that has not been read yet and the timeline that its files announce.
+  std::unique_ptr<tik::Reader> reader_;
+  std::optional<ClipSource> clip_;
+  std::optional<Timeline> announced_;
+
+  std::once_flag warmed_up_;
+  std::atomic<bool> is_spent_ = false;
+};
+
+Session::Implementation::Implementation(const SourceRequest& source, std::shared_ptr<Devices> devices,
+                                        const Terms& terms)
+    : source_(source), devices_(std::move(devices)), reading_(terms.reading), is_clip_(!is_tik(source.path)) {
+  if (!is_clip_) {
+    if (source.describes_clip()) {
+      throw UsageError(nutik::format(
+          "what is stated describes a clip that is encoded; {} was encoded already", source.path.string()));
+    }
+    reader_ = std::make_unique<tik::Reader>(source.path);
+  } else if (reading_ == Reading::whole) {
+    ScratchCapture scratch = encode_to_scratch(source, memory(), terms.progress, terms.stop);
+    reader_ = std::move(scratch.reader);
+    notes_ = std::move(scratch.encoded.notes);
+    warnings_ = std::move(scratch.encoded.warnings);
+  } else {
+    clip_ = open_clip_source(source, memory());
+    announced_ = clip_->timeline(clip_->announced_samples());
+    notes_ = clip_->notes;
+  }
+  format_ = reader_ ? reader_->format() : held_format(clip_->capture);
+}
+
+void Session::Implementation::spend() {
+  if (is_spent_.exchange(reading_ == Reading::forward)) throw SessionIsSpent();
+}
+
+tik::Reader& Session::Implementation::capture() {
+  if (reading_ == Reading::forward) throw SessionIsSpent();
+  return *reader_;
+}
+
+RenderPlan Session::Implementation::plan(const ExposureRequest& request) {
+  return make_plan(capture(), functions_of(request, timeline()), mask_of(request, format_.shape),
+                   plan_options_of(request));
+}
+
+// A device that is still starting loads its kernels beside the first block.
+void Session::Implementation::warm_up(CaptureSource& source, const RenderPlan& plan,
+                                      const OutputFormat& output) {
+  if (devices_->is_ready()) return;
+  auto ready = std::async(std::launch::async, [&] { devices_->renderer().prepare(plan, output); });
+  if (!plan.blocks.empty()) source.preload(plan.blocks.front().block);
+  ready.get();
+}
+
+ExposedPicture Session::Implementation::expose(CaptureSource& source, const FunctionSet& functions,
+                                               const Mask& mask, const PlanOptions& options,
+                                               const OutputFormat& output, const RenderControl& control) {
+  throw_if_cancelled(control);
+  RenderPlan plan = make_plan(source, functions, mask, options);
+  std::call_once(warmed_up_, [&] { warm_up(source, plan, output); });
+  if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());
+  Rendered rendered = devices_->renderer().render(plan, source, output, control);
+  rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
+  const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
+  return {std::move(rendered), ExposureFigures::of(std::move(plan), source.timeline(), block_count), output};
+}
+
+ExposedPicture Session::Implementation::render(const ExposureRequest& request, const OutputFormat& output,
+                                               const RenderControl& control) {
+  spend();
+  if (reader_) {
+    return expose(*reader_, functions_of(request, timeline()), mask_of(request, format_.shape),
+                  plan_options_of(request), output, control);
+  }
+  return expose_forward(
+      std::move(*clip_), memory(), request,
+      [&](CaptureSource& stream, const FunctionSet& functions, const Mask& mask, const PlanOptions& options) {
+        return expose(stream, functions, mask, options, output, control);
+      });
+}
+
+ExposedPicture Session::Implementation::render(const FunctionSet& functions, const Mask& mask,
+                                               const PlanOptions& options, const OutputFormat& output,
+                                               const RenderControl& control) {
+  return expose(capture(), functions, mask, options, output, control);
+}
+
+template <typename Follow>
+TracedExposure Session::Implementation::trace(const ExposureRequest& request, const Follow& follow) {
+  RenderPlan planned = plan(request);
+  Trace trace = follow(planned, *reader_);
+  std::vector<std::string> warnings = std::move(planned.warnings);
+  return {std::move(trace), ExposureFigures::of(std::move(planned), timeline(), reader_->block_count()),
+          std::move(warnings)};
+}
+
+ValidatedExposure Session::Implementation::validate(const ExposureRequest& request,
+                                                    const OutputFormat& output, std::uint32_t runs,
+                                                    const ReportedProgress& progress) {
+  RenderPlan planned = plan(request);
+  devices_->release(reader_.get());  // validating names its own
+  const auto ignored = [](std::uint64_t, std::uint64_t) {};
+  Validation validation = nutik::validate(planned, *reader_, output, devices_->opencl(), runs,
+                                          progress ? progress : ReportedProgress(ignored));
+  std::vector<std::string> warnings = std::move(planned.warnings);
+  return {std::move(validation), ExposureFigures::of(std::move(planned), timeline(), reader_->block_count()),
+          std::move(warnings)};
+}
+
+SourceCheck Session::Implementation::compare_with(const SourceRequest& clip,
+                                                  const ReportedProgress& progress) {
+  tik::Reader& reader = capture();
+  return compare_with_source(reader, clip, memory(), progress);
+}
+
+Session::Session(const SourceRequest& source, std::shared_ptr<Devices> devices, const Terms& terms)
+    : implementation_(std::make_unique<Implementation>(source, std::move(devices), terms)) {}
+Session::Session(const SourceRequest& source, std::shared_ptr<Devices> devices)
+    : Session(source, std::move(devices), Terms{}) {}
+Session::Session(const SourceRequest& source, const ComputingRequest& computing)
+    : Session(source, std::make_shared<Devices>(computing)) {}
+Session::~Session() = default;
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+
+const SourceRequest& Session::source() const { return implementation_->source(); }
+Devices& Session::devices() const { return implementation_->devices(); }
+bool Session::is_clip() const { return implementation_->is_clip(); }
+const CaptureFormat& Session::format() const { return implementation_->format(); }
+const Timeline& Session::timeline() const { return implementation_->timeline(); }
+const std::vector<std::string>& Session::notes() const { return implementation_->notes(); }
+const std::vector<std::string>& Session::warnings() const { return implementation_->warnings(); }
+tik::Reader& Session::capture() { return implementation_->capture(); }
+
+ExposedPicture Session::render(const ExposureRequest& request, const OutputFormat& output,
+                               const RenderControl& control) {
+  return implementation_->render(request, output, control);
+}
+
+ExposedPicture Session::render(const FunctionSet& functions, const Mask& mask, const PlanOptions& options,
+                               const OutputFormat& output, const RenderControl& control) {
+  return implementation_->render(functions, mask, options, output, control);
+}
+
+TracedExposure Session::trace(const ExposureRequest& request, const TracedPixel& pixel) {
+  return implementation_->trace(request, [&](const RenderPlan& plan, CaptureSource& source) {
+    return trace_pixel(plan, source, pixel.x, pixel.y);
+  });
+}
+
+TracedExposure Session::trace(const ExposureRequest& request, const TracedTag& tag) {
+  return implementation_->trace(request, [&](const RenderPlan& plan, CaptureSource& source) {
+    return trace_region(plan, source, tag.tag);
+  });
+}
+
+ValidatedExposure Session::validate(const ExposureRequest& request, const OutputFormat& output,
+                                    std::uint32_t runs, const ReportedProgress& progress) {
+  return implementation_->validate(request, output, runs, progress);
+}
+
+SourceCheck Session::compare_with(const SourceRequest& clip, const ReportedProgress& progress) {
+  return implementation_->compare_with(clip, progress);
+}
+
+}  // namespace nutik

@@ -1,0 +1,123 @@
+// A session: one capture, and the devices that expose pictures of it.
+//
+//   in:      requests, which are values
+//   out:     pictures and what is to be said of them, as values. Nothing is printed
+//   threads: any number may ask one session. Requests that share a device take turns at it. A session that is moved or
+//            destroyed is asked by nobody
+//
+// A .tik is read where it lies. A clip is read in one of two ways, and that says what can be asked:
+//
+//   whole     encoded into a temporary capture before the session is there. Anything, as often as one likes; blocks
+//             stay on the device, as far as memory allows, for the next picture
+//   forward   read while the picture is exposed, no further than that needs. One render() and nothing else; whatever
+//             is asked after that throws SessionIsSpent. A .tik that is read forward is not kept on the device
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "opencl/validation.hpp"
+#include "render/trace.hpp"
+#include "session/devices.hpp"
+#include "session/exposed_picture.hpp"
+#include "session/exposure_request.hpp"
+#include "session/reported_progress.hpp"
+#include "session/source_check.hpp"
+#include "session/source_request.hpp"
+#include "tik/reader.hpp"
+
+namespace nutik {
+
+enum class Reading { whole, forward };
+
+// A session of one picture was asked for more.
+struct SessionIsSpent : UsageError {
+  SessionIsSpent();
+};
+
+// Which pixels are followed: one, or all of a mask value.
+struct TracedPixel {
+  std::uint32_t x = 0, y = 0;
+};
+struct TracedTag {
+  std::uint8_t tag = 0;
+};
+
+struct TracedExposure {
+  Trace trace;
+  ExposureFigures figures;
+  std::vector<std::string> warnings;
+
+  [[nodiscard]] const PlannedFunction& function() const { return figures.functions[trace.function]; }
+};
+
+struct ValidatedExposure {
+  Validation validation;
+  ExposureFigures figures;
+  std::vector<std::string> warnings;
+};
+
+class Session {
+ public:
+  // How a session is opened.
+  struct Terms {
+    Reading reading = Reading::whole;
+    ReportedProgress progress;  // of a clip that is read whole, in samples
+    std::stop_token stop;       // ends that: Cancelled
+  };
+
+  // Throws UsageError where the request describes a clip and names a .tik, or does not fit the clip; InputError where
+  // the capture cannot be read; OutputError where there is no space for a temporary one.
+  Session(const SourceRequest& source, std::shared_ptr<Devices> devices, const Terms& terms);
+  Session(const SourceRequest& source, std::shared_ptr<Devices> devices);
+  // With devices of its own.
+  explicit Session(const SourceRequest& source, const ComputingRequest& computing = {});
+  ~Session();
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+
+  [[nodiscard]] const SourceRequest& source() const;
+  [[nodiscard]] Devices& devices() const;
+  // Whether it was made from a clip.
+  [[nodiscard]] bool is_clip() const;
+  [[nodiscard]] const CaptureFormat& format() const;
+  // Of a clip that is read forward, as its files announce it: a picture brings the true one.
+  [[nodiscard]] const Timeline& timeline() const;
+  // On a clip: what a person should know, and what is doubtful about the capture made from it. Whole sentences.
+  [[nodiscard]] const std::vector<std::string>& notes() const;
+  [[nodiscard]] const std::vector<std::string>& warnings() const;
+
+  // Exposes a picture, all of it or a rectangle. Throws UsageError where the request does not fit the capture,
+  // InputError where mask and functions do not or a block is damaged, DeviceError where the device fails, Cancelled.
+  [[nodiscard]] ExposedPicture render(const ExposureRequest& request, const OutputFormat& output,
+                                      const RenderControl& control = {});
+
+  // The same of functions as they are, whatever the timeline; of a whole session.
+  [[nodiscard]] ExposedPicture render(const FunctionSet& functions, const Mask& mask,
+                                      const PlanOptions& options, const OutputFormat& output,
+                                      const RenderControl& control = {});
+
+  // How the light of a pixel came about, and of the mean of all pixels of a mask value.
+  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const TracedPixel& pixel);
+  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const TracedTag& tag);
+
+  // Every arithmetic of the OpenCL device against the reference.
+  [[nodiscard]] ValidatedExposure validate(const ExposureRequest& request, const OutputFormat& output,
+                                           std::uint32_t runs, const ReportedProgress& progress = {});
+
+  // The capture beside the clip it was made from.
+  [[nodiscard]] SourceCheck compare_with(const SourceRequest& clip, const ReportedProgress& progress = {});
+
+  // The capture itself, for whoever reads its blocks; of a whole session.
+  [[nodiscard]] tik::Reader& capture();
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace nutik

@@ -1,0 +1,6 @@
+// Video files.
+#pragma once
+
+#include "media/frame_queue.hpp"
+#include "media/video_codec.hpp"
+#include "media/video_writer.hpp"

@@ -1,0 +1,44 @@
+#!/usr/bin/python3
+"""The program is a client of the session: host/app includes the session's headers, the system's and its own, and
+what reads its inputs and what writes its outputs do not include each other.
+
+    check_includes.py --app FOLDER
+"""
+
+import argparse
+import re
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+ROOMS = {"app", "session", "system"}
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--app", type=Path, required=True)
+    app = parser.parse_args().app
+    mistakes = []
+    arrows = defaultdict(set)
+    files = sorted(path for path in app.rglob("*") if path.suffix in (".hpp", ".cpp"))
+    if not files:
+        sys.exit(f"{app} holds no source")
+    for path in files:
+        place = path.relative_to(app)
+        for name in INCLUDE.findall(path.read_text(encoding="utf-8")):
+            room, *rest = name.split("/")
+            if room not in ROOMS:
+                mistakes.append(f"{place} includes {name}, which is neither the session's, the system's nor the program's")
+            if room == "app" and len(place.parts) > 1 and len(rest) > 1 and rest[0] != place.parts[0]:
+                arrows[place.parts[0]].add(rest[0])
+    if "output" in arrows["input"] and "input" in arrows["output"]:
+        mistakes.append("input and output include each other")
+    for mistake in mistakes:
+        print(mistake)
+    print(f"{len(files)} files, {len(mistakes)} mistakes")
+    return 1 if mistakes else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

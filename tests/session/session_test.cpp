@@ -1,0 +1,133 @@
+// What a session answers, and what it refuses.
+#include "session/session.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "support/messages.hpp"
+#include "support/random_case.hpp"
+#include "support/scratch.hpp"
+#include "support/still_clip.hpp"
+#include "support/tik_files.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr OutputFormat kFloats{ValueType::light32, 0};
+
+ComputingRequest reference() {
+  ComputingRequest request;
+  request.renderer = RendererKind::reference;
+  return request;
+}
+
+// 24 stills of 16 x 16 pixels, 100 a second.
+class SessionOfClip : public ::testing::Test {
+ protected:
+  SessionOfClip() {
+    const auto modules = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path();
+    setenv("NUTIK_MODULES", modules.c_str(), 0);
+    test::write_still_clip(scratch_.folder(), 16, 24);
+    source_.path = scratch_ / "frames";
+    source_.clip.rate = Rational{100, 1};
+    request_.gains = PlainInterval{StatedTime::of_pictures(5), Shutter()};
+    request_.start = StatedTime::of_pictures(3);
+  }
+
+  [[nodiscard]] Session forward() const {
+    return {source_, std::make_shared<Devices>(reference()), {Reading::forward, {}, {}}};
+  }
+
+  test::Scratch scratch_;
+  SourceRequest source_;
+  ExposureRequest request_;
+};
+
+TEST_F(SessionOfClip, AnswersTheSameReadForwardAndWhole) {
+  Session once = forward();
+  EXPECT_TRUE(once.is_clip());
+  EXPECT_EQ(once.timeline().sample_count(), 24u);
+  const ExposedPicture streamed = once.render(request_, kFloats);
+  Session whole(source_, reference());
+  for (int k = 0; k < 2; ++k) {
+    const ExposedPicture again = whole.render(request_, kFloats);
+    EXPECT_EQ(again.picture.bytes, streamed.picture.bytes);
+    EXPECT_EQ(again.figures.live_samples, streamed.figures.live_samples);
+  }
+  EXPECT_EQ(streamed.figures.timeline.sample_count(), 24u);
+  EXPECT_FALSE(streamed.figures.block_count.has_value());
+}
+
+TEST_F(SessionOfClip, ReadForwardIsSpentAfterOnePicture) {
+  Session once = forward();
+  EXPECT_THROW(static_cast<void>(once.capture()), SessionIsSpent);
+  EXPECT_THROW(static_cast<void>(once.trace(request_, TracedPixel{0, 0})), SessionIsSpent);
+  EXPECT_EQ(once.render(request_, kFloats).picture.shape, (Shape{16, 16, 1}));
+  EXPECT_THROW(static_cast<void>(once.render(request_, kFloats)), SessionIsSpent);
+}
+
+TEST_F(SessionOfClip, IsNotOpenedWhenNobodyWantsItAnyMore) {
+  std::stop_source stop;
+  std::uint64_t told = 0;
+  const ReportedProgress progress = [&](std::uint64_t done, std::uint64_t total) {
+    EXPECT_EQ(total, 24u);
+    told = done;
+    stop.request_stop();
+  };
+  EXPECT_THROW(
+      Session(source_, std::make_shared<Devices>(reference()), {Reading::whole, progress, stop.get_token()}),
+      Cancelled);
+  EXPECT_GT(told, 0u);
+  EXPECT_LT(told, 24u);
+}
+
+TEST_F(SessionOfClip, TracesAPixelToItsLight) {
+  Session session(source_, reference());
+  const ExposedPicture exposed = session.render(request_, {ValueType::light64, 0});
+  const TracedExposure traced = session.trace(request_, TracedPixel{4, 5});
+  EXPECT_EQ(traced.trace.light[0], exposed.picture.values<double>()[5 * 16 + 4]);
+  EXPECT_EQ(traced.figures.live_samples, exposed.figures.live_samples);
+}
+
+TEST_F(SessionOfClip, IsComparedWithItsClip) {
+  Session session(source_, reference());
+  const SourceCheck check = session.compare_with(source_);
+  EXPECT_EQ(check.comparison.values_beyond(), 0u);
+  EXPECT_FALSE(check.clip_goes_on);
+}
+
+TEST(Session, RefusesADescriptionOfWhatWasDescribed) {
+  const test::Scratch scratch;
+  SourceRequest source;
+  source.path = test::write_tik(test::RandomCase(3), {tik::CodecId::none, 0}, scratch);
+  EXPECT_FALSE(source.describes_clip());
+  source.clip.transfer = Transfer::linear();
+  EXPECT_FALSE(source.describes_clip()) << "an exposure may take codes for other light";
+  source.tolerance = 1;
+  EXPECT_TRUE(source.describes_clip());
+  EXPECT_EQ(
+      test::message_of<UsageError>([&] { Session(source, reference()); }),
+      "what is stated describes a clip that is encoded; " + source.path.string() + " was encoded already");
+}
+
+TEST(Session, SaysWhichDevicesThereAre) {
+  ComputingRequest computing;
+  computing.device = "no such device";
+  Devices devices(computing);
+  try {
+    static_cast<void>(devices.renderer());
+    FAIL() << "a device of that name was found";
+  } catch (const DeviceNotFound& error) {
+    EXPECT_EQ(error.wanted, "no such device");
+    EXPECT_FALSE(error.devices.empty());
+  }
+}
+
+TEST(Session, ValidatesWithOpenClOnly) {
+  Devices devices(reference());
+  EXPECT_THROW(static_cast<void>(devices.opencl()), UsageError);
+}
+
+}  // namespace
+}  // namespace nutik
