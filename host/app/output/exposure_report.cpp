@@ -66,9 +66,9 @@ std::string plan_text(const RenderPlan& plan, const Timeline& timeline,
   if (plan.functions.size() > kFunctionsInSummary) {
     text += format("\n  and {} functions more", plan.functions.size() - kFunctionsInSummary);
   }
-  const std::uint64_t tables = (plan.weights.size() + plan.boundaries.size()) * sizeof(double);
+  const std::uint64_t tables = 2 * plan.row_count() * plan.function_count() * sizeof(double);
   return text + format("\n  tables of gains: {}; map of functions: {}", bytes_text(tables),
-                       bytes_text(plan.function_of_pixel.size()));
+                       bytes_text(plan.map->region_of_pixel.size()));
 }
 
 Json functions_json(const RenderPlan& plan) {
