@@ -1,6 +1,7 @@
 #include "app/input/exposer.hpp"
 
 #include "app/input/renderer_choice.hpp"
+#include "app/requests/source_words.hpp"
 #include "capture/format.hpp"
 #include "render/rendering_report.hpp"
 
@@ -22,7 +23,8 @@ std::vector<std::string> exposure_warnings(const Exposed& exposed) {
 }
 
 Exposer::Exposer(const Options& options)
-    : starting_(std::async(std::launch::async, [&options] { return choose_renderer(options); })) {}
+    : starting_(std::async(std::launch::async, [&options] { return choose_renderer(options); })),
+      plans_(memory_budget(options).table_bytes()) {}
 
 void Exposer::keep_resident(const CaptureSource& source) {
   resident_ = &source;
@@ -31,7 +33,7 @@ void Exposer::keep_resident(const CaptureSource& source) {
 
 Exposed Exposer::expose(CaptureSource& source, const FunctionSet& functions, const Mask& mask,
                         const PlanOptions& plan_options, const OutputFormat& format) {
-  RenderPlan plan = make_plan(source, functions, mask, plan_options);
+  RenderPlan plan = plans_.plan(source, functions, mask, plan_options);
   if (!renderer_) {
     // Kernels are loaded beside the first block. Where that fails the device is there for the next exposure.
     auto ready = std::async(std::launch::async, [&] {

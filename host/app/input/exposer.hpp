@@ -8,7 +8,7 @@
 
 #include "app/command_line/options.hpp"
 #include "imev/capture_source.hpp"
-#include "render/render_plan.hpp"
+#include "render/plan_cache.hpp"
 #include "render/renderer.hpp"
 
 namespace nutik::app {
@@ -45,6 +45,7 @@ class Exposer {
  private:
   std::future<std::unique_ptr<Renderer>> starting_;
   std::unique_ptr<Renderer> renderer_;
+  PlanCache plans_;
   const CaptureSource* resident_ = nullptr;
   std::string precision_, report_;
 };
