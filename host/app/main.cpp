@@ -7,7 +7,7 @@
 #include "app/command_line/command_line.hpp"
 #include "app/output/console.hpp"
 #include "app/text/message_text.hpp"
-#include "capture/error.hpp"
+#include "session/error.hpp"
 #include "system/interruption.hpp"
 
 namespace {

@@ -8,6 +8,7 @@
 #include "capture/timeline.hpp"
 #include "render/render_plan.hpp"
 #include "render/renderer.hpp"
+#include "render/rendering_report.hpp"
 
 namespace nutik {
 

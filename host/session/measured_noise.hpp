@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/noise_file.hpp"
 #include "media/clip.hpp"
 #include "noise/noise_estimator.hpp"
 #include "session/source_request.hpp"

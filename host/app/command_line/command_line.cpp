@@ -9,8 +9,8 @@
 #include "app/command_line/value_check.hpp"
 #include "app/input/standard_input.hpp"
 #include "app/text/shell_text.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
 
 namespace nutik::app {
 namespace {

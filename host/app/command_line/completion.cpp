@@ -6,8 +6,8 @@
 
 #include "app/command_line/help_text.hpp"
 #include "app/command_line/option_table.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
 
 namespace nutik::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "app/command_line/help_text.hpp"
 #include "app/output/console.hpp"
 #include "app/text/text_table.hpp"
-#include "capture/format.hpp"
+#include "session/format.hpp"
 
 #ifndef NUTIK_VERSION
 #error "NUTIK_VERSION is not set"

@@ -8,7 +8,7 @@
 
 #include "app/command_line/help_text.hpp"
 #include "app/command_line/option_table.hpp"
-#include "capture/format.hpp"
+#include "session/format.hpp"
 
 #ifndef NUTIK_VERSION
 #error "NUTIK_VERSION is not set"

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "capture/format.hpp"
+#include "session/format.hpp"
 
 namespace nutik::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/command_line/suggestion.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
 
 namespace nutik::app {
 namespace {

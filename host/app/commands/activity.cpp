@@ -1,4 +1,4 @@
-#include "imev/activity.hpp"
+#include "session/activity.hpp"
 
 #include <algorithm>
 
@@ -9,15 +9,12 @@
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/text/number_text.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "exposure/mask.hpp"
-#include "imev/activity_moments.hpp"
-#include "imev/each_block.hpp"
-#include "media/picture_writer.hpp"
+#include "session/capture.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/functions.hpp"
+#include "session/pictures.hpp"
 #include "session/time_text.hpp"
-#include "sheet/activity_chart.hpp"
-#include "sheet/activity_map.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {

@@ -22,8 +22,8 @@
 #include "app/requests/exposure_words.hpp"
 #include "app/text/message_text.hpp"
 #include "app/text/shell_text.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
 #include "session/picture_queue.hpp"
 #include "session/size_text.hpp"
 

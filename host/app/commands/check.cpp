@@ -7,11 +7,11 @@
 #include "app/requests/source_words.hpp"
 #include "app/text/check_text.hpp"
 #include "app/text/message_text.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "exposure/mask_check.hpp"
+#include "session/capture.hpp"
 #include "session/clip_source.hpp"
-#include "tik/reader.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/functions.hpp"
 
 namespace nutik::app {
 namespace {

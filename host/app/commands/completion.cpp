@@ -2,7 +2,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/output/console.hpp"
-#include "capture/error.hpp"
+#include "session/error.hpp"
 
 namespace nutik::app {
 

@@ -8,10 +8,10 @@
 #include "app/output/shared_warnings.hpp"
 #include "app/output/sheet_exposures.hpp"
 #include "app/output/stopwatch.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "media/picture_writer.hpp"
 #include "session/contact_request.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/pictures.hpp"
 #include "session/size_text.hpp"
 
 namespace nutik::app {

@@ -1,9 +1,9 @@
+#include "session/devices.hpp"
 #include "app/commands/commands.hpp"
 #include "app/output/console.hpp"
 #include "app/output/json.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "opencl/device.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
 #include "session/size_text.hpp"
 
 namespace nutik::app {

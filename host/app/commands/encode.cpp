@@ -8,10 +8,10 @@
 #include "app/requests/source_words.hpp"
 #include "app/text/shell_text.hpp"
 #include "app/text/timing_text.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "media/still_sequence.hpp"
 #include "session/encoding.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/pictures.hpp"
 #include "session/size_text.hpp"
 
 namespace nutik::app {

@@ -13,9 +13,9 @@
 #include "app/requests/computing_words.hpp"
 #include "app/requests/exposure_words.hpp"
 #include "app/text/timing_text.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "media/picture_writer.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/pictures.hpp"
 #include "session/size_text.hpp"
 
 namespace nutik::app {

@@ -7,17 +7,14 @@
 #include "app/output/output_name.hpp"
 #include "app/text/message_text.hpp"
 #include "app/text/shell_text.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "imev/activity.hpp"
-#include "imev/each_block.hpp"
-#include "imev/expected_values.hpp"
-#include "media/picture_writer.hpp"
+#include "session/activity.hpp"
+#include "session/capture.hpp"
 #include "session/clip_source.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/pictures.hpp"
 #include "session/size_text.hpp"
 #include "session/time_text.hpp"
-#include "sheet/activity_map.hpp"
-#include "tik/reader.hpp"
 
 namespace nutik::app {
 namespace {

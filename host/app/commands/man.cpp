@@ -1,7 +1,7 @@
 #include "app/command_line/man_page.hpp"
 #include "app/commands/commands.hpp"
 #include "app/output/console.hpp"
-#include "capture/error.hpp"
+#include "session/error.hpp"
 
 namespace nutik::app {
 

@@ -9,14 +9,13 @@
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/requests/mask_words.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "media/picture_writer.hpp"
-#include "media/still_sequence.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
 #include "session/mask_making.hpp"
+#include "session/pictures.hpp"
+#include "session/sheets.hpp"
 #include "session/size_text.hpp"
 #include "session/stated_time.hpp"
-#include "sheet/mask_overlay.hpp"
 
 namespace nutik::app {
 namespace {

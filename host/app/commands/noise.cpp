@@ -5,12 +5,11 @@
 #include "app/output/output_name.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/requests/source_words.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "capture/noise_file.hpp"
-#include "media/still_sequence.hpp"
 #include "session/clip_source.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
 #include "session/measured_noise.hpp"
+#include "session/pictures.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {

@@ -7,7 +7,7 @@
 #include "app/requests/computing_words.hpp"
 #include "app/requests/source_words.hpp"
 #include "app/text/timing_text.hpp"
-#include "capture/format.hpp"
+#include "session/format.hpp"
 
 namespace nutik::app {
 

@@ -5,10 +5,10 @@
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
 #include "app/text/shell_text.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
+#include "session/capture.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
 #include "session/size_text.hpp"
-#include "tik/reader.hpp"
 
 namespace nutik::app {
 

@@ -6,9 +6,9 @@
 #include "app/commands/commands.hpp"
 #include "app/output/console.hpp"
 #include "app/requests/exposure_words.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "exposure/function_text.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/functions.hpp"
 #include "session/stated_time.hpp"
 
 namespace nutik::app {

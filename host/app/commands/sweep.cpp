@@ -16,10 +16,9 @@
 #include "app/output/swept_recipe.hpp"
 #include "app/requests/exposure_words.hpp"
 #include "app/requests/sweep_words.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "media/numbered_name.hpp"
-#include "media/picture_writer.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/pictures.hpp"
 #include "session/size_text.hpp"
 
 namespace nutik::app {

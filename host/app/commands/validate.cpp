@@ -9,10 +9,10 @@
 #include "app/requests/source_words.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/validation_text.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "opencl/validation.hpp"
 #include "session/clip_source.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/session.hpp"
 #include "session/size_text.hpp"
 #include "session/source_check.hpp"
 

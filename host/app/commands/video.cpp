@@ -12,11 +12,11 @@
 #include "app/output/video_output.hpp"
 #include "app/requests/computing_words.hpp"
 #include "app/requests/exposure_words.hpp"
-#include "capture/format.hpp"
-#include "media/frame_queue.hpp"
-#include "media/still_sequence.hpp"
+#include "session/format.hpp"
+#include "session/pictures.hpp"
 #include "session/size_text.hpp"
 #include "session/time_text.hpp"
+#include "session/videos.hpp"
 #include "system/interruption.hpp"
 
 namespace nutik::app {

@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "app/command_line/option_table.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "media/mask_reader.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/pictures.hpp"
 
 namespace nutik::app {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/command_line/options.hpp"
-#include "exposure/mask.hpp"
+#include "session/functions.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::app {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "capture/error.hpp"
+#include "session/error.hpp"
 
 namespace nutik::app {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "capture/format.hpp"
+#include "session/format.hpp"
 #include "session/size_text.hpp"
 #include "session/time_text.hpp"
 

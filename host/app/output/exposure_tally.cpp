@@ -1,6 +1,6 @@
 #include "app/output/exposure_tally.hpp"
 
-#include "render/rendering_report.hpp"
+#include "session/exposed_picture.hpp"
 
 namespace nutik::app {
 

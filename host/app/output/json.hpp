@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/output/console.hpp"
-#include "capture/picture.hpp"
+#include "session/capture.hpp"
 
 namespace nutik::app {
 

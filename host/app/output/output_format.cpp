@@ -1,8 +1,8 @@
 #include "app/output/output_format.hpp"
 
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "media/picture_writer.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/pictures.hpp"
 
 namespace nutik::app {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "app/command_line/options.hpp"
-#include "capture/picture.hpp"
-#include "render/renderer.hpp"
+#include "session/capture.hpp"
+#include "session/exposed_picture.hpp"
 
 namespace nutik::app {
 

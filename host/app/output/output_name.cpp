@@ -4,12 +4,11 @@
 
 #include "app/command_line/option_table.hpp"
 #include "app/input/standard_input.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "media/picture_writer.hpp"
-#include "media/still_sequence.hpp"
+#include "session/capture.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/pictures.hpp"
 #include "system/mapped_file.hpp"
-#include "tik/header.hpp"
 
 namespace nutik::app {
 namespace {

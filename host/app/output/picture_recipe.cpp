@@ -6,12 +6,11 @@
 #include "app/command_line/option_table.hpp"
 #include "app/input/standard_input.hpp"
 #include "app/requests/source_words.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "media/input_checksum.hpp"
-#include "media/picture_text.hpp"
+#include "session/capture.hpp"
 #include "session/clip_source.hpp"
-#include "tik/reader.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/pictures.hpp"
 
 namespace nutik::app {
 namespace {

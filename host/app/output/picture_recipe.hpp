@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "app/command_line/options.hpp"
-#include "media/recipe.hpp"
+#include "session/pictures.hpp"
 
 namespace nutik::app {
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "capture/format.hpp"
+#include "session/format.hpp"
 
 namespace nutik::app {
 namespace {

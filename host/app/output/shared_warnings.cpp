@@ -1,7 +1,7 @@
 #include "app/output/shared_warnings.hpp"
 
 #include "app/output/console.hpp"
-#include "capture/format.hpp"
+#include "session/format.hpp"
 
 namespace nutik::app {
 

@@ -3,9 +3,8 @@
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
 #include "app/text/number_text.hpp"
-#include "media/picture_writer.hpp"
-#include "media/still_sequence.hpp"
-#include "plot/canvas.hpp"
+#include "session/pictures.hpp"
+#include "session/sheets.hpp"
 
 namespace nutik::app {
 

@@ -8,7 +8,7 @@
 #include "app/command_line/options.hpp"
 #include "app/output/exposure_tally.hpp"
 #include "session/session.hpp"
-#include "sheet/contact_sheet.hpp"
+#include "session/sheets.hpp"
 
 namespace nutik::app {
 

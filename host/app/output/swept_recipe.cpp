@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "exposure/function_text.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/functions.hpp"
 
 namespace nutik::app {
 namespace {

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "app/output/picture_recipe.hpp"
-#include "capture/timeline.hpp"
-#include "render/render_plan.hpp"
+#include "session/capture.hpp"
 #include "session/exposure_request.hpp"
+#include "session/functions.hpp"
 
 namespace nutik::app {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/text/trace_text.hpp"
-#include "capture/format.hpp"
-#include "plot/graph.hpp"
+#include "session/format.hpp"
+#include "session/sheets.hpp"
 #include "session/time_text.hpp"
 
 namespace nutik::app {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "capture/picture.hpp"
-#include "render/trace.hpp"
+#include "session/capture.hpp"
+#include "session/session.hpp"
 
 namespace nutik::app {
 

@@ -2,9 +2,9 @@
 
 #include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "media/numbered_name.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/pictures.hpp"
 
 namespace nutik::app {
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "app/command_line/options.hpp"
-#include "media/video_writer.hpp"
-#include "render/renderer.hpp"
+#include "session/exposed_picture.hpp"
+#include "session/videos.hpp"
 
 namespace nutik::app {
 

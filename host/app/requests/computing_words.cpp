@@ -4,8 +4,8 @@
 
 #include "app/output/console.hpp"
 #include "app/requests/source_words.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
 
 namespace nutik::app {
 

@@ -8,8 +8,8 @@
 #include "app/output/console.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/shell_text.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
 #include "session/function_input.hpp"
 
 namespace nutik::app {

@@ -7,8 +7,8 @@
 
 #include "app/input/standard_input.hpp"
 #include "app/text/number_text.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
 #include "session/picture_input.hpp"
 
 namespace nutik::app {

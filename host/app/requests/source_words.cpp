@@ -2,10 +2,10 @@
 
 #include "app/command_line/option_table.hpp"
 #include "app/text/number_text.hpp"
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-#include "imev/capture_source.hpp"
+#include "session/capture.hpp"
 #include "session/clip_source.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
 #include "session/measured_noise.hpp"
 
 namespace nutik::app {

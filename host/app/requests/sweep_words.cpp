@@ -2,10 +2,10 @@
 
 #include <cstdlib>
 
-#include "capture/error.hpp"
-#include "capture/format.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/sheets.hpp"
 #include "session/stated_time.hpp"
-#include "sheet/contact_sheet.hpp"
 
 namespace nutik::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/text/text_table.hpp"
-#include "capture/format.hpp"
+#include "session/format.hpp"
 #include "session/size_text.hpp"
 #include "session/time_text.hpp"
 

@@ -13,12 +13,8 @@
 
 #include "app/output/json.hpp"
 #include "app/text/findings.hpp"
-#include "capture/source_text.hpp"
-#include "capture/timeline.hpp"
-#include "exposure/function_check.hpp"
-#include "exposure/function_file.hpp"
-#include "exposure/mask.hpp"
-#include "exposure/mask_check.hpp"
+#include "session/capture.hpp"
+#include "session/functions.hpp"
 
 namespace nutik::app {
 

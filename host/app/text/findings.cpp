@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "capture/format.hpp"
+#include "session/format.hpp"
 #include "session/size_text.hpp"
 
 namespace nutik::app {

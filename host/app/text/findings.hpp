@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/output/json.hpp"
-#include "exposure/function_diagnostics.hpp"
+#include "session/functions.hpp"
 
 namespace nutik::app {
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "app/command_line/suggestion.hpp"
-#include "capture/format.hpp"
 #include "session/clip_source.hpp"
 #include "session/contact_request.hpp"
 #include "session/devices.hpp"
+#include "session/format.hpp"
 #include "session/mask_making.hpp"
 #include "session/memory_budget.hpp"
 #include "session/picture_input.hpp"

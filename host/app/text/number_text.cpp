@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "capture/error.hpp"
-#include "capture/format.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
 
 namespace nutik::app {
 

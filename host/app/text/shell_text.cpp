@@ -1,7 +1,7 @@
 #include "app/text/shell_text.hpp"
 
-#include "capture/error.hpp"
-#include "capture/format.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
 
 namespace nutik::app {
 

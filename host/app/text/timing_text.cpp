@@ -1,6 +1,6 @@
 #include "app/text/timing_text.hpp"
 
-#include "capture/format.hpp"
+#include "session/format.hpp"
 
 namespace nutik::app {
 namespace {

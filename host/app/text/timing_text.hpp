@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "capture/timeline.hpp"
+#include "session/capture.hpp"
 #include "session/source_request.hpp"
 
 namespace nutik::app {

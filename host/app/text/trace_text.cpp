@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/text/text_table.hpp"
-#include "capture/format.hpp"
+#include "session/format.hpp"
 
 namespace nutik::app {
 namespace {

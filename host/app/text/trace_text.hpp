@@ -8,7 +8,7 @@
 #include <string>
 
 #include "app/output/json.hpp"
-#include "render/trace.hpp"
+#include "session/session.hpp"
 
 namespace nutik::app {
 

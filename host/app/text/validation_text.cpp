@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "app/text/text_table.hpp"
-#include "capture/format.hpp"
+#include "session/format.hpp"
 #include "session/size_text.hpp"
 
 namespace nutik::app {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/output/json.hpp"
-#include "opencl/validation.hpp"
+#include "session/session.hpp"
 #include "session/source_check.hpp"
 
 namespace nutik::app {

@@ -2,13 +2,28 @@
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <vector>
 
-#include "capture/error.hpp"
-#include "capture/timeline.hpp"
-#include "media/clip.hpp"
-#include "media/picture_writer.hpp"
-#include "opencl/device.hpp"
-#include "tik/reader.hpp"
+#include <nutik/session.hpp>
+
+namespace {
+
+// Three equal pictures expose to one that has their codes.
+bool renders(const nutik::ClipOptions& clip) {
+  nutik::SourceRequest source;
+  source.path = "consumer.raw";
+  source.clip = clip;
+  nutik::ComputingRequest computing;
+  computing.renderer = nutik::RendererKind::reference;
+  nutik::Session session(source, computing);
+  nutik::ExposureRequest request;
+  request.gains = nutik::PlainInterval{nutik::StatedTime::of_pictures(2), nutik::Shutter()};
+  const nutik::ExposedPicture exposed = session.render(request, {nutik::ValueType::code8, 255});
+  nutik::write_picture("consumer.pgm", exposed.picture);
+  return exposed.picture.bytes == std::vector<std::byte>(8 * 8, std::byte{'x'});
+}
+
+}  // namespace
 
 int main() {
   const auto timeline = nutik::Timeline::constant({960, 1}, nutik::Timeline::kFullShutter, 48);
@@ -25,6 +40,7 @@ int main() {
   options.raw = nutik::RawVideo{8, 8, "gray"};
   options.rate = nutik::Rational{30, 1};
   std::printf("%u pixels wide\n", nutik::open_clip("consumer.raw", options)->info().format.shape.width);
+  if (!renders(options)) return 1;
   try {
     const nutik::tik::Reader reader("absent.tik");
   } catch (const nutik::InputError& error) {
