@@ -22,7 +22,28 @@ std::uint32_t default_block_samples(const CaptureFormat& capture, std::uint64_t 
   return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fitting, 1, kDefaultBlockSamples));
 }
 
+BlockLimits default_block_limits(const CaptureFormat& source, std::uint64_t block_bytes) {
+  // The first sample, the changes, and the sample that is one too many.
+  const std::uint64_t unchanged = 2 * source.sample_bytes();
+  if (source.noise.camera || block_bytes < unchanged + source.sample_bytes()) {
+    return default_block_samples(source, std::min(kDefaultBlockBytes, block_bytes));
+  }
+  return {kDefaultBlockSamples, std::min(kDefaultBlockBytes, block_bytes - unchanged)};
+}
+
 namespace {
+
+// What a sample adds to a block where everything changes.
+std::uint64_t changing_bytes(const CaptureFormat& capture) {
+  const BlockGeometry geometry(capture, 1);
+  return geometry.tile_count * geometry.row_bytes();
+}
+
+// The samples of a block in which everything always changes.
+std::uint32_t busy_samples(const CaptureFormat& capture, const BlockLimits& limits) {
+  const std::uint64_t changing = (limits.changed_bytes - 1) / changing_bytes(capture) + 1;
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(limits.samples, changing + 1));
+}
 
 // Whether the largest payload that a block of so many samples may come to stays within the limit. One tile
 // takes less than 2^26 bytes, so that only their number needs care.
@@ -97,13 +118,20 @@ void check_white(const CaptureFormat& source, std::span<const std::byte> raster,
 
 class BlockBuilder::Implementation {
  public:
-  Implementation(const CaptureFormat& source, std::uint32_t block_samples, TilePolicy policy)
-      : source_(source), grid_(source.shape), block_samples_(block_samples), policy_(policy) {}
+  Implementation(const CaptureFormat& source, const BlockLimits& limits, TilePolicy policy)
+      : source_(source),
+        grid_(source.shape),
+        limits_(limits),
+        policy_(policy),
+        changing_bytes_(changing_bytes(source)) {}
   virtual ~Implementation() = default;
 
   void add(std::span<const std::span<const std::byte>> rasters) {
     if (rasters.size() > room()) throw std::logic_error("a full block was given another sample");
-    if (is_empty() && !rasters.empty()) begin_block();
+    if (is_empty() && !rasters.empty()) {
+      changed_bytes_ = 0;
+      begin_block();
+    }
     while (!rasters.empty()) {
       // A block's first sample is compared with something else than those after it.
       const std::size_t count = is_empty() ? 1 : std::min<std::size_t>(rasters.size(), kStepSamples);
@@ -119,7 +147,12 @@ class BlockBuilder::Implementation {
     }
   }
 
-  [[nodiscard]] std::uint32_t room() const { return block_samples_ - samples_; }
+  [[nodiscard]] std::uint32_t room() const {
+    if (is_empty()) return std::min(limits_.samples, busy_samples(source_, limits_));
+    if (changed_bytes_ >= limits_.changed_bytes) return 0;
+    const std::uint64_t changing = (limits_.changed_bytes - changed_bytes_ - 1) / changing_bytes_ + 1;
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(limits_.samples - samples_, changing));
+  }
   [[nodiscard]] bool is_empty() const { return samples_ == 0; }
   [[nodiscard]] BlockExtent extent() const { return {first_sample_, samples_}; }
 
@@ -159,10 +192,12 @@ class BlockBuilder::Implementation {
 
   CaptureFormat source_;
   TileGrid grid_;
-  std::uint32_t block_samples_;
+  BlockLimits limits_;
   TilePolicy policy_;
   std::uint64_t first_sample_ = 0;
   std::uint32_t samples_ = 0;
+  std::uint64_t changing_bytes_;     // by a sample in which everything does
+  std::uint64_t changed_bytes_ = 0;  // since the block's first sample
 
  private:
   void begin_next() {
@@ -174,12 +209,12 @@ class BlockBuilder::Implementation {
 // Compares each sample with what is held when it comes: nothing has to be known of later ones.
 class BlockBuilder::Comparing final : public Implementation {
  public:
-  Comparing(const CaptureFormat& source, std::uint32_t block_samples, TilePolicy policy)
-      : Implementation(source, block_samples, policy),
-        row_bytes_(BlockGeometry(source, block_samples).row_bytes()),
+  Comparing(const CaptureFormat& source, const BlockLimits& limits, TilePolicy policy)
+      : Implementation(source, limits, policy),
+        row_bytes_(BlockGeometry(source, limits.samples).row_bytes()),
         step_(step_function(source)),
         held_(source.noise.tolerance == 0 ? 0 : grid_.tile_count() * row_bytes_),
-        log_(source, block_samples, policy) {}
+        log_(source, limits.samples, busy_samples(source, limits), policy) {}
 
  private:
   void add_samples(std::span<const std::span<const std::byte>> samples) override {
@@ -196,10 +231,20 @@ class BlockBuilder::Comparing final : public Implementation {
       step.row_values = row_values;
       step.tile_count = tiles;
       for (std::uint32_t i = 0; i < tiles; ++i) {
-        step.held[i] = starts ? held_before(first + i) : log_.last_row(first + i);
-        step.next[i] = log_.next_row(first + i);
+        const bool has_room = log_.has_room(first + i, step.sample_count);
+        step.next[i] = has_room ? log_.next_row(first + i) : spare_rows_[i].data();
+        step.held[i] = starts ? held_before(first + i, step.next[i]) : log_.last_row(first + i);
       }
+      const auto from = step.next;
       step_(step);
+      for (std::uint32_t i = 0; i < tiles; ++i) {
+        const auto written = static_cast<std::size_t>(step.next[i] - from[i]);
+        if (!starts) changed_bytes_ += written;
+        if (written == 0 || from[i] != spare_rows_[i].data()) continue;
+        log_.make_room(first + i, static_cast<std::uint32_t>(written / row_bytes_),
+                       samples_ + step.sample_count);
+        std::memcpy(log_.next_row(first + i), from[i], written);
+      }
       for (std::uint32_t k = 0; k < step.sample_count; ++k) {
         for (std::uint32_t i = 0; i < tiles; ++i) {
           const std::uint64_t changes = step.changes[k][i];
@@ -212,8 +257,8 @@ class BlockBuilder::Comparing final : public Implementation {
 
   // What a tile held at the end of the block before. Without a tolerance a block starts from its own sample
   // whatever that was, and the room for its first row serves as well.
-  [[nodiscard]] const std::byte* held_before(std::uint64_t tile) {
-    return source_.noise.tolerance == 0 ? log_.next_row(tile) : held_.data() + tile * row_bytes_;
+  [[nodiscard]] const std::byte* held_before(std::uint64_t tile, const std::byte* first_row) const {
+    return source_.noise.tolerance == 0 ? first_row : held_.data() + tile * row_bytes_;
   }
   void carry() override {
     if (source_.noise.tolerance == 0) return;
@@ -229,22 +274,24 @@ class BlockBuilder::Comparing final : public Implementation {
   StepFunction step_;
   PageBuffer held_;  // [tile][C][64] codes at the end of the block before, where there is a tolerance
   TileLog log_;
+  // Of tiles that may have no room for a step's rows: most of them need none.
+  alignas(64) std::array<std::array<std::byte, kStepSamples * kTilePixels * 3 * 2>, kStripTiles> spare_rows_;
 };
 
 // Collects a block's samples: what noisy ones stand for is known when all of them are there.
 class BlockBuilder::Averaging final : public Implementation {
  public:
-  Averaging(const CaptureFormat& source, std::uint32_t block_samples, TilePolicy policy)
-      : Implementation(source, block_samples, policy),
-        row_bytes_(BlockGeometry(source, block_samples).row_bytes()),
+  Averaging(const CaptureFormat& source, const BlockLimits& limits, TilePolicy policy)
+      : Implementation(source, limits, policy),
+        row_bytes_(BlockGeometry(source, limits.samples).row_bytes()),
         gather_(gather_function(source)),
         expected_(source),
-        codes_(grid_.tile_count() * block_samples * row_bytes_),
-        log_(held_format(source), block_samples, policy) {}
+        codes_(grid_.tile_count() * limits.samples * row_bytes_),
+        log_(held_format(source), limits.samples, limits.samples, policy) {}
 
  private:
   [[nodiscard]] std::byte* codes_at(std::uint64_t tile, std::uint32_t sample) {
-    return codes_.data() + (tile * block_samples_ + sample) * row_bytes_;
+    return codes_.data() + (tile * limits_.samples + sample) * row_bytes_;
   }
 
   void add_samples(std::span<const std::span<const std::byte>> samples) override {
@@ -283,7 +330,7 @@ class BlockBuilder::Averaging final : public Implementation {
     }
   }
 
-  void begin_block() override { log_.begin(); }
+  void begin_block() override { log_.begin_full(); }
   void take_memory(PageBuffer memory) override { log_.take_memory(std::move(memory)); }
 
   std::uint64_t row_bytes_;  // of the source's codes
@@ -293,12 +340,13 @@ class BlockBuilder::Averaging final : public Implementation {
   TileLog log_;
 };
 
-BlockBuilder::BlockBuilder(const CaptureFormat& source, std::uint32_t block_samples, TilePolicy policy) {
-  check_block_samples(held_format(source), block_samples, policy);
+BlockBuilder::BlockBuilder(const CaptureFormat& source, const BlockLimits& limits, TilePolicy policy) {
+  const CaptureFormat held = held_format(source);
+  check_block_samples(held, limits.samples == 0 ? 0 : busy_samples(held, limits), policy);
   if (source.noise.camera) {
-    implementation_ = std::make_unique<Averaging>(source, block_samples, policy);
+    implementation_ = std::make_unique<Averaging>(source, limits, policy);
   } else {
-    implementation_ = std::make_unique<Comparing>(source, block_samples, policy);
+    implementation_ = std::make_unique<Comparing>(source, limits, policy);
   }
 }
 

@@ -2,8 +2,8 @@
 //
 //   in:      samples as interleaved rasters, in time order
 //   out:     a block's payload each time it is full or the capture ends (layout: imev/block.hpp)
-//   always:  memory for one block besides those handed out, whatever the capture's length. With a tolerance the
-//            codes held at a block's end go over into the next, so that blocks change nothing about what is a
+//   always:  memory for one block besides those handed out, whatever the capture's length, and for no more than what
+//            the block really holds, unless a camera's noise is known. With a tolerance the codes held at a block's end go over into the next, so that blocks change nothing about what is a
 //            change; with a camera's noise each block stands on its own samples (imev/expected_values.hpp)
 #pragma once
 
@@ -24,16 +24,38 @@ inline constexpr std::uint64_t kLargestPayloadBytes =          // a tile's offse
     (std::uint64_t{1} << 32) * kBlockAlignment;
 inline constexpr std::uint64_t kDefaultBlockBytes = 128ull << 20;
 
-// The samples a block holds where nothing else is asked for: 64, or fewer so that the samples' raw bytes
-// stay within `block_bytes` (21 of 1080p in colour), never less than one.
+// When a block closes: with the last of so many samples, or with the one by which what changed since the block's first
+// comes to so many bytes. Changes are counted as rows: a tile in which anything changed counts as a whole, as records
+// or not. The first sample is not counted, for every block has one: shorter blocks would only repeat it more often.
+struct BlockLimits {
+  static constexpr std::uint64_t kAnyChanges = ~std::uint64_t{0};
+
+  std::uint32_t samples;
+  std::uint64_t changed_bytes;
+
+  BlockLimits(std::uint32_t most_samples,
+              std::uint64_t most_changed_bytes = kAnyChanges)  // NOLINT: so many samples
+      : samples(most_samples), changed_bytes(most_changed_bytes == 0 ? 1 : most_changed_bytes) {}
+};
+
+// Limits that depend on samples' size alone: 64 of them, or fewer so that their raw bytes stay within `block_bytes` (21
+// of 1080p in colour), never less than one. Such blocks lie where they do whatever the samples hold: it is what a
+// stream needs, whose blocks are planned before they are read.
 [[nodiscard]] std::uint32_t default_block_samples(const CaptureFormat& capture,
                                                   std::uint64_t block_bytes = kDefaultBlockBytes);
+
+// Limits that follow the content, for a file: 64 samples, fewer where changes come to 128 MiB (23 of 1080p in which
+// everything changes, 64 of a still scene of any size), or where a block may come to more than `block_bytes`. Where a
+// camera's noise is known they depend on samples' size alone: means are those of a block's samples, and what is held
+// must not change with what else there is in the picture.
+[[nodiscard]] BlockLimits default_block_limits(const CaptureFormat& source,
+                                               std::uint64_t block_bytes = ~std::uint64_t{0});
 
 class BlockBuilder {
  public:
   // `source` is what samples are; payloads are in held_format(source). Throws UsageError where a block of so
   // many samples, or the payload that it may come to, is too large, or the noise is that of other codes.
-  BlockBuilder(const CaptureFormat& source, std::uint32_t block_samples, TilePolicy policy);
+  BlockBuilder(const CaptureFormat& source, const BlockLimits& limits, TilePolicy policy);
   ~BlockBuilder();
   BlockBuilder(BlockBuilder&&) noexcept;
   BlockBuilder& operator=(BlockBuilder&&) noexcept;
@@ -45,6 +67,7 @@ class BlockBuilder {
   void add(std::span<const std::span<const std::byte>> rasters);
   static constexpr std::uint32_t kSamplesAtOnce = 4;  // no more are compared in one go
 
+  // How many more samples the block surely takes: none where it is full. It may take others after those.
   [[nodiscard]] std::uint32_t room() const;
   [[nodiscard]] bool is_full() const { return room() == 0; }
   [[nodiscard]] bool is_empty() const;

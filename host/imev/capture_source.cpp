@@ -12,13 +12,13 @@
 namespace nutik {
 
 MemoryCapture::MemoryCapture(const CaptureFormat& source, Timeline timeline,
-                             std::span<const std::vector<std::byte>> rasters, std::uint32_t block_samples,
+                             std::span<const std::vector<std::byte>> rasters, const BlockLimits& limits,
                              TilePolicy policy)
     : capture_(held_format(source)), timeline_(std::move(timeline)) {
   if (rasters.size() != timeline_.sample_count()) {
     throw std::logic_error("a capture has another number of samples than its timeline");
   }
-  BlockBuilder builder(source, block_samples, policy);
+  BlockBuilder builder(source, limits, policy);
   PageBuffer spread;
   const auto close = [&] {
     const BlockExtent extent = builder.extent();

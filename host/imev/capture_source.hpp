@@ -57,7 +57,7 @@ class MemoryCapture final : public CaptureSource {
  public:
   // `rasters` are the samples in order, of the format `source` and as many as the timeline has.
   MemoryCapture(const CaptureFormat& source, Timeline timeline,
-                std::span<const std::vector<std::byte>> rasters, std::uint32_t block_samples,
+                std::span<const std::vector<std::byte>> rasters, const BlockLimits& limits,
                 TilePolicy policy = TilePolicy::automatic);
 
   [[nodiscard]] const CaptureFormat& format() const override { return capture_; }

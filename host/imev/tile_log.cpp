@@ -4,7 +4,9 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <numeric>
+#include <new>
+
+#include "imev/block_builder.hpp"
 
 namespace nutik {
 namespace {
@@ -19,33 +21,73 @@ void write_index(const BlockGeometry& geometry, std::byte* list, std::uint64_t p
   }
 }
 
-std::uint64_t largest_index_bytes(const BlockGeometry& geometry) {
-  return align_up(std::uint64_t{geometry.sample_count} * geometry.index_bytes(), kBlockAlignment);
-}
-
 }  // namespace
 
 std::uint64_t largest_body_bytes(const BlockGeometry& geometry, TilePolicy policy) {
-  const std::uint64_t rows = largest_index_bytes(geometry) + geometry.sample_count * geometry.row_bytes();
+  const std::uint64_t rows =
+      align_up(std::uint64_t{geometry.sample_count} * geometry.index_bytes(), kBlockAlignment) +
+      geometry.sample_count * geometry.row_bytes();
   // Chosen for their cost, records take fewer bytes than the rows would.
   if (policy != TilePolicy::records) return rows;
   return std::max(rows, geometry.records_bytes(geometry.sample_count - 1));
 }
 
-TileLog::TileLog(const CaptureFormat& capture, std::uint32_t block_samples, TilePolicy policy)
+TileLog::TileLog(const CaptureFormat& capture, std::uint32_t block_samples, std::uint32_t busy_samples,
+                 TilePolicy policy)
     : full_(capture, block_samples),
+      busy_samples_(busy_samples),
       policy_(policy),
-      index_room_(largest_index_bytes(full_)),
-      tile_room_(largest_body_bytes(full_, policy)),
       differ_(differ_function(full_.channels, full_.code_bytes)),
-      samples_(full_.tile_count * block_samples * sizeof(std::uint16_t)),
-      row_count_(full_.tile_count),
-      change_count_(full_.tile_count) {}
+      tiles_(full_.tile_count) {}
 
 void TileLog::begin() {
-  payload_.reserve(full_.directory_bytes() + full_.tile_count * tile_room_);
-  std::fill(row_count_.begin(), row_count_.end(), 0);
-  std::fill(change_count_.begin(), change_count_.end(), 0);
+  end_ = full_.directory_bytes();
+  for (Tile& tile : tiles_) {
+    tile.room = std::max(tile.rows, 1u);
+    begin_tile(tile);
+  }
+  // Address space: more than this is rarely needed, and only what is used is ever touched.
+  payload_.reserve(2 * end_);
+}
+
+void TileLog::begin_full() {
+  end_ = full_.directory_bytes();
+  for (Tile& tile : tiles_) {
+    tile.room = full_.sample_count;
+    begin_tile(tile);
+  }
+  payload_.reserve(end_);
+}
+
+void TileLog::begin_tile(Tile& tile) {
+  tile.offset = end_ + list_bytes(tile.room);
+  tile.rows = tile.changes = 0;
+  end_ += room_bytes(tile.room);
+}
+
+// Room for so many bytes behind all others; tells where.
+std::uint64_t TileLog::append(std::uint64_t bytes) {
+  const std::uint64_t offset = end_;
+  end_ += align_up(bytes, kBlockAlignment);
+  if (end_ > kLargestPayloadBytes) throw std::bad_alloc();  // no tile's offset reaches beyond
+  if (end_ > payload_.size()) payload_.grow(end_ + end_ / 2);
+  return offset;
+}
+
+void TileLog::make_room(std::uint64_t tile, std::uint32_t rows, std::uint32_t samples) {
+  Tile& at = tiles_[tile];
+  const std::uint32_t needed = at.rows + rows;
+  const std::uint32_t wanted = needed == samples ? busy_samples_ : 2 * at.room;
+  Tile moved = at;
+  moved.room = std::min(std::max(needed, wanted), std::max(needed, full_.sample_count));
+  moved.offset = append(room_bytes(moved.room)) + list_bytes(moved.room);
+  std::memcpy(payload_.data() + moved.offset, payload_.data() + at.offset, at.rows * full_.row_bytes());
+  if (at.room > 1) {
+    std::memcpy(list(moved), list(at), at.rows * sizeof(std::uint16_t));
+  } else {
+    list(moved)[0] = 0;
+  }
+  at = moved;
 }
 
 FinishedBlock TileLog::finish(std::uint32_t samples, PageBuffer& into) {
@@ -54,43 +96,41 @@ FinishedBlock TileLog::finish(std::uint32_t samples, PageBuffer& into) {
   FinishedBlock finished;
   finished.payload_bytes = geometry.directory_bytes();
   std::vector<TileEntry> entries(geometry.tile_count);
-  for (std::uint64_t tile = 0; tile < entries.size(); ++tile) {
-    TileEntry& entry = entries[tile];
+  for (std::uint64_t i = 0; i < entries.size(); ++i) {
+    const Tile& tile = tiles_[i];
+    TileEntry& entry = entries[i];
     entry = choose(geometry, tile);
-    if (entry.is_records()) {
-      close_records(geometry, tile, entry);
-    } else {
-      close_rows(geometry, tile, entry);
-    }
+    const std::uint64_t offset =
+        entry.is_records() ? close_records(geometry, tile, entry.slots()) : close_rows(geometry, tile);
+    entry.offset = static_cast<std::uint32_t>(offset / kBlockAlignment);
     finished.payload_bytes += geometry.body_bytes(entry);
-    finished.span_bytes = entry.offset * kBlockAlignment + geometry.body_bytes(entry);
+    finished.record_count += tile.changes;
   }
+  finished.span_bytes = end_;
   std::memset(payload_.data(), 0, geometry.directory_bytes());
   std::memcpy(payload_.data(), entries.data(), entries.size() * sizeof(TileEntry));
-  finished.record_count = std::accumulate(change_count_.begin(), change_count_.end(), std::uint64_t{0});
   std::swap(payload_, into);
   return finished;
 }
 
-TileEntry TileLog::choose(const BlockGeometry& geometry, std::uint64_t tile) const {
-  const std::uint32_t rows = row_count_[tile];
-  const TileEntry as_rows{0, rows};
+TileEntry TileLog::choose(const BlockGeometry& geometry, const Tile& tile) const {
+  const TileEntry as_rows{0, tile.rows};
   // The busiest pixel has no fewer changes than all of them have on average: rows are read again only where
   // records may be worth it.
-  const std::uint32_t fewest_slots = (change_count_[tile] + kTilePixels - 1) / kTilePixels;
+  const std::uint32_t fewest_slots = (tile.changes + kTilePixels - 1) / kTilePixels;
   const bool is_free = policy_ == TilePolicy::automatic;
-  if (policy_ != TilePolicy::records && !(is_free && records_are_cheaper(geometry, rows, fewest_slots)))
+  if (policy_ != TilePolicy::records && !(is_free && records_are_cheaper(geometry, tile.rows, fewest_slots)))
     return as_rows;
   const std::uint32_t slot_count = slots(tile);
-  if (is_free && !records_are_cheaper(geometry, rows, slot_count)) return as_rows;
+  if (is_free && !records_are_cheaper(geometry, tile.rows, slot_count)) return as_rows;
   return {0, slot_count | TileEntry::kRecordsFlag};
 }
 
 // The change records of a tile's busiest pixel.
-std::uint32_t TileLog::slots(std::uint64_t tile) const {
+std::uint32_t TileLog::slots(const Tile& tile) const {
   std::array<std::uint32_t, kTilePixels> counts{};
-  const std::byte* row = payload_.data() + rows_offset(tile);
-  for (std::uint32_t r = 1; r < row_count_[tile]; ++r, row += full_.row_bytes()) {
+  const std::byte* row = payload_.data() + tile.offset;
+  for (std::uint32_t r = 1; r < tile.rows; ++r, row += full_.row_bytes()) {
     for (std::uint64_t lanes = differ_(row, row + full_.row_bytes()); lanes != 0; lanes &= lanes - 1) {
       ++counts[static_cast<std::uint32_t>(std::countr_zero(lanes))];
     }
@@ -98,29 +138,31 @@ std::uint32_t TileLog::slots(std::uint64_t tile) const {
   return *std::max_element(counts.begin(), counts.end());
 }
 
-// Puts the list of the rows' samples right before them.
-void TileLog::close_rows(const BlockGeometry& geometry, std::uint64_t tile, TileEntry& entry) {
-  const std::uint64_t index_bytes = geometry.row_index_bytes(entry.rows());
-  const std::uint64_t offset = rows_offset(tile) - index_bytes;
-  entry.offset = static_cast<std::uint32_t>(offset / kBlockAlignment);
-  if (index_bytes == 0) return;
-  std::byte* list = payload_.data() + offset;
-  std::memset(list, 0, index_bytes);
-  for (std::uint32_t row = 0; row < entry.rows(); ++row) write_index(geometry, list, row, samples(tile)[row]);
+// Puts the list of the rows' samples right before them, as wide as the block needs it.
+std::uint64_t TileLog::close_rows(const BlockGeometry& geometry, const Tile& tile) {
+  const std::uint64_t index_bytes = geometry.row_index_bytes(tile.rows);
+  if (index_bytes == 0) return tile.offset;
+  samples_.assign(list(tile), list(tile) + tile.rows);
+  std::byte* index = payload_.data() + tile.offset - index_bytes;
+  std::memset(index, 0, index_bytes);
+  for (std::uint32_t row = 0; row < tile.rows; ++row) write_index(geometry, index, row, samples_[row]);
+  return tile.offset - index_bytes;
 }
 
-// Puts records where the rows were.
-void TileLog::close_records(const BlockGeometry& geometry, std::uint64_t tile, TileEntry& entry) {
+// Puts records where the rows were, or where there is room for them.
+std::uint64_t TileLog::close_records(const BlockGeometry& geometry, const Tile& tile, std::uint32_t slots) {
   const std::uint64_t row_bytes = geometry.row_bytes();
   const std::uint64_t slot_bytes = geometry.slot_bytes();
   const std::uint64_t index_bytes = kTilePixels * geometry.index_bytes();
-  const std::uint32_t rows = row_count_[tile], slots = entry.slots();
-  const std::uint64_t offset = rows_offset(tile) - index_room_;
-  entry.offset = static_cast<std::uint32_t>(offset / kBlockAlignment);
-  std::byte* body = payload_.data() + offset;
-  const std::byte* first_row = body + index_room_;
-  rows_.assign(first_row, first_row + rows * row_bytes);
+  const std::byte* first_row = payload_.data() + tile.offset;
+  rows_.assign(first_row, first_row + tile.rows * row_bytes);
+  samples_.assign(1, 0);
+  if (tile.rows > 1) samples_.assign(list(tile), list(tile) + tile.rows);
 
+  const std::uint64_t body_bytes = geometry.records_bytes(slots);
+  const std::uint64_t offset =
+      body_bytes <= room_bytes(tile.room) ? tile.offset - list_bytes(tile.room) : append(body_bytes);
+  std::byte* body = payload_.data() + offset;
   std::memcpy(body, rows_.data(), row_bytes);
   // Padding first: every slot ends as "the last codes, at no sample of the block".
   for (std::uint32_t slot = 0; slot < slots; ++slot) {
@@ -128,21 +170,22 @@ void TileLog::close_records(const BlockGeometry& geometry, std::uint64_t tile, T
     for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
       write_index(geometry, index, lane, geometry.sample_count);
     }
-    std::memcpy(index + index_bytes, rows_.data() + (rows - 1) * row_bytes, row_bytes);
+    std::memcpy(index + index_bytes, rows_.data() + (tile.rows - 1) * row_bytes, row_bytes);
   }
   std::array<std::uint16_t, kTilePixels> filled{};
-  for (std::uint32_t row = 1; row < rows; ++row) {
+  for (std::uint32_t row = 1; row < tile.rows; ++row) {
     const std::byte* codes = rows_.data() + row * row_bytes;
     for (std::uint64_t lanes = differ_(codes - row_bytes, codes); lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
       std::byte* index = body + row_bytes + filled[lane]++ * slot_bytes;
-      write_index(geometry, index, lane, samples(tile)[row]);
+      write_index(geometry, index, lane, samples_[row]);
       for (std::uint32_t channel = 0; channel < geometry.channels; ++channel) {
         const std::size_t at = (channel * kTilePixels + lane) * geometry.code_bytes;
         std::memcpy(index + index_bytes + at, codes + at, geometry.code_bytes);
       }
     }
   }
+  return offset;
 }
 
 }  // namespace nutik

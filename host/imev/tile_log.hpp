@@ -4,8 +4,14 @@
 //   in:      rows, in time order within each tile; the first at the block's first sample
 //   out:     a block's payload (layout: imev/block.hpp), built where it lies: rows stay where they are written,
 //            unless records replace them
-//   always:  room for the largest body of every tile in address space; only what is used is ever touched.
-//            Different tiles may be written side by side
+//   always:  memory follows the rows that there are. A tile has a room for so many rows, with the list of their
+//            samples in front of them:
+//
+//       directory │ list, rows of tile 0 │ … of tile 1 │ … of tile 2 │ …  │ … of tile 1 in a larger room │ …
+//
+//            At first rooms take as many rows as their tiles had in the block before. A tile that needs more moves
+//            to a room behind all others: twice as large or, if it has changed with every sample so far, large
+//            enough for a block in which all tiles do
 #pragma once
 
 #include <bit>
@@ -25,55 +31,82 @@ namespace nutik {
 
 class TileLog {
  public:
-  TileLog(const CaptureFormat& capture, std::uint32_t block_samples, TilePolicy policy);
+  // A block has at most `block_samples`, and `busy_samples` where all tiles change with every one.
+  TileLog(const CaptureFormat& capture, std::uint32_t block_samples, std::uint32_t busy_samples,
+          TilePolicy policy);
 
   // A tile's last row, codes [C][64]; there is none before the block's first sample.
   [[nodiscard]] const std::byte* last_row(std::uint64_t tile) const {
-    return payload_.data() + rows_offset(tile) + (row_count_[tile] - 1) * full_.row_bytes();
+    const Tile& at = tiles_[tile];
+    return payload_.data() + at.offset + (at.rows - 1) * full_.row_bytes();
   }
-  // Where the codes of its next rows belong, one behind the other.
+  // Where the codes of its next rows belong, one behind the other, while its room takes them.
   [[nodiscard]] std::byte* next_row(std::uint64_t tile) {
-    return payload_.data() + rows_offset(tile) + row_count_[tile] * full_.row_bytes();
+    const Tile& at = tiles_[tile];
+    return payload_.data() + at.offset + at.rows * full_.row_bytes();
   }
-  // Takes the next of these, of which `changes` are the lanes, as bits, that differ from the row before (none at
-  // the block's first sample).
+  [[nodiscard]] bool has_room(std::uint64_t tile, std::uint32_t rows) const {
+    return tiles_[tile].rows + rows <= tiles_[tile].room;
+  }
+  // Makes room for so many rows more in a block of so many samples so far. All rows may move.
+  void make_room(std::uint64_t tile, std::uint32_t rows, std::uint32_t samples);
+
+  // Takes the next row, which is where it belongs; `changes` are the lanes, as bits, that differ from the row before
+  // (none at the block's first sample). Different tiles may be given theirs side by side.
   void add_row(std::uint64_t tile, std::uint32_t sample, std::uint64_t changes) {
-    samples(tile)[row_count_[tile]++] = static_cast<std::uint16_t>(sample);
-    change_count_[tile] += static_cast<std::uint32_t>(std::popcount(changes));
+    Tile& at = tiles_[tile];
+    if (at.room > 1) list(at)[at.rows] = static_cast<std::uint16_t>(sample);
+    ++at.rows;
+    at.changes += static_cast<std::uint32_t>(std::popcount(changes));
   }
 
-  // Begins a block.
+  // Begins a block with a room for each tile: for a row at least, and as many as it had in the block before;
   void begin();
+  // for as many as a block may have samples, so that none has to move.
+  void begin_full();
+
   // Closes it with so many samples: `into` is given the payload's memory, and its own is used for the next block.
   FinishedBlock finish(std::uint32_t samples, PageBuffer& into);
   // Memory to be used for the next block.
   void take_memory(PageBuffer memory) { payload_ = std::move(memory); }
 
  private:
-  [[nodiscard]] TileEntry choose(const BlockGeometry& geometry, std::uint64_t tile) const;
-  [[nodiscard]] std::uint32_t slots(std::uint64_t tile) const;
-  void close_rows(const BlockGeometry& geometry, std::uint64_t tile, TileEntry& entry);
-  void close_records(const BlockGeometry& geometry, std::uint64_t tile, TileEntry& entry);
+  struct Tile {
+    std::uint64_t offset = 0;   // of its first row in the payload; its list ends there
+    std::uint32_t room = 0;     // rows
+    std::uint32_t rows = 0;     // so far
+    std::uint32_t changes = 0;  // change records of its pixels together
+  };
 
-  // Where a tile's rows lie in the payload; the room before them takes the largest list of their samples.
-  [[nodiscard]] std::uint64_t rows_offset(std::uint64_t tile) const {
-    return full_.directory_bytes() + tile * tile_room_ + index_room_;
+  // What the list in front of a room's rows takes: a sample number of two bytes each while the block is open. A
+  // single row needs none.
+  static std::uint64_t list_bytes(std::uint32_t room) {
+    return room <= 1 ? 0 : align_up(std::uint64_t{room} * sizeof(std::uint16_t), kBlockAlignment);
   }
-  // Of each of its rows, within the block.
-  [[nodiscard]] std::uint16_t* samples(std::uint64_t tile) {
-    return reinterpret_cast<std::uint16_t*>(samples_.data()) + tile * full_.sample_count;
+  [[nodiscard]] std::uint16_t* list(const Tile& at) {
+    return reinterpret_cast<std::uint16_t*>(payload_.data() + at.offset - list_bytes(at.room));
   }
+  [[nodiscard]] std::uint64_t room_bytes(std::uint32_t room) const {
+    return list_bytes(room) + room * full_.row_bytes();
+  }
+
+  void begin_tile(Tile& tile);
+  [[nodiscard]] TileEntry choose(const BlockGeometry& geometry, const Tile& tile) const;
+  [[nodiscard]] std::uint32_t slots(const Tile& tile) const;
+  // These tell where the tile's body begins.
+  std::uint64_t close_rows(const BlockGeometry& geometry, const Tile& tile);
+  std::uint64_t close_records(const BlockGeometry& geometry, const Tile& tile, std::uint32_t slots);
+  std::uint64_t append(std::uint64_t bytes);
 
   BlockGeometry full_;  // of a full block
+  std::uint32_t busy_samples_;
   TilePolicy policy_;
-  std::uint64_t index_room_;  // bytes
-  std::uint64_t tile_room_;   // bytes
   DifferFunction differ_;
-  PageBuffer payload_;                       // directory; [tile] index list, [row][C][64] codes
-  PageBuffer samples_;                       // [tile][sample_count]
-  std::vector<std::uint32_t> row_count_;     // [tile]
-  std::vector<std::uint32_t> change_count_;  // [tile] change records of its pixels together
-  std::vector<std::byte> rows_;              // of a tile that is being stored as records
+  PageBuffer payload_;
+  std::uint64_t end_ = 0;  // of the last room in it
+  std::vector<Tile> tiles_;
+  std::vector<std::uint16_t> samples_;  // of a tile that is being closed, by row
+  std::vector<std::byte> rows_;         // of one that is being stored as records
 };
 
 }  // namespace nutik

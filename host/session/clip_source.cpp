@@ -4,7 +4,7 @@
 #include <array>
 
 #include "capture/format.hpp"
-#include "imev/capture_source.hpp"
+#include "imev/block_builder.hpp"
 #include "session/measured_noise.hpp"
 #include "system/mapped_file.hpp"
 #include "tik/header.hpp"
@@ -79,10 +79,13 @@ ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& me
   source.capture.noise = noise_model(source);
   source.block_samples = request.block_samples.value_or(
       default_block_samples(source.capture, std::min(kDefaultBlockBytes, memory.block_bytes())));
-  // A block takes memory for the samples it may hold: no more than there are.
+  source.block_limits = request.block_samples ? BlockLimits(*request.block_samples)
+                                              : default_block_limits(source.capture, memory.block_bytes());
+  // With a camera's noise a block takes memory for the samples it may hold: no more than there are.
   if (const std::uint64_t announced = source.announced_samples(); announced != 0) {
-    source.block_samples =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(source.block_samples, announced));
+    for (std::uint32_t* samples : {&source.block_samples, &source.block_limits.samples}) {
+      *samples = static_cast<std::uint32_t>(std::min<std::uint64_t>(*samples, announced));
+    }
   }
   memory.check(source.capture, source.block_samples);
   return source;

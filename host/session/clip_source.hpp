@@ -1,7 +1,7 @@
 // Clips as a session reads them.
 //
 //   in:      a request, the memory that blocks may take
-//   out:     the clip, the format of its samples with the noise model, how many samples a block has
+//   out:     the clip, the format of its samples with the noise model, when its blocks close
 //   always:  nothing of the clip has been read but what its noise was measured on
 #pragma once
 
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "capture/error.hpp"
+#include "imev/block_builder.hpp"
 #include "media/clip.hpp"
 #include "session/memory_budget.hpp"
 #include "session/source_request.hpp"
@@ -29,9 +30,10 @@ namespace nutik {
 struct ClipSource {
   SourceRequest request;
   std::unique_ptr<Clip> clip;
-  CaptureFormat capture;  // of its samples; what is held of them has held_format()
-  std::uint32_t block_samples = 0;
-  std::vector<std::string> notes;  // on the clip and its noise: what a person should know
+  CaptureFormat capture;            // of its samples; what is held of them has held_format()
+  std::uint32_t block_samples = 0;  // of a stream's blocks
+  BlockLimits block_limits = {kDefaultBlockSamples};  // of a file's
+  std::vector<std::string> notes;                     // on the clip and its noise: what a person should know
 
   // As the files announce it; 0: they do not.
   [[nodiscard]] std::uint64_t announced_samples() const { return clip->info().sample_count; }

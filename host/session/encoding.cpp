@@ -58,7 +58,7 @@ class Encoding {
 
 Encoding::Encoding(ClipSource source, const EncodeRequest& request, const MemoryBudget& memory)
     : source_(std::move(source)),
-      builder_(source_.capture, source_.block_samples, source_.request.tiles),
+      builder_(source_.capture, source_.block_limits, source_.request.tiles),
       // Before anything is read, so that times that cannot be used are said at once.
       times_(source_.timeline(std::max<std::uint64_t>(source_.announced_samples(), 1))),
       samples_(*source_.clip, memory.read_ahead_bytes()),

@@ -24,6 +24,8 @@ class PageBuffer {
 
   // At least `bytes` large; what it held is lost where it has to grow.
   void reserve(std::uint64_t bytes);
+  // At least `bytes` large, with what it held, which may move. Throws std::bad_alloc.
+  void grow(std::uint64_t bytes);
 
  private:
   std::byte* data_ = nullptr;

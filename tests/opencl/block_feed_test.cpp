@@ -6,6 +6,7 @@
 #include "capture/error.hpp"
 #include "opencl/opencl_renderer.hpp"
 #include "support/random_case.hpp"
+#include "support/raster_stream.hpp"
 #include "support/rendering.hpp"
 
 namespace nutik {
@@ -131,6 +132,28 @@ TEST(BlockFeed, ReadsInChunksOfAnySize) {
     EXPECT_EQ(rendered.statistics.blocks, plan.blocks.size());
   }
   EXPECT_EQ(launches, 1u);
+}
+
+// Whole numbers have one sum: a stream, whose blocks are cut by samples' size, gives the picture of the file, whose
+// blocks are cut by what changes.
+TEST(BlockFeed, GivesTheSameFixedPictureWhereverBlocksAreCut) {
+  for (const std::uint64_t seed : {3u, 11u, 40u, 41u}) {
+    RandomCase random(seed);
+    random.capture.noise = {};
+    OpenClRenderer renderer(test::renderer_options(Precision::fixed));
+    const auto picture = [&](CaptureSource& capture) {
+      return render(renderer, make_plan(capture, random.functions, random.mask, {}), capture);
+    };
+    MemoryCapture whole(random.capture, random.timeline, random.rasters, {64}, TilePolicy::automatic);
+    MemoryCapture cut(random.capture, random.timeline, random.rasters,
+                      {64, 2 * random.capture.sample_bytes()}, TilePolicy::automatic);
+    StreamingCapture stream(random.capture, random.timeline, {0, random.rasters.size()}, 3,
+                            TilePolicy::automatic, test::RasterStream(random.rasters));
+    EXPECT_GE(cut.block_count(), whole.block_count());
+    const std::vector<std::byte> expected = picture(whole);
+    EXPECT_EQ(picture(cut), expected) << random.text();
+    EXPECT_EQ(picture(stream), expected) << random.text();
+  }
 }
 
 // What was read ahead for an exposure that failed is not taken for the next one's.

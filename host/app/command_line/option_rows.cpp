@@ -328,7 +328,7 @@ std::vector<Option> output_rows() {
        "auto, or all tiles as dense, rows or records, for experiments (default: auto)",
        {"auto", "dense", "rows", "records"}},
       {0, "block-samples", "N", Scope::encoding, kEncodesClips, &Options::block_samples,
-       "samples in a block (default: 64, fewer for large pictures)"},
+       "samples in a block (default: 64, fewer where much of a large picture changes)"},
       {0, "activity", "MAP.png", Scope::output, bit(Id::info), &Options::activity,
        "also write how often each pixel changes, as a grey picture: black never, white most often, between "
        "them sRGB"},
