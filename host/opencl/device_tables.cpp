@@ -1,0 +1,129 @@
+#include "opencl/device_tables.hpp"
+
+#include <algorithm>
+
+#include "render/fixed_scale.hpp"
+#include "system/parallel.hpp"
+
+namespace nutik {
+namespace {
+
+// From how many numbers on several threads pack them.
+constexpr std::uint64_t kManyNumbers = 1u << 17;
+
+std::vector<SampleSpan> spans_of(const GainTable& table, const RenderPlan& plan, const TableSlice& slice) {
+  std::vector<SampleSpan> spans;
+  for (std::size_t b = slice.first_block; b < slice.last_block; ++b) {
+    spans.push_back(table.span_in(plan.blocks[b].extent));
+  }
+  return spans;
+}
+
+bool is_of(const std::vector<std::uint64_t>& blocks, const RenderPlan& plan, const TableSlice& slice) {
+  return std::equal(blocks.begin(), blocks.end(),
+                    plan.blocks.begin() + static_cast<std::ptrdiff_t>(slice.first_block),
+                    plan.blocks.begin() + static_cast<std::ptrdiff_t>(slice.last_block),
+                    [](std::uint64_t block, const PlannedBlock& planned) { return block == planned.block; });
+}
+
+}  // namespace
+
+std::uint64_t DeviceTables::Slice::bytes() const {
+  return columns.size() * (2 * row_count * weight_bytes(precision) + blocks.size() * sizeof(SampleSpan));
+}
+
+std::vector<DeviceTables::Column> DeviceTables::columns_of(const RenderPlan& plan, Precision precision) {
+  std::vector<Column> columns;
+  for (const PlannedFunction& function : plan.functions) columns.push_back({function.table, 0});
+  if (precision == Precision::fixed) {
+    const FixedScale scale = fixed_scale(plan);
+    for (std::size_t f = 0; f < columns.size(); ++f) columns[f].exponent = scale.exponents[f];
+  }
+  return columns;
+}
+
+SliceTables DeviceTables::slice(const RenderPlan& plan, const TableSlice& slice, Precision precision,
+                                DeviceMemory& memory, std::uint64_t& written_bytes) {
+  Slice& kept = slice_for(plan, slice, precision, memory);
+  std::vector<Column> wanted = columns_of(plan, precision);
+  std::vector<std::size_t> stale;
+  for (std::size_t f = 0; f < wanted.size(); ++f) {
+    if (kept.columns[f] != wanted[f]) stale.push_back(f);
+  }
+  if (stale.empty()) return kept.tables;
+  for (const std::size_t f : stale) kept.columns[f] = {};  // until they are written
+  const std::uint64_t column_bytes = kept.bytes() / wanted.size();
+  // Columns are written with gaps, which a device may do slowly.
+  if (4 * stale.size() > wanted.size()) {
+    write_all(plan, slice, wanted, kept);
+    written_bytes += kept.bytes();
+  } else {
+    for (const std::size_t f : stale) write_column(plan, slice, f, wanted[f], kept);
+    written_bytes += stale.size() * column_bytes;
+  }
+  kept.columns = std::move(wanted);
+  return kept.tables;
+}
+
+DeviceTables::Slice& DeviceTables::slice_for(const RenderPlan& plan, const TableSlice& slice,
+                                             Precision precision, DeviceMemory& memory) {
+  const std::uint64_t functions = plan.function_count();
+  Slice* const kept = recent_.find([&](const Slice& each) {
+    return each.precision == precision && each.columns.size() == functions && is_of(each.blocks, plan, slice);
+  });
+  if (kept != nullptr) {
+    memory.count(kept->bytes());
+    return *kept;
+  }
+  Slice made{precision, {}, slice.last_row - slice.first_row, {}, {}};
+  for (std::size_t b = slice.first_block; b < slice.last_block; ++b)
+    made.blocks.push_back(plan.blocks[b].block);
+  made.columns.resize(functions);
+  const std::uint64_t bytes = made.row_count * functions * weight_bytes(precision);
+  made.tables.weights = memory.allocate(bytes, CL_MEM_READ_ONLY);
+  made.tables.boundaries = memory.allocate(bytes, CL_MEM_READ_ONLY);
+  made.tables.spans = memory.allocate(made.blocks.size() * functions * sizeof(SampleSpan), CL_MEM_READ_ONLY);
+  return recent_.keep(std::move(made));
+}
+
+void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice, std::span<const Column> columns,
+                             Slice& to) {
+  const std::uint64_t functions = plan.function_count();
+  const std::size_t number = weight_bytes(to.precision);
+  Bytes weights(to.row_count * functions * number), boundaries(weights.size());
+  std::vector<SampleSpan> spans(to.blocks.size() * functions);
+  const auto pack = [&](std::uint64_t f) {
+    pack_column(*columns[f].table, plan, slice, to.precision, columns[f].exponent,
+                {weights.data() + f * number, boundaries.data() + f * number, functions * number});
+    const std::vector<SampleSpan> of_function = spans_of(*columns[f].table, plan, slice);
+    for (std::size_t b = 0; b < of_function.size(); ++b) spans[b * functions + f] = of_function[b];
+  };
+  if (to.row_count * functions >= kManyNumbers) {
+    parallel_for(functions, pack);
+  } else {
+    for (std::uint64_t f = 0; f < functions; ++f) pack(f);
+  }
+  // In order: the last is waited for.
+  queue_.enqueueWriteBuffer(to.tables.weights, CL_FALSE, 0, weights.size(), weights.data());
+  queue_.enqueueWriteBuffer(to.tables.boundaries, CL_FALSE, 0, boundaries.size(), boundaries.data());
+  queue_.enqueueWriteBuffer(to.tables.spans, CL_TRUE, 0, spans.size() * sizeof(SampleSpan), spans.data());
+}
+
+void DeviceTables::write_column(const RenderPlan& plan, const TableSlice& slice, std::size_t function,
+                                const Column& column, Slice& to) {
+  const std::size_t number = weight_bytes(to.precision);
+  Bytes weights(to.row_count * number), boundaries(weights.size());
+  pack_column(*column.table, plan, slice, to.precision, column.exponent,
+              {weights.data(), boundaries.data(), number});
+  const std::vector<SampleSpan> spans = spans_of(*column.table, plan, slice);
+  const auto write = [&](const cl::Buffer& buffer, std::size_t element, std::uint64_t rows, const void* from,
+                         bool waits) {
+    queue_.enqueueWriteBufferRect(buffer, waits ? CL_TRUE : CL_FALSE, {function * element, 0, 0}, {0, 0, 0},
+                                  {element, rows, 1}, plan.function_count() * element, 0, element, 0, from);
+  };
+  write(to.tables.weights, number, to.row_count, weights.data(), false);
+  write(to.tables.boundaries, number, to.row_count, boundaries.data(), false);
+  write(to.tables.spans, sizeof(SampleSpan), to.blocks.size(), spans.data(), true);
+}
+
+}  // namespace nutik
