@@ -61,6 +61,7 @@ class Session::Implementation {
 
   SourceRequest source_;
   std::shared_ptr<Devices> devices_;
+  PlanCache plans_;
   Reading reading_;
   bool is_clip_;
   CaptureFormat format_;
@@ -78,7 +79,11 @@ class Session::Implementation {
 
 Session::Implementation::Implementation(const SourceRequest& source, std::shared_ptr<Devices> devices,
                                         const Terms& terms)
-    : source_(source), devices_(std::move(devices)), reading_(terms.reading), is_clip_(!is_tik(source.path)) {
+    : source_(source),
+      devices_(std::move(devices)),
+      plans_(memory().table_bytes()),
+      reading_(terms.reading),
+      is_clip_(!is_tik(source.path)) {
   if (!is_clip_) {
     if (source.describes_clip()) {
       throw UsageError(nutik::format(
