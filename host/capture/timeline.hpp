@@ -96,6 +96,8 @@ class Timeline {
   // The same constant timeline with another number of samples; throws std::logic_error for a table.
   [[nodiscard]] Timeline with_sample_count(std::uint64_t sample_count) const;
 
+  friend bool operator==(const Timeline&, const Timeline&) = default;
+
  private:
   Timeline() = default;
 

@@ -48,7 +48,8 @@ std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle, Pr
   return bands;
 }
 
-std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, const DeviceInfo& device) {
+std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, const DeviceInfo& device,
+                                   std::uint64_t most_bytes) {
   const std::uint64_t row_bytes = plan.function_count() * weight_bytes(precision);
   // Spans never decide: a block has one row of them, no wider than its rows of weights, of which it has two or more.
   const std::uint64_t most_blocks = device.largest_allocation_bytes / sizeof(BlockEntry);
@@ -65,6 +66,7 @@ std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, 
           "encode with fewer samples a block (--block-samples), or use fewer functions at a time");
     }
     if (slices.empty() || !fits(last_row - slices.back().first_row) ||
+        (last_row - slices.back().first_row) * row_bytes > most_bytes ||
         b - slices.back().first_block == most_blocks) {
       slices.push_back({b, b, block.table_row, block.table_row});
     }

@@ -40,6 +40,7 @@ struct Band {
   std::uint32_t first_row;        // of pixels, in the picture
   std::uint32_t first_column;     // likewise
   Shape shape;
+  friend bool operator==(const Band&, const Band&) = default;
 
   // Tile `tile` of the band, in the picture.
   [[nodiscard]] std::uint64_t tile_in_picture(std::uint64_t tile) const {
@@ -64,10 +65,11 @@ struct TableSlice {
 [[nodiscard]] std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle,
                                             Precision precision, const DeviceInfo& device);
 
-// The slices of a plan in time order; none of a plan without blocks. Throws DeviceError where the table of a
-// single block does not fit.
+// The slices of a plan in time order; none of a plan without blocks. Weights and boundaries of a slice take at most
+// `most_bytes` each, or are of one block. Throws DeviceError where the table of a single block does not fit.
 [[nodiscard]] std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision,
-                                                 const DeviceInfo& device);
+                                                 const DeviceInfo& device,
+                                                 std::uint64_t most_bytes = ~std::uint64_t{0});
 
 // That `what` takes more than the device allocates at a time, and the way out.
 [[nodiscard]] DeviceError too_large(const DeviceInfo& device, std::uint64_t bytes, std::string_view what,

@@ -24,11 +24,11 @@ std::string common_options(const Work& work, const CaptureFormat& capture) {
 
 }  // namespace
 
-std::string expose_options(const Work& work, const CaptureFormat& capture, const LightSource& light) {
+std::string expose_options(const Work& work, const CaptureFormat& capture, const char* light_kind) {
   return format(
       "{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
       "-DNUTIK_LANES={}",
-      common_options(work, capture), capture.code_bytes, light.kind, work.shape.item_pixels,
+      common_options(work, capture), capture.code_bytes, light_kind, work.shape.item_pixels,
       work.shape.item_tiles, work.shape.lanes);
 }
 

@@ -7,7 +7,6 @@
 
 #include <string>
 
-#include "opencl/light_source.hpp"
 #include "opencl/work_shape.hpp"
 #include "render/output_format.hpp"
 
@@ -21,7 +20,7 @@ struct Work {
 };
 
 [[nodiscard]] std::string expose_options(const Work& work, const CaptureFormat& capture,
-                                         const LightSource& light);
+                                         const char* light_kind);
 [[nodiscard]] std::string develop_options(const Work& work, const CaptureFormat& capture,
                                           const OutputFormat& output);
 

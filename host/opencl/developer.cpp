@@ -59,10 +59,9 @@ Picture Developer::light(std::span<const ExposedBand> bands, ValueType type) {
 
 Picture Developer::codes(std::span<const ExposedBand> bands) {
   const DeviceMemory::Scope scope(memory_);
-  const CodeTables tables = code_tables(plan_, work_.precision, output_.white_code);
-  const cl::Buffer scales = memory_.upload(tables.scales);
-  const cl::Buffer thresholds = memory_.upload(tables.thresholds);
-  const cl::Buffer guesses = memory_.upload(tables.guesses);
+  const DeviceCodes& tables =
+      constants_.codes(CodeKey::of(plan_, work_.precision, output_.white_code), memory_);
+  const cl::Buffer scales = memory_.upload(light_scales(plan_, work_.precision));
   Picture picture(shape_, output_.type, output_.white_code);
   DevelopCodesKernel kernel(program_, "develop_codes");
   for (const ExposedBand& exposed : bands) {
@@ -70,7 +69,7 @@ Picture Developer::codes(std::span<const ExposedBand> bands) {
     develop_band(band, picture.bytes, [&](const cl::Buffer& raster) {
       return kernel(items(queue_, work_.shape, band.tile_count), exposed.sums, scales,
                     exposed.function_of_lane, band.shape.width, band.shape.height, band.tile_count,
-                    thresholds, guesses, static_cast<cl_uint>(tables.guesses.size()), raster);
+                    tables.thresholds, tables.guesses, tables.guess_count, raster);
     });
   }
   return picture;

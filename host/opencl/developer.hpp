@@ -10,6 +10,7 @@
 #include "opencl/allocation_cuts.hpp"
 #include "opencl/build_options.hpp"
 #include "opencl/device_memory.hpp"
+#include "opencl/kernel_constants.hpp"
 #include "opencl/opencl_api.hpp"
 #include "render/code_scale.hpp"
 #include "render/renderer.hpp"
@@ -28,7 +29,7 @@ class Developer {
  public:
   // `program` is kernels/develop.cl built for the picture. All that is given must live as long.
   Developer(const Work& work, const RenderPlan& plan, const OutputFormat& output, const Rectangle& rectangle,
-            cl::Program program, cl::CommandQueue queue, DeviceMemory& memory)
+            cl::Program program, cl::CommandQueue queue, KernelConstants& constants, DeviceMemory& memory)
       : work_(work),
         plan_(plan),
         output_(output),
@@ -36,6 +37,7 @@ class Developer {
         shape_{rectangle.width, rectangle.height, plan.capture.shape.channels},
         program_(std::move(program)),
         queue_(std::move(queue)),
+        constants_(constants),
         memory_(memory) {}
 
   // Throws UsageError where codes lie too close together (code_search.hpp).
@@ -60,6 +62,7 @@ class Developer {
   Shape shape_;  // of what is developed
   cl::Program program_;
   cl::CommandQueue queue_;
+  KernelConstants& constants_;
   DeviceMemory& memory_;
   Saturation saturation_;
   double develop_ms_ = 0.0;

@@ -6,21 +6,21 @@
 
 namespace nutik {
 
-FunctionMap map_functions(const RenderPlan& plan, const Band& band) {
-  const TileGrid grid(plan.capture.shape);
-  FunctionMap map;
-  map.of_lane.resize(band.tile_count * kTilePixels);
-  map.of_tile.resize(band.tile_count);
+FunctionMap map_functions(const MaskMap& map, const Band& band) {
+  const TileGrid grid({map.mask.width, map.mask.height, 1});
+  FunctionMap functions;
+  functions.of_lane.resize(band.tile_count * kTilePixels);
+  functions.of_tile.resize(band.tile_count);
   for (std::uint64_t tile = 0; tile < band.tile_count; ++tile) {
-    std::uint8_t* lanes = map.of_lane.data() + tile * kTilePixels;
+    std::uint8_t* lanes = functions.of_lane.data() + tile * kTilePixels;
     grid.for_each_lane(band.tile_in_picture(tile), [&](std::uint32_t lane, std::uint64_t pixel) {
-      lanes[lane] = plan.function_of_pixel[pixel];
+      lanes[lane] = map.region_of_pixel[pixel];
     });
     const bool same =
         std::all_of(lanes, lanes + kTilePixels, [&](std::uint8_t function) { return function == lanes[0]; });
-    map.of_tile[tile] = same ? lanes[0] : kMixedFunctions;
+    functions.of_tile[tile] = same ? lanes[0] : kMixedFunctions;
   }
-  return map;
+  return functions;
 }
 
 }  // namespace nutik

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "opencl/allocation_cuts.hpp"
-#include "render/render_plan.hpp"
+#include "render/mask_map.hpp"
 
 namespace nutik {
 
-// of_lane: [tile][64] indices of plan.functions. of_tile: the tile's own where all its pixels agree, else
+// of_lane: [tile][64] indices of a plan's functions. of_tile: the tile's own where all its pixels agree, else
 // kMixedFunctions.
 struct FunctionMap {
   std::vector<std::uint8_t> of_lane;
@@ -17,6 +17,6 @@ struct FunctionMap {
 };
 
 // Of the tiles of a band.
-[[nodiscard]] FunctionMap map_functions(const RenderPlan& plan, const Band& band);
+[[nodiscard]] FunctionMap map_functions(const MaskMap& map, const Band& band);
 
 }  // namespace nutik

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 
 #include "opencl/code_search.hpp"
@@ -59,53 +60,72 @@ LightScale<Real> power_of_two(int exponent) {
   return {std::scalbn(Real{1}, half), std::scalbn(Real{1}, inside - half)};
 }
 
-double white_light_of(const RenderPlan& plan) {
-  return plan.capture.transfer.is_linear() ? plan.capture.white_code : 1.0;
+double white_light_of(const Transfer& transfer, std::uint32_t white_code) {
+  return transfer.is_linear() ? white_code : 1.0;
 }
 
 template <typename Real>
-Bytes light_scales(const RenderPlan& plan) {
+Bytes floating_scales(const RenderPlan& plan) {
   return converted<LightScale<Real>>(plan.functions, [](const PlannedFunction& function) {
     return power_of_two<Real>(function.summary.exponent);
   });
 }
 
-CodeTables floating_code_tables(const RenderPlan& plan, Precision precision, std::uint32_t white_code) {
-  const double white_light = white_light_of(plan);
-  std::vector<double> thresholds = code_thresholds(plan.capture.transfer, white_code, white_light);
-  const bool is_double = precision == Precision::double_;
-  if (precision == Precision::single_) {
+Bytes fixed_scales(const RenderPlan& plan) {
+  const FixedScale scale = fixed_scale(plan);
+  std::vector<FixedLightScale> scales;
+  for (std::size_t f = 0; f < plan.functions.size(); ++f) {
+    const int left =
+        plan.functions[f].summary.exponent - scale.exponents[f] + kFixedLightBits - scale.light_bits;
+    scales.push_back({static_cast<std::uint32_t>(std::clamp(left, 0, 63)),
+                      static_cast<std::uint32_t>(std::clamp(-left, 0, 63))});
+  }
+  return bytes_of(scales);
+}
+
+CodeTables floating_code_tables(const CodeKey& key) {
+  const double white_light = white_light_of(key.transfer, key.capture_white_code);
+  std::vector<double> thresholds = code_thresholds(key.transfer, key.white_code, white_light);
+  const bool is_double = key.precision == Precision::double_;
+  if (key.precision == Precision::single_) {
     for (double& threshold : thresholds) threshold = static_cast<float>(threshold);
   } else if (!is_double) {
     for (double& threshold : thresholds) threshold = value_of(pair_of(threshold));
   }
   CodeSearch search =
-      code_search(std::move(thresholds), white_light, is_double ? 0x1p-53 : 0x1p-24, plan.capture.transfer);
+      code_search(std::move(thresholds), white_light, is_double ? 0x1p-53 : 0x1p-24, key.transfer);
   search.thresholds.front() = white_light;
   search.thresholds.push_back(kInfinite);
-  return {is_double ? light_scales<double>(plan) : light_scales<float>(plan),
-          numbers_of(search.thresholds, precision), std::move(search.guesses)};
+  return {numbers_of(search.thresholds, key.precision), std::move(search.guesses)};
 }
 
-CodeTables fixed_code_tables(const RenderPlan& plan, std::uint32_t white_code) {
-  const FixedScale scale = fixed_scale(plan);
-  const int more_bits = kFixedLightBits - scale.light_bits;
-  const double white_light = std::scalbn(static_cast<double>(scale.white_light), more_bits);
-  std::vector<double> thresholds = code_thresholds(plan.capture.transfer, white_code, white_light);
+CodeTables fixed_code_tables(const CodeKey& key) {
+  const double white_light =
+      std::scalbn(static_cast<double>(key.fixed_white_light), kFixedLightBits - key.fixed_light_bits);
+  std::vector<double> thresholds = code_thresholds(key.transfer, key.white_code, white_light);
   for (double& threshold : thresholds) threshold = std::ceil(threshold);
-  CodeSearch search = code_search(std::move(thresholds), white_light, 0x1p-24, plan.capture.transfer);
+  CodeSearch search = code_search(std::move(thresholds), white_light, 0x1p-24, key.transfer);
   search.thresholds.front() = white_light;
   search.thresholds.push_back(0x1p63);
-  std::vector<FixedLightScale> scales;
-  for (std::size_t f = 0; f < plan.functions.size(); ++f) {
-    const int left = plan.functions[f].summary.exponent - scale.exponents[f] + more_bits;
-    scales.push_back({static_cast<std::uint32_t>(std::clamp(left, 0, 63)),
-                      static_cast<std::uint32_t>(std::clamp(-left, 0, 63))});
-  }
-  return {bytes_of(scales),
-          converted<std::uint64_t>(search.thresholds,
+  return {converted<std::uint64_t>(search.thresholds,
                                    [](double value) { return static_cast<std::uint64_t>(value); }),
           std::move(search.guesses)};
+}
+
+// A block's rows of one column: the numbers of the samples from `first` on, 0 and flat boundaries round them.
+template <typename Number, typename Values, typename Convert>
+void write_block(const Values& weights, const Values& boundaries, std::uint32_t first,
+                 std::uint32_t sample_count, const TableColumn& column, Convert convert) {
+  const auto count = static_cast<std::uint32_t>(weights.size());
+  const auto put = [&](std::byte* to, std::uint32_t row, const Number& number) {
+    std::memcpy(to + row * column.stride, &number, sizeof number);
+  };
+  for (std::uint32_t row = 0; row <= sample_count; ++row) {
+    const std::uint32_t i = std::clamp(row, first, first + count) - first;
+    const bool is_live = row >= first && i < count;
+    put(column.weights, row, is_live ? convert(weights[i]) : Number{});
+    put(column.boundaries, row, boundaries.empty() ? Number{} : convert(boundaries[i]));
+  }
 }
 
 FixedScale scale_of(const RenderPlan& plan, Precision precision) {
@@ -122,7 +142,9 @@ std::vector<Factors> factors_of(const RenderPlan& plan, Precision precision) {
   const FixedScale scale = scale_of(plan, precision);
   std::vector<Factors> factors;
   for (std::size_t f = 0; f < plan.functions.size(); ++f) {
-    factors.push_back({precision == Precision::fixed ? scale.light_factor(f) : 1.0 / white_light_of(plan),
+    factors.push_back({precision == Precision::fixed
+                           ? scale.light_factor(f)
+                           : 1.0 / white_light_of(plan.capture.transfer, plan.capture.white_code),
                        power_of_two<double>(plan.functions[f].summary.exponent)});
   }
   return factors;
@@ -149,7 +171,7 @@ void store_as(const RenderPlan& plan, const Rectangle& rectangle, Precision prec
   const std::uint32_t channels = plan.capture.shape.channels;
   parallel_for(rectangle.height, [&](std::uint64_t row) {
     const std::uint8_t* functions =
-        plan.function_of_pixel.data() + (rectangle.y + row) * plan.capture.shape.width + rectangle.x;
+        plan.map->region_of_pixel.data() + (rectangle.y + row) * plan.capture.shape.width + rectangle.x;
     std::uint64_t i = row * rectangle.width * channels;
     for (std::uint32_t column = 0; column < rectangle.width; ++column) {
       const Factors& light = factors[functions[column]];
@@ -163,31 +185,65 @@ void store_as(const RenderPlan& plan, const Rectangle& rectangle, Precision prec
 
 }  // namespace
 
-ExposureTables::ExposureTables(const RenderPlan& plan, Precision precision)
-    : plan_(plan), precision_(precision), scale_(scale_of(plan, precision)), sweep_(plan, scale_) {}
-
-WeightTables ExposureTables::pack(const TableSlice& slice) {
-  if (precision_ == Precision::fixed) {
-    const FixedTables tables = sweep_.pack(slice.last_block);
-    return {bytes_of(tables.weights), bytes_of(tables.boundaries)};
+void pack_column(const GainTable& table, const RenderPlan& plan, const TableSlice& slice, Precision precision,
+                 int exponent, const TableColumn& column) {
+  GainTable::Reader reader(table);
+  for (std::size_t b = slice.first_block; b < slice.last_block; ++b) {
+    const PlannedBlock& planned = plan.blocks[b];
+    const std::uint32_t samples = planned.extent.sample_count;
+    const std::size_t offset = (planned.table_row - slice.first_row) * column.stride;
+    const TableColumn to{column.weights + offset, column.boundaries + offset, column.stride};
+    const BlockTable from = reader.block(planned.block);
+    switch (precision) {
+      case Precision::single_:
+        write_block<float>(from.weights, from.boundaries, from.span.first, samples, to,
+                           [](double number) { return static_cast<float>(number); });
+        break;
+      case Precision::compensated:
+        write_block<FloatPair>(from.weights, from.boundaries, from.span.first, samples, to, pair_of);
+        break;
+      case Precision::double_:
+        write_block<double>(from.weights, from.boundaries, from.span.first, samples, to, std::identity{});
+        break;
+      case Precision::fixed: {
+        const FixedBlock fixed = fixed_block(from, exponent);
+        write_block<std::int64_t>(fixed.weights, fixed.boundaries, from.span.first, samples, to,
+                                  std::identity{});
+        break;
+      }
+    }
   }
-  const auto rows = [&](const std::vector<double>& table) {
-    return std::span(table).subspan(slice.first_row * plan_.function_count(),
-                                    (slice.last_row - slice.first_row) * plan_.function_count());
-  };
-  return {numbers_of(rows(plan_.weights), precision_), numbers_of(rows(plan_.boundaries), precision_)};
 }
 
-Bytes ExposureTables::light(const LightSource& light) const {
-  if (precision_ != Precision::fixed) return numbers_of(light.values, precision_);
-  const auto white = static_cast<double>(scale_.white_light);
+Bytes light_values(const LightSource& light, Precision precision, std::uint64_t white_light) {
+  if (precision != Precision::fixed) return numbers_of(light.values, precision);
+  const auto white = static_cast<double>(white_light);
   return converted<std::uint32_t>(
       light.values, [&](double value) { return static_cast<std::uint32_t>(std::llrint(value * white)); });
 }
 
-CodeTables code_tables(const RenderPlan& plan, Precision precision, std::uint32_t white_code) {
-  return precision == Precision::fixed ? fixed_code_tables(plan, white_code)
-                                       : floating_code_tables(plan, precision, white_code);
+Bytes light_scales(const RenderPlan& plan, Precision precision) {
+  switch (precision) {
+    case Precision::single_:
+    case Precision::compensated: return floating_scales<float>(plan);
+    case Precision::double_: return floating_scales<double>(plan);
+    case Precision::fixed: break;
+  }
+  return fixed_scales(plan);
+}
+
+CodeKey CodeKey::of(const RenderPlan& plan, Precision precision, std::uint32_t white_code) {
+  CodeKey key{plan.capture.transfer, plan.capture.white_code, white_code, precision};
+  if (precision == Precision::fixed) {
+    const FixedScale scale = fixed_scale(plan);
+    key.fixed_light_bits = scale.light_bits;
+    key.fixed_white_light = scale.white_light;
+  }
+  return key;
+}
+
+CodeTables code_tables(const CodeKey& key) {
+  return key.precision == Precision::fixed ? fixed_code_tables(key) : floating_code_tables(key);
 }
 
 void store_light(const RenderPlan& plan, const Rectangle& rectangle, Precision precision,

@@ -25,37 +25,43 @@ inline constexpr std::size_t sum_bytes(Precision precision) {
 // Of one weight or boundary: as wide as the sums that it goes into.
 inline constexpr std::size_t weight_bytes(Precision precision) { return sum_bytes(precision); }
 
-struct WeightTables {
-  Bytes weights;     // Weight [row][function]
-  Bytes boundaries;  // likewise
+// Where the numbers of one function go: a row after another, `stride` bytes apart.
+struct TableColumn {
+  std::byte* weights;
+  std::byte* boundaries;
+  std::size_t stride;
 };
 
-// The tables that a plan is exposed with.
-class ExposureTables {
- public:
-  // The plan must live as long.
-  ExposureTables(const RenderPlan& plan, Precision precision);
+// Writes a function's numbers for the rows of a slice, every byte of them. `exponent` is the function's of FixedScale,
+// for whole numbers.
+void pack_column(const GainTable& table, const RenderPlan& plan, const TableSlice& slice, Precision precision,
+                 int exponent, const TableColumn& column);
 
-  // The rows of a slice. Slices are asked for in time order, each once.
-  [[nodiscard]] WeightTables pack(const TableSlice& slice);
-  // Light of every code, or a curve.
-  [[nodiscard]] Bytes light(const LightSource& light) const;
+// Light of every code, or a curve. `white_light` is FixedScale's, for whole numbers.
+[[nodiscard]] Bytes light_values(const LightSource& light, Precision precision, std::uint64_t white_light);
 
- private:
-  const RenderPlan& plan_;
-  Precision precision_;
-  FixedScale scale_;  // of whole numbers
-  FixedSweep sweep_;  // likewise
+// What brings sums onto the scale of the thresholds: LightScale [function].
+[[nodiscard]] Bytes light_scales(const RenderPlan& plan, Precision precision);
+
+// How light becomes codes. It depends on this much of a plan.
+struct CodeKey {
+  Transfer transfer = Transfer::linear();
+  std::uint32_t capture_white_code = 255;
+  std::uint32_t white_code = 255;  // of the picture
+  Precision precision = Precision::single_;
+  int fixed_light_bits = 0;  // FixedScale's, for whole numbers
+  std::uint64_t fixed_white_light = 0;
+
+  [[nodiscard]] static CodeKey of(const RenderPlan& plan, Precision precision, std::uint32_t white_code);
+  friend bool operator==(const CodeKey&, const CodeKey&) = default;
 };
-
 struct CodeTables {
-  Bytes scales;  // LightScale [function]
   Bytes
       thresholds;  // Threshold: what white is, the least light of code 1 … white code, then more than any light
   std::vector<std::uint32_t> guesses;
 };
 // Throws UsageError where the codes lie too close together (code_search.hpp).
-[[nodiscard]] CodeTables code_tables(const RenderPlan& plan, Precision precision, std::uint32_t white_code);
+[[nodiscard]] CodeTables code_tables(const CodeKey& key);
 
 // The light of `raster`, sums [pixel][channel][plane] of a rectangle as develop_sums writes them, into a picture of
 // light32 or light64. Done by the host in double, so that it is the same for every device.

@@ -12,12 +12,11 @@
 #include "opencl/build_options.hpp"
 #include "opencl/developer.hpp"
 #include "opencl/device_memory.hpp"
-#include "opencl/function_map.hpp"
+#include "opencl/device_tables.hpp"
+#include "opencl/kernel_constants.hpp"
 #include "opencl/kernel_sources.hpp"
-#include "opencl/kernel_tables.hpp"
 #include "opencl/launch.hpp"
 #include "opencl/light_pieces.hpp"
-#include "opencl/light_source.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
 
@@ -43,13 +42,6 @@ bool has_fma(const cl::Device& device, Precision precision) {
   }
   return false;
 }
-
-// A slice's tables on the device.
-struct UploadedSlice {
-  cl::Buffer weights;
-  cl::Buffer boundaries;
-  cl::Buffer spans;
-};
 
 // What one render is made of.
 struct Request {
@@ -90,6 +82,8 @@ class OpenClRenderer::Implementation {
     context_ = cl::Context(device_);
     queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
     feed_ = std::make_unique<BlockFeed>(context_, device_, info_, feed_limits());
+    tables_ = std::make_unique<DeviceTables>(queue_, table_bytes());
+    constants_ = std::make_unique<KernelConstants>(table_bytes());
     programs_ = std::make_unique<ProgramStore>(context_, device_, options.cache_folder, [this](auto&) {
       if (announced_ || !options_.announce) return;
       announced_ = true;
@@ -109,7 +103,8 @@ class OpenClRenderer::Implementation {
     const Work work = work_for(choose(plan, output, options_.precision).precision());
     const std::scoped_lock turn(turn_);
     try {
-      if (!plan.blocks.empty()) expose_program(work, plan, light_source_for(work, plan));
+      DeviceMemory memory(context_, queue_, info_);
+      if (!plan.blocks.empty()) expose_program(work, plan, light_of(work, plan, memory));
       develop_program(work, plan, output);
     } catch (const cl::Error& error) {
       throw DeviceError(describe(error, format("{} failed", info_.name)));
@@ -132,7 +127,7 @@ class OpenClRenderer::Implementation {
       const std::vector<ExposedBand> bands = expose(work, request, memory, rendered.statistics);
       throw_if_cancelled(request.control);
       Developer developer(work, plan, request.output, request.rectangle,
-                          develop_program(work, plan, request.output), queue_, memory);
+                          develop_program(work, plan, request.output), queue_, *constants_, memory);
       rendered.picture = developer.develop(bands);
       rendered.saturation = developer.saturation();
       rendered.statistics.develop_ms = developer.develop_ms();
@@ -161,9 +156,15 @@ class OpenClRenderer::Implementation {
     return info;
   }
 
+  [[nodiscard]] std::uint64_t memory_bytes() const {
+    return std::min(options_.memory_bytes != 0 ? options_.memory_bytes : kDefaultMemoryBytes,
+                    info_.memory_bytes / 2);
+  }
+  // What tables may take on the device between renders, and maps as much.
+  [[nodiscard]] std::uint64_t table_bytes() const { return memory_bytes() / 16; }
+
   [[nodiscard]] FeedLimits feed_limits() const {
-    const std::uint64_t memory = std::min(
-        options_.memory_bytes != 0 ? options_.memory_bytes : kDefaultMemoryBytes, info_.memory_bytes / 2);
+    const std::uint64_t memory = memory_bytes();
     FeedLimits limits{std::min(kChunkBytes, memory / 4), memory / 2};
     if (options_.chunk_bytes != 0) limits.chunk_bytes = options_.chunk_bytes;
     return limits;
@@ -194,13 +195,13 @@ class OpenClRenderer::Implementation {
             options_.use_fma && has_fma(device_, precision)};
   }
 
-  [[nodiscard]] LightSource light_source_for(const Work& work, const RenderPlan& plan) const {
+  const DeviceLight& light_of(const Work& work, const RenderPlan& plan, DeviceMemory& memory) {
     const bool permutes = work.shape.lanes == kLightPieces && info_.native_float_lanes >= kLightPieces;
-    return light_source(plan.capture, work.precision, permutes);
+    return constants_->light(plan, work.precision, permutes, memory);
   }
 
-  cl::Program expose_program(const Work& work, const RenderPlan& plan, const LightSource& light) {
-    return programs_->get("expose", kernel_source("expose"), expose_options(work, plan.capture, light));
+  cl::Program expose_program(const Work& work, const RenderPlan& plan, const DeviceLight& light) {
+    return programs_->get("expose", kernel_source("expose"), expose_options(work, plan.capture, light.kind));
   }
 
   cl::Program develop_program(const Work& work, const RenderPlan& plan, const OutputFormat& output) {
@@ -208,14 +209,14 @@ class OpenClRenderer::Implementation {
   }
 
   // The bands of a rectangle with nothing in their sums yet.
-  std::vector<ExposedBand> bands_of(const Work& work, const Request& request, DeviceMemory& memory) const {
+  std::vector<ExposedBand> bands_of(const Work& work, const Request& request, DeviceMemory& memory,
+                                    RenderStatistics& statistics) {
     const Shape& shape = request.plan.capture.shape;
     std::vector<ExposedBand> bands;
     for (const Band& band : cut_picture(shape, request.rectangle, work.precision, info_)) {
-      const FunctionMap map = map_functions(request.plan, band);
+      const DeviceMap& map = constants_->map(request.plan.map, band, memory, statistics.map_bytes_written);
       const std::uint64_t bytes = sums_bytes(band.tile_count, shape.channels, work.precision);
-      bands.push_back({band, memory.upload(map.of_lane), memory.upload(map.of_tile),
-                       memory.allocate(bytes, CL_MEM_READ_WRITE)});
+      bands.push_back({band, map.of_lane, map.of_tile, memory.allocate(bytes, CL_MEM_READ_WRITE)});
     }
     return bands;
   }
@@ -224,7 +225,7 @@ class OpenClRenderer::Implementation {
   std::vector<ExposedBand> expose(const Work& work, const Request& request, DeviceMemory& memory,
                                   RenderStatistics& statistics) {
     const RenderPlan& plan = request.plan;
-    std::vector<ExposedBand> bands = bands_of(work, request, memory);
+    std::vector<ExposedBand> bands = bands_of(work, request, memory, statistics);
     if (plan.blocks.empty()) {
       for (const ExposedBand& exposed : bands) {  // 0 in every arithmetic
         const std::uint64_t bytes = exposed.sums.getInfo<CL_MEM_SIZE>();
@@ -233,12 +234,11 @@ class OpenClRenderer::Implementation {
       return bands;
     }
     const DeviceMemory::Scope scope(memory);  // of what is not the picture
-    const LightSource light = light_source_for(work, plan);
+    const DeviceLight& light = light_of(work, plan, memory);
     ExposeKernel kernel(expose_program(work, plan, light), "expose");
 
-    const std::vector<TableSlice> slices = cut_tables(plan, work.precision, info_);
-    ExposureTables tables(plan, work.precision);
-    const cl::Buffer transfer = memory.upload(tables.light(light));
+    // The tables that are kept are at least those of one slice: weights and boundaries.
+    const std::vector<TableSlice> slices = cut_tables(plan, work.precision, info_, table_bytes() / 2);
     const auto function_count = static_cast<cl_uint>(plan.function_count());
 
     feed_->start(plan, slices, request.source);
@@ -246,7 +246,8 @@ class OpenClRenderer::Implementation {
     std::size_t block = 0;
     for (const TableSlice& slice : slices) {
       const DeviceMemory::Scope slice_scope(memory);
-      const UploadedSlice uploaded = upload(tables.pack(slice), plan, slice, memory);
+      const SliceTables tables =
+          tables_->slice(plan, slice, work.precision, memory, statistics.table_bytes_written);
       while (block < slice.last_block) {
         throw_if_cancelled(request.control);
         BlockFeed::Chunk chunk = next_chunk(statistics);
@@ -256,12 +257,11 @@ class OpenClRenderer::Implementation {
         const cl::Buffer entries = memory.upload(chunk.entries);
         for (const ExposedBand& exposed : bands) {
           const Band& band = exposed.band;
-          const cl::Event event =
-              kernel(items(queue_, work.shape, band.tile_count), chunk.payload, entries,
-                     static_cast<cl_uint>(chunk.entries.size()), uploaded.spans, uploaded.weights,
-                     uploaded.boundaries, function_count, exposed.function_of_tile, exposed.function_of_lane,
-                     transfer, exposed.sums, band.first_tile, band.tile_count, band.columns,
-                     band.skipped_columns, block == 0 ? 1u : 0u);
+          const cl::Event event = kernel(
+              items(queue_, work.shape, band.tile_count), chunk.payload, entries,
+              static_cast<cl_uint>(chunk.entries.size()), tables.spans, tables.weights, tables.boundaries,
+              function_count, exposed.function_of_tile, exposed.function_of_lane, light.values, exposed.sums,
+              band.first_tile, band.tile_count, band.columns, band.skipped_columns, block == 0 ? 1u : 0u);
           event.wait();
           statistics.expose_ms += milliseconds(event);
           ++statistics.launches;
@@ -272,14 +272,6 @@ class OpenClRenderer::Implementation {
       }
     }
     return bands;
-  }
-
-  static UploadedSlice upload(const WeightTables& tables, const RenderPlan& plan, const TableSlice& slice,
-                              DeviceMemory& memory) {
-    const auto spans = std::span(plan.spans)
-                           .subspan(slice.first_block * plan.function_count(),
-                                    (slice.last_block - slice.first_block) * plan.function_count());
-    return {memory.upload(tables.weights), memory.upload(tables.boundaries), memory.upload(spans)};
   }
 
   BlockFeed::Chunk next_chunk(RenderStatistics& statistics) {
@@ -298,6 +290,8 @@ class OpenClRenderer::Implementation {
   std::unique_ptr<ProgramStore> programs_;
   bool announced_ = false;
   std::unique_ptr<BlockFeed> feed_;
+  std::unique_ptr<DeviceTables> tables_;
+  std::unique_ptr<KernelConstants> constants_;
   std::mutex turn_;  // at the device: all that follows from a plan's choice of arithmetic on
 };
 

@@ -26,7 +26,8 @@ struct OpenClOptions {
 
   // For blocks of captures, on the device or where it reads the host's memory: half of it for those of a resident
   // capture, half at most for those on their way. A block that is larger is taken all the same. 0: 4 GB. Never
-  // more than half of the device's memory.
+  // more than half of the device's memory. Gain tables and maps of functions that stay between renders take an eighth
+  // besides.
   std::uint64_t memory_bytes = 0;
 
   // How the work is cut. 0 leaves it to the device; the picture does not depend on it beyond rounding.

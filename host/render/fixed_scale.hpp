@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "exposure/compensated_sum.hpp"
 #include "render/render_plan.hpp"
 
 namespace nutik {
@@ -28,33 +27,15 @@ struct FixedScale {
 
 [[nodiscard]] FixedScale fixed_scale(const RenderPlan& plan);
 
-// The plan's tables as whole numbers: [row][function] like RenderPlan::weights and boundaries. A weight is the
-// difference of two boundaries that were rounded before; boundaries start with 0 in each block.
-struct FixedTables {
+// A function's numbers of one block as whole numbers: of the samples that it needs, and one boundary more. A weight is
+// the difference of two boundaries that were rounded before, each of them from the weights of the whole capture up to
+// there; boundaries start with 0 in each block.
+struct FixedBlock {
   std::vector<std::int64_t> weights;
   std::vector<std::int64_t> boundaries;
 };
 
-// Rounds a plan's tables from its first block to its last, in as many parts as wanted: the same numbers always.
-class FixedSweep {
- public:
-  // The plan must live as long.
-  FixedSweep(const RenderPlan& plan, const FixedScale& scale);
-
-  // The rows of the planned blocks from where the last part ended up to `last_block`, which is not part of it.
-  [[nodiscard]] FixedTables pack(std::size_t last_block);
-
- private:
-  // What a function's weights so far add up to.
-  struct Boundary {
-    CompensatedSum exact;
-    std::int64_t rounded = 0;
-  };
-
-  const RenderPlan& plan_;
-  std::vector<int> exponents_;
-  std::vector<Boundary> boundaries_;
-  std::size_t next_block_ = 0;
-};
+// Blocks may be asked for in any order.
+[[nodiscard]] FixedBlock fixed_block(const BlockTable& table, int exponent);
 
 }  // namespace nutik

@@ -22,7 +22,7 @@ void check(const RenderPlan& plan, const Picture& expected, const Picture& pictu
 }
 
 const PictureError& bound_of_value(const RenderPlan& plan, const ErrorBound& bound, std::uint64_t value) {
-  return bound.functions[plan.function_of_pixel[value / plan.capture.shape.channels]];
+  return bound.functions[plan.function_of(value / plan.capture.shape.channels)];
 }
 
 // Where light lies on the scale of codes 0 … white_code, before it is rounded to one.

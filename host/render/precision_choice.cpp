@@ -10,6 +10,7 @@ namespace nutik {
 
 PrecisionChoice choose_precision(const RenderPlan& plan, const OutputFormat& output,
                                  std::span<const Precision> available) {
+  measure_tables(plan);
   std::vector<ErrorBound> rejected;
   for (const Precision precision : available) {
     ErrorBound bound = error_bound(plan, precision, output);

@@ -58,7 +58,7 @@ class Reference {
 
  private:
   [[nodiscard]] std::size_t function_at(std::uint32_t x, std::uint32_t y) const {
-    return plan_.function_of_pixel[std::uint64_t{y} * plan_.capture.shape.width + x];
+    return plan_.function_of(std::uint64_t{y} * plan_.capture.shape.width + x);
   }
 
   // Calls visit(x, y, pixel of the rectangle) for the pixels that a tile shares with the rectangle.

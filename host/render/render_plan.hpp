@@ -1,15 +1,17 @@
 // The plan of an exposure: what will be touched, with which weights, decided before anything is read.
 //
 //   in:      a capture, gain functions by mask value, a mask
-//   out:     the functions that the mask uses, their live samples, the blocks those lie in, and per block
-//            the packed boundary tables
-//   always:  only what a function that the mask uses needs is planned
+//   out:     the functions that the mask uses, with their tables and live samples, and the blocks those lie in
+//   always:  only what a function that the mask uses needs is planned. Tables and the mask's map are shared: copying a
+//            plan copies none of them, and whoever makes plans one after another keeps what they have in common
+//            (plan_cache.hpp)
 //
 // Renderer and reference follow the same plan; the reference reads the functions, not the tables.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +20,8 @@
 #include "exposure/gain_function.hpp"
 #include "exposure/mask.hpp"
 #include "imev/capture_source.hpp"
+#include "render/gain_table.hpp"
+#include "render/mask_map.hpp"
 
 namespace nutik {
 
@@ -36,43 +40,38 @@ struct PlannedFunction {
   GainSummary summary;
   SampleRange live;           // samples whose reach meets the live interval
   std::uint64_t pixel_count;  // of the mask
+  std::shared_ptr<const GainTable> table;
 };
-
-// Samples of a block, from its first on: [first, last).
-struct SampleSpan {
-  std::uint16_t first = 0;
-  std::uint16_t last = 0;
-};
-static_assert(sizeof(SampleSpan) == 4);
 
 struct PlannedBlock {
   std::uint64_t block;  // in the capture
   BlockExtent extent;
-  std::uint64_t table_row;  // of its first sample in the tables
+  std::uint64_t table_row;  // of its first sample, in tables of the planned blocks
 
-  // Of the tables.
+  // Of the tables: one for each sample and one more (exposure/boundary_table.hpp).
   [[nodiscard]] std::uint64_t row_count() const { return std::uint64_t{extent.sample_count} + 1; }
 };
 
 struct RenderPlan {
   CaptureFormat capture;
   std::int64_t duration_ns = 0;
-  std::vector<PlannedFunction> functions;       // by increasing tag; at most 256
-  std::vector<std::uint8_t> function_of_pixel;  // index into functions, row by row
-  std::vector<PlannedBlock> blocks;             // in time order
-
-  // [row][function]: a block has a row for each of its samples and one more. See boundary_table.hpp.
-  std::vector<double> weights;
-  std::vector<double> boundaries;
-  // [planned block][function]: which of the block's samples have a weight that may not be 0.
-  std::vector<SampleSpan> spans;
-
+  std::shared_ptr<const CaptureLayout> layout;
+  std::vector<PlannedFunction> functions;  // by increasing tag: those of the map's regions
+  std::shared_ptr<const MaskMap> map;
+  std::vector<PlannedBlock> blocks;   // in time order
   std::vector<std::string> warnings;  // whole sentences
 
   [[nodiscard]] std::uint64_t function_count() const { return functions.size(); }
+  // Index into functions.
+  [[nodiscard]] std::uint8_t function_of(std::uint64_t pixel) const { return map->region_of_pixel[pixel]; }
+  // Of the tables of all functions for the planned blocks.
+  [[nodiscard]] std::uint64_t row_count() const;
   // The samples that some function needs.
   [[nodiscard]] std::uint64_t live_sample_count() const;
 };
+
+// Measures the tables of all functions (GainTable::course), several at a time.
+void measure_tables(const RenderPlan& plan);
 
 // The samples that an exposure of these functions through this mask needs, as one range: what has to be
 // read of a capture that can only be read from its start.

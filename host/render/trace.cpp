@@ -33,11 +33,9 @@ Trace trace(const RenderPlan& plan, CaptureSource& source, std::size_t function,
   std::array<ValueWalk, 3> walks;
   BlockCursor cursor(source);
   std::optional<std::uint64_t> block_before;
-  for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
-    const PlannedBlock& planned = plan.blocks[b];
+  for (const PlannedBlock& planned : plan.blocks) {
     // The reference also walks through what other functions need: there it adds zeros, which change no bit.
-    const SampleSpan& needed = plan.spans[b * plan.function_count() + function];
-    if (needed.first == needed.last) continue;
+    if (plan.functions[function].table->span_in(planned.extent).empty()) continue;
     const auto records = read_light(cursor.at(planned.block));
     const std::vector<SampleTimes> times = source.timeline().times(planned.extent.range());
     const bool follows = block_before && *block_before + 1 == planned.block;
@@ -109,7 +107,7 @@ Trace trace_pixel(const RenderPlan& plan, CaptureSource& source, std::uint32_t x
   const TileGrid grid(shape);
   const std::uint64_t pixel = std::uint64_t{y} * shape.width + x;
   std::vector<ChangeRecord> history;
-  Trace result = trace(plan, source, plan.function_of_pixel[pixel], [&](const BlockView& block) {
+  Trace result = trace(plan, source, plan.function_of(pixel), [&](const BlockView& block) {
     block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);
     std::vector<LightRecord> records;
     for (const ChangeRecord& change : history) {
@@ -137,7 +135,7 @@ Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t t
   Trace result = trace(plan, source, function, [&](const BlockView& block) {
     LightSum sum(block.extent());
     for (std::uint64_t pixel = 0; pixel < shape.pixel_count(); ++pixel) {
-      if (plan.function_of_pixel[pixel] != function) continue;
+      if (plan.function_of(pixel) != function) continue;
       const auto x = static_cast<std::uint32_t>(pixel % shape.width);
       const auto y = static_cast<std::uint32_t>(pixel / shape.width);
       block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);

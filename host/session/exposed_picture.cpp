@@ -11,8 +11,8 @@ ExposureFigures ExposureFigures::of(RenderPlan&& plan, const Timeline& timeline,
   if (!plan.blocks.empty()) {
     figures.read = {plan.blocks.front().extent.range().first, plan.blocks.back().extent.range().last};
   }
-  figures.table_bytes = (plan.weights.size() + plan.boundaries.size()) * sizeof(double);
-  figures.map_bytes = plan.function_of_pixel.size();
+  figures.table_bytes = 2 * plan.row_count() * plan.function_count() * sizeof(double);
+  figures.map_bytes = plan.map->region_of_pixel.size();
   figures.functions = std::move(plan.functions);
   return figures;
 }

@@ -7,6 +7,7 @@
 
 #include "render/fixed_scale.hpp"
 #include "render/precision_choice.hpp"
+#include "support/packed_tables.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik {
@@ -64,12 +65,13 @@ TEST(FixedScale, FillsTheSumsAndNeverOverflows) {
     const MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const FixedScale scale = fixed_scale(plan);
-    const FixedTables tables = FixedSweep(plan, scale).pack(plan.blocks.size());
+    const auto tables = test::fixed_tables(plan, scale);
+    const auto exact_tables = test::packed_tables(plan);
     for (std::size_t f = 0; f < plan.functions.size(); ++f) {
       long double magnitude = 0, exact = 0;
       for (std::size_t at = f; at < tables.weights.size(); at += plan.function_count()) {
         magnitude += std::abs(tables.weights[at]);
-        exact += std::fabs(plan.weights[at]);
+        exact += std::fabs(exact_tables.weights[at]);
       }
       const long double largest = magnitude * static_cast<long double>(scale.white_light);
       ASSERT_LE(largest, 0x1p62L) << random.text();
@@ -86,13 +88,13 @@ TEST(FixedScale, TablesAreTheSameInAnyParts) {
     const MemoryCapture capture = random.encode(3, TilePolicy::automatic);
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const FixedScale scale = fixed_scale(plan);
-    const FixedTables whole = FixedSweep(plan, scale).pack(plan.blocks.size());
-    ASSERT_EQ(whole.weights.size(), plan.weights.size());
-    FixedSweep sweep(plan, scale);
-    FixedTables joined;
+    const auto whole = test::fixed_tables(plan, scale);
+    ASSERT_EQ(whole.weights.size(), plan.row_count() * plan.function_count());
+    test::PackedTables<std::int64_t> joined;
     for (std::size_t last = 0, step = 0; last < plan.blocks.size(); ++step) {
+      const std::size_t first = last;
       last = std::min(plan.blocks.size(), last + step % 3);
-      const FixedTables part = sweep.pack(last);
+      const auto part = test::fixed_tables(plan, scale, first, last);
       joined.weights.insert(joined.weights.end(), part.weights.begin(), part.weights.end());
       joined.boundaries.insert(joined.boundaries.end(), part.boundaries.begin(), part.boundaries.end());
     }
@@ -109,7 +111,7 @@ TEST(FixedScale, TablesDoNotDependOnBlocks) {
     for (const std::uint32_t block_samples : {1u, 7u, 64u, 1000u}) {
       const MemoryCapture capture = random.encode(block_samples, TilePolicy::dense);
       const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-      const FixedTables tables = FixedSweep(plan, fixed_scale(plan)).pack(plan.blocks.size());
+      const auto tables = test::fixed_tables(plan, fixed_scale(plan));
       std::vector<std::vector<std::int64_t>> weights(plan.function_count());
       for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
         const PlannedBlock& block = plan.blocks[b];
@@ -180,14 +182,12 @@ TEST(PrecisionChoice, TakesTheLeastInLightWhereAllCodesMayBeWrong) {
 TEST(PrecisionChoice, SaysWhatItMayErrBy) {
   EXPECT_EQ(error_text({3.1e-7, 0.0102}, {ValueType::code8, 255}),
             "light within 3.1e-07, 0.01 of an 8-bit code");
-  EXPECT_EQ(error_text({3.4e-3, 34.12}, {ValueType::code8, 255}),
-            "light within 0.0034, 34.1 8-bit codes");
+  EXPECT_EQ(error_text({3.4e-3, 34.12}, {ValueType::code8, 255}), "light within 0.0034, 34.1 8-bit codes");
   EXPECT_EQ(error_text({3.1e-7, 0.2625}, {ValueType::code16, 4095}),
             "light within 3.1e-07, 0.26 of a 12-bit code");
   EXPECT_EQ(error_text({3.1e-7, 0.2625}, {ValueType::code16, 1000}),
             "light within 3.1e-07, 0.26 of a code of 1000");
-  EXPECT_EQ(error_text({1e-8, 0.17}, {ValueType::light32, 0}),
-            "light within 1e-08, 0.17 of a float's step");
+  EXPECT_EQ(error_text({1e-8, 0.17}, {ValueType::light32, 0}), "light within 1e-08, 0.17 of a float's step");
   EXPECT_EQ(error_text({1e-13, 0.1}, kLight), "light within 1e-13");
 }
 

@@ -1,5 +1,6 @@
 // The reference and the packed tables against exact rational arithmetic, on hard cases.
 #include "support/hard_cases.hpp"
+#include "support/packed_tables.hpp"
 
 #include <gtest/gtest.h>
 
@@ -79,6 +80,7 @@ TEST_P(ReferenceOnHardCases, PacksWeightsThatExactArithmeticConfirms) {
   const HardCase hard = GetParam().make();
   const StreamingCapture capture = hard.open();
   const RenderPlan plan = make_plan(capture, hard.functions, hard.mask, {});
+  const auto tables = test::packed_tables(plan);
   double worst = 0.0;
   for (std::size_t f = 0; f < plan.function_count(); ++f) {
     const GainSummary& summary = plan.functions[f].summary;
@@ -95,14 +97,14 @@ TEST_P(ReferenceOnHardCases, PacksWeightsThatExactArithmeticConfirms) {
         const std::size_t at = (block.table_row + i) * plan.function_count() + f;
         const Exact weight = test::exact_weight_ns(gain, hard.timeline, k) / unit;
         const Exact scale = test::exact_weight_ns(magnitudes, hard.timeline, k) / unit;
-        const double roundings = test::error_in(rounding(scale, least), plan.weights[at], weight);
+        const double roundings = test::error_in(rounding(scale, least), tables.weights[at], weight);
         ASSERT_LE(roundings, test::kWeightRoundings)
             << "M" << f << ", weight of sample " << k << "; rerun: " << test::rerun();
         worst = std::max(worst, roundings);
         boundary += weight;
         boundary_scale += scale;
         ASSERT_LE(test::error_in(rounding(boundary_scale, least * (i + 1)),
-                                 plan.boundaries[at + plan.function_count()], boundary),
+                                 tables.boundaries[at + plan.function_count()], boundary),
                   test::kWeightRoundings + 1)
             << "M" << f << ", boundary behind sample " << k << "; rerun: " << test::rerun();
       }

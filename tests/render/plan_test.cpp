@@ -33,8 +33,7 @@ TEST(RenderPlan, TouchesOnlyTheBlocksThatUsedFunctionsNeed) {
   EXPECT_EQ(plan.functions[0].live, (SampleRange{20, 21}));
   ASSERT_EQ(plan.blocks.size(), 1u);
   EXPECT_EQ(plan.blocks[0].block, 2u);
-  EXPECT_EQ(plan.spans[0].first, 0);
-  EXPECT_EQ(plan.spans[0].last, 1);
+  EXPECT_EQ(plan.functions[0].table->span_in(plan.blocks[0].extent), (SampleSpan{0, 1}));
   EXPECT_EQ(needed_samples(capture.timeline(), functions, Mask::uniform(4, 2, 0), {}), (SampleRange{20, 21}));
   PlanOptions all;
   all.live_all = true;

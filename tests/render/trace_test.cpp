@@ -96,7 +96,7 @@ TEST(Trace, ARegionIsTheMeanOfItsPixels) {
       for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
         double sum = 0.0;
         for (std::uint64_t pixel = 0; pixel < picture.shape.pixel_count(); ++pixel) {
-          if (plan.function_of_pixel[pixel] == f) {
+          if (plan.function_of(pixel) == f) {
             sum += picture.values<double>()[pixel * trace.channels + channel];
           }
         }

@@ -57,8 +57,8 @@ std::vector<std::uint64_t> values_to_compare(const RenderPlan& plan, std::size_t
   const std::uint32_t channels = plan.capture.shape.channels;
   std::vector<std::size_t> left(plan.function_count(),
                                 std::max<std::size_t>(1, most / plan.function_count()));
-  for (std::uint64_t pixel = 0; pixel < plan.function_of_pixel.size(); ++pixel) {
-    std::size_t& wanted = left[plan.function_of_pixel[pixel]];
+  for (std::uint64_t pixel = 0; pixel < plan.map->region_of_pixel.size(); ++pixel) {
+    std::size_t& wanted = left[plan.function_of(pixel)];
     if (wanted == 0) continue;
     --wanted;
     values.insert(pixel * channels + pixel % channels);

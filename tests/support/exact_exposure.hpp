@@ -27,7 +27,7 @@ class ExactExposure {
     return functions_[function_of(i)].summary;
   }
   [[nodiscard]] std::size_t function_of(std::uint64_t i) const {
-    return plan_.function_of_pixel[i / plan_.capture.shape.channels];
+    return plan_.function_of(i / plan_.capture.shape.channels);
   }
 
  private:

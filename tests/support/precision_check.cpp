@@ -42,7 +42,7 @@ Difference share_of_steps(const RenderPlan& plan, const ErrorBound& bound, const
   for (std::uint64_t i = 0; i < codes.shape.value_count(); ++i) {
     const double inside = std::clamp(light.values<double>()[i], 0.0, 1.0);
     const double place = plan.capture.transfer.fraction_of(inside) * codes.white_code;
-    const std::size_t function = plan.function_of_pixel[i / codes.shape.channels];
+    const std::size_t function = plan.function_of(i / codes.shape.channels);
     const double allowed = bound.functions[function].steps + 32 * kRoundoff64 * codes.white_code;
     const double share = (std::fabs(code_of(codes, i) - place) - 0.5) / allowed;
     if (share > difference.worst) difference = {share, i};

@@ -44,7 +44,7 @@ inline DeviceInfo device_allocating(std::uint64_t bytes) {
 
 // S of a value's function.
 inline double scale_of(const RenderPlan& plan, std::uint64_t value) {
-  const std::size_t function = plan.function_of_pixel[value / plan.capture.shape.channels];
+  const std::size_t function = plan.function_of(value / plan.capture.shape.channels);
   return plan.functions[function].summary.error_scale();
 }
 
@@ -71,7 +71,7 @@ inline Difference share_of_bound(const RenderPlan& plan, const ErrorBound& bound
   Difference difference;
   for (std::uint64_t i = 0; i < a.shape.value_count(); ++i) {
     const double light = std::fabs(a.values<double>()[i] - b.values<double>()[i]);
-    const std::size_t function = plan.function_of_pixel[i / plan.capture.shape.channels];
+    const std::size_t function = plan.function_of(i / plan.capture.shape.channels);
     double share = light == 0.0 ? 0.0 : light / bound.functions[function].light;
     if (std::isnan(share)) share = INFINITY;
     if (share > difference.worst) difference = {share, i};

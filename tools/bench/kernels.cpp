@@ -161,7 +161,7 @@ double check(OpenClRenderer& renderer, const Case& one) {
   const Picture b = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
   double worst = 0.0;
   for (std::uint64_t i = 0; i < a.shape.value_count(); ++i) {
-    const double scale = plan.functions[plan.function_of_pixel[i / 3]].summary.error_scale();
+    const double scale = plan.functions[plan.function_of(i / 3)].summary.error_scale();
     const double difference = std::abs(a.values<double>()[i] - b.values<double>()[i]) / scale;
     worst = difference > worst || difference != difference ? difference : worst;
   }

@@ -1,0 +1,67 @@
+// The tables of gain functions that kernels read, on the device from one exposure to the next.
+//
+//   in:      a plan, a slice of it, an arithmetic
+//   out:     buffers of weights and boundaries [row][function] and of spans [block][function]
+//   always:  what a buffer holds already is not written again: a function that changed costs its own column
+//
+// Rows of functions side by side suit pixels that have many functions among them (docs/performance.md): a column is
+// therefore written with gaps, by a rectangular copy.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "opencl/allocation_cuts.hpp"
+#include "opencl/device_memory.hpp"
+#include "opencl/kernel_tables.hpp"
+#include "opencl/opencl_api.hpp"
+#include "opencl/recent.hpp"
+
+namespace nutik {
+
+struct SliceTables {
+  cl::Buffer weights;
+  cl::Buffer boundaries;
+  cl::Buffer spans;
+};
+
+class DeviceTables {
+ public:
+  // `most_bytes` are kept; a slice that is in use counts as one of them.
+  DeviceTables(cl::CommandQueue queue, std::uint64_t most_bytes)
+      : queue_(std::move(queue)), recent_(most_bytes) {}
+
+  // A slice's tables, which no kernel may read any more when the next slice is asked for. What it takes is counted in
+  // `memory`, what had to be written is added to `written_bytes`.
+  [[nodiscard]] SliceTables slice(const RenderPlan& plan, const TableSlice& slice, Precision precision,
+                                  DeviceMemory& memory, std::uint64_t& written_bytes);
+
+ private:
+  // What a column was made from.
+  struct Column {
+    std::shared_ptr<const GainTable> table;
+    int exponent = 0;  // of whole numbers
+    friend bool operator==(const Column&, const Column&) = default;
+  };
+  struct Slice {
+    Precision precision;
+    std::vector<std::uint64_t> blocks;  // of the capture
+    std::uint64_t row_count;
+    std::vector<Column> columns;
+    SliceTables tables;
+
+    [[nodiscard]] std::uint64_t bytes() const;
+  };
+
+  Slice& slice_for(const RenderPlan& plan, const TableSlice& slice, Precision precision,
+                   DeviceMemory& memory);
+  void write_all(const RenderPlan& plan, const TableSlice& slice, Slice& to);
+  void write_column(const RenderPlan& plan, const TableSlice& slice, std::size_t function, Slice& to);
+
+  cl::CommandQueue queue_;
+  Recent<Slice> recent_;
+};
+
+}  // namespace nutik

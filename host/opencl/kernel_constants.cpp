@@ -1,0 +1,49 @@
+#include "opencl/kernel_constants.hpp"
+
+#include "opencl/function_map.hpp"
+#include "opencl/light_source.hpp"
+#include "render/fixed_scale.hpp"
+
+namespace nutik {
+
+const DeviceLight& KernelConstants::light(const RenderPlan& plan, Precision precision, bool permutes_pieces,
+                                          DeviceMemory& memory) {
+  const CaptureFormat& capture = plan.capture;
+  LightKey key{capture.transfer, capture.code_bytes, capture.white_code, precision};
+  if (precision == Precision::fixed) key.fixed_white_light = fixed_scale(plan).white_light;
+  if (const DeviceLight* kept = light_.find([&](const DeviceLight& each) { return each.key == key; })) {
+    memory.count(kept->bytes());
+    return *kept;
+  }
+  const LightSource source = light_source(capture, precision, permutes_pieces);
+  const Bytes values = light_values(source, precision, key.fixed_white_light);
+  return light_.keep({key, source.kind, memory.upload(values), values.size()});
+}
+
+const DeviceCodes& KernelConstants::codes(const CodeKey& key, DeviceMemory& memory) {
+  if (const DeviceCodes* kept = codes_.find([&](const DeviceCodes& each) { return each.key == key; })) {
+    memory.count(kept->bytes());
+    return *kept;
+  }
+  const CodeTables tables = code_tables(key);
+  return codes_.keep({key, memory.upload(tables.thresholds), memory.upload(tables.guesses),
+                      static_cast<cl_uint>(tables.guesses.size()),
+                      tables.thresholds.size() + tables.guesses.size() * sizeof(std::uint32_t)});
+}
+
+const DeviceMap& KernelConstants::map(const std::shared_ptr<const MaskMap>& map, const Band& band,
+                                      DeviceMemory& memory, std::uint64_t& written_bytes) {
+  const DeviceMap* const kept =
+      maps_.find([&](const DeviceMap& each) { return each.map == map && each.band == band; });
+  if (kept != nullptr) {
+    memory.count(kept->bytes());
+    return *kept;
+  }
+  const FunctionMap functions = map_functions(*map, band);
+  const DeviceMap& made =
+      maps_.keep({map, band, memory.upload(functions.of_lane), memory.upload(functions.of_tile)});
+  written_bytes += made.bytes();
+  return made;
+}
+
+}  // namespace nutik

@@ -1,0 +1,79 @@
+// What kernels look up beside gain tables, on the device from one exposure to the next: light of codes, codes of light,
+// each pixel's function.
+//
+//   always:  made again only for another capture's codes, another picture's format, another mask or rectangle
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "opencl/allocation_cuts.hpp"
+#include "opencl/device_memory.hpp"
+#include "opencl/kernel_tables.hpp"
+#include "opencl/opencl_api.hpp"
+#include "opencl/recent.hpp"
+#include "render/mask_map.hpp"
+
+namespace nutik {
+
+// Light of a capture's codes.
+struct LightKey {
+  Transfer transfer = Transfer::linear();
+  std::uint32_t code_bytes = 1;
+  std::uint32_t white_code = 255;
+  Precision precision = Precision::single_;
+  std::uint64_t fixed_white_light = 0;
+  friend bool operator==(const LightKey&, const LightKey&) = default;
+};
+struct DeviceLight {
+  LightKey key;
+  const char* kind = nullptr;  // LightSource::kind
+  cl::Buffer values;
+  std::uint64_t value_bytes = 0;
+  [[nodiscard]] std::uint64_t bytes() const { return value_bytes; }
+};
+
+// Codes of a picture's light.
+struct DeviceCodes {
+  CodeKey key;
+  cl::Buffer thresholds;
+  cl::Buffer guesses;
+  cl_uint guess_count = 0;
+  std::uint64_t table_bytes = 0;
+  [[nodiscard]] std::uint64_t bytes() const { return table_bytes; }
+};
+
+// A band's functions (function_map.hpp).
+struct DeviceMap {
+  std::shared_ptr<const MaskMap> map;
+  Band band;
+  cl::Buffer of_lane;
+  cl::Buffer of_tile;
+  [[nodiscard]] std::uint64_t bytes() const {
+    return band.tile_count * (kTilePixels + sizeof(std::uint16_t));
+  }
+};
+
+class KernelConstants {
+ public:
+  // Maps of `most_map_bytes` are kept.
+  explicit KernelConstants(std::uint64_t most_map_bytes) : maps_(most_map_bytes) {}
+
+  // `permutes_pieces` as for light_source(). What is returned counts in `memory`; it stays until the next of its kind is asked for.
+  const DeviceLight& light(const RenderPlan& plan, Precision precision, bool permutes_pieces,
+                           DeviceMemory& memory);
+  const DeviceCodes& codes(const CodeKey& key, DeviceMemory& memory);
+  // Adds to `written_bytes` what had to be written.
+  const DeviceMap& map(const std::shared_ptr<const MaskMap>& map, const Band& band, DeviceMemory& memory,
+                       std::uint64_t& written_bytes);
+
+ private:
+  static constexpr std::uint64_t kTableBytes = 32u << 20;  // of light, and of codes
+
+  Recent<DeviceLight> light_{kTableBytes};
+  Recent<DeviceCodes> codes_{kTableBytes};
+  Recent<DeviceMap> maps_;
+};
+
+}  // namespace nutik

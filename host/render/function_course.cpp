@@ -1,0 +1,61 @@
+#include "render/function_course.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nutik {
+namespace {
+
+// A number as the kernel's table holds it.
+double as_single(double number) { return static_cast<float>(number); }
+double as_pair(double number) {
+  const double high = as_single(number);
+  return high + as_single(number - high);
+}
+
+}  // namespace
+
+double FunctionCourse::boundary_errors(Precision precision) const {
+  switch (precision) {
+    case Precision::single_: return single_boundary_errors;
+    case Precision::compensated: return pair_boundary_errors;
+    case Precision::double_:
+    case Precision::fixed: break;
+  }
+  return 0.0;
+}
+
+void CourseMeter::Extent::add(double weight) { (weight > 0.0 ? above : below) += std::fabs(weight); }
+double CourseMeter::Extent::largest() const { return std::max(above, below); }
+
+void CourseMeter::add(const BlockTable& table) {
+  if (table.weights.empty()) return;
+  Extent block;
+  for (std::size_t i = 0; i < table.weights.size(); ++i) {
+    const double weight = table.weights[i];
+    const double boundary = table.boundaries[i + 1];
+    block.add(weight);
+    magnitude_.add(std::fabs(weight));
+    course_.partial_sums += block.largest();
+    course_.boundaries += std::fabs(boundary);
+    course_.single_boundary_errors += std::fabs(boundary - as_single(boundary));
+    course_.pair_boundary_errors += std::fabs(boundary - as_pair(boundary));
+    course_.weight_count += weight != 0.0;
+  }
+  capture_.above += block.above;
+  capture_.below += block.below;
+  if (course_.block_count > 0) course_.block_sums += capture_.largest();
+  course_.longest_block = std::max(course_.longest_block, static_cast<double>(table.weights.size()));
+  course_.block_count += 1;
+  course_.sample_count += static_cast<double>(table.weights.size());
+}
+
+FunctionCourse CourseMeter::course() const {
+  FunctionCourse course = course_;
+  course.magnitude = capture_.above + capture_.below;
+  course.extent = capture_.largest();
+  course.compensated_magnitude = magnitude_.value();
+  return course;
+}
+
+}  // namespace nutik

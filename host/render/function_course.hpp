@@ -1,0 +1,54 @@
+// What the sums of one function can come to over a capture: what error bounds and the scales of whole numbers are
+// made of. It depends on the function's table alone.
+#pragma once
+
+#include <cstdint>
+
+#include "exposure/compensated_sum.hpp"
+#include "render/gain_table.hpp"
+#include "render/precision.hpp"
+
+namespace nutik {
+
+// Sums are of light · weight, over all light in [0, 1].
+struct FunctionCourse {
+  double magnitude = 0.0;              // Σ|w|
+  double extent = 0.0;                 // the largest that the whole sum can be
+  double partial_sums = 0.0;           // Σ over samples: the same of their block's sum up to them
+  double block_sums = 0.0;             // Σ over blocks but the first: the same of all up to their ends
+  double boundaries = 0.0;             // Σ|B|
+  double longest_block = 0.0;          // in live samples
+  double block_count = 0.0;            // with live samples
+  double sample_count = 0.0;           // live
+  std::uint64_t weight_count = 0;      // that are not 0
+  double compensated_magnitude = 0.0;  // Σ|w|, without the error of a running sum
+
+  // Σ of what the kernel's table misses of each boundary.
+  [[nodiscard]] double boundary_errors(Precision precision) const;
+
+  double single_boundary_errors = 0.0;
+  double pair_boundary_errors = 0.0;
+};
+
+// Goes through a table, block by block in time order.
+class CourseMeter {
+ public:
+  void add(const BlockTable& table);
+  [[nodiscard]] FunctionCourse course() const;
+
+ private:
+  // Between what a sum can lie for light in [0, 1]: -below … above.
+  struct Extent {
+    double above = 0.0;
+    double below = 0.0;
+
+    void add(double weight);
+    [[nodiscard]] double largest() const;
+  };
+
+  FunctionCourse course_;
+  Extent capture_;
+  CompensatedSum magnitude_;
+};
+
+}  // namespace nutik

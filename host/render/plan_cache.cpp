@@ -1,0 +1,133 @@
+#include "render/plan_cache.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/mask_check.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::size_t kKeptMaps = 4;
+constexpr std::size_t kKeptTables = 4 * kMaskValues;  // their numbers count in bytes besides
+
+// The first of a list that `is_it`, which becomes the list's first; null if there is none.
+template <typename Part, typename Is>
+std::shared_ptr<const Part> find_recent(std::list<std::shared_ptr<const Part>>& parts, Is is_it) {
+  const auto found = std::ranges::find_if(parts, [&](const auto& part) { return is_it(*part); });
+  if (found == parts.end()) return nullptr;
+  parts.splice(parts.begin(), parts, found);
+  return parts.front();
+}
+
+template <typename Part>
+std::shared_ptr<const Part> keep(std::list<std::shared_ptr<const Part>>& parts,
+                                 std::shared_ptr<const Part> made, std::size_t most) {
+  parts.push_front(std::move(made));
+  if (parts.size() > most) parts.pop_back();
+  return parts.front();
+}
+
+void check_mapped(const FunctionSet& functions, const std::vector<MaskRegion>& regions) {
+  std::array<std::uint64_t, kMaskValues> pixels{};
+  std::array<bool, kMaskValues> is_mapped{};
+  for (const MaskRegion& region : regions) pixels[region.tag] = region.pixel_count;
+  for (const auto& [tag, function] : functions) is_mapped[tag] = true;
+  if (const std::string mistake = unmapped_mistake(pixels, is_mapped); !mistake.empty()) {
+    throw InputError(mistake);
+  }
+}
+
+void warn(RenderPlan& plan, const PlannedFunction& function, bool was_unmapped,
+          const std::string& function_name) {
+  const std::string name = function_name.empty() ? format("M{}", function.tag) : function_name;
+  for (const FunctionFinding& finding : function.table->findings()) {
+    if (finding.kind == FunctionFinding::Kind::zero_everywhere && was_unmapped) continue;  // as it was asked
+    plan.warnings.push_back(format("{}: {}", name, finding.message));
+  }
+}
+
+void plan_blocks(RenderPlan& plan) {
+  std::uint64_t row = 0;
+  for (std::uint64_t block = 0; block < plan.layout->blocks.size(); ++block) {
+    const BlockExtent& extent = plan.layout->blocks[block];
+    const bool is_live = std::ranges::any_of(plan.functions, [&](const PlannedFunction& function) {
+      return function.live.first < extent.range().last && extent.first_sample < function.live.last;
+    });
+    if (!is_live) continue;
+    plan.blocks.push_back({block, extent, row});
+    row += plan.blocks.back().row_count();
+  }
+}
+
+}  // namespace
+
+PlanCache::PlanCache(std::uint64_t table_bytes) : memory_(std::make_shared<TableMemory>(table_bytes)) {}
+
+RenderPlan PlanCache::plan(const CaptureSource& source, const FunctionSet& functions, const Mask& mask,
+                           const PlanOptions& options) {
+  RenderPlan plan;
+  plan.capture = source.format();
+  if (options.transfer) plan.capture.transfer = *options.transfer;
+  if (const std::string mistake = size_mistake(mask, plan.capture.shape); !mistake.empty()) {
+    throw InputError(mistake);
+  }
+  plan.map = map_of(mask);
+  if (!options.unmapped_is_zero) check_mapped(functions, plan.map->regions);
+  plan.layout = layout_of(source);
+  plan.duration_ns = plan.layout->timeline.duration_ns();
+  const GainFunction zero({{0, 0.0}});
+  for (const MaskRegion& region : plan.map->regions) {
+    const auto found = functions.find(region.tag);
+    const bool unmapped = found == functions.end();
+    auto table = table_of(unmapped ? zero : found->second, options.live_all, plan.layout);
+    plan.functions.push_back({region.tag, table->function(), table->summary(), table->live(),
+                              region.pixel_count, std::move(table)});
+    warn(plan, plan.functions.back(), unmapped, options.function_name);
+  }
+  plan_blocks(plan);
+  return plan;
+}
+
+PlanStatistics PlanCache::statistics() const {
+  const std::scoped_lock lock(mutex_);
+  return {memory_->runs_made(), maps_made_, memory_->bytes()};
+}
+
+std::shared_ptr<const CaptureLayout> PlanCache::layout_of(const CaptureSource& source) {
+  const std::scoped_lock lock(mutex_);
+  if (!layout_ || !layout_->is_of(source)) {
+    layout_ = CaptureLayout::of(source);
+    tables_.clear();
+  }
+  return layout_;
+}
+
+std::shared_ptr<const MaskMap> PlanCache::map_of(const Mask& mask) {
+  const std::scoped_lock lock(mutex_);
+  if (auto kept = find_recent(maps_, [&](const MaskMap& map) { return map.is_of(mask); })) return kept;
+  ++maps_made_;
+  return keep(maps_, MaskMap::of(mask), kKeptMaps);
+}
+
+std::shared_ptr<const GainTable> PlanCache::table_of(const GainFunction& function, bool live_all,
+                                                     const std::shared_ptr<const CaptureLayout>& layout) {
+  const std::scoped_lock lock(mutex_);
+  const auto make = [&] { return std::make_shared<const GainTable>(function, live_all, layout, memory_); };
+  if (layout != layout_) return make();  // another thread asked for another capture meanwhile
+  if (auto kept = find_recent(tables_, [&](const GainTable& table) {
+        return table.is_live_everywhere() == live_all && table.function() == function;
+      })) {
+    return kept;
+  }
+  return keep(tables_, make(), kKeptTables);
+}
+
+RenderPlan make_plan(const CaptureSource& source, const FunctionSet& functions, const Mask& mask,
+                     const PlanOptions& options) {
+  return PlanCache().plan(source, functions, mask, options);
+}
+
+}  // namespace nutik
