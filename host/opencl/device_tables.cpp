@@ -32,30 +32,36 @@ std::uint64_t DeviceTables::Slice::bytes() const {
   return columns.size() * (2 * row_count * weight_bytes(precision) + blocks.size() * sizeof(SampleSpan));
 }
 
+std::vector<DeviceTables::Column> DeviceTables::columns_of(const RenderPlan& plan, Precision precision) {
+  std::vector<Column> columns;
+  for (const PlannedFunction& function : plan.functions) columns.push_back({function.table, 0});
+  if (precision == Precision::fixed) {
+    const FixedScale scale = fixed_scale(plan);
+    for (std::size_t f = 0; f < columns.size(); ++f) columns[f].exponent = scale.exponents[f];
+  }
+  return columns;
+}
+
 SliceTables DeviceTables::slice(const RenderPlan& plan, const TableSlice& slice, Precision precision,
                                 DeviceMemory& memory, std::uint64_t& written_bytes) {
   Slice& kept = slice_for(plan, slice, precision, memory);
-  const FixedScale scale = precision == Precision::fixed ? fixed_scale(plan) : FixedScale{};
+  std::vector<Column> wanted = columns_of(plan, precision);
   std::vector<std::size_t> stale;
-  for (std::size_t f = 0; f < plan.functions.size(); ++f) {
-    Column column{plan.functions[f].table, scale.exponents.empty() ? 0 : scale.exponents[f]};
-    if (kept.columns[f] == column) continue;
-    kept.columns[f] = {};  // until it is written
-    stale.push_back(f);
+  for (std::size_t f = 0; f < wanted.size(); ++f) {
+    if (kept.columns[f] != wanted[f]) stale.push_back(f);
   }
   if (stale.empty()) return kept.tables;
+  for (const std::size_t f : stale) kept.columns[f] = {};  // until they are written
+  const std::uint64_t column_bytes = kept.bytes() / wanted.size();
   // Columns are written with gaps, which a device may do slowly.
-  const bool is_mostly_stale = 4 * stale.size() > kept.columns.size();
-  if (is_mostly_stale) {
-    write_all(plan, slice, kept);
+  if (4 * stale.size() > wanted.size()) {
+    write_all(plan, slice, wanted, kept);
+    written_bytes += kept.bytes();
   } else {
-    for (const std::size_t f : stale) write_column(plan, slice, f, kept);
+    for (const std::size_t f : stale) write_column(plan, slice, f, wanted[f], kept);
+    written_bytes += stale.size() * column_bytes;
   }
-  for (const std::size_t f : stale) {
-    kept.columns[f] = {plan.functions[f].table, scale.exponents.empty() ? 0 : scale.exponents[f]};
-  }
-  written_bytes +=
-      kept.bytes() / kept.columns.size() * (is_mostly_stale ? kept.columns.size() : stale.size());
+  kept.columns = std::move(wanted);
   return kept.tables;
 }
 
@@ -80,17 +86,16 @@ DeviceTables::Slice& DeviceTables::slice_for(const RenderPlan& plan, const Table
   return recent_.keep(std::move(made));
 }
 
-void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice, Slice& to) {
+void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice, std::span<const Column> columns,
+                             Slice& to) {
   const std::uint64_t functions = plan.function_count();
   const std::size_t number = weight_bytes(to.precision);
-  const FixedScale scale = to.precision == Precision::fixed ? fixed_scale(plan) : FixedScale{};
   Bytes weights(to.row_count * functions * number), boundaries(weights.size());
   std::vector<SampleSpan> spans(to.blocks.size() * functions);
   const auto pack = [&](std::uint64_t f) {
-    const GainTable& table = *plan.functions[f].table;
-    pack_column(table, plan, slice, to.precision, scale.exponents.empty() ? 0 : scale.exponents[f],
+    pack_column(*columns[f].table, plan, slice, to.precision, columns[f].exponent,
                 {weights.data() + f * number, boundaries.data() + f * number, functions * number});
-    const std::vector<SampleSpan> of_function = spans_of(table, plan, slice);
+    const std::vector<SampleSpan> of_function = spans_of(*columns[f].table, plan, slice);
     for (std::size_t b = 0; b < of_function.size(); ++b) spans[b * functions + f] = of_function[b];
   };
   if (to.row_count * functions >= kManyNumbers) {
@@ -104,14 +109,12 @@ void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice, Sl
 }
 
 void DeviceTables::write_column(const RenderPlan& plan, const TableSlice& slice, std::size_t function,
-                                Slice& to) {
+                                const Column& column, Slice& to) {
   const std::size_t number = weight_bytes(to.precision);
-  const FixedScale scale = to.precision == Precision::fixed ? fixed_scale(plan) : FixedScale{};
-  const GainTable& table = *plan.functions[function].table;
   Bytes weights(to.row_count * number), boundaries(weights.size());
-  pack_column(table, plan, slice, to.precision, scale.exponents.empty() ? 0 : scale.exponents[function],
+  pack_column(*column.table, plan, slice, to.precision, column.exponent,
               {weights.data(), boundaries.data(), number});
-  const std::vector<SampleSpan> spans = spans_of(table, plan, slice);
+  const std::vector<SampleSpan> spans = spans_of(*column.table, plan, slice);
   const auto write = [&](const cl::Buffer& buffer, std::size_t element, std::uint64_t rows,
                          const void* from) {
     queue_.enqueueWriteBufferRect(buffer, CL_TRUE, {function * element, 0, 0}, {0, 0, 0}, {element, rows, 1},

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -57,8 +58,10 @@ class DeviceTables {
 
   Slice& slice_for(const RenderPlan& plan, const TableSlice& slice, Precision precision,
                    DeviceMemory& memory);
-  void write_all(const RenderPlan& plan, const TableSlice& slice, Slice& to);
-  void write_column(const RenderPlan& plan, const TableSlice& slice, std::size_t function, Slice& to);
+  static std::vector<Column> columns_of(const RenderPlan& plan, Precision precision);
+  void write_all(const RenderPlan& plan, const TableSlice& slice, std::span<const Column> columns, Slice& to);
+  void write_column(const RenderPlan& plan, const TableSlice& slice, std::size_t function,
+                    const Column& column, Slice& to);
 
   cl::CommandQueue queue_;
   Recent<Slice> recent_;

@@ -7,7 +7,7 @@
 namespace nutik {
 
 FunctionMap map_functions(const MaskMap& map, const Band& band) {
-  const TileGrid grid({map.mask.width, map.mask.height, 1});
+  const TileGrid grid({map.width, map.height, 1});
   FunctionMap functions;
   functions.of_lane.resize(band.tile_count * kTilePixels);
   functions.of_tile.resize(band.tile_count);

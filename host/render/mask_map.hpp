@@ -20,14 +20,13 @@ struct MaskRegion {
 [[nodiscard]] std::vector<MaskRegion> regions_of(const Mask& mask);
 
 struct MaskMap {
-  Mask mask;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
   std::vector<MaskRegion> regions;            // at most 256
   std::vector<std::uint8_t> region_of_pixel;  // index into regions, row by row
 
   [[nodiscard]] static std::shared_ptr<const MaskMap> of(const Mask& mask);
-  [[nodiscard]] bool is_of(const Mask& other) const {
-    return mask.width == other.width && mask.height == other.height && mask.tags == other.tags;
-  }
+  [[nodiscard]] bool is_of(const Mask& mask) const;
 };
 
 }  // namespace nutik

@@ -10,7 +10,7 @@
 namespace nutik {
 namespace {
 
-constexpr std::size_t kKeptMaps = 4;
+constexpr std::size_t kKeptMaps = 2;
 constexpr std::size_t kKeptTables = 4 * kMaskValues;  // their numbers count in bytes besides
 
 // The first of a list that `is_it`, which becomes the list's first; null if there is none.

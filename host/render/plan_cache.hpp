@@ -28,7 +28,7 @@ class PlanCache {
   static constexpr std::uint64_t kTableBytes = 256u << 20;
 
   // `table_bytes` is what the tables of functions may take between exposures; what does not fit is made again. Maps
-  // come on top: of four masks, two bytes a pixel each.
+  // come on top: of two masks, a byte a pixel each.
   explicit PlanCache(std::uint64_t table_bytes = kTableBytes);
 
   // As make_plan(), which it stands behind.

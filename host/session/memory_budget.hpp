@@ -22,6 +22,8 @@ struct MemoryBudget {
   [[nodiscard]] std::uint64_t read_ahead_bytes() const {
     return std::min<std::uint64_t>(64 << 20, bytes / 8);
   }
+  // Of tables that plans have in common.
+  [[nodiscard]] std::uint64_t table_bytes() const { return bytes / 32; }
   // Of blocks where a device reads them.
   [[nodiscard]] std::uint64_t rendering_bytes() const { return bytes / 2; }
 
