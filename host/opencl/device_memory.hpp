@@ -14,11 +14,11 @@ namespace nutik {
 
 class DeviceMemory {
  public:
-  DeviceMemory(cl::Context context, cl::CommandQueue queue, const DeviceInfo& device)
-      : context_(std::move(context)), queue_(std::move(queue)), device_(device) {}
+  DeviceMemory(cl::Context context, const DeviceInfo& device)
+      : context_(std::move(context)), device_(device) {}
 
   // Throws DeviceError where the device allocates less at a time.
-  [[nodiscard]] cl::Buffer allocate(std::uint64_t bytes, cl_mem_flags flags);
+  [[nodiscard]] cl::Buffer allocate(std::uint64_t bytes, cl_mem_flags flags, const void* from = nullptr);
 
   // A read-only buffer with these values. Never of no bytes: OpenCL has no such thing.
   template <typename Values>
@@ -52,7 +52,6 @@ class DeviceMemory {
   cl::Buffer upload_bytes(std::span<const std::byte> bytes);
 
   cl::Context context_;
-  cl::CommandQueue queue_;
   const DeviceInfo& device_;
   std::uint64_t held_bytes_ = 0;
   std::uint64_t most_bytes_ = 0;

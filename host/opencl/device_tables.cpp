@@ -103,8 +103,9 @@ void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice, st
   } else {
     for (std::uint64_t f = 0; f < functions; ++f) pack(f);
   }
-  queue_.enqueueWriteBuffer(to.tables.weights, CL_TRUE, 0, weights.size(), weights.data());
-  queue_.enqueueWriteBuffer(to.tables.boundaries, CL_TRUE, 0, boundaries.size(), boundaries.data());
+  // In order: the last is waited for.
+  queue_.enqueueWriteBuffer(to.tables.weights, CL_FALSE, 0, weights.size(), weights.data());
+  queue_.enqueueWriteBuffer(to.tables.boundaries, CL_FALSE, 0, boundaries.size(), boundaries.data());
   queue_.enqueueWriteBuffer(to.tables.spans, CL_TRUE, 0, spans.size() * sizeof(SampleSpan), spans.data());
 }
 
@@ -115,14 +116,14 @@ void DeviceTables::write_column(const RenderPlan& plan, const TableSlice& slice,
   pack_column(*column.table, plan, slice, to.precision, column.exponent,
               {weights.data(), boundaries.data(), number});
   const std::vector<SampleSpan> spans = spans_of(*column.table, plan, slice);
-  const auto write = [&](const cl::Buffer& buffer, std::size_t element, std::uint64_t rows,
-                         const void* from) {
-    queue_.enqueueWriteBufferRect(buffer, CL_TRUE, {function * element, 0, 0}, {0, 0, 0}, {element, rows, 1},
-                                  plan.function_count() * element, 0, element, 0, from);
+  const auto write = [&](const cl::Buffer& buffer, std::size_t element, std::uint64_t rows, const void* from,
+                         bool waits) {
+    queue_.enqueueWriteBufferRect(buffer, waits ? CL_TRUE : CL_FALSE, {function * element, 0, 0}, {0, 0, 0},
+                                  {element, rows, 1}, plan.function_count() * element, 0, element, 0, from);
   };
-  write(to.tables.weights, number, to.row_count, weights.data());
-  write(to.tables.boundaries, number, to.row_count, boundaries.data());
-  write(to.tables.spans, sizeof(SampleSpan), to.blocks.size(), spans.data());
+  write(to.tables.weights, number, to.row_count, weights.data(), false);
+  write(to.tables.boundaries, number, to.row_count, boundaries.data(), false);
+  write(to.tables.spans, sizeof(SampleSpan), to.blocks.size(), spans.data(), true);
 }
 
 }  // namespace nutik

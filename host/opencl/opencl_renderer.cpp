@@ -103,7 +103,7 @@ class OpenClRenderer::Implementation {
     const Work work = work_for(choose(plan, output, options_.precision).precision());
     const std::scoped_lock turn(turn_);
     try {
-      DeviceMemory memory(context_, queue_, info_);
+      DeviceMemory memory(context_, info_);
       if (!plan.blocks.empty()) expose_program(work, plan, light_of(work, plan, memory));
       develop_program(work, plan, output);
     } catch (const cl::Error& error) {
@@ -123,7 +123,7 @@ class OpenClRenderer::Implementation {
     const Work work = work_for(rendered.precision);
     const std::scoped_lock turn(turn_);
     try {
-      DeviceMemory memory(context_, queue_, info_);
+      DeviceMemory memory(context_, info_);
       const std::vector<ExposedBand> bands = expose(work, request, memory, rendered.statistics);
       throw_if_cancelled(request.control);
       Developer developer(work, plan, request.output, request.rectangle,
