@@ -9,6 +9,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/expected_values.hpp"
+#include "render/plan_cache.hpp"
 #include "session/clip_source.hpp"
 #include "session/forward_clip.hpp"
 #include "session/scratch_capture.hpp"
@@ -70,13 +71,18 @@ class Session::Implementation {
   std::optional<ClipSource> clip_;
   std::optional<Timeline> announced_;
 
+  PlanCache plans_;
   std::once_flag warmed_up_;
   std::atomic<bool> is_spent_ = false;
 };
 
 Session::Implementation::Implementation(const SourceRequest& source, std::shared_ptr<Devices> devices,
                                         const Terms& terms)
-    : source_(source), devices_(std::move(devices)), reading_(terms.reading), is_clip_(!is_tik(source.path)) {
+    : source_(source),
+      devices_(std::move(devices)),
+      reading_(terms.reading),
+      is_clip_(!is_tik(source.path)),
+      plans_(memory().table_bytes()) {
   if (!is_clip_) {
     if (source.describes_clip()) {
       throw UsageError(nutik::format(
@@ -106,8 +112,8 @@ tik::Reader& Session::Implementation::capture() {
 }
 
 RenderPlan Session::Implementation::plan(const ExposureRequest& request) {
-  return make_plan(capture(), functions_of(request, timeline()), mask_of(request, format_.shape),
-                   plan_options_of(request));
+  return plans_.plan(capture(), functions_of(request, timeline()), mask_of(request, format_.shape),
+                     plan_options_of(request));
 }
 
 // A device that is still starting loads its kernels beside the first block.
@@ -123,7 +129,7 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
                                                const Mask& mask, const PlanOptions& options,
                                                const OutputFormat& output, const RenderControl& control) {
   throw_if_cancelled(control);
-  RenderPlan plan = make_plan(source, functions, mask, options);
+  RenderPlan plan = plans_.plan(source, functions, mask, options);
   std::call_once(warmed_up_, [&] { warm_up(source, plan, output); });
   if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());
   Rendered rendered = devices_->renderer().render(plan, source, output, control);
