@@ -68,14 +68,16 @@ SliceTables DeviceTables::slice(const RenderPlan& plan, const TableSlice& slice,
 DeviceTables::Slice& DeviceTables::slice_for(const RenderPlan& plan, const TableSlice& slice,
                                              Precision precision, DeviceMemory& memory) {
   const std::uint64_t functions = plan.function_count();
+  const std::uint64_t row_count = slice.last_row - slice.first_row;
   Slice* const kept = recent_.find([&](const Slice& each) {
-    return each.precision == precision && each.columns.size() == functions && is_of(each.blocks, plan, slice);
+    return each.precision == precision && each.columns.size() == functions && each.row_count == row_count &&
+           is_of(each.blocks, plan, slice);
   });
   if (kept != nullptr) {
     memory.count(kept->bytes());
     return *kept;
   }
-  Slice made{precision, {}, slice.last_row - slice.first_row, {}, {}};
+  Slice made{precision, {}, row_count, {}, {}};
   for (std::size_t b = slice.first_block; b < slice.last_block; ++b)
     made.blocks.push_back(plan.blocks[b].block);
   made.columns.resize(functions);

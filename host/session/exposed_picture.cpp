@@ -14,6 +14,7 @@ ExposureFigures ExposureFigures::of(RenderPlan&& plan, const Timeline& timeline,
   figures.table_bytes = 2 * plan.row_count() * plan.function_count() * sizeof(double);
   figures.map_bytes = plan.map->region_of_pixel.size();
   figures.functions = std::move(plan.functions);
+  for (PlannedFunction& function : figures.functions) function.table.reset();  // its memory is the session's
   return figures;
 }
 

@@ -16,7 +16,7 @@ namespace nutik {
 struct ExposureFigures {
   CaptureFormat capture;
   Timeline timeline;                       // of a clip that was read once, as it turned out to be
-  std::vector<PlannedFunction> functions;  // that the mask uses, by increasing mask value
+  std::vector<PlannedFunction> functions;  // that the mask uses, by increasing mask value; without tables
   std::uint64_t live_samples = 0;          // that some function needs
   SampleRange read;                        // whole blocks
   std::uint64_t blocks_read = 0;

@@ -61,7 +61,6 @@ class Session::Implementation {
 
   SourceRequest source_;
   std::shared_ptr<Devices> devices_;
-  PlanCache plans_;
   Reading reading_;
   bool is_clip_;
   CaptureFormat format_;
@@ -72,7 +71,7 @@ class Session::Implementation {
   std::optional<ClipSource> clip_;
   std::optional<Timeline> announced_;
 
-  PlanCache plans_{memory().table_bytes()};
+  PlanCache plans_;
   std::once_flag warmed_up_;
   std::atomic<bool> is_spent_ = false;
 };
@@ -81,9 +80,9 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
                                         const Terms& terms)
     : source_(source),
       devices_(std::move(devices)),
-      plans_(memory().table_bytes()),
       reading_(terms.reading),
-      is_clip_(!is_tik(source.path)) {
+      is_clip_(!is_tik(source.path)),
+      plans_(memory().table_bytes()) {
   if (!is_clip_) {
     if (source.describes_clip()) {
       throw UsageError(nutik::format(
