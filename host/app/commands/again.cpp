@@ -2,7 +2,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/output/console.hpp"
-#include "app/output/picture_recipe.hpp"
+#include "app/requests/recipe_words.hpp"
 #include "app/text/message_text.hpp"
 #include "app/text/shell_text.hpp"
 #include "session/error.hpp"

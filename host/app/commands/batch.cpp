@@ -13,13 +13,13 @@
 #include "app/output/console.hpp"
 #include "app/output/exposure_report.hpp"
 #include "app/output/exposure_tally.hpp"
-#include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
-#include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/requests/computing_words.hpp"
 #include "app/requests/exposure_words.hpp"
+#include "app/requests/output_words.hpp"
+#include "app/requests/recipe_words.hpp"
 #include "app/text/message_text.hpp"
 #include "app/text/shell_text.hpp"
 #include "session/error.hpp"
@@ -124,7 +124,8 @@ class Batch {
         throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
       }
       Session& session = session_of(line.operands.front());
-      ExposedPicture exposed = session.render(request, output_format(line, output, session.format()));
+      ExposedPicture exposed =
+          session.render(request, output_format(output_request(line), output, session.format()));
       tally_.add(exposed);
       for (const std::string& warning : exposure_warnings(exposed)) {
         print_warning(format("{}:{}: {}", list_name_, listed.line, warning));
@@ -155,7 +156,7 @@ class Batch {
   std::string recipe_text(const Options& line) {
     if (line.no_recipe) return {};
     if (!capture_checksum_) capture_checksum_ = capture_checksum(session_->source().path.string());
-    return PictureRecipe(line, capture_checksum_).text(tally_.precision());
+    return PictureRecipe(recipe_sources(line, capture_checksum_)).text(tally_.precision());
   }
 
   // Lines mostly expose one capture, or one after another: the last one stays open.

@@ -6,12 +6,12 @@
 #include "app/output/console.hpp"
 #include "app/output/ending.hpp"
 #include "app/output/exposure_report.hpp"
-#include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
-#include "app/output/picture_recipe.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/requests/computing_words.hpp"
 #include "app/requests/exposure_words.hpp"
+#include "app/requests/output_words.hpp"
+#include "app/requests/recipe_words.hpp"
 #include "app/text/timing_text.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
@@ -32,9 +32,10 @@ int run_expose(const Options& options) {
   const std::filesystem::path output = stated ? *stated : picture_name(input, exposure_label(options));
   check_output(output, OutputKind::picture, input_files(options));
 
-  PictureRecipe recipe(options);
+  PictureRecipe recipe(recipe_sources(options));
   Session session = open_session(input, options, devices, Reading::forward);
-  const ExposedPicture exposed = session.render(request, output_format(options, output, session.format()));
+  const ExposedPicture exposed =
+      session.render(request, output_format(output_request(options), output, session.format()));
   ExposureTally tally;
   tally.add(exposed);
   for (const std::string& warning : exposure_warnings(exposed)) print_warning(warning);

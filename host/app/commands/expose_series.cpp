@@ -8,13 +8,13 @@
 #include "app/output/console.hpp"
 #include "app/output/ending.hpp"
 #include "app/output/exposure_report.hpp"
-#include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
-#include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/requests/computing_words.hpp"
 #include "app/requests/exposure_words.hpp"
+#include "app/requests/output_words.hpp"
+#include "app/requests/recipe_words.hpp"
 #include "app/text/message_text.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
@@ -74,11 +74,11 @@ int expose_series(const Options& options) {
   check_output(names[0], OutputKind::picture, inputs);  // before a clip is read
   const std::shared_ptr<Devices> devices = make_devices(options);
   devices->start();
-  PictureRecipe recipe(options);
+  PictureRecipe recipe(recipe_sources(options));
   Session session = open_session(input, options, devices);
   const std::vector<StatedTime> starts = starts_of(series, request, session.timeline());
   for (std::uint64_t k = 1; k < starts.size(); ++k) check_output(names[k], OutputKind::picture, inputs);
-  const OutputFormat format_of_all = output_format(options, names[0], session.format());
+  const OutputFormat format_of_all = output_format(output_request(options), names[0], session.format());
 
   const Stopwatch stopwatch;
   Progress progress("exposing", starts.size(), options.quiet);

@@ -8,18 +8,18 @@
 #include "app/output/exposure_report.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
-#include "app/output/picture_recipe.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/shared_warnings.hpp"
 #include "app/output/sheet_exposures.hpp"
 #include "app/output/stopwatch.hpp"
-#include "app/output/swept_recipe.hpp"
 #include "app/requests/exposure_words.hpp"
+#include "app/requests/recipe_words.hpp"
 #include "app/requests/sweep_words.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/pictures.hpp"
 #include "session/size_text.hpp"
+#include "session/swept_recipe.hpp"
 
 namespace nutik::app {
 namespace {
@@ -85,8 +85,7 @@ int run_sweep(const Options& options) {
       layout, format("{}: {}, {}", std::filesystem::path(options.operands.front()).filename().string(),
                      exposure_label(options), counted(points.size(), "picture")));
   SheetExposures exposing(options, session, mask_of(request, shape), plan_options_of(request));
-  std::optional<PictureRecipe> recipe;  // of single pictures
-  if (!singles.empty() && !options.no_recipe) recipe.emplace(options);
+  PictureRecipe recipe(singles.empty() ? std::nullopt : recipe_sources(options));  // of single pictures
   SharedWarnings warnings;
   {
     Progress progress("exposing", points.size(), options.quiet);
@@ -99,9 +98,9 @@ int run_sweep(const Options& options) {
       sheet.add(label, exposed.picture, exposing.transfer());
       if (singles.empty()) continue;
       std::string text;
-      if (recipe) {
+      if (!options.no_recipe) {
         const auto own = swept_recipe(changed, request, timeline, singles[i].stem().string() + ".fn");
-        if (own) text = recipe->text(exposing.tally().precision(), *own);
+        if (own) text = recipe.text(exposing.tally().precision(), *own);
         if (!own) warnings.add(singles[i].string(), std::array{std::string(kNoRecipe)});
       }
       write_picture(singles[i], exposed.picture, text);

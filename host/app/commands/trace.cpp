@@ -8,7 +8,6 @@
 #include "app/output/console.hpp"
 #include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
-#include "app/output/trace_picture.hpp"
 #include "app/requests/exposure_words.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/trace_text.hpp"
@@ -17,6 +16,7 @@
 #include "session/pictures.hpp"
 #include "session/session.hpp"
 #include "session/time_text.hpp"
+#include "session/trace_picture.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {

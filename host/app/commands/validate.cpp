@@ -2,10 +2,10 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/json.hpp"
-#include "app/output/output_format.hpp"
 #include "app/output/progress.hpp"
 #include "app/requests/computing_words.hpp"
 #include "app/requests/exposure_words.hpp"
+#include "app/requests/output_words.hpp"
 #include "app/requests/source_words.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/validation_text.hpp"
@@ -65,7 +65,7 @@ int run_validate(const Options& options) {
   const std::string device = devices->opencl().name();  // refused before a clip is read
   Session session = open_session(input, options_of_capture(options), devices);
   const Shape& shape = session.format().shape;
-  const OutputFormat output = output_format(options, session.format());
+  const OutputFormat output = output_format(output_request(options), session.format());
   const auto [validation, figures, warnings] =
       session.validate(request, output, runs, progress_bar("rendering", options.quiet));
   for (const std::string& warning : warnings) print_warning(warning);

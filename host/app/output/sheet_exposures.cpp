@@ -1,7 +1,7 @@
 #include "app/output/sheet_exposures.hpp"
 
-#include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
+#include "app/requests/output_words.hpp"
 #include "app/text/number_text.hpp"
 #include "session/pictures.hpp"
 #include "session/sheets.hpp"
@@ -35,7 +35,7 @@ SheetExposures::SheetExposures(const Options& options, Session& session, Mask ma
   const CaptureFormat& format = session.format();
   format_.type = code_type(format);
   format_.white_code = format.white_code;
-  format_.negative = negative_light(options, format_.type, {});
+  format_.negative = negative_light(output_request(options), format_.type, {});
   if (options.transfer) plan_options_.transfer = transfer_ = Transfer::parse(*options.transfer);
 }
 

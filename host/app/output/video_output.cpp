@@ -1,7 +1,7 @@
 #include "app/output/video_output.hpp"
 
-#include "app/output/output_format.hpp"
 #include "app/output/output_name.hpp"
+#include "app/requests/output_words.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/pictures.hpp"
@@ -31,14 +31,13 @@ VideoOutput::VideoOutput(const Options& options, std::filesystem::path path, Rat
 }
 
 OutputFormat VideoOutput::frame_format(const CaptureFormat& capture) const {
-  if (codec_ == nullptr) return output_format(options_, path_, capture);
-  const std::optional<Depth> wish =
-      options_.depth ? std::optional(parse_depth(*options_.depth)) : std::nullopt;
+  if (codec_ == nullptr) return output_format(output_request(options_), path_, capture);
+  const OutputRequest request = output_request(options_);
   const ValueType usual = code_type(capture);
   OutputFormat output;
-  output.type = video_value_type(*codec_, wish, usual);
+  output.type = video_value_type(*codec_, request.depth, usual);
   output.white_code = output.type == ValueType::code8 ? 255 : 65'535;  // what players take for white
-  output.negative = negative_light(options_, output.type, path_);
+  output.negative = negative_light(request, output.type, path_);
   return output;
 }
 

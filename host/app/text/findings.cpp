@@ -10,38 +10,61 @@
 namespace nutik::app {
 namespace {
 
+using Severity = Finding::Severity;
+
 constexpr std::size_t kMostOfAKind = 20;
 
-}  // namespace
-
-std::string Finding::text() const {
+std::string text_of(const Finding& finding) {
+  const auto& [severity, kind, file, message, place, excerpt, details] = finding;
   if (place) return Diagnostic{severity, *place, message, excerpt}.text(file);
   return format("{}: {}{}", file, severity == Severity::warning ? "warning: " : "", message);
 }
 
-Json Finding::json() const {
-  Json json{{"severity", severity == Severity::warning ? "warning" : "error"},
-            {"kind", kind},
-            {"file", file},
-            {"message", message}};
-  if (place) {
-    json["line"] = place->line;
-    json["column"] = place->column;
+Json details_json(const std::vector<BlendedValue>& blended) {
+  Json values = Json::array();
+  for (const BlendedValue& value : blended) {
+    values.push_back(
+        {{"mask_value", value.value}, {"pixels", value.pixel_count}, {"x", value.x}, {"y", value.y}});
   }
-  json.update(details);
+  return Json{{"values", values}};
+}
+
+Json details_json(const std::vector<MaskSpeck>& specks) {
+  Json places = Json::array();
+  for (const MaskSpeck& speck : specks) {
+    places.push_back({{"x", speck.x}, {"y", speck.y}, {"pixels", speck.pixel_count}});
+  }
+  return Json{{"mask_value", specks.front().tag}, {"specks", places}};
+}
+
+Json details_json(std::uint8_t tag) { return Json{{"mask_value", tag}}; }
+Json details_json(std::monostate) { return Json::object(); }
+
+Json json_of(const Finding& finding) {
+  Json json{{"severity", finding.severity == Severity::warning ? "warning" : "error"},
+            {"kind", finding.kind},
+            {"file", finding.file},
+            {"message", finding.message}};
+  if (finding.place) {
+    json["line"] = finding.place->line;
+    json["column"] = finding.place->column;
+  }
+  json.update(std::visit([](const auto& details) { return details_json(details); }, finding.details));
   return json;
 }
 
-std::size_t Findings::count(Finding::Severity severity) const {
-  return static_cast<std::size_t>(std::ranges::count(findings_, severity, &Finding::severity));
+}  // namespace
+
+std::size_t count_of(const std::vector<Finding>& findings, Finding::Severity severity) {
+  return static_cast<std::size_t>(std::ranges::count(findings, severity, &Finding::severity));
 }
 
-std::string Findings::text() const {
+std::string findings_text(const std::vector<Finding>& findings) {
   std::string text;
   std::map<std::pair<std::string, std::string>, std::size_t> counts;
-  for (const Finding& finding : findings_) {
+  for (const Finding& finding : findings) {
     if (++counts[{finding.file, finding.kind}] > kMostOfAKind) continue;
-    text += (text.empty() ? "" : "\n") + finding.text();
+    text += (text.empty() ? "" : "\n") + text_of(finding);
   }
   for (const auto& [of, count] : counts) {
     if (count <= kMostOfAKind) continue;
@@ -51,15 +74,15 @@ std::string Findings::text() const {
   return text;
 }
 
-Json Findings::json() const {
+Json findings_json(const std::vector<Finding>& findings) {
   Json json = Json::array();
-  for (const Finding& finding : findings_) json.push_back(finding.json());
+  for (const Finding& finding : findings) json.push_back(json_of(finding));
   return json;
 }
 
-std::string Findings::verdict() const {
-  const std::size_t mistakes = count(Finding::Severity::error);
-  const std::size_t warnings = count(Finding::Severity::warning);
+std::string verdict(const std::vector<Finding>& findings) {
+  const std::size_t mistakes = count_of(findings, Finding::Severity::error);
+  const std::size_t warnings = count_of(findings, Finding::Severity::warning);
   if (mistakes == 0 && warnings == 0) return "nothing wrong";
   if (mistakes == 0) return counted(warnings, "warning");
   if (warnings == 0) return counted(mistakes, "mistake");

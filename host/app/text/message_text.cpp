@@ -11,7 +11,9 @@
 #include "session/format.hpp"
 #include "session/mask_making.hpp"
 #include "session/memory_budget.hpp"
+#include "session/output_request.hpp"
 #include "session/picture_input.hpp"
+#include "session/picture_recipe.hpp"
 #include "session/series_request.hpp"
 
 namespace nutik::app {
@@ -77,6 +79,14 @@ std::string message_text(const std::exception& error) {
   }
   if (const auto* device = dynamic_cast<const DeviceNotFound*>(&error)) {
     return message + device_suggestion(*device);
+  }
+  if (dynamic_cast<const RecipeTooLong*>(&error) != nullptr) return message + "; leave it out: --no-recipe";
+  if (const auto* light = dynamic_cast<const LightIsKept*>(&error)) {
+    return format(
+        "--negative says what codes make of light below 0, and {} holds floating point, which keeps it; "
+        "leave "
+        "--negative out",
+        light->output.string());
   }
   return message;
 }

@@ -35,10 +35,6 @@ bool is_zero(const TraceStep& step) { return step.begin_gain == 0.0 && step.end_
 
 }  // namespace
 
-std::string light_text(const Trace& trace) {
-  return by_channel(trace, [&](std::uint32_t channel) { return number(trace.light[channel]); });
-}
-
 std::string steps_text(const Trace& trace, const PlannedFunction& function, bool all) {
   const double support_ns = std::max(1.0, static_cast<double>(function.summary.support_ns));
   std::vector<std::vector<std::string>> rows{

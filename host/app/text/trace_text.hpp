@@ -12,9 +12,6 @@
 
 namespace nutik::app {
 
-// The exposure's light by channel: `0.2159 0.301 0.112`.
-[[nodiscard]] std::string light_text(const Trace& trace);
-
 // A row for each step. Unless all are wanted, the middle of a long run between two control points is folded
 // into one row.
 [[nodiscard]] std::string steps_text(const Trace& trace, const PlannedFunction& function, bool all);

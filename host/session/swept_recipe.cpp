@@ -1,13 +1,13 @@
-#include "app/output/swept_recipe.hpp"
+#include "session/swept_recipe.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/functions.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/function_text.hpp"
 
-namespace nutik::app {
+namespace nutik {
 namespace {
 
 // Of functions that are normalized and brightened already.
@@ -60,4 +60,4 @@ std::optional<OwnRecipe> swept_recipe(const FunctionSet& functions, const Exposu
   return own;
 }
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -8,12 +8,12 @@
 #include <optional>
 #include <string>
 
-#include "app/output/picture_recipe.hpp"
-#include "session/capture.hpp"
+#include "capture/timeline.hpp"
+#include "render/render_plan.hpp"
 #include "session/exposure_request.hpp"
-#include "session/functions.hpp"
+#include "session/picture_recipe.hpp"
 
-namespace nutik::app {
+namespace nutik {
 
 // A plain interval of the sweep's shutter where that makes the functions, else their text under the name
 // `functions_name`. None for an interval outside the capture, which expose refuses, and where functions jump that
@@ -22,4 +22,4 @@ namespace nutik::app {
                                                     const ExposureRequest& request, const Timeline& timeline,
                                                     const std::string& functions_name);
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -1,4 +1,4 @@
-#include "app/output/trace_picture.hpp"
+#include "session/trace_picture.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,12 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "app/text/trace_text.hpp"
-#include "session/format.hpp"
-#include "session/sheets.hpp"
+#include "capture/format.hpp"
+#include "plot/graph.hpp"
 #include "session/time_text.hpp"
 
-namespace nutik::app {
+namespace nutik {
 namespace {
 
 using plot::Point;
@@ -136,6 +135,14 @@ void draw_legend(plot::Canvas& canvas, const plot::Box& box, const Trace& trace)
 
 }  // namespace
 
+std::string light_text(const Trace& trace) {
+  std::string text;
+  for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
+    text += format("{}{:.6g}", channel == 0 ? "" : "  ", trace.light[channel]);
+  }
+  return text;
+}
+
 Picture trace_picture(const Trace& trace, const PlannedFunction& function, const std::string& heading) {
   const TimeRange range = shown_range(trace, function);
   const Lines lines(trace, range);
@@ -189,4 +196,4 @@ Picture trace_picture(const Trace& trace, const PlannedFunction& function, const
   return canvas.finished();
 }
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -3,13 +3,16 @@
 
 #include <string>
 
-#include "session/capture.hpp"
-#include "session/session.hpp"
+#include "capture/picture.hpp"
+#include "render/trace.hpp"
 
-namespace nutik::app {
+namespace nutik {
+
+// The exposure's light by channel: `0.2159  0.301  0.112`.
+[[nodiscard]] std::string light_text(const Trace& trace);
 
 // Of the live interval, with a margin. `heading` says what was traced; 8-bit colour.
 [[nodiscard]] Picture trace_picture(const Trace& trace, const PlannedFunction& function,
                                     const std::string& heading);
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -1,0 +1,56 @@
+#include "app/requests/recipe_words.hpp"
+
+#include <algorithm>
+
+#include "app/command_line/option_table.hpp"
+#include "app/input/standard_input.hpp"
+#include "app/requests/source_words.hpp"
+#include "session/pictures.hpp"
+
+namespace nutik::app {
+namespace {
+
+// Files have a place of their own in a recipe, with their text or checksum.
+bool is_stated(const Option& option, std::string_view value) {
+  return option.is_of(CommandId::expose) && option.makes_picture() &&
+         (!option.reads_file() || option.knows(value));
+}
+
+// What came from standard input gets a name that a file can have.
+std::string known_name(const std::string& name, const char* extension) {
+  return is_standard_input(name) ? std::string("standard-input") + extension : input_name(name);
+}
+
+Recipe::Text whole_text(const std::string& name, const char* extension) {
+  return {known_name(name, extension), std::string(InputBytes(name).text())};
+}
+
+}  // namespace
+
+bool is_recipe_option(std::string_view long_name, std::string_view value) {
+  return std::ranges::any_of(app::options(), [&](const Option& option) {
+    return option.long_name == long_name && is_stated(option, value);
+  });
+}
+
+std::optional<RecipeSources> recipe_sources(const Options& options,
+                                            std::optional<std::string> capture_checksum) {
+  if (options.no_recipe) return std::nullopt;
+  RecipeSources sources{{}, options.operands.front(), std::move(capture_checksum)};
+  Recipe& recipe = sources.made;
+  recipe.version = NUTIK_VERSION;
+  if (options.functions) recipe.functions = whole_text(*options.functions, ".fn");
+  if (options.noise && *options.noise != kAutomaticNoise) recipe.noise = whole_text(*options.noise, ".noise");
+  if (options.mask) {
+    recipe.mask =
+        Recipe::Input{known_name(*options.mask, ".pgm"), bytes_checksum(InputBytes(*options.mask).bytes())};
+  }
+  for (const Option& option : app::options()) {
+    const std::string* value = option.stated(options);
+    if (value != nullptr && is_stated(option, *value)) recipe.options.emplace(option.long_name, *value);
+  }
+  recipe.renderer = options.renderer.value_or("opencl");
+  return sources;
+}
+
+}  // namespace nutik::app

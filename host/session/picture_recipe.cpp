@@ -1,0 +1,44 @@
+#include "session/picture_recipe.hpp"
+
+#include "capture/format.hpp"
+#include "media/input_checksum.hpp"
+#include "media/picture_text.hpp"
+#include "session/clip_source.hpp"
+#include "tik/reader.hpp"
+
+namespace nutik {
+
+std::string capture_checksum(const std::string& path) {
+  if (!is_tik(path)) return input_checksum(path);
+  return format("xxh3-64-tik:{:016x}", tik::Reader(path).content_checksum());
+}
+
+PictureRecipe::PictureRecipe(std::optional<RecipeSources> sources) {
+  if (!sources) return;
+  reading_ = std::async(std::launch::async, [known = std::move(*sources)] {
+    Recipe recipe = known.made;
+    recipe.capture = {input_name(known.capture),
+                      known.capture_checksum ? *known.capture_checksum : capture_checksum(known.capture)};
+    return recipe;
+  });
+}
+
+std::string PictureRecipe::text(const std::string& precision, const OwnRecipe& own) {
+  if (reading_.valid()) recipe_ = reading_.get();
+  if (!recipe_) return {};
+  Recipe recipe = *recipe_;
+  recipe.precision = precision;
+  if (own.functions) recipe.functions = own.functions;
+  for (const auto& [name, value] : own.options) {
+    recipe.options.erase(name);
+    if (value) recipe.options.emplace(name, *value);
+  }
+  std::string text = recipe.text();
+  if (text.size() >= kMostPictureTextBytes) {
+    throw RecipeTooLong(format("the recipe has {} bytes and a picture carries {} MiB at most", text.size(),
+                               kMostPictureTextBytes >> 20));
+  }
+  return text;
+}
+
+}  // namespace nutik

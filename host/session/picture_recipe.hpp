@@ -1,0 +1,50 @@
+// The recipe of a picture, made from what an exposure was asked for with.
+#pragma once
+
+#include <future>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "capture/error.hpp"
+#include "media/recipe.hpp"
+
+namespace nutik {
+
+// What the pictures of a command have in common.
+struct RecipeSources {
+  Recipe made;                                  // without the capture's checksum and the precision
+  std::string capture;                          // the clip or .tik itself: a path
+  std::optional<std::string> capture_checksum;  // where it is known already
+};
+
+// What the recipe of one of many pictures states in place of that.
+struct OwnRecipe {
+  std::map<std::string, std::optional<std::string>> options;  // by long names; none: left out
+  std::optional<Recipe::Text> functions;
+};
+
+// The text is longer than a picture carries (kMostPictureTextBytes).
+struct RecipeTooLong : InputError {
+  using InputError::InputError;
+};
+
+class PictureRecipe {
+ public:
+  // Reads the capture's checksum beside whatever the caller does next. Without sources there are no recipes.
+  explicit PictureRecipe(std::optional<RecipeSources> sources);
+
+  // The recipe's text, for a picture that was computed in this precision; empty without sources. Of many pictures, each
+  // one's is that of a single picture, with what is its own. Throws InputError where the capture cannot be read,
+  // RecipeTooLong.
+  [[nodiscard]] std::string text(const std::string& precision, const OwnRecipe& own = {});
+
+ private:
+  std::future<Recipe> reading_;
+  std::optional<Recipe> recipe_;  // once it was read
+};
+
+// What the content of a capture is known by again: of a .tik its blocks' and footer's checksums.
+[[nodiscard]] std::string capture_checksum(const std::string& path);
+
+}  // namespace nutik

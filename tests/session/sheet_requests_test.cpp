@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include "session/contact_request.hpp"
+#include "session/sweep_request.hpp"
+
+namespace nutik {
+namespace {
+
+const Timeline kTimeline = Timeline::constant({100, 1}, {180, 1}, 10);  // 10 ms each, open for 5
+
+StatedTime time(std::string_view text) { return StatedTime::parse(text, "time"); }
+
+FunctionSet box(std::int64_t from_ns, std::int64_t to_ns) {
+  FunctionSet functions;
+  functions.emplace(0, GainFunction::boxcar(from_ns, to_ns));
+  return functions;
+}
+
+TEST(SweepRequest, VariesTheFirstRangeFastest) {
+  const SweepRange shift{SweepParameter::shift, {0, 1}, {20, 1}, {10, 1}, false};
+  const SweepRange gain{SweepParameter::gain, {1, 2}, {1, 1}, {1, 2}, false};
+  const SweepRequest sweep{{shift, gain}};
+  const std::vector<SweepPoint> points = sweep.points();
+  ASSERT_EQ(points.size(), 6u);
+  EXPECT_EQ(points[1], (SweepPoint{1, 0}));
+  EXPECT_EQ(points[3], (SweepPoint{0, 1}));
+  EXPECT_EQ(sweep.label(points[0]), "as it is, gain × 0.5");
+  EXPECT_EQ(sweep, (SweepRequest{{shift, gain}}));
+  EXPECT_NE(sweep, (SweepRequest{{gain, shift}}));
+}
+
+TEST(SweepRequest, AppliesItsValues) {
+  const SweepRequest pictures{{{SweepParameter::shift, {-1, 1}, {1, 1}, {1, 1}, true}}};
+  EXPECT_EQ(pictures.varied(box(20'000'000, 30'000'000), {2}, kTimeline), box(30'000'000, 40'000'000));
+  const SweepRequest stretch{{{SweepParameter::stretch, {1, 1}, {2, 1}, {1, 1}, false}}};
+  EXPECT_EQ(stretch.varied(box(20'000'000, 30'000'000), {1}, kTimeline), box(20'000'000, 40'000'000));
+}
+
+TEST(ContactRequest, CountsPicturesOrTimes) {
+  EXPECT_EQ(exposures_of({}, kTimeline).size(), 10u);
+  const std::vector<Exposure> pictures = exposures_of({time("1f"), time("4f"), {}}, kTimeline);
+  EXPECT_EQ(pictures, (std::vector<Exposure>{
+                          {10'000'000, 15'000'000}, {50'000'000, 55'000'000}, {90'000'000, 95'000'000}}));
+  const std::vector<Exposure> times = exposures_of({time("0s"), time("40ms"), time("30ms")}, kTimeline);
+  EXPECT_EQ(times,
+            (std::vector<Exposure>{{0, 30'000'000}, {40'000'000, 70'000'000}, {80'000'000, 110'000'000}}));
+  EXPECT_EQ(labels_of(times, kTimeline)[1], "40 ms   4f");
+}
+
+TEST(ContactRequest, SaysWhichStepFitsASheet) {
+  try {
+    static_cast<void>(exposures_of({time("0s"), time("1us"), {}}, kTimeline));
+    FAIL() << "a sheet has no room for 100 000 pictures";
+  } catch (const TooManyForSheet& error) {
+    EXPECT_DOUBLE_EQ(error.least_every_s, 0.001);
+  }
+}
+
+}  // namespace
+}  // namespace nutik
