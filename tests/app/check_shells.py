@@ -4,6 +4,7 @@
 Prints SKIPPED with the reason where one of them is not there.
 """
 import argparse
+import os
 import re
 import shutil
 import subprocess
@@ -68,6 +69,9 @@ def check_bash(program, work):
     offers("nutik-cl -m m", {"mask.pgm", "mask.png", "masks"})
     offers("nutik-cl info ", {"clip.tik", "masks"})
     offers("nutik-cl --start ", set())
+    offers("nutik-cl -qo pic.png -k ", {"a b.fn", "masks"})
+    offers("nutik-cl expose --nosuch 3 --nega", set())
+    offers("nutik-cl mask --difference 0f mask.p", {"mask.pgm", "mask.png"})
     offers("nutik-cl shutter --gain 2 h", {"hann"})
     offers("nutik-cl completion ", {"bash", "zsh", "fish"})
     offers("nutik-cl info --", {"--help", "--activity", "--json", "--quiet"})
@@ -115,8 +119,10 @@ def check_fish(program, work):
     offers("nutik-cl enc", {"encode"})
     offers("nutik-cl expose --nega", {"--negative"})
     offers("nutik-cl expose --negative ", {"saturate", "offset", "abs"})
+    offers("nutik-cl expose --negative=o", {"--negative=offset"})
     offers("nutik-cl --precision ", {"auto", "single"})
     offers("nutik-cl info ", {"clip.tik"})
+    offers("nutik-cl mask --threshold 0f 40..90 clip.tik --ta", {"--tag"})
 
 
 @section("groff")
@@ -146,6 +152,8 @@ def main():
     work = (arguments.work / arguments.only).resolve()
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
+    # The scripts ask the program that is being completed.
+    os.environ["PATH"] = f"{Path(arguments.program).parent}:{os.environ['PATH']}"
     SECTIONS[arguments.only](arguments.program, work)
 
 

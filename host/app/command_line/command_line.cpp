@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 
 #include "app/command_line/help.hpp"
 #include "app/command_line/suggestion.hpp"
-#include "app/command_line/value_check.hpp"
+#include "app/command_line/words.hpp"
 #include "app/input/standard_input.hpp"
 #include "app/text/shell_text.hpp"
 #include "session/error.hpp"
@@ -14,112 +13,6 @@
 
 namespace nutik::app {
 namespace {
-
-// An option as it was met. Which row of its name is meant depends on the command.
-struct Given {
-  const Option* option;
-  std::vector<std::string> words;
-};
-
-// The words of a command line, told apart. This needs no command: an option takes as many words in each.
-class Words {
- public:
-  explicit Words(std::span<const std::string> words) : words_(words) {
-    while (at_ < words_.size()) {
-      const std::string& word = words_[at_++];
-      if (word == "--") {
-        operands.insert(operands.end(), words_.begin() + static_cast<std::ptrdiff_t>(at_), words_.end());
-        return;
-      }
-      if (word == "--help" || word == "-h") {
-        help = true;
-      } else if (word == "--version") {
-        version = true;
-      } else if (word.starts_with("--")) {
-        take_long(word);
-      } else if (word.size() > 1 && word[0] == '-') {
-        take_short(word);
-      } else {
-        take_operand(word);
-      }
-    }
-  }
-
-  const Command* command = nullptr;   // the first operand, where it is a command's name and not behind `--`
-  std::vector<std::string> operands;  // the others
-  std::vector<Given> given;
-  bool help = false;
-  bool version = false;
-
- private:
-  void take_operand(const std::string& word) {
-    if (command == nullptr && operands.empty()) {
-      command = find_command(word);
-      if (command != nullptr) return;
-    }
-    operands.push_back(word);
-  }
-
-  void take_long(const std::string& word) {
-    const auto equals = word.find('=');
-    const std::string name = word.substr(0, equals);
-    const Option* option = find_option(std::string_view(name).substr(2));
-    if (option == nullptr) fail_unknown(name);
-    if (equals == std::string::npos) return take(*option, name);
-    take(*option, name, word.substr(equals + 1));
-    check_choice(name, given.back().words.front(), *option);
-  }
-
-  // Flags may stand together, and the last letter may take a value: -qo out.png, -k trail.fn, -f120.
-  void take_short(const std::string& word) {
-    for (std::size_t letter = 1; letter < word.size(); ++letter) {
-      const std::string name{'-', word[letter]};
-      const Option* option = find_option(word[letter]);
-      if (option == nullptr) fail_unknown(name);
-      const std::string rest = word.substr(letter + 1);
-      if (option->is_flag() || rest.empty()) {
-        take(*option, name);
-      } else {
-        return take(*option, name, rest);
-      }
-    }
-  }
-
-  // The words of an option, the first of which may have stood in the same word as its name.
-  void take(const Option& option, const std::string& name, const std::optional<std::string>& first = {}) {
-    Given& said = given.emplace_back(&option, std::vector<std::string>());
-    if (option.is_flag()) {
-      if (first) throw UsageError(format("{} takes no value", option.display_name()));
-      return;
-    }
-    if (first) said.words.push_back(*first);
-    while (said.words.size() < option.word_count()) {
-      if (at_ == words_.size()) {
-        throw UsageError(format("{} needs {}: {} {}", name,
-                                option.word_count() == 1 ? "a value" : "more words", name, option.value));
-      }
-      said.words.push_back(words_[at_++]);
-    }
-    if (!first && option.word_count() == 1) check_value(option, name, said.words.front());
-  }
-
-  // Suggests options of the command that is named, if any, before those of others.
-  [[noreturn]] void fail_unknown(const std::string& name) const {
-    const auto named =
-        std::ranges::find_if(words_, [](const std::string& each) { return find_command(each) != nullptr; });
-    std::vector<std::string> known{"--help", "--version"};
-    if (named != words_.end()) {
-      for (const Option* option : options_of(*find_command(*named))) known.push_back(option->name());
-      if (const std::string suggestion = did_you_mean(name, known); !suggestion.empty())
-        throw UsageError(format("there is no option {}{}; see nutik-cl {} --help", name, suggestion, *named));
-    }
-    for (const Option& option : options()) known.push_back(option.name());
-    throw UsageError(format("there is no option {}{}; see nutik-cl --help", name, did_you_mean(name, known)));
-  }
-
-  std::span<const std::string> words_;
-  std::size_t at_ = 0;
-};
 
 // A first word that names no file and looks like no file's name was meant as a command.
 void fail_misspelt_command(const std::string& word) {
@@ -180,7 +73,7 @@ Options options_for(const Command& command, Words words) {
     if (option == nullptr) fail_other_command(*given.option, command);
     if (const auto* flag = std::get_if<bool Options::*>(&option->member)) {
       options.** flag = true;
-    } else if (const auto* value = std::get_if<std::optional<std::string> Options::*>(&option->member)) {
+    } else if (const auto* value = std::get_if<Stated Options::*>(&option->member)) {
       if (options.**value) throw UsageError(format("{} is given twice", option->display_name()));
       options.** value = given.words.front();
     }
@@ -192,7 +85,7 @@ Options options_for(const Command& command, Words words) {
 }  // namespace
 
 ParsedCommandLine parse_command_line(std::span<const std::string> words) {
-  Words found(words);
+  Words found = Words::of(words);
   if (found.version) {
     print_version();
     return {};
@@ -200,6 +93,11 @@ ParsedCommandLine parse_command_line(std::span<const std::string> words) {
   if (found.help) {
     found.command != nullptr ? print_command_help(*found.command) : print_help();
     return {};
+  }
+  if (found.unfinished) {
+    const Given& last = found.given.back();
+    throw UsageError(format("{0} needs {1}: {0} {2}", last.name,
+                            last.option->word_count() == 1 ? "a value" : "more words", last.option->value));
   }
   if (words.empty()) {
     throw UsageError("say what to do: nutik-cl clip.mp4 clip.tik encodes a clip; nutik-cl --help says more");

@@ -1,12 +1,10 @@
 #include "app/command_line/help_text.hpp"
 
-#include <algorithm>
-
 namespace nutik::app {
 
 std::string brief(std::string_view summary) {
-  std::string sentence(summary.substr(0, summary.find(". ")));
-  sentence.erase(std::min(sentence.find(": "), sentence.size()));
+  for (const std::string_view end : {". ", " (default", ": "}) summary = summary.substr(0, summary.find(end));
+  std::string sentence(summary);
   if (!sentence.ends_with('.')) sentence += '.';
   return sentence;
 }

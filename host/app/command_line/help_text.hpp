@@ -15,7 +15,7 @@ inline constexpr std::string_view kWhatItIs =
     "its "
     "own gain as a function of time.";
 
-// The first sentence of a summary, with its full stop, without what a colon adds.
+// The first sentence of a summary, with its full stop, without what a colon adds and without a default.
 [[nodiscard]] std::string brief(std::string_view summary);
 
 // The lines of a text.

@@ -1,4 +1,4 @@
-#include "app/command_line/option_rows.hpp"
+#include "app/command_line/option_table.hpp"
 
 namespace nutik::app {
 namespace {
@@ -363,11 +363,9 @@ struct Section {
   std::vector<Option> rows;
 };
 
-}  // namespace
-
-std::vector<Option> option_rows() {
+std::vector<Option> all_rows() {
   std::vector<Option> table;
-  for (Section& section : std::vector<Section>{
+  for (const Section& section : std::vector<Section>{
            {"The source clip", source_rows()},
            {"The exposure", exposure_rows()},
            {"The frames", frame_rows()},
@@ -381,11 +379,15 @@ std::vector<Option> option_rows() {
            {"Validation", validation_rows()},
            {"Output", output_rows()},
        }) {
-    for (Option& row : section.rows) {
-      row.heading = section.heading;
-      table.push_back(std::move(row));
-    }
+    for (const Option& row : section.rows) table.emplace_back(row).heading = section.heading;
   }
+  return table;
+}
+
+}  // namespace
+
+std::span<const Option> options() {
+  static const std::vector<Option> table = all_rows();
   return table;
 }
 

@@ -7,10 +7,10 @@
 namespace nutik::app {
 
 int run_completion(const Options& options) {
-  if (options.operands.size() != 1) {
-    throw UsageError("for which shell? nutik-cl completion bash, zsh or fish");
-  }
-  print_text(completion_script(options.operands.front()));
+  if (options.operands.empty()) throw UsageError("for which shell? nutik-cl completion bash, zsh or fish");
+  const std::string script = completion_script(options.operands.front());
+  const std::span<const std::string> words = std::span(options.operands).subspan(1);
+  print_text(words.empty() ? script : completions(words));
   return 0;
 }
 

@@ -1,0 +1,112 @@
+#include "app/command_line/words.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "app/command_line/suggestion.hpp"
+#include "app/command_line/value_check.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+
+namespace nutik::app {
+namespace {
+
+// Suggests options of the command that is named, if any, before those of others.
+[[noreturn]] void fail_unknown(const std::string& name, std::span<const std::string> words) {
+  const auto named =
+      std::ranges::find_if(words, [](const std::string& each) { return find_command(each) != nullptr; });
+  std::vector<std::string> known{"--help", "--version"};
+  if (named != words.end()) {
+    for (const Option* option : options_of(*find_command(*named))) known.push_back(option->name());
+    if (const std::string suggestion = did_you_mean(name, known); !suggestion.empty())
+      throw UsageError(format("there is no option {}{}; see nutik-cl {} --help", name, suggestion, *named));
+  }
+  for (const Option& option : options()) known.push_back(option.name());
+  throw UsageError(format("there is no option {}{}; see nutik-cl --help", name, did_you_mean(name, known)));
+}
+
+class Reader {
+ public:
+  explicit Reader(std::span<const std::string> words) : words_(words) {}
+
+  Words read() {
+    while (at_ < words_.size()) {
+      const std::string& word = words_[at_++];
+      if (word == "--") {
+        const auto rest = words_.subspan(at_);
+        found_.operands.insert(found_.operands.end(), rest.begin(), rest.end());
+        break;
+      }
+      if (word == "--help" || word == "-h") {
+        found_.help = true;
+      } else if (word == "--version") {
+        found_.version = true;
+      } else if (word.starts_with("--")) {
+        take_long(word);
+      } else if (word.size() > 1 && word[0] == '-') {
+        take_short(word);
+      } else {
+        take_operand(word);
+      }
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void take_operand(const std::string& word) {
+    if (found_.command == nullptr && found_.operands.empty()) {
+      found_.command = find_command(word);
+      if (found_.command != nullptr) return;
+    }
+    found_.operands.push_back(word);
+  }
+
+  void take_long(const std::string& word) {
+    const auto equals = word.find('=');
+    const std::string name = word.substr(0, equals);
+    const Option* option = find_option(std::string_view(name).substr(2));
+    if (option == nullptr) fail_unknown(name, words_);
+    if (equals == std::string::npos) return take(*option, name);
+    take(*option, name, word.substr(equals + 1));
+    check_choice(name, found_.given.back().words.front(), *option);
+  }
+
+  // Flags may stand together, and the last letter may take a value: -qo out.png, -k trail.fn, -f120.
+  void take_short(const std::string& word) {
+    for (std::size_t letter = 1; letter < word.size(); ++letter) {
+      const std::string name{'-', word[letter]};
+      const Option* option = find_option(word[letter]);
+      if (option == nullptr) fail_unknown(name, words_);
+      if (!option->is_flag() && letter + 1 < word.size()) return take(*option, name, word.substr(letter + 1));
+      take(*option, name);
+    }
+  }
+
+  // The words of an option, the first of which may have stood in one word with its name.
+  void take(const Option& option, const std::string& name, const std::optional<std::string>& first = {}) {
+    std::vector<std::string>& words = found_.given.emplace_back(Given{&option, name, {}}).words;
+    if (option.is_flag()) {
+      if (first) throw UsageError(format("{} takes no value", option.display_name()));
+      return;
+    }
+    if (first) words.push_back(*first);
+    while (words.size() < option.word_count()) {
+      if (at_ == words_.size()) {
+        found_.unfinished = true;
+        return;
+      }
+      words.push_back(words_[at_++]);
+    }
+    if (!first && option.word_count() == 1) check_value(option, name, words.front());
+  }
+
+  std::span<const std::string> words_;
+  std::size_t at_ = 0;
+  Words found_;
+};
+
+}  // namespace
+
+Words Words::of(std::span<const std::string> words) { return Reader(words).read(); }
+
+}  // namespace nutik::app
