@@ -195,7 +195,8 @@ class OpenClRenderer::Implementation {
   }
 
   [[nodiscard]] LightSource light_source_for(const Work& work, const RenderPlan& plan) const {
-    const bool permutes = work.shape.lanes == kLightPieces && info_.native_float_lanes >= kLightPieces;
+    const bool permutes = work.shape.lanes == kLightPieces &&
+                          options_.permutes_pieces.value_or(info_.native_float_lanes >= kLightPieces);
     return light_source(plan.capture, work.precision, permutes);
   }
 
