@@ -29,9 +29,8 @@ constexpr double kSmallest = 16 * std::numeric_limits<double>::denorm_min();
 // What an arithmetic adds to the error, to first order: multiples of `unit` for each of a function's measures.
 struct Roundings {
   double unit;            // what one rounding errs by
-  double of_partial_sum;  // each term added within a block, of the largest that the sum can be by then
-  double of_block_sum;    // each block added to those before, likewise
-  double of_weight;       // each weight: rounding it, or a difference of boundaries, and the product
+  double of_sum;          // each term added to others, or block to those before, of the largest that the sum can be
+  double of_weight;       // each weight: rounding it, or a difference of boundaries, the product, adding it
   double of_boundary;     // each boundary that a difference is made of
   double light;           // codes to light, absolute
   double threshold;       // between codes, absolute
@@ -57,14 +56,14 @@ Roundings roundings_of(Precision precision, const Transfer& transfer) {
   switch (precision) {
     case Precision::single_: {
       const double light = transfer.toe() ? kCurveLight : has_table ? kRoundoff32 : 0.0;
-      return {kRoundoff32, 1, 1, 2, 0, light, kRoundoff32, 0x1p-122, kRoundoff32};
+      return {kRoundoff32, 1, 2, 0, light, kRoundoff32, 0x1p-122, kRoundoff32};
     }
     case Precision::compensated:
-      return {kPair, 3, 5, 15, 4, has_table ? kPair : 0.0, kPair, 0x1p-122, kRoundoff32};
+      return {kPair, 3, 17, 4, has_table ? kPair : 0.0, kPair, 0x1p-122, kRoundoff32};
     case Precision::double_:
     case Precision::fixed: break;
   }
-  return {kRoundoff64, 1, 1, 2, 0, 0.0, kRoundoff64, 0.0, kRoundoff64};
+  return {kRoundoff64, 1, 2, 0, 0.0, kRoundoff64, 0.0, kRoundoff64};
 }
 
 // Between what a sum of light · weight can lie for light in [0, 1]: -below … above.
@@ -80,7 +79,7 @@ struct Extent {
 struct Course {
   double magnitude = 0.0;        // Σ|w|
   double extent = 0.0;           // the largest that the whole sum can be
-  double partial_sums = 0.0;     // Σ over samples: the same of their block's sum up to them
+  double partial_sums = 0.0;     // Σ over samples but a block's first: the same of their block's sum up to them
   double block_sums = 0.0;       // Σ over blocks but the first: the same of all up to their ends
   double boundaries = 0.0;       // Σ|B|
   double boundary_errors = 0.0;  // Σ of what the kernel's table misses of each boundary
@@ -104,7 +103,7 @@ std::vector<Course> courses_of(const RenderPlan& plan, Precision precision) {
         if (k < spans[f].first || k >= spans[f].last) continue;
         Course& course = courses[f];
         block[f].add(weights[f]);
-        course.partial_sums += block[f].largest();
+        if (k > spans[f].first) course.partial_sums += block[f].largest();
         course.boundaries += std::fabs(boundaries[f]);
         course.boundary_errors += std::fabs(boundaries[f] - in_table(precision, boundaries[f]));
         course.weight_count += weights[f] != 0.0;
@@ -131,7 +130,7 @@ std::vector<Course> courses_of(const RenderPlan& plan, Precision precision) {
 double floating_error(const Course& course, const Roundings& roundings) {
   const double first_order =
       roundings.unit *
-          (roundings.of_partial_sum * course.partial_sums + roundings.of_block_sum * course.block_sums +
+          (roundings.of_sum * (course.partial_sums + course.block_sums) +
            roundings.of_weight * course.magnitude + roundings.of_boundary * course.boundaries) +
       course.boundary_errors + roundings.light * course.magnitude +
       roundings.unnormal * (course.sample_count + course.block_count);
