@@ -39,6 +39,9 @@ struct OpenClOptions {
   std::uint64_t chunk_bytes = 0;       // of blocks that one launch reads
   std::uint64_t allocation_bytes = 0;  // the largest buffer, at most the device's own (allocation_cuts.hpp)
   bool last_block_first = false;       // within a chunk: sums of whole numbers do not depend on it
+
+  // Whether 16 lanes permute a transfer function's pieces (light_source.hpp). None: if the device's vectors hold them.
+  std::optional<bool> permutes_pieces;
 };
 
 // Renders take turns at the device: any number of threads may ask. What they share is the device, its kernels and the

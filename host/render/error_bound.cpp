@@ -30,9 +30,8 @@ constexpr double kSmallest = 16 * std::numeric_limits<double>::denorm_min();
 // What an arithmetic adds to the error, to first order: multiples of `unit` for each of a function's measures.
 struct Roundings {
   double unit;            // what one rounding errs by
-  double of_partial_sum;  // each term added within a block, of the largest that the sum can be by then
-  double of_block_sum;    // each block added to those before, likewise
-  double of_weight;       // each weight: rounding it, or a difference of boundaries, and the product
+  double of_sum;          // each term added to others, or block to those before, of the largest that the sum can be
+  double of_weight;       // each weight: rounding it, or a difference of boundaries, the product, adding it
   double of_boundary;     // each boundary that a difference is made of
   double light;           // codes to light, absolute
   double threshold;       // between codes, absolute
@@ -46,20 +45,20 @@ Roundings roundings_of(Precision precision, const Transfer& transfer) {
   switch (precision) {
     case Precision::single_: {
       const double light = transfer.toe() ? kCurveLight : has_table ? kRoundoff32 : 0.0;
-      return {kRoundoff32, 1, 1, 2, 0, light, kRoundoff32, 0x1p-122, kRoundoff32};
+      return {kRoundoff32, 1, 2, 0, light, kRoundoff32, 0x1p-122, kRoundoff32};
     }
     case Precision::compensated:
-      return {kPair, 3, 5, 15, 4, has_table ? kPair : 0.0, kPair, 0x1p-122, kRoundoff32};
+      return {kPair, 3, 17, 4, has_table ? kPair : 0.0, kPair, 0x1p-122, kRoundoff32};
     case Precision::double_:
     case Precision::fixed: break;
   }
-  return {kRoundoff64, 1, 1, 2, 0, 0.0, kRoundoff64, 0.0, kRoundoff64};
+  return {kRoundoff64, 1, 2, 0, 0.0, kRoundoff64, 0.0, kRoundoff64};
 }
 
 double floating_error(const FunctionCourse& course, Precision precision, const Roundings& roundings) {
   const double first_order =
       roundings.unit *
-          (roundings.of_partial_sum * course.partial_sums + roundings.of_block_sum * course.block_sums +
+          (roundings.of_sum * (course.partial_sums + course.block_sums) +
            roundings.of_weight * course.magnitude + roundings.of_boundary * course.boundaries) +
       course.boundary_errors(precision) + roundings.light * course.magnitude +
       roundings.unnormal * (course.sample_count + course.block_count);

@@ -36,7 +36,7 @@ void CourseMeter::add(const BlockTable& table) {
     const double boundary = table.boundaries[i + 1];
     block.add(weight);
     magnitude_.add(std::fabs(weight));
-    course_.partial_sums += block.largest();
+    if (i > 0) course_.partial_sums += block.largest();
     course_.boundaries += std::fabs(boundary);
     course_.single_boundary_errors += std::fabs(boundary - as_single(boundary));
     course_.pair_boundary_errors += std::fabs(boundary - as_pair(boundary));

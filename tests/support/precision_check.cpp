@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "render/reference_renderer.hpp"
+#include "support/bound_share.hpp"
 #include "support/rendering.hpp"
 
 namespace nutik::test {
@@ -32,22 +33,6 @@ void keep(const Picture& picture, const std::string& name) {
 double code_of(const Picture& picture, std::uint64_t i) {
   return picture.type == ValueType::code8 ? picture.values<std::uint8_t>()[i]
                                           : picture.values<std::uint16_t>()[i];
-}
-
-// How far codes lie from where `light` lies on their scale, beyond the half that rounding costs: at most 1, in what
-// error_bound() allows each value's function. The place on the scale is itself computed to 32 u₆₄.
-Difference share_of_steps(const RenderPlan& plan, const ErrorBound& bound, const Picture& codes,
-                          const Picture& light) {
-  Difference difference;
-  for (std::uint64_t i = 0; i < codes.shape.value_count(); ++i) {
-    const double inside = std::clamp(light.values<double>()[i], 0.0, 1.0);
-    const double place = plan.capture.transfer.fraction_of(inside) * codes.white_code;
-    const std::size_t function = plan.function_of(i / codes.shape.channels);
-    const double allowed = bound.functions[function].steps + 32 * kRoundoff64 * codes.white_code;
-    const double share = (std::fabs(code_of(codes, i) - place) - 0.5) / allowed;
-    if (share > difference.worst) difference = {share, i};
-  }
-  return difference;
 }
 
 }  // namespace
@@ -96,7 +81,8 @@ void PrecisionCheck::check(const RenderPlan& plan, const Render& render, const s
     if (is_wanted("codes")) {
       const OutputFormat output = codes_like(plan.capture);
       const Picture codes = render(*seen.renderer, output);
-      const Difference steps = share_of_steps(plan, error_bound(plan, precision, output), codes, expected);
+      const Difference steps =
+          share_of_bound(plan, error_bound(plan, precision, output), output, codes, expected);
       EXPECT_LE(steps.worst, 1.0) << "of the bound, at value " << steps.value << ": code "
                                   << code_of(codes, steps.value) << " for light "
                                   << expected.values<double>()[steps.value];
