@@ -7,7 +7,8 @@ namespace nutik {
 
 WorkShape work_shape(const OpenClOptions& options, Precision precision, const DeviceInfo& device) {
   WorkShape shape{1, 1, 1, 64};
-  if (device.kind == DeviceKind::cpu) {
+  const bool has_vectors = device.native_float_lanes > 1;  // else its work-items are lanes, as on a GPU
+  if (device.kind == DeviceKind::cpu && has_vectors) {
     const bool is_of_floats = precision == Precision::single_ || precision == Precision::compensated;
     shape = {kTilePixels, 16, is_of_floats ? 16u : 8u, 1};
   }
