@@ -1,5 +1,8 @@
 #include "opencl/work_shape.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 
@@ -23,6 +26,14 @@ WorkShape work_shape(const OpenClOptions& options, Precision precision, const De
                             shape.lanes, kTilePixels));
   }
   return shape;
+}
+
+std::uint64_t most_samples_a_launch(const DeviceInfo& device, const WorkShape& shape) {
+  if (device.loop_limit == 0) return std::numeric_limits<std::uint64_t>::max();
+  // If nothing is unrolled: a row, its channels and groups, and the coefficients of a curve for each of them.
+  const std::uint64_t vectors = 3 * shape.item_pixels / shape.lanes;
+  const std::uint64_t loops_a_sample = 2 + vectors * 12;
+  return std::max<std::uint64_t>(1, device.loop_limit / loops_a_sample / shape.item_tiles);
 }
 
 }  // namespace nutik
