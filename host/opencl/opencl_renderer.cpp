@@ -228,8 +228,8 @@ class OpenClRenderer::Implementation {
     expose_program(work, plan, light);
     if (!options_.tests_itself) return {};
     const TestedPrograms programs{precision, options_of_exposing(work, plan, light),
-                                  options_of_developing(work, plan, output)};
-    const std::string key = programs.expose_options + '\n' + programs.develop_options;
+                                  options_of_developing(work, plan, output), kernels_make_codes(output)};
+    const std::string key = programs.text();
     if (const auto known = verdict_on_.find(key); known != verdict_on_.end()) return known->second;
     std::optional<Verdict> verdict;
     if (!programs_->was_built("expose", programs.expose_options) &&
@@ -397,7 +397,7 @@ class OpenClRenderer::Implementation {
   cl::CommandQueue queue_;
   std::unique_ptr<ProgramStore> programs_;
   VerdictStore verdicts_;
-  std::map<std::string, Verdict> verdict_on_;  // by the options of both programs
+  std::map<std::string, Verdict> verdict_on_;  // by TestedPrograms::text()
   bool announced_ = false;
   std::unique_ptr<BlockFeed> feed_;
   std::mutex turn_;  // at the device: all that follows from a plan's choice of arithmetic on

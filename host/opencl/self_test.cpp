@@ -159,7 +159,7 @@ Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFo
   judge(endless, make_plan(endless, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(1, 1, 0), {}), false);
   const TilesOfAllKinds scene(like);
   MemoryCapture tiles = scene.capture();
-  judge(tiles, make_plan(tiles, TilesOfAllKinds::functions(), scene.mask(), {}), holds_codes(output.type));
+  judge(tiles, make_plan(tiles, TilesOfAllKinds::functions(), scene.mask(), {}), kernels_make_codes(output));
   return verdict;
 }
 

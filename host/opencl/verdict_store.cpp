@@ -72,7 +72,7 @@ VerdictStore::VerdictStore(const cl::Device& device, std::filesystem::path folde
       folder_(std::move(folder)) {}
 
 std::string VerdictStore::key_of(const TestedPrograms& programs) const {
-  return device_key_ + programs.expose_options + '\n' + programs.develop_options + '\n';
+  return device_key_ + programs.text();
 }
 
 std::optional<Verdict> VerdictStore::find(const TestedPrograms& programs) const {

@@ -16,11 +16,16 @@
 
 namespace nutik {
 
-// The programs that a picture is made with.
+// What a picture is made with.
 struct TestedPrograms {
   Precision precision;
   std::string expose_options;
   std::string develop_options;
+  bool make_codes;  // else light only
+
+  [[nodiscard]] std::string text() const {
+    return expose_options + '\n' + develop_options + (make_codes ? "\ncodes\n" : "\nlight\n");
+  }
 };
 
 class VerdictStore {

@@ -144,6 +144,16 @@ TEST_F(SelfTest, VerdictsAreKeptAndRenewedWithTheBinaries) {
   EXPECT_EQ(render(options()).precision, Precision::single_);
 }
 
+// The same kernels: what they make of light says nothing about codes.
+TEST_F(SelfTest, APictureOfLightDoesNotVouchForCodes) {
+  OpenClOptions asking = options();
+  asking.precision = Precision::single_;
+  static_cast<void>(OpenClRenderer(asking).render(plan_, capture_, {ValueType::light64, 0}));
+  EXPECT_EQ(kept_verdicts(0, scratch_ / "cache").at(Precision::single_).codes, 0u);
+  static_cast<void>(render(asking));
+  EXPECT_EQ(cached(".txt").size(), 2u);
+}
+
 // Light alone does not show what is wrong with codes.
 TEST_F(SelfTest, SeesWrongCodes) {
   ReferenceRenderer reference;

@@ -1,6 +1,7 @@
 #include "app/requests/computing_words.hpp"
 
 #include <cstdlib>
+#include <string_view>
 
 #include "app/output/console.hpp"
 #include "app/requests/source_words.hpp"
