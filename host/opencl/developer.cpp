@@ -83,7 +83,7 @@ void Developer::develop_band(const Band& band, std::span<std::byte> raster, Laun
   const cl::Buffer of_band = memory_.allocate(band.shape.pixel_count() * pixel_bytes, CL_MEM_WRITE_ONLY);
   const cl::Event event = launch(of_band);
   read_band(of_band, band, raster);
-  develop_ms_ += milliseconds(event);
+  develop_ms_ += milliseconds(event).value_or(0.0);
 }
 
 void Developer::read_band(const cl::Buffer& of_band, const Band& band, std::span<std::byte> raster) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -15,6 +16,12 @@ DeviceKind kind_of(cl_device_type type) {
   if ((type & CL_DEVICE_TYPE_ACCELERATOR) != 0) return DeviceKind::accelerator;
   if ((type & CL_DEVICE_TYPE_CPU) != 0) return DeviceKind::cpu;
   return DeviceKind::other;
+}
+
+// Mesa's llvmpipe, a GPU that is simulated, keeps a shader that would hang from doing so. Kernels pay for it: long
+// exposures lack light, and nothing says so. (Seen with Mesa 22.3.)
+std::uint32_t loop_limit_of(const DeviceInfo& info) {
+  return info.platform == "rusticl" && info.name.starts_with("llvmpipe") ? 65'535 : 0;
 }
 
 // Some drivers pad names with blanks and end them with a zero.
@@ -98,8 +105,9 @@ std::vector<cl::Device> all_devices() {
         "processor, or the graphics card's OpenCL package), or use --renderer reference. If one is "
         "installed: PoCL starts only where it may write its cache (set POCL_CACHE_DIR to such a folder)");
   }
-  std::stable_sort(devices.begin(), devices.end(), [](const cl::Device& a, const cl::Device& b) {
-    return kind_of(a.getInfo<CL_DEVICE_TYPE>()) < kind_of(b.getInfo<CL_DEVICE_TYPE>());
+  std::ranges::stable_sort(devices, {}, [](const cl::Device& device) {
+    const DeviceInfo info = describe_device(device);
+    return std::pair(info.kind, info.loop_limit != 0);
   });
   return devices;
 }
@@ -115,6 +123,7 @@ DeviceInfo describe_device(const cl::Device& device) {
   info.memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   info.largest_allocation_bytes = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
   info.native_float_lanes = device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
+  info.loop_limit = loop_limit_of(info);
   info.has_double = device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() != 0;
   cl_bool unified = CL_FALSE;
   device.getInfo(CL_DEVICE_HOST_UNIFIED_MEMORY, &unified);

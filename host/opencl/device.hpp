@@ -22,12 +22,14 @@ struct DeviceInfo {
   std::uint64_t memory_bytes = 0;
   std::uint64_t largest_allocation_bytes = 0;
   std::uint32_t native_float_lanes = 0;  // of its vector registers; 1 where work-items are lanes themselves
+  // Iterations after which a work-item's loops end, all of them together, whether they are done or not; 0: never.
+  std::uint32_t loop_limit = 0;
   bool has_double = false;
   bool shares_host_memory = false;
 };
 
-// Every device of every platform, the ones to prefer first: GPUs, accelerators, CPUs; the position is the
-// index that --device takes. Throws DeviceError where there is no OpenCL platform at all.
+// Every device of every platform, the ones to prefer first: GPUs, accelerators, CPUs, and of a kind those without a
+// loop_limit; the position is the index that --device takes. Throws DeviceError where there is no OpenCL platform at all.
 [[nodiscard]] std::vector<DeviceInfo> list_devices();
 
 // The index of the device that a person means: a number, or part of a name or platform in any case; empty

@@ -22,7 +22,9 @@ double device_copy_bandwidth(std::size_t device, std::uint64_t bytes) {
       cl::Event event;
       queue.enqueueCopyBuffer(from, to, 0, 0, bytes, nullptr, &event);
       event.wait();
-      best = std::max(best, 2.0 * static_cast<double>(bytes) / milliseconds(event) * 1e3);
+      const std::optional<double> took_ms = milliseconds(event);
+      if (!took_ms) throw DeviceError("this driver does not time copies: their rate cannot be measured");
+      best = std::max(best, 2.0 * static_cast<double>(bytes) / *took_ms * 1e3);
     }
     return best;
   } catch (const cl::Error& error) {

@@ -1,6 +1,8 @@
 // What the launches of all kernels share.
 #pragma once
 
+#include <optional>
+
 #include "opencl/opencl_api.hpp"
 #include "opencl/work_shape.hpp"
 
@@ -14,11 +16,13 @@ namespace nutik {
   return {queue, cl::NDRange((count + group - 1) / group * group), cl::NDRange(group)};
 }
 
-// What a command took by the device's own clock.
-[[nodiscard]] inline double milliseconds(const cl::Event& event) {
-  return static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
-                             event.getProfilingInfo<CL_PROFILING_COMMAND_START>()) *
-         1e-6;
+// What a command took by the device's own clock; nothing if the driver has none. (Mesa 22.3 numbers the steps of a
+// command from 0 to 3 instead of timing them: no clock of nanoseconds is that young.)
+[[nodiscard]] inline std::optional<double> milliseconds(const cl::Event& event) {
+  constexpr cl_ulong kYoungest = 1000;
+  const cl_ulong start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+  if (start < kYoungest) return {};
+  return static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() - start) * 1e-6;
 }
 
 }  // namespace nutik

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <map>
 #include <mutex>
 
 #include "capture/error.hpp"
@@ -19,6 +20,8 @@
 #include "opencl/light_pieces.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
+#include "opencl/self_test.hpp"
+#include "opencl/verdict_store.hpp"
 
 namespace nutik {
 namespace {
@@ -52,6 +55,24 @@ struct Request {
   const RenderControl& control;
 };
 
+// A chunk's blocks, cut so that no launch reads more samples, but one block at least.
+std::vector<std::span<const BlockEntry>> launches_of(std::span<const BlockEntry> entries,
+                                                     std::uint64_t most_samples) {
+  std::vector<std::span<const BlockEntry>> launches;
+  std::size_t first = 0;
+  std::uint64_t samples = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (i > first && samples + entries[i].sample_count > most_samples) {
+      launches.push_back(entries.subspan(first, i - first));
+      first = i;
+      samples = 0;
+    }
+    samples += entries[i].sample_count;
+  }
+  launches.push_back(entries.subspan(first));
+  return launches;
+}
+
 // Nothing is read from a capture any more when its exposure ends, however it does.
 class StoppedAtEnd {
  public:
@@ -74,10 +95,17 @@ std::span<const Precision> precisions_of(const DeviceInfo& device) {
   return kWithoutDouble;
 }
 
+std::map<Precision, Verdict> kept_verdicts(std::size_t device, const std::filesystem::path& cache_folder) {
+  return VerdictStore(all_devices().at(device), cache_folder).all();
+}
+
 class OpenClRenderer::Implementation {
  public:
   explicit Implementation(const OpenClOptions& options)
-      : options_(options), device_(pick_device(options)), info_(info_of(device_, options)) {
+      : options_(options),
+        device_(pick_device(options)),
+        info_(info_of(device_, options)),
+        verdicts_(device_, options.cache_folder) {
     if (options.precision) check_precision(*options.precision);
     context_ = cl::Context(device_);
     queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
@@ -100,38 +128,25 @@ class OpenClRenderer::Implementation {
   }
 
   void prepare(const RenderPlan& plan, const OutputFormat& output) {
-    const Work work = work_for(choose(plan, output, options_.precision).precision());
     const std::scoped_lock turn(turn_);
     try {
-      DeviceMemory memory(context_, info_);
-      if (!plan.blocks.empty()) expose_program(work, plan, light_of(work, plan, memory));
-      develop_program(work, plan, output);
+      Rendered ignored;
+      choose(plan, output, options_.precision, ignored);
     } catch (const cl::Error& error) {
       throw DeviceError(describe(error, format("{} failed", info_.name)));
     }
   }
 
   Rendered render(const Request& request) {
-    const RenderPlan& plan = request.plan;
     const std::optional<Precision> asked =
         request.control.precision ? request.control.precision : options_.precision;
     if (asked) check_precision(*asked);
-    Rendered rendered;
-    rendered.choice = choose(plan, request.output, asked);
-    rendered.precision = rendered.choice->precision();
-    if (!asked) warn(rendered, request.output);
-    const Work work = work_for(rendered.precision);
     const std::scoped_lock turn(turn_);
     try {
-      DeviceMemory memory(context_, info_);
-      const std::vector<ExposedBand> bands = expose(work, request, memory, rendered.statistics);
-      throw_if_cancelled(request.control);
-      Developer developer(work, plan, request.output, request.rectangle,
-                          develop_program(work, plan, request.output), queue_, *constants_, memory);
-      rendered.picture = developer.develop(bands);
-      rendered.saturation = developer.saturation();
-      rendered.statistics.develop_ms = developer.develop_ms();
-      rendered.statistics.device_bytes = memory.most_bytes();
+      Rendered rendered;
+      choose(request.plan, request.output, asked, rendered);
+      const Work work = work_for(rendered.precision);
+      expose_and_develop(work, request, develop_program(work, request.plan, request.output), rendered);
       programs_->save_new_binaries();
       return rendered;
     } catch (const cl::Error& error) {
@@ -153,6 +168,7 @@ class OpenClRenderer::Implementation {
     if (options.allocation_bytes != 0) {
       info.largest_allocation_bytes = std::min(info.largest_allocation_bytes, options.allocation_bytes);
     }
+    if (!options.heeds_loop_limit) info.loop_limit = 0;
     return info;
   }
 
@@ -176,10 +192,76 @@ class OpenClRenderer::Implementation {
         format("{} has no double precision; use --precision auto, compensated or fixed", info_.name));
   }
 
-  [[nodiscard]] PrecisionChoice choose(const RenderPlan& plan, const OutputFormat& output,
-                                       std::optional<Precision> asked) const {
-    if (asked) return choose_precision(plan, output, std::array{*asked});
-    return choose_precision(plan, output, precisions_of(info_));
+  // The arithmetic of a picture: the fastest that is right enough and that the device computes rightly, unless one was
+  // asked for. Its kernels are built and tested then.
+  void choose(const RenderPlan& plan, const OutputFormat& output, std::optional<Precision> asked,
+              Rendered& rendered) {
+    std::vector<Precision> available(precisions().begin(), precisions().end());
+    if (asked) available = {*asked};
+    std::string faults;
+    while (!available.empty()) {
+      rendered.choice = choose_precision(plan, output, available);
+      rendered.precision = rendered.choice->precision();
+      const Verdict verdict = verdict_on(rendered.precision, plan, output);
+      rendered.passed_self_test = verdict.is_right;
+      if (asked && !verdict.is_right) {
+        rendered.warnings.push_back(
+            format("{}: this driver computes `{}` wrongly (self-test: {}); use another arithmetic",
+                   info_.name, to_text(*asked), fault_text(verdict)));
+      }
+      if (!asked && verdict.is_right) warn(rendered, output);
+      if (asked || verdict.is_right) return;
+      faults += format("\n  {}: {}", to_text(rendered.precision), fault_text(verdict));
+      std::erase(available, rendered.precision);
+    }
+    throw DeviceError(
+        format("{} computes every arithmetic wrongly (self-test); use another device or the reference:{}",
+               info_.name, faults));
+  }
+
+  // On the programs that a picture is made with, which are built here if need be.
+  Verdict verdict_on(Precision precision, const RenderPlan& plan, const OutputFormat& output) {
+    const Work work = work_for(precision);
+    const cl::Program develop = develop_program(work, plan, output);
+    if (plan.blocks.empty()) return {};  // nothing is computed
+    DeviceMemory memory(context_, info_);
+    const DeviceLight& light = light_of(work, plan, memory);
+    expose_program(work, plan, light);
+    if (!options_.tests_itself) return {};
+    const TestedPrograms programs{precision, options_of_exposing(work, plan, light),
+                                  options_of_developing(work, plan, output), kernels_make_codes(output)};
+    const std::string key = programs.text();
+    if (const auto known = verdict_on_.find(key); known != verdict_on_.end()) return known->second;
+    std::optional<Verdict> verdict;
+    if (!programs_->was_built("expose", programs.expose_options) &&
+        !programs_->was_built("develop", programs.develop_options)) {
+      verdict = verdicts_.find(programs);
+    }
+    if (!verdict) {
+      verdict = self_test(plan.capture, precision, output,
+                          [&](const RenderPlan& scene, CaptureSource& source, const OutputFormat& format) {
+                            const Rectangle whole = Rectangle::whole(scene.capture.shape);
+                            Rendered rendered;
+                            expose_and_develop(work, {scene, source, format, whole, {}}, develop, rendered);
+                            return std::move(rendered.picture);
+                          });
+      programs_->save_new_binaries();
+      verdicts_.keep(programs, *verdict);
+    }
+    return verdict_on_.emplace(key, *verdict).first->second;
+  }
+
+  void expose_and_develop(const Work& work, const Request& request, const cl::Program& develop,
+                          Rendered& rendered) {
+    DeviceMemory memory(context_, info_);
+    const std::vector<ExposedBand> bands = expose(work, request, memory, rendered.statistics);
+    throw_if_cancelled(request.control);
+    Developer developer(work, request.plan, request.output, request.rectangle, develop, queue_, *constants_,
+                        memory);
+    rendered.picture = developer.develop(bands);
+    rendered.saturation = developer.saturation();
+    rendered.statistics.develop_ms = developer.develop_ms();
+    rendered.statistics.device_bytes = memory.most_bytes();
   }
 
   // Said only of what the program chose: a person who asks for an arithmetic gets it.
@@ -201,12 +283,27 @@ class OpenClRenderer::Implementation {
     return constants_->light(plan, work.precision, permutes, memory);
   }
 
+  [[nodiscard]] std::string fault_of(Precision precision) const {
+    const auto fault = options_.faults.find(precision);
+    return fault == options_.faults.end() ? std::string() : " " + fault->second;
+  }
+
+  [[nodiscard]] std::string options_of_exposing(const Work& work, const RenderPlan& plan,
+                                                const DeviceLight& light) const {
+    return expose_options(work, plan.capture, light.kind) + fault_of(work.precision);
+  }
+
+  [[nodiscard]] std::string options_of_developing(const Work& work, const RenderPlan& plan,
+                                                  const OutputFormat& output) const {
+    return develop_options(work, plan.capture, output) + fault_of(work.precision);
+  }
+
   cl::Program expose_program(const Work& work, const RenderPlan& plan, const DeviceLight& light) {
-    return programs_->get("expose", kernel_source("expose"), expose_options(work, plan.capture, light.kind));
+    return programs_->get("expose", kernel_source("expose"), options_of_exposing(work, plan, light));
   }
 
   cl::Program develop_program(const Work& work, const RenderPlan& plan, const OutputFormat& output) {
-    return programs_->get("develop", kernel_source("develop"), develop_options(work, plan.capture, output));
+    return programs_->get("develop", kernel_source("develop"), options_of_developing(work, plan, output));
   }
 
   // The bands of a rectangle with nothing in their sums yet.
@@ -241,6 +338,7 @@ class OpenClRenderer::Implementation {
     // The tables that are kept are at least those of one slice: weights and boundaries.
     const std::vector<TableSlice> slices = cut_tables(plan, work.precision, info_, table_bytes() / 2);
     const auto function_count = static_cast<cl_uint>(plan.function_count());
+    const std::uint64_t most_samples = most_samples_a_launch(info_, work.shape);
 
     feed_->start(plan, slices, request.source);
     const StoppedAtEnd stopped(*feed_);
@@ -255,21 +353,25 @@ class OpenClRenderer::Implementation {
         if (options_.last_block_first) std::reverse(chunk.entries.begin(), chunk.entries.end());
         const DeviceMemory::Scope chunk_scope(memory);
         memory.count(feed_->bytes());
-        const cl::Buffer entries = memory.upload(chunk.entries);
-        for (const ExposedBand& exposed : bands) {
-          const Band& band = exposed.band;
-          const cl::Event event = kernel(
-              items(queue_, work.shape, band.tile_count), chunk.payload, entries,
-              static_cast<cl_uint>(chunk.entries.size()), tables.spans, tables.weights, tables.boundaries,
-              function_count, exposed.function_of_tile, exposed.function_of_lane, light.values, exposed.sums,
-              band.first_tile, band.tile_count, band.columns, band.skipped_columns, block == 0 ? 1u : 0u);
-          event.wait();
-          statistics.expose_ms += milliseconds(event);
-          ++statistics.launches;
+        for (const std::span<const BlockEntry> part : launches_of(chunk.entries, most_samples)) {
+          const cl::Buffer entries = memory.upload(part);
+          for (const ExposedBand& exposed : bands) {
+            const Band& band = exposed.band;
+            const cl::Event event = kernel(
+                items(queue_, work.shape, band.tile_count), chunk.payload, entries,
+                static_cast<cl_uint>(part.size()), tables.spans, tables.weights, tables.boundaries,
+                function_count, exposed.function_of_tile, exposed.function_of_lane, light.values, exposed.sums,
+                band.first_tile, band.tile_count, band.columns, band.skipped_columns, block == 0 ? 1u : 0u);
+            event.wait();
+            const std::optional<double> took_ms = milliseconds(event);
+            statistics.expose_ms += took_ms.value_or(0.0);
+            statistics.is_timed = took_ms.has_value();
+            ++statistics.launches;
+          }
+          statistics.blocks += part.size();
+          block += part.size();
         }
-        statistics.blocks += chunk.entries.size();
         statistics.payload_bytes += chunk.payload_bytes;
-        block += chunk.entries.size();
       }
     }
     return bands;
@@ -289,6 +391,8 @@ class OpenClRenderer::Implementation {
   cl::Context context_;
   cl::CommandQueue queue_;
   std::unique_ptr<ProgramStore> programs_;
+  VerdictStore verdicts_;
+  std::map<std::string, Verdict> verdict_on_;  // by TestedPrograms::text()
   bool announced_ = false;
   std::unique_ptr<BlockFeed> feed_;
   std::unique_ptr<DeviceTables> tables_;

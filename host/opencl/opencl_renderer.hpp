@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "opencl/device.hpp"
+#include "opencl/self_test.hpp"
 #include "render/renderer.hpp"
 
 namespace nutik {
@@ -42,8 +44,19 @@ struct OpenClOptions {
 
   // Whether 16 lanes permute a transfer function's pieces (light_source.hpp). None: if the device's vectors hold them.
   std::optional<bool> permutes_pieces;
+
+  bool tests_itself = true;                 // false: computes in whatever is chosen, right or not
+  bool heeds_loop_limit = true;             // false: as if the driver had none (DeviceInfo::loop_limit)
+  std::map<Precision, std::string> faults;  // build options that make kernels compute wrongly; for tests
 };
 
+// What is known of a device: the worst verdict on each of its arithmetics that was tested since its kernels were built.
+[[nodiscard]] std::map<Precision, Verdict> kept_verdicts(std::size_t device,
+                                                         const std::filesystem::path& cache_folder);
+
+// Kernels are tested before a picture is computed with them (self_test.hpp): none is in an arithmetic that this device
+// gets wrong, unless it was asked for by name; then a warning says so.
+//
 // Renders take turns at the device: any number of threads may ask. What they share is the device, its kernels and the
 // blocks of the resident capture.
 class OpenClRenderer final : public Renderer {

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -13,14 +14,6 @@ namespace nutik {
 namespace {
 
 constexpr std::string_view kMagic = "nutik-cl program 1\n";
-
-std::uint64_t fnv1a(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char byte : bytes) {
-    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
-  }
-  return hash;
-}
 
 void append_number(std::string& to, std::uint64_t number) {
   to.append(reinterpret_cast<const char*>(&number), sizeof number);
@@ -40,6 +33,42 @@ std::string read_file(const std::filesystem::path& path) {
 
 }  // namespace
 
+// FNV-1a.
+std::uint64_t hash_of(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char byte : bytes) {
+    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
+  }
+  return hash;
+}
+
+std::string identity_of(const cl::Device& device) {
+  const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
+  std::string identity;
+  for (const std::string& part : {device.getInfo<CL_DEVICE_NAME>(), device.getInfo<CL_DEVICE_VENDOR>(),
+                                  device.getInfo<CL_DEVICE_VERSION>(), device.getInfo<CL_DRIVER_VERSION>(),
+                                  platform.getInfo<CL_PLATFORM_VERSION>()}) {
+    identity += part + '\n';
+  }
+  return identity;
+}
+
+void write_to_cache(const std::filesystem::path& path, std::string_view bytes) {
+  try {
+    std::filesystem::create_directories(path.parent_path());
+    const std::filesystem::path unfinished = path.string() + format(".{}", getpid());
+    std::ofstream out(unfinished, std::ios::binary);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (out) {
+      std::filesystem::rename(unfinished, path);
+    } else {
+      std::filesystem::remove(unfinished);
+    }
+  } catch (const std::exception&) {  // what is cached is made again
+  }
+}
+
 std::filesystem::path default_cache_folder() {
   if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder != nullptr && *folder != '\0') {
     return std::filesystem::path(folder) / "nutik-cl";
@@ -55,17 +84,11 @@ ProgramStore::ProgramStore(cl::Context context, cl::Device device, std::filesyst
     : context_(std::move(context)),
       device_(std::move(device)),
       cache_folder_(std::move(cache_folder)),
-      announce_(std::move(announce)) {
-  const cl::Platform platform(device_.getInfo<CL_DEVICE_PLATFORM>());
-  for (const std::string& part : {device_.getInfo<CL_DEVICE_NAME>(), device_.getInfo<CL_DEVICE_VENDOR>(),
-                                  device_.getInfo<CL_DEVICE_VERSION>(), device_.getInfo<CL_DRIVER_VERSION>(),
-                                  platform.getInfo<CL_PLATFORM_VERSION>()}) {
-    device_key_ += part + '\n';
-  }
-}
+      announce_(std::move(announce)),
+      device_key_(identity_of(device_)) {}
 
 std::filesystem::path ProgramStore::file_for(const std::string& name, const std::string& key) const {
-  return cache_folder_ / format("{}-{:016x}.bin", name, fnv1a(key));
+  return cache_folder_ / format("{}-{:016x}.bin", name, hash_of(key));
 }
 
 // magic, key length, key, binary length, hash of the binary, binary
@@ -80,7 +103,7 @@ bool ProgramStore::load(const std::string& name, const std::string& key, const s
   if (!take_number(rest, key_bytes) || rest.substr(0, key_bytes) != key) return false;
   rest.remove_prefix(key.size());
   if (!take_number(rest, binary_bytes) || !take_number(rest, hash)) return false;
-  if (rest.size() != binary_bytes || fnv1a(rest) != hash) return false;
+  if (rest.size() != binary_bytes || hash_of(rest) != hash) return false;
   try {
     const std::vector<unsigned char> binary(rest.begin(), rest.end());
     program = cl::Program(context_, {device_}, {binary});
@@ -97,9 +120,8 @@ cl::Program ProgramStore::get(const std::string& name, const std::string& source
   if (const auto found = entries_.find(key); found != entries_.end()) return found->second.program;
 
   cl::Program program;
-  bool is_new = false;
-  if (!load(name, key, options, program)) {
-    is_new = true;
+  const bool was_built = !load(name, key, options, program);
+  if (was_built) {
     if (announce_) announce_(name);
     try {
       program = cl::Program(context_, source);
@@ -112,15 +134,21 @@ cl::Program ProgramStore::get(const std::string& name, const std::string& source
                                device_.getInfo<CL_DEVICE_NAME>(), log));
     }
   }
-  entries_.emplace(key, Entry{program, name, is_new});
+  entries_.emplace(key, Entry{program, name, options, was_built, !was_built});
   return program;
+}
+
+bool ProgramStore::was_built(const std::string& name, const std::string& options) const {
+  return std::ranges::any_of(entries_, [&](const auto& entry) {
+    return entry.second.name == name && entry.second.options == options && entry.second.was_built;
+  });
 }
 
 void ProgramStore::save_new_binaries() {
   if (cache_folder_.empty()) return;
   for (auto& [key, entry] : entries_) {
-    if (!entry.is_new) continue;
-    entry.is_new = false;
+    if (entry.is_saved) continue;
+    entry.is_saved = true;
     // A cache that cannot be written costs a second next time; the picture is unharmed.
     try {
       const auto binaries = entry.program.getInfo<CL_PROGRAM_BINARIES>();
@@ -131,19 +159,9 @@ void ProgramStore::save_new_binaries() {
       append_number(bytes, key.size());
       bytes += key;
       append_number(bytes, binary.size());
-      append_number(bytes, fnv1a(binary));
+      append_number(bytes, hash_of(binary));
       bytes += binary;
-      std::filesystem::create_directories(cache_folder_);
-      const std::filesystem::path path = file_for(entry.name, key);
-      const std::filesystem::path unfinished = path.string() + format(".{}", getpid());
-      std::ofstream out(unfinished, std::ios::binary);
-      out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-      out.close();
-      if (out) {
-        std::filesystem::rename(unfinished, path);
-      } else {
-        std::filesystem::remove(unfinished);
-      }
+      write_to_cache(file_for(entry.name, key), bytes);
     } catch (const std::exception&) {
       continue;
     }

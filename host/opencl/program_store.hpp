@@ -4,10 +4,12 @@
 // with: its file holds them in full and they are compared. A damaged or foreign file is rebuilt.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "opencl/opencl_api.hpp"
 
@@ -24,6 +26,9 @@ class ProgramStore {
   // with program, options and the compiler's log.
   cl::Program get(const std::string& name, const std::string& source, const std::string& options);
 
+  // Whether a program that get() returned was built here, not loaded from the cache.
+  [[nodiscard]] bool was_built(const std::string& name, const std::string& options) const;
+
   // Writes the binaries of programs that were built since. To be called after their kernels first ran:
   // PoCL compiles a kernel's work-group function only then, and a binary saved earlier lacks it (build
   // and first run take 110 ms from such a binary, 4 ms from a whole one).
@@ -33,7 +38,9 @@ class ProgramStore {
   struct Entry {
     cl::Program program;
     std::string name;
-    bool is_new = false;
+    std::string options;
+    bool was_built = false;
+    bool is_saved = false;
   };
 
   [[nodiscard]] std::filesystem::path file_for(const std::string& name, const std::string& key) const;
@@ -47,6 +54,14 @@ class ProgramStore {
   std::string device_key_;
   std::map<std::string, Entry> entries_;  // by key
 };
+
+[[nodiscard]] std::uint64_t hash_of(std::string_view bytes);
+
+// A device with its driver, in lines: what a binary was built for.
+[[nodiscard]] std::string identity_of(const cl::Device& device);
+
+// Whole or not at all; a folder that cannot be written is no error.
+void write_to_cache(const std::filesystem::path& path, std::string_view bytes);
 
 // $XDG_CACHE_HOME/nutik-cl, or ~/.cache/nutik-cl; empty where neither is known.
 [[nodiscard]] std::filesystem::path default_cache_folder();

@@ -46,8 +46,6 @@ Validation validate(const RenderPlan& plan, CaptureSource& capture, const Output
   const auto step = [&] { progress(++done, total); };
   Validation validation;
   validation.output = output;
-  const Precision chosen = choose_precision(plan, output, precisions).precision();
-  validation.chosen = static_cast<std::size_t>(std::ranges::find(precisions, chosen) - precisions.begin());
 
   const Clock::time_point start = Clock::now();
   const Picture expected = ReferenceRenderer().render(plan, capture, kLight).picture;
@@ -60,14 +58,20 @@ Validation validate(const RenderPlan& plan, CaptureSource& capture, const Output
     control.precision = precision;
     return renderer.render(plan, capture, format, control);
   };
+  std::vector<Precision> trusted;
   for (const Precision precision : precisions) {
     ValidatedVariant& variant = validation.variants.emplace_back();
     variant.bound = error_bound(plan, precision, output);
     variant.light = light_errors(plan, variant.bound, expected, render(precision, kLight).picture);
     step();
-    variant.stored = stored_errors(plan, variant.bound, expected, render(precision, output).picture);
+    const Rendered rendered = render(precision, output);
+    variant.stored = stored_errors(plan, variant.bound, expected, rendered.picture);
+    if (rendered.passed_self_test) trusted.push_back(precision);
     step();
   }
+  const auto available = trusted.empty() ? precisions : std::span<const Precision>(trusted);
+  const Precision chosen = choose_precision(plan, output, available).precision();
+  validation.chosen = static_cast<std::size_t>(std::ranges::find(precisions, chosen) - precisions.begin());
 
   std::vector<Times> times(precisions.size());
   for (std::uint32_t run = 0; run < runs; ++run) {
@@ -78,6 +82,7 @@ Validation validate(const RenderPlan& plan, CaptureSource& capture, const Output
       times[i].expose_ms.push_back(took.expose_ms);
       times[i].develop_ms.push_back(took.develop_ms);
       validation.variants[i].payload_bytes = took.payload_bytes;
+      validation.variants[i].is_timed = took.is_timed;
       step();
     }
   }

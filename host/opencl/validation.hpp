@@ -23,6 +23,7 @@ struct ValidatedVariant {
   double expose_ms = 0.0;
   double develop_ms = 0.0;
   double render_ms = 0.0;
+  bool is_timed = true;             // false: the driver does not time kernels, whose times are 0 then
   std::uint64_t payload_bytes = 0;  // that the kernel read
 
   [[nodiscard]] Precision precision() const { return bound.precision; }

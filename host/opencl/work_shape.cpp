@@ -1,5 +1,8 @@
 #include "opencl/work_shape.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 
@@ -7,7 +10,8 @@ namespace nutik {
 
 WorkShape work_shape(const OpenClOptions& options, Precision precision, const DeviceInfo& device) {
   WorkShape shape{1, 1, 1, 64};
-  if (device.kind == DeviceKind::cpu) {
+  const bool has_vectors = device.native_float_lanes > 1;  // else its work-items are lanes, as on a GPU
+  if (device.kind == DeviceKind::cpu && has_vectors) {
     const bool is_of_floats = precision == Precision::single_ || precision == Precision::compensated;
     shape = {kTilePixels, 16, is_of_floats ? 16u : 8u, 1};
   }
@@ -22,6 +26,14 @@ WorkShape work_shape(const OpenClOptions& options, Precision precision, const De
                             shape.lanes, kTilePixels));
   }
   return shape;
+}
+
+std::uint64_t most_samples_a_launch(const DeviceInfo& device, const WorkShape& shape) {
+  if (device.loop_limit == 0) return std::numeric_limits<std::uint64_t>::max();
+  // If nothing is unrolled: a row, its channels and groups, and the coefficients of a curve for each of them.
+  const std::uint64_t vectors = 3 * shape.item_pixels / shape.lanes;
+  const std::uint64_t loops_a_sample = 2 + vectors * 12;
+  return std::max<std::uint64_t>(1, device.loop_limit / loops_a_sample / shape.item_tiles);
 }
 
 }  // namespace nutik

@@ -30,4 +30,7 @@ struct WorkShape {
 [[nodiscard]] WorkShape work_shape(const OpenClOptions& options, Precision precision,
                                    const DeviceInfo& device);
 
+// The samples of a tile that one launch may read so that no loop of the kernels reaches the device's loop_limit.
+[[nodiscard]] std::uint64_t most_samples_a_launch(const DeviceInfo& device, const WorkShape& shape);
+
 }  // namespace nutik

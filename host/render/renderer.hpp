@@ -31,6 +31,7 @@ struct RenderStatistics {
   double read_ms = 0.0;    // waited for payloads to be where the kernel reads them: unpacking, copying
   double expose_ms = 0.0;  // of the kernels, by the device's own clock
   double develop_ms = 0.0;
+  bool is_timed = true;             // false: the driver does not time kernels, and both are 0
   std::uint64_t payload_bytes = 0;  // read by the kernel
   std::uint64_t device_bytes = 0;   // largest sum of buffers at a time
   std::uint64_t table_bytes_written = 0;  // of gain tables, and
@@ -44,7 +45,8 @@ struct Rendered {
   Precision precision = Precision::double_;
   Saturation saturation;  // none where light was kept
   std::optional<PrecisionChoice>
-      choice;  // the arithmetic's bound and what was not taken; none of the reference
+      choice;                    // the arithmetic's bound and what was not taken; none of the reference
+  bool passed_self_test = true;  // false: asked for by name, though the device computes it wrongly
   RenderStatistics statistics;
   std::vector<std::string> warnings;  // what is doubtful about the picture, whole sentences
 };

@@ -25,6 +25,8 @@ struct ComputingRequest {
 
   MemoryBudget memory = MemoryBudget::of_machine();
 
+  bool tests_drivers = true;  // false: new kernels are used without a self-test (opencl/self_test.hpp)
+
   friend bool operator==(const ComputingRequest&, const ComputingRequest&) = default;
 };
 

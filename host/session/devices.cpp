@@ -25,11 +25,16 @@ std::shared_ptr<Renderer> made(const ComputingRequest& request, Devices::Announc
   options.precision = request.precision;
   options.memory_bytes = request.memory.rendering_bytes();
   options.cache_folder = request.cache_folder.value_or(default_cache_folder());
+  options.tests_itself = request.tests_drivers;
   options.announce = std::move(announce);
   return std::make_shared<OpenClRenderer>(options);
 }
 
 }  // namespace
+
+std::map<Precision, Verdict> known_verdicts(std::size_t device) {
+  return kept_verdicts(device, default_cache_folder());
+}
 
 Devices::Devices(const ComputingRequest& request, Announce announce)
     : request_(request), announce_(std::move(announce)) {}

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <future>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -27,6 +28,9 @@ struct DeviceNotFound : DeviceError {
   DeviceNotFound(const DeviceError& error, std::string stated, std::vector<DeviceInfo> found)
       : DeviceError(error), wanted(std::move(stated)), devices(std::move(found)) {}
 };
+
+// The worst kept verdict on each arithmetic of a device that was tested (opencl/self_test.hpp).
+[[nodiscard]] std::map<Precision, Verdict> known_verdicts(std::size_t device);
 
 class Devices {
  public:

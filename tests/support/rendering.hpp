@@ -30,6 +30,7 @@ inline OpenClOptions renderer_options(std::optional<Precision> precision) {
   }
   if (const char* bytes = std::getenv("NUTIK_TEST_ALLOCATION")) options.allocation_bytes = std::stoull(bytes);
   options.precision = precision;
+  options.tests_itself = false;  // these tests are stricter
   options.cache_folder = std::filesystem::temp_directory_path() / "nutik-test-kernels";
   return options;
 }

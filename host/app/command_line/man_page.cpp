@@ -144,6 +144,7 @@ std::string man_page() {
   text += section("ENVIRONMENT");
   constexpr std::pair<std::string_view, std::string_view> kVariables[] = {
       {"NUTIK_DEVICE", "the OpenCL device, as --device"},
+      {"NUTIK_SELF_TEST", "off: kernels are not tested before they are used"},
       {"NUTIK_MODULES",
        "the folder of nutik-videos.so and nutik-stills.so, where they are not in their usual place"},
       {"NO_COLOR", "no colours on a terminal, whatever its value is, unless that is empty"},

@@ -1,4 +1,5 @@
 #include "session/devices.hpp"
+
 #include "app/commands/commands.hpp"
 #include "app/output/console.hpp"
 #include "app/output/json.hpp"
@@ -7,14 +8,54 @@
 #include "session/size_text.hpp"
 
 namespace nutik::app {
+namespace {
+
+using Verdicts = std::map<Precision, Verdict>;
+
+// `single right, fixed not tested yet`
+std::string arithmetics_text(const DeviceInfo& device, const Verdicts& verdicts) {
+  std::string text;
+  for (const Precision precision : precisions_of(device)) {
+    text += (text.empty() ? "" : ", ") + to_text(precision);
+    const auto known = verdicts.find(precision);
+    if (known == verdicts.end()) {
+      text += " not tested yet";
+    } else if (known->second.is_right) {
+      text += " right";
+    } else {
+      text += format(" WRONG ({})", fault_text(known->second));
+    }
+  }
+  return text;
+}
+
+Json arithmetics_json(const DeviceInfo& device, const Verdicts& verdicts) {
+  Json json = Json::array();
+  for (const Precision precision : precisions_of(device)) {
+    Json arithmetic{{"precision", to_text(precision)}, {"is_right", nullptr}};
+    if (const auto known = verdicts.find(precision); known != verdicts.end()) {
+      const Verdict& verdict = known->second;
+      arithmetic.update({{"is_right", verdict.is_right},
+                         {"light_error", verdict.light_error},
+                         {"allowed_light_error", verdict.allowed_error},
+                         {"wrong_codes", verdict.wrong_codes},
+                         {"codes", verdict.codes}});
+    }
+    json.push_back(std::move(arithmetic));
+  }
+  return json;
+}
+
+}  // namespace
 
 int run_devices(const Options& options) {
   if (!options.operands.empty()) throw UsageError("devices takes no file");
   const std::vector<DeviceInfo> devices = list_devices();
-  if (options.json) {
-    Json json{{"devices", Json::array()}};
-    for (std::size_t i = 0; i < devices.size(); ++i) {
-      const DeviceInfo& device = devices[i];
+  Json json{{"devices", Json::array()}};
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const DeviceInfo& device = devices[i];
+    const Verdicts verdicts = known_verdicts(i);
+    if (options.json) {
       json["devices"].push_back({{"number", i},
                                  {"name", device.name},
                                  {"kind", to_text(device.kind)},
@@ -24,19 +65,18 @@ int run_devices(const Options& options) {
                                  {"has_double", device.has_double},
                                  {"platform", device.platform},
                                  {"driver_version", device.driver_version},
-                                 {"opencl_version", device.opencl_version}});
+                                 {"opencl_version", device.opencl_version},
+                                 {"arithmetics", arithmetics_json(device, verdicts)}});
+      continue;
     }
-    print_json(json);
-    return 0;
+    print_line(
+        format("{}  {}\n   {}, {}, {} ({} at a time), {} precision\n   {}, driver {}, {}\n   self-test: {}",
+               i, device.name, to_text(device.kind), counted(device.compute_units, "compute unit"),
+               bytes_text(device.memory_bytes), bytes_text(device.largest_allocation_bytes),
+               device.has_double ? "double and single" : "single", device.platform, device.driver_version,
+               device.opencl_version, arithmetics_text(device, verdicts)));
   }
-  for (std::size_t i = 0; i < devices.size(); ++i) {
-    const DeviceInfo& device = devices[i];
-    print_line(format("{}  {}\n   {}, {}, {} ({} at a time), {} precision\n   {}, driver {}, {}", i,
-                      device.name, to_text(device.kind), counted(device.compute_units, "compute unit"),
-                      bytes_text(device.memory_bytes), bytes_text(device.largest_allocation_bytes),
-                      device.has_double ? "double and single" : "single", device.platform,
-                      device.driver_version, device.opencl_version));
-  }
+  if (options.json) print_json(json);
   return 0;
 }
 

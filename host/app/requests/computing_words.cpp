@@ -1,6 +1,7 @@
 #include "app/requests/computing_words.hpp"
 
 #include <cstdlib>
+#include <string_view>
 
 #include "app/output/console.hpp"
 #include "app/requests/source_words.hpp"
@@ -24,6 +25,8 @@ ComputingRequest computing_request(const Options& options) {
   }
   const char* environment = std::getenv("NUTIK_DEVICE");
   request.device = options.device.value_or(environment != nullptr ? environment : "");
+  const char* self_test = std::getenv("NUTIK_SELF_TEST");
+  request.tests_drivers = self_test == nullptr || std::string_view(self_test) != "off";
   if (options.precision.value_or("auto") != "auto") request.precision = parse_precision(*options.precision);
   return request;
 }

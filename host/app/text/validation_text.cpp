@@ -7,6 +7,14 @@
 #include "session/size_text.hpp"
 
 namespace nutik::app {
+namespace {
+
+// A figure of kernels' times; null if the driver does not time them.
+Json timed(const ValidatedVariant& variant, double figure) {
+  return variant.is_timed ? Json(figure) : Json(nullptr);
+}
+
+}  // namespace
 
 std::string format_name(ValueType type) {
   switch (type) {
@@ -29,7 +37,8 @@ std::string variants_text(const Validation& validation) {
     const StoredErrors& stored = variant.stored;
     const double share = 100.0 * static_cast<double>(stored.differing) / static_cast<double>(stored.values);
     rows.push_back({i == validation.chosen ? "*" : "", to_text(variant.precision()),
-                    format("{:.2f}", variant.expose_ms), format("{:.1f}", variant.gigabytes_per_second()),
+                    variant.is_timed ? format("{:.2f}", variant.expose_ms) : "not timed",
+                    variant.is_timed ? format("{:.1f}", variant.gigabytes_per_second()) : "-",
                     format("{:.2f}", variant.render_ms), format("{:.2g}", light.worst),
                     format("{:.2g}", light.rms), format("{:.2g}", light.worst_8_bit_codes),
                     format("{:.2g}", light.worst_16_bit_codes), format("{:.3g} %", share),
@@ -58,11 +67,11 @@ Json variants_json(const Validation& validation, const Shape& shape) {
     const std::uint64_t pixel = light.worst_value / shape.channels;
     json.push_back({{"precision", to_text(variant.precision())},
                     {"is_chosen", i == validation.chosen},
-                    {"expose_ms", variant.expose_ms},
-                    {"develop_ms", variant.develop_ms},
+                    {"expose_ms", timed(variant, variant.expose_ms)},
+                    {"develop_ms", timed(variant, variant.develop_ms)},
                     {"render_ms", variant.render_ms},
                     {"payload_bytes", variant.payload_bytes},
-                    {"gigabytes_per_second", variant.gigabytes_per_second()},
+                    {"gigabytes_per_second", timed(variant, variant.gigabytes_per_second())},
                     {"worst_light", light.worst},
                     {"worst_x", pixel % shape.width},
                     {"worst_y", pixel / shape.width},

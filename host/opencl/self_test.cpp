@@ -1,0 +1,166 @@
+#include "opencl/self_test.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "capture/format.hpp"
+#include "render/picture_errors.hpp"
+#include "render/reference_renderer.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr OutputFormat kLight{ValueType::light64, 0};
+
+using Rasters = std::vector<std::vector<std::byte>>;
+
+// Of no order, and the same everywhere.
+std::uint32_t mixed(std::uint32_t number) {
+  number = (number ^ (number >> 16)) * 0x7feb352du;
+  number = (number ^ (number >> 15)) * 0x846ca68bu;
+  return number ^ (number >> 16);
+}
+
+void set_code(const CaptureFormat& capture, std::vector<std::byte>& raster, std::uint64_t value,
+              std::uint32_t code) {
+  std::memcpy(raster.data() + value * capture.code_bytes, &code, capture.code_bytes);  // little-endian
+}
+
+CaptureFormat format_like(const CaptureFormat& like, std::uint32_t width, std::uint32_t height) {
+  CaptureFormat capture = like;
+  capture.shape.width = width;
+  capture.shape.height = height;
+  capture.noise = {};
+  return capture;
+}
+
+// How often a pixel has changed until a sample, by the kind of its tile: still, rows, dense, records.
+std::uint32_t changes_until(std::uint32_t sample, std::uint32_t kind, std::uint32_t pixel) {
+  constexpr std::uint32_t kRowTimes[]{37, 38, 100, 259, 270};
+  constexpr std::uint32_t kRecordPeriod = 61;
+  switch (kind) {
+    case 0: return 0;
+    case 1:
+      return static_cast<std::uint32_t>(
+          std::ranges::count_if(kRowTimes, [&](auto time) { return time <= sample; }));
+    case 2: return sample;
+    default: return (sample + mixed(pixel) % kRecordPeriod) / kRecordPeriod;
+  }
+}
+
+class TilesOfAllKinds {
+ public:
+  explicit TilesOfAllKinds(const CaptureFormat& like)
+      : format_(format_like(like, 5 * kTileSide + 3, 3 * kTileSide + 5)) {}
+
+  [[nodiscard]] MemoryCapture capture() const {
+    const Shape& shape = format_.shape;
+    Rasters rasters(kSamples, std::vector<std::byte>(format_.sample_bytes()));
+    for (std::uint32_t sample = 0; sample < kSamples; ++sample) {
+      for (std::uint32_t pixel = 0; pixel < shape.pixel_count(); ++pixel) {
+        const std::uint32_t x = pixel % shape.width, y = pixel / shape.width;
+        const std::uint32_t changes = changes_until(sample, (x / kTileSide + y / kTileSide) % 4, pixel);
+        for (std::uint32_t channel = 0; channel < shape.channels; ++channel) {
+          const std::uint64_t value = std::uint64_t{pixel} * shape.channels + channel;
+          const std::uint32_t number = mixed(changes * 0x9e3779b9u + static_cast<std::uint32_t>(value));
+          set_code(format_, rasters[sample], value, number % (format_.white_code + 1));
+        }
+      }
+    }
+    // Blocks of 260 samples and of 40.
+    return {format_, Timeline::constant({1000, 1}, {180, 1}, kSamples), rasters, 260};
+  }
+
+  // One function a tile; in the second row of tiles all of them, pixel by pixel.
+  [[nodiscard]] Mask mask() const {
+    const Shape& shape = format_.shape;
+    Mask mask = Mask::uniform(shape.width, shape.height, 0);
+    for (std::uint32_t pixel = 0; pixel < shape.pixel_count(); ++pixel) {
+      const std::uint32_t x = pixel % shape.width, y = pixel / shape.width;
+      const bool is_mixed = y / kTileSide == 1;
+      mask.tags[pixel] = static_cast<std::uint8_t>(is_mixed ? (x + y) % 4 : x / kTileSide % 3);
+    }
+    return mask;
+  }
+
+  // All the time; only within the last block; with negative gains; much weaker than the others.
+  [[nodiscard]] static FunctionSet functions() {
+    constexpr std::int64_t kMs = 1'000'000;
+    return {{0, GainFunction({{0, 1.0}})},
+            {1, GainFunction::boxcar(271'300'000, 292'700'000, 14.0)},
+            {2, GainFunction(
+                    {{0, -0.25}, {50 * kMs, 0.0}, {150 * kMs, 5.0}, {151 * kMs, 0.0}, {300 * kMs, 0.01}})},
+            {3, GainFunction({{0, 1.0 / 3000}, {300 * kMs, 1.0 / 5000}})}};
+  }
+
+ private:
+  static constexpr std::uint32_t kSamples = 300;
+
+  CaptureFormat format_;
+};
+
+// One pixel that changes at each of more samples than 16 bits count, in many blocks.
+MemoryCapture long_capture(const CaptureFormat& like) {
+  constexpr std::uint32_t kSamples = 66'000;
+  const CaptureFormat capture = format_like(like, 1, 1);
+  Rasters rasters(kSamples, std::vector<std::byte>(capture.sample_bytes()));
+  for (std::uint32_t sample = 0; sample < kSamples; ++sample) {
+    for (std::uint32_t channel = 0; channel < capture.shape.channels; ++channel) {
+      set_code(capture, rasters[sample], channel, mixed(sample * 3 + channel) % (capture.white_code + 1));
+    }
+  }
+  return {capture, Timeline::constant({1000, 1}, Timeline::kFullShutter, kSamples), rasters,
+          kDefaultBlockSamples, TilePolicy::dense};
+}
+
+// Keeps the error that takes most of its bound.
+void judge_light(Verdict& verdict, const RenderPlan& plan, const ErrorBound& bound, const Picture& expected,
+                 const Picture& light) {
+  for (std::uint64_t i = 0; i < expected.shape.value_count(); ++i) {
+    double error = std::fabs(light.values<double>()[i] - expected.values<double>()[i]);
+    if (std::isnan(error)) error = std::numeric_limits<double>::infinity();
+    const double allowed = bound.functions[plan.function_of(i / expected.shape.channels)].light;
+    if (error * verdict.allowed_error <= verdict.light_error * allowed && verdict.allowed_error > 0.0)
+      continue;
+    verdict.light_error = error;
+    verdict.allowed_error = allowed;
+  }
+  verdict.is_right = verdict.is_right && verdict.light_error <= verdict.allowed_error;
+}
+
+}  // namespace
+
+std::string fault_text(const Verdict& verdict) {
+  if (verdict.light_error > verdict.allowed_error) {
+    return format("light is wrong by {:.1g} instead of {:.1g}", verdict.light_error, verdict.allowed_error);
+  }
+  return format("{} of {} codes are wrong", verdict.wrong_codes, verdict.codes);
+}
+
+Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFormat& output,
+                  const RenderScene& render) {
+  Verdict verdict;
+  ReferenceRenderer reference;
+  const auto judge = [&](CaptureSource& capture, const RenderPlan& plan, bool with_codes) {
+    const OutputFormat codes{output.type, output.white_code};
+    const ErrorBound bound = error_bound(plan, precision, with_codes ? codes : kLight);
+    const Picture expected = reference.render(plan, capture, kLight).picture;
+    judge_light(verdict, plan, bound, expected, render(plan, capture, kLight));
+    if (!with_codes) return;
+    const StoredErrors stored = stored_errors(plan, bound, expected, render(plan, capture, codes));
+    verdict.codes = stored.values;
+    verdict.wrong_codes = stored.differing - stored.explained;
+    verdict.is_right = verdict.is_right && verdict.wrong_codes == 0;
+  };
+  MemoryCapture endless = long_capture(like);
+  judge(endless, make_plan(endless, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(1, 1, 0), {}), false);
+  const TilesOfAllKinds scene(like);
+  MemoryCapture tiles = scene.capture();
+  judge(tiles, make_plan(tiles, TilesOfAllKinds::functions(), scene.mask(), {}), kernels_make_codes(output));
+  return verdict;
+}
+
+}  // namespace nutik

@@ -1,0 +1,148 @@
+// What a user sees of drivers that compute wrongly, and the program on a second driver: Mesa's, for the processor.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+#include "support/scratch.hpp"
+#include "support/still_clip.hpp"
+
+namespace nutik {
+namespace {
+
+using nlohmann::json;
+using test::ProgramResult;
+
+class Drivers : public testing::Test {
+ protected:
+  void SetUp() override {
+    test::write_still_clip(scratch_.folder(), 24, 20);
+    ASSERT_EQ(run({"-q", "encode", "-f", "100", "--tolerance", "4", "frames", "clip.tik"}).status, 0);
+  }
+
+  // With kernels of its own.
+  ProgramResult run(const std::vector<std::string>& words) const {
+    std::vector<std::string> settings{"XDG_CACHE_HOME=" + (scratch_ / "cache").string()};
+    if (on_mesa_) settings.insert(settings.end(), {"RUSTICL_ENABLE=llvmpipe", "NUTIK_DEVICE=rusticl"});
+    return test::run_program(words, scratch_.folder(), settings);
+  }
+  ProgramResult expose(std::vector<std::string> words) const {
+    words.insert(words.begin(), {"expose", "--start", "0s", "--exposure", "100ms"});
+    return run(words);
+  }
+
+  // Has every kept verdict say what `to` says where it says `from`.
+  void turn_verdicts(const std::string& from, const std::string& to) const {
+    for (const auto& file : std::filesystem::directory_iterator(scratch_ / "cache" / "nutik-cl")) {
+      if (file.path().extension() != ".txt") continue;
+      std::string text = test::read_file(file.path());
+      if (const std::size_t at = text.find(from); at != std::string::npos) {
+        std::ofstream(file.path(), std::ios::binary) << text.replace(at, from.size(), to);
+      }
+    }
+  }
+
+  test::Scratch scratch_;
+  bool on_mesa_ = false;
+};
+
+void expect_part(const std::string& text, std::string_view part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "no '" << part << "' in: " << text;
+}
+
+TEST_F(Drivers, VerdictsAreShown) {
+  expect_part(run({"devices"}).out, "self-test: single not tested yet");
+  ASSERT_EQ(expose({"clip.tik", "right.png"}).status, 0);
+  expect_part(run({"devices"}).out, "self-test: single right");
+  const json right = json::parse(run({"devices", "--json"}).out)["devices"][0]["arithmetics"];
+  EXPECT_EQ(right[0]["precision"], "single");
+  EXPECT_EQ(right[0]["is_right"], true);
+  EXPECT_EQ(right[1]["is_right"], nullptr);
+
+  turn_verdicts("single right", "single wrong");
+  expect_part(run({"devices"}).out, "self-test: single WRONG (");
+  EXPECT_EQ(json::parse(run({"devices", "--json"}).out)["devices"][0]["arithmetics"][0]["is_right"], false);
+}
+
+TEST_F(Drivers, AWrongArithmeticIsAvoidedOrWarnedOf) {
+  ASSERT_EQ(expose({"clip.tik", "right.png"}).status, 0);
+  turn_verdicts("single right", "single wrong");
+  const ProgramResult automatic = expose({"--json", "clip.tik", "auto.png"});
+  ASSERT_EQ(automatic.status, 0) << automatic.err;
+  EXPECT_NE(json::parse(automatic.out)["precision"], "single");
+  EXPECT_EQ(automatic.err.find("wrongly"), std::string::npos) << automatic.err;
+  const ProgramResult asked = expose({"--precision", "single", "clip.tik", "asked.png"});
+  EXPECT_EQ(asked.status, 0) << asked.err;
+  expect_part(asked.err, "this driver computes `single` wrongly (self-test: ");
+}
+
+TEST_F(Drivers, ADeviceThatIsAlwaysWrongEndsWithTheWayOut) {
+  for (const char* precision : {"single", "double", "fixed", "compensated"}) {
+    const ProgramResult result = expose({"--precision", precision, "clip.tik", "right.png"});
+    if (result.status != 0) expect_part(result.err, "has no double precision");
+  }
+  turn_verdicts(" right ", " wrong ");
+  const ProgramResult result = expose({"clip.tik", "wrong.png"});
+  EXPECT_EQ(result.status, 4) << result.err;
+  for (const char* part : {"computes every arithmetic wrongly", "use another device or the reference"}) {
+    expect_part(result.err, part);
+  }
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "wrong.png"));
+}
+
+class SecondDriver : public Drivers {
+ protected:
+  void SetUp() override {
+    on_mesa_ = true;
+    const ProgramResult devices = run({"devices"});
+    if (devices.out.find("rusticl") == std::string::npos) {
+      GTEST_SKIP() << "Mesa's OpenCL driver is not installed (apt install mesa-opencl-icd)";
+    }
+    Drivers::SetUp();
+  }
+};
+
+TEST_F(SecondDriver, IsListedBehindTheFirst) {
+  const std::string devices = run({"devices"}).out;
+  expect_part(devices, "llvmpipe");
+  const ProgramResult unset = test::run_program({"devices"}, scratch_.folder(), {"RUSTICL_ENABLE="});
+  EXPECT_EQ(unset.out.find("rusticl"), std::string::npos) << unset.out;
+  if (unset.status == 0) {
+    EXPECT_LT(devices.find(unset.out.substr(0, unset.out.find('\n'))), devices.find("llvmpipe"));
+  }
+}
+
+TEST_F(SecondDriver, ComputesRightlyOrNotAtAll) {
+  const ProgramResult picture = expose({"clip.tik", "mesa.pfm"});
+  if (picture.status != 0) {
+    EXPECT_EQ(picture.status, 4) << picture.err;
+    expect_part(picture.err, "computes every arithmetic wrongly");
+    return;
+  }
+  ASSERT_EQ(expose({"--renderer", "reference", "clip.tik", "reference.pfm"}).status, 0);
+  const std::vector<float> mesa = test::read_pfm(scratch_ / "mesa.pfm");
+  const std::vector<float> reference = test::read_pfm(scratch_ / "reference.pfm");
+  ASSERT_EQ(mesa.size(), reference.size());
+  for (std::size_t i = 0; i < mesa.size(); ++i) ASSERT_NEAR(mesa[i], reference[i], 1e-6f) << i;
+}
+
+TEST_F(SecondDriver, IsValidatedWithoutTimesOfKernels) {
+  const ProgramResult result =
+      run({"validate", "--json", "--runs", "1", "--start", "0s", "--exposure", "100ms", "clip.tik"});
+  const json validation = json::parse(result.out);
+  for (const json& variant : validation["variants"]) {
+    EXPECT_EQ(variant["expose_ms"], nullptr) << variant;
+    EXPECT_EQ(variant["gigabytes_per_second"], nullptr) << variant;
+    EXPECT_GT(variant["render_ms"], 0.0);
+    if (variant["is_chosen"] == true) {
+      EXPECT_EQ(variant["is_within_bound"], true) << variant;
+    }
+  }
+  const ProgramResult table =
+      run({"validate", "--runs", "1", "--start", "0s", "--exposure", "100ms", "clip.tik"});
+  expect_part(table.out, "not timed");
+}
+
+}  // namespace
+}  // namespace nutik
