@@ -139,7 +139,7 @@ TEST_F(DeepInput, RefusesWithTheFileBothValuesAndTheWayOut) {
   const auto stills = test::random_stills({17, 9, 1}, 4095, 3, 1);
   write_netpbm("frames", stills);
   expect_refused({"frames", "x.tik"}, 3,
-                 {"frames does not say how fast it was taken; state the rate with --fps"});
+                 {"frames does not say how fast it was taken; state the rate (--fps)"});
   expect_refused({"-f", "10", "absent/*.png", "x.tik"}, 3, {"absent/*.png: no file matches"});
   expect_refused({"-f", "10", "frames/f%d.pgm", "x.tik"}, 3,
                  {"f002.pgm is there: its zeros are written %03d"});

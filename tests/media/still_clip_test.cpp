@@ -196,7 +196,7 @@ TEST(StillClip, SaysWhichStillDiffersAndHow) {
   write("white/f0.pgm", kGrey, 1023);
   write("white/f1.pgm", kGrey, 4095);
   expect_refused(scratch / "white", {"f1.pgm is 17 x 9 grey of 16 bits, white code 4095", "white code 1023",
-                                     "say what is white with --white"});
+                                     "state what is white"});
   ClipOptions options;
   options.white_code = 4095;
   EXPECT_EQ(read_all(*open_test_clip(scratch / "white", options)).size(), 2u);

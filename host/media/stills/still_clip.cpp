@@ -153,7 +153,8 @@ class StillClip final : public Clip {
                             text(still.shape, still.code_bytes, still.maximum), pages_.front().file.string(),
                             text(capture.shape, capture.code_bytes, first_maximum_),
                             same_white ? "; name those that are with a pattern: 'frame*.png'"
-                                       : ", or say what is white with --white"));
+                                       : ", or state what is white"),
+                     same_white ? std::vector<Setting>{} : std::vector{Setting::white_code});
   }
 
   std::vector<Page> pages_;

@@ -139,10 +139,10 @@ std::uint64_t count_raw_pictures(const std::filesystem::path& path, const RawVid
   if (bytes > 0 && file_bytes > 0 && file_bytes % static_cast<std::uint64_t>(bytes) == 0) {
     return file_bytes / static_cast<std::uint64_t>(bytes);
   }
-  throw InputError(
-      format("{} has {} bytes, which is no whole number of pictures of {} bytes ({} x {}, {}); "
-             "check --raw",
-             path.string(), file_bytes, bytes, raw.width, raw.height, raw.pixel_format));
+  throw InputError(format("{} has {} bytes, which is no whole number of pictures of {} bytes ({} x {}, {}); "
+                          "check its size and pixel format",
+                          path.string(), file_bytes, bytes, raw.width, raw.height, raw.pixel_format),
+                   {Setting::raw_layout});
 }
 
 }  // namespace
