@@ -40,6 +40,15 @@ class Error : public std::runtime_error {
   std::vector<Setting> settings_;
 };
 
+// What a person should know although nothing failed, whole sentences; and the settings that would change it.
+struct Note {
+  Note(std::string said, std::vector<Setting> that_change_it = {})
+      : text(std::move(said)), settings(std::move(that_change_it)) {}
+
+  std::string text;
+  std::vector<Setting> settings;
+};
+
 // The request itself makes no sense: options that contradict each other, an unknown name.
 struct UsageError : Error {
   using Error::Error;

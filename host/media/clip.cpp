@@ -30,7 +30,7 @@ std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const ClipOp
 class NotedClip final : public Clip {
  public:
   NotedClip(std::unique_ptr<Clip> clip, std::string note) : clip_(std::move(clip)), info_(clip_->info()) {
-    info_.notes.push_back(std::move(note));
+    info_.notes.emplace_back(std::move(note));
   }
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }

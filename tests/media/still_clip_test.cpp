@@ -265,8 +265,9 @@ TEST(StillClip, NotesAHoleInAFolderOfNumberedStills) {
   for (std::size_t k = 0; k < 3; ++k) scratch.write(names[k], netpbm_file(stills[k], false));
   const auto folder = open_test_clip(scratch / "frames");
   ASSERT_EQ(folder->info().notes.size(), 1u);
-  EXPECT_NE(folder->info().notes[0].find("f3.pgm is missing between f2.pgm and f4.pgm"), std::string::npos)
-      << folder->info().notes[0];
+  EXPECT_NE(folder->info().notes[0].text.find("f3.pgm is missing between f2.pgm and f4.pgm"),
+            std::string::npos)
+      << folder->info().notes[0].text;
   expect_codes(*folder, stills);
   const auto pattern = open_test_clip(scratch / "frames/*.pgm");
   EXPECT_TRUE(pattern->info().notes.empty());

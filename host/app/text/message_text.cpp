@@ -40,12 +40,6 @@ std::string_view option_of(Setting setting) {
   return {};
 }
 
-std::string options_text(const std::vector<Setting>& settings) {
-  std::string text;
-  for (const Setting setting : settings) text += format("{}{}", text.empty() ? "" : ", ", option_of(setting));
-  return text;
-}
-
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
@@ -75,6 +69,13 @@ std::string device_suggestion(const DeviceNotFound& error) {
 }
 
 }  // namespace
+
+std::string options_text(const std::vector<Setting>& settings) {
+  std::string text;
+  for (const Setting setting : settings)
+    text += format("{}{}", text.empty() ? " (" : ", ", option_of(setting));
+  return text.empty() ? text : text + ")";
+}
 
 std::string message_text(const std::exception& error) {
   const std::string message = error.what();
@@ -114,11 +115,13 @@ std::string message_text(const std::exception& error) {
         "--negative out",
         light->output.string());
   }
-  if (const auto* known = dynamic_cast<const Error*>(&error);
-      known != nullptr && !known->settings().empty()) {
-    return format("{} ({})", message, options_text(known->settings()));
-  }
+  if (const auto* known = dynamic_cast<const Error*>(&error))
+    return message + options_text(known->settings());
   return message;
+}
+
+std::string note_text(const Note& note) {
+  return format("note: {}{}", note.text, options_text(note.settings));
 }
 
 }  // namespace nutik::app
