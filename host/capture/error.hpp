@@ -3,11 +3,50 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace nutik {
 
-struct Error : std::runtime_error {
-  using std::runtime_error::runtime_error;
+// What a caller can state otherwise to get further. A library names none of an application's options: its message
+// says what helps, its error holds the settings, and the application adds what it calls them (--fps, fps=).
+enum class Setting {
+  automatic_noise,  // measured on the clip itself
+  block_samples,
+  columns,
+  depth,
+  frame_rate,
+  normalization,
+  precision,
+  raw_layout,
+  renderer,
+  shutter_angle,
+  transfer,
+  unmapped,
+  video_codec,
+  white_code,
+  width
+};
+
+class Error : public std::runtime_error {
+ public:
+  explicit Error(const std::string& message, std::vector<Setting> settings = {})
+      : std::runtime_error(message), settings_(std::move(settings)) {}
+
+  [[nodiscard]] const std::vector<Setting>& settings() const { return settings_; }
+
+ private:
+  std::vector<Setting> settings_;
+};
+
+// What a person should know although nothing failed, whole sentences; and the settings that would change it.
+struct Note {
+  Note(std::string said, std::vector<Setting> that_change_it = {})
+      : text(std::move(said)), settings(std::move(that_change_it)) {}
+
+  std::string text;
+  std::vector<Setting> settings;
 };
 
 // The request itself makes no sense: options that contradict each other, an unknown name.

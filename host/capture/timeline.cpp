@@ -71,7 +71,7 @@ Timeline Timeline::constant(Rational rate, Rational shutter_angle, std::uint64_t
 Timeline Timeline::irregular(std::vector<std::int64_t> starts_ns, Rational shutter_angle) {
   check_angle(shutter_angle);
   if (starts_ns.size() < 2) {
-    throw InputError("one timestamp gives no sample period; state the rate with --fps");
+    throw InputError("one timestamp gives no sample period; state the rate", {Setting::frame_rate});
   }
   const std::size_t count = starts_ns.size();
   std::vector<Exposure> exposures(count);
@@ -79,8 +79,9 @@ Timeline Timeline::irregular(std::vector<std::int64_t> starts_ns, Rational shutt
     if (k > 0 && starts_ns[k] <= starts_ns[k - 1]) {
       throw InputError(
           format("sample {} starts at {} ns, not after sample {} at {} ns; if they were taken at a "
-                 "constant rate, state it with --fps",
-                 k, starts_ns[k], k - 1, starts_ns[k - 1]));
+                 "constant rate, state it",
+                 k, starts_ns[k], k - 1, starts_ns[k - 1]),
+          {Setting::frame_rate});
     }
     const std::int64_t period =
         k + 1 < count ? starts_ns[k + 1] - starts_ns[k] : starts_ns[k] - starts_ns[k - 1];

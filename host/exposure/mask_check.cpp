@@ -150,10 +150,8 @@ std::string unmapped_mistake(const std::array<std::uint64_t, kMaskValues>& pixel
   }
   if (values.empty()) return {};
   if (count > kMostShown) values += format(" and {} more", count - kMostShown);
-  return format(
-      "mask values without a function: {}; add a line M<value> for each, or expose "
-      "them to black with --unmapped zero",
-      values);
+  return format("mask values without a function: {}; add a line M<value> for each, or expose them to black",
+                values);
 }
 
 MaskFlaws find_flaws(const Mask& mask, const std::array<bool, kMaskValues>& is_mapped) {

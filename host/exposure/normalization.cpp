@@ -47,8 +47,9 @@ double Normalization::divided_by(const GainSummary& summary, const std::string& 
       if (std::fabs(summary.integral_ns) <= kLeastIntegralShare * summary.absolute_integral_ns) {
         throw InputError(
             format("{}: the positive and negative parts of its gains cancel (the still gain is {:.3g}), so "
-                   "there is no integral to divide by; use --normalize support, absolute or seconds:S",
-                   name, summary.still_gain()));
+                   "there is no integral to divide by; use support, absolute or seconds:S",
+                   name, summary.still_gain()),
+            {Setting::normalization});
       }
       return std::scalbn(support_ns / summary.integral_ns, -summary.exponent);
     case Divisor::absolute: return std::scalbn(support_ns / summary.absolute_integral_ns, -summary.exponent);
@@ -67,7 +68,7 @@ GainFunction Normalization::normalized(const GainFunction& function, std::int64_
   try {
     return function.scaled(factor);
   } catch (const InputError& error) {
-    throw InputError(format("{}: {}", name, error.what()));
+    throw InputError(format("{}: {}", name, error.what()), error.settings());
   }
 }
 

@@ -63,10 +63,12 @@ void check_block_samples(const CaptureFormat& capture, std::uint32_t samples, Ti
     const std::uint32_t middle = std::midpoint(fitting, too_many);
     (fits_payload(capture, middle, policy) ? fitting : too_many) = middle;
   }
-  throw UsageError(format(
-      "a block of {} samples of {} x {} pixels may come to more than the {} GiB that a block can have; "
-      "use --block-samples {} or less",
-      samples, capture.shape.width, capture.shape.height, kLargestPayloadBytes >> 30, fitting));
+  throw UsageError(
+      format(
+          "a block of {} samples of {} x {} pixels may come to more than the {} GiB that a block can have; "
+          "use {} or fewer",
+          samples, capture.shape.width, capture.shape.height, kLargestPayloadBytes >> 30, fitting),
+      {Setting::block_samples});
 }
 
 // Calls visit(first tile, count, rasters, row_values) for strips of neighbouring tiles, at most kStripTiles each:
@@ -107,10 +109,9 @@ void check_white(const CaptureFormat& source, std::span<const std::byte> raster,
   if (source.white_code >= largest_possible) return;
   const std::uint32_t largest = largest_code(raster, source.code_bytes);
   if (largest > source.white_code) {
-    throw InputError(
-        format("sample {} has a code of {}, above the white code {}; state the right one "
-               "with --white",
-               sample, largest, source.white_code));
+    throw InputError(format("sample {} has a code of {}, above the white code {}; state the right one",
+                            sample, largest, source.white_code),
+                     {Setting::white_code});
   }
 }
 

@@ -103,16 +103,16 @@ ExpectedValues::ExpectedValues(const CaptureFormat& source)
       light_(source.transfer.light_of_codes(source.white_code)) {
   const CameraNoise& camera = source.noise.camera.value();
   if (camera.channels.size() != channels_) {
-    throw UsageError(
-        format("the noise was measured on {} channel{} and the clip has {}; measure it on a "
-               "clip of the same kind, or use --noise auto",
-               camera.channels.size(), camera.channels.size() == 1 ? "" : "s", channels_));
+    throw UsageError(format("the noise was measured on {} channel{} and the clip has {}; measure it on a "
+                            "clip of the same kind, or on the clip itself",
+                            camera.channels.size(), camera.channels.size() == 1 ? "" : "s", channels_),
+                     {Setting::automatic_noise});
   }
   if (camera.white_code != white_code_) {
-    throw UsageError(
-        format("the noise was measured with white code {} and the clip's is {}; measure it on a "
-               "clip of the same kind, or use --noise auto",
-               camera.white_code, white_code_));
+    throw UsageError(format("the noise was measured with white code {} and the clip's is {}; measure it on a "
+                            "clip of the same kind, or on the clip itself",
+                            camera.white_code, white_code_),
+                     {Setting::automatic_noise});
   }
   for (std::uint32_t channel = 0; channel < channels_; ++channel) sd_.push_back(camera.sd_of_codes(channel));
 }

@@ -30,7 +30,7 @@ std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const ClipOp
 class NotedClip final : public Clip {
  public:
   NotedClip(std::unique_ptr<Clip> clip, std::string note) : clip_(std::move(clip)), info_(clip_->info()) {
-    info_.notes.push_back(std::move(note));
+    info_.notes.emplace_back(std::move(note));
   }
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
@@ -69,13 +69,15 @@ Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOp
                      Rational shutter_angle, std::uint64_t sample_count) {
   if (options.rate) return Timeline::constant(*options.rate, shutter_angle, sample_count);
   if (!info.timing.is_known()) {
-    throw InputError(format("{} does not say how fast it was taken; state the rate with --fps", name));
+    throw InputError(format("{} does not say how fast it was taken; state the rate", name),
+                     {Setting::frame_rate});
   }
   if (info.timing.rate) return Timeline::constant(*info.timing.rate, shutter_angle, sample_count);
   const std::size_t times = std::max(info.timing.starts_ns.size(), info.timing.exposures.size());
   if (times < sample_count) {
     throw InputError(
-        format("{} has {} pictures but only {} times; state its rate with --fps", name, sample_count, times));
+        format("{} has {} pictures but only {} times; state its rate", name, sample_count, times),
+        {Setting::frame_rate});
   }
   try {
     if (!info.timing.exposures.empty()) {
@@ -87,7 +89,7 @@ Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOp
                                 info.timing.starts_ns.begin() + static_cast<std::ptrdiff_t>(sample_count)},
                                shutter_angle);
   } catch (const InputError& error) {
-    throw InputError(format("{}: {}", name, error.what()));
+    throw InputError(format("{}: {}", name, error.what()), error.settings());
   }
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/error.hpp"
 #include "capture/picture.hpp"
 #include "capture/timeline.hpp"
 
@@ -30,7 +31,7 @@ struct ClipInfo {
   ClipTiming timing;
   // As the files announce it. Decoding may end earlier or later; the clip is right then.
   std::uint64_t sample_count = 0;
-  std::vector<std::string> notes;  // what a person should know, whole sentences
+  std::vector<Note> notes;
 };
 
 // A video without a header: what its bytes are.

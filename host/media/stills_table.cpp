@@ -17,8 +17,9 @@ constexpr std::int64_t kLongestNs = std::int64_t{1} << 62;      // of a timeline
 
 constexpr std::string_view kColumns[] = {"file", "start_ns", "exposure_ns"};
 
-[[noreturn]] void fail(const std::filesystem::path& table, std::size_t line, const std::string& why) {
-  throw InputError(format("{}:{}: {}", table.string(), line, why));
+[[noreturn]] void fail(const std::filesystem::path& table, std::size_t line, const std::string& why,
+                       std::vector<Setting> settings = {}) {
+  throw InputError(format("{}:{}: {}", table.string(), line, why), std::move(settings));
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -163,8 +164,9 @@ ClipTiming timing_of(const std::filesystem::path& table, std::span<const ListedS
   const Times exposures = column(table, stills, exif, &StillTimes::exposure_ns, "exposure_ns");
   if (starts.empty()) {
     fail(table, stills.front().line,
-         format("{} has no start_ns, neither here nor in EXIF data; state it, or a rate with --fps",
-                stills.front().file.string()));
+         format("{} has no start_ns, neither here nor in EXIF data; state it, or a rate",
+                stills.front().file.string()),
+         {Setting::frame_rate});
   }
   ClipTiming timing;
   for (std::size_t k = 0; k < stills.size(); ++k) {

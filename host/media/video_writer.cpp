@@ -38,11 +38,11 @@ ValueType video_value_type(const VideoCodec& codec, std::optional<Depth> wish, V
     throw UsageError("a video holds no floating point; write numbered stills: frame-%05d.pfm or .tif");
   }
   if (wish == Depth::bits16 && !codec.holds_16_bits) {
-    throw UsageError(
-        format("{} holds 8 bits; for 16 use --video-codec ffv1 in a .mkv, or numbered stills", codec.name));
+    throw UsageError(format("{} holds 8 bits; for 16 use ffv1 in a .mkv, or numbered stills", codec.name),
+                     {Setting::video_codec});
   }
   if (wish == Depth::bits8 && !codec.holds_8_bits) {
-    throw UsageError(format("{} holds more than 8 bits; leave --depth out", codec.name));
+    throw UsageError(format("{} holds more than 8 bits; leave the depth out", codec.name), {Setting::depth});
   }
   if (wish) return *wish == Depth::bits8 ? ValueType::code8 : ValueType::code16;
   if (!codec.holds_16_bits) return ValueType::code8;

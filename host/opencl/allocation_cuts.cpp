@@ -25,8 +25,9 @@ std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle, Pr
     throw too_large(device, row_bytes,
                     format("a row of tiles of a picture {} pixels wide, in {} precision,",
                            std::min(shape.width, columns * kTileSide), to_text(precision)),
-                    format("use a device with more memory, {}or --renderer reference",
-                           precision == Precision::single_ ? "" : "--precision single, "));
+                    format("use a device with more memory, {}or the reference",
+                           precision == Precision::single_ ? "" : "single precision, "),
+                    {Setting::precision, Setting::renderer});
   }
   const std::uint64_t band_count = (rows + most_rows - 1) / most_rows;
   const auto band_rows = static_cast<std::uint32_t>((rows + band_count - 1) / band_count);
@@ -59,11 +60,11 @@ std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, 
     const PlannedBlock& block = plan.blocks[b];
     const std::uint64_t last_row = block.table_row + block.row_count();
     if (!fits(block.row_count())) {
-      throw too_large(
-          device, block.row_count() * row_bytes,
-          format("a table of {} functions for a block of {} samples", plan.function_count(),
-                 block.extent.sample_count),
-          "encode with fewer samples a block (--block-samples), or use fewer functions at a time");
+      throw too_large(device, block.row_count() * row_bytes,
+                      format("a table of {} functions for a block of {} samples", plan.function_count(),
+                             block.extent.sample_count),
+                      "use fewer functions at a time, or encode with fewer samples a block",
+                      {Setting::block_samples});
     }
     if (slices.empty() || !fits(last_row - slices.back().first_row) ||
         (last_row - slices.back().first_row) * row_bytes > most_bytes ||
@@ -77,11 +78,12 @@ std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, 
 }
 
 DeviceError too_large(const DeviceInfo& device, std::uint64_t bytes, std::string_view what,
-                      std::string_view way_out) {
+                      std::string_view way_out, std::vector<Setting> settings) {
   const auto megabytes = [](std::uint64_t size) { return static_cast<double>(size) * 1e-6; };
-  return DeviceError(format("{} takes {:.1f} MB and {} allocates at most {:.1f} MB at a time; {}", what,
-                            megabytes(bytes), device.name, megabytes(device.largest_allocation_bytes),
-                            way_out));
+  return DeviceError(
+      format("{} takes {:.1f} MB and {} allocates at most {:.1f} MB at a time; {}", what, megabytes(bytes),
+             device.name, megabytes(device.largest_allocation_bytes), way_out),
+      std::move(settings));
 }
 
 }  // namespace nutik

@@ -71,8 +71,8 @@ struct TableSlice {
                                                  const DeviceInfo& device,
                                                  std::uint64_t most_bytes = ~std::uint64_t{0});
 
-// That `what` takes more than the device allocates at a time, and the way out.
+// That `what` takes more than the device allocates at a time, and the way out by other settings.
 [[nodiscard]] DeviceError too_large(const DeviceInfo& device, std::uint64_t bytes, std::string_view what,
-                                    std::string_view way_out);
+                                    std::string_view way_out, std::vector<Setting> settings);
 
 }  // namespace nutik

@@ -73,7 +73,7 @@ BlockEntry BlockFeed::entry(std::uint64_t offset) const {
 void BlockFeed::check_size(const PlannedBlock& planned, std::uint64_t bytes) const {
   if (bytes <= info_.largest_allocation_bytes) return;
   throw too_large(info_, bytes, format("a block of {} samples", planned.extent.sample_count),
-                  "encode with fewer samples a block (--block-samples)");
+                  "encode with fewer samples a block", {Setting::block_samples});
 }
 
 BlockFeed::Chunk BlockFeed::held_chunk() {

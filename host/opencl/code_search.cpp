@@ -38,10 +38,10 @@ CodeSearch code_search(std::vector<double> thresholds, double white_light, doubl
     }
     if (fits) return search;
   }
-  throw UsageError(
-      format("transfer {} puts codes of a white of {} too close together to tell apart; write "
-             "floating point (--depth float), or use --renderer reference",
-             transfer.text(), white_code));
+  throw UsageError(format("transfer {} puts codes of a white of {} too close together to tell apart; write "
+                          "floating point, or use the reference",
+                          transfer.text(), white_code),
+                   {Setting::depth, Setting::renderer});
 }
 
 }  // namespace nutik

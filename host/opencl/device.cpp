@@ -102,8 +102,9 @@ std::vector<cl::Device> all_devices() {
   if (devices.empty()) {
     throw DeviceError(
         "no OpenCL device was found; install a driver (on Debian: apt install pocl-opencl-icd for the "
-        "processor, or the graphics card's OpenCL package), or use --renderer reference. If one is "
-        "installed: PoCL starts only where it may write its cache (set POCL_CACHE_DIR to such a folder)");
+        "processor, or the graphics card's OpenCL package). If one is installed: PoCL starts only if it may "
+        "write its cache (set POCL_CACHE_DIR to such a folder). Or use the reference",
+        {Setting::renderer});
   }
   std::ranges::stable_sort(devices, {}, [](const cl::Device& device) {
     const DeviceInfo info = describe_device(device);

@@ -6,7 +6,8 @@ namespace nutik {
 
 cl::Buffer DeviceMemory::allocate(std::uint64_t bytes, cl_mem_flags flags, const void* from) {
   if (bytes > device_.largest_allocation_bytes) {
-    throw too_large(device_, bytes, "a buffer", "use a device with more memory, or --renderer reference");
+    throw too_large(device_, bytes, "a buffer", "use a device with more memory, or the reference",
+                    {Setting::renderer});
   }
   count(bytes);
   return {context_, flags, bytes, const_cast<void*>(from)};  // which is only read

@@ -189,7 +189,7 @@ class OpenClRenderer::Implementation {
   void check_precision(Precision precision) const {
     if (precision != Precision::double_ || info_.has_double) return;
     throw DeviceError(
-        format("{} has no double precision; use --precision auto, compensated or fixed", info_.name));
+        format("{} has no double precision; use auto, compensated or fixed", info_.name), {Setting::precision});
   }
 
   // The arithmetic of a picture: the fastest that is right enough and that the device computes rightly, unless one was

@@ -36,7 +36,7 @@ void check_mapped(const FunctionSet& functions, const std::vector<MaskRegion>& r
   for (const MaskRegion& region : regions) pixels[region.tag] = region.pixel_count;
   for (const auto& [tag, function] : functions) is_mapped[tag] = true;
   if (const std::string mistake = unmapped_mistake(pixels, is_mapped); !mistake.empty()) {
-    throw InputError(mistake);
+    throw InputError(mistake, {Setting::unmapped});
   }
 }
 

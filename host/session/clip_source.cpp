@@ -30,10 +30,11 @@ NoiseModel noise_model(ClipSource& source) {
     const NoiseEstimate estimate =
         measure_noise(std::array{request.path.string()}, request.clip, kSamplesOfOwnNoise, known);
     model.camera = estimate.noise;
-    for (const std::string& note : noise_notes(estimate)) source.notes.push_back(note);
+    for (const std::string& note : noise_notes(estimate)) source.notes.emplace_back(note);
   } else if (const auto* stated = std::get_if<StatedNoise>(&request.noise)) {
     model.camera = stated->noise;
-    if (auto note = transfer_note(*stated, source.capture.transfer)) source.notes.push_back(std::move(*note));
+    if (auto note = transfer_note(*stated, source.capture.transfer))
+      source.notes.emplace_back(std::move(*note));
   }
   return model;
 }

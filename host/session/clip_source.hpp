@@ -33,7 +33,7 @@ struct ClipSource {
   CaptureFormat capture;            // of its samples; what is held of them has held_format()
   std::uint32_t block_samples = 0;  // of a stream's blocks
   BlockLimits block_limits = {kDefaultBlockSamples};  // of a file's
-  std::vector<std::string> notes;                     // on the clip and its noise: what a person should know
+  std::vector<Note> notes;                            // on the clip and its noise: what a person should know
 
   // As the files announce it; 0: they do not.
   [[nodiscard]] std::uint64_t announced_samples() const { return clip->info().sample_count; }

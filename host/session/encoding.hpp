@@ -24,7 +24,7 @@ struct Encoded {
   CaptureFormat capture;  // of the clip's samples
   Timeline timeline;
   std::uint64_t file_bytes = 0;
-  std::vector<std::string> notes;     // on the clip
+  std::vector<Note> notes;            // on the clip
   std::vector<std::string> warnings;  // what is doubtful about the capture, whole sentences
 };
 

@@ -146,7 +146,9 @@ void InputCheck::check_mask(bool unmapped_is_zero) {
   }
   if (functions_ && !unmapped_is_zero) {
     const std::string mistake = unmapped_mistake(counted_mask.pixels, is_mapped);
-    if (!mistake.empty()) add({Severity::error, "unmapped_mask_values", name, mistake});
+    if (!mistake.empty()) {
+      add({Severity::error, "unmapped_mask_values", name, mistake, {}, {}, {}, {Setting::unmapped}});
+    }
   }
   const MaskFlaws flaws = find_flaws(counted_mask.mask, is_mapped);
   if (!flaws.blended.empty()) add(blended_finding(name, flaws.blended));

@@ -35,6 +35,7 @@ struct Finding {
   std::optional<TextPlace> place = std::nullopt;  // in a function file
   Excerpt excerpt = {};
   Details details = {};
+  std::vector<Setting> settings = {};  // that would help
 };
 
 // A function file and its text, which findings show.

@@ -41,13 +41,13 @@ std::optional<std::string> transfer_note(const StatedNoise& stated, const Transf
 }
 
 NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOptions& options,
-                            std::uint64_t most_samples, std::vector<std::string>& clip_notes) {
+                            std::uint64_t most_samples, std::vector<Note>& clip_notes) {
   std::optional<CaptureFormat> first;
   std::optional<NoiseEstimator> estimator;
   for (const std::string& name : clips) {
     const std::unique_ptr<Clip> clip = open_clip(name, options);
     const CaptureFormat format = clip_format(*clip, options);
-    for (const std::string& note : clip->info().notes) clip_notes.push_back(note);
+    for (const Note& note : clip->info().notes) clip_notes.push_back(note);
     if (!first) {
       first = format;
       estimator.emplace(format);

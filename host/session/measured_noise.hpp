@@ -28,7 +28,7 @@ inline constexpr std::uint64_t kSamplesOfOwnNoise = 256;
 // Measures noise on clips of one format: several exposures of a still scene. Throws InputError where a clip
 // is of another format than the first, naming both. What the clips say of themselves is added to `clip_notes`.
 [[nodiscard]] NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOptions& options,
-                                          std::uint64_t most_samples, std::vector<std::string>& clip_notes);
+                                          std::uint64_t most_samples, std::vector<Note>& clip_notes);
 
 // What a person should know of an estimate: that little was still, or that no sensor's curve fits; empty where
 // it is as it should be.

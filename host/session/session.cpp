@@ -35,7 +35,7 @@ class Session::Implementation {
   [[nodiscard]] bool is_clip() const { return is_clip_; }
   [[nodiscard]] const CaptureFormat& format() const { return format_; }
   [[nodiscard]] const Timeline& timeline() const { return reader_ ? reader_->timeline() : *announced_; }
-  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  [[nodiscard]] const std::vector<Note>& notes() const { return notes_; }
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
   [[nodiscard]] tik::Reader& capture();
 
@@ -64,7 +64,8 @@ class Session::Implementation {
   Reading reading_;
   bool is_clip_;
   CaptureFormat format_;
-  std::vector<std::string> notes_, warnings_;
+  std::vector<Note> notes_;
+  std::vector<std::string> warnings_;
 
   // A capture, or a clip that has not been read yet and the timeline that its files announce.
   std::unique_ptr<tik::Reader> reader_;
@@ -201,7 +202,7 @@ Devices& Session::devices() const { return implementation_->devices(); }
 bool Session::is_clip() const { return implementation_->is_clip(); }
 const CaptureFormat& Session::format() const { return implementation_->format(); }
 const Timeline& Session::timeline() const { return implementation_->timeline(); }
-const std::vector<std::string>& Session::notes() const { return implementation_->notes(); }
+const std::vector<Note>& Session::notes() const { return implementation_->notes(); }
 const std::vector<std::string>& Session::warnings() const { return implementation_->warnings(); }
 tik::Reader& Session::capture() { return implementation_->capture(); }
 

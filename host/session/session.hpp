@@ -88,7 +88,7 @@ class Session {
   // Of a clip that is read forward, as its files announce it: a picture brings the true one.
   [[nodiscard]] const Timeline& timeline() const;
   // On a clip: what a person should know, and what is doubtful about the capture made from it. Whole sentences.
-  [[nodiscard]] const std::vector<std::string>& notes() const;
+  [[nodiscard]] const std::vector<Note>& notes() const;
   [[nodiscard]] const std::vector<std::string>& warnings() const;
 
   // Exposes a picture, all of it or a rectangle. Throws UsageError where the request does not fit the capture,

@@ -46,10 +46,11 @@ SheetLayout lay_out(const Shape& picture, std::uint32_t count, const SheetWishes
   const std::int64_t room = std::int64_t{width} - 2 * kMargin - std::int64_t{layout.columns - 1} * kGap;
   const std::int64_t cell = room / layout.columns;
   if (cell < kNarrowestCell) {
-    throw UsageError(format(
-        "{} pictures beside each other in {} pixels would be {} wide; at least {} are needed: choose fewer "
-        "--columns or a larger --width",
-        layout.columns, width, std::max<std::int64_t>(cell, 0), kNarrowestCell));
+    throw UsageError(format("{} pictures beside each other in {} pixels would be {} wide; at least {} are "
+                            "needed: choose fewer "
+                            "columns or a larger width",
+                            layout.columns, width, std::max<std::int64_t>(cell, 0), kNarrowestCell),
+                     {Setting::columns, Setting::width});
   }
   layout.cell_width = static_cast<std::uint32_t>(cell);
   if (!wishes.width) {
@@ -59,10 +60,12 @@ SheetLayout lay_out(const Shape& picture, std::uint32_t count, const SheetWishes
   layout.cell_height = static_cast<std::uint32_t>(std::clamp(height, 1.0, double{plot::kLargestSide}));
   const double total = static_cast<double>(layout.rows) * (layout.cell_height + kLabelHeight + kGap);
   if (total > plot::kLargestSide - 2 * kMargin - kHeadingHeight) {
-    throw UsageError(format(
-        "{} rows of pictures {} pixels high pass the {} that a sheet can have; make fewer pictures, or "
-        "smaller ones with more --columns or a smaller --width",
-        layout.rows, layout.cell_height, plot::kLargestSide));
+    throw UsageError(
+        format(
+            "{} rows of pictures {} pixels high pass the {} that a sheet can have; make fewer pictures, or "
+            "smaller ones with more columns or a smaller width",
+            layout.rows, layout.cell_height, plot::kLargestSide),
+        {Setting::columns, Setting::width});
   }
   return layout;
 }

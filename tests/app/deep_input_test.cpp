@@ -126,7 +126,7 @@ TEST_F(DeepInput, SaysWhatItTookForWhite) {
   expect_said(run({"info", "twelve.tik"}), "17 x 9 grey, 16 bits, white code 4095, transfer linear");
   scratch_.write("stack.tif", tiff_file(test::random_stills({17, 9, 1}, 4095, 2, 1), {}));
   expect_said(run({"-f", "10", "stack.tif", "x.tik"}),
-              "white is taken to be 65535; state another with --white");
+              "white is taken to be 65535; state another, 4095 for 12 bits (--white)");
   expect_said(run({"-f", "10", "--start", "0f", "--exposure", "1f", "stack.tif", "x.png"}),
               "white is taken to be 65535");
   expect_said(run({"-f", "10", "--white", "4095", "stack.tif", "x.tik"}), "2 samples");
@@ -139,7 +139,7 @@ TEST_F(DeepInput, RefusesWithTheFileBothValuesAndTheWayOut) {
   const auto stills = test::random_stills({17, 9, 1}, 4095, 3, 1);
   write_netpbm("frames", stills);
   expect_refused({"frames", "x.tik"}, 3,
-                 {"frames does not say how fast it was taken; state the rate with --fps"});
+                 {"frames does not say how fast it was taken; state the rate (--fps)"});
   expect_refused({"-f", "10", "absent/*.png", "x.tik"}, 3, {"absent/*.png: no file matches"});
   expect_refused({"-f", "10", "frames/f%d.pgm", "x.tik"}, 3,
                  {"f002.pgm is there: its zeros are written %03d"});

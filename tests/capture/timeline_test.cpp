@@ -77,7 +77,7 @@ TEST(Timeline, SaysWhatIsWrongWithTimes) {
            }),
            "sample 1 starts at 5 ns, before sample 0 ends at 10 ns");
   contains(test::message_of<Error>([] { Timeline::explicit_exposures({{0, 0}}); }), "sample 0 ends at 0 ns");
-  contains(test::message_of<Error>([] { Timeline::irregular({7}, {360, 1}); }), "--fps");
+  contains(test::message_of<Error>([] { Timeline::irregular({7}, {360, 1}); }), "state the rate");
   contains(test::message_of<Error>([] {
              Timeline::constant({0, 1}, {360, 1}, 1);
            }),

@@ -123,7 +123,7 @@ TEST(Normalization, RefusesAnIntegralThatCancels) {
   EXPECT_EQ(
       message,
       "M0: the positive and negative parts of its gains cancel (the still gain is -2.5e-08), so there is no "
-      "integral to divide by; use --normalize support, absolute or seconds:S");
+      "integral to divide by; use support, absolute or seconds:S");
   EXPECT_NO_THROW(static_cast<void>(normalized("absolute", difference, kSecond)));
 }
 

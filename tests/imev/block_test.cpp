@@ -160,8 +160,7 @@ TEST(BlockBuilder, RefusesCodesAboveWhite) {
     builder.add(raster);
     FAIL() << "4096 was accepted";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "sample 0 has a code of 4096, above the white code 4095; state the right one with --white");
+    EXPECT_STREQ(error.what(), "sample 0 has a code of 4096, above the white code 4095; state the right one");
   }
 }
 
@@ -183,10 +182,10 @@ TEST(BlockBuilder, RefusesBlocksThatMayComeToMoreThanAnOffsetReaches) {
   EXPECT_EQ(
       message(65'535, TilePolicy::automatic),
       "a block of 65535 samples of 3840 x 2160 pixels may come to more than the 256 GiB that a block can "
-      "have; use --block-samples 5494 or less");
+      "have; use 5494 or fewer");
   EXPECT_EQ(message(65'536, TilePolicy::automatic), "a block of 65536 samples is outside 1 … 65535");
   // A slot has an index of 128 bytes too: 384 + 512 (n - 1) bytes, n = 4142.
-  EXPECT_NE(message(5495, TilePolicy::records).find("--block-samples 4142 or less"), std::string::npos);
+  EXPECT_NE(message(5495, TilePolicy::records).find("use 4142 or fewer"), std::string::npos);
   capture.shape = {0xFFFF'FFF8, 0xFFFF'FFF8, 3};  // nearly 2^58 tiles: no product overflows
   EXPECT_NE(message(65'535, TilePolicy::dense).find("256 GiB"), std::string::npos);
 }

@@ -209,13 +209,13 @@ TEST(ExpectedValues, RefusesTheNoiseOfOtherCodes) {
   EXPECT_EQ(
       message(source),
       "the noise was measured with white code 255 and the clip's is 200; measure it on a clip of the same "
-      "kind, or use --noise auto");
+      "kind, or on the clip itself");
   source.white_code = 255;
   source.shape.channels = 3;
   EXPECT_EQ(
       message(source),
-      "the noise was measured on 1 channel and the clip has 3; measure it on a clip of the same kind, or use "
-      "--noise auto");
+      "the noise was measured on 1 channel and the clip has 3; measure it on a clip of the same kind, or on "
+      "the clip itself");
 }
 
 // Blocks of a stream that is left early hold what they hold in a file of the whole capture.

@@ -72,7 +72,7 @@ TEST(ClipTimes, RefusesTimesThatDoNotIncrease) {
   expect_clip_refused(
       clip, {},
       "same.mkv: sample 5 starts at 240000000 ns, not after sample 4 at 240000000 ns; if they "
-      "were taken at a constant rate, state it with --fps");
+      "were taken at a constant rate, state it");
   ClipOptions stated;
   stated.rate = Rational{25, 1};
   EXPECT_TRUE(timeline_of("", open_test_clip(clip, stated)->info(), stated, {360, 1}, 7).is_constant());

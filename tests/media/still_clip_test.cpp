@@ -196,7 +196,7 @@ TEST(StillClip, SaysWhichStillDiffersAndHow) {
   write("white/f0.pgm", kGrey, 1023);
   write("white/f1.pgm", kGrey, 4095);
   expect_refused(scratch / "white", {"f1.pgm is 17 x 9 grey of 16 bits, white code 4095", "white code 1023",
-                                     "say what is white with --white"});
+                                     "state what is white"});
   ClipOptions options;
   options.white_code = 4095;
   EXPECT_EQ(read_all(*open_test_clip(scratch / "white", options)).size(), 2u);
@@ -265,8 +265,9 @@ TEST(StillClip, NotesAHoleInAFolderOfNumberedStills) {
   for (std::size_t k = 0; k < 3; ++k) scratch.write(names[k], netpbm_file(stills[k], false));
   const auto folder = open_test_clip(scratch / "frames");
   ASSERT_EQ(folder->info().notes.size(), 1u);
-  EXPECT_NE(folder->info().notes[0].find("f3.pgm is missing between f2.pgm and f4.pgm"), std::string::npos)
-      << folder->info().notes[0];
+  EXPECT_NE(folder->info().notes[0].text.find("f3.pgm is missing between f2.pgm and f4.pgm"),
+            std::string::npos)
+      << folder->info().notes[0].text;
   expect_codes(*folder, stills);
   const auto pattern = open_test_clip(scratch / "frames/*.pgm");
   EXPECT_TRUE(pattern->info().notes.empty());

@@ -212,19 +212,19 @@ TEST(VideoClip, RefusesWhatItCannotKeep) {
   const Scratch scratch;
   const auto file = scratch.write("raw", std::string(17 * 9 * 4, '\0'));
   expect_clip_refused(file, raw_options(kGrey, "grayf32le"), "holds floating-point pixels (grayf32le)");
-  expect_clip_refused(
-      file, raw_options({17, 8, 1}, "gray"),
-      "612 bytes, which is no whole number of pictures of 136 bytes (17 x 8, gray); check --raw");
+  expect_clip_refused(file, raw_options({17, 8, 1}, "gray"),
+                      "612 bytes, which is no whole number of pictures of 136 bytes (17 x 8, gray); check "
+                      "its size and pixel format");
   expect_clip_refused(file, raw_options(kGrey, "grey"), "'grey' is no pixel format that FFmpeg knows");
   expect_clip_refused(scratch.write("empty", ""), raw_options(kGrey, "gray"), "0 bytes");
   ClipOptions without_rate = raw_options(kGrey, "gray");
   without_rate.rate.reset();
-  expect_clip_refused(file, without_rate,
-                      "raw does not say how fast it was taken; state the rate with --fps");
+  expect_clip_refused(file, without_rate, "raw does not say how fast it was taken; state the rate");
   ClipOptions with_white = raw_options(kColour, "rgb48le");
   with_white.white_code = 1023;
-  expect_clip_refused(scratch.write("rgb", std::string(17 * 9 * 6, '\0')), with_white,
-                      "--white 1023: colour video is converted to RGB, whose white is 65535");
+  expect_clip_refused(
+      scratch.write("rgb", std::string(17 * 9 * 6, '\0')), with_white,
+      "colour video is converted to RGB, whose white is 65535 whatever its depth was, not 1023");
 }
 
 TEST(VideoClip, SaysThatATransferFunctionIsNotKnown) {

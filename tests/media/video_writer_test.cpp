@@ -163,7 +163,7 @@ TEST(VideoWriter, RefusesWhatAContainerOrCodecCannotHold) {
       static_cast<void>(video_value_type(video_codec_for(path, std::nullopt), wish, ValueType::code8));
     });
   };
-  EXPECT_NE(type("v.mp4", Depth::bits16).find("for 16 use --video-codec ffv1"), std::string::npos);
+  EXPECT_NE(type("v.mp4", Depth::bits16).find("for 16 use ffv1"), std::string::npos);
   EXPECT_NE(type("v.mkv", Depth::floating).find("write numbered stills"), std::string::npos);
   EXPECT_EQ(type("v.mkv", Depth::bits16), "");
   // A deep capture gives way to what the codec holds.

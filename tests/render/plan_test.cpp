@@ -55,7 +55,7 @@ TEST(RenderPlan, RefusesAMaskThatDoesNotFit) {
   mask.tags[6] = 9;
   EXPECT_EQ(test::message_of<InputError>([&] { static_cast<void>(make_plan(capture, functions, mask, {})); }),
             "mask values without a function: 7 (1 pixels), 9 (2 pixels); add a line M<value> for each, or "
-            "expose them to black with --unmapped zero");
+            "expose them to black");
   PlanOptions zero;
   zero.unmapped_is_zero = true;
   EXPECT_EQ(make_plan(capture, functions, mask, zero).functions.size(), 3u);

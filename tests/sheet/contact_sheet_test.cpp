@@ -41,7 +41,7 @@ std::string refusal(const Shape& shape, std::uint32_t count, const SheetWishes& 
 }
 
 TEST(SheetLayout, RefusesWhatCannotBeSeenOrDrawn) {
-  EXPECT_NE(refusal({640, 360, 3}, 100, {.columns = 50, .width = 1000}).find("choose fewer --columns"),
+  EXPECT_NE(refusal({640, 360, 3}, 100, {.columns = 50, .width = 1000}).find("choose fewer columns"),
             std::string::npos);
   EXPECT_NE(refusal({100, 3000, 1}, 400, {.columns = 1, .width = {}}).find("make fewer pictures"),
             std::string::npos);

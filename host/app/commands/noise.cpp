@@ -45,7 +45,7 @@ int run_noise(const Options& options) {
       options.output ? *options.output : sequence_name(options.operands.front()) + ".noise";
   check_output(output, OutputKind::noise, options.operands);
 
-  std::vector<std::string> clip_notes;
+  std::vector<Note> clip_notes;
   const NoiseEstimate estimate =
       measure_noise(options.operands, clip_request(options, options.operands.front()).clip,
                     NoiseEstimator::kMostSamples, clip_notes);
@@ -73,7 +73,7 @@ int run_noise(const Options& options) {
   for (std::size_t channel = 0; channel < estimate.channels.size(); ++channel) {
     print_line(channel_text(estimate, channel));
   }
-  for (const std::string& note : clip_notes) print_note("note: " + note);
+  for (const Note& note : clip_notes) print_note(note_text(note));
   for (const std::string& note : noise_notes(estimate)) print_note("note: " + note);
   return 0;
 }

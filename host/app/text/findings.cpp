@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "app/text/message_text.hpp"
 #include "session/format.hpp"
 #include "session/size_text.hpp"
 
@@ -15,9 +16,11 @@ using Severity = Finding::Severity;
 constexpr std::size_t kMostOfAKind = 20;
 
 std::string text_of(const Finding& finding) {
-  const auto& [severity, kind, file, message, place, excerpt, details] = finding;
-  if (place) return Diagnostic{severity, *place, message, excerpt}.text(file);
-  return format("{}: {}{}", file, severity == Severity::warning ? "warning: " : "", message);
+  if (finding.place) {
+    return Diagnostic{finding.severity, *finding.place, finding.message, finding.excerpt}.text(finding.file);
+  }
+  return format("{}: {}{}{}", finding.file, finding.severity == Severity::warning ? "warning: " : "",
+                finding.message, options_text(finding.settings));
 }
 
 Json details_json(const std::vector<BlendedValue>& blended) {
@@ -44,7 +47,7 @@ Json json_of(const Finding& finding) {
   Json json{{"severity", finding.severity == Severity::warning ? "warning" : "error"},
             {"kind", finding.kind},
             {"file", finding.file},
-            {"message", finding.message}};
+            {"message", finding.message + options_text(finding.settings)}};
   if (finding.place) {
     json["line"] = finding.place->line;
     json["column"] = finding.place->column;

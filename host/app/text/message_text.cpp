@@ -17,8 +17,28 @@
 #include "session/series_request.hpp"
 
 namespace nutik::app {
-
 namespace {
+
+std::string_view option_of(Setting setting) {
+  switch (setting) {
+    case Setting::automatic_noise: return "--noise auto";
+    case Setting::block_samples: return "--block-samples";
+    case Setting::columns: return "--columns";
+    case Setting::depth: return "--depth";
+    case Setting::frame_rate: return "--fps";
+    case Setting::normalization: return "--normalize";
+    case Setting::precision: return "--precision";
+    case Setting::raw_layout: return "--raw";
+    case Setting::renderer: return "--renderer";
+    case Setting::shutter_angle: return "--shutter-angle";
+    case Setting::transfer: return "--transfer";
+    case Setting::unmapped: return "--unmapped zero";
+    case Setting::video_codec: return "--video-codec";
+    case Setting::white_code: return "--white";
+    case Setting::width: return "--width";
+  }
+  return {};
+}
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -49,6 +69,13 @@ std::string device_suggestion(const DeviceNotFound& error) {
 }
 
 }  // namespace
+
+std::string options_text(const std::vector<Setting>& settings) {
+  std::string text;
+  for (const Setting setting : settings)
+    text += format("{}{}", text.empty() ? " (" : ", ", option_of(setting));
+  return text.empty() ? text : text + ")";
+}
 
 std::string message_text(const std::exception& error) {
   const std::string message = error.what();
@@ -88,7 +115,13 @@ std::string message_text(const std::exception& error) {
         "--negative out",
         light->output.string());
   }
+  if (const auto* known = dynamic_cast<const Error*>(&error))
+    return message + options_text(known->settings());
   return message;
+}
+
+std::string note_text(const Note& note) {
+  return format("note: {}{}", note.text, options_text(note.settings));
 }
 
 }  // namespace nutik::app

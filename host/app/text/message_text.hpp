@@ -5,8 +5,14 @@
 #include <exception>
 #include <string>
 
+#include "session/error.hpp"
+
 namespace nutik::app {
 
 [[nodiscard]] std::string message_text(const std::exception& error);
+// ` (--depth, --renderer)`: what settings are called here; empty if there are none.
+[[nodiscard]] std::string options_text(const std::vector<Setting>& settings);
+// `note: …`
+[[nodiscard]] std::string note_text(const Note& note);
 
 }  // namespace nutik::app

@@ -23,10 +23,10 @@ std::string timing_text(const Timeline& timeline, const SourceRequest& request) 
                                                                      : "assumed");
 }
 
-std::vector<std::string> note_lines(std::span<const std::string> notes, const Timeline& timeline,
+std::vector<std::string> note_lines(std::span<const Note> notes, const Timeline& timeline,
                                     const SourceRequest& request) {
   std::vector<std::string> lines;
-  for (const std::string& note : notes) lines.push_back(format("note: {}", note));
+  for (const Note& note : notes) lines.push_back(note_text(note));
   if (!request.clip.rate && timeline.rate().value() <= kHighestPlaybackRate) {
     lines.push_back(format(
         "note: the rate of {} a second comes from the file; slow-motion files state their playback rate: "

@@ -15,7 +15,7 @@ namespace nutik::app {
 
 // What else a person should know of a clip, as lines: the `notes` on it, and that a low rate from a file may not be the
 // rate it was filmed with.
-[[nodiscard]] std::vector<std::string> note_lines(std::span<const std::string> notes,
-                                                  const Timeline& timeline, const SourceRequest& request);
+[[nodiscard]] std::vector<std::string> note_lines(std::span<const Note> notes, const Timeline& timeline,
+                                                  const SourceRequest& request);
 
 }  // namespace nutik::app

@@ -108,9 +108,10 @@ class StillClip final : public Clip {
     // seen.
     capture.transfer = first_.code_bytes == 1 ? Transfer::srgb() : Transfer::linear();
     if (capture.code_bytes == 2 && !first_.maximum && !options.white_code) {
-      info_.notes.push_back(
+      info_.notes.emplace_back(
           "the files do not say how many of their 16 bits are used: white is taken to be 65535; state "
-          "another with --white (12 bits: 4095)");
+          "another, 4095 for 12 bits",
+          std::vector{Setting::white_code});
     }
     info_.timing = timing;
     info_.sample_count = pages_.size();
@@ -153,7 +154,8 @@ class StillClip final : public Clip {
                             text(still.shape, still.code_bytes, still.maximum), pages_.front().file.string(),
                             text(capture.shape, capture.code_bytes, first_maximum_),
                             same_white ? "; name those that are with a pattern: 'frame*.png'"
-                                       : ", or say what is white with --white"));
+                                       : ", or state what is white"),
+                     same_white ? std::vector<Setting>{} : std::vector{Setting::white_code});
   }
 
   std::vector<Page> pages_;

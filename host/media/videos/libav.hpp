@@ -96,9 +96,9 @@ inline OpenedVideo open_video(const std::filesystem::path& path, const std::opti
   av_dict_free(&settings);
   if (code < 0) {
     throw InputError(
-        format("{} is no video that can be read: {}. A video without a header is described "
-               "with --raw",
-               path.string(), error_text(code)));
+        format("{} is no video that can be read: {}; a video without a header has to be described",
+               path.string(), error_text(code)),
+        {Setting::raw_layout});
   }
   OpenedVideo opened{FormatPointer(context), 0};
   code = avformat_find_stream_info(context, nullptr);

@@ -71,9 +71,11 @@ class LibavClip final : public Clip {
   void set_white(std::uint32_t white, const PixelKind& pixels) {
     if (!pixels.is_grey && white != pixels.white_code()) {
       throw UsageError(
-          format("--white {}: colour video is converted to RGB, whose white is {} whatever its depth "
-                 "was; leave --white out",
-                 white, pixels.white_code()));
+          format(
+              "colour video is converted to RGB, whose white is {} whatever its depth was, not {}; leave the "
+              "white code out",
+              pixels.white_code(), white),
+          {Setting::white_code});
     }
     info_.format.white_code = white;
   }

@@ -145,9 +145,9 @@ class LibavVideoWriter final : public VideoWriter {
     const AVCodec* encoder = avcodec_find_encoder_by_name(std::string(codec.encoder).c_str());
     if (encoder == nullptr) {
       throw OutputError(
-          format("{} cannot be written: the FFmpeg here has no encoder {} for {}; choose "
-                 "another --video-codec",
-                 name_, codec.encoder, codec.name));
+          format("{} cannot be written: the FFmpeg here has no encoder {} for {}; choose another codec",
+                 name_, codec.encoder, codec.name),
+          {Setting::video_codec});
     }
     encoder_.reset(allocated(avcodec_alloc_context3(encoder)));
     AVCodecContext& context = *encoder_;
@@ -188,8 +188,9 @@ class LibavVideoWriter final : public VideoWriter {
     if (const auto left = settings.first_name()) {
       throw OutputError(
           format("{} cannot be written: the FFmpeg here has an encoder {} that does not know the setting {}; "
-                 "choose another --video-codec",
-                 name_, codec.encoder, *left));
+                 "choose another codec",
+                 name_, codec.encoder, *left),
+          {Setting::video_codec});
     }
     check(avcodec_parameters_from_context(stream_->codecpar, &context));
     stream_->time_base = context.time_base;

@@ -140,8 +140,9 @@ std::uint32_t PixelKind::white_code() const {
 PixelKind pixel_kind(const AVCodecParameters& codec, const std::string& name) {
   const AVPixFmtDescriptor* pixels = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(codec.format));
   if (pixels == nullptr || codec.width <= 0 || codec.height <= 0) {
-    throw InputError(format(
-        "{}: no decoder here knows its pictures; a video without a header is described with --raw", name));
+    throw InputError(
+        format("{}: no decoder here knows its pictures; a video without a header has to be described", name),
+        {Setting::raw_layout});
   }
   if ((pixels->flags & AV_PIX_FMT_FLAG_FLOAT) != 0) {
     throw InputError(

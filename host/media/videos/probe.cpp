@@ -111,23 +111,24 @@ void add_cine_header(const CineHeader& header, const AVStream& stream, Probe& re
     if (senseless == 0) {
       result.timing = timing_of(starts, {1, kSecondNs}, announced_rates(stream));
     } else {
-      result.notes.push_back(
+      result.notes.emplace_back(
           format("the camera's times are not used: picture {} is stamped {} ns after the one "
                  "before it. The nominal rate is taken",
                  senseless, starts[senseless] - starts[senseless - 1]));
     }
   }
   if (header.exposed_ns) {
-    result.notes.push_back(
+    result.notes.emplace_back(
         format("the camera exposed each picture for {} ns: the shutter angle is 360 degrees "
-               "times that share of the time between pictures; state it with --shutter-angle",
-               *header.exposed_ns));
+               "times that share of the time between pictures; state it",
+               *header.exposed_ns),
+        std::vector{Setting::shutter_angle});
   }
   if (header.is_packed) {
-    result.notes.push_back(
+    result.notes.emplace_back(
         "the codes are packed into 10 bits, for which Phantom cameras compress their range by a "
-        "curve of their own: light is then not proportional to the codes; state with --transfer what "
-        "comes near it");
+        "curve of their own: light is then not proportional to the codes; state what comes near it",
+        std::vector{Setting::transfer});
   }
 }
 
@@ -139,10 +140,10 @@ std::uint64_t count_raw_pictures(const std::filesystem::path& path, const RawVid
   if (bytes > 0 && file_bytes > 0 && file_bytes % static_cast<std::uint64_t>(bytes) == 0) {
     return file_bytes / static_cast<std::uint64_t>(bytes);
   }
-  throw InputError(
-      format("{} has {} bytes, which is no whole number of pictures of {} bytes ({} x {}, {}); "
-             "check --raw",
-             path.string(), file_bytes, bytes, raw.width, raw.height, raw.pixel_format));
+  throw InputError(format("{} has {} bytes, which is no whole number of pictures of {} bytes ({} x {}, {}); "
+                          "check its size and pixel format",
+                          path.string(), file_bytes, bytes, raw.width, raw.height, raw.pixel_format),
+                   {Setting::raw_layout});
 }
 
 }  // namespace
@@ -158,10 +159,11 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.quarter_turns = quarter_turns(stream);
   result.transfer = transfer_of(codec.color_trc);
   if (const std::string name = unknown_transfer(codec.color_trc); !name.empty()) {
-    result.notes.push_back(
+    result.notes.emplace_back(
         format("the file's transfer function, {}, is not known here and another is taken; "
-               "state which with --transfer",
-               name));
+               "state which",
+               name),
+        std::vector{Setting::transfer});
   }
   if (raw) {
     result.sample_count = count_raw_pictures(path, *raw);
@@ -177,7 +179,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
     av_packet_unref(packet.get());
   }
   if (code != AVERROR_EOF) {
-    result.notes.push_back(
+    result.notes.emplace_back(
         format("the file is damaged or was cut off behind picture {}: {}", times.size(), error_text(code)));
   }
   result.sample_count = times.size();

@@ -22,7 +22,7 @@ struct Probe {
   ClipTiming timing;
   std::uint64_t sample_count = 0;
   std::optional<Transfer> transfer;  // where the file names one that is known here
-  std::vector<std::string> notes;    // what a person should know, whole sentences
+  std::vector<Note> notes;           // what a person should know, whole sentences
 };
 
 // Reads every packet's time. Throws InputError where the file cannot be opened or has no picture
