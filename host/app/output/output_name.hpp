@@ -1,4 +1,4 @@
-// Where a command writes, and what it must not replace.
+// Where a command writes.
 #pragma once
 
 #include <filesystem>
@@ -8,20 +8,15 @@
 #include <vector>
 
 #include "app/command_line/options.hpp"
+#include "session/output_check.hpp"
 
 namespace nutik::app {
-
-enum class OutputKind { tik, picture, table, video, noise };
 
 // The output that was asked for: -o or the second operand. Throws UsageError where both were given, or
 // there are more operands than `command` takes.
 [[nodiscard]] std::optional<std::filesystem::path> stated_output(const std::optional<std::string>& option,
                                                                  std::span<const std::string> operands,
                                                                  const std::string& command);
-
-// Throws UsageError where `output` names one of the inputs, has a name of another kind, or would replace
-// a file of another kind.
-void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs);
 
 // The name of a picture of `input` that nobody gave one: `clip-motion.png` for the exposure `motion`.
 [[nodiscard]] std::filesystem::path picture_name(const std::string& input, const std::string& label);

@@ -11,6 +11,7 @@
 #include "session/format.hpp"
 #include "session/mask_making.hpp"
 #include "session/memory_budget.hpp"
+#include "session/output_check.hpp"
 #include "session/output_request.hpp"
 #include "session/picture_input.hpp"
 #include "session/picture_recipe.hpp"
@@ -106,6 +107,10 @@ std::string message_text(const std::exception& error) {
   }
   if (const auto* device = dynamic_cast<const DeviceNotFound*>(&error)) {
     return message + device_suggestion(*device);
+  }
+  if (const auto* name = dynamic_cast<const WrongOutputName*>(&error)) {
+    return message + (name->kind == OutputKind::tik ? ": encode writes .tik files (nutik-cl CLIP CAPTURE.tik)"
+                                                    : ", or as - to standard output");
   }
   if (dynamic_cast<const RecipeTooLong*>(&error) != nullptr) return message + "; leave it out: --no-recipe";
   if (const auto* light = dynamic_cast<const LightIsKept*>(&error)) {

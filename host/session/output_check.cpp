@@ -1,0 +1,99 @@
+#include "session/output_check.hpp"
+
+#include <string_view>
+
+#include "capture/format.hpp"
+#include "media/picture_writer.hpp"
+#include "system/mapped_file.hpp"
+#include "tik/header.hpp"
+
+namespace nutik {
+namespace {
+
+bool is_tik_content(const std::string& bytes) { return tik::looks_like_tik(std::as_bytes(std::span(bytes))); }
+
+bool is_picture_content(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG") || bytes.starts_with(std::string_view("II*\0", 4)) ||
+      bytes.starts_with(std::string_view("MM\0*", 4)) || bytes.starts_with("II+")) {
+    return true;
+  }
+  return bytes.size() > 2 && bytes[0] == 'P' &&
+         std::string_view("123456fF").find(bytes[1]) != std::string_view::npos &&
+         !is_tik_content(std::string(bytes));
+}
+
+// Text with a comma in its first line.
+bool is_table_content(std::string_view bytes) {
+  const std::string_view line = bytes.substr(0, bytes.find('\n'));
+  return line.find(',') != std::string_view::npos && line.find('\0') == std::string_view::npos;
+}
+
+bool is_video_content(std::string_view bytes) {
+  const bool is_matroska = bytes.starts_with("\x1A\x45\xDF\xA3");
+  const bool is_mp4 = bytes.size() >= 8 && bytes.substr(4, 4) == "ftyp";
+  const bool is_avi = bytes.size() >= 12 && bytes.starts_with("RIFF") && bytes.substr(8, 4) == "AVI ";
+  return is_matroska || is_mp4 || is_avi;
+}
+
+bool is_content_of(OutputKind kind, const std::string& bytes) {
+  switch (kind) {
+    case OutputKind::tik: return is_tik_content(bytes);
+    case OutputKind::picture: return is_picture_content(bytes);
+    case OutputKind::table: return is_table_content(bytes);
+    case OutputKind::video: return is_video_content(bytes);
+    case OutputKind::noise: return bytes.starts_with("nutik noise");
+  }
+  return false;
+}
+
+const char* name_of(OutputKind kind) {
+  switch (kind) {
+    case OutputKind::tik: return ".tik file";
+    case OutputKind::picture: return "picture";
+    case OutputKind::table: return "table";
+    case OutputKind::video: return "video";
+    case OutputKind::noise: return "noise file";
+  }
+  return "";
+}
+
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  return std::filesystem::absolute(a).lexically_normal() == std::filesystem::absolute(b).lexically_normal();
+}
+
+}  // namespace
+
+void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs) {
+  const std::string name = output.string();
+  for (const std::string& input : inputs) {
+    if (is_same_file(output, input)) {
+      throw UsageError(format("the output {} is also an input; choose another name", name));
+    }
+  }
+  if (kind == OutputKind::tik && output.extension() != ".tik") {
+    throw WrongOutputName(kind, format("{} is no name for a capture", name));
+  }
+  if (kind == OutputKind::noise && (output.extension() == ".tik" || is_picture_name(output))) {
+    throw UsageError(format("{} is no name for a text: a camera's noise is written as .noise", name));
+  }
+  if (kind == OutputKind::picture && !is_picture_name(output)) {
+    throw UsageError(format("{}: pictures are written as .png, .tif, .ppm, .pgm or .pfm", name));
+  }
+  if (kind == OutputKind::table && output.extension() != ".csv") {
+    throw WrongOutputName(kind, format("{}: tables are written as .csv", name));
+  }
+  std::error_code error;
+  if (!std::filesystem::exists(output, error)) return;
+  if (std::filesystem::is_directory(output, error)) {
+    throw UsageError(format("{} is a folder; name a file in it", name));
+  }
+  const std::string bytes = first_bytes(output);
+  if (!bytes.empty() && !is_content_of(kind, bytes)) {
+    throw UsageError(
+        format("{} exists and is no {}; it is not replaced. Choose another name", name, name_of(kind)));
+  }
+}
+
+}  // namespace nutik

@@ -1,0 +1,24 @@
+// Whether a file may be written.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "capture/error.hpp"
+
+namespace nutik {
+
+enum class OutputKind { tik, picture, table, video, noise };
+
+// The name is one of another kind.
+struct WrongOutputName : UsageError {
+  WrongOutputName(OutputKind wanted, const std::string& message) : UsageError(message), kind(wanted) {}
+  OutputKind kind;
+};
+
+// Throws UsageError where `output` names one of the inputs, has a name of another kind, or would replace a file of
+// another kind.
+void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs);
+
+}  // namespace nutik
