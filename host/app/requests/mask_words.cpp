@@ -121,7 +121,8 @@ MaskStep grid_step(const Said& said, std::optional<std::uint8_t> first_tag) {
   return {{"--grid"}, first, grid, std::nullopt, {}};
 }
 
-Selection selection_of(const Said& said) {
+// Of a step that says which pixels; none of another.
+std::optional<Selection> selection_of(const Said& said) {
   if (said.option == "fill") return select::Whole{};
   if (said.option == "rectangle") return rectangle_of(said);
   if (said.option == "ellipse") return ellipse_of(said);
@@ -131,8 +132,10 @@ Selection selection_of(const Said& said) {
     return select::Difference{picture_or_time(said.words[0]), picture_or_time(said.words[1])};
   if (said.option == "moving") return select::Motion{};
   if (said.option == "still") return select::Stillness{};
-  return select::Motion{std::pair(StatedTime::parse(said.words[0], "--changed-between"),
-                                  StatedTime::parse(said.words[1], "--changed-between"))};
+  if (said.option == "changed-between")
+    return select::Motion{std::pair(StatedTime::parse(said.words[0], "--changed-between"),
+                                    StatedTime::parse(said.words[1], "--changed-between"))};
+  return std::nullopt;
 }
 
 double radius_of(const Said& said) {
@@ -144,19 +147,16 @@ double radius_of(const Said& said) {
   return *radius;
 }
 
-RegionChange change_of(const Said& said) {
+// Of a step that changes a region; none of another.
+std::optional<RegionChange> change_of(const Said& said) {
   using Kind = RegionChange::Kind;
-  if (said.option == "largest") return {Kind::largest, 0.0, {}};
-  if (said.option == "invert") return {Kind::invert, 0.0, {}};
-  if (said.option == "within") return {Kind::within, 0.0, rectangle_of(said)};
-  const Kind kind = said.option == "grow"     ? Kind::grow
-                    : said.option == "shrink" ? Kind::shrink
-                                              : Kind::smooth;
-  return {kind, radius_of(said), {}};
-}
-
-bool is_one_of(std::string_view option, std::initializer_list<std::string_view> names) {
-  return std::find(names.begin(), names.end(), option) != names.end();
+  if (said.option == "largest") return RegionChange{Kind::largest, 0.0, {}};
+  if (said.option == "invert") return RegionChange{Kind::invert, 0.0, {}};
+  if (said.option == "within") return RegionChange{Kind::within, 0.0, rectangle_of(said)};
+  if (said.option == "grow") return RegionChange{Kind::grow, radius_of(said), {}};
+  if (said.option == "shrink") return RegionChange{Kind::shrink, radius_of(said), {}};
+  if (said.option == "smooth") return RegionChange{Kind::smooth, radius_of(said), {}};
+  return std::nullopt;
 }
 
 // All steps, in order.
@@ -169,22 +169,21 @@ std::vector<MaskStep> steps_of(const Options& options) {
     if (said.option == "tag") {
       tag = static_cast<std::uint8_t>(parse_whole_number(said.words.front(), "tag", 0, 255));
       has_region = false;
-    } else if (is_one_of(said.option, {"fill", "rectangle", "ellipse", "polygon", "threshold", "difference",
-                                       "moving", "still", "changed-between"})) {
-      steps.push_back({{name}, tag.value_or(255), selection_of(said), std::nullopt, {}});
-      has_region = true;
     } else if (said.option == "grid") {
       steps.push_back(grid_step(said, tag));
       has_region = true;
-    } else if (is_one_of(said.option, {"by", "within", "largest", "grow", "shrink", "smooth", "invert"})) {
+    } else if (auto selection = selection_of(said)) {
+      steps.push_back({{name}, tag.value_or(255), std::move(*selection), std::nullopt, {}});
+      has_region = true;
+    } else if (auto change = change_of(said); change || said.option == "by") {
       if (!has_region) {
         throw UsageError(format(
             "{} changes the region before it{}: first select one, with --moving or --rectangle for example",
             name, steps.empty() ? "" : ", and after --tag there is none yet"));
       }
       MaskStep& step = steps.back();
-      if (said.option != "by") {
-        step.changes.push_back(change_of(said));
+      if (change) {
+        step.changes.push_back(std::move(*change));
         continue;
       }
       if (!step.compares()) {
