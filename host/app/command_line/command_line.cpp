@@ -73,7 +73,7 @@ Options options_for(const Command& command, Words words) {
     if (option == nullptr) fail_other_command(*given.option, command);
     if (const auto* flag = std::get_if<bool Options::*>(&option->member)) {
       options.** flag = true;
-    } else if (const auto* value = std::get_if<Stated Options::*>(&option->member)) {
+    } else if (const auto* value = std::get_if<std::optional<std::string> Options::*>(&option->member)) {
       if (options.**value) throw UsageError(format("{} is given twice", option->display_name()));
       options.** value = given.words.front();
     }

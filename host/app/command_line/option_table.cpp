@@ -39,7 +39,7 @@ bool Option::takes_file() const {
 }
 
 const std::string* Option::stated(const Options& options) const {
-  const auto* holder = std::get_if<Stated Options::*>(&member);
+  const auto* holder = std::get_if<std::optional<std::string> Options::*>(&member);
   return holder != nullptr && options.**holder ? &*(options.**holder) : nullptr;
 }
 
@@ -49,7 +49,7 @@ bool Option::is_in(const Options& options) const {
 }
 
 void Option::copy(Options& options, const Options& other) const {
-  if (const auto* value_holder = std::get_if<Stated Options::*>(&member)) {
+  if (const auto* value_holder = std::get_if<std::optional<std::string> Options::*>(&member)) {
     options.** value_holder = other.**value_holder;
   } else if (const auto* flag_holder = std::get_if<bool Options::*>(&member)) {
     options.** flag_holder = other.**flag_holder;

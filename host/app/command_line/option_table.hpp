@@ -35,7 +35,7 @@ struct Option {
   CommandSet commands;
   // What of Options holds it. Nothing: the option may be given again and again, and what it says stands in
   // Options::said alone.
-  std::variant<std::monostate, Stated Options::*, bool Options::*> member;
+  std::variant<std::monostate, std::optional<std::string> Options::*, bool Options::*> member;
   std::string_view help;
   // The values it knows; one that ends with `:` goes on as a person likes, `gamma:2.2`. Empty: told by `value`.
   std::vector<std::string_view> choices = {};
