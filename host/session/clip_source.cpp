@@ -26,7 +26,7 @@ NoiseModel noise_model(ClipSource& source) {
   const SourceRequest& request = source.request;
   NoiseModel model{request.tolerance, std::nullopt, request.sigmas};
   if (std::holds_alternative<NoiseOfClip>(request.noise)) {
-    std::vector<std::string> known;  // the clip is this one
+    std::vector<Note> known;  // the clip is this one
     const NoiseEstimate estimate =
         measure_noise(std::array{request.path.string()}, request.clip, kSamplesOfOwnNoise, known);
     model.camera = estimate.noise;

@@ -1,6 +1,6 @@
 # Installs the build into an empty folder and has another project find it, build with it and run.
 #
-#   cmake -D BUILD=… -D CONSUMER=… -D WORK=… -D GENERATOR=… -D COMPILER=… -D FLAGS=… -D LAUNCHER=…
+#   cmake -D BUILD=… -D CONSUMER=… -D README=… -D WORK=… -D GENERATOR=… -D COMPILER=… -D FLAGS=… -D LAUNCHER=…
 #         -P check_package.cmake
 
 function(run)
@@ -21,7 +21,16 @@ foreach(file share/bash-completion/completions/nutik-cl share/zsh/site-functions
   endif()
 endforeach()
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR}
-    -DCMAKE_PREFIX_PATH=${WORK}/installed -DCMAKE_CXX_COMPILER=${COMPILER}
+    -DREADME=${README} -DCMAKE_PREFIX_PATH=${WORK}/installed -DCMAKE_CXX_COMPILER=${COMPILER}
     -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
+
+# A second of nothing, for the example in the README.
+string(REPEAT "x" 61440 samples)
+file(WRITE ${WORK}/clip.raw "${samples}")
+run(${WORK}/installed/bin/nutik-cl -q --raw 8x8:gray -f 960 ${WORK}/clip.raw ${WORK}/clip.tik)
+run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/build/example)
+if(NOT EXISTS ${WORK}/picture.png)
+  message(FATAL_ERROR "the example made no picture")
+endif()

@@ -5,6 +5,7 @@
 #include "app/output/output_name.hpp"
 #include "app/output/stopwatch.hpp"
 #include "app/requests/source_words.hpp"
+#include "app/text/message_text.hpp"
 #include "session/clip_source.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"

@@ -1,5 +1,6 @@
 #include "app/text/timing_text.hpp"
 
+#include "app/text/message_text.hpp"
 #include "session/format.hpp"
 
 namespace nutik::app {
