@@ -15,9 +15,9 @@ file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
 foreach(file share/bash-completion/completions/nutik-cl share/zsh/site-functions/_nutik-cl
              share/fish/vendor_completions.d/nutik-cl.fish share/man/man1/nutik-cl.1)
-  file(SIZE ${WORK}/installed/${file} size)
-  if(size LESS 1000)
-    message(FATAL_ERROR "${file} was installed with ${size} bytes")
+  file(READ ${WORK}/installed/${file} text)
+  if(NOT text MATCHES "nutik-cl")
+    message(FATAL_ERROR "${file} was installed without its text:\n${text}")
   endif()
 endforeach()
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR}
