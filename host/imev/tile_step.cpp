@@ -6,8 +6,10 @@
 #include <type_traits>
 
 // The innermost loops are compiled for several instruction sets and chosen when the program starts:
-// without it the transposition of a frame takes longer than decoding it.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+// without it the transposition of a frame takes longer than decoding it. Sanitizers are not ready when that choice is
+// made.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
 #define NUTIK_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #else
 #define NUTIK_SIMD_CLONES
