@@ -215,8 +215,9 @@ class OpenClRenderer::Implementation {
       std::erase(available, rendered.precision);
     }
     throw DeviceError(
-        format("{} computes every arithmetic wrongly (self-test); use another device or the reference:{}",
-               info_.name, faults));
+        format("{} computes every arithmetic wrongly (self-test):{}\nuse another device or the reference",
+               info_.name, faults),
+        {Setting::renderer});
   }
 
   // On the programs that a picture is made with, which are built here if need be.
