@@ -16,6 +16,9 @@ template <typename... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+// What compilers find by themselves since clang 17.
+template <typename... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
 
 // What a capture holds at a sample.
 Picture picture_of_sample(CaptureSource& source, std::uint64_t sample) {

@@ -1,0 +1,38 @@
+// open_clip() and all that it calls: the first byte chooses the file's kind, the rest is the file. Every sample is read.
+#include <vector>
+
+#include "fuzz/target.hpp"
+#include "media/clip.hpp"
+
+#ifndef NUTIK_FUZZ_KINDS
+#error "NUTIK_FUZZ_KINDS is not set: names of files, in quotes, one for each kind"
+#endif
+
+namespace nutik::fuzz {
+namespace {
+
+constexpr const char* kKinds[] = {NUTIK_FUZZ_KINDS};
+
+// Inputs have a few kilobytes; a file may still tell of pictures without end.
+constexpr std::uint64_t kMostSamples = 100;
+constexpr std::uint64_t kMostSampleBytes = 64 << 20;
+
+void read(Bytes input) {
+  if (input.empty()) return;
+  const auto kind = static_cast<std::size_t>(input.front()) % std::size(kKinds);
+  const std::unique_ptr<Clip> clip = open_clip(as_file(input.subspan(1), kKinds[kind]), {});
+  const CaptureFormat& format = clip->info().format;
+  demand(format.shape.value_count() > 0 && format.white_code > 0, "a clip has pixels and a white");
+  if (format.sample_bytes() > kMostSampleBytes) return;
+  std::vector<std::byte> raster(format.sample_bytes());
+  std::uint64_t samples = 0;
+  while (samples < kMostSamples && clip->read(raster)) ++samples;
+  static_cast<void>(timeline_of("clip", clip->info(), {}, Timeline::kFullShutter, samples));
+}
+
+}  // namespace
+
+// Decoders keep some pictures of the size that the file tells.
+const Target kTarget{{std::size_t{1} << 30, 4000}, read};
+
+}  // namespace nutik::fuzz

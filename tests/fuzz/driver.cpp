@@ -1,0 +1,96 @@
+#include <sanitizer/allocator_interface.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "capture/error.hpp"
+#include "fuzz/target.hpp"
+
+namespace nutik::fuzz {
+namespace {
+
+// Counted by hooks of the allocator, of all threads.
+constexpr std::int64_t kNoCeiling = std::numeric_limits<std::int64_t>::max();
+std::atomic<std::int64_t> allocated_bytes{0};  // since the input was begun; less than nothing where older memory went
+std::atomic<std::int64_t> ceiling_bytes{kNoCeiling};
+std::atomic<std::size_t> input_bytes{0};
+
+void count_allocation(const volatile void* /*memory*/, std::size_t bytes) {
+  const std::int64_t now = allocated_bytes += static_cast<std::int64_t>(bytes);
+  const std::int64_t ceiling = ceiling_bytes;
+  if (now <= ceiling) return;
+  ceiling_bytes = kNoCeiling;  // printing allocates
+  std::fprintf(stderr, "%lld bytes allocated for an input of %zu; its ceiling is %lld\n", static_cast<long long>(now),
+               input_bytes.load(), static_cast<long long>(ceiling));
+  std::abort();
+}
+
+void count_release(const volatile void* memory) {
+  if (memory == nullptr) return;
+  allocated_bytes -= static_cast<std::int64_t>(__sanitizer_get_allocated_size(const_cast<const void*>(memory)));
+}
+
+std::filesystem::path make_folder() {
+  const char* root = std::getenv("TMPDIR");
+  std::string pattern = std::string(root == nullptr ? "/tmp" : root) + "/nutik-fuzz-XXXXXX";
+  if (mkdtemp(pattern.data()) == nullptr) {
+    std::perror(pattern.c_str());
+    std::exit(1);
+  }
+  return pattern;
+}
+
+// Removed when the process ends well; after a finding the input is still there to be looked at.
+struct Folder {
+  std::filesystem::path path = make_folder();
+  ~Folder() {
+    std::error_code error;
+    std::filesystem::remove_all(path, error);
+  }
+};
+
+}  // namespace
+
+std::filesystem::path as_file(Bytes input, std::string_view name) {
+  static const Folder folder;
+  std::filesystem::path path = folder.path / name;
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(input.data()), static_cast<std::streamsize>(input.size()));
+  return path;
+}
+
+void demand(bool holds, std::string_view what) {
+  if (holds) return;
+  std::fprintf(stderr, "it does not hold: %.*s\n", static_cast<int>(what.size()), what.data());
+  std::abort();
+}
+
+}  // namespace nutik::fuzz
+
+using namespace nutik::fuzz;
+
+extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
+  if (__sanitizer_install_malloc_and_free_hooks(count_allocation, count_release) == 0) {
+    std::fprintf(stderr, "the allocator takes no hooks\n");
+    std::exit(1);
+  }
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const Bytes input{reinterpret_cast<const std::byte*>(data), size};
+  input_bytes = size;
+  allocated_bytes = 0;
+  ceiling_bytes = static_cast<std::int64_t>(kTarget.ceiling.fixed + kTarget.ceiling.per_input_byte * size);
+  try {
+    kTarget.read(input);
+  } catch (const nutik::Error&) {
+  }
+  ceiling_bytes = kNoCeiling;
+  return 0;
+}

@@ -1,0 +1,44 @@
+// A fuzz target: bytes that anybody may have made go through one of the program's readers.
+//
+//   in:      bytes, and a ceiling of memory
+//   always:  they are read, or refused with an Error. Any other exception, a crash, an undefined operation, more memory
+//            than the ceiling, or ten seconds without an end are findings
+//
+// Each target is a source file beside this one; tools/fuzz runs them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+namespace nutik::fuzz {
+
+using Bytes = std::span<const std::byte>;
+
+// What may be allocated at a time: `fixed` bytes, and so many for each byte of the input.
+struct MemoryCeiling {
+  std::size_t fixed = 0;
+  std::size_t per_input_byte = 0;
+};
+
+struct Target {
+  MemoryCeiling ceiling;
+  void (*read)(Bytes input);
+};
+
+// The one that this program is made of.
+extern const Target kTarget;
+
+// Writes the input to a file of that name in a folder of this process, and returns its path.
+std::filesystem::path as_file(Bytes input, std::string_view name);
+
+inline std::string_view as_text(Bytes input) {
+  return {reinterpret_cast<const char*>(input.data()), input.size()};
+}
+
+// Ends the process with a finding, unless `holds`.
+void demand(bool holds, std::string_view what);
+
+}  // namespace nutik::fuzz
