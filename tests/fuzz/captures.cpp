@@ -108,7 +108,8 @@ const Target kTarget{{64 << 20, 10'000}, read};
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 
 // Without this nearly every input would end at its first checksum. One in eight keeps wrong ones.
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most,
+                                               unsigned seed) {
   const std::size_t mutated = LLVMFuzzerMutate(data, size, most);
   if (seed % 8 != 0) nutik::fuzz::mend({reinterpret_cast<std::byte*>(data), mutated});
   return mutated;

@@ -16,7 +16,8 @@ namespace {
 
 // Counted by hooks of the allocator, of all threads.
 constexpr std::int64_t kNoCeiling = std::numeric_limits<std::int64_t>::max();
-std::atomic<std::int64_t> allocated_bytes{0};  // since the input was begun; less than nothing where older memory went
+std::atomic<std::int64_t> allocated_bytes{
+    0};  // since the input was begun; less than nothing where older memory went
 std::atomic<std::int64_t> ceiling_bytes{kNoCeiling};
 std::atomic<std::size_t> input_bytes{0};
 
@@ -25,14 +26,15 @@ void count_allocation(const volatile void* /*memory*/, std::size_t bytes) {
   const std::int64_t ceiling = ceiling_bytes;
   if (now <= ceiling) return;
   ceiling_bytes = kNoCeiling;  // printing allocates
-  std::fprintf(stderr, "%lld bytes allocated for an input of %zu; its ceiling is %lld\n", static_cast<long long>(now),
-               input_bytes.load(), static_cast<long long>(ceiling));
+  std::fprintf(stderr, "%lld bytes allocated for an input of %zu; its ceiling is %lld\n",
+               static_cast<long long>(now), input_bytes.load(), static_cast<long long>(ceiling));
   std::abort();
 }
 
 void count_release(const volatile void* memory) {
   if (memory == nullptr) return;
-  allocated_bytes -= static_cast<std::int64_t>(__sanitizer_get_allocated_size(const_cast<const void*>(memory)));
+  allocated_bytes -=
+      static_cast<std::int64_t>(__sanitizer_get_allocated_size(const_cast<const void*>(memory)));
 }
 
 std::filesystem::path make_folder() {
