@@ -8,6 +8,7 @@
 #include "app/command_line/words.hpp"
 #include "app/input/standard_input.hpp"
 #include "app/text/shell_text.hpp"
+#include "app/text/text_table.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 
@@ -56,13 +57,12 @@ const Command& shorthand(const Words& words) {
 }
 
 [[noreturn]] void fail_other_command(const Option& option, const Command& command) {
-  std::string takers;
+  std::vector<std::string> takers;
   for (const Command& other : commands()) {
-    if (option_of(other, option.long_name) == nullptr) continue;
-    takers += format("{}{}", takers.empty() ? "" : ", ", other.name);
+    if (option_of(other, option.long_name) != nullptr) takers.emplace_back(other.name);
   }
-  throw UsageError(
-      format("{} does not go with {}; it is an option of: {}", option.display_name(), command.name, takers));
+  throw UsageError(format("{} does not go with {}; it is an option of: {}", option.display_name(),
+                          command.name, joined(takers)));
 }
 
 Options options_for(const Command& command, Words words) {
@@ -73,7 +73,7 @@ Options options_for(const Command& command, Words words) {
     if (option == nullptr) fail_other_command(*given.option, command);
     if (const auto* flag = std::get_if<bool Options::*>(&option->member)) {
       options.** flag = true;
-    } else if (const auto* value = std::get_if<std::optional<std::string> Options::*>(&option->member)) {
+    } else if (const auto* value = std::get_if<Options::Value Options::*>(&option->member)) {
       if (options.**value) throw UsageError(format("{} is given twice", option->display_name()));
       options.** value = given.words.front();
     }

@@ -1,158 +1,151 @@
 #include "app/command_line/command_table.hpp"
 
 #include <algorithm>
-#include <vector>
-
-#include "app/commands/commands.hpp"
+#include <iterator>
 
 namespace nutik::app {
+namespace {
 
-std::span<const Command> commands() {
-  using Id = CommandId;
-  using Group = CommandGroup;
-  static const std::vector<Command> table{
-      {Id::encode, "encode", "CLIP [CAPTURE.tik]",
-       "Turn a video or a sequence of stills into a .tik capture: for every pixel, a record of each change "
-       "of its value.",
-       "nutik-cl clip.mp4 clip.tik\n"
-       "nutik-cl -f 960 -a 180 slowmotion.mp4 clip.tik\n"
-       "nutik-cl encode --tolerance 4 -o small.tik clip.mp4\n"
-       "nutik-cl -f 30000 --white 4095 'frames/*.png' capture.tik\n"
-       "nutik-cl -f 500 frame%04d.tif capture.tik",
-       run_encode, Group::captures},
-      {Id::expose, "expose", "CAPTURE.tik|CLIP [PICTURE]",
-       "Expose a picture: each pixel is the integral of its light times a gain function of time.",
-       "nutik-cl --start 0.4s --exposure 10ms clip.tik moment.png\n"
-       "nutik-cl --start 0.4s --exposure 10ms --shutter hann --normalize integral clip.tik soft.png\n"
-       "nutik-cl --start 0s --exposure 10ms --every 40ms --count 10 clip.tik -o out-%03d.png\n"
-       "nutik-cl -k trail.fn clip.tik trail.png\n"
-       "nutik-cl -m regions.pgm -k regions.fn clip.tik picture.tif --depth 16\n"
-       "nutik-cl -m regions.pgm -k difference.fn clip.tik -o light.pfm",
-       run_expose, Group::pictures},
-      {Id::info, "info", "CAPTURE.tik", "Say what a capture holds.",
-       "nutik-cl info clip.tik\n"
-       "nutik-cl info --activity map.png clip.tik",
-       run_info, Group::captures},
-      {Id::devices, "devices", "", "List the OpenCL devices that --device can choose from.",
-       "nutik-cl devices", run_devices},
-      {Id::recover, "recover", "DAMAGED.tik WHOLE.tik",
-       "Save the whole blocks of a .tik file that was cut off.", "nutik-cl recover damaged.tik -o whole.tik",
-       run_recover, Group::captures},
-      {Id::noise, "noise", "CLIP... [-o CAMERA.noise]",
-       "Measure a camera's noise on footage of a still scene: one clip, or several exposures of it. The file "
-       "is text; tools/NoisePlotter.py draws it, --noise encodes with it.",
-       "nutik-cl noise still-scene.mp4 -o camera.noise\n"
-       "nutik-cl noise --white 4095 dark/ middle/ bright/ -o deep.noise\n"
-       "nutik-cl encode --noise camera.noise clip.mp4 clip.tik",
-       run_noise, Group::captures},
-      {Id::batch, "batch", "LIST.txt [CAPTURE.tik|CLIP]",
-       "Expose many pictures: each line of the list is an exposure's options and its picture. The capture is "
-       "read once; what cannot be exposed is reported and left out.",
-       "nutik-cl batch exposures.txt clip.tik\n"
-       "printf '%s\\n' '--start 0s --exposure 10ms a.png' '-k trail.fn b.png' | nutik-cl batch - clip.tik",
-       run_batch, Group::pictures},
-      {Id::check, "check", "[CAPTURE.tik|CLIP]",
-       "Say everything that is wrong or suspicious about a function file, a mask and a capture, and what "
-       "each function comes to.",
-       "nutik-cl check -k regions.fn\n"
-       "nutik-cl check -m regions.pgm -k regions.fn clip.tik\n"
-       "nutik-cl check --json -m regions.pgm -k regions.fn clip.tik",
-       run_check, Group::understanding},
-      {Id::trace, "trace", "CAPTURE.tik|CLIP [TRACE.csv|TRACE.png]",
-       "Follow one pixel, or the mean of a region, through an exposure: its light, the gain, and what they "
-       "add from edge to edge.",
-       "nutik-cl trace --pixel 320,180 -k trail.fn clip.tik\n"
-       "nutik-cl trace --pixel 320,180 -m regions.pgm -k regions.fn clip.tik trace.png\n"
-       "nutik-cl trace --tag 128 -m regions.pgm -k regions.fn clip.tik -o trace.csv\n"
-       "nutik-cl trace --pixel 0,0 --start 0.4s --exposure 10ms clip.tik",
-       run_trace, Group::understanding},
-      {Id::mask, "mask", "[CAPTURE.tik|CLIP] [MASK.pgm]",
-       "Make a mask from shapes, from pictures and from what moves, without an image editor.",
-       "nutik-cl mask --moving clip.tik mask.pgm --preview preview.png\n"
-       "nutik-cl mask --moving --smooth 2 --largest --grow 4 clip.tik mask.pgm\n"
-       "nutik-cl mask --tag 128 --changed-between 0.3s 0.5s --tag 255 --ellipse 320,180,60,40 clip.tik\n"
-       "nutik-cl mask --difference empty.png full.png --by 24 -o mask.pgm\n"
-       "nutik-cl mask --size 640x360 --tag 64 --rectangle 0,0,320,360 -o halves.pgm",
-       run_mask, Group::understanding},
-      {Id::contact, "contact", "CAPTURE.tik|CLIP [SHEET.png]",
-       "Lay out exposures of a capture, one after another, on a labelled sheet: to find the moment.",
-       "nutik-cl contact clip.tik\n"
-       "nutik-cl contact --every 0.2s --exposure 10ms clip.tik sheet.png\n"
-       "nutik-cl contact --start 0.4s --every 5f --columns 6 --width 2400 clip.tik -o sheet.png",
-       run_contact, Group::understanding},
-      {Id::activity, "activity", "CAPTURE.tik|CLIP [CHART.png]",
-       "Say when a capture changes and when it is quiet: as text, table, chart and map.",
-       "nutik-cl activity clip.tik\n"
-       "nutik-cl activity --csv activity.csv --map where.png clip.tik chart.png\n"
-       "nutik-cl activity -m mask.pgm --tag 128 --csv - clip.tik",
-       run_activity, Group::understanding},
-      {Id::sweep, "sweep", "CAPTURE.tik|CLIP [SHEET.png]",
-       "Expose with the same functions again and again, each time later, stronger or longer, on a labelled "
-       "sheet.",
-       "nutik-cl sweep -k file.fn -m mask.pgm --shift 0..1s/0.1s clip.tik\n"
-       "nutik-cl sweep -k trail.fn --scale-gain 0.5..2/0.25 --stretch 0.5..2/0.5 clip.tik sheet.png\n"
-       "nutik-cl sweep --start 0.4s --exposure 10ms --shift 0..50f/5f --each moment-%02d.png clip.tik",
-       run_sweep, Group::understanding},
-      {Id::video, "video", "CAPTURE.tik|CLIP [VIDEO]",
-       "Film the scene again: a video of any frame rate and shutter angle, each frame an exposure of its own "
-       "interval.",
-       "nutik-cl video clip.tik film.mp4\n"
-       "nutik-cl video --out-fps 24 --out-angle 180 --from 0.2s --to 1s --speed 0.25 clip.tik slow.mp4\n"
-       "nutik-cl video -f 960 --out-fps 30000/1001 --out-angle 360 slowmotion.mp4 film.mkv\n"
-       "nutik-cl video --depth 16 clip.tik frame-%05d.png\n"
-       "nutik-cl video -k trail.fn --out-fps 25 clip.tik trail.mp4",
-       run_video, Group::pictures},
-      {Id::shutter, "shutter", "SHAPE",
-       "Write a shutter's shape as a gain function: a line for a function file. Shapes: box, trapezoid:R, "
-       "triangle, gaussian, hann, strobe:N[,R], spline:0=G,…,1=G.",
-       "nutik-cl shutter hann --start 0.4s --exposure 10ms --tag 128 > f.fn\n"
-       "nutik-cl shutter spline:0=0,0.1=1,1=0 --exposure 1s > trail.fn\n"
-       "nutik-cl shutter strobe:5 --start 30f --exposure 60f --fps 960",
-       run_shutter, Group::understanding},
-      {Id::again, "again", "PICTURE [FOLDER...]",
-       "Print the command that makes a picture again, byte for byte, from the recipe that the picture "
-       "carries, by the program that was run. The files it was made from are looked for in the folders, the "
-       "current one and the "
-       "picture's.",
-       "nutik-cl again picture.png\n"
-       "nutik-cl again picture.png captures masks\n"
-       "nutik-cl again picture.png | sh",
-       run_again, Group::pictures},
-      {Id::completion, "completion", "bash|zsh|fish",
-       "Print a script that completes commands, options and their values in a shell. cmake --install puts "
-       "all "
-       "three where shells look for them.",
-       "source <(nutik-cl completion bash)\n"
-       "nutik-cl completion fish > nutik-cl.fish",
-       run_completion},
-      {Id::man, "man", "", "Print the manual page. cmake --install puts it where man looks for it.",
-       "nutik-cl man > nutik-cl.1\n"
-       "nutik-cl man | man -l -",
-       run_man},
-      {Id::validate, "validate", "CAPTURE.tik|CLIP",
-       "Expose with the reference and in every arithmetic that the device has: how right each is, within "
-       "which "
-       "bound, and how long it takes. Exit status 1 where one exceeds its bound.",
-       "nutik-cl validate --start 0.4s --exposure 10ms clip.tik\n"
-       "nutik-cl validate -m regions.pgm -k regions.fn --depth 16 clip.tik\n"
-       "nutik-cl validate --start 0s --exposure 1s --source clip.mp4 clip.tik\n"
-       "nutik-cl validate --json --runs 20 -k trail.fn clip.tik",
-       run_validate, Group::understanding},
-  };
-  return table;
+using Id = CommandId;
+
+constexpr Command kCommands[] = {
+    {Id::encode, "encode", "CLIP [CAPTURE.tik]",
+     "Turn a video or a sequence of stills into a .tik capture: for every pixel, a record of each change of "
+     "its value.",
+     "nutik-cl clip.mp4 clip.tik\n"
+     "nutik-cl -f 960 -a 180 slowmotion.mp4 clip.tik\n"
+     "nutik-cl encode --tolerance 4 -o small.tik clip.mp4\n"
+     "nutik-cl -f 30000 --white 4095 'frames/*.png' capture.tik\n"
+     "nutik-cl -f 500 frame%04d.tif capture.tik",
+     run_encode, kCaptures},
+    {Id::expose, "expose", "CAPTURE.tik|CLIP [PICTURE]",
+     "Expose a picture: each pixel is the integral of its light times a gain function of time.",
+     "nutik-cl --start 0.4s --exposure 10ms clip.tik moment.png\n"
+     "nutik-cl --start 0.4s --exposure 10ms --shutter hann --normalize integral clip.tik soft.png\n"
+     "nutik-cl --start 0s --exposure 10ms --every 40ms --count 10 clip.tik -o out-%03d.png\n"
+     "nutik-cl -k trail.fn clip.tik trail.png\n"
+     "nutik-cl -m regions.pgm -k regions.fn clip.tik picture.tif --depth 16\n"
+     "nutik-cl -m regions.pgm -k difference.fn clip.tik -o light.pfm",
+     run_expose, kPictures},
+    {Id::info, "info", "CAPTURE.tik", "Say what a capture holds.",
+     "nutik-cl info clip.tik\n"
+     "nutik-cl info --activity map.png clip.tik",
+     run_info, kCaptures},
+    {Id::devices, "devices", "", "List the OpenCL devices that --device can choose from.", "nutik-cl devices",
+     run_devices},
+    {Id::recover, "recover", "DAMAGED.tik WHOLE.tik",
+     "Save the whole blocks of a .tik file that was cut off.", "nutik-cl recover damaged.tik -o whole.tik",
+     run_recover, kCaptures},
+    {Id::noise, "noise", "CLIP... [-o CAMERA.noise]",
+     "Measure a camera's noise on footage of a still scene: one clip, or several exposures of it. The file "
+     "is text; tools/NoisePlotter.py draws it, --noise encodes with it.",
+     "nutik-cl noise still-scene.mp4 -o camera.noise\n"
+     "nutik-cl noise --white 4095 dark/ middle/ bright/ -o deep.noise\n"
+     "nutik-cl encode --noise camera.noise clip.mp4 clip.tik",
+     run_noise, kCaptures},
+    {Id::batch, "batch", "LIST.txt [CAPTURE.tik|CLIP]",
+     "Expose many pictures: each line of the list is an exposure's options and its picture. The capture is "
+     "read once; what cannot be exposed is reported and left out.",
+     "nutik-cl batch exposures.txt clip.tik\n"
+     "printf '%s\\n' '--start 0s --exposure 10ms a.png' '-k trail.fn b.png' | nutik-cl batch - clip.tik",
+     run_batch, kPictures},
+    {Id::check, "check", "[CAPTURE.tik|CLIP]",
+     "Say everything that is wrong or suspicious about a function file, a mask and a capture, and what each "
+     "function comes to.",
+     "nutik-cl check -k regions.fn\n"
+     "nutik-cl check -m regions.pgm -k regions.fn clip.tik\n"
+     "nutik-cl check --json -m regions.pgm -k regions.fn clip.tik",
+     run_check, kUnderstanding},
+    {Id::trace, "trace", "CAPTURE.tik|CLIP [TRACE.csv|TRACE.png]",
+     "Follow one pixel, or the mean of a region, through an exposure: its light, the gain, and what they add "
+     "from edge to edge.",
+     "nutik-cl trace --pixel 320,180 -k trail.fn clip.tik\n"
+     "nutik-cl trace --pixel 320,180 -m regions.pgm -k regions.fn clip.tik trace.png\n"
+     "nutik-cl trace --tag 128 -m regions.pgm -k regions.fn clip.tik -o trace.csv\n"
+     "nutik-cl trace --pixel 0,0 --start 0.4s --exposure 10ms clip.tik",
+     run_trace, kUnderstanding},
+    {Id::mask, "mask", "[CAPTURE.tik|CLIP] [MASK.pgm]",
+     "Make a mask from shapes, from pictures and from what moves, without an image editor.",
+     "nutik-cl mask --moving clip.tik mask.pgm --preview preview.png\n"
+     "nutik-cl mask --moving --smooth 2 --largest --grow 4 clip.tik mask.pgm\n"
+     "nutik-cl mask --tag 128 --changed-between 0.3s 0.5s --tag 255 --ellipse 320,180,60,40 clip.tik\n"
+     "nutik-cl mask --difference empty.png full.png --by 24 -o mask.pgm\n"
+     "nutik-cl mask --size 640x360 --tag 64 --rectangle 0,0,320,360 -o halves.pgm",
+     run_mask, kUnderstanding},
+    {Id::contact, "contact", "CAPTURE.tik|CLIP [SHEET.png]",
+     "Lay out exposures of a capture, one after another, on a labelled sheet: to find the moment.",
+     "nutik-cl contact clip.tik\n"
+     "nutik-cl contact --every 0.2s --exposure 10ms clip.tik sheet.png\n"
+     "nutik-cl contact --start 0.4s --every 5f --columns 6 --width 2400 clip.tik -o sheet.png",
+     run_contact, kUnderstanding},
+    {Id::activity, "activity", "CAPTURE.tik|CLIP [CHART.png]",
+     "Say when a capture changes and when it is quiet: as text, table, chart and map.",
+     "nutik-cl activity clip.tik\n"
+     "nutik-cl activity --csv activity.csv --map where.png clip.tik chart.png\n"
+     "nutik-cl activity -m mask.pgm --tag 128 --csv - clip.tik",
+     run_activity, kUnderstanding},
+    {Id::sweep, "sweep", "CAPTURE.tik|CLIP [SHEET.png]",
+     "Expose with the same functions again and again, each time later, stronger or longer, on a labelled "
+     "sheet.",
+     "nutik-cl sweep -k file.fn -m mask.pgm --shift 0..1s/0.1s clip.tik\n"
+     "nutik-cl sweep -k trail.fn --scale-gain 0.5..2/0.25 --stretch 0.5..2/0.5 clip.tik sheet.png\n"
+     "nutik-cl sweep --start 0.4s --exposure 10ms --shift 0..50f/5f --each moment-%02d.png clip.tik",
+     run_sweep, kUnderstanding},
+    {Id::video, "video", "CAPTURE.tik|CLIP [VIDEO]",
+     "Film the scene again: a video of any frame rate and shutter angle, each frame an exposure of its own "
+     "interval.",
+     "nutik-cl video clip.tik film.mp4\n"
+     "nutik-cl video --out-fps 24 --out-angle 180 --from 0.2s --to 1s --speed 0.25 clip.tik slow.mp4\n"
+     "nutik-cl video -f 960 --out-fps 30000/1001 --out-angle 360 slowmotion.mp4 film.mkv\n"
+     "nutik-cl video --depth 16 clip.tik frame-%05d.png\n"
+     "nutik-cl video -k trail.fn --out-fps 25 clip.tik trail.mp4",
+     run_video, kPictures},
+    {Id::shutter, "shutter", "SHAPE",
+     "Write a shutter's shape as a gain function: a line for a function file. Shapes: box, trapezoid:R, "
+     "triangle, gaussian, hann, strobe:N[,R], spline:0=G,…,1=G.",
+     "nutik-cl shutter hann --start 0.4s --exposure 10ms --tag 128 > f.fn\n"
+     "nutik-cl shutter spline:0=0,0.1=1,1=0 --exposure 1s > trail.fn\n"
+     "nutik-cl shutter strobe:5 --start 30f --exposure 60f --fps 960",
+     run_shutter, kUnderstanding},
+    {Id::again, "again", "PICTURE [FOLDER...]",
+     "Print the command that makes a picture again, byte for byte, from the recipe that the picture carries, "
+     "by the program that was run. The files it was made from are looked for in the folders, the current one "
+     "and the picture's.",
+     "nutik-cl again picture.png\n"
+     "nutik-cl again picture.png captures masks\n"
+     "nutik-cl again picture.png | sh",
+     run_again, kPictures},
+    {Id::completion, "completion", "bash|zsh|fish",
+     "Print a script that completes commands, options and their values in a shell. cmake --install puts all "
+     "three where shells look for them.",
+     "source <(nutik-cl completion bash)\n"
+     "nutik-cl completion fish > nutik-cl.fish",
+     run_completion},
+    {Id::man, "man", "", "Print the manual page. cmake --install puts it where man looks for it.",
+     "nutik-cl man > nutik-cl.1\n"
+     "nutik-cl man | man -l -",
+     run_man},
+    {Id::validate, "validate", "CAPTURE.tik|CLIP",
+     "Expose with the reference and in every arithmetic that the device has: how right each is, within which "
+     "bound, and how long it takes. Exit status 1 where one exceeds its bound.",
+     "nutik-cl validate --start 0.4s --exposure 10ms clip.tik\n"
+     "nutik-cl validate -m regions.pgm -k regions.fn --depth 16 clip.tik\n"
+     "nutik-cl validate --start 0s --exposure 1s --source clip.mp4 clip.tik\n"
+     "nutik-cl validate --json --runs 20 -k trail.fn clip.tik",
+     run_validate, kUnderstanding},
+};
+
+template <typename Wanted>
+const Command* first_command(Wanted wanted) {
+  const auto found = std::ranges::find_if(kCommands, wanted);
+  return found == std::end(kCommands) ? nullptr : &*found;
 }
 
-std::string_view title(CommandGroup group) {
-  switch (group) {
-    case CommandGroup::captures: return "Captures";
-    case CommandGroup::pictures: return "Pictures and videos";
-    case CommandGroup::understanding: return "Finding the moment, masks, understanding";
-    case CommandGroup::other: return "Other";
-  }
-  return {};
-}
+}  // namespace
 
-std::vector<const Command*> commands_of(CommandGroup group) {
+std::span<const Command> commands() { return kCommands; }
+
+std::vector<const Command*> commands_of(std::string_view group) {
   std::vector<const Command*> found;
   for (const Command& entry : commands()) {
     if (entry.group == group) found.push_back(&entry);
@@ -161,14 +154,11 @@ std::vector<const Command*> commands_of(CommandGroup group) {
 }
 
 const Command& command(CommandId id) {
-  return *std::find_if(commands().begin(), commands().end(),
-                       [&](const Command& entry) { return entry.id == id; });
+  return *first_command([&](const Command& entry) { return entry.id == id; });
 }
 
 const Command* find_command(std::string_view name) {
-  const auto found = std::find_if(commands().begin(), commands().end(),
-                                  [&](const Command& entry) { return entry.name == name; });
-  return found == commands().end() ? nullptr : &*found;
+  return first_command([&](const Command& entry) { return entry.name == name; });
 }
 
 }  // namespace nutik::app

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/command_line/options.hpp"
+#include "app/commands/commands.hpp"
 
 namespace nutik::app {
 
@@ -33,10 +33,10 @@ enum class CommandId {
 };
 
 // Where help lists a command.
-enum class CommandGroup { captures, pictures, understanding, other };
-inline constexpr CommandGroup kCommandGroups[] = {CommandGroup::captures, CommandGroup::pictures,
-                                                  CommandGroup::understanding, CommandGroup::other};
-[[nodiscard]] std::string_view title(CommandGroup group);
+inline constexpr std::string_view kCaptures = "Captures", kPictures = "Pictures and videos",
+                                  kUnderstanding = "Finding the moment, masks, understanding",
+                                  kOther = "Other";
+inline constexpr std::string_view kCommandGroups[] = {kCaptures, kPictures, kUnderstanding, kOther};
 
 struct Command {
   CommandId id;
@@ -44,8 +44,8 @@ struct Command {
   std::string_view operands;  // as in a synopsis
   std::string_view summary;
   std::string_view examples;  // lines, each a command
-  int (*run)(const Options& options);
-  CommandGroup group = CommandGroup::other;
+  Run* run;
+  std::string_view group = kOther;
 };
 
 // The commands of the paper's forms, which need no name.
@@ -62,7 +62,7 @@ template <typename... Ids>
 
 [[nodiscard]] std::span<const Command> commands();
 // The same, group by group.
-[[nodiscard]] std::vector<const Command*> commands_of(CommandGroup group);
+[[nodiscard]] std::vector<const Command*> commands_of(std::string_view group);
 [[nodiscard]] const Command& command(CommandId id);
 [[nodiscard]] const Command* find_command(std::string_view name);
 

@@ -1,10 +1,13 @@
-#include "app/command_line/completion.hpp"
+// Completion for shells, which ask the program itself: a script calls `nutik-cl completion -- SHELL WORD...` and offers
+// what that answers.
 
 #include <algorithm>
 #include <set>
 
-#include "app/command_line/help_text.hpp"
+#include "app/command_line/help.hpp"
 #include "app/command_line/words.hpp"
+#include "app/output/console.hpp"
+#include "app/text/text_table.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 
@@ -114,7 +117,7 @@ std::string option_lines(const Command* command) {
 
 std::string choice_lines(const Option& option) {
   std::string lines;
-  for (const std::string_view choice : option.choices) lines += format("{}\n", choice);
+  for (const std::string& choice : option.choices()) lines += choice + "\n";
   return lines;
 }
 
@@ -141,8 +144,6 @@ std::string operand_lines(const Command& command) {
   return is_capture ? ":files tik\n" : std::string(kAnyFile);
 }
 
-}  // namespace
-
 std::string completion_script(std::string_view shell) {
   if (shell == "bash") return std::string(kBash);
   if (shell == "zsh") return std::string(kZsh);
@@ -150,6 +151,13 @@ std::string completion_script(std::string_view shell) {
   throw UsageError(format("there is no completion for '{}'; choose bash, zsh or fish", shell));
 }
 
+// How a command line may go on whose last word, which may be empty, is being typed. A line for each possibility:
+//
+//   encode<TAB>Turn a video …     a word, and what it is
+//   :files                        any file
+//   :files pgm|png                a file that ends so, or a folder
+//
+// Of --name=VALUE the value alone. Empty where nothing is known, or the words before make no sense.
 std::string completions(std::span<const std::string> words) {
   try {
     const Words before = Words::of(words.first(words.size() - 1));
@@ -172,6 +180,16 @@ std::string completions(std::span<const std::string> words) {
   } catch (const UsageError&) {
     return {};
   }
+}
+
+}  // namespace
+
+int run_completion(const Options& options) {
+  if (options.operands.empty()) throw UsageError("for which shell? nutik-cl completion bash, zsh or fish");
+  const std::string script = completion_script(options.operands.front());
+  const std::span<const std::string> words = std::span(options.operands).subspan(1);
+  print_text(words.empty() ? script : completions(words));
+  return 0;
 }
 
 }  // namespace nutik::app

@@ -10,14 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/command_line/help_text.hpp"
 #include "app/output/console.hpp"
 #include "app/text/text_table.hpp"
 #include "session/format.hpp"
-
-#ifndef NUTIK_VERSION
-#error "NUTIK_VERSION is not set"
-#endif
 
 namespace nutik::app {
 namespace {
@@ -47,12 +42,9 @@ std::string wrapped(std::string_view text, std::size_t indent, std::string_view 
   static const std::size_t width = line_width();
   std::string result;
   std::size_t column = indent;
-  while (!text.empty()) {
-    const auto space = text.find(' ');
-    const std::string_view word = text.substr(0, space);
+  for (const std::string& word : parts_of(text, ' ')) {
     if (column > indent && column + 1 + columns(word) + at_break.size() > width) {
-      result += at_break;
-      result += '\n' + std::string(indent, ' ');
+      result += format("{}\n{:{}}", at_break, "", indent);
       column = indent;
     } else if (column > indent) {
       result += ' ';
@@ -60,49 +52,39 @@ std::string wrapped(std::string_view text, std::size_t indent, std::string_view 
     }
     result += word;
     column += columns(word);
-    text = space == std::string_view::npos ? std::string_view() : text.substr(space + 1);
   }
   return result;
 }
 
 std::string option_lines(const Option& option) {
-  std::string names = "  ";
-  names += option.short_name != 0 ? format("-{}, ", option.short_name) : "    ";
-  names += format("--{}{}{}", option.long_name, option.is_flag() ? "" : " ", option.value);
-  if (names.size() + 2 > kOptionColumn) {
-    names += '\n' + std::string(kOptionColumn, ' ');
-  } else {
-    names.resize(kOptionColumn, ' ');
-  }
+  const std::string short_name = option.short_name != 0 ? format("-{}, ", option.short_name) : "    ";
+  std::string names =
+      format("  {}{}{}{}", short_name, option.name(), option.is_flag() ? "" : " ", option.value);
+  const bool fits = names.size() + 2 <= kOptionColumn;
+  names += fits ? std::string(kOptionColumn - names.size(), ' ') : '\n' + std::string(kOptionColumn, ' ');
   return names + wrapped(option.help, kOptionColumn) + '\n';
-}
-
-// As a shell takes them, also where a line goes on.
-std::string example_lines(std::string_view examples) {
-  std::string text;
-  for (const std::string_view example : lines_of(examples)) {
-    text += format("  {}\n", wrapped(example, 6, " \\"));
-  }
-  return text;
 }
 
 }  // namespace
 
+std::string brief(std::string_view summary) {
+  for (const std::string_view end : {". ", " (default", ": "}) summary = summary.substr(0, summary.find(end));
+  return std::string(summary) + (summary.ends_with('.') ? "" : ".");
+}
+
 void print_version() { print_line("nutik-cl " NUTIK_VERSION); }
 
 void print_help() {
-  std::string text =
-      wrapped(kWhatItIs, 0) +
-      "\n\n"
-      "  nutik-cl clip.mp4 clip.tik                                 encode a clip\n"
-      "  nutik-cl --start 0.4s --exposure 10ms clip.tik moment.png  expose an interval\n"
-      "  nutik-cl -m mask.pgm -k functions.fn clip.tik out.png      expose by functions\n"
-      "  nutik-cl clip.tik                                          say what it holds\n"
-      "\n" +
-      wrapped("A function file has a line for each mask value, with times in nanoseconds:", 0) +
-      "\n  M0 [0:1], [10000000:1], [10000001:0]\n";
-  for (const CommandGroup group : kCommandGroups) {
-    text += format("\n{}:\n", title(group));
+  std::string text = wrapped(kWhatItIs, 0) +
+                     "\n\n"
+                     "  nutik-cl clip.mp4 clip.tik                                 encode a clip\n"
+                     "  nutik-cl --start 0.4s --exposure 10ms clip.tik moment.png  expose an interval\n"
+                     "  nutik-cl -m mask.pgm -k functions.fn clip.tik out.png      expose by functions\n"
+                     "  nutik-cl clip.tik                                          say what it holds\n"
+                     "\n" +
+                     format("{}\n  {}\n", wrapped(kAboutFunctionFiles, 0), kFunctionFile);
+  for (const std::string_view group : kCommandGroups) {
+    text += format("\n{}:\n", group);
     for (const Command* command : commands_of(group)) {
       text += format("  {:<{}}{}\n", command->name, kCommandColumn - 2,
                      wrapped(brief(command->summary), kCommandColumn));
@@ -120,16 +102,16 @@ void print_command_help(const Command& command) {
   std::string text =
       format("nutik-cl {} [OPTIONS]{}{}\n\n{}\n", command.name, command.operands.empty() ? "" : " ",
              command.operands, wrapped(command.summary, 0));
-  std::vector<std::string_view> groups;
+  std::string_view heading;
   for (const Option* option : options_of(command)) {
-    if (groups.empty() || groups.back() != option->heading) {
-      text += format("\n{}:\n", option->heading);
-      groups.push_back(option->heading);
-    }
+    if (option->heading != heading) text += format("\n{}:\n", heading = option->heading);
     text += option_lines(*option);
   }
-  text += format("\nExamples:\n{}", example_lines(command.examples));
-  text.pop_back();
+  text += "\nExamples:";
+  // As a shell takes them, also where a line goes on.
+  for (const std::string& example : parts_of(command.examples, '\n')) {
+    text += format("\n  {}", wrapped(example, 6, " \\"));
+  }
   print_line(text);
 }
 

@@ -1,18 +1,14 @@
-#include "app/command_line/man_page.hpp"
-
-#include <algorithm>
+// The manual page, from the one table of commands and options: in the language of man(7), ASCII only.
 #include <cstdint>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "app/command_line/help_text.hpp"
-#include "app/command_line/option_table.hpp"
+#include "app/command_line/help.hpp"
+#include "app/output/console.hpp"
+#include "app/text/text_table.hpp"
+#include "session/error.hpp"
 #include "session/format.hpp"
-
-#ifndef NUTIK_VERSION
-#error "NUTIK_VERSION is not set"
-#endif
 
 namespace nutik::app {
 namespace {
@@ -62,22 +58,17 @@ std::string option_term(const Option& option) {
 }
 
 std::string takers_of(const Option& option) {
-  std::string takers;
+  std::vector<std::string> takers;
   for (const Command& command : commands()) {
-    if (!option.is_of(command.id)) continue;
-    takers += (takers.empty() ? "" : ", ") + std::string(command.name);
+    if (option.is_of(command.id)) takers.emplace_back(command.name);
   }
-  return takers;
-}
-
-bool is_of_all(const Option& option) {
-  return std::ranges::all_of(commands(), [&](const Command& entry) { return option.is_of(entry.id); });
+  return takers.size() == commands().size() ? "all commands" : joined(takers);
 }
 
 std::string commands_section() {
   std::string text = section("COMMANDS");
-  for (const CommandGroup group : kCommandGroups) {
-    text += format(".SS {}\n", escaped(title(group)));
+  for (const std::string_view group : kCommandGroups) {
+    text += format(".SS {}\n", escaped(group));
     for (const Command* command : commands_of(group)) {
       std::string term = bold(command->name);
       if (!command->operands.empty()) term += format(" \\fI{}\\fR", escaped(command->operands));
@@ -93,8 +84,7 @@ std::string options_section() {
   std::string_view group;
   for (const Option& option : options()) {
     if (option.heading != group) text += format(".SS {}\n", escaped(group = option.heading));
-    const std::string takers = is_of_all(option) ? "all commands" : takers_of(option);
-    text += item(option_term(option), format("{} [{}]", option.help, takers));
+    text += item(option_term(option), format("{} [{}]", option.help, takers_of(option)));
   }
   return text;
 }
@@ -103,13 +93,11 @@ std::string examples_section() {
   std::string text = section("EXAMPLES");
   for (const Command& command : commands()) {
     text += format(".SS {}\n.nf\n", escaped(command.name));
-    for (const std::string_view example : lines_of(command.examples)) text += escaped(example) + "\n";
+    for (const std::string& example : parts_of(command.examples, '\n')) text += escaped(example) + "\n";
     text += ".fi\n";
   }
   return text;
 }
-
-}  // namespace
 
 std::string man_page() {
   std::string text =
@@ -123,8 +111,7 @@ std::string man_page() {
     text += format(".B nutik\\-cl\n{}\n.br\n", escaped(form));
   }
   text += section("DESCRIPTION") + escaped(kWhatItIs) + "\n.PP\n" +
-          escaped("A function file has a line for each mask value, with times in nanoseconds:") +
-          "\n.PP\n.nf\nM0 [0:1], [10000000:1], [10000001:0]\n.fi\n.PP\n" +
+          format("{}\n.PP\n.nf\n{}\n.fi\n.PP\n", escaped(kAboutFunctionFiles), kFunctionFile) +
           escaped(
               "Times have a unit: 0.4s, 10ms, 250us, 7ns, 2min, 1/100s, or 37f for pictures of the clip, "
               "counted from 0. Functions (-k) and masks (-m) are read from standard input where their name "
@@ -153,6 +140,14 @@ std::string man_page() {
       {"TMPDIR", "where a clip that is read more than once is kept meanwhile"}};
   for (const auto& [name, meaning] : kVariables) text += item(bold(name), meaning);
   return text;
+}
+
+}  // namespace
+
+int run_man(const Options& options) {
+  if (!options.operands.empty()) throw UsageError("man takes no file: nutik-cl man > nutik-cl.1");
+  print_text(man_page());
+  return 0;
 }
 
 }  // namespace nutik::app

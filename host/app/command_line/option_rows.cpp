@@ -4,6 +4,7 @@ namespace nutik::app {
 namespace {
 
 using Id = CommandId;
+using enum Scope;
 
 constexpr CommandSet kAll = ~CommandSet{0};
 // Those that read a clip, and so take what describes it.
@@ -30,356 +31,223 @@ constexpr CommandSet kMakesSheets = set_of(Id::contact, Id::sweep);
 // Those that have nothing to tell a script, or tell what is a file itself.
 constexpr CommandSet kOnlyPrints = set_of(Id::shutter, Id::again, Id::completion, Id::man);
 
-std::vector<Option> source_rows() {
-  return {
-      {'f', "fps", "RATE", Scope::timing, kReadsClips | bit(Id::shutter), &Options::fps,
-       "pictures a second that the clip was filmed with: 120, 29.97, 30000/1001 (default: what the file "
-       "says)"},
-      {'a', "shutter-angle", "DEGREES", Scope::timing, kReadsClips | bit(Id::shutter),
-       &Options::shutter_angle,
-       "share of the time between pictures that the shutter was open, 360 being all of it (default: 360)"},
-      {0, "white", "CODE", Scope::decoding, kDecodesClips, &Options::white,
-       "the code that stands for white: 255, 4095 for 12 bits, … (default: what the file says)"},
-      // A capture has one too, which a picture may be exposed without: so it is none of what only a clip has.
-      {0,
-       "transfer",
-       "NAME",
-       Scope::exposure,
-       kDecodesClips,
-       &Options::transfer,
-       "how codes stand for light: srgb, bt709, linear or gamma:G (default: srgb; linear for stills and grey "
-       "video of more than 8 bits and for 16-bit colour; what deep or raw video names; a .tik's own)",
-       {"srgb", "bt709", "linear", "gamma:"}},
-      {0, "raw", "WxH:FORMAT", Scope::decoding, kDecodesClips, &Options::raw,
-       "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le"},
-      {0, "tolerance", "CODES", Scope::encoding, kEncodesClips, &Options::tolerance,
-       "differences up to this many codes are no change; 0 keeps every one (default: 0)"},
-      {0,
-       "noise",
-       "FILE|auto",
-       Scope::encoding,
-       kReadsClips,
-       &Options::noise,
-       "the camera's noise, as nutik-cl noise measures it, or auto: measured on the clip itself. What is "
-       "within it is no change, and samples are held as the light they are expected to have",
-       {"auto"}},
-      {0, "sigmas", "K", Scope::encoding, kReadsClips, &Options::sigmas,
-       "with --noise: standard deviations from what is held within which a sample is no change (default: 3)"},
-  };
-}
-
-std::vector<Option> exposure_rows() {
-  return {
-      {'k', "functions", "FILE.fn", Scope::exposure, kTakesFunctions, &Options::functions,
-       "the gain functions, one for each mask value; a file with a single one needs no mask; - is standard "
-       "input"},
-      {'m', "mask", "FILE.pgm", Scope::exposure, kTakesFunctions | bit(Id::activity), &Options::mask,
-       "which function each pixel is exposed with: an 8-bit grey PGM or PNG; - is standard input"},
-      {0, "start", "TIME", Scope::exposure, kTakesIntervals, &Options::start,
-       "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip; with -k the "
-       "functions' time 0 (default: 0s)"},
-      {0, "exposure", "TIME", Scope::exposure, kTakesIntervals, &Options::exposure,
-       "length of the plain interval: 10ms, 1/100s, 250us, or 3f, to the end of the third picture"},
-      {0,
-       "unmapped",
-       "zero",
-       Scope::exposure,
-       kTakesFunctions,
-       &Options::unmapped,
-       "expose mask values without a function to black (default: an error)",
-       {"zero"}},
-      {0,
-       "live",
-       "all",
-       Scope::exposure,
-       kShapesExposures,
-       &Options::live,
-       "visit every sample, also where no gain needs it (the picture is the same)",
-       {"all"}},
-      {0, "pixel", "X,Y", Scope::subject, bit(Id::trace), &Options::pixel,
-       "the pixel to follow, counted from 0 at the top left"},
-      {0, "tag", "VALUE", Scope::subject, bit(Id::trace), &Options::tag,
-       "follow the mean of all pixels that have this value in the mask"},
-      {0,
-       "shutter",
-       "SHAPE",
-       Scope::exposure,
-       kShapesExposures,
-       &Options::shutter,
-       "how far the shutter is open in the course of the plain interval: box, trapezoid:R, triangle, "
-       "gaussian, hann, strobe:N[,R] or spline:0=G,…,1=G (default: box)",
-       {"box", "trapezoid:", "triangle", "gaussian", "hann", "strobe:", "spline:"}},
-      {0, "shutter-error", "E", Scope::exposure, kShapesExposures | bit(Id::shutter), &Options::shutter_error,
-       "how far a smooth shape may be from its true gains, as a share of the largest (default: 0.001)"},
-      {0,
-       "normalize",
-       "BY",
-       Scope::exposure,
-       kShapesExposures,
-       &Options::normalize,
-       "divide by the time with a gain (support), by its integral (integral: a still scene keeps its "
-       "brightness), by that of its magnitude (absolute), or by seconds:S (default: support)",
-       {"support", "integral", "absolute", "seconds:"}},
-      {0, "gain", "G", Scope::exposure, kShapesExposures | bit(Id::shutter), &Options::gain,
-       "make the light G times as much (default: 1)"},
-      {0, "ev", "E", Scope::exposure, kShapesExposures | bit(Id::shutter), &Options::ev,
-       "make the light 2^E times as much: 1 is one stop brighter (default: 0)"},
-      {0, "every", "TIME", Scope::series, bit(Id::expose), &Options::every,
-       "expose a series, each picture this much later than the one before: 40ms, 2f; name it out-%03d.png"},
-      {0, "count", "N", Scope::series, bit(Id::expose), &Options::count,
-       "pictures in the series (default: as many as fit in the capture)"},
-      {0, "tag", "VALUE", Scope::subject, bit(Id::shutter), &Options::tag,
-       "the mask value that the function belongs to: 0 … 255 (default: 0)"},
-  };
-}
-
-std::vector<Option> frame_rows() {
-  constexpr CommandSet kVideo = bit(Id::video);
-  return {
-      {0, "out-fps", "RATE", Scope::series, kVideo, &Options::out_fps,
-       "frames a second that the video is played with (default: 24)"},
-      {0, "out-angle", "DEGREES", Scope::series, kVideo, &Options::out_angle,
-       "share of the time between frames that each is exposed, 360 being all of it; more makes them overlap "
-       "(default: 180)"},
-      {0, "from", "TIME", Scope::series, kVideo, &Options::from,
-       "where in the capture the video starts: 0.4s, 37f (default: 0s)"},
-      {0, "to", "TIME", Scope::series, kVideo, &Options::to,
-       "where it ends; frames that would go on behind it are left out (default: the capture's end)"},
-      {0, "speed", "FACTOR", Scope::series, kVideo, &Options::speed,
-       "seconds of the capture in a second of the video: 0.25 is four times slower than life (default: 1)"},
-      {0,
-       "video-codec",
-       "NAME",
-       Scope::output,
-       kVideo,
-       &Options::video_codec,
-       "ffv1 (lossless; .mkv, .avi), h264, h265 (.mp4, .mov, .mkv), vp9 (.webm, .mkv), prores (.mov, .mkv) "
-       "or "
-       "mjpeg (.avi, .mov, .mkv) (default: h264, in .mkv and .avi ffv1, in .webm vp9)",
-       {"ffv1", "h264", "h265", "vp9", "prores", "mjpeg"}},
-  };
-}
+// What the rows behind it stand under.
+constexpr Option heading(std::string_view title) { return {.heading = title}; }
 
 // A step of a mask, in the order of the command line.
-Option step(std::string_view name, std::string_view value, std::string_view help) {
-  return {0, name, value, Scope::subject, bit(Id::mask), {}, help};
+constexpr Option step(std::string_view name, std::string_view value, std::string_view help) {
+  return {0, name, value, subject, bit(Id::mask), {}, help};
 }
 
-std::vector<Option> region_rows() {
-  return {
-      step("tag", "N", "the tag of the regions after it, 0 … 255 (default: 255)"),
-      step("fill", {}, "the whole picture"),
-      step("rectangle", "X,Y,W,H", "from its top left corner, in pixels"),
-      step("ellipse", "X,Y,RX,RY", "round its centre, with half its width and height"),
-      step("polygon", "X,Y,X,Y,...", "three corners or more, even-odd where it crosses itself"),
-      step("grid", "COLUMNSxROWS",
-           "the whole picture, cut into cells that are tagged N, N + 1, … row by row, from 0 without --tag"),
-      step("threshold", "PICTURE LOW..HIGH",
-           "where a picture's brightness lies in a range: 100..255 in codes, 100 for that and brighter, "
-           "40%..100% of white. PICTURE is a file, or a time of the capture (0.3s, 12f)"),
-      step("difference", "PICTURE PICTURE", "where two pictures, or times of the capture, differ"),
-      step("moving", {}, "pixels that change within the capture by more than its noise"),
-      step("still", {}, "the others"),
-      step("changed-between", "TIME TIME",
-           "pixels that change from one time to another: 0.3s 0.5s, or 37f 52f"),
-  };
-}
+constexpr Option kRows[] = {
+    heading("The source clip"),
+    {'f', "fps", "RATE", timing, kReadsClips | bit(Id::shutter), &Options::fps,
+     "pictures a second that the clip was filmed with: 120, 29.97, 30000/1001 (default: what the file says)"},
+    {'a', "shutter-angle", "DEGREES", timing, kReadsClips | bit(Id::shutter), &Options::shutter_angle,
+     "share of the time between pictures that the shutter was open, 360 being all of it (default: 360)"},
+    {0, "white", "CODE", decoding, kDecodesClips, &Options::white,
+     "the code that stands for white: 255, 4095 for 12 bits, … (default: what the file says)"},
+    // A capture has one too, which a picture may be exposed without: so it is none of what only a clip has.
+    {0, "transfer", "NAME", exposure, kDecodesClips, &Options::transfer,
+     "how codes stand for light: srgb, bt709, linear or gamma:G (default: srgb; linear for stills and grey "
+     "video of more than 8 bits and for 16-bit colour; what deep or raw video names; a .tik's own)",
+     "srgb bt709 linear gamma:"},
+    {0, "raw", "WxH:FORMAT", decoding, kDecodesClips, &Options::raw,
+     "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le"},
+    {0, "tolerance", "CODES", encoding, kEncodesClips, &Options::tolerance,
+     "differences up to this many codes are no change; 0 keeps every one (default: 0)"},
+    {0, "noise", "FILE|auto", encoding, kReadsClips, &Options::noise,
+     "the camera's noise, as nutik-cl noise measures it, or auto: measured on the clip itself. What is "
+     "within it is no change, and samples are held as the light they are expected to have",
+     "auto"},
+    {0, "sigmas", "K", encoding, kReadsClips, &Options::sigmas,
+     "with --noise: standard deviations from what is held within which a sample is no change (default: 3)"},
 
-std::vector<Option> region_change_rows() {
-  return {
-      step("by", "CODES",
-           "the least that is no change: for --moving, --still, --changed-between and --difference, codes "
-           "must differ by more (default: twice what a quarter of all pixels stay within, at least 1/16 of "
-           "white)"),
-      step("within", "X,Y,W,H", "only its part in a rectangle"),
-      step("largest", {}, "only its largest connected part"),
-      step("grow", "PIXELS", "and all that is no further away than this"),
-      step("shrink", "PIXELS", "without all that is no further than this from its border"),
-      step("smooth", "PIXELS", "without specks and holes narrower than twice this"),
-      step("invert", {}, "everything else"),
-  };
-}
+    heading("The exposure"),
+    {'k', "functions", "FILE.fn", exposure, kTakesFunctions, &Options::functions,
+     "the gain functions, one for each mask value; a file with a single one needs no mask; - is standard "
+     "input"},
+    {'m', "mask", "FILE.pgm", exposure, kTakesFunctions | bit(Id::activity), &Options::mask,
+     "which function each pixel is exposed with: an 8-bit grey PGM or PNG; - is standard input"},
+    {0, "start", "TIME", exposure, kTakesIntervals, &Options::start,
+     "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip; with -k the "
+     "functions' time 0 (default: 0s)"},
+    {0, "exposure", "TIME", exposure, kTakesIntervals, &Options::exposure,
+     "length of the plain interval: 10ms, 1/100s, 250us, or 3f, to the end of the third picture"},
+    {0, "unmapped", "zero", exposure, kTakesFunctions, &Options::unmapped,
+     "expose mask values without a function to black (default: an error)", "zero"},
+    {0, "live", "all", exposure, kShapesExposures, &Options::live,
+     "visit every sample, also where no gain needs it (the picture is the same)", "all"},
+    {0, "pixel", "X,Y", subject, bit(Id::trace), &Options::pixel,
+     "the pixel to follow, counted from 0 at the top left"},
+    {0, "tag", "VALUE", subject, bit(Id::trace), &Options::tag,
+     "follow the mean of all pixels that have this value in the mask"},
+    {0, "shutter", "SHAPE", exposure, kShapesExposures, &Options::shutter,
+     "how far the shutter is open in the course of the plain interval: box, trapezoid:R, triangle, gaussian, "
+     "hann, strobe:N[,R] or spline:0=G,…,1=G (default: box)",
+     "box trapezoid: triangle gaussian hann strobe: spline:"},
+    {0, "shutter-error", "E", exposure, kShapesExposures | bit(Id::shutter), &Options::shutter_error,
+     "how far a smooth shape may be from its true gains, as a share of the largest (default: 0.001)"},
+    {0, "normalize", "BY", exposure, kShapesExposures, &Options::normalize,
+     "divide by the time with a gain (support), by its integral (integral: a still scene keeps its "
+     "brightness), by that of its magnitude (absolute), or by seconds:S (default: support)",
+     "support integral absolute seconds:"},
+    {0, "gain", "G", exposure, kShapesExposures | bit(Id::shutter), &Options::gain,
+     "make the light G times as much (default: 1)"},
+    {0, "ev", "E", exposure, kShapesExposures | bit(Id::shutter), &Options::ev,
+     "make the light 2^E times as much: 1 is one stop brighter (default: 0)"},
+    {0, "every", "TIME", series, bit(Id::expose), &Options::every,
+     "expose a series, each picture this much later than the one before: 40ms, 2f; name it out-%03d.png"},
+    {0, "count", "N", series, bit(Id::expose), &Options::count,
+     "pictures in the series (default: as many as fit in the capture)"},
+    {0, "tag", "VALUE", subject, bit(Id::shutter), &Options::tag,
+     "the mask value that the function belongs to: 0 … 255 (default: 0)"},
 
-std::vector<Option> mask_rows() {
-  return {
-      {0, "base", "MASK.pgm", Scope::subject, bit(Id::mask), &Options::base,
-       "start with this mask (default: 0 everywhere)"},
-      {0, "size", "WxH", Scope::subject, bit(Id::mask), &Options::size,
-       "its size, where neither capture nor picture tells: 640x360"},
-      {0, "preview", "PICTURE.png", Scope::output, bit(Id::mask), &Options::preview,
-       "also show the tags in colours over an exposure of the capture: of all of it, or of --start and "
-       "--exposure"},
-  };
-}
+    heading("The frames"),
+    {0, "out-fps", "RATE", series, bit(Id::video), &Options::out_fps,
+     "frames a second that the video is played with (default: 24)"},
+    {0, "out-angle", "DEGREES", series, bit(Id::video), &Options::out_angle,
+     "share of the time between frames that each is exposed, 360 being all of it; more makes them overlap "
+     "(default: 180)"},
+    {0, "from", "TIME", series, bit(Id::video), &Options::from,
+     "where in the capture the video starts: 0.4s, 37f (default: 0s)"},
+    {0, "to", "TIME", series, bit(Id::video), &Options::to,
+     "where it ends; frames that would go on behind it are left out (default: the capture's end)"},
+    {0, "speed", "FACTOR", series, bit(Id::video), &Options::speed,
+     "seconds of the capture in a second of the video: 0.25 is four times slower than life (default: 1)"},
+    {0, "video-codec", "NAME", output, bit(Id::video), &Options::video_codec,
+     "ffv1 (lossless; .mkv, .avi), h264, h265 (.mp4, .mov, .mkv), vp9 (.webm, .mkv), prores (.mov, .mkv) or "
+     "mjpeg (.avi, .mov, .mkv) (default: h264, in .mkv and .avi ffv1, in .webm vp9)",
+     "ffv1 h264 h265 vp9 prores mjpeg"},
 
-std::vector<Option> sweep_rows() {
-  return {
-      {0, "shift", "TIMES", Scope::series, bit(Id::sweep), &Options::shift,
-       "the functions later: 0..1s/0.1s, or -5f..5f/1f in pictures of the clip"},
-      {0, "scale-gain", "FACTORS", Scope::series, bit(Id::sweep), &Options::scale_gain,
-       "every gain times a factor: 0.5..2/0.25"},
-      {0, "stretch", "FACTORS", Scope::series, bit(Id::sweep), &Options::stretch,
-       "the functions longer by a factor, from where the first of them begins to expose: 0.5..2/0.5"},
-  };
-}
+    heading("Regions, in this order: later ones lie over earlier ones"),
+    step("tag", "N", "the tag of the regions after it, 0 … 255 (default: 255)"),
+    step("fill", "", "the whole picture"),
+    step("rectangle", "X,Y,W,H", "from its top left corner, in pixels"),
+    step("ellipse", "X,Y,RX,RY", "round its centre, with half its width and height"),
+    step("polygon", "X,Y,X,Y,...", "three corners or more, even-odd where it crosses itself"),
+    step("grid", "COLUMNSxROWS",
+         "the whole picture, cut into cells that are tagged N, N + 1, … row by row, from 0 without --tag"),
+    step("threshold", "PICTURE LOW..HIGH",
+         "where a picture's brightness lies in a range: 100..255 in codes, 100 for that and brighter, "
+         "40%..100% of white. PICTURE is a file, or a time of the capture (0.3s, 12f)"),
+    step("difference", "PICTURE PICTURE", "where two pictures, or times of the capture, differ"),
+    step("moving", "", "pixels that change within the capture by more than its noise"),
+    step("still", "", "the others"),
+    step("changed-between", "TIME TIME",
+         "pixels that change from one time to another: 0.3s 0.5s, or 37f 52f"),
 
-std::vector<Option> sheet_rows() {
-  return {
-      {0, "every", "TIME", Scope::series, bit(Id::contact), &Options::every,
-       "from the start of one exposure to the next: 0.2s, 5f (default: so that 24 fit)"},
-      {0, "columns", "N", Scope::output, kMakesSheets, &Options::columns,
-       "pictures beside each other (default: as many as look well)"},
-      {0, "width", "PIXELS", Scope::output, kMakesSheets, &Options::width,
-       "of the whole sheet (default: up to 1600, no picture enlarged)"},
-      {0, "each", "NAME%02d.png", Scope::output, bit(Id::sweep), &Options::each,
-       "also write every picture in full size, numbered from 0"},
-  };
-}
+    heading("Changes to the region before them"),
+    step("by", "CODES",
+         "the least that is no change: for --moving, --still, --changed-between and --difference, codes must "
+         "differ by more (default: twice what a quarter of all pixels stay within, at least 1/16 of white)"),
+    step("within", "X,Y,W,H", "only its part in a rectangle"),
+    step("largest", "", "only its largest connected part"),
+    step("grow", "PIXELS", "and all that is no further away than this"),
+    step("shrink", "PIXELS", "without all that is no further than this from its border"),
+    step("smooth", "PIXELS", "without specks and holes narrower than twice this"),
+    step("invert", "", "everything else"),
 
-std::vector<Option> activity_rows() {
-  return {
-      {0, "tag", "N", Scope::subject, bit(Id::activity), &Options::tag,
-       "count only pixels that have this value in the mask"},
-      {0, "by", "CODES", Scope::subject, bit(Id::activity), &Options::by,
-       "count codes that differ by more than this at a sample (default: 0)"},
-      {0, "moment", "quietest|busiest", Scope::subject, bit(Id::activity), &Options::moment,
-       "print nothing but that stretch, as options for another command: --start 12f --exposure 9f"},
-      {0, "csv", "FILE.csv", Scope::output, bit(Id::activity), &Options::csv,
-       "a line for each sample, - for standard output"},
-      {0, "map", "MAP.png", Scope::output, bit(Id::activity), &Options::map,
-       "also write where it changes, as info --activity does: black never, white most often"},
-  };
-}
+    heading("The mask"),
+    {0, "base", "MASK.pgm", subject, bit(Id::mask), &Options::base,
+     "start with this mask (default: 0 everywhere)"},
+    {0, "size", "WxH", subject, bit(Id::mask), &Options::size,
+     "its size, where neither capture nor picture tells: 640x360"},
+    {0, "preview", "PICTURE.png", output, bit(Id::mask), &Options::preview,
+     "also show the tags in colours over an exposure of the capture: of all of it, or of --start and "
+     "--exposure"},
 
-std::vector<Option> computing_rows() {
-  return {
-      {0,
-       "renderer",
-       "NAME",
-       Scope::computing,
-       kExposes,
-       &Options::renderer,
-       "opencl, or reference: plain double precision on the processor, slow (default: opencl)",
-       {"opencl", "reference"}},
-      {0, "device", "NAME", Scope::computing, kExposes | bit(Id::validate), &Options::device,
-       "OpenCL device by number or part of its name; NUTIK_DEVICE does the same (default: the first GPU, "
-       "else "
-       "the first device)"},
-      {0,
-       "precision",
-       "NAME",
-       Scope::computing,
-       kExposes,
-       &Options::precision,
-       "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is "
-       "sure to be right to half a code, or to half a float's step (default: auto; see -v)",
-       {"auto", "single", "compensated", "double", "fixed"}},
-      {0, "memory", "SIZE", Scope::computing, kReadsClips | kExposes, &Options::memory,
-       "what pictures and blocks may take: 500MB, 2GB, 1GiB; libraries take some 150 MB besides (default: "
-       "half of the machine's)"},
-  };
-}
+    heading("What is varied, FROM..TO/STEP: one, or two as rows and columns"),
+    {0, "shift", "TIMES", series, bit(Id::sweep), &Options::shift,
+     "the functions later: 0..1s/0.1s, or -5f..5f/1f in pictures of the clip"},
+    {0, "scale-gain", "FACTORS", series, bit(Id::sweep), &Options::scale_gain,
+     "every gain times a factor: 0.5..2/0.25"},
+    {0, "stretch", "FACTORS", series, bit(Id::sweep), &Options::stretch,
+     "the functions longer by a factor, from where the first of them begins to expose: 0.5..2/0.5"},
 
-std::vector<Option> validation_rows() {
-  return {
-      {0, "source", "CLIP", Scope::subject, bit(Id::validate), &Options::source,
-       "also compare the capture with the clip that it was made from, picture by picture"},
-      {0, "runs", "N", Scope::subject, bit(Id::validate), &Options::runs,
-       "renders that are timed in each arithmetic, in turns (default: 5)"},
-  };
-}
+    heading("The sheet"),
+    {0, "every", "TIME", series, bit(Id::contact), &Options::every,
+     "from the start of one exposure to the next: 0.2s, 5f (default: so that 24 fit)"},
+    {0, "columns", "N", output, kMakesSheets, &Options::columns,
+     "pictures beside each other (default: as many as look well)"},
+    {0, "width", "PIXELS", output, kMakesSheets, &Options::width,
+     "of the whole sheet (default: up to 1600, no picture enlarged)"},
+    {0, "each", "NAME%02d.png", output, bit(Id::sweep), &Options::each,
+     "also write every picture in full size, numbered from 0"},
 
-std::vector<Option> output_rows() {
-  return {
-      {'o', "output", "FILE", Scope::output,
-       (kReadsClips & ~set_of(Id::batch, Id::check, Id::validate)) | set_of(Id::recover, Id::noise),
-       &Options::output, "where to write; without it the last operand, or a name made from the inputs"},
-      {0,
-       "depth",
-       "BITS",
-       Scope::exposure,
-       set_of(Id::expose, Id::video, Id::validate),
-       &Options::depth,
-       "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
-       {"8", "16", "float"}},
-      {0,
-       "negative",
-       "HOW",
-       Scope::exposure,
-       kExposesFreely,
-       &Options::negative,
-       "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
-       "darker), abs (as bright as light above it) (default: saturate)",
-       {"saturate", "offset", "abs"}},
-      {0,
-       "codec",
-       "NAME",
-       Scope::encoding,
-       bit(Id::encode),
-       &Options::codec,
-       "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",
-       {"none", "lz4", "zstd", "zstd:"}},
-      {0,
-       "tiles",
-       "KIND",
-       Scope::encoding,
-       kEncodesClips,
-       &Options::tiles,
-       "auto, or all tiles as dense, rows or records, for experiments (default: auto)",
-       {"auto", "dense", "rows", "records"}},
-      {0, "block-samples", "N", Scope::encoding, kEncodesClips, &Options::block_samples,
-       "samples in a block (default: 64, fewer where much of a large picture changes)"},
-      {0, "activity", "MAP.png", Scope::output, bit(Id::info), &Options::activity,
-       "also write how often each pixel changes, as a grey picture: black never, white most often, between "
-       "them sRGB"},
-      {0,
-       "json",
-       {},
-       Scope::answer,
-       kAll & ~kOnlyPrints,
-       &Options::json,
-       "answer with one JSON object, for scripts"},
-      {0,
-       "no-recipe",
-       {},
-       Scope::output,
-       set_of(Id::expose, Id::batch, Id::sweep),
-       &Options::no_recipe,
-       "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},
-      {'q', "quiet", {}, Scope::output, kAll, &Options::quiet, "no progress bar and no summary"},
-      {'v',
-       "verbose",
-       {},
-       Scope::output,
-       (kExposes & ~bit(Id::mask)) | bit(Id::trace),
-       &Options::verbose,
-       "say more: what is read and what is skipped, in which precision and why, how fast and with how much "
-       "memory; every step of a trace"},
-  };
-}
+    heading("Changes over time"),
+    {0, "tag", "N", subject, bit(Id::activity), &Options::tag,
+     "count only pixels that have this value in the mask"},
+    {0, "by", "CODES", subject, bit(Id::activity), &Options::by,
+     "count codes that differ by more than this at a sample (default: 0)"},
+    {0, "moment", "quietest|busiest", subject, bit(Id::activity), &Options::moment,
+     "print nothing but that stretch, as options for another command: --start 12f --exposure 9f"},
+    {0, "csv", "FILE.csv", output, bit(Id::activity), &Options::csv,
+     "a line for each sample, - for standard output"},
+    {0, "map", "MAP.png", output, bit(Id::activity), &Options::map,
+     "also write where it changes, as info --activity does: black never, white most often"},
 
-struct Section {
-  std::string_view heading;
-  std::vector<Option> rows;
+    heading("Computing"),
+    {0, "renderer", "NAME", computing, kExposes, &Options::renderer,
+     "opencl, or reference: plain double precision on the processor, slow (default: opencl)",
+     "opencl reference"},
+    {0, "device", "NAME", computing, kExposes | bit(Id::validate), &Options::device,
+     "OpenCL device by number or part of its name; NUTIK_DEVICE does the same (default: the first GPU, else "
+     "the first device)"},
+    {0, "precision", "NAME", computing, kExposes, &Options::precision,
+     "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is sure "
+     "to be right to half a code, or to half a float's step (default: auto; see -v)",
+     "auto single compensated double fixed"},
+    {0, "memory", "SIZE", computing, kReadsClips | kExposes, &Options::memory,
+     "what pictures and blocks may take: 500MB, 2GB, 1GiB; libraries take some 150 MB besides (default: half "
+     "of the machine's)"},
+
+    heading("Validation"),
+    {0, "source", "CLIP", subject, bit(Id::validate), &Options::source,
+     "also compare the capture with the clip that it was made from, picture by picture"},
+    {0, "runs", "N", subject, bit(Id::validate), &Options::runs,
+     "renders that are timed in each arithmetic, in turns (default: 5)"},
+
+    heading("Output"),
+    {'o', "output", "FILE", output,
+     (kReadsClips & ~set_of(Id::batch, Id::check, Id::validate)) | set_of(Id::recover, Id::noise),
+     &Options::output, "where to write; without it the last operand, or a name made from the inputs"},
+    {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate), &Options::depth,
+     "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
+     "8 16 float"},
+    {0, "negative", "HOW", exposure, kExposesFreely, &Options::negative,
+     "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
+     "darker), abs (as bright as light above it) (default: saturate)",
+     "saturate offset abs"},
+    {0, "codec", "NAME", encoding, bit(Id::encode), &Options::codec,
+     "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",
+     "none lz4 zstd zstd:"},
+    {0, "tiles", "KIND", encoding, kEncodesClips, &Options::tiles,
+     "auto, or all tiles as dense, rows or records, for experiments (default: auto)",
+     "auto dense rows records"},
+    {0, "block-samples", "N", encoding, kEncodesClips, &Options::block_samples,
+     "samples in a block (default: 64, fewer where much of a large picture changes)"},
+    {0, "activity", "MAP.png", output, bit(Id::info), &Options::activity,
+     "also write how often each pixel changes, as a grey picture: black never, white most often, between "
+     "them sRGB"},
+    {0, "json", "", answer, kAll & ~kOnlyPrints, &Options::json, "answer with one JSON object, for scripts"},
+    {0, "no-recipe", "", output, set_of(Id::expose, Id::batch, Id::sweep), &Options::no_recipe,
+     "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},
+    {'q', "quiet", "", output, kAll, &Options::quiet, "no progress bar and no summary"},
+    {'v', "verbose", "", output, (kExposes & ~bit(Id::mask)) | bit(Id::trace), &Options::verbose,
+     "say more: what is read and what is skipped, in which precision and why, how fast and with how much "
+     "memory; every step of a trace"},
 };
 
-std::vector<Option> all_rows() {
+std::vector<Option> rows_under_headings() {
   std::vector<Option> table;
-  for (const Section& section : std::vector<Section>{
-           {"The source clip", source_rows()},
-           {"The exposure", exposure_rows()},
-           {"The frames", frame_rows()},
-           {"Regions, in this order: later ones lie over earlier ones", region_rows()},
-           {"Changes to the region before them", region_change_rows()},
-           {"The mask", mask_rows()},
-           {"What is varied, FROM..TO/STEP: one, or two as rows and columns", sweep_rows()},
-           {"The sheet", sheet_rows()},
-           {"Changes over time", activity_rows()},
-           {"Computing", computing_rows()},
-           {"Validation", validation_rows()},
-           {"Output", output_rows()},
-       }) {
-    for (const Option& row : section.rows) table.emplace_back(row).heading = section.heading;
+  std::string_view heading;
+  for (const Option& row : kRows) {
+    if (row.long_name.empty()) {
+      heading = row.heading;
+    } else {
+      table.emplace_back(row).heading = heading;
+    }
   }
   return table;
 }
@@ -387,7 +255,7 @@ std::vector<Option> all_rows() {
 }  // namespace
 
 std::span<const Option> options() {
-  static const std::vector<Option> table = all_rows();
+  static const std::vector<Option> table = rows_under_headings();
   return table;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/text/text_table.hpp"
+
 namespace nutik::app {
 namespace {
 
@@ -19,8 +21,10 @@ std::size_t Option::word_count() const {
   return value.empty() ? 0 : 1 + static_cast<std::size_t>(std::ranges::count(value, ' '));
 }
 
+std::vector<std::string> Option::choices() const { return parts_of(choice_list, ' '); }
+
 bool Option::knows(std::string_view stated) const {
-  return std::ranges::any_of(choices, [&](std::string_view choice) {
+  return std::ranges::any_of(choices(), [&](const std::string& choice) {
     return stated == choice || (choice.ends_with(':') && stated.starts_with(choice));
   });
 }
@@ -39,7 +43,7 @@ bool Option::takes_file() const {
 }
 
 const std::string* Option::stated(const Options& options) const {
-  const auto* holder = std::get_if<std::optional<std::string> Options::*>(&member);
+  const auto* holder = std::get_if<Options::Value Options::*>(&member);
   return holder != nullptr && options.**holder ? &*(options.**holder) : nullptr;
 }
 
@@ -49,7 +53,7 @@ bool Option::is_in(const Options& options) const {
 }
 
 void Option::copy(Options& options, const Options& other) const {
-  if (const auto* value_holder = std::get_if<std::optional<std::string> Options::*>(&member)) {
+  if (const auto* value_holder = std::get_if<Options::Value Options::*>(&member)) {
     options.** value_holder = other.**value_holder;
   } else if (const auto* flag_holder = std::get_if<bool Options::*>(&member)) {
     options.** flag_holder = other.**flag_holder;

@@ -28,17 +28,18 @@ enum class Scope {
 };
 
 struct Option {
-  char short_name;  // 0: none
-  std::string_view long_name;
-  std::string_view value;  // as in help, a word for each that is needed; empty: a flag
-  Scope scope;
-  CommandSet commands;
+  char short_name = 0;  // 0: none
+  std::string_view long_name = {};
+  std::string_view value = {};  // as in help, a word for each that is needed; empty: a flag
+  Scope scope = {};
+  CommandSet commands = 0;
   // What of Options holds it. Nothing: the option may be given again and again, and what it says stands in
   // Options::said alone.
-  std::variant<std::monostate, std::optional<std::string> Options::*, bool Options::*> member;
-  std::string_view help;
-  // The values it knows; one that ends with `:` goes on as a person likes, `gamma:2.2`. Empty: told by `value`.
-  std::vector<std::string_view> choices = {};
+  std::variant<std::monostate, Options::Value Options::*, bool Options::*> member = {};
+  std::string_view help = {};
+  // The values it knows, with blanks between; one that ends with `:` goes on as a person likes, `gamma:2.2`. Empty:
+  // told by `value`.
+  std::string_view choice_list = {};
   std::string_view heading = {};  // in help
 
   // `--fps`
@@ -48,8 +49,8 @@ struct Option {
   // How many words its value takes.
   [[nodiscard]] std::size_t word_count() const;
   [[nodiscard]] bool is_flag() const { return value.empty(); }
-  [[nodiscard]] bool is_repeatable() const { return member.index() == 0; }
   [[nodiscard]] bool is_of(CommandId command) const { return (commands & bit(command)) != 0; }
+  [[nodiscard]] std::vector<std::string> choices() const;
   [[nodiscard]] bool knows(std::string_view value) const;
 
   // `fn` where `value` is FILE.fn; empty where no kind of file is named.

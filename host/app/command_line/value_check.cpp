@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/command_line/suggestion.hpp"
+#include "app/text/text_table.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 
@@ -32,18 +33,16 @@ bool is_option(const std::string& value) {
 }  // namespace
 
 void check_choice(std::string_view what, const std::string& value, const Option& option) {
-  if (option.choices.empty() || option.knows(value)) return;
+  if (option.choice_list.empty() || option.knows(value)) return;
   // A number is another number, not a mistyped one.
   if (std::ranges::count_if(value, is_letter) < 2) return;
-  std::vector<std::string> known(option.choices.begin(), option.choices.end());
+  std::vector<std::string> known = option.choices();
   std::string lower = value;  // no choice has capitals
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const std::string suggestion = did_you_mean(lower, known);
   if (suggestion.empty()) return;
-  std::string list;
-  for (const std::string& choice : known)
-    list += (list.empty() ? "" : ", ") + choice + (choice.ends_with(':') ? "…" : "");
-  throw UsageError(format("{} {} is not known{} It is one of: {}", what, value, suggestion, list));
+  for (std::string& choice : known) choice += choice.ends_with(':') ? "…" : "";
+  throw UsageError(format("{} {} is not known{} It is one of: {}", what, value, suggestion, joined(known)));
 }
 
 void check_value(const Option& option, const std::string& name, const std::string& value) {

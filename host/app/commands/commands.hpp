@@ -5,24 +5,10 @@
 
 namespace nutik::app {
 
-int run_encode(const Options& options);
-int run_expose(const Options& options);
-int run_info(const Options& options);
-int run_devices(const Options& options);
-int run_recover(const Options& options);
-int run_noise(const Options& options);
-int run_batch(const Options& options);
-int run_check(const Options& options);
-int run_trace(const Options& options);
-int run_mask(const Options& options);
-int run_contact(const Options& options);
-int run_activity(const Options& options);
-int run_sweep(const Options& options);
-int run_video(const Options& options);
-int run_shutter(const Options& options);
-int run_again(const Options& options);
-int run_validate(const Options& options);
-int run_completion(const Options& options);
-int run_man(const Options& options);
+using Run = int(const Options& options);
+
+Run run_activity, run_again, run_batch, run_check, run_completion, run_contact, run_devices, run_encode,
+    run_expose, run_info, run_man, run_mask, run_noise, run_recover, run_shutter, run_sweep, run_trace,
+    run_validate, run_video;
 
 }  // namespace nutik::app

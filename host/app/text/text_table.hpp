@@ -1,4 +1,4 @@
-// Tables for people: columns that stand below each other.
+// Lists and tables for people.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,10 @@ namespace nutik::app {
 
 // How many columns of a terminal a text takes: bytes that continue a UTF-8 character take none.
 [[nodiscard]] std::size_t columns(std::string_view text);
+
+// What stands between separators: lines, words. The parts again, with something between them.
+[[nodiscard]] std::vector<std::string> parts_of(std::string_view text, char separator);
+[[nodiscard]] std::string joined(const std::vector<std::string>& parts, std::string_view between = ", ");
 
 // Rows of equal length, the first the heading; a letter of `alignment` for each column: l or r. Lines
 // without blanks at their ends and without a line end behind the last.
