@@ -13,7 +13,7 @@ constexpr const char* kPlainName = "the exposure";
 
 // What no pixel is exposed with may be what it likes.
 bool is_used(const ExposureRequest& request, std::uint8_t tag) {
-  return !request.mask || (*request.mask)->pixels[tag] > 0;
+  return !request.mask || (*request.mask)->uses(tag);
 }
 
 GainFunction function_of(const PlainInterval& plain, const Exposure& interval, const Timeline& timeline) {

@@ -5,16 +5,18 @@
 //   always:  nothing is read and nothing is printed; copies share functions and mask
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "capture/transfer.hpp"
 #include "exposure/mask.hpp"
 #include "exposure/normalization.hpp"
 #include "exposure/shutter_shape.hpp"
+#include "render/mask_map.hpp"
 #include "render/render_plan.hpp"
 #include "session/shared.hpp"
 #include "session/stated_time.hpp"
@@ -28,12 +30,16 @@ struct PlainInterval {
   friend bool operator==(const PlainInterval&, const PlainInterval&) = default;
 };
 
-// A mask, and how many of its pixels have each value.
+// A mask, and the functions that it uses.
 struct CountedMask {
-  explicit CountedMask(Mask of) : mask(std::move(of)), pixels(mask.pixels_per_tag()) {}
+  explicit CountedMask(Mask of) : mask(std::move(of)), regions(regions_of(mask)) {}
+
+  [[nodiscard]] bool uses(std::uint8_t tag) const {
+    return std::ranges::binary_search(regions, tag, {}, &MaskRegion::tag);
+  }
 
   Mask mask;
-  std::array<std::uint64_t, kMaskValues> pixels;
+  std::vector<MaskRegion> regions;
   friend bool operator==(const CountedMask& a, const CountedMask& b) { return a.mask == b.mask; }
 };
 

@@ -3,6 +3,8 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "exposure/function_file.hpp"
+#include "media/mask_reader.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik {
 
@@ -13,6 +15,14 @@ FunctionInput read_functions(std::string_view text, const std::string& title) {
   FunctionSet functions;
   for (const auto& [tag, read] : file.functions) functions.emplace(tag, read.function);
   return {Shared(std::move(functions)), std::move(report)};
+}
+
+FunctionInput read_function_input(const std::string& name) {
+  return read_functions(InputBytes(name).text(), input_title(name));
+}
+
+Mask read_mask_input(const std::string& name) {
+  return Mask::from_picture(read_mask(InputBytes(name).bytes(), input_title(name)));
 }
 
 }  // namespace nutik

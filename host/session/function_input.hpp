@@ -1,9 +1,10 @@
-// The functions of a function file, for requests.
+// Functions and masks as requests hold them, from what a person names: a file, or `-` for standard input.
 #pragma once
 
 #include <string>
 #include <string_view>
 
+#include "exposure/mask.hpp"
 #include "render/render_plan.hpp"
 #include "session/shared.hpp"
 
@@ -16,5 +17,10 @@ struct FunctionInput {
 
 // Throws InputError with all mistakes of the text; `title` names it there and in warnings.
 [[nodiscard]] FunctionInput read_functions(std::string_view text, const std::string& title);
+// The same of an input. Throws InputError where it cannot be read, too.
+[[nodiscard]] FunctionInput read_function_input(const std::string& name);
+
+// Throws InputError that says what was found and what is needed (media/mask_reader.hpp).
+[[nodiscard]] Mask read_mask_input(const std::string& name);
 
 }  // namespace nutik

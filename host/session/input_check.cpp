@@ -102,7 +102,7 @@ Finding InputCheck::function_finding(std::string kind, std::uint8_t tag, std::si
 
 FunctionFigures InputCheck::figures_of(std::uint8_t tag, const GainSummary& summary) const {
   FunctionFigures figures{tag, summary, std::nullopt, std::nullopt};
-  if (mask_) figures.pixels = mask_->counted.pixels[tag];
+  if (mask_) figures.pixels = mask_->pixels[tag];
   if (!mask_ && capture_ && functions_->file.functions.size() == 1) {
     figures.pixels = capture_->format.shape.pixel_count();  // a single function needs no mask
   }
@@ -123,7 +123,7 @@ void InputCheck::check_functions() {
                                        finding.point ? read.time_at[*finding.point] : read.start_at,
                                        finding.message));
     }
-    if (mask_ && mask_->counted.pixels[tag] == 0) {
+    if (mask_ && mask_->pixels[tag] == 0) {
       found.push_back(function_finding("unused_function", tag, read.start_at,
                                        format("no pixel of {} has the value {}", mask_->name, tag)));
     }
@@ -134,9 +134,9 @@ void InputCheck::check_functions() {
 }
 
 void InputCheck::check_mask(bool unmapped_is_zero) {
-  const auto& [name, counted_mask] = *mask_;
+  const auto& [name, mask, pixels] = *mask_;
   if (capture_) {
-    const std::string mistake = size_mistake(counted_mask.mask, capture_->format.shape);
+    const std::string mistake = size_mistake(mask, capture_->format.shape);
     if (!mistake.empty()) add({Severity::error, "mask_size", name, mistake});
   }
   std::array<bool, kMaskValues> is_mapped{};
@@ -145,12 +145,12 @@ void InputCheck::check_mask(bool unmapped_is_zero) {
     for (const std::uint8_t tag : functions_->file.broken) is_mapped[tag] = true;
   }
   if (functions_ && !unmapped_is_zero) {
-    const std::string mistake = unmapped_mistake(counted_mask.pixels, is_mapped);
+    const std::string mistake = unmapped_mistake(pixels, is_mapped);
     if (!mistake.empty()) {
       add({Severity::error, "unmapped_mask_values", name, mistake, {}, {}, {}, {Setting::unmapped}});
     }
   }
-  const MaskFlaws flaws = find_flaws(counted_mask.mask, is_mapped);
+  const MaskFlaws flaws = find_flaws(mask, is_mapped);
   if (!flaws.blended.empty()) add(blended_finding(name, flaws.blended));
   for (auto first = flaws.specks.begin(); first != flaws.specks.end();) {
     const auto last = std::find_if(first, flaws.specks.end(),

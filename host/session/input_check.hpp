@@ -18,7 +18,7 @@
 #include "exposure/function_check.hpp"
 #include "exposure/function_file.hpp"
 #include "exposure/mask_check.hpp"
-#include "session/exposure_request.hpp"
+#include "render/render_plan.hpp"
 
 namespace nutik {
 
@@ -47,7 +47,8 @@ struct CheckedFunctions {
 
 struct CheckedMask {
   std::string name;
-  CountedMask counted;
+  Mask mask;
+  std::array<std::uint64_t, kMaskValues> pixels;  // of each value
 };
 
 struct CheckedCapture {
@@ -70,7 +71,8 @@ class InputCheck {
   // Finds the mistakes of its text.
   void add_functions(const std::string& name, std::string_view text);
   void add_mask(const std::string& name, Mask mask) {
-    mask_.emplace(CheckedMask{name, CountedMask(std::move(mask))});
+    const auto pixels = mask.pixels_per_tag();
+    mask_.emplace(CheckedMask{name, std::move(mask), pixels});
   }
   void add_capture(CheckedCapture capture) { capture_ = std::move(capture); }
 

@@ -96,4 +96,10 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   }
 }
 
+void check_picture_output(const std::filesystem::path& output, std::uint32_t channels,
+                          std::span<const std::string> inputs) {
+  check_output(output, OutputKind::picture, inputs);
+  static_cast<void>(value_type_for(output, Depth::bits8, ValueType::code8, channels));
+}
+
 }  // namespace nutik

@@ -1,6 +1,7 @@
 // Whether a file may be written.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -20,5 +21,8 @@ struct WrongOutputName : UsageError {
 // Throws UsageError where `output` names one of the inputs, has a name of another kind, or would replace a file of
 // another kind.
 void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs);
+// The same of a picture of 8-bit codes, where its file cannot hold so many channels, too.
+void check_picture_output(const std::filesystem::path& output, std::uint32_t channels,
+                          std::span<const std::string> inputs);
 
 }  // namespace nutik

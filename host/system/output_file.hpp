@@ -45,4 +45,7 @@ class OutputFile {
   std::uint64_t size_ = 0;
 };
 
+// A file of this text.
+void write_text(const std::filesystem::path& path, std::string_view text);
+
 }  // namespace nutik

@@ -39,6 +39,9 @@ TEST_F(Moment, ContactSheetShowsEveryPictureOfAShortCapture) {
   const auto json = json_of({"contact", "clip.tik"});
   EXPECT_EQ(json["sheet"], "clip-contact.png");
   ASSERT_EQ(json["exposures"].size(), 20u);
+  for (const char* key : {"saturated_above_pixels", "precision", "renderer", "seconds"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
   EXPECT_EQ(json["exposures"][3], nlohmann::json::parse(R"({"start_ns":30000000,"end_ns":40000000})"));
   // A picture of 96 pixels keeps its size, one picture's exposure its codes: the first lies at (12, 38).
   const cv::Mat sheet = picture("clip-contact.png");

@@ -109,7 +109,7 @@ TEST_F(Series, HasAsManyAsFit) {
       {"--start", "0.9s", "--exposure", "200ms", "--every", "50ms", "--count", "2", "clip.tik", "c-%d.pfm"});
   EXPECT_EQ(
       over.err,
-      "warning: c-0.pfm: the exposure: parts that are not zero lie after the capture's end at 1 s and do "
+      "warning: c-0.pfm and 1 more: the exposure: parts that are not zero lie after the capture's end at 1 s and do "
       "not count\n");
 }
 

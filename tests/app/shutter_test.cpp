@@ -42,7 +42,7 @@ TEST_F(ShutterCommand, SaysWhatIsWrong) {
   expect_refused({"shutter", "hat", "--exposure", "1s"}, "shutter 'hat' is not known; choose box");
   expect_refused({"shutter", "hann", "--exposure", "3f"}, "add --fps, or write times in seconds");
   expect_refused({"shutter", "hann", "--exposure", "3s", "--tag", "256"},
-                 "tag '256' is no mask value of 0 … 255");
+                 "tag '256' is no whole number of 0 … 255");
   expect_refused({"shutter", "hann", "--exposure", "3s", "--shutter-error", "0"},
                  "--shutter-error 0 is no share from 1e-06 to 1");
   expect_refused({"shutter", "hann", "--exposure", "50ns"}, "too short for the shutter hann");

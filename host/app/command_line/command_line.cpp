@@ -6,11 +6,11 @@
 #include "app/command_line/help.hpp"
 #include "app/command_line/suggestion.hpp"
 #include "app/command_line/words.hpp"
-#include "app/input/standard_input.hpp"
 #include "app/text/shell_text.hpp"
 #include "app/text/text_table.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik::app {
 namespace {
@@ -106,6 +106,20 @@ ParsedCommandLine parse_command_line(std::span<const std::string> words) {
   ParsedCommandLine parsed{&chosen, options_for(chosen, std::move(found))};
   static_cast<void>(reads_standard_input(parsed.options));  // by two at a time is refused
   return parsed;
+}
+
+bool reads_standard_input(const Options& options) {
+  const Option* first = nullptr;
+  for (const Option& option : app::options()) {
+    const std::string* name = option.reads_standard_input() ? option.stated(options) : nullptr;
+    if (name == nullptr || !is_standard_input(*name)) continue;
+    if (first != nullptr) {
+      throw UsageError(format("{} - and {} - would both read standard input; name a file for one",
+                              first->display_name(), option.display_name()));
+    }
+    first = &option;
+  }
+  return first != nullptr;
 }
 
 }  // namespace nutik::app

@@ -20,4 +20,7 @@ struct ParsedCommandLine {
 // stdout; the result's command is null then.
 [[nodiscard]] ParsedCommandLine parse_command_line(std::span<const std::string> words);
 
+// Whether an input is read from standard input. Throws UsageError where two would be.
+bool reads_standard_input(const Options& options);
+
 }  // namespace nutik::app

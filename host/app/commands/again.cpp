@@ -2,7 +2,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/output/console.hpp"
-#include "app/requests/recipe_words.hpp"
+#include "app/requests/requests.hpp"
 #include "app/text/message_text.hpp"
 #include "app/text/shell_text.hpp"
 #include "session/error.hpp"
@@ -72,9 +72,7 @@ class RecipeFiles {
                                (path.parent_path() / shown(text.name)).string()));
     }
     fs::create_directories(path.parent_path());
-    OutputFile file(path);
-    file.write(text.bytes);
-    file.commit();
+    write_text(path, text.bytes);
     print_warning(format("{} {}; the {} that the picture was made with were written to {}", shown(text.name),
                          is_changed ? "was changed since" : "is gone", what,
                          (path.parent_path() / shown(text.name)).string()));

@@ -9,23 +9,17 @@
 #include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
-#include "app/input/standard_input.hpp"
-#include "app/output/console.hpp"
-#include "app/output/exposure_report.hpp"
-#include "app/output/exposure_tally.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
-#include "app/output/stopwatch.hpp"
-#include "app/requests/computing_words.hpp"
-#include "app/requests/exposure_words.hpp"
-#include "app/requests/output_words.hpp"
-#include "app/requests/recipe_words.hpp"
+#include "app/output/report.hpp"
+#include "app/requests/requests.hpp"
 #include "app/text/message_text.hpp"
 #include "app/text/shell_text.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/picture_queue.hpp"
 #include "session/size_text.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik::app {
 namespace {
@@ -114,9 +108,7 @@ class Batch {
         throw UsageError("standard input holds the list already; name a file for functions and mask");
       }
       const ExposureRequest request = exposure_request(line);
-      const auto stated = stated_output(line.output, line.operands, "expose");
-      const std::filesystem::path output =
-          stated.value_or(picture_name(line.operands.front(), exposure_label(line)));
+      const std::filesystem::path output = output_name(line, "expose", "-" + exposure_label(line) + ".png");
       check_output(output, OutputKind::picture, input_files(line));
       const auto [earlier, is_new] =
           line_of_output_.try_emplace(std::filesystem::absolute(output).lexically_normal(), listed.line);
@@ -145,8 +137,7 @@ class Batch {
     return failed_lines_.size();
   }
 
-  // Of all pictures together.
-  [[nodiscard]] const Saturation& saturation() const { return tally_.saturation(); }
+  [[nodiscard]] const ExposureTally& tally() const { return tally_; }
   // The lines whose pictures are missing. After finish().
   [[nodiscard]] const std::set<std::size_t>& failed_lines() const { return failed_lines_; }
   // After an exposure that did not fail.
@@ -165,9 +156,7 @@ class Batch {
       session_.reset();
       capture_checksum_.reset();
       session_.emplace(open_session(name, options_, devices_));
-      if (!options_.quiet) {
-        for (const std::string& line : source_lines(*session_)) print_note(line);
-      }
+      print_source(*session_, options_);
     }
     return *session_;
   }
@@ -194,7 +183,6 @@ class Batch {
 }  // namespace
 
 int run_batch(const Options& options) {
-  const Stopwatch stopwatch;
   if (options.operands.empty() || options.operands.size() > 2) {
     throw UsageError(
         "batch takes a list of exposures and, if they share one, a capture: "
@@ -214,17 +202,17 @@ int run_batch(const Options& options) {
   }
   const std::size_t failed = batch.finish();
   const std::size_t done = exposures.size() - failed;
+  const double seconds = batch.tally().seconds();
   if (options.json) {
     Json json{{"exposures", exposures.size()}, {"failed_lines", batch.failed_lines()}};
-    add_saturation(json, batch.saturation(), ValueType::code8);
-    json["seconds"] = stopwatch.seconds();
+    json.update(batch.tally().saturation_json());
+    json["seconds"] = seconds;
     print_json(json);
   } else if (!options.quiet) {
-    const double seconds = stopwatch.seconds();
-    print_line(format(
-        "{} of {}{}, {:.2f} s, {:.1f} exposures a second{}", done, counted(exposures.size(), "picture"),
-        saturation_text(batch.saturation(), ValueType::code8), seconds, static_cast<double>(done) / seconds,
-        done > 0 ? " on " + batch.renderer_name() : std::string()));
+    print_line(format("{} of {}{}, {:.2f} s, {:.1f} exposures a second{}", done,
+                      counted(exposures.size(), "picture"), batch.tally().saturation_text(), seconds,
+                      static_cast<double>(done) / seconds,
+                      done > 0 ? " on " + batch.renderer_name() : std::string()));
   }
   return failed > 0 ? 1 : 0;
 }

@@ -1,7 +1,6 @@
 #include "app/commands/commands.hpp"
-#include "app/input/standard_input.hpp"
 #include "app/output/console.hpp"
-#include "app/requests/source_words.hpp"
+#include "app/requests/requests.hpp"
 #include "app/text/check_text.hpp"
 #include "app/text/findings.hpp"
 #include "app/text/message_text.hpp"
@@ -9,7 +8,9 @@
 #include "session/clip_source.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
+#include "session/function_input.hpp"
 #include "session/input_check.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik::app {
 namespace {

@@ -1,8 +1,7 @@
 #include "session/devices.hpp"
 
 #include "app/commands/commands.hpp"
-#include "app/output/console.hpp"
-#include "app/output/json.hpp"
+#include "app/output/report.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/size_text.hpp"

@@ -2,38 +2,21 @@
 #include <array>
 
 #include "app/commands/commands.hpp"
-#include "app/output/console.hpp"
-#include "app/output/json.hpp"
-#include "app/output/output_name.hpp"
+#include "app/output/report.hpp"
 #include "app/text/message_text.hpp"
 #include "app/text/shell_text.hpp"
 #include "session/activity.hpp"
 #include "session/capture.hpp"
-#include "session/clip_source.hpp"
+#include "session/capture_figures.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
+#include "session/output_check.hpp"
 #include "session/pictures.hpp"
 #include "session/size_text.hpp"
 #include "session/time_text.hpp"
 
 namespace nutik::app {
 namespace {
-
-struct TileTally {
-  std::uint64_t still = 0;
-  std::uint64_t rows = 0;
-  std::uint64_t dense = 0;
-  std::uint64_t records = 0;
-
-  void count(TileKind kind) {
-    switch (kind) {
-      case TileKind::still: ++still; break;
-      case TileKind::rows: ++rows; break;
-      case TileKind::dense: ++dense; break;
-      case TileKind::records: ++records; break;
-    }
-  }
-};
 
 // Returns how often the pixel that changes most does.
 std::uint64_t write_activity(tik::Reader& reader, const std::string& path) {
@@ -47,12 +30,6 @@ std::uint64_t write_activity(tik::Reader& reader, const std::string& path) {
 std::string change_text(const NoiseModel& noise) {
   if (noise.camera) return format("beyond {} sigmas of the noise", noise.sigmas);
   return format("tolerance {}{}", noise.tolerance, noise.is_lossless() ? " (lossless)" : "");
-}
-
-// A sample as it was before it was encoded.
-std::uint64_t source_sample_bytes(const CaptureFormat& capture) {
-  if (!capture.noise.camera) return capture.sample_bytes();
-  return capture.shape.value_count() * (capture.noise.camera->white_code > 255 ? 2 : 1);
 }
 
 // `1.9 1.4 2.1 codes of the source at a tenth of white, 2.8 2.2 3.0 at nine tenths`
@@ -76,55 +53,42 @@ int run_info(const Options& options) {
 
   if (options.activity) check_output(*options.activity, OutputKind::picture, std::array{name});
 
-  TileTally tally;
-  std::uint64_t payload_bytes = 0, record_count = 0;
-  bool is_damaged = false;
-  for (std::uint64_t block = 0; block < reader.block_count(); ++block) {
-    const BlockGeometry geometry(capture, reader.block_extent(block).sample_count);
-    try {
-      for (const TileEntry& entry : reader.directory(block)) tally.count(geometry.kind_of(entry));
-    } catch (const InputError& error) {
-      is_damaged = true;
-      print_warning(message_text(error));
-    }
-    payload_bytes += reader.index()[block].payload_bytes;
-    record_count += reader.index()[block].record_count;
-  }
-  const std::uint64_t raw_bytes = source_sample_bytes(capture) * timeline.sample_count();
+  const CaptureFigures figures = figures_of(reader);
+  for (const InputError& damage : figures.damage) print_warning(message_text(damage));
+  const int status = figures.damage.empty() ? 0 : 3;  // as any command that meets damaged input
+  const auto& [still, rows, dense, records] = figures.tiles;
+  const std::uint64_t raw_bytes = figures.raw_bytes;
   const auto share = [](std::uint64_t part, std::uint64_t whole) {
-    return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+    return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::uint64_t>(whole, 1));
   };
-  const std::uint64_t tiles =
-      std::max<std::uint64_t>(1, tally.still + tally.rows + tally.dense + tally.records);
 
   if (options.json) {
     Json json{{"capture", name}, {"version", tik::kVersion}};
-    add_shape(json, capture.shape);
-    json["code_bits"] = capture.code_bytes * 8;
-    json["white_code"] = capture.white_code;
-    json["transfer"] = capture.transfer.text();
-    json["tolerance_codes"] = capture.noise.tolerance;
-    json["has_camera_noise"] = capture.noise.camera.has_value();
-    json["samples"] = timeline.sample_count();
-    json["blocks"] = reader.block_count();
-    json["duration_ns"] = timeline.duration_ns();
-    json["samples_a_second"] = timeline.rate().text();
-    json["is_constant_rate"] = timeline.is_constant();
-    json["shutter_angle_degrees"] = timeline.shutter_angle().text();
-    json["records"] = record_count;
-    json["tiles"] = {
-        {"still", tally.still}, {"rows", tally.rows}, {"dense", tally.dense}, {"records", tally.records}};
-    json["file_bytes"] = reader.file_bytes();
-    json["raw_bytes"] = raw_bytes;
-    json["memory_bytes"] = payload_bytes;
-    json["codec"] = reader.header().codec;
-    json["is_damaged"] = is_damaged;
+    json.update(shape_json(capture.shape));
+    json.update({{"code_bits", capture.code_bytes * 8},
+                 {"white_code", capture.white_code},
+                 {"transfer", capture.transfer.text()},
+                 {"tolerance_codes", capture.noise.tolerance},
+                 {"has_camera_noise", capture.noise.camera.has_value()},
+                 {"samples", timeline.sample_count()},
+                 {"blocks", reader.block_count()},
+                 {"duration_ns", timeline.duration_ns()},
+                 {"samples_a_second", timeline.rate().text()},
+                 {"is_constant_rate", timeline.is_constant()},
+                 {"shutter_angle_degrees", timeline.shutter_angle().text()},
+                 {"records", figures.record_count},
+                 {"tiles", {{"still", still}, {"rows", rows}, {"dense", dense}, {"records", records}}},
+                 {"file_bytes", reader.file_bytes()},
+                 {"raw_bytes", raw_bytes},
+                 {"memory_bytes", figures.payload_bytes},
+                 {"codec", reader.header().codec},
+                 {"is_damaged", status != 0}});
     if (options.activity) {
       write_activity(reader, *options.activity);
       json["activity"] = *options.activity;
     }
     print_json(json);
-    return is_damaged ? 3 : 0;
+    return status;
   }
 
   print_line(format("{}: a .tik capture, version {}", name, tik::kVersion));
@@ -141,23 +105,24 @@ int run_info(const Options& options) {
                     duration_text(timeline.duration_ns()), timeline.rate().text(),
                     timeline.is_constant() ? "" : " on average (irregular)",
                     timeline.shutter_angle().text()));
-  print_line(format("  changes     {:.2f} records a pixel, at {:.2f} % of samples, {}",
-                    static_cast<double>(record_count) / static_cast<double>(capture.shape.pixel_count()),
-                    share(record_count, capture.shape.pixel_count() * timeline.sample_count()),
-                    change_text(capture.noise)));
+  print_line(
+      format("  changes     {:.2f} records a pixel, at {:.2f} % of samples, {}",
+             static_cast<double>(figures.record_count) / static_cast<double>(capture.shape.pixel_count()),
+             share(figures.record_count, capture.shape.pixel_count() * timeline.sample_count()),
+             change_text(capture.noise)));
+  const std::uint64_t tiles = figures.tile_count();
   print_line(format("  tiles       {:.1f} % still, {:.1f} % rows, {:.1f} % dense, {:.1f} % records",
-                    share(tally.still, tiles), share(tally.rows, tiles), share(tally.dense, tiles),
-                    share(tally.records, tiles)));
+                    share(still, tiles), share(rows, tiles), share(dense, tiles), share(records, tiles)));
   print_line(format("  size        {} ({:.1f} % of {} raw), {} in memory, codec {}",
                     bytes_text(reader.file_bytes()), share(reader.file_bytes(), raw_bytes),
-                    bytes_text(raw_bytes), bytes_text(payload_bytes), reader.header().codec));
+                    bytes_text(raw_bytes), bytes_text(figures.payload_bytes), reader.header().codec));
   if (options.activity) {
     const std::uint64_t most = write_activity(reader, *options.activity);
     print_line(format("  activity    {}: black never changes, white {} times", *options.activity, most));
   }
   print_line(format("try: nutik-cl --start {}f --exposure 1f {} picture.png", timeline.sample_count() / 2,
                     shell_word(name)));
-  return is_damaged ? 3 : 0;  // as any command that meets damaged input
+  return status;
 }
 
 }  // namespace nutik::app

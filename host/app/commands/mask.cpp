@@ -2,16 +2,13 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
-#include "app/input/standard_input.hpp"
-#include "app/output/console.hpp"
-#include "app/output/ending.hpp"
-#include "app/output/exposure_report.hpp"
-#include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
-#include "app/requests/mask_words.hpp"
+#include "app/output/report.hpp"
+#include "app/requests/requests.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/mask_making.hpp"
+#include "session/output_check.hpp"
 #include "session/pictures.hpp"
 #include "session/sheets.hpp"
 #include "session/size_text.hpp"
@@ -47,8 +44,7 @@ MaskJob job_of(const Options& options) {
       throw UsageError(format("'{}' stands where a capture or clip is read; to write it: -o {}", *job.capture,
                               *job.capture));
     }
-    job.output = stated_output(options.output, options.operands, "mask")
-                     .value_or(sequence_name(*job.capture) + "-mask.pgm");
+    job.output = output_name(options, "mask", "-mask.pgm");
   } else if (options.output && !options.output->empty()) {
     job.output = *options.output;
   } else {
@@ -111,59 +107,55 @@ Picture backdrop(const Options& options, const MaskRequest& request, const Mask&
   plan_options.function_name = "the preview's exposure";
   ExposedPicture exposed = session->render(functions, Mask::uniform(mask.width, mask.height, 0), plan_options,
                                            {code_type(format), format.white_code});
-  for (const std::string& warning : exposure_warnings(exposed)) print_warning(warning);
+  print_warnings(exposure_warnings(exposed));
   return std::move(exposed.picture);
 }
 
-double percent_of(std::uint64_t pixels, const Mask& mask) {
-  return 100.0 * static_cast<double>(pixels) / static_cast<double>(mask.tags.size());
+// `       120 pixels   4.55 %`
+std::string pixels_text(std::uint64_t pixels, const Mask& mask) {
+  return format("{:>10} pixels {:6.2f} %", pixels,
+                100.0 * static_cast<double>(pixels) / static_cast<double>(mask.tags.size()));
 }
 
-void report_text(const std::filesystem::path& output, const Mask& mask,
-                 const std::vector<StepReport>& steps) {
+Answer answer_of(const std::filesystem::path& output, const MadeMask& made) {
+  const auto& [mask, steps] = made;
   const auto counts = mask.pixels_per_tag();
   const auto tag_count = kMaskValues - std::count(counts.begin(), counts.end(), 0u);
-  print_line(format("{}: {} x {}, {}", output.string(), mask.width, mask.height,
-                    counted(static_cast<std::uint64_t>(tag_count), "tag")));
+  Answer answer{{{"mask", output.string()}, {"width", mask.width}, {"height", mask.height}}};
+  answer.line = format("{}: {} x {}, {}", output.string(), mask.width, mask.height,
+                       counted(static_cast<std::uint64_t>(tag_count), "tag"));
+  answer.json["steps"] = Json::array();
   for (const StepReport& step : steps) {
-    const std::string tags =
-        step.tag == step.last_tag ? format("M{}", step.tag) : format("M{} … M{}", step.tag, step.last_tag);
-    print_line(format("  {:<18} {:<5}{:>10} pixels {:6.2f} %{}", step.name, tags, step.pixel_count,
-                      percent_of(step.pixel_count, mask),
-                      step.by_codes ? format(", by more than {} codes", *step.by_codes) : ""));
+    Json& entry = answer.json["steps"].emplace_back(
+        Json{{"step", step.name}, {"tag", step.tag}, {"pixel_count", step.pixel_count}});
+    std::string tags = format("M{}", step.tag), by_codes;
+    if (step.last_tag != step.tag) {
+      entry["last_tag"] = step.last_tag;
+      tags += format(" … M{}", step.last_tag);
+    }
+    if (step.by_codes) {
+      entry["more_than_codes"] = *step.by_codes;
+      by_codes = format(", by more than {} codes", *step.by_codes);
+    }
+    answer.details.push_back(
+        format("  {:<18} {:<5}{}{}", step.name, tags, pixels_text(step.pixel_count, mask), by_codes));
   }
-  print_line("the mask");
+  answer.details.push_back("the mask");
+  answer.json["tags"] = Json::array();
+  for (std::size_t tag = 0; tag < counts.size(); ++tag) {
+    if (counts[tag] == 0) continue;
+    answer.json["tags"].push_back({{"tag", tag}, {"pixel_count", counts[tag]}});
+    if (tag_count > kMostTagsListed) continue;
+    answer.details.push_back(format("  {:<18} M{:<4}{}", "", tag, pixels_text(counts[tag], mask)));
+  }
   if (tag_count > kMostTagsListed) {
     const auto fewest = std::min_element(counts.begin(), counts.end(), [](auto a, auto b) {
       return a != 0 && (b == 0 || a < b);  // tags without a pixel come last
     });
-    print_line(format("  {:<18} {} tags of {} … {} pixels; --json lists each", "", tag_count, *fewest,
-                      *std::max_element(counts.begin(), counts.end())));
-    return;
+    answer.details.push_back(format("  {:<18} {} tags of {} … {} pixels; --json lists each", "", tag_count,
+                                    *fewest, *std::max_element(counts.begin(), counts.end())));
   }
-  for (std::size_t tag = 0; tag < counts.size(); ++tag) {
-    if (counts[tag] == 0) continue;
-    print_line(format("  {:<18} M{:<4}{:>10} pixels {:6.2f} %", "", tag, counts[tag],
-                      percent_of(counts[tag], mask)));
-  }
-}
-
-void report_json(const std::filesystem::path& output, const Mask& mask,
-                 const std::vector<StepReport>& steps) {
-  Json json{{"mask", output.string()}, {"width", mask.width}, {"height", mask.height}};
-  json["steps"] = Json::array();
-  for (const StepReport& step : steps) {
-    Json entry{{"step", step.name}, {"tag", step.tag}, {"pixel_count", step.pixel_count}};
-    if (step.last_tag != step.tag) entry["last_tag"] = step.last_tag;
-    if (step.by_codes) entry["more_than_codes"] = *step.by_codes;
-    json["steps"].push_back(std::move(entry));
-  }
-  json["tags"] = Json::array();
-  const auto counts = mask.pixels_per_tag();
-  for (std::size_t tag = 0; tag < counts.size(); ++tag) {
-    if (counts[tag] != 0) json["tags"].push_back({{"tag", tag}, {"pixel_count", counts[tag]}});
-  }
-  print_json(json);
+  return answer;
 }
 
 }  // namespace
@@ -171,28 +163,21 @@ void report_json(const std::filesystem::path& output, const Mask& mask,
 int run_mask(const Options& options) {
   const MaskJob job = job_of(options);
   std::optional<Session> session;
-  if (job.capture) session.emplace(open_session(*job.capture, options));
+  if (job.capture) session.emplace(open_session(*job.capture, options, make_devices(options)));
 
-  const auto [mask, steps] =
+  const MadeMask made =
       make_mask(job.request, session ? &session->capture() : nullptr, job.capture.value_or(""));
-  for (const StepReport& step : steps) {
+  for (const StepReport& step : made.steps) {
     if (step.pixel_count == 0) print_warning(format("{} for M{} selects no pixel", step.name, step.tag));
   }
   if (options.preview) {
     const Transfer transfer = session ? session->format().transfer : Transfer::srgb();
-    write_picture(*options.preview,
-                  sheet::mask_overlay(
-                      mask, backdrop(options, job.request, mask, session ? &*session : nullptr), transfer));
+    const Picture below = backdrop(options, job.request, made.mask, session ? &*session : nullptr);
+    write_picture(*options.preview, sheet::mask_overlay(made.mask, below, transfer));
   }
-  write_picture(job.output, mask.to_picture());
-  if (options.json) {
-    report_json(job.output, mask, steps);
-  } else if (!ended_quietly(options, job.output)) {
-    report_text(job.output, mask, steps);
-  }
-  if (session && !options.quiet) {
-    for (const std::string& line : source_lines(*session)) print_note(line);
-  }
+  write_picture(job.output, made.mask.to_picture());
+  tell(options, job.output, answer_of(job.output, made));
+  if (session) print_source(*session, options);
   return 0;
 }
 

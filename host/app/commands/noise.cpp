@@ -1,15 +1,12 @@
 #include "app/commands/commands.hpp"
-#include "app/output/console.hpp"
-#include "app/output/ending.hpp"
-#include "app/output/json.hpp"
-#include "app/output/output_name.hpp"
-#include "app/output/stopwatch.hpp"
-#include "app/requests/source_words.hpp"
+#include "app/output/report.hpp"
+#include "app/requests/requests.hpp"
 #include "app/text/message_text.hpp"
 #include "session/clip_source.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/measured_noise.hpp"
+#include "session/output_check.hpp"
 #include "session/pictures.hpp"
 #include "system/output_file.hpp"
 
@@ -54,29 +51,23 @@ int run_noise(const Options& options) {
   for (const std::string& name : options.operands) {
     comments.push_back("measured on " + std::filesystem::path(name).filename().string());
   }
-  OutputFile file(output);
-  file.write(noise_text(estimate.noise, comments));
-  file.commit();
-  if (options.json) {
-    Json json{{"noise", output.string()}, {"samples", estimate.sample_count}, {"channels", Json::array()}};
-    for (const auto& channel : estimate.channels) {
-      json["channels"].push_back({{"still_share", channel.still_share}});
-    }
-    json["seconds"] = stopwatch.seconds();
-    print_json(json);
-    return 0;
-  }
-  if (ended_quietly(options, output, options.output.has_value())) return 0;
+  write_text(output, noise_text(estimate.noise, comments));
+
+  Answer answer{
+      {{"noise", output.string()}, {"samples", estimate.sample_count}, {"channels", Json::array()}}};
   double still = 1;
-  for (const auto& channel : estimate.channels) still = std::min(still, channel.still_share);
-  print_line(format("{}: measured on {} samples, {:.1f} % of the pixels still, {:.2f} s", output.string(),
-                    estimate.sample_count, 100 * still, stopwatch.seconds()));
   for (std::size_t channel = 0; channel < estimate.channels.size(); ++channel) {
-    print_line(channel_text(estimate, channel));
+    const double still_share = estimate.channels[channel].still_share;
+    still = std::min(still, still_share);
+    answer.json["channels"].push_back({{"still_share", still_share}});
+    answer.details.push_back(channel_text(estimate, channel));
   }
-  for (const Note& note : clip_notes) print_note(note_text(note));
-  for (const std::string& note : noise_notes(estimate)) print_note("note: " + note);
-  return 0;
+  answer.json["seconds"] = stopwatch.seconds();
+  answer.line = format("{}: measured on {} samples, {:.1f} % of the pixels still, {:.2f} s", output.string(),
+                       estimate.sample_count, 100 * still, stopwatch.seconds());
+  for (const Note& note : clip_notes) answer.notes.push_back(note_text(note));
+  for (const std::string& note : noise_notes(estimate)) answer.notes.push_back("note: " + note);
+  return tell(options, output, answer, options.output.has_value());
 }
 
 }  // namespace nutik::app

@@ -1,9 +1,8 @@
 #include <array>
 
 #include "app/commands/commands.hpp"
-#include "app/output/console.hpp"
-#include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
+#include "app/output/report.hpp"
 #include "app/text/shell_text.hpp"
 #include "session/capture.hpp"
 #include "session/error.hpp"
@@ -13,23 +12,20 @@
 namespace nutik::app {
 
 int run_recover(const Options& options) {
-  const auto output = stated_output(options.output, options.operands, "recover");
+  const auto output = stated_output(options, "recover");
   const std::string& damaged = options.operands.front();
   if (!output)
     throw UsageError(format("the output is missing: nutik-cl recover {} -o whole.tik", shell_word(damaged)));
   check_output(*output, OutputKind::tik, std::array{damaged});
   const tik::Recovery recovery = tik::recover(damaged, *output);
-  if (options.json) {
-    print_json({{"capture", output->string()},
-                {"samples", recovery.sample_count},
-                {"blocks", recovery.block_count},
-                {"lost_bytes", recovery.lost_bytes}});
-  } else if (!options.quiet) {
-    print_line(format("{}: {} in {} were saved, {} behind them left out", output->string(),
-                      counted(recovery.sample_count, "sample"), counted(recovery.block_count, "block"),
-                      bytes_text(recovery.lost_bytes)));
-  }
-  return 0;
+  Answer answer{{{"capture", output->string()},
+                 {"samples", recovery.sample_count},
+                 {"blocks", recovery.block_count},
+                 {"lost_bytes", recovery.lost_bytes}}};
+  answer.line = format("{}: {} in {} were saved, {} behind them left out", output->string(),
+                       counted(recovery.sample_count, "sample"), counted(recovery.block_count, "block"),
+                       bytes_text(recovery.lost_bytes));
+  return tell(options, *output, answer);
 }
 
 }  // namespace nutik::app

@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <charconv>
 
 #include "app/command_line/option_table.hpp"
 #include "app/command_line/value_check.hpp"
 #include "app/commands/commands.hpp"
 #include "app/output/console.hpp"
-#include "app/requests/exposure_words.hpp"
+#include "app/requests/requests.hpp"
+#include "app/text/number_text.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/functions.hpp"
@@ -15,16 +15,6 @@ namespace nutik::app {
 namespace {
 
 constexpr double kLongestSeconds = 3e9;  // a timeline that pictures can be counted on; almost a century
-
-std::uint8_t parse_tag(const std::optional<std::string>& text) {
-  std::uint8_t tag = 0;
-  if (!text) return tag;
-  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), tag);
-  if (error != std::errc() || end != text->data() + text->size()) {
-    throw UsageError(format("tag '{}' is no mask value of 0 … 255", *text));
-  }
-  return tag;
-}
 
 // Pictures can be counted where the rate of the capture is stated.
 Timeline timeline_for(const Options& options, const StatedTime& start, const StatedTime& length) {
@@ -61,7 +51,7 @@ int run_shutter(const Options& options) {
   const Shutter shutter = parse_shutter(options.operands.front(), options.shutter_error);
   const StatedTime start = StatedTime::parse(options.start.value_or("0s"), "start");
   const StatedTime length = StatedTime::parse(*options.exposure, "exposure");
-  const std::uint8_t tag = parse_tag(options.tag);
+  const auto tag = static_cast<std::uint8_t>(parse_whole_number(options.tag.value_or("0"), "tag", 0, 255));
   const Exposure interval = plain_interval(start, length, timeline_for(options, start, length));
   const double gain = brightening(options);
   const GainFunction function = shutter.function({interval.start_ns, interval.end_ns});

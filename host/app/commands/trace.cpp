@@ -5,10 +5,8 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
-#include "app/output/console.hpp"
-#include "app/output/json.hpp"
 #include "app/output/output_name.hpp"
-#include "app/requests/exposure_words.hpp"
+#include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/trace_text.hpp"
 #include "session/error.hpp"
@@ -37,15 +35,11 @@ struct Traced {
       traced.tag = static_cast<std::uint8_t>(parse_whole_number(*options.tag, "tag", 0, 255));
       return traced;
     }
-    const std::string& text = *options.pixel;
-    const auto comma = text.find(',');
-    if (comma == std::string::npos) {
-      throw UsageError(
-          format("pixel '{}' is no place; write its column and row from 0 on: --pixel 320,180", text));
-    }
     constexpr std::uint32_t kLast = 65'535;
-    traced.pixel = {parse_whole_number(text.substr(0, comma), "pixel column", 0, kLast),
-                    parse_whole_number(text.substr(comma + 1), "pixel row", 0, kLast)};
+    traced.pixel =
+        parse_pair(*options.pixel, ',', {"pixel column", 0, kLast}, {"pixel row", 0, kLast},
+                   format("pixel '{}' is no place; write its column and row from 0 on: --pixel 320,180",
+                          *options.pixel));
     return traced;
   }
 
@@ -79,21 +73,10 @@ std::string heading(const std::string& name, const Traced& traced, const Trace& 
   return format("{}, {}, {}", name, traced.text(trace), plain ? "the exposure" : format("M{}", function.tag));
 }
 
-void write_outputs(const std::filesystem::path& output, const Trace& trace, const PlannedFunction& function,
-                   const std::string& title) {
-  if (!is_table_name(output)) {
-    write_picture(output, trace_picture(trace, function, title));
-    return;
-  }
-  OutputFile file(output);
-  file.write(steps_csv(trace));
-  file.commit();
-}
-
 }  // namespace
 
 int run_trace(const Options& options) {
-  const auto output = stated_output(options.output, options.operands, "trace");
+  const auto output = stated_output(options, "trace");
   const std::string& input = options.operands.front();
   const Traced traced = Traced::from(options);
   const ExposureRequest request = exposure_request(options);
@@ -102,34 +85,33 @@ int run_trace(const Options& options) {
       throw UsageError(format("{}: traces are written as a table, .csv, or as a picture: .png, .tif or .ppm",
                               output->string()));
     }
-    check_output(*output, is_table_name(*output) ? OutputKind::table : OutputKind::picture,
-                 input_files(options));
-    constexpr std::uint32_t kColour = 3;
-    if (!is_table_name(*output)) {
-      static_cast<void>(value_type_for(*output, Depth::bits8, ValueType::code8, kColour));
+    if (is_table_name(*output)) {
+      check_output(*output, OutputKind::table, input_files(options));
+    } else {
+      constexpr std::uint32_t kColour = 3;
+      check_picture_output(*output, kColour, input_files(options));
     }
   }
 
-  Session session = open_session(input, options);
+  Session session = open_session(input, options, make_devices(options));
   const TracedExposure exposure = traced.follow(session, request);
-  for (const std::string& warning : exposure.warnings) print_warning(warning);
+  print_warnings(exposure.warnings);
   const Trace& trace = exposure.trace;
   const PlannedFunction& function = exposure.function();
   const std::string title = heading(input, traced, trace, function, !options.functions);
-  if (output) {
-    if (trace.steps.empty() && !is_table_name(*output)) {
+  if (output && is_table_name(*output)) {
+    write_text(*output, steps_csv(trace));
+  } else if (output) {
+    if (trace.steps.empty()) {
       throw InputError(
           format("{}: the function is zero everywhere in the capture; there is nothing to draw", title));
     }
-    write_outputs(*output, trace, function, title);
+    write_picture(*output, trace_picture(trace, function, title));
   }
 
   if (options.json) {
     Json json{{"capture", input}};
-    if (traced.pixel) {
-      json["x"] = traced.pixel->first;
-      json["y"] = traced.pixel->second;
-    }
+    if (traced.pixel) json.update({{"x", traced.pixel->first}, {"y", traced.pixel->second}});
     json.update(trace_json(trace, function));
     print_json(json);
     return 0;
@@ -141,7 +123,7 @@ int run_trace(const Options& options) {
                       title, light_text(trace), codes_text(trace, exposure.figures.capture),
                       trace.steps.size(), integral_text(static_cast<double>(summary.support_ns)),
                       integral_text(std::scalbn(summary.integral_ns, summary.exponent))));
-    for (const std::string& line : source_lines(session)) print_note(line);
+    print_source(session, options);
   }
   return 0;
 }

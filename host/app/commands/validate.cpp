@@ -1,12 +1,9 @@
 #include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
-#include "app/output/json.hpp"
 #include "app/output/progress.hpp"
-#include "app/requests/computing_words.hpp"
-#include "app/requests/exposure_words.hpp"
-#include "app/requests/output_words.hpp"
-#include "app/requests/source_words.hpp"
+#include "app/output/report.hpp"
+#include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/validation_text.hpp"
 #include "session/clip_source.hpp"
@@ -34,18 +31,13 @@ Options options_of_capture(const Options& options) {
 
 Json validation_json(const Validation& validation, const ExposureFigures& figures, const std::string& input,
                      const std::string& device, std::uint32_t runs) {
-  const Shape& shape = figures.capture.shape;
-  Json json{{"capture", input},
-            {"device", device},
-            {"width", shape.width},
-            {"height", shape.height},
-            {"channels", shape.channels},
-            {"live_samples", figures.live_samples},
-            {"format", format_name(validation.output.type)}};
+  Json json{{"capture", input}, {"device", device}};
+  json.update(shape_json(figures.capture.shape));
+  json.update({{"live_samples", figures.live_samples}, {"format", format_name(validation.output.type)}});
   if (holds_codes(validation.output.type)) json["white_code"] = validation.output.white_code;
   json.update({{"runs", runs},
                {"reference_render_ms", validation.reference_ms},
-               {"variants", variants_json(validation, shape)},
+               {"variants", variants_json(validation, figures.capture.shape)},
                {"is_within_bounds", validation.is_within_bounds()}});
   return json;
 }
@@ -68,7 +60,7 @@ int run_validate(const Options& options) {
   const OutputFormat output = output_format(output_request(options), session.format());
   const auto [validation, figures, warnings] =
       session.validate(request, output, runs, progress_bar("rendering", options.quiet));
-  for (const std::string& warning : warnings) print_warning(warning);
+  print_warnings(warnings);
   std::optional<SourceCheck> source;
   if (options.source) {
     source = session.compare_with(clip_request(options, *options.source),
@@ -88,9 +80,7 @@ int run_validate(const Options& options) {
     print_line(variants_text(validation));
     if (!options.quiet) print_line(choice_text(validation));
     if (source) print_line(source_text(*source, shape, *options.source));
-    if (!options.quiet) {
-      for (const std::string& line : source_lines(session)) print_note(line);
-    }
+    print_source(session, options);
   }
   if (source && source->clip_goes_on) {
     print_note(format("note: {} goes on after the capture's last sample", *options.source));

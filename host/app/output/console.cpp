@@ -46,6 +46,12 @@ void print_text(const std::string& text) {
 void print_warning(const std::string& text) { write_message(kYellow, "warning:", text); }
 void print_error(const std::string& text) { write_message(kRed, "nutik-cl:", text); }
 void print_note(const std::string& text) { write_line(stderr, text); }
+void print_warnings(const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) print_warning(text);
+}
+void print_notes(const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) print_note(text);
+}
 
 void flush_output() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace nutik::app {
 
@@ -10,6 +11,8 @@ void print_text(const std::string& text);     // result that ends its own lines,
 void print_warning(const std::string& text);  // to stderr, behind "warning:", in colour on a terminal
 void print_error(const std::string& text);    // to stderr, behind "nutik-cl:", likewise
 void print_note(const std::string& text);     // to stderr
+void print_warnings(const std::vector<std::string>& texts);
+void print_notes(const std::vector<std::string>& texts);
 
 // Throws OutputError where standard output could not be written, to a full disk for example.
 void flush_output();

@@ -1,16 +1,16 @@
 #include "app/output/output_name.hpp"
 
 #include "app/command_line/option_table.hpp"
-#include "app/input/standard_input.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/pictures.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik::app {
 
-std::optional<std::filesystem::path> stated_output(const std::optional<std::string>& option,
-                                                   std::span<const std::string> operands,
-                                                   const std::string& command) {
+std::optional<std::filesystem::path> stated_output(const Options& options, std::string_view command) {
+  const Options::Value& option = options.output;
+  const std::vector<std::string>& operands = options.operands;
   if (operands.empty()) throw UsageError(format("an input is missing; see nutik-cl {} --help", command));
   if (operands.size() > 2) {
     throw UsageError(
@@ -21,16 +21,15 @@ std::optional<std::filesystem::path> stated_output(const std::optional<std::stri
   if (option && operands.size() == 2) {
     throw UsageError(format("two outputs: -o {} and {}; leave one out", *option, operands[1]));
   }
-  for (const auto* name : {option ? &*option : nullptr, operands.size() == 2 ? &operands[1] : nullptr}) {
-    if (name == nullptr) continue;
-    if (name->empty()) throw UsageError("the output's name is empty");
-    return *name;
-  }
-  return std::nullopt;
+  if (!option && operands.size() == 1) return std::nullopt;
+  const std::string& name = option ? *option : operands[1];
+  if (name.empty()) throw UsageError("the output's name is empty");
+  return name;
 }
 
-std::filesystem::path picture_name(const std::string& input, const std::string& label) {
-  return sequence_name(input) + "-" + label + ".png";
+std::filesystem::path output_name(const Options& options, std::string_view command, std::string_view behind) {
+  if (const auto stated = stated_output(options, command)) return *stated;
+  return sequence_name(options.operands.front()) + std::string(behind);
 }
 
 std::vector<std::string> input_files(const Options& options) {

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/command_line/options.hpp"
@@ -12,14 +12,13 @@
 
 namespace nutik::app {
 
-// The output that was asked for: -o or the second operand. Throws UsageError where both were given, or
-// there are more operands than `command` takes.
-[[nodiscard]] std::optional<std::filesystem::path> stated_output(const std::optional<std::string>& option,
-                                                                 std::span<const std::string> operands,
-                                                                 const std::string& command);
-
-// The name of a picture of `input` that nobody gave one: `clip-motion.png` for the exposure `motion`.
-[[nodiscard]] std::filesystem::path picture_name(const std::string& input, const std::string& label);
+// The output that was asked for: -o or the second operand. Throws UsageError where both were given, or there are no
+// operands, or more than `command` takes.
+[[nodiscard]] std::optional<std::filesystem::path> stated_output(const Options& options,
+                                                                 std::string_view command);
+// The same, else a name made from the input's: `clip-motion.png` with `-motion.png` behind it.
+[[nodiscard]] std::filesystem::path output_name(const Options& options, std::string_view command,
+                                                std::string_view behind);
 
 // The files that a command reads, each still of a sequence among them: no output may replace one. Its first operand is
 // one of them, where it has any.

@@ -1,14 +1,15 @@
-#include "app/requests/computing_words.hpp"
+#include "app/requests/requests.hpp"
 
 #include <cstdlib>
 #include <string_view>
 
 #include "app/output/console.hpp"
-#include "app/requests/source_words.hpp"
+#include "app/text/number_text.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 
 namespace nutik::app {
+namespace {
 
 ComputingRequest computing_request(const Options& options) {
   ComputingRequest request;
@@ -29,6 +30,16 @@ ComputingRequest computing_request(const Options& options) {
   request.tests_drivers = self_test == nullptr || std::string_view(self_test) != "off";
   if (options.precision.value_or("auto") != "auto") request.precision = parse_precision(*options.precision);
   return request;
+}
+
+}  // namespace
+
+MemoryBudget memory_budget(const Options& options) {
+  if (!options.memory) return MemoryBudget::of_machine();
+  const std::optional<std::uint64_t> stated = parse_bytes(*options.memory);
+  if (!stated || *stated == 0)
+    throw UsageError(format("--memory '{}' is no size; write 500MB, 2GB or 1GiB", *options.memory));
+  return MemoryBudget{*stated};
 }
 
 std::shared_ptr<Devices> make_devices(const Options& options) {

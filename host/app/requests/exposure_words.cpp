@@ -1,16 +1,16 @@
-#include "app/requests/exposure_words.hpp"
+#include "app/requests/requests.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
-#include "app/input/standard_input.hpp"
 #include "app/output/console.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/shell_text.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/function_input.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik::app {
 namespace {
@@ -18,10 +18,29 @@ namespace {
 constexpr const char* kFilmRate = "24";
 constexpr const char* kFilmAngle = "180";
 
-Shared<FunctionSet> read_function_file(const std::string& name) {
-  FunctionInput input = read_functions(InputBytes(name).text(), input_title(name));
+Shared<FunctionSet> read_functions_of(const std::string& name) {
+  FunctionInput input = read_function_input(name);
   if (!input.warnings.empty()) print_note(input.warnings);
   return std::move(input.functions);
+}
+
+// How far it is from one exposure to the next.
+StatedTime step_of(const Options& options) {
+  const StatedTime every = StatedTime::parse(*options.every, "--every");
+  if (every.number.numerator <= 0) {
+    throw UsageError(format("--every '{}' is not longer than nothing", *options.every));
+  }
+  if (every.counts_samples() && every.number.denominator != 1) {
+    throw UsageError(format("--every '{}' is not a whole number of pictures", *options.every));
+  }
+  return every;
+}
+
+NegativeLight parse_negative_light(const std::string& text) {
+  if (text == "saturate") return NegativeLight::saturate;
+  if (text == "offset") return NegativeLight::offset;
+  if (text == "abs") return NegativeLight::absolute;
+  throw UsageError(format("--negative {} is not known; choose saturate, offset or abs", text));
 }
 
 // The one value that an option with one value may have.
@@ -57,7 +76,7 @@ ExposureRequest timeless_request(const Options& options) {
   refuse(options.exposure, "--exposure");
   refuse(options.shutter, "--shutter");
   refuse(options.shutter_error, "--shutter-error");
-  const Shared<FunctionSet> functions = read_function_file(*options.functions);
+  const Shared<FunctionSet> functions = read_functions_of(*options.functions);
   if (!options.mask && functions->size() > 1) {
     throw UsageError(format("{} holds {} functions; a mask says where each applies: -m mask.pgm",
                             input_title(*options.functions), functions->size()));
@@ -127,18 +146,34 @@ std::string exposure_label(const Options& options) {
   return label;
 }
 
+OutputRequest output_request(const Options& options) {
+  OutputRequest request;
+  if (options.depth) request.depth = parse_depth(*options.depth);
+  if (options.negative) request.negative = parse_negative_light(*options.negative);
+  return request;
+}
+
 SeriesRequest series_request(const Options& options) {
-  SeriesRequest series{StatedTime::parse(*options.every, "every"), std::nullopt};
-  if (series.every.number.numerator <= 0) {
-    throw UsageError(format("every '{}' is not longer than nothing", *options.every));
-  }
-  if (series.every.counts_samples() && series.every.number.denominator != 1) {
-    throw UsageError(format("every '{}' is not a whole number of pictures", *options.every));
-  }
+  SeriesRequest series{step_of(options), std::nullopt};
   if (options.count) {
     series.count = parse_whole_number(*options.count, "count", 1, SeriesRequest::kMostExposures);
   }
   return series;
+}
+
+ContactRequest contact_request(const Options& options) {
+  ContactRequest request;
+  if (options.start) request.start = StatedTime::parse(*options.start, "start");
+  if (options.every) request.every = step_of(options);
+  if (options.exposure) request.length = StatedTime::parse(*options.exposure, "exposure");
+  return request;
+}
+
+sheet::SheetWishes sheet_wishes(const Options& options) {
+  sheet::SheetWishes wishes;
+  if (options.columns) wishes.columns = parse_whole_number(*options.columns, "--columns", 1, 1000);
+  if (options.width) wishes.width = parse_whole_number(*options.width, "--width", 100, plot::kLargestSide);
+  return wishes;
 }
 
 FramesRequest frames_request(const Options& options) {

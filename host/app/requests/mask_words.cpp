@@ -1,15 +1,16 @@
-#include "app/requests/mask_words.hpp"
+#include "app/requests/requests.hpp"
 
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
 
-#include "app/input/standard_input.hpp"
 #include "app/text/number_text.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
+#include "session/function_input.hpp"
 #include "session/picture_input.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik::app {
 namespace {
@@ -98,27 +99,19 @@ Selection threshold_of(const Said& said) {
   return threshold;
 }
 
-// `16x9`: columns and rows.
-select::Grid grid_of(const Said& said) {
-  const std::string& text = said.words.front();
-  const auto cross = text.find('x');
-  if (cross == std::string::npos) {
-    throw UsageError(format("--grid '{}' is none; write COLUMNSxROWS: 16x9", text));
-  }
-  return {parse_whole_number(text.substr(0, cross), "--grid's columns", 1, kMaskValues),
-          parse_whole_number(text.substr(cross + 1), "--grid's rows", 1, kMaskValues)};
-}
-
 // A grid's tags are counted up from the one that was stated, else from 0.
 MaskStep grid_step(const Said& said, std::optional<std::uint8_t> first_tag) {
-  const select::Grid grid = grid_of(said);
-  const std::uint32_t cells = grid.columns * grid.rows;
+  const std::string& text = said.words.front();
+  const auto [columns, rows] =
+      parse_pair(text, 'x', {"--grid's columns", 1, kMaskValues}, {"--grid's rows", 1, kMaskValues},
+                 format("--grid '{}' is none; write COLUMNSxROWS: 16x9", text));
+  const std::uint32_t cells = columns * rows;
   const std::uint8_t first = first_tag.value_or(0);
   if (first + cells > kMaskValues) {
-    throw UsageError(format("--grid {} has {} cells, tagged from {} on: tags end at {}", said.words.front(),
-                            cells, first, kMaskValues - 1));
+    throw UsageError(format("--grid {} has {} cells, tagged from {} on: tags end at {}", text, cells, first,
+                            kMaskValues - 1));
   }
-  return {{"--grid"}, first, grid, std::nullopt, {}};
+  return {{"--grid"}, first, select::Grid{columns, rows}, std::nullopt, {}};
 }
 
 // Of a step that says which pixels; none of another.
@@ -196,11 +189,9 @@ std::vector<MaskStep> steps_of(const Options& options) {
 }
 
 MaskSize parse_mask_size(const std::string& text) {
-  const auto cross = text.find('x');
-  if (cross == std::string::npos)
-    throw UsageError(format("size '{}' is none; write WIDTHxHEIGHT: 640x360", text));
-  return {parse_whole_number(text.substr(0, cross), "width", 1, kLargestSide),
-          parse_whole_number(text.substr(cross + 1), "height", 1, kLargestSide)};
+  const auto [width, height] = parse_pair(text, 'x', {"width", 1, kLargestSide}, {"height", 1, kLargestSide},
+                                          format("size '{}' is none; write WIDTHxHEIGHT: 640x360", text));
+  return {width, height};
 }
 
 // Reads the picture of a source, where it is one.

@@ -1,11 +1,11 @@
-#include "app/requests/recipe_words.hpp"
+#include "app/requests/requests.hpp"
 
 #include <algorithm>
 
 #include "app/command_line/option_table.hpp"
-#include "app/input/standard_input.hpp"
-#include "app/requests/source_words.hpp"
+#include "session/format.hpp"
 #include "session/pictures.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik::app {
 namespace {
@@ -51,6 +51,21 @@ std::optional<RecipeSources> recipe_sources(const Options& options,
   }
   recipe.renderer = options.renderer.value_or("opencl");
   return sources;
+}
+
+OwnRecipe own_recipe(const OwnExposure& exposure) {
+  // Normalized and brightened already.
+  OwnRecipe own{{{"gain", {}}, {"ev", {}}, {"normalize", {}}}, {}};
+  if (const auto* text = std::get_if<Recipe::Text>(&exposure)) {
+    own.functions = *text;
+    for (const char* name : {"start", "exposure", "shutter", "shutter-error"}) own.options[name] = {};
+    return own;
+  }
+  const auto& [start, length, gain] = std::get<OwnInterval>(exposure);
+  own.options["start"] = start.text();
+  own.options["exposure"] = length.text();
+  if (gain != 1.0) own.options["gain"] = format("{}", gain);
+  return own;
 }
 
 }  // namespace nutik::app

@@ -1,4 +1,4 @@
-#include "app/requests/source_words.hpp"
+#include "app/requests/requests.hpp"
 
 #include "app/command_line/option_table.hpp"
 #include "app/text/number_text.hpp"
@@ -14,18 +14,15 @@ namespace {
 constexpr double kLeastSigmas = 0.1, kLargestSigmas = 100;
 
 RawVideo parse_raw_video(const std::string& text) {
-  const auto cross = text.find('x');
   const auto colon = text.find(':');
-  if (cross == std::string::npos || colon == std::string::npos || colon < cross) {
-    throw UsageError(
-        format("raw video '{}' is not described; write its size and pixel format, as in "
-               "480x270:yuv420p10le",
-               text));
+  if (colon == std::string::npos || text.find('x') > colon) {
+    throw UsageError(format(
+        "raw video '{}' is not described; write its size and pixel format, as in 480x270:yuv420p10le", text));
   }
   constexpr std::uint32_t kLargestSide = 65'536;
-  return {parse_whole_number(text.substr(0, cross), "width", 1, kLargestSide),
-          parse_whole_number(text.substr(cross + 1, colon - cross - 1), "height", 1, kLargestSide),
-          text.substr(colon + 1)};
+  const auto [width, height] =
+      parse_pair(text.substr(0, colon), 'x', {"width", 1, kLargestSide}, {"height", 1, kLargestSide}, {});
+  return {width, height, text.substr(colon + 1)};
 }
 
 // A .tik was described when it was made.
@@ -58,14 +55,6 @@ void read_noise(SourceRequest& request, const Options& options) {
 }
 
 }  // namespace
-
-MemoryBudget memory_budget(const Options& options) {
-  if (!options.memory) return MemoryBudget::of_machine();
-  const std::optional<std::uint64_t> stated = parse_bytes(*options.memory);
-  if (!stated || *stated == 0)
-    throw UsageError(format("--memory '{}' is no size; write 500MB, 2GB or 1GiB", *options.memory));
-  return MemoryBudget{*stated};
-}
 
 SourceRequest source_request(const Options& options, const std::string& name) {
   if (!is_tik(name)) return clip_request(options, name);

@@ -1,4 +1,4 @@
-#include "app/requests/sweep_words.hpp"
+#include "app/requests/requests.hpp"
 
 #include <cstdlib>
 

@@ -32,8 +32,7 @@ std::string heading_text(const InputCheck& check) {
     append(format("{}: {}", check.functions()->name, counted(count, "function")));
   }
   if (check.mask())
-    append(format("{}: {} x {}", check.mask()->name, check.mask()->counted.mask.width,
-                  check.mask()->counted.mask.height));
+    append(format("{}: {} x {}", check.mask()->name, check.mask()->mask.width, check.mask()->mask.height));
   if (check.capture() && check.capture()->timeline) {
     append(format("{}: {}, {}, {}", check.capture()->name, shape_text(check.capture()->format.shape),
                   counted(check.capture()->timeline->sample_count(), "sample"),

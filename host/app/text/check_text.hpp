@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/output/json.hpp"
+#include "app/output/report.hpp"
 #include "session/input_check.hpp"
 
 namespace nutik::app {

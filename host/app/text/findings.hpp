@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/output/json.hpp"
+#include "app/output/report.hpp"
 #include "session/input_check.hpp"
 
 namespace nutik::app {

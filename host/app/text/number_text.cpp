@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "app/text/text_table.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 
@@ -17,6 +18,15 @@ std::uint32_t parse_whole_number(std::string_view text, std::string_view what, s
     throw UsageError(format("{} '{}' is no whole number of {} … {}", what, text, low, high));
   }
   return value;
+}
+
+std::pair<std::uint32_t, std::uint32_t> parse_pair(std::string_view text, char between,
+                                                   const WholeNumber& first, const WholeNumber& second,
+                                                   const std::string& otherwise) {
+  const auto at = text.find(between);
+  if (at == std::string_view::npos) throw UsageError(otherwise);
+  return {parse_whole_number(text.substr(0, at), first.what, first.low, first.high),
+          parse_whole_number(text.substr(at + 1), second.what, second.low, second.high)};
 }
 
 std::optional<double> parse_number(std::string_view text) {
@@ -56,17 +66,15 @@ std::optional<std::uint64_t> parse_bytes(std::string_view text) {
 
 std::vector<double> parse_numbers(std::string_view text, std::string_view what) {
   std::vector<double> numbers;
-  for (;;) {
-    const auto comma = text.find(',');
-    const std::string_view part = text.substr(0, comma);
+  // Behind the last comma stands a number, too.
+  for (const std::string& part : parts_of(std::string(text) + ",", ',')) {
     const auto number = parse_number(part);
     if (!number)
       throw UsageError(
           format("{}: '{}' is no number; write numbers with commas between: 10,20,30", what, part));
     numbers.push_back(*number);
-    if (comma == std::string_view::npos) return numbers;
-    text = text.substr(comma + 1);
   }
+  return numbers;
 }
 
 }  // namespace nutik::app

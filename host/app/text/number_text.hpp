@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace nutik::app {
@@ -12,6 +13,16 @@ namespace nutik::app {
 // A whole number of low … high. Throws UsageError naming `what`.
 [[nodiscard]] std::uint32_t parse_whole_number(std::string_view text, std::string_view what,
                                                std::uint32_t low, std::uint32_t high);
+
+// Two of them with something between: `16x9`, `320,180`. Throws UsageError with `otherwise` where that is not there.
+struct WholeNumber {
+  std::string_view what;
+  std::uint32_t low, high;
+};
+[[nodiscard]] std::pair<std::uint32_t, std::uint32_t> parse_pair(std::string_view text, char between,
+                                                                 const WholeNumber& first,
+                                                                 const WholeNumber& second,
+                                                                 const std::string& otherwise);
 
 // A finite decimal number; empty where the text is none.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "app/output/json.hpp"
+#include "app/output/report.hpp"
 #include "session/session.hpp"
 
 namespace nutik::app {

@@ -1,4 +1,4 @@
-#include "session/swept_recipe.hpp"
+#include "session/own_exposure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +10,9 @@
 namespace nutik {
 namespace {
 
-// Of functions that are normalized and brightened already.
-const std::map<std::string, std::optional<std::string>> kAsItIs{
-    {"gain", std::nullopt}, {"ev", std::nullopt}, {"normalize", std::nullopt}};
-
 // The interval from the function's first point to its last, as bright as the function.
-std::optional<OwnRecipe> plain_recipe(const FunctionSet& functions, ExposureRequest request,
-                                      const Timeline& timeline) {
+std::optional<OwnInterval> own_interval(const FunctionSet& functions, ExposureRequest request,
+                                        const Timeline& timeline) {
   const auto points = functions.begin()->second.points();
   auto& plain = std::get<PlainInterval>(request.gains);
   request.start = StatedTime::of_nanoseconds(points.front().time_ns);
@@ -34,19 +30,15 @@ std::optional<OwnRecipe> plain_recipe(const FunctionSet& functions, ExposureRequ
   } catch (const UsageError&) {  // no gain in the capture, or an interval that is too short for the shutter
     return std::nullopt;
   }
-  OwnRecipe own{kAsItIs, {}};
-  own.options["start"] = request.start.text();
-  own.options["exposure"] = plain.length.text();
-  if (request.gain != 1.0) own.options["gain"] = format("{}", request.gain);
-  return own;
+  return OwnInterval{request.start, plain.length, request.gain};
 }
 
 }  // namespace
 
-std::optional<OwnRecipe> swept_recipe(const FunctionSet& functions, const ExposureRequest& request,
-                                      const Timeline& timeline, const std::string& functions_name) {
+std::optional<OwnExposure> own_exposure(const FunctionSet& functions, const ExposureRequest& request,
+                                        const Timeline& timeline, const std::string& functions_name) {
   if (request.is_plain()) {
-    if (auto own = plain_recipe(functions, request, timeline)) return own;
+    if (const auto interval = own_interval(functions, request, timeline)) return *interval;
   }
   std::string text;
   for (const auto& [tag, function] : functions) {
@@ -55,9 +47,7 @@ std::optional<OwnRecipe> swept_recipe(const FunctionSet& functions, const Exposu
     if (jumps) return std::nullopt;
     text += function_text(tag, function) + "\n";
   }
-  OwnRecipe own{kAsItIs, Recipe::Text{functions_name, std::move(text)}};
-  for (const char* name : {"start", "exposure", "shutter", "shutter-error"}) own.options[name] = std::nullopt;
-  return own;
+  return Recipe::Text{functions_name, std::move(text)};
 }
 
 }  // namespace nutik

@@ -1,19 +1,21 @@
-#include "app/output/video_output.hpp"
+#include "session/video_output.hpp"
 
-#include "app/output/output_name.hpp"
-#include "app/requests/output_words.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/pictures.hpp"
+#include <utility>
 
-namespace nutik::app {
+#include "capture/format.hpp"
+#include "media/numbered_name.hpp"
+#include "session/output_check.hpp"
 
-VideoOutput::VideoOutput(const Options& options, std::filesystem::path path, Rational rate)
-    : options_(options), path_(std::move(path)), rate_(rate) {
+namespace nutik {
+
+VideoOutput::VideoOutput(std::filesystem::path path, Rational rate, const std::optional<std::string>& codec,
+                         const OutputRequest& request)
+    : path_(std::move(path)), rate_(rate), request_(request) {
   const bool is_numbered = NumberedName::parse(path_.filename().string()).has_value();
   if (is_picture_name(path_) && is_numbered) {
-    if (options.video_codec) {
-      throw UsageError(format("--video-codec goes with a video in one file; {} are stills", path_.string()));
+    if (codec) {
+      throw UsageError(format("a video's codec goes with a video in one file; {} are stills", path_.string()),
+                       {Setting::video_codec});
     }
     return;
   }
@@ -21,7 +23,7 @@ VideoOutput::VideoOutput(const Options& options, std::filesystem::path path, Rat
     throw UsageError(format("{} is one picture and a video has many; number them: {}-%05d{}", path_.string(),
                             (path_.parent_path() / path_.stem()).string(), path_.extension().string()));
   }
-  codec_ = &video_codec_for(path_, options.video_codec);
+  codec_ = &video_codec_for(path_, codec);
   if (const double largest = largest_rate_for(path_); rate.value() > largest) {
     throw UsageError(
         format("{}: a {} file tells at most {:.0f} frames a second apart, and {} are asked for; write {}",
@@ -31,13 +33,11 @@ VideoOutput::VideoOutput(const Options& options, std::filesystem::path path, Rat
 }
 
 OutputFormat VideoOutput::frame_format(const CaptureFormat& capture) const {
-  if (codec_ == nullptr) return output_format(output_request(options_), path_, capture);
-  const OutputRequest request = output_request(options_);
-  const ValueType usual = code_type(capture);
+  if (codec_ == nullptr) return output_format(request_, path_, capture);
   OutputFormat output;
-  output.type = video_value_type(*codec_, request.depth, usual);
+  output.type = video_value_type(*codec_, request_.depth, code_type(capture));
   output.white_code = output.type == ValueType::code8 ? 255 : 65'535;  // what players take for white
-  output.negative = negative_light(request, output.type, path_);
+  output.negative = negative_light(request_, output.type, path_);
   return output;
 }
 
@@ -63,4 +63,4 @@ std::unique_ptr<VideoWriter> VideoOutput::open(const Shape& shape, const OutputF
 
 std::string VideoOutput::kind() const { return codec_ == nullptr ? "stills" : std::string(codec_->name); }
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -4,22 +4,23 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
-#include "app/command_line/options.hpp"
-#include "session/exposed_picture.hpp"
-#include "session/videos.hpp"
+#include "media/video_writer.hpp"
+#include "session/output_request.hpp"
 
-namespace nutik::app {
+namespace nutik {
 
 class VideoOutput {
  public:
-  // `rate` in frames a second. Throws UsageError where the name is that of neither, codec and container do not
-  // fit, or the container cannot tell so many frames a second apart.
-  VideoOutput(const Options& options, std::filesystem::path path, Rational rate);
+  // `rate` in frames a second; no codec: the one that is usual. Throws UsageError where the name is that of neither,
+  // codec and container do not fit, or the container cannot tell so many frames a second apart.
+  VideoOutput(std::filesystem::path path, Rational rate, const std::optional<std::string>& codec,
+              const OutputRequest& request);
 
-  // What values the frames have. Throws UsageError where --depth and the file do not fit.
+  // What values the frames have. Throws UsageError where the depth that was asked for and the file do not fit.
   [[nodiscard]] OutputFormat frame_format(const CaptureFormat& capture) const;
 
   // Throws UsageError where one of the files to write is an input or of another kind.
@@ -34,10 +35,10 @@ class VideoOutput {
   [[nodiscard]] std::string kind() const;
 
  private:
-  const Options& options_;
   std::filesystem::path path_;
   Rational rate_;
+  OutputRequest request_;
   const VideoCodec* codec_ = nullptr;  // null: stills
 };
 
-}  // namespace nutik::app
+}  // namespace nutik

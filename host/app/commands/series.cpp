@@ -1,0 +1,100 @@
+// A series of exposures of one capture: `expose` with --every.
+#include <filesystem>
+#include <optional>
+
+#include "app/commands/commands.hpp"
+#include "app/commands/opened_session.hpp"
+#include "app/output/output_name.hpp"
+#include "app/output/progress.hpp"
+#include "app/output/report.hpp"
+#include "app/requests/requests.hpp"
+#include "app/text/message_text.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/picture_queue.hpp"
+#include "session/pictures.hpp"
+#include "session/shared_warnings.hpp"
+#include "session/size_text.hpp"
+#include "system/channel.hpp"
+
+namespace nutik::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Where each picture goes; numbers count from 0, as pictures of a clip do.
+class PictureNames {
+ public:
+  explicit PictureNames(const fs::path& pattern) : folder_(pattern.parent_path()) {
+    const auto name = NumberedName::parse(pattern.filename().string());
+    if (!name) {
+      throw UsageError(
+          format("a series needs a number in its pictures' name, as in {}; {} would be written again and "
+                 "again",
+                 (folder_ / (pattern.stem().string() + "-%03d" + pattern.extension().string())).string(),
+                 pattern.string()));
+    }
+    name_ = *name;
+  }
+
+  [[nodiscard]] fs::path operator[](std::uint64_t k) const { return folder_ / name_.with(k); }
+
+ private:
+  fs::path folder_;
+  NumberedName name_;
+};
+
+}  // namespace
+
+int run_series(const Options& options) {
+  const PictureNames names(output_name(options, "expose", "-" + exposure_label(options) + "-%04d.png"));
+  ExposureRequest request = exposure_request(options);
+  const SeriesRequest series = series_request(options);
+  const std::vector<std::string> inputs = input_files(options);
+  check_output(names[0], OutputKind::picture, inputs);  // before a clip is read
+  PictureRecipe recipe(recipe_sources(options));
+  Session session = open_session(options);
+  const std::vector<StatedTime> starts = starts_of(series, request, session.timeline());
+  for (std::uint64_t k = 1; k < starts.size(); ++k) check_output(names[k], OutputKind::picture, inputs);
+  const OutputFormat output = output_format(output_request(options), names[0], session.format());
+
+  ExposureTally tally;
+  SharedWarnings warnings;
+  Channel<std::string> failures(starts.size());  // of pictures that could not be written
+  PictureQueue pictures([&](std::size_t, const Error& error) { failures.push(message_text(error)); });
+  std::optional<ExposureFigures> first;
+  {
+    Progress progress("exposing", starts.size(), options.quiet);
+    for (std::uint64_t k = 0; k < starts.size(); ++k) {
+      progress.show(k);
+      request.start = starts[k];
+      ExposedPicture exposed = session.render(request, output);
+      tally.add(exposed);
+      warnings.add(names[k].string(), exposure_warnings(exposed));
+      pictures.push(k, names[k], std::move(exposed.picture),
+                    recipe.text(tally.precision(), {{{"start", starts[k].text()}}, {}}));
+      if (k == 0) first = std::move(exposed.figures);
+    }
+    pictures.finish();
+  }
+  print_warnings(warnings.lines());
+  failures.close();
+  if (const auto failure = failures.pop()) throw OutputError(*failure);
+
+  Answer answer{{{"pictures", Json::array()}}};
+  for (std::uint64_t k = 0; k < starts.size(); ++k) {
+    answer.json["pictures"].push_back({{"picture", names[k].string()}, {"start", starts[k].text()}});
+  }
+  answer.json.update(shape_json(session.format().shape));
+  answer.json["functions"] = functions_json(*first);
+  answer.line = format("{} … {}: {} exposures every {}, {}{}", names[0].string(),
+                       names[starts.size() - 1].filename().string(), starts.size(), series.every.text(),
+                       shape_text(session.format().shape), still_gains_text(*first, request.is_plain()));
+  if (options.verbose) answer.details.push_back("first " + plan_text(*first));
+  tally.end(answer, session, options.verbose,
+            format(", {:.1f} exposures a second", static_cast<double>(starts.size()) / tally.seconds()));
+  answer.notes = source_lines(session);
+  return tell(options, names[0], answer);
+}
+
+}  // namespace nutik::app

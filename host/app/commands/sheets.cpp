@@ -1,0 +1,182 @@
+// Exposures on a sheet: of one moment after another, or of one exposure that is varied.
+#include <algorithm>
+#include <optional>
+
+#include "app/commands/commands.hpp"
+#include "app/commands/opened_session.hpp"
+#include "app/output/output_name.hpp"
+#include "app/output/progress.hpp"
+#include "app/output/report.hpp"
+#include "app/requests/requests.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/pictures.hpp"
+#include "session/shared_warnings.hpp"
+#include "session/sheet_making.hpp"
+#include "session/size_text.hpp"
+
+namespace nutik::app {
+namespace {
+
+constexpr const char* kNoRecipe =
+    "it carries no recipe: neither a plain interval in the capture nor a function file, which has no jumps, "
+    "says its gains";
+
+// A sheet of one capture, from the command line to the answer.
+class SheetJob {
+ public:
+  // `command` names the sheet, too: clip-contact.png.
+  SheetJob(const Options& options, std::string_view command, const std::string& behind)
+      : options_(options), output_(output_name(options, command, behind)), inputs_(input_files(options)) {
+    constexpr std::uint32_t kColour = 3;
+    check_picture_output(output_, kColour, inputs_);
+  }
+
+  [[nodiscard]] const std::vector<std::string>& inputs() const { return inputs_; }
+  [[nodiscard]] const ExposureTally& tally() const { return tally_; }
+  [[nodiscard]] std::string heading(const std::string& of) const {
+    return format("{}: {}", std::filesystem::path(options_.operands.front()).filename().string(), of);
+  }
+
+  void warn(const std::string& label, const std::string& text) { warnings_.add(label, {&text, 1}); }
+
+  // `each` is told every picture beside that. Returns the exit status.
+  int run(Session& session, SheetRequest request, const std::string& counted_as, std::string_view key,
+          Json exposures,
+          const std::function<void(std::size_t number, const ExposedPicture& exposed)>& each = {}) {
+    request.negative = output_request(options_).negative;
+    if (options_.transfer) request.plan.transfer = Transfer::parse(*options_.transfer);
+    const Sheet sheet = make_sheet(session, request, progress_bar("exposing", options_.quiet),
+                                   [&](std::size_t i, const ExposedPicture& exposed) {
+                                     tally_.add(exposed);
+                                     warnings_.add(request.exposures[i].label, exposure_warnings(exposed));
+                                     if (each) each(i, exposed);
+                                   });
+    print_warnings(warnings_.lines());
+    write_picture(output_, sheet.picture);
+    const auto& [columns, rows] = std::pair(sheet.layout.columns, sheet.layout.rows);
+    Answer answer{{{"sheet", output_.string()}, {"columns", columns}, {"rows", rows}}};
+    answer.json[key] = std::move(exposures);
+    answer.line = format("{}: {}, {}, {}", output_.string(), counted_as, counted(columns, "column"),
+                         counted(rows, "row"));
+    tally_.end(answer, session, options_.verbose);
+    answer.notes = source_lines(session);
+    return tell(options_, output_, answer);
+  }
+
+ private:
+  const Options& options_;
+  std::filesystem::path output_;
+  std::vector<std::string> inputs_;
+  ExposureTally tally_;
+  SharedWarnings warnings_;
+};
+
+// Names for the single pictures; empty where none are asked for.
+std::vector<std::filesystem::path> single_names(const Options& options, std::size_t count,
+                                                std::span<const std::string> inputs) {
+  std::vector<std::filesystem::path> names;
+  if (!options.each) return names;
+  const std::filesystem::path pattern = *options.each;
+  const auto numbered = NumberedName::parse(pattern.filename().string());
+  if (!numbered) {
+    throw UsageError(format("--each {} has no place for a number; write name%02d.png", *options.each));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    names.push_back(pattern.parent_path() / numbered->with(i));
+    check_output(names.back(), OutputKind::picture, inputs);
+  }
+  return names;
+}
+
+// `shift_ns`, `gain_factor`, and its value at a point.
+std::pair<std::string, Json> varied_json(const SweepRange& range, std::uint64_t point) {
+  const Rational value = range.value(point);
+  switch (range.parameter) {
+    case SweepParameter::shift:
+      return {range.counts_pictures ? "shift_samples" : "shift_ns", value.numerator};
+    case SweepParameter::gain: return {"gain_factor", value.value()};
+    case SweepParameter::stretch: break;
+  }
+  return {"stretch_factor", value.value()};
+}
+
+}  // namespace
+
+int run_contact(const Options& options) {
+  const ContactRequest contact = contact_request(options);
+  SheetRequest request;
+  request.wishes = sheet_wishes(options);
+  SheetJob job(options, "contact", "-contact.png");
+  Session session = open_session(options);
+  const Timeline& timeline = session.timeline();
+  const std::vector<Exposure> exposures = exposures_of(contact, timeline);
+  const std::vector<std::string> labels = labels_of(exposures, timeline);
+  const std::string what =
+      format("{} of {}", counted(exposures.size(), "exposure"), options.exposure.value_or("one picture"));
+  request.heading = job.heading(what);
+  request.mask = Mask::uniform(session.format().shape.width, session.format().shape.height, 0);
+  request.plan.function_name = "the exposure";
+  Json json = Json::array();
+  for (std::size_t i = 0; i < exposures.size(); ++i) {
+    const auto& [start_ns, end_ns] = exposures[i];
+    request.exposures.push_back({labels[i], {{0, GainFunction::boxcar(start_ns, end_ns)}}});
+    json.push_back({{"start_ns", start_ns}, {"end_ns", std::min(end_ns, timeline.duration_ns())}});
+  }
+  return job.run(session, std::move(request), what, "exposures", std::move(json));
+}
+
+int run_sweep(const Options& options) {
+  const SweepRequest sweep = sweep_request(options);
+  const std::vector<SweepPoint> points = sweep.points();
+  SheetRequest sheet;
+  sheet.wishes = sheet_wishes(options);
+  if (sweep.ranges.size() == 2) {
+    if (sheet.wishes.columns)
+      throw UsageError("two ranges make rows and columns by themselves; leave out --columns");
+    sheet.wishes.columns = static_cast<std::uint32_t>(sweep.ranges.front().count());
+  }
+  if (options.operands.empty()) throw UsageError("an input is missing; see nutik-cl sweep --help");
+  const ExposureRequest request = exposure_request(options);
+  const std::string label = exposure_label(options);
+  SheetJob job(options, "sweep", "-" + label + "-sweep.png");
+  const std::vector<std::filesystem::path> singles = single_names(options, points.size(), job.inputs());
+
+  Session session = open_session(options);
+  const Timeline& timeline = session.timeline();
+  const Shape& shape = session.format().shape;
+  for (const std::filesystem::path& single : singles) {
+    static_cast<void>(value_type_for(single, std::nullopt, ValueType::code8, shape.channels));
+  }
+  const std::string what = counted(points.size(), "picture");
+  sheet.heading = job.heading(format("{}, {}", label, what));
+  sheet.mask = mask_of(request, shape);
+  sheet.plan = plan_options_of(request);
+  const FunctionSet functions = functions_of(request, timeline);
+  Json json = Json::array();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sheet.exposures.push_back({sweep.label(points[i]), sweep.varied(functions, points[i], timeline)});
+    Json& picture = json.emplace_back(Json::object());
+    for (std::size_t r = 0; r < sweep.ranges.size(); ++r) {
+      const auto [key, value] = varied_json(sweep.ranges[r], points[i][r]);
+      picture[key] = value;
+    }
+    if (!singles.empty()) picture["file"] = singles[i].string();
+  }
+
+  PictureRecipe recipe(singles.empty() ? std::nullopt : recipe_sources(options));  // of single pictures
+  const auto write_single = [&](std::size_t i, const ExposedPicture& exposed) {
+    if (singles.empty()) return;
+    std::string text;
+    if (!options.no_recipe) {
+      const auto own =
+          own_exposure(sheet.exposures[i].functions, request, timeline, singles[i].stem().string() + ".fn");
+      if (own) text = recipe.text(job.tally().precision(), own_recipe(*own));
+      if (!own) job.warn(singles[i].string(), kNoRecipe);
+    }
+    write_picture(singles[i], exposed.picture, text);
+  };
+  return job.run(session, sheet, what, "pictures", std::move(json), write_single);
+}
+
+}  // namespace nutik::app

@@ -1,0 +1,150 @@
+#include "app/output/report.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "app/text/text_table.hpp"
+#include "session/format.hpp"
+#include "session/size_text.hpp"
+#include "session/time_text.hpp"
+
+namespace nutik::app {
+namespace {
+
+// What a summary says of the first functions, and how many it leaves out.
+struct FunctionTexts {
+  template <typename Text>
+  FunctionTexts(const ExposureFigures& figures, Text text) {
+    constexpr std::size_t kMost = 6;
+    const std::size_t shown = std::min(figures.functions.size(), kMost);
+    std::transform(figures.functions.begin(), figures.functions.begin() + shown, std::back_inserter(texts),
+                   text);
+    left_out = figures.functions.size() - shown;
+  }
+
+  std::vector<std::string> texts;
+  std::size_t left_out = 0;
+};
+
+}  // namespace
+
+void print_json(const Json& json) { print_line(json.dump(2, ' ', false, Json::error_handler_t::replace)); }
+
+Json shape_json(const Shape& shape) {
+  return {{"width", shape.width}, {"height", shape.height}, {"channels", shape.channels}};
+}
+
+int tell(const Options& options, const std::filesystem::path& output, const Answer& answer) {
+  return tell(options, output, answer, options.output.has_value() || options.operands.size() > 1);
+}
+
+int tell(const Options& options, const std::filesystem::path& output, const Answer& answer, bool was_named) {
+  if (options.json) {
+    print_json(answer.json);
+  } else if (!options.quiet) {
+    print_line(answer.line);
+    for (const std::string& detail : answer.details) print_line(detail);
+    print_notes(answer.notes);
+  } else if (!was_named) {
+    print_line(output.string());
+  }
+  return 0;
+}
+
+void ExposureTally::add(const ExposedPicture& exposed) {
+  saturation_ += exposed.saturation;
+  is_light_ = !holds_codes(exposed.output.type);
+  precision_ = to_text(exposed.precision);
+  report_ = rendering_report(exposed, exposed.output);
+}
+
+std::string ExposureTally::saturation_text() const {
+  if (is_light_) return {};
+  const auto [below, above] = saturation_;
+  if (below == 0 && above == 0) return ", no pixel saturated";
+  if (above == 0) return format(", {} saturated below 0", counted(below, "pixel"));
+  if (below == 0) return format(", {} saturated above 1", counted(above, "pixel"));
+  return format(", {} saturated below 0 and {} above 1", counted(below, "pixel"), above);
+}
+
+Json ExposureTally::saturation_json() const {
+  if (is_light_) return Json::object();
+  return {{"saturated_below_pixels", saturation_.below}, {"saturated_above_pixels", saturation_.above}};
+}
+
+void ExposureTally::end(Answer& answer, Session& session, bool verbose, const std::string& rate) const {
+  const std::string renderer = session.devices().renderer().name();
+  answer.json.update(saturation_json());
+  answer.json.update({{"precision", precision_}, {"renderer", renderer}, {"seconds", seconds()}});
+  answer.line += format("{}{}, {:.2f} s on {}", saturation_text(), rate, seconds(), renderer);
+  if (verbose && !report_.empty()) answer.details.push_back(report_);
+}
+
+std::vector<std::string> exposure_warnings(const ExposedPicture& exposed) {
+  std::vector<std::string> warnings = exposed.warnings;
+  if (!holds_codes(exposed.output.type) || exposed.output.negative != NegativeLight::saturate)
+    return warnings;
+  // Light below 0 is black in a picture of codes: a still scene under a negative still gain disappears.
+  for (const PlannedFunction& function : exposed.figures.functions) {
+    const double still_gain = function.summary.still_gain();
+    if (still_gain >= 0.0) continue;
+    warnings.push_back(
+        format("M{}: the still gain is {:.6g}: whatever does not move comes out black; --negative "
+               "offset shows light below 0, a .pfm or a .tif with --depth float keeps it",
+               function.tag, still_gain));
+  }
+  return warnings;
+}
+
+std::string still_gains_text(const ExposureFigures& figures, bool plain) {
+  const FunctionTexts gains(figures, [&](const PlannedFunction& function) {
+    const double still_gain = function.summary.still_gain();
+    return plain ? format(" {:.6g}", still_gain) : format(" M{} {:.6g}", function.tag, still_gain);
+  });
+  return ", still gain" + joined(gains.texts, ",") +
+         (gains.left_out > 0 ? format(" and {} more", gains.left_out) : "");
+}
+
+std::string plan_text(const ExposureFigures& figures) {
+  std::string text = "plan: ";
+  if (figures.blocks_read == 0) {
+    text += "nothing is read: no gain within the capture differs from 0";
+  } else {
+    const auto [first, last] = figures.read;
+    text += format("{} of {} samples have a gain that differs from 0; ", figures.live_samples,
+                   figures.timeline.sample_count());
+    text += format("read: {} (samples {} … {})", counted(figures.blocks_read, "block"), first, last - 1);
+    if (figures.block_count) {
+      text += format(", skipped: {}", counted(*figures.block_count - figures.blocks_read, "block"));
+    } else if (last < figures.timeline.sample_count()) {
+      text += format("; the clip is decoded up to there");
+    }
+  }
+  const auto time = [](std::int64_t ns) { return integral_text(static_cast<double>(ns)); };
+  const FunctionTexts lines(figures, [&](const PlannedFunction& function) {
+    const Interval& live = function.summary.live;
+    return format(
+        "\n  M{}: {}, {}, {}", function.tag, counted(function.pixel_count, "pixel"),
+        live.empty() ? "never live" : format("live {} … {}", time(live.begin_ns), time(live.end_ns)),
+        counted(function.live.size(), "sample"));
+  });
+  text += joined(lines.texts, "");
+  if (lines.left_out > 0) text += format("\n  and {} functions more", lines.left_out);
+  return text + format("\n  tables of gains: {}; map of functions: {}", bytes_text(figures.table_bytes),
+                       bytes_text(figures.map_bytes));
+}
+
+Json functions_json(const ExposureFigures& figures) {
+  Json functions = Json::array();
+  for (const PlannedFunction& function : figures.functions) {
+    functions.push_back({{"mask_value", function.tag},
+                         {"pixels", function.pixel_count},
+                         {"live_start_ns", function.summary.live.begin_ns},
+                         {"live_end_ns", function.summary.live.end_ns},
+                         {"still_gain", function.summary.still_gain()},
+                         {"samples", function.live.size()}});
+  }
+  return functions;
+}
+
+}  // namespace nutik::app

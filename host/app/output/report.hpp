@@ -1,0 +1,84 @@
+// What commands tell at their end: people in lines, scripts with --json in one JSON object on standard output.
+//
+// Keys are in snake_case with the unit in the name (`live_start_ns`), and keep the order in which they were added.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/command_line/options.hpp"
+#include "app/output/console.hpp"
+#include "session/session.hpp"
+
+namespace nutik::app {
+
+using Json = nlohmann::ordered_json;
+
+// Text that is no UTF-8, a file name for example, is shown with U+FFFD in place of its bytes.
+void print_json(const Json& json);
+
+[[nodiscard]] Json shape_json(const Shape& shape);  // `width`, `height`, `channels`
+
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+struct Answer {
+  Json json;
+  std::string line = {};
+  std::vector<std::string> details = {};  // more lines
+  std::vector<std::string> notes = {};
+};
+
+// Prints it as --json and -q ask; returns the exit status. -q leaves the output's name where nobody gave it one: with -o
+// or as the second operand, unless `was_named` says how.
+int tell(const Options& options, const std::filesystem::path& output, const Answer& answer);
+int tell(const Options& options, const std::filesystem::path& output, const Answer& answer, bool was_named);
+
+// What is said of one exposure, or of many together, since it is there.
+class ExposureTally {
+ public:
+  void add(const ExposedPicture& exposed);
+
+  // Of the last one: its arithmetic, by the name that asks for it, and what rendering it did and took, in lines.
+  [[nodiscard]] const std::string& precision() const { return precision_; }
+  [[nodiscard]] const std::string& report() const { return report_; }
+  [[nodiscard]] double seconds() const { return stopwatch_.seconds(); }
+
+  // `, 12 pixels saturated below 0 and 3 above 1`, `, no pixel saturated`; `saturated_below_pixels` and
+  // `saturated_above_pixels`. Nothing where pictures hold light.
+  [[nodiscard]] std::string saturation_text() const;
+  [[nodiscard]] Json saturation_json() const;
+
+  // Ends an answer with that and with what the exposures were made with; `rate` is put before the seconds.
+  void end(Answer& answer, Session& session, bool verbose, const std::string& rate = {}) const;
+
+ private:
+  Stopwatch stopwatch_;
+  Saturation saturation_;
+  bool is_light_ = false;
+  std::string precision_, report_;
+};
+
+// What to tell about an exposure, whole sentences: its warnings, and what codes cannot hold.
+[[nodiscard]] std::vector<std::string> exposure_warnings(const ExposedPicture& exposed);
+
+// `, still gain M0 1, M128 0.25`, or without a tag for a plain interval.
+[[nodiscard]] std::string still_gains_text(const ExposureFigures& figures, bool plain);
+
+// What an exposure reads and leaves out, and why, for -v: whole lines, without a line end behind the last.
+[[nodiscard]] std::string plan_text(const ExposureFigures& figures);
+
+// The functions for scripts.
+[[nodiscard]] Json functions_json(const ExposureFigures& figures);
+
+}  // namespace nutik::app

@@ -1,0 +1,78 @@
+// The session's requests, as the command line states them.
+//
+//   always:  options that make no sense, or contradict each other, are refused as UsageError before anything large is
+//            read. What is read of a request is read here, function file, noise file, mask: InputError, with all
+//            mistakes of a text; warnings on it are printed
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "app/command_line/options.hpp"
+#include "session/contact_request.hpp"
+#include "session/devices.hpp"
+#include "session/exposure_request.hpp"
+#include "session/frames_request.hpp"
+#include "session/mask_request.hpp"
+#include "session/output_request.hpp"
+#include "session/own_exposure.hpp"
+#include "session/picture_recipe.hpp"
+#include "session/series_request.hpp"
+#include "session/sheets.hpp"
+#include "session/source_request.hpp"
+#include "session/sweep_request.hpp"
+
+namespace nutik::app {
+
+// Stated for --noise: measured on the clip itself.
+inline constexpr std::string_view kAutomaticNoise = "auto";
+
+// How the clip or capture of this name is to be read. What describes a clip is refused for a .tik.
+[[nodiscard]] SourceRequest source_request(const Options& options, const std::string& name);
+// The same of a clip, whatever its name.
+[[nodiscard]] SourceRequest clip_request(const Options& options, const std::string& name);
+
+// What was stated, as 500MB, 2GB or 1GiB; else half of the machine's memory.
+[[nodiscard]] MemoryBudget memory_budget(const Options& options);
+// What computes, not started yet. Kernels that are built are told of, unless --quiet.
+[[nodiscard]] std::shared_ptr<Devices> make_devices(const Options& options);
+
+[[nodiscard]] ExposureRequest exposure_request(const Options& options);
+// For naming the picture: `FnFile`, `0.4s-10ms`.
+[[nodiscard]] std::string exposure_label(const Options& options);
+// The shutter of that name, and what --gain and --ev multiply light with.
+[[nodiscard]] Shutter parse_shutter(const std::string& shape, const std::optional<std::string>& error);
+[[nodiscard]] double brightening(const Options& options);
+// What --depth and --negative ask of a picture.
+[[nodiscard]] OutputRequest output_request(const Options& options);
+
+// Many exposures: a series, a sheet of moments, a sheet of variations (in the order of the command line), a video.
+[[nodiscard]] SeriesRequest series_request(const Options& options);
+[[nodiscard]] ContactRequest contact_request(const Options& options);
+[[nodiscard]] SweepRequest sweep_request(const Options& options);
+[[nodiscard]] FramesRequest frames_request(const Options& options);
+// What --columns and --width ask for.
+[[nodiscard]] sheet::SheetWishes sheet_wishes(const Options& options);
+
+// What a mask is made of:
+//
+//   --tag 128 --moving --largest --grow 4 --tag 255 --ellipse 320,180,40,30
+//
+// selects what moves, keeps its largest part, grows that by 4 pixels and gives it tag 128; then an ellipse gets
+// tag 255, over what it covers. Pictures have their names and nothing else, and there is no base, until read_inputs().
+[[nodiscard]] MaskRequest mask_request(const Options& options);
+void read_inputs(MaskRequest& request, const Options& options);
+
+// What the recipes of a command's pictures have in common; none with --no-recipe. A capture that is exposed many times
+// may be known by its checksum already.
+[[nodiscard]] std::optional<RecipeSources> recipe_sources(const Options& options,
+                                                          std::optional<std::string> capture_checksum = {});
+// What the recipe of a sweep's picture states in place of the sweep's options.
+[[nodiscard]] OwnRecipe own_recipe(const OwnExposure& exposure);
+// Whether a recipe may state this option of `expose` with this value: it makes the picture, and stands in no
+// other place of the recipe.
+[[nodiscard]] bool is_recipe_option(std::string_view long_name, std::string_view value);
+
+}  // namespace nutik::app

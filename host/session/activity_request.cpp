@@ -1,0 +1,81 @@
+#include "session/activity_request.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "imev/each_block.hpp"
+#include "session/function_input.hpp"
+#include "system/input_bytes.hpp"
+
+namespace nutik {
+namespace {
+
+std::vector<std::uint8_t> counted_pixels(const ActivityRequest& request, const Shape& shape) {
+  if (!request.mask) return {};
+  const std::string name = input_title(*request.mask);
+  const Mask mask = read_mask_input(*request.mask);
+  if (mask.width != shape.width || mask.height != shape.height) {
+    throw InputError(format("{} is {} x {}, the capture {} x {}; they must be of one size", name, mask.width,
+                            mask.height, shape.width, shape.height));
+  }
+  std::vector<std::uint8_t> counted(mask.tags.size());
+  std::ranges::transform(mask.tags, counted.begin(), [&](std::uint8_t tag) {
+    return static_cast<std::uint8_t>(request.tag ? tag == *request.tag : tag != 0);
+  });
+  if (std::ranges::find(counted, 1) == counted.end()) {
+    throw InputError(request.tag ? format("{} has no pixel with tag {}", name, *request.tag)
+                                 : format("{} is 0 everywhere; no pixel counts", name));
+  }
+  return counted;
+}
+
+double ratio(std::uint64_t part, std::uint64_t whole) {
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+}  // namespace
+
+std::uint64_t MeasuredActivity::changes() const {
+  const auto& changed = activity.changed_pixels();
+  return std::accumulate(changed.begin(), changed.end(), std::uint64_t{0});
+}
+
+double MeasuredActivity::changed_share(std::uint64_t sample) const {
+  return ratio(activity.changed_pixels()[sample], activity.pixel_count());
+}
+
+double MeasuredActivity::mean_share(const ActivityStretch& stretch) const {
+  return ratio(stretch.changes, activity.pixel_count()) / static_cast<double>(stretch.samples.size());
+}
+
+double MeasuredActivity::mean_share() const {
+  const std::uint64_t count = timeline.sample_count();
+  return count > 1 ? ratio(changes(), activity.pixel_count()) / static_cast<double>(count - 1) : 0.0;
+}
+
+std::string MeasuredActivity::table() const {
+  std::string text = "sample,start_ns,end_ns,changed_pixels,changed_share\n";
+  for (std::uint64_t k = 0; k < timeline.sample_count(); ++k) {
+    text += format("{},{},{},{},{:.9g}\n", k, timeline.start_ns(k), timeline.end_ns(k),
+                   activity.changed_pixels()[k], changed_share(k));
+  }
+  return text;
+}
+
+MeasuredActivity measure_activity(CaptureSource& capture, const ActivityRequest& request,
+                                  const ReportedProgress& progress) {
+  const Timeline& timeline = capture.timeline();
+  Activity activity(capture.format(),
+                    {request.ignored_codes, counted_pixels(request, capture.format().shape)});
+  for_each_block(capture, [&](const BlockView& block) {
+    if (progress) progress(block.extent().first_sample, timeline.sample_count());
+    activity.add(block);
+  });
+  auto moments = activity_moments(activity.changed_pixels());
+  return {timeline, std::move(activity), std::move(moments)};
+}
+
+}  // namespace nutik

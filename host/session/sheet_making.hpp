@@ -1,0 +1,44 @@
+// Makes a sheet: exposures of one capture with ever other functions, one after another, with labels.
+//
+//   always:  every picture is what expose would write in the capture's own codes
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exposure/mask.hpp"
+#include "session/output_request.hpp"
+#include "session/session.hpp"
+#include "sheet/contact_sheet.hpp"
+
+namespace nutik {
+
+struct SheetRequest {
+  struct Exposed {
+    std::string label;
+    FunctionSet functions;
+  };
+
+  std::string heading;
+  std::vector<Exposed> exposures;
+  Mask mask;
+  PlanOptions plan;  // its transfer is what codes stand for, too
+  sheet::SheetWishes wishes;
+  std::optional<NegativeLight> negative;  // none: black
+};
+
+struct Sheet {
+  Picture picture;  // 8-bit colour
+  sheet::SheetLayout layout;
+};
+
+// `add` is told each picture as it was exposed, and its number. Throws UsageError where the sheet cannot be laid out,
+// and as Session::render() does.
+[[nodiscard]] Sheet make_sheet(
+    Session& session, const SheetRequest& request, const ReportedProgress& progress,
+    const std::function<void(std::size_t number, const ExposedPicture& exposed)>& add);
+
+}  // namespace nutik

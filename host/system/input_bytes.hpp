@@ -1,0 +1,35 @@
+// What a person names as an input: a file, or standard input where the name is `-`.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "system/mapped_file.hpp"
+
+namespace nutik {
+
+[[nodiscard]] inline bool is_standard_input(std::string_view name) { return name == "-"; }
+
+// What messages call it: `standard input`, or the file's name.
+[[nodiscard]] std::string input_title(const std::string& name);
+
+// Its bytes. Standard input is read to its end once; whoever asks again gets the same.
+class InputBytes {
+ public:
+  // Throws InputError where it cannot be read.
+  explicit InputBytes(const std::string& name);
+
+  [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+  [[nodiscard]] std::string_view text() const {
+    return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
+  }
+
+ private:
+  std::optional<MappedFile> file_;
+  std::span<const std::byte> bytes_;
+};
+
+}  // namespace nutik
