@@ -107,10 +107,24 @@ TEST_F(Series, HasAsManyAsFit) {
   // --count may go on behind the end: that is said, once.
   const auto over = run(
       {"--start", "0.9s", "--exposure", "200ms", "--every", "50ms", "--count", "2", "clip.tik", "c-%d.pfm"});
-  EXPECT_EQ(
-      over.err,
-      "warning: c-0.pfm and 1 more: the exposure: parts that are not zero lie after the capture's end at 1 s and do "
-      "not count\n");
+  EXPECT_EQ(over.err,
+            "warning: c-0.pfm and 1 more: the exposure: parts that are not zero lie after the capture's end "
+            "at 1 s and do "
+            "not count\n");
+}
+
+TEST_F(Series, TellsItsWarningsAlsoWhereItEndsInAnError) {
+  run({"-f", "40", "--block-samples", "10", "--codec", "none", "frames", "blocks.tik"});
+  std::string capture = file("blocks.tik");
+  capture[capture.size() * 8 / 10] ^= 0x55;  // in one of the later blocks
+  scratch_.write("blocks.tik", capture);
+  scratch_.write("held.fn", "M0 [0:1], [20000000:1], [20000001:0]\n");
+  const test::ProgramResult result = test::run_program(
+      {"-k", "held.fn", "--every", "4f", "blocks.tik", "-o", "d-%d.pfm"}, scratch_.folder());
+  EXPECT_EQ(result.status, 3) << result.err;
+  EXPECT_GT(written("d"), 1);
+  EXPECT_NE(result.err.find("warning: d-1.pfm"), std::string::npos) << result.err;
+  EXPECT_LT(result.err.find("warning: d-1.pfm"), result.err.find("is damaged")) << result.err;
 }
 
 TEST_F(Series, SaysWhatIsWrongBeforeItWrites) {

@@ -13,7 +13,6 @@
 #include "session/format.hpp"
 #include "session/picture_queue.hpp"
 #include "session/pictures.hpp"
-#include "session/shared_warnings.hpp"
 #include "session/size_text.hpp"
 #include "system/channel.hpp"
 
@@ -59,11 +58,11 @@ int run_series(const Options& options) {
   const OutputFormat output = output_format(output_request(options), names[0], session.format());
 
   ExposureTally tally;
-  SharedWarnings warnings;
   Channel<std::string> failures(starts.size());  // of pictures that could not be written
   PictureQueue pictures([&](std::size_t, const Error& error) { failures.push(message_text(error)); });
   std::optional<ExposureFigures> first;
   {
+    WarningsAtEnd warnings;
     Progress progress("exposing", starts.size(), options.quiet);
     for (std::uint64_t k = 0; k < starts.size(); ++k) {
       progress.show(k);
@@ -77,7 +76,6 @@ int run_series(const Options& options) {
     }
     pictures.finish();
   }
-  print_warnings(warnings.lines());
   failures.close();
   if (const auto failure = failures.pop()) throw OutputError(*failure);
 

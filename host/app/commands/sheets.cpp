@@ -1,5 +1,7 @@
 // Exposures on a sheet: of one moment after another, or of one exposure that is varied.
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <optional>
 
 #include "app/commands/commands.hpp"
@@ -11,7 +13,6 @@
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/pictures.hpp"
-#include "session/shared_warnings.hpp"
 #include "session/sheet_making.hpp"
 #include "session/size_text.hpp"
 
@@ -25,9 +26,15 @@ constexpr const char* kNoRecipe =
 // A sheet of one capture, from the command line to the answer.
 class SheetJob {
  public:
-  // `command` names the sheet, too: clip-contact.png.
+  using Each =
+      std::function<void(std::size_t number, const ExposedPicture& exposed, SharedWarnings& warnings)>;
+
+  // `behind` ends the name of a sheet that nobody named: clip-contact.png.
   SheetJob(const Options& options, std::string_view command, const std::string& behind)
-      : options_(options), output_(output_name(options, command, behind)), inputs_(input_files(options)) {
+      : options_(options),
+        output_(output_name(options, command, behind)),
+        inputs_(input_files(options)),
+        negative_(output_request(options).negative) {
     constexpr std::uint32_t kColour = 3;
     check_picture_output(output_, kColour, inputs_);
   }
@@ -38,21 +45,20 @@ class SheetJob {
     return format("{}: {}", std::filesystem::path(options_.operands.front()).filename().string(), of);
   }
 
-  void warn(const std::string& label, const std::string& text) { warnings_.add(label, {&text, 1}); }
-
   // `each` is told every picture beside that. Returns the exit status.
   int run(Session& session, SheetRequest request, const std::string& counted_as, std::string_view key,
-          Json exposures,
-          const std::function<void(std::size_t number, const ExposedPicture& exposed)>& each = {}) {
-    request.negative = output_request(options_).negative;
+          Json exposures, const Each& each = {}) {
+    request.negative = negative_;
     if (options_.transfer) request.plan.transfer = Transfer::parse(*options_.transfer);
-    const Sheet sheet = make_sheet(session, request, progress_bar("exposing", options_.quiet),
-                                   [&](std::size_t i, const ExposedPicture& exposed) {
-                                     tally_.add(exposed);
-                                     warnings_.add(request.exposures[i].label, exposure_warnings(exposed));
-                                     if (each) each(i, exposed);
-                                   });
-    print_warnings(warnings_.lines());
+    const Sheet sheet = [&] {
+      WarningsAtEnd warnings;
+      return make_sheet(session, request, progress_bar("exposing", options_.quiet),
+                        [&](std::size_t i, const ExposedPicture& exposed) {
+                          tally_.add(exposed);
+                          warnings.add(request.exposures[i].label, exposure_warnings(exposed));
+                          if (each) each(i, exposed, warnings);
+                        });
+    }();
     write_picture(output_, sheet.picture);
     const auto& [columns, rows] = std::pair(sheet.layout.columns, sheet.layout.rows);
     Answer answer{{{"sheet", output_.string()}, {"columns", columns}, {"rows", rows}}};
@@ -68,8 +74,8 @@ class SheetJob {
   const Options& options_;
   std::filesystem::path output_;
   std::vector<std::string> inputs_;
+  std::optional<NegativeLight> negative_;
   ExposureTally tally_;
-  SharedWarnings warnings_;
 };
 
 // Names for the single pictures; empty where none are asked for.
@@ -165,14 +171,14 @@ int run_sweep(const Options& options) {
   }
 
   PictureRecipe recipe(singles.empty() ? std::nullopt : recipe_sources(options));  // of single pictures
-  const auto write_single = [&](std::size_t i, const ExposedPicture& exposed) {
+  const auto write_single = [&](std::size_t i, const ExposedPicture& exposed, SharedWarnings& warnings) {
     if (singles.empty()) return;
     std::string text;
     if (!options.no_recipe) {
       const auto own =
           own_exposure(sheet.exposures[i].functions, request, timeline, singles[i].stem().string() + ".fn");
       if (own) text = recipe.text(job.tally().precision(), own_recipe(*own));
-      if (!own) job.warn(singles[i].string(), kNoRecipe);
+      if (!own) warnings.add(singles[i].string(), std::array{std::string(kNoRecipe)});
     }
     write_picture(singles[i], exposed.picture, text);
   };

@@ -7,7 +7,6 @@
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "session/format.hpp"
-#include "session/shared_warnings.hpp"
 #include "session/size_text.hpp"
 #include "session/time_text.hpp"
 #include "session/video_output.hpp"
@@ -38,10 +37,10 @@ int run_video(const Options& options) {
 
   const Transfer transfer = plan.transfer.value_or(capture.transfer);
   FrameQueue queue([&] { return output.open(capture.shape, frame_format, transfer); });
-  SharedWarnings warnings;
   std::optional<Interrupted> interruption;
   std::uint64_t exposed_frames = 0;
   {
+    WarningsAtEnd warnings;
     Progress progress("exposing", frames.count, options.quiet);
     try {
       for (; exposed_frames < frames.count; ++exposed_frames) {
@@ -61,7 +60,6 @@ int run_video(const Options& options) {
     }
     queue.finish();
   }
-  print_warnings(warnings.lines());
   const std::string name = output.path().string();
   if (interruption) {
     print_note(format("{}: {} of {} frames were written", name, exposed_frames, frames.count));

@@ -12,6 +12,7 @@
 #include "app/command_line/options.hpp"
 #include "app/output/console.hpp"
 #include "session/session.hpp"
+#include "session/shared_warnings.hpp"
 
 namespace nutik::app {
 
@@ -67,6 +68,11 @@ class ExposureTally {
   Saturation saturation_;
   bool is_light_ = false;
   std::string precision_, report_;
+};
+
+// Warnings of many exposures, printed when this goes: of those that were made before an error, too.
+struct WarningsAtEnd : SharedWarnings {
+  ~WarningsAtEnd() { print_warnings(lines()); }
 };
 
 // What to tell about an exposure, whole sentences: its warnings, and what codes cannot hold.
