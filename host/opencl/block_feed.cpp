@@ -22,12 +22,12 @@ BlockFeed::BlockFeed(cl::Context context, const cl::Device& device, const Device
   limits_.chunk_bytes = std::min(limits_.chunk_bytes, info_.largest_allocation_bytes);
 }
 
-void BlockFeed::hold(const CaptureSource* source) {
+void BlockFeed::keep_resident(const CaptureSource* source) {
   stop();
-  held_.clear();
-  held_slabs_.clear();
-  held_bytes_ = 0;
-  held_source_ = source;
+  resident_blocks_.clear();
+  resident_slabs_.clear();
+  resident_bytes_ = 0;
+  resident_source_ = source;
 }
 
 void BlockFeed::stop() {
@@ -51,9 +51,9 @@ void BlockFeed::start(const RenderPlan& plan, std::span<const TableSlice> slices
 
 BlockFeed::Chunk BlockFeed::next() {
   Chunk chunk = reading_.valid() ? reading_.get() : next_chunk();
-  bytes_ = in_place_bytes_ + lent_bytes_ + passing_[0].used + passing_[1].used + held_bytes_;
-  // What is held or lies in place takes no time.
-  if (next_ < plan_->blocks.size() && in_place_bytes_ == 0 && !holds(plan_->blocks[next_])) {
+  bytes_ = in_place_bytes_ + lent_bytes_ + passing_[0].used + passing_[1].used + resident_bytes_;
+  // What is resident or lies in place takes no time.
+  if (next_ < plan_->blocks.size() && in_place_bytes_ == 0 && !lies_resident(plan_->blocks[next_])) {
     reading_ = std::async(std::launch::async, [this] { return next_chunk(); });
   }
   return chunk;
@@ -61,7 +61,7 @@ BlockFeed::Chunk BlockFeed::next() {
 
 BlockFeed::Chunk BlockFeed::next_chunk() {
   if (next_ == slice().last_block) ++slice_;
-  return holds(plan_->blocks[next_]) ? held_chunk() : filled_chunk();
+  return lies_resident(plan_->blocks[next_]) ? resident_chunk() : filled_chunk();
 }
 
 BlockEntry BlockFeed::entry(std::uint64_t offset) const {
@@ -76,16 +76,16 @@ void BlockFeed::check_size(const PlannedBlock& planned, std::uint64_t bytes) con
                   "encode with fewer samples a block", {Setting::block_samples});
 }
 
-BlockFeed::Chunk BlockFeed::held_chunk() {
+BlockFeed::Chunk BlockFeed::resident_chunk() {
   Chunk chunk;
-  Slab* slab = held_.at(plan_->blocks[next_].block).slab;
+  Slab* slab = resident_blocks_.at(plan_->blocks[next_].block).slab;
   for (; next_ < slice().last_block; ++next_) {
-    const auto found = held_.find(plan_->blocks[next_].block);
-    if (found == held_.end() || found->second.slab != slab) break;
+    const auto found = resident_blocks_.find(plan_->blocks[next_].block);
+    if (found == resident_blocks_.end() || found->second.slab != slab) break;
     chunk.entries.push_back(entry(found->second.offset));
     chunk.payload_bytes += found->second.bytes;
   }
-  is_read_by_kernel_ |= slab == held_slabs_.back().get();
+  is_read_by_kernel_ |= slab == resident_slabs_.back().get();
   chunk.payload = buffer_of(*slab);
   return chunk;
 }
@@ -136,7 +136,7 @@ BlockFeed::Chunk BlockFeed::filled_chunk() {
   Filling filling;
   for (; next_ < slice().last_block; ++next_) {
     const PlannedBlock& planned = plan_->blocks[next_];
-    if (holds(planned)) break;
+    if (lies_resident(planned)) break;
     BlockLease lease = lease_next(filling);
     if (lease.is_empty()) break;
     if (!was_unpacked(filling, lease)) {
@@ -152,7 +152,7 @@ BlockFeed::Chunk BlockFeed::filled_chunk() {
     const Place place = store(*filling.slab, lease);
     chunk.entries.push_back(entry(place.offset));
     chunk.payload_bytes += place.bytes;
-    if (filling.stays) held_.emplace(planned.block, place);
+    if (filling.stays) resident_blocks_.emplace(planned.block, place);
   }
   is_read_by_kernel_ |= filling.stays;
   chunk.payload = buffer_of(*filling.slab);
@@ -185,7 +185,7 @@ bool BlockFeed::lies_in_place(const BlockLease& lease) const {
 }
 
 bool BlockFeed::is_read_where_it_lies(const BlockLease& lease) const {
-  return info_.shares_host_memory && !is_held() && lease.bytes() >= kLeastLent &&
+  return info_.shares_host_memory && !is_resident() && lease.bytes() >= kLeastLent &&
          lease.payload().size() <= std::min(info_.largest_allocation_bytes, kMostSpread * lease.bytes());
 }
 
@@ -198,18 +198,18 @@ bool BlockFeed::has_room(Filling& filling, std::uint64_t bytes) {
 // Memory for a chunk that starts with a block of `bytes`.
 BlockFeed::Slab& BlockFeed::slab_for(std::uint64_t bytes, bool& stays) {
   const std::uint64_t room = std::max(align_up(bytes, kBlockAlignment), limits_.chunk_bytes);
-  if (is_held()) {
+  if (is_resident()) {
     stays = true;
-    const bool has_open = !held_slabs_.empty() && !is_read_by_kernel_;
-    if (has_open && held_slabs_.back()->used + bytes <= held_slabs_.back()->capacity) {
-      return *held_slabs_.back();
+    const bool has_open = !resident_slabs_.empty() && !is_read_by_kernel_;
+    if (has_open && resident_slabs_.back()->used + bytes <= resident_slabs_.back()->capacity) {
+      return *resident_slabs_.back();
     }
-    if (held_bytes_ + room <= limits_.held_bytes) {
-      held_slabs_.push_back(std::make_unique<Slab>());
-      make_room(*held_slabs_.back(), room);
-      held_bytes_ += held_slabs_.back()->capacity;
+    if (resident_bytes_ + room <= limits_.resident_bytes) {
+      resident_slabs_.push_back(std::make_unique<Slab>());
+      make_room(*resident_slabs_.back(), room);
+      resident_bytes_ += resident_slabs_.back()->capacity;
       is_read_by_kernel_ = false;
-      return *held_slabs_.back();
+      return *resident_slabs_.back();
     }
   }
   stays = false;

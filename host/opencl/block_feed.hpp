@@ -2,8 +2,8 @@
 //
 //   in:      planned blocks, in time order, the slices their tables are cut into, and the capture they are blocks of
 //   out:     chunks: blocks of one slice in one buffer, for one launch a band (allocation_cuts.hpp)
-//   always:  copies of blocks take no more than two chunks (one block at least each); those of a capture that
-//            is held stay besides, up to a limit, and are not read again. Blocks that lie in the host's
+//   always:  copies of blocks take no more than two chunks (one block at least each); those of the resident
+//            capture stay besides, up to a limit, and are not read again. Blocks that lie in the host's
 //            memory already, or are built there, are not copied at all where the device reads it too.
 #pragma once
 
@@ -27,7 +27,7 @@ namespace nutik {
 
 struct FeedLimits {
   std::uint64_t chunk_bytes;
-  std::uint64_t held_bytes;  // of a held capture
+  std::uint64_t resident_bytes;  // of the resident capture
 };
 
 class BlockFeed {
@@ -41,9 +41,9 @@ class BlockFeed {
 
   BlockFeed(cl::Context context, const cl::Device& device, const DeviceInfo& info, const FeedLimits& limits);
 
-  // Blocks of this capture stay once they have been read, until another is held; null: of none. It must
+  // Blocks of this capture stay once they have been read, until another is resident; null: of none. It must
   // live that long.
-  void hold(const CaptureSource* source);
+  void keep_resident(const CaptureSource* source);
 
   // All three must live until the last chunk has been taken, or stop().
   void start(const RenderPlan& plan, std::span<const TableSlice> slices, CaptureSource& source);
@@ -76,12 +76,12 @@ class BlockFeed {
   // Where a chunk's blocks are copied or unpacked to; chosen with the first of them.
   struct Filling {
     Slab* slab = nullptr;
-    bool stays = false;  // it is part of a held capture's
+    bool stays = false;  // it is part of the resident capture's
   };
 
-  [[nodiscard]] bool is_held() const { return source_ == held_source_; }
-  [[nodiscard]] bool holds(const PlannedBlock& planned) const {
-    return is_held() && held_.contains(planned.block);
+  [[nodiscard]] bool is_resident() const { return source_ == resident_source_; }
+  [[nodiscard]] bool lies_resident(const PlannedBlock& planned) const {
+    return is_resident() && resident_blocks_.contains(planned.block);
   }
   [[nodiscard]] bool lies_in_place(const BlockLease& lease) const;
   [[nodiscard]] bool is_read_where_it_lies(const BlockLease& lease) const;
@@ -90,7 +90,7 @@ class BlockFeed {
   [[nodiscard]] const TableSlice& slice() const { return slices_[slice_]; }
 
   Chunk next_chunk();
-  Chunk held_chunk();
+  Chunk resident_chunk();
   Chunk in_place_chunk(BlockLease lease);
   Chunk lent_chunk(BlockLease lease);
   Chunk filled_chunk();
@@ -122,11 +122,11 @@ class BlockFeed {
   std::size_t turn_ = 0;
   PageBuffer upload_memory_;
 
-  const CaptureSource* held_source_ = nullptr;
-  std::vector<std::unique_ptr<Slab>> held_slabs_;
-  std::unordered_map<std::uint64_t, Place> held_;  // by block of the capture
-  std::uint64_t held_bytes_ = 0;                   // what the slabs may hold
-  bool is_read_by_kernel_ = false;  // the last held slab, in this exposure: nothing is added to it meanwhile
+  const CaptureSource* resident_source_ = nullptr;
+  std::vector<std::unique_ptr<Slab>> resident_slabs_;
+  std::unordered_map<std::uint64_t, Place> resident_blocks_;  // by block of the capture
+  std::uint64_t resident_bytes_ = 0;                          // what the slabs may hold
+  bool is_read_by_kernel_ = false;  // the last slab, in this exposure: nothing is added to it meanwhile
 
   std::future<Chunk> reading_;  // ahead
 };

@@ -124,7 +124,7 @@ class OpenClRenderer::Implementation {
 
   void keep_resident(const CaptureSource* source) {
     const std::scoped_lock turn(turn_);
-    feed_->hold(source);
+    feed_->keep_resident(source);
   }
 
   void prepare(const RenderPlan& plan, const OutputFormat& output) {

@@ -1,4 +1,4 @@
-// How blocks get to the device: in chunks, ahead of the kernel, and once only where their capture is held.
+// How blocks get to the device: in chunks, ahead of the kernel, and once only where their capture is resident.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -99,10 +99,10 @@ TEST(BlockFeed, KeepsNoMoreThanItsMemory) {
   for (std::uint64_t block = 0; block < counted.block_count(); ++block) {
     block_bytes = std::max(block_bytes, scene.capture->view(block).payload().size());
   }
-  for (const std::uint64_t held_blocks : {0u, 1u, 5u, 22u}) {
+  for (const std::uint64_t resident_blocks : {0u, 1u, 5u, 22u}) {
     OpenClOptions options = test::renderer_options(Precision::double_);
     options.chunk_bytes = 1;  // a block each
-    options.memory_bytes = std::max<std::uint64_t>(2 * held_blocks * (block_bytes + 64), 1);
+    options.memory_bytes = std::max<std::uint64_t>(2 * resident_blocks * (block_bytes + 64), 1);
     OpenClRenderer renderer(options);
     renderer.keep_resident(&counted);
     const Rendered rendered = renderer.render(plan, counted, kLight);
@@ -110,7 +110,7 @@ TEST(BlockFeed, KeepsNoMoreThanItsMemory) {
     EXPECT_EQ(rendered.statistics.launches, 23u);
     const std::uint64_t before = counted.reads;
     EXPECT_EQ(render(renderer, plan, counted), expected);
-    EXPECT_LE(counted.reads - before, 23 - held_blocks);
+    EXPECT_LE(counted.reads - before, 23 - resident_blocks);
     EXPECT_GT(counted.reads, before);  // all of them are more than it may hold
   }
 }
