@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "capture/format.hpp"
+#include "harness.hpp"
 #include "memory_bandwidth.hpp"
 #include "opencl/device.hpp"
 #include "opencl/device_bandwidth.hpp"
@@ -38,36 +39,20 @@ struct Settings {
 
 Settings parse(int argc, char** argv) {
   Settings settings;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const auto number = [&] { return i + 1 < argc ? std::strtoul(argv[++i], nullptr, 10) : 0; };
-    if (word == "--width")
-      settings.width = static_cast<std::uint32_t>(number());
-    else if (word == "--height")
-      settings.height = static_cast<std::uint32_t>(number());
-    else if (word == "--samples")
-      settings.samples = number();
-    else if (word == "--runs")
-      settings.runs = static_cast<int>(number());
-    else if (word == "--device")
-      settings.device = number();
-    else if (word == "--csv" && i + 1 < argc)
-      settings.csv = argv[++i];
-    else if (word == "--item-pixels")
-      settings.options.item_pixels = static_cast<std::uint32_t>(number());
-    else if (word == "--item-tiles")
-      settings.options.item_tiles = static_cast<std::uint32_t>(number());
-    else if (word == "--lanes")
-      settings.options.lanes = static_cast<std::uint32_t>(number());
-    else if (word == "--group-items")
-      settings.options.group_items = static_cast<std::uint32_t>(number());
-    else if (word == "--quick")
-      settings.quick = true;
-    else {
-      std::fprintf(stderr, "unknown option %s; see the head of tools/bench/kernels.cpp\n", argv[i]);
-      std::exit(2);
-    }
-  }
+  OpenClOptions& options = settings.options;
+  read_options(argc, argv, "kernels.cpp",
+               {{"--width", &settings.width},
+                {"--height", &settings.height},
+                {"--samples", &settings.samples},
+                {"--runs", &settings.runs},
+                {"--device", &settings.device},
+                {"--csv", &settings.csv},
+                {"--item-pixels", &options.item_pixels},
+                {"--item-tiles", &options.item_tiles},
+                {"--lanes", &options.lanes},
+                {"--group-items", &options.group_items},
+                {"--quick", &settings.quick}});
+  settings.runs = std::max(settings.runs, 1);
   return settings;
 }
 
@@ -137,11 +122,6 @@ Measurement measure(OpenClRenderer& renderer, const RenderPlan& plan, SyntheticC
     develop.push_back(took.develop_ms);
     bytes = took.payload_bytes;
   }
-  const auto median = [](std::vector<double>& values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-  };
   return {median(expose), median(develop), bytes};
 }
 
@@ -230,16 +210,23 @@ int run(const Settings& settings) {
     const double limit_before = measure_limit(capture);
     const Measurement measured = measure(renderer, plan, capture, settings.runs);
     const double limit = (limit_before + measure_limit(capture)) / 2;
-    const double rate = static_cast<double>(measured.bytes) / measured.expose_ms * 1e3;
-    std::printf("%-8s %-11s %-7s %-5u %-11s %9.2f %8.2f %8.1f %7.2f %9.2f %10.2g\n", name_of(one.content),
+    // Some drivers report kernel times of zero: what follows from them is left out.
+    const bool is_timed = measured.expose_ms > 0;
+    const auto timed = [&](double figure, int digits, const char* otherwise) {
+      return is_timed ? nutik::format("{:.{}f}", figure, digits) : std::string(otherwise);
+    };
+    const double rate = is_timed ? static_cast<double>(measured.bytes) / measured.expose_ms * 1e3 : 0.0;
+    std::printf("%-8s %-11s %-7s %-5u %-11s %9s %8s %8.1f %7s %9s %10.2g\n", name_of(one.content),
                 to_text(one.precision).c_str(), one.transfer.text().c_str(), one.code_bytes * 8,
-                name_of(one.regions), measured.expose_ms, rate * 1e-9, limit * 1e-9, rate / limit,
-                measured.develop_ms, worst);
+                name_of(one.regions), timed(measured.expose_ms, 2, "not timed").c_str(),
+                timed(rate * 1e-9, 2, "-").c_str(), limit * 1e-9,
+                (limit > 0 ? timed(rate / limit, 2, "-") : "-").c_str(),
+                timed(measured.develop_ms, 2, "-").c_str(), worst);
     std::fflush(stdout);
     csv << device.name << ',' << name_of(one.content) << ',' << to_text(one.precision) << ','
         << one.transfer.text() << ',' << one.code_bytes * 8 << ',' << name_of(one.regions) << ','
-        << measured.expose_ms << ',' << measured.bytes << ',' << rate * 1e-9 << ',' << limit * 1e-9 << ','
-        << measured.develop_ms << ',' << worst << '\n';
+        << timed(measured.expose_ms, 4, "") << ',' << measured.bytes << ',' << timed(rate * 1e-9, 4, "")
+        << ',' << limit * 1e-9 << ',' << timed(measured.develop_ms, 4, "") << ',' << worst << '\n';
   }
   return 0;
 }

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "harness.hpp"
 #include "opencl/opencl_renderer.hpp"
 #include "render/plan_cache.hpp"
 #include "synthetic_capture.hpp"
@@ -33,28 +34,18 @@ struct Settings {
 
 Settings parse(int argc, char** argv) {
   Settings settings;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string word = argv[i];
-    const auto number = [&] { return static_cast<std::uint32_t>(std::strtoul(argv[i + 1], nullptr, 10)); };
-    if (word == "--width")
-      settings.width = number();
-    else if (word == "--height")
-      settings.height = number();
-    else if (word == "--samples")
-      settings.samples = number();
-    else if (word == "--functions")
-      settings.functions = std::clamp(number(), 1u, kMaskValues);
-    else if (word == "--runs")
-      settings.runs = static_cast<int>(number());
-    else if (word == "--device")
-      settings.options.device = number();
-    else if (word == "--precision")
-      settings.options.precision = parse_precision(argv[i + 1]);
-    else {
-      std::fprintf(stderr, "unknown option %s; see the head of tools/bench/live.cpp\n", argv[i]);
-      std::exit(2);
-    }
-  }
+  std::string precision;
+  read_options(argc, argv, "live.cpp",
+               {{"--width", &settings.width},
+                {"--height", &settings.height},
+                {"--samples", &settings.samples},
+                {"--functions", &settings.functions},
+                {"--runs", &settings.runs},
+                {"--device", &settings.options.device},
+                {"--precision", &precision}});
+  settings.functions = std::clamp(settings.functions, 1u, kMaskValues);
+  settings.runs = std::max(settings.runs, 1);
+  if (!precision.empty()) settings.options.precision = parse_precision(precision);
   return settings;
 }
 
@@ -84,11 +75,6 @@ struct Times {
   RenderStatistics last;
 };
 
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
-
 int run(const Settings& settings) {
   CaptureFormat format;
   format.shape = {settings.width, settings.height, 3};
@@ -111,13 +97,18 @@ int run(const Settings& settings) {
     const double kernel_ms = rendered.statistics.expose_ms + rendered.statistics.develop_ms;
     times.wall_ms.push_back(wall_ms);
     times.kernel_ms.push_back(kernel_ms);
-    times.share.push_back(wall_ms / kernel_ms);
+    if (kernel_ms > 0) times.share.push_back(wall_ms / kernel_ms);
     times.last = rendered.statistics;
     precision = rendered.precision;
   };
   const auto print = [](const char* name, const Times& times) {
-    std::printf("%-28s %9.2f ms, kernels %9.2f ms, %6.3f x; wrote %llu bytes of tables, %llu of the map\n",
-                name, median(times.wall_ms), median(times.kernel_ms), median(times.share),
+    std::printf("%-28s %9.2f ms, ", name, median(times.wall_ms));
+    if (times.share.empty()) {
+      std::printf("kernels not timed by the driver");
+    } else {
+      std::printf("kernels %9.2f ms, %6.3f x", median(times.kernel_ms), median(times.share));
+    }
+    std::printf("; wrote %llu bytes of tables, %llu of the map\n",
                 static_cast<unsigned long long>(times.last.table_bytes_written),
                 static_cast<unsigned long long>(times.last.map_bytes_written));
   };

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "capture/frame_times.hpp"
+#include "harness.hpp"
 #include "media/frame_queue.hpp"
 #include "media/picture_writer.hpp"
 #include "opencl/opencl_renderer.hpp"
@@ -20,15 +21,11 @@
 namespace nutik {
 namespace {
 
+using bench::median;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t kMostFrames = 300;
 constexpr Rational kRate{24, 1}, kSpeed{1, 10}, kAngle{180, 1};
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
 
 template <typename Work>
 double seconds_of(Work work) {
