@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The program is a client of the session: host/app includes the session's headers, the system's and its own, and
-what reads its inputs and what writes its outputs do not include each other.
+"""The program is a client of the session: host/app includes the session's headers, the system's and its own, what writes
+its outputs knows nothing of its requests, and all of it has at most 6500 lines, as the engine belongs below it.
 
     check_includes.py --app FOLDER
 """
@@ -12,6 +12,7 @@ from collections import defaultdict
 from pathlib import Path
 
 ROOMS = {"app", "session", "system"}
+MOST_LINES = 6500
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
@@ -32,11 +33,14 @@ def main():
                 mistakes.append(f"{place} includes {name}, which is neither the session's, the system's nor the program's")
             if room == "app" and len(place.parts) > 1 and len(rest) > 1 and rest[0] != place.parts[0]:
                 arrows[place.parts[0]].add(rest[0])
-    if "output" in arrows["input"] and "input" in arrows["output"]:
-        mistakes.append("input and output include each other")
+    if "requests" in arrows["output"]:
+        mistakes.append("output includes requests")
+    lines = sum(len(path.read_text(encoding="utf-8").splitlines()) for path in files)
+    if lines > MOST_LINES:
+        mistakes.append(f"{lines} lines, {MOST_LINES} at most: what is engine belongs into the session")
     for mistake in mistakes:
         print(mistake)
-    print(f"{len(files)} files, {len(mistakes)} mistakes")
+    print(f"{len(files)} files, {lines} lines, {len(mistakes)} mistakes")
     return 1 if mistakes else 0
 
 

@@ -82,6 +82,7 @@ TEST_F(CommandLine, SaysWhatACaptureHolds) {
   EXPECT_EQ(run({"clip.tik"}).out, run({"info", "clip.tik"}).out);
   expect_refused({"info", "clip.tik", "--activity", "clip.tik"}, 2, "is also an input");
   expect_refused({"info", "clip.tik", "--activity", "map.txt"}, 2, ".png");
+  expect_refused({"info", "clip.tik", "--activity", "map.pfm"}, 2, "map.pfm holds floating point only");
 }
 
 TEST_F(CommandLine, TakesOptionsAndOperandsInAnyOrder) {

@@ -20,10 +20,9 @@ namespace {
 
 // Returns how often the pixel that changes most does.
 std::uint64_t write_activity(tik::Reader& reader, const std::string& path) {
-  Activity activity(reader.format());
-  for_each_block(reader, [&](const BlockView& block) { activity.add(block); });
-  write_picture(path, sheet::activity_map(reader.format().shape, activity.changes()));
-  return *std::ranges::max_element(activity.changes());
+  const std::vector<std::uint64_t> changes = measure_activity(reader, {}).activity.changes();
+  write_picture(path, sheet::activity_map(reader.format().shape, changes));
+  return *std::ranges::max_element(changes);
 }
 
 // What is a change.
@@ -51,7 +50,7 @@ int run_info(const Options& options) {
   const CaptureFormat& capture = reader.format();
   const Timeline& timeline = reader.timeline();
 
-  if (options.activity) check_output(*options.activity, OutputKind::picture, std::array{name});
+  if (options.activity) check_picture_output(*options.activity, 1, std::array{name});
 
   const CaptureFigures figures = figures_of(reader);
   for (const InputError& damage : figures.damage) print_warning(message_text(damage));
