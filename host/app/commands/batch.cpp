@@ -74,8 +74,7 @@ Options line_options(const std::string& text, const Options& batch,
   if (stated_transfer && batch.noise) {
     throw UsageError(
         format("--transfer holds for all exposures where --noise does, whose light it tells: nutik-cl batch "
-               "--transfer "
-               "{} …",
+               "--transfer {} …",
                *options.transfer));
   }
   if (options.every || options.count) {

@@ -116,8 +116,7 @@ std::string message_text(const std::exception& error) {
   if (const auto* light = dynamic_cast<const LightIsKept*>(&error)) {
     return format(
         "--negative says what codes make of light below 0, and {} holds floating point, which keeps it; "
-        "leave "
-        "--negative out",
+        "leave --negative out",
         light->output.string());
   }
   if (const auto* known = dynamic_cast<const Error*>(&error))
