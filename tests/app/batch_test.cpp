@@ -45,6 +45,18 @@ TEST_F(Batch, GivesThePicturesOfSingleCommands) {
   EXPECT_EQ(picture("trail.tif"), picture("single.tif"));
 }
 
+// The last picture has codes from 140 on; four times the light of every code above 137 is above white.
+TEST_F(Batch, CountsSaturatedPixelsOfThePicturesThatHoldCodes) {
+  scratch_.write("list.txt",
+                 "--start 5f --exposure 1f --ev 2 codes.png\n"
+                 "--start 5f --exposure 1f --ev 2 light.pfm\n");
+  const ProgramResult mixed = run({"batch", "list.txt", "scene.tik"});
+  EXPECT_NE(mixed.out.find(", 63 pixels saturated above 1, "), std::string::npos) << mixed.out << mixed.err;
+  scratch_.write("list.txt", "--start 5f --exposure 1f --ev 2 light.pfm\n");
+  const ProgramResult light = run({"batch", "list.txt", "scene.tik"});
+  EXPECT_EQ(light.out.find("saturated"), std::string::npos) << light.out;
+}
+
 TEST_F(Batch, LeavesTheCaptureToTheCommandAndReadsFromStandardInput) {
   const ProgramResult batch = test::run_shell(
       "(printf '%s\\n' '--start 0f --exposure 1f a.png' '-k trail.fn b.png' | " NUTIK_TEST_PROGRAM

@@ -53,13 +53,13 @@ int tell(const Options& options, const std::filesystem::path& output, const Answ
 
 void ExposureTally::add(const ExposedPicture& exposed) {
   saturation_ += exposed.saturation;
-  is_light_ = !holds_codes(exposed.output.type);
+  has_codes_ |= holds_codes(exposed.output.type);
   precision_ = to_text(exposed.precision);
   report_ = rendering_report(exposed, exposed.output);
 }
 
 std::string ExposureTally::saturation_text() const {
-  if (is_light_) return {};
+  if (!has_codes_) return {};
   const auto [below, above] = saturation_;
   if (below == 0 && above == 0) return ", no pixel saturated";
   if (above == 0) return format(", {} saturated below 0", counted(below, "pixel"));
@@ -68,7 +68,7 @@ std::string ExposureTally::saturation_text() const {
 }
 
 Json ExposureTally::saturation_json() const {
-  if (is_light_) return Json::object();
+  if (!has_codes_) return Json::object();
   return {{"saturated_below_pixels", saturation_.below}, {"saturated_above_pixels", saturation_.above}};
 }
 

@@ -56,7 +56,7 @@ class ExposureTally {
   [[nodiscard]] double seconds() const { return stopwatch_.seconds(); }
 
   // `, 12 pixels saturated below 0 and 3 above 1`, `, no pixel saturated`; `saturated_below_pixels` and
-  // `saturated_above_pixels`. Nothing where pictures hold light.
+  // `saturated_above_pixels`. Nothing where all pictures hold light.
   [[nodiscard]] std::string saturation_text() const;
   [[nodiscard]] Json saturation_json() const;
 
@@ -66,7 +66,7 @@ class ExposureTally {
  private:
   Stopwatch stopwatch_;
   Saturation saturation_;
-  bool is_light_ = false;
+  bool has_codes_ = false;
   std::string precision_, report_;
 };
 
