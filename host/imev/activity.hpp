@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "capture/memory_needs.hpp"
 #include "capture/picture.hpp"
 #include "imev/block.hpp"
 
@@ -21,6 +22,12 @@ struct ActivityOptions {
 class Activity {
  public:
   explicit Activity(const CaptureFormat& capture, ActivityOptions options = {});
+
+  // What it takes: the counts, what pixels held, which of them count.
+  [[nodiscard]] static MemoryNeeds needs(const CaptureFormat& capture) {
+    return {{"changes of pixels",
+             capture.shape.pixel_count() * (sizeof(std::uint64_t) + sizeof(ChangeRecord) + 2)}};
+  }
 
   // Adds the next block; blocks must come in order, all of them.
   void add(const BlockView& block);

@@ -152,7 +152,8 @@ class BlockBuilder::Implementation {
     if (is_empty()) return std::min(limits_.samples, busy_samples(source_, limits_));
     if (changed_bytes_ >= limits_.changed_bytes) return 0;
     const std::uint64_t changing = (limits_.changed_bytes - changed_bytes_ - 1) / changing_bytes_ + 1;
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(limits_.samples - samples_, changing));
+    return static_cast<std::uint32_t>(
+        std::min({std::uint64_t{limits_.samples} - samples_, changing, fitting_memory()}));
   }
   [[nodiscard]] bool is_empty() const { return samples_ == 0; }
   [[nodiscard]] BlockExtent extent() const { return {first_sample_, samples_}; }
@@ -185,6 +186,8 @@ class BlockBuilder::Implementation {
  protected:
   // At most kStepSamples; a block's first one alone.
   virtual void add_samples(std::span<const std::span<const std::byte>> rasters) = 0;
+  // How many more samples the block's memory takes.
+  [[nodiscard]] virtual std::uint64_t fitting_memory() const { return limits_.samples; }
   // Keeps what the next block starts from, before this one is closed.
   virtual void carry() {}
   virtual FinishedBlock close_block(PageBuffer& into) = 0;
@@ -215,9 +218,15 @@ class BlockBuilder::Comparing final : public Implementation {
         row_bytes_(BlockGeometry(source, limits.samples).row_bytes()),
         step_(step_function(source)),
         held_(source.noise.tolerance == 0 ? 0 : grid_.tile_count() * row_bytes_),
-        log_(source, limits.samples, busy_samples(source, limits), policy) {}
+        log_(source, limits.samples, busy_samples(source, limits), policy, limits.memory_bytes) {}
 
  private:
+  // One at a time where tiles that all moved to larger rooms might come to more than twice the limit.
+  [[nodiscard]] std::uint64_t fitting_memory() const override {
+    if (log_.bytes() >= limits_.memory_bytes) return 0;
+    return log_.bytes() < limits_.memory_bytes / 4 ? limits_.samples : 1;
+  }
+
   void add_samples(std::span<const std::span<const std::byte>> samples) override {
     const bool starts = is_empty();  // and a start is no record
     // The capture's first sample is held whatever it is: nothing was held before.

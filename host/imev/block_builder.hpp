@@ -32,6 +32,9 @@ struct BlockLimits {
 
   std::uint32_t samples;
   std::uint64_t changed_bytes;
+  // What the block may take while it is built, with the room between its bodies: about where it closes. Two times as
+  // much and a sample it may come to (builder_bytes()).
+  std::uint64_t memory_bytes = kAnyChanges;
 
   BlockLimits(std::uint32_t most_samples,
               std::uint64_t most_changed_bytes = kAnyChanges)  // NOLINT: so many samples

@@ -19,11 +19,18 @@ namespace nutik {
 // the lease lives. An empty span: there is none, and the block is not wanted now.
 using RoomForPayload = std::function<std::span<std::byte>(std::uint64_t bytes)>;
 
+// Tells whether any of the tiles [first, last) of a block is wanted.
+using WantsTiles = std::function<bool(std::uint64_t first, std::uint64_t last)>;
+
 // What whoever acquires a block has to say about it.
 struct LeaseTerms {
   // Asked once by a source that has to unpack the payload, before it does any slow work. A source that has the payload
   // in memory anyway does not ask. Without it a payload is unpacked into memory of the source's own.
-  RoomForPayload room;
+  RoomForPayload room = {};
+
+  // Asked by a source that unpacks tiles in groups, after `room`, for each group once, in their order. Bodies of a group
+  // that is not wanted are left as they were in the room; the directory is always whole. Without it all are wanted.
+  WantsTiles wants = {};
 };
 
 class BlockLease {

@@ -44,6 +44,9 @@ class CaptureSource {
     return lend(block, terms);
   }
 
+  // What a block's payload takes in memory while it is on loan, at most: nothing where it lies in memory anyway.
+  [[nodiscard]] virtual std::uint64_t lent_bytes(std::uint64_t /*block*/) const { return 0; }
+
   // Does ahead what acquire() will take time for, while whoever will ask for the block is not ready yet. A source
   // may do nothing. Any thread may ask, besides those that acquire.
   virtual void preload(std::uint64_t /*block*/) {}

@@ -10,13 +10,15 @@ class BlockCursor {
  public:
   explicit BlockCursor(CaptureSource& source) : source_(source) {}
 
-  // The block, until the next call. Throws InputError where it is damaged.
-  [[nodiscard]] BlockView at(std::uint64_t block) {
+  // The block, until the next call; of tiles that are not wanted, bodies that mean nothing. Throws InputError where it
+  // is damaged.
+  [[nodiscard]] BlockView at(std::uint64_t block, const WantsTiles& wants = {}) {
     lease_ = {};  // a source may use its memory again
     lease_ = source_.acquire(block, {[this](std::uint64_t bytes) {
-                               room_.reserve(bytes);
-                               return room_.first(bytes);
-                             }});
+                                       room_.reserve(bytes);
+                                       return room_.first(bytes);
+                                     },
+                                     wants});
     return {source_.format(), lease_.extent(), lease_.payload()};
   }
 

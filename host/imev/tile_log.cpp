@@ -33,17 +33,20 @@ std::uint64_t largest_body_bytes(const BlockGeometry& geometry, TilePolicy polic
 }
 
 TileLog::TileLog(const CaptureFormat& capture, std::uint32_t block_samples, std::uint32_t busy_samples,
-                 TilePolicy policy)
+                 TilePolicy policy, std::uint64_t memory_bytes)
     : full_(capture, block_samples),
       busy_samples_(busy_samples),
       policy_(policy),
+      tight_from_(memory_bytes / 2),
       differ_(differ_function(full_.channels, full_.code_bytes)),
       tiles_(full_.tile_count) {}
 
 void TileLog::begin() {
   end_ = full_.directory_bytes();
+  std::uint64_t as_before = end_;
+  for (const Tile& tile : tiles_) as_before += room_bytes(std::max(tile.rows, 1u));
   for (Tile& tile : tiles_) {
-    tile.room = std::max(tile.rows, 1u);
+    tile.room = as_before < tight_from_ ? std::max(tile.rows, 1u) : 1;
     begin_tile(tile);
   }
   // Address space: more than this is rarely needed, and only what is used is ever touched.
@@ -77,7 +80,8 @@ std::uint64_t TileLog::append(std::uint64_t bytes) {
 void TileLog::make_room(std::uint64_t tile, std::uint32_t rows, std::uint32_t samples) {
   Tile& at = tiles_[tile];
   const std::uint32_t needed = at.rows + rows;
-  const std::uint32_t wanted = needed == samples ? busy_samples_ : 2 * at.room;
+  const bool is_tight = end_ >= tight_from_;
+  const std::uint32_t wanted = is_tight ? needed : needed == samples ? busy_samples_ : 2 * at.room;
   Tile moved = at;
   moved.room = std::min(std::max(needed, wanted), std::max(needed, full_.sample_count));
   moved.offset = append(room_bytes(moved.room)) + list_bytes(moved.room);

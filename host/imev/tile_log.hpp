@@ -32,8 +32,12 @@ namespace nutik {
 class TileLog {
  public:
   // A block has at most `block_samples`, and `busy_samples` where all tiles change with every one.
+  // From half of `memory_bytes` on, rooms are no larger than their rows.
   TileLog(const CaptureFormat& capture, std::uint32_t block_samples, std::uint32_t busy_samples,
-          TilePolicy policy);
+          TilePolicy policy, std::uint64_t memory_bytes = ~std::uint64_t{0});
+
+  // What the block takes so far.
+  [[nodiscard]] std::uint64_t bytes() const { return end_; }
 
   // A tile's last row, codes [C][64]; there is none before the block's first sample.
   [[nodiscard]] const std::byte* last_row(std::uint64_t tile) const {
@@ -101,6 +105,7 @@ class TileLog {
   BlockGeometry full_;  // of a full block
   std::uint32_t busy_samples_;
   TilePolicy policy_;
+  std::uint64_t tight_from_;  // bytes
   DifferFunction differ_;
   PageBuffer payload_;
   std::uint64_t end_ = 0;  // of the last room in it

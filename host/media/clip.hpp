@@ -31,6 +31,7 @@ struct ClipInfo {
   ClipTiming timing;
   // As the files announce it. Decoding may end earlier or later; the clip is right then.
   std::uint64_t sample_count = 0;
+  std::uint64_t decoder_bytes = 0;  // of the pictures that its decoder holds, about
   std::vector<Note> notes;
 };
 
@@ -42,12 +43,14 @@ struct RawVideo {
   friend bool operator==(const RawVideo&, const RawVideo&) = default;
 };
 
-// What a person states about a clip; it goes before what the files say.
+// What is stated about a clip; it goes before what the files say.
 struct ClipOptions {
   std::optional<Rational> rate;
   std::optional<std::uint32_t> white_code;
   std::optional<Transfer> transfer;
   std::optional<RawVideo> raw;
+  // What its decoder may hold: it works on no more pictures at a time than fit, one at least. None: on one for each core.
+  std::optional<std::uint64_t> decoder_bytes;
   friend bool operator==(const ClipOptions&, const ClipOptions&) = default;
 };
 

@@ -4,8 +4,9 @@
 
 namespace nutik {
 
-FrameQueue::FrameQueue(std::function<std::unique_ptr<VideoWriter>()> open)
-    : writing_(std::async(std::launch::async, [this, open = std::move(open)] { write(open); })) {}
+FrameQueue::FrameQueue(std::function<std::unique_ptr<VideoWriter>()> open, std::size_t most_waiting)
+    : pictures_(most_waiting),
+      writing_(std::async(std::launch::async, [this, open = std::move(open)] { write(open); })) {}
 
 FrameQueue::~FrameQueue() { pictures_.close(); }
 

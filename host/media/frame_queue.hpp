@@ -19,8 +19,12 @@ namespace nutik {
 
 class FrameQueue {
  public:
-  // `open` is called on that thread: what encodes takes a while to load.
-  explicit FrameQueue(std::function<std::unique_ptr<VideoWriter>()> open);
+  // Enough that a frame which takes longer than others, to expose or to encode, stops nobody.
+  static constexpr std::size_t kUsuallyWaiting = 4;
+
+  // `open` is called on that thread: what encodes takes a while to load. So many frames may wait.
+  explicit FrameQueue(std::function<std::unique_ptr<VideoWriter>()> open,
+                      std::size_t most_waiting = kUsuallyWaiting);
   // Without finish() the video is dropped.
   ~FrameQueue();
   FrameQueue(const FrameQueue&) = delete;
@@ -38,10 +42,7 @@ class FrameQueue {
  private:
   void write(const std::function<std::unique_ptr<VideoWriter>()>& open);
 
-  // Enough that a frame which takes longer than others, to expose or to encode, stops nobody.
-  static constexpr std::size_t kWaiting = 4;
-
-  Channel<Picture> pictures_{kWaiting};
+  Channel<Picture> pictures_;
   std::unique_ptr<VideoWriter> writer_;
   std::future<void> writing_;
 };

@@ -11,12 +11,12 @@ namespace nutik {
 namespace {
 
 constexpr std::array<VideoCodec, 6> kCodecs{{
-    {"ffv1", "ffv1", " .mkv .avi ", true, true, true, false},
-    {"h264", "libx264", " .mp4 .m4v .mov .mkv ", true, false, false, true},
-    {"h265", "libx265", " .mp4 .m4v .mov .mkv ", true, false, false, true},
-    {"vp9", "libvpx-vp9", " .webm .mkv ", true, false, false, true},
-    {"prores", "prores_ks", " .mov .mkv ", false, true, false, true},
-    {"mjpeg", "mjpeg", " .avi .mov .mkv ", true, false, false, true},
+    {"ffv1", "ffv1", " .mkv .avi ", true, true, true, 130, false},
+    {"h264", "libx264", " .mp4 .m4v .mov .mkv ", true, false, false, 110, true},
+    {"h265", "libx265", " .mp4 .m4v .mov .mkv ", true, false, false, 130, true},
+    {"vp9", "libvpx-vp9", " .webm .mkv ", true, false, false, 110, true},
+    {"prores", "prores_ks", " .mov .mkv ", false, true, false, 40, true},
+    {"mjpeg", "mjpeg", " .avi .mov .mkv ", true, false, false, 16, true},
 }};
 
 struct Container {

@@ -19,7 +19,8 @@ struct VideoCodec {
   bool holds_8_bits;            // takes pictures of 8-bit codes, or else of 16 bits only
   bool holds_16_bits;
   bool is_lossless;
-  bool pairs_pixels;  // keeps one colour for two by two pixels, so that both sides must be even
+  std::uint32_t held_frames;  // of three values for two pixels, that its encoder keeps about
+  bool pairs_pixels;          // keeps one colour for two by two pixels, so that both sides must be even
 };
 
 // The frames a second that a container of this name still tells apart: 1000 in .mkv and .webm, whose times are

@@ -16,17 +16,12 @@ constexpr std::uint64_t kLeastLent = 1 << 20;
 
 }  // namespace
 
-BlockFeed::BlockFeed(cl::Context context, const cl::Device& device, const DeviceInfo& info,
-                     const FeedLimits& limits)
-    : context_(std::move(context)), info_(info), limits_(limits), copies_(context_, device) {
-  limits_.chunk_bytes = std::min(limits_.chunk_bytes, info_.largest_allocation_bytes);
-}
+BlockFeed::BlockFeed(cl::Context context, const cl::Device& device, const DeviceInfo& info)
+    : context_(std::move(context)), info_(info), copies_(context_, device) {}
 
 void BlockFeed::keep_resident(const CaptureSource* source) {
   stop();
-  resident_blocks_.clear();
-  resident_slabs_.clear();
-  resident_bytes_ = 0;
+  resident_.clear();
   resident_source_ = source;
 }
 
@@ -36,24 +31,30 @@ void BlockFeed::stop() {
   pending_ = {};
 }
 
-void BlockFeed::start(const RenderPlan& plan, std::span<const TableSlice> slices, CaptureSource& source) {
+void BlockFeed::start(const RenderPlan& plan, std::span<const TableSlice> slices, CaptureSource& source,
+                      const NeededTiles& tiles, const FeedLimits& limits) {
   stop();
   plan_ = &plan;
   slices_ = slices;
   source_ = &source;
+  tiles_ = &tiles;
+  limits_ = limits;
+  limits_.chunk_bytes = std::min(limits_.chunk_bytes, info_.largest_allocation_bytes);
   slice_ = 0;
   next_ = 0;
   in_place_bytes_ = 0;
   lent_bytes_ = 0;
   is_read_by_kernel_ = false;
   for (Slab& slab : passing_) slab.used = 0;
+  resident_.begin(is_resident() ? plan.blocks : std::span<const PlannedBlock>(), limits_.resident_bytes);
 }
 
 BlockFeed::Chunk BlockFeed::next() {
   Chunk chunk = reading_.valid() ? reading_.get() : next_chunk();
-  bytes_ = in_place_bytes_ + lent_bytes_ + passing_[0].used + passing_[1].used + resident_bytes_;
+  bytes_ = in_place_bytes_ + lent_bytes_ + passing_[0].used + passing_[1].used + resident_.bytes();
   // What is resident or lies in place takes no time.
-  if (next_ < plan_->blocks.size() && in_place_bytes_ == 0 && !lies_resident(plan_->blocks[next_])) {
+  if (limits_.reads_ahead && next_ < plan_->blocks.size() && in_place_bytes_ == 0 &&
+      resident_place(plan_->blocks[next_]) == nullptr) {
     reading_ = std::async(std::launch::async, [this] { return next_chunk(); });
   }
   return chunk;
@@ -61,7 +62,13 @@ BlockFeed::Chunk BlockFeed::next() {
 
 BlockFeed::Chunk BlockFeed::next_chunk() {
   if (next_ == slice().last_block) ++slice_;
-  return lies_resident(plan_->blocks[next_]) ? resident_chunk() : filled_chunk();
+  return resident_place(plan_->blocks[next_]) != nullptr ? resident_chunk() : filled_chunk();
+}
+
+const BlockPlace* BlockFeed::resident_place(const PlannedBlock& planned) const {
+  const BlockPlace* place = is_resident() ? resident_.find(planned.block) : nullptr;
+  if (place == nullptr || place->tiles.empty() || tiles_->are_among(place->tiles, planned)) return place;
+  return nullptr;
 }
 
 BlockEntry BlockFeed::entry(std::uint64_t offset) const {
@@ -78,14 +85,14 @@ void BlockFeed::check_size(const PlannedBlock& planned, std::uint64_t bytes) con
 
 BlockFeed::Chunk BlockFeed::resident_chunk() {
   Chunk chunk;
-  Slab* slab = resident_blocks_.at(plan_->blocks[next_].block).slab;
+  Slab* slab = resident_place(plan_->blocks[next_])->slab;
   for (; next_ < slice().last_block; ++next_) {
-    const auto found = resident_blocks_.find(plan_->blocks[next_].block);
-    if (found == resident_blocks_.end() || found->second.slab != slab) break;
-    chunk.entries.push_back(entry(found->second.offset));
-    chunk.payload_bytes += found->second.bytes;
+    const BlockPlace* place = resident_place(plan_->blocks[next_]);
+    if (place == nullptr || place->slab != slab) break;
+    chunk.entries.push_back(entry(place->offset));
+    chunk.payload_bytes += place->bytes;
   }
-  is_read_by_kernel_ |= slab == resident_slabs_.back().get();
+  is_read_by_kernel_ |= slab == resident_.last_slab();
   chunk.payload = buffer_of(*slab);
   return chunk;
 }
@@ -136,7 +143,7 @@ BlockFeed::Chunk BlockFeed::filled_chunk() {
   Filling filling;
   for (; next_ < slice().last_block; ++next_) {
     const PlannedBlock& planned = plan_->blocks[next_];
-    if (lies_resident(planned)) break;
+    if (resident_place(planned) != nullptr) break;
     BlockLease lease = lease_next(filling);
     if (lease.is_empty()) break;
     if (!was_unpacked(filling, lease)) {
@@ -149,10 +156,11 @@ BlockFeed::Chunk BlockFeed::filled_chunk() {
         break;
       }
     }
-    const Place place = store(*filling.slab, lease);
+    BlockPlace place = store(*filling.slab, lease);
     chunk.entries.push_back(entry(place.offset));
     chunk.payload_bytes += place.bytes;
-    if (filling.stays) resident_blocks_.emplace(planned.block, place);
+    place.tiles = std::exchange(unpacked_, {});
+    if (filling.stays) resident_.keep(planned.block, std::move(place));
   }
   is_read_by_kernel_ |= filling.stays;
   chunk.payload = buffer_of(*filling.slab);
@@ -164,11 +172,29 @@ BlockLease BlockFeed::lease_next(Filling& filling) {
   if (!pending_.is_empty()) return std::exchange(pending_, {});
   const PlannedBlock& planned = plan_->blocks[next_];
   return source_->acquire(planned.block, {[&](std::uint64_t bytes) -> std::span<std::byte> {
-                            check_size(planned, bytes);
-                            if (!has_room(filling, bytes)) return {};
-                            if (!info_.shares_host_memory) upload_memory_.reserve(bytes);
-                            return {unpacking_place(filling), bytes};
-                          }});
+                                            check_size(planned, bytes);
+                                            if (!has_room(filling, bytes)) return {};
+                                            if (!info_.shares_host_memory) upload_memory_.reserve(bytes);
+                                            return {unpacking_place(filling), bytes};
+                                          },
+                                          wants(planned)});
+}
+
+// What this exposure reads of a block; all of it where it is resident already, but with too little of it: once is enough.
+WantsTiles BlockFeed::wants(const PlannedBlock& planned) {
+  unpacked_.clear();
+  if (!is_resident()) return tiles_->of(planned);
+  if (resident_.find(planned.block) != nullptr) return {};
+  return [this, reads = tiles_->of(planned)](std::uint64_t first, std::uint64_t last) {
+    const bool is_read = reads(first, last);
+    if (!is_read && unpacked_.empty()) {
+      unpacked_.assign(TileGrid(plan_->capture.shape).tile_count(), false);
+      std::fill_n(unpacked_.begin(), first, true);
+    } else if (is_read && !unpacked_.empty()) {
+      std::fill_n(unpacked_.begin() + static_cast<std::ptrdiff_t>(first), last - first, true);
+    }
+    return is_read;
+  };
 }
 
 std::byte* BlockFeed::unpacking_place(const Filling& filling) {
@@ -196,25 +222,24 @@ bool BlockFeed::has_room(Filling& filling, std::uint64_t bytes) {
 }
 
 // Memory for a chunk that starts with a block of `bytes`.
-BlockFeed::Slab& BlockFeed::slab_for(std::uint64_t bytes, bool& stays) {
+Slab& BlockFeed::slab_for(std::uint64_t bytes, bool& stays) {
   const std::uint64_t room = std::max(align_up(bytes, kBlockAlignment), limits_.chunk_bytes);
   if (is_resident()) {
     stays = true;
-    const bool has_open = !resident_slabs_.empty() && !is_read_by_kernel_;
-    if (has_open && resident_slabs_.back()->used + bytes <= resident_slabs_.back()->capacity) {
-      return *resident_slabs_.back();
+    Slab* const open = is_read_by_kernel_ ? nullptr : resident_.last_slab();
+    if (open != nullptr && open->used + bytes <= open->capacity) {
+      resident_.use(*open);
+      return *open;
     }
-    if (resident_bytes_ + room <= limits_.resident_bytes) {
-      resident_slabs_.push_back(std::make_unique<Slab>());
-      make_room(*resident_slabs_.back(), room);
-      resident_bytes_ += resident_slabs_.back()->capacity;
+    const auto with_room = [this](Slab& slab, std::uint64_t wanted) { make_room(slab, wanted); };
+    if (Slab* slab = resident_.new_slab(room, with_room)) {
       is_read_by_kernel_ = false;
-      return *resident_slabs_.back();
+      return *slab;
     }
   }
   stays = false;
   Slab& slab = passing_[turn_];
-  turn_ = 1 - turn_;
+  if (limits_.reads_ahead) turn_ = 1 - turn_;
   slab.used = 0;
   if (slab.capacity < room) make_room(slab, room);
   return slab;
@@ -230,8 +255,8 @@ void BlockFeed::make_room(Slab& slab, std::uint64_t bytes) {
   slab.capacity = bytes;
 }
 
-BlockFeed::Place BlockFeed::store(Slab& slab, const BlockLease& lease) {
-  const Place place{&slab, slab.used, lease.bytes()};
+BlockPlace BlockFeed::store(Slab& slab, const BlockLease& lease) {
+  BlockPlace place{&slab, slab.used, lease.bytes(), {}};
   if (info_.shares_host_memory) {
     std::byte* to = slab.host.data() + place.offset;
     if (lease.payload().data() != to) lease.copy_to(source_->format(), {to, place.bytes});

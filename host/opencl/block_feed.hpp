@@ -3,23 +3,24 @@
 //   in:      planned blocks, in time order, the slices their tables are cut into, and the capture they are blocks of
 //   out:     chunks: blocks of one slice in one buffer, for one launch a band (allocation_cuts.hpp)
 //   always:  copies of blocks take no more than two chunks (one block at least each); those of the resident
-//            capture stay besides, up to a limit, and are not read again. Blocks that lie in the host's
-//            memory already, or are built there, are not copied at all where the device reads it too.
+//            capture stay besides (resident_blocks.hpp), and are not read again. Blocks that lie in the host's
+//            memory already, or are built there, are not copied at all where the device reads it too. Of packed ones
+//            only those groups of tiles are unpacked that the exposure reads (needed_tiles.hpp)
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <future>
-#include <memory>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "imev/capture_source.hpp"
 #include "opencl/allocation_cuts.hpp"
 #include "opencl/device.hpp"
 #include "opencl/kernel_layout.hpp"
+#include "opencl/needed_tiles.hpp"
 #include "opencl/opencl_api.hpp"
+#include "opencl/resident_blocks.hpp"
 #include "render/render_plan.hpp"
 #include "system/page_buffer.hpp"
 
@@ -28,6 +29,7 @@ namespace nutik {
 struct FeedLimits {
   std::uint64_t chunk_bytes;
   std::uint64_t resident_bytes;  // of the resident capture
+  bool reads_ahead = true;       // false: copies take no more than one chunk
 };
 
 class BlockFeed {
@@ -39,14 +41,15 @@ class BlockFeed {
     std::uint64_t payload_bytes = 0;  // of the blocks, without what lies between them
   };
 
-  BlockFeed(cl::Context context, const cl::Device& device, const DeviceInfo& info, const FeedLimits& limits);
+  BlockFeed(cl::Context context, const cl::Device& device, const DeviceInfo& info);
 
   // Blocks of this capture stay once they have been read, until another is resident; null: of none. It must
   // live that long.
   void keep_resident(const CaptureSource* source);
 
-  // All three must live until the last chunk has been taken, or stop().
-  void start(const RenderPlan& plan, std::span<const TableSlice> slices, CaptureSource& source);
+  // All four must live until the last chunk has been taken, or stop().
+  void start(const RenderPlan& plan, std::span<const TableSlice> slices, CaptureSource& source,
+             const NeededTiles& tiles, const FeedLimits& limits);
 
   // The next chunk, in time order; not to be called after the last block. Whoever asks has given the chunk before
   // back. Throws InputError for a damaged block, DeviceError for one that the device cannot
@@ -60,19 +63,6 @@ class BlockFeed {
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
  private:
-  // Memory that blocks are read into, one behind the other.
-  struct Slab {
-    PageBuffer host;    // where the device reads the host's memory
-    cl::Buffer device;  // where it does not
-    std::uint64_t capacity = 0;
-    std::uint64_t used = 0;
-  };
-  struct Place {
-    Slab* slab;
-    std::uint64_t offset;
-    std::uint64_t bytes;
-  };
-
   // Where a chunk's blocks are copied or unpacked to; chosen with the first of them.
   struct Filling {
     Slab* slab = nullptr;
@@ -80,9 +70,9 @@ class BlockFeed {
   };
 
   [[nodiscard]] bool is_resident() const { return source_ == resident_source_; }
-  [[nodiscard]] bool lies_resident(const PlannedBlock& planned) const {
-    return is_resident() && resident_blocks_.contains(planned.block);
-  }
+  // Where a block lies since an exposure before, with all that this one needs of it; null where it does not.
+  [[nodiscard]] const BlockPlace* resident_place(const PlannedBlock& planned) const;
+  [[nodiscard]] WantsTiles wants(const PlannedBlock& planned);
   [[nodiscard]] bool lies_in_place(const BlockLease& lease) const;
   [[nodiscard]] bool is_read_where_it_lies(const BlockLease& lease) const;
   void check_size(const PlannedBlock& planned, std::uint64_t bytes) const;
@@ -100,16 +90,17 @@ class BlockFeed {
   bool has_room(Filling& filling, std::uint64_t bytes);
   Slab& slab_for(std::uint64_t bytes, bool& stays);
   void make_room(Slab& slab, std::uint64_t bytes);
-  Place store(Slab& slab, const BlockLease& lease);
+  BlockPlace store(Slab& slab, const BlockLease& lease);
   cl::Buffer buffer_of(Slab& slab) const;
 
   cl::Context context_;
   DeviceInfo info_;
-  FeedLimits limits_;
+  FeedLimits limits_{0, 0};
   cl::CommandQueue copies_;  // its own, so that copying goes on while the kernel runs
 
   const RenderPlan* plan_ = nullptr;
   CaptureSource* source_ = nullptr;
+  const NeededTiles* tiles_ = nullptr;
   std::span<const TableSlice> slices_;
   std::size_t slice_ = 0;  // that the next planned block is part of
   std::size_t next_ = 0;   // planned block
@@ -123,10 +114,9 @@ class BlockFeed {
   PageBuffer upload_memory_;
 
   const CaptureSource* resident_source_ = nullptr;
-  std::vector<std::unique_ptr<Slab>> resident_slabs_;
-  std::unordered_map<std::uint64_t, Place> resident_blocks_;  // by block of the capture
-  std::uint64_t resident_bytes_ = 0;                          // what the slabs may hold
+  ResidentBlocks resident_;
   bool is_read_by_kernel_ = false;  // the last slab, in this exposure: nothing is added to it meanwhile
+  std::vector<bool> unpacked_;      // tiles of the block that was acquired last; empty: all
 
   std::future<Chunk> reading_;  // ahead
 };

@@ -12,6 +12,11 @@ using DevelopSumsKernel = cl::KernelFunctor<cl::Buffer, cl_uint, cl_uint, cl_ulo
 using DevelopCodesKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_ulong,
                                              cl::Buffer, cl::Buffer, cl_uint, cl::Buffer>;
 
+// Of sums that are developed at a time where they become light. So many rows of tiles begin where devices let a part
+// of a buffer begin: at a multiple of 4096 bytes.
+constexpr std::uint64_t kPartBytes = 4 << 20;
+constexpr std::uint32_t kPartRows = 16;
+
 // Whether a value has the first code or the last.
 bool has_end_code(const Picture& codes) {
   const auto is_end = [&](std::uint32_t code) { return code == 0 || code == codes.white_code; };
@@ -22,7 +27,7 @@ bool has_end_code(const Picture& codes) {
 }  // namespace
 
 Picture Developer::develop(std::span<const ExposedBand> bands) {
-  return holds_codes(output_.type) ? counted_codes(bands) : light(bands, output_.type);
+  return holds_codes(output_.type) ? counted_codes(bands) : light(bands);
 }
 
 // Codes, and how many pixels saturate. The kernel knows no negative codes and counts nothing: where a plan's
@@ -30,31 +35,67 @@ Picture Developer::develop(std::span<const ExposedBand> bands) {
 Picture Developer::counted_codes(std::span<const ExposedBand> bands) {
   const CodeScale scale(plan_.capture.transfer, output_);
   if (output_.negative != NegativeLight::saturate) {
-    const Picture seen = light(bands, ValueType::light64);
-    saturation_ = count_saturated(seen, scale);
-    return encoded(seen, scale, output_);
+    Picture picture(shape_, output_.type, output_.white_code);
+    for_each_part(bands, ValueType::light64, [&](const Rectangle& part, const Picture& seen) {
+      saturation_ += count_saturated(seen, scale);
+      put(encoded(seen, scale, output_), part, picture);
+    });
+    return picture;
   }
   Picture picture = codes(bands);
   if (can_saturate(plan_, scale) && has_end_code(picture)) {
-    saturation_ = count_saturated(light(bands, ValueType::light64), scale);
+    for_each_part(bands, ValueType::light64, [&](const Rectangle&, const Picture& seen) {
+      saturation_ += count_saturated(seen, scale);
+    });
   }
   return picture;
 }
 
-// As light of this type, for a picture that will be stored as the output says.
-Picture Developer::light(std::span<const ExposedBand> bands, ValueType type) {
-  Bytes of_sums(shape_.value_count() * sum_bytes(work_.precision));
+Picture Developer::light(std::span<const ExposedBand> bands) {
+  Picture picture(shape_, output_.type, output_.white_code);
+  for_each_part(bands, output_.type,
+                [&](const Rectangle& part, const Picture& of_part) { put(of_part, part, picture); });
+  return picture;
+}
+
+// Calls visit(part, its light) for the rectangle's parts from top to bottom. Light takes up to six times what codes do:
+// a part at a time, it takes next to nothing.
+template <typename Visit>
+void Developer::for_each_part(std::span<const ExposedBand> bands, ValueType type, Visit visit) {
   DevelopSumsKernel kernel(program_, "develop_sums");
   for (const ExposedBand& exposed : bands) {
-    const Band& band = exposed.band;
-    develop_band(band, of_sums, [&](const cl::Buffer& raster) {
-      return kernel(items(queue_, work_.shape, band.tile_count), exposed.sums, band.shape.width,
-                    band.shape.height, band.tile_count, raster);
-    });
+    const std::uint64_t row_bytes = sums_bytes(exposed.band.columns, shape_.channels, work_.precision);
+    const auto all_rows = static_cast<std::uint32_t>(exposed.band.tile_count / exposed.band.columns);
+    const auto rows_at_once = static_cast<std::uint32_t>(
+        std::max<std::uint64_t>(1, kPartBytes / row_bytes / kPartRows) * kPartRows);
+    for (std::uint32_t row = 0; row < all_rows; row += rows_at_once) {
+      const std::uint32_t rows = std::min(rows_at_once, all_rows - row);
+      Band band = exposed.band;
+      band.tile_count = std::uint64_t{rows} * band.columns;
+      band.first_row += row * kTileSide;
+      band.shape.height = std::min(rows * kTileSide, exposed.band.shape.height - row * kTileSide);
+      cl::Buffer sums = exposed.sums;
+      cl_buffer_region region{row * row_bytes, rows * row_bytes};
+      if (rows < all_rows)
+        sums = sums.createSubBuffer(CL_MEM_READ_ONLY, CL_BUFFER_CREATE_TYPE_REGION, &region);
+      const Rectangle part = part_in(band);
+      Bytes of_sums(std::uint64_t{part.width} * part.height * shape_.channels * sum_bytes(work_.precision));
+      develop_band(band, part, of_sums, [&](const cl::Buffer& raster) {
+        return kernel(items(queue_, work_.shape, band.tile_count), sums, band.shape.width, band.shape.height,
+                      band.tile_count, raster);
+      });
+      Picture picture({part.width, part.height, shape_.channels}, type, output_.white_code);
+      store_light(plan_, part, work_.precision, of_sums, picture);
+      visit(part, picture);
+    }
   }
-  Picture picture(shape_, type, output_.white_code);
-  store_light(plan_, rectangle_, work_.precision, of_sums, picture);
-  return picture;
+}
+
+// Puts a part's picture to where it lies in the rectangle's.
+void Developer::put(const Picture& of_part, const Rectangle& part, Picture& picture) const {
+  const std::uint64_t row_bytes = std::uint64_t{shape_.width} * shape_.channels * value_bytes(picture.type);
+  std::ranges::copy(of_part.bytes,
+                    picture.bytes.begin() + static_cast<std::ptrdiff_t>((part.y - rectangle_.y) * row_bytes));
 }
 
 Picture Developer::codes(std::span<const ExposedBand> bands) {
@@ -66,7 +107,11 @@ Picture Developer::codes(std::span<const ExposedBand> bands) {
   DevelopCodesKernel kernel(program_, "develop_codes");
   for (const ExposedBand& exposed : bands) {
     const Band& band = exposed.band;
-    develop_band(band, picture.bytes, [&](const cl::Buffer& raster) {
+    const Rectangle part = part_in(band);
+    const std::uint64_t row_bytes = picture.bytes.size() / shape_.height;
+    const auto raster_of_part =
+        std::span(picture.bytes).subspan((part.y - rectangle_.y) * row_bytes, part.height * row_bytes);
+    develop_band(band, part, raster_of_part, [&](const cl::Buffer& raster) {
       return kernel(items(queue_, work_.shape, band.tile_count), exposed.sums, scales,
                     exposed.function_of_lane, band.shape.width, band.shape.height, band.tile_count,
                     tables.thresholds, tables.guesses, tables.guess_count, raster);
@@ -75,32 +120,38 @@ Picture Developer::codes(std::span<const ExposedBand> bands) {
   return picture;
 }
 
-// Has `launch` fill a band's own raster, and copies what belongs to the rectangle to where it lies there.
+// What a band and the rectangle have in common.
+Rectangle Developer::part_in(const Band& band) const {
+  const std::uint32_t top = std::max(band.first_row, rectangle_.y);
+  const std::uint32_t bottom = std::min(band.first_row + band.shape.height, rectangle_.y + rectangle_.height);
+  return {rectangle_.x, top, rectangle_.width, bottom - top};
+}
+
+// Has `launch` fill a band's own raster, and copies what belongs to a part of the rectangle to that part's.
 template <typename Launch>
-void Developer::develop_band(const Band& band, std::span<std::byte> raster, Launch launch) {
+void Developer::develop_band(const Band& band, const Rectangle& part, std::span<std::byte> raster,
+                             Launch launch) {
   const DeviceMemory::Scope scope(memory_);
-  const std::uint64_t pixel_bytes = raster.size() / shape_.pixel_count();
+  const std::uint64_t pixel_bytes = raster.size() / part.width / part.height;
   const cl::Buffer of_band = memory_.allocate(band.shape.pixel_count() * pixel_bytes, CL_MEM_WRITE_ONLY);
   const cl::Event event = launch(of_band);
-  read_band(of_band, band, raster);
+  read_band(of_band, band, part, raster);
   develop_ms_ += milliseconds(event).value_or(0.0);
 }
 
-void Developer::read_band(const cl::Buffer& of_band, const Band& band, std::span<std::byte> raster) {
-  const std::uint64_t pixel_bytes = raster.size() / shape_.pixel_count();
-  const std::uint32_t top = std::max(band.first_row, rectangle_.y);
-  const std::uint32_t bottom = std::min(band.first_row + band.shape.height, rectangle_.y + rectangle_.height);
+void Developer::read_band(const cl::Buffer& of_band, const Band& band, const Rectangle& part,
+                          std::span<std::byte> raster) {
+  const std::uint64_t pixel_bytes = raster.size() / part.width / part.height;
   const std::uint64_t band_row = band.shape.width * pixel_bytes;
-  const std::uint64_t row = rectangle_.width * pixel_bytes;
-  std::byte* to = raster.data() + (top - rectangle_.y) * row;
+  const std::uint64_t row = part.width * pixel_bytes;
   if (row == band_row) {
-    queue_.enqueueReadBuffer(of_band, CL_TRUE, (top - band.first_row) * row, (bottom - top) * row, to);
+    queue_.enqueueReadBuffer(of_band, CL_TRUE, (part.y - band.first_row) * row, raster.size(), raster.data());
     return;
   }
-  const cl::array<cl::size_type, 3> from{(rectangle_.x - band.first_column) * pixel_bytes,
-                                         top - band.first_row, 0};
-  queue_.enqueueReadBufferRect(of_band, CL_TRUE, from, {0, 0, 0}, {row, bottom - top, 1}, band_row, 0, row, 0,
-                               to);
+  const cl::array<cl::size_type, 3> from{(part.x - band.first_column) * pixel_bytes, part.y - band.first_row,
+                                         0};
+  queue_.enqueueReadBufferRect(of_band, CL_TRUE, from, {0, 0, 0}, {row, part.height, 1}, band_row, 0, row, 0,
+                               raster.data());
 }
 
 }  // namespace nutik

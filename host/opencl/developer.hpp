@@ -4,8 +4,11 @@
 //   out:     the rectangle's picture; of codes also how many pixels saturate
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "opencl/allocation_cuts.hpp"
 #include "opencl/build_options.hpp"
@@ -23,6 +26,7 @@ struct ExposedBand {
   cl::Buffer function_of_lane;  // function_map.hpp: the band's part
   cl::Buffer function_of_tile;
   cl::Buffer sums;  // Σ_k v_k w_k of every pixel, tile-major
+  std::shared_ptr<const std::vector<std::uint16_t>> host_function_of_tile;
 };
 
 class Developer {
@@ -48,12 +52,17 @@ class Developer {
   [[nodiscard]] double develop_ms() const { return develop_ms_; }
 
  private:
-  Picture light(std::span<const ExposedBand> bands, ValueType type);
+  Picture light(std::span<const ExposedBand> bands);
   Picture codes(std::span<const ExposedBand> bands);
   Picture counted_codes(std::span<const ExposedBand> bands);
+  template <typename Visit>
+  void for_each_part(std::span<const ExposedBand> bands, ValueType type, Visit visit);
+  void put(const Picture& of_part, const Rectangle& part, Picture& picture) const;
+  [[nodiscard]] Rectangle part_in(const Band& band) const;
   template <typename Launch>
-  void develop_band(const Band& band, std::span<std::byte> raster, Launch launch);
-  void read_band(const cl::Buffer& of_band, const Band& band, std::span<std::byte> raster);
+  void develop_band(const Band& band, const Rectangle& part, std::span<std::byte> raster, Launch launch);
+  void read_band(const cl::Buffer& of_band, const Band& band, const Rectangle& part,
+                 std::span<std::byte> raster);
 
   const Work& work_;
   const RenderPlan& plan_;

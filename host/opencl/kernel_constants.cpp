@@ -1,5 +1,7 @@
 #include "opencl/kernel_constants.hpp"
 
+#include <utility>
+
 #include "opencl/function_map.hpp"
 #include "opencl/light_source.hpp"
 #include "render/fixed_scale.hpp"
@@ -39,9 +41,11 @@ const DeviceMap& KernelConstants::map(const std::shared_ptr<const MaskMap>& map,
     memory.count(kept->bytes());
     return *kept;
   }
-  const FunctionMap functions = map_functions(*map, band);
+  FunctionMap functions = map_functions(*map, band);
+  const cl::Buffer of_lane = memory.upload(functions.of_lane), of_tile = memory.upload(functions.of_tile);
   const DeviceMap& made =
-      maps_.keep({map, band, memory.upload(functions.of_lane), memory.upload(functions.of_tile)});
+      maps_.keep({map, band, of_lane, of_tile,
+                  std::make_shared<const std::vector<std::uint16_t>>(std::move(functions.of_tile))});
   written_bytes += made.bytes();
   return made;
 }

@@ -50,6 +50,7 @@ struct DeviceMap {
   Band band;
   cl::Buffer of_lane;
   cl::Buffer of_tile;
+  std::shared_ptr<const std::vector<std::uint16_t>> host_of_tile;
   [[nodiscard]] std::uint64_t bytes() const {
     return band.tile_count * (kTilePixels + sizeof(std::uint16_t));
   }

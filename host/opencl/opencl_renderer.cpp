@@ -18,16 +18,16 @@
 #include "opencl/kernel_sources.hpp"
 #include "opencl/launch.hpp"
 #include "opencl/light_pieces.hpp"
+#include "opencl/needed_tiles.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
+#include "opencl/render_memory.hpp"
 #include "opencl/self_test.hpp"
 #include "opencl/verdict_store.hpp"
 
 namespace nutik {
 namespace {
 
-// Large enough that launching costs nothing, small enough that reading the next one hides behind it.
-constexpr std::uint64_t kChunkBytes = 64ull << 20;
 constexpr std::uint64_t kDefaultMemoryBytes = 4ull << 30;
 
 using ExposeKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer,
@@ -109,7 +109,7 @@ class OpenClRenderer::Implementation {
     if (options.precision) check_precision(*options.precision);
     context_ = cl::Context(device_);
     queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
-    feed_ = std::make_unique<BlockFeed>(context_, device_, info_, feed_limits());
+    feed_ = std::make_unique<BlockFeed>(context_, device_, info_);
     tables_ = std::make_unique<DeviceTables>(queue_, table_bytes());
     constants_ = std::make_unique<KernelConstants>(table_bytes());
     programs_ = std::make_unique<ProgramStore>(context_, device_, options.cache_folder, [this](auto&) {
@@ -179,17 +179,21 @@ class OpenClRenderer::Implementation {
   // What tables may take on the device between renders, and maps as much.
   [[nodiscard]] std::uint64_t table_bytes() const { return memory_bytes() / 16; }
 
-  [[nodiscard]] FeedLimits feed_limits() const {
-    const std::uint64_t memory = memory_bytes();
-    FeedLimits limits{std::min(kChunkBytes, memory / 4), memory / 2};
-    if (options_.chunk_bytes != 0) limits.chunk_bytes = options_.chunk_bytes;
-    return limits;
+  [[nodiscard]] RenderMemory memory_for(const Request& request, Precision precision) const {
+    const Shape shape{request.rectangle.width, request.rectangle.height, request.plan.capture.shape.channels};
+    const std::uint64_t allowed = request.control.memory_bytes;
+    RenderMemory memory =
+        allowed == 0 ? memory_for_blocks(memory_bytes())
+                     : memory_for_render(std::min(allowed, std::max(memory_bytes(), info_.memory_bytes / 2)),
+                                         request.plan, request.source, shape, request.output.type, precision);
+    if (options_.chunk_bytes != 0) memory.feed.chunk_bytes = options_.chunk_bytes;
+    return memory;
   }
 
   void check_precision(Precision precision) const {
     if (precision != Precision::double_ || info_.has_double) return;
-    throw DeviceError(
-        format("{} has no double precision; use auto, compensated or fixed", info_.name), {Setting::precision});
+    throw DeviceError(format("{} has no double precision; use auto, compensated or fixed", info_.name),
+                      {Setting::precision});
   }
 
   // The arithmetic of a picture: the fastest that is right enough and that the device computes rightly, unless one was
@@ -315,7 +319,8 @@ class OpenClRenderer::Implementation {
     for (const Band& band : cut_picture(shape, request.rectangle, work.precision, info_)) {
       const DeviceMap& map = constants_->map(request.plan.map, band, memory, statistics.map_bytes_written);
       const std::uint64_t bytes = sums_bytes(band.tile_count, shape.channels, work.precision);
-      bands.push_back({band, map.of_lane, map.of_tile, memory.allocate(bytes, CL_MEM_READ_WRITE)});
+      bands.push_back(
+          {band, map.of_lane, map.of_tile, memory.allocate(bytes, CL_MEM_READ_WRITE), map.host_of_tile});
     }
     return bands;
   }
@@ -324,6 +329,7 @@ class OpenClRenderer::Implementation {
   std::vector<ExposedBand> expose(const Work& work, const Request& request, DeviceMemory& memory,
                                   RenderStatistics& statistics) {
     const RenderPlan& plan = request.plan;
+    const RenderMemory shares = memory_for(request, work.precision);
     std::vector<ExposedBand> bands = bands_of(work, request, memory, statistics);
     if (plan.blocks.empty()) {
       for (const ExposedBand& exposed : bands) {  // 0 in every arithmetic
@@ -336,12 +342,12 @@ class OpenClRenderer::Implementation {
     const DeviceLight& light = light_of(work, plan, memory);
     ExposeKernel kernel(expose_program(work, plan, light), "expose");
 
-    // The tables that are kept are at least those of one slice: weights and boundaries.
-    const std::vector<TableSlice> slices = cut_tables(plan, work.precision, info_, table_bytes() / 2);
+    const std::vector<TableSlice> slices = cut_tables(plan, work.precision, info_, shares.slice_bytes);
     const auto function_count = static_cast<cl_uint>(plan.function_count());
     const std::uint64_t most_samples = most_samples_a_launch(info_, work.shape);
 
-    feed_->start(plan, slices, request.source);
+    const NeededTiles tiles(plan, bands);
+    feed_->start(plan, slices, request.source, tiles, shares.feed);
     const StoppedAtEnd stopped(*feed_);
     std::size_t block = 0;
     for (const TableSlice& slice : slices) {
@@ -358,11 +364,12 @@ class OpenClRenderer::Implementation {
           const cl::Buffer entries = memory.upload(part);
           for (const ExposedBand& exposed : bands) {
             const Band& band = exposed.band;
-            const cl::Event event = kernel(
-                items(queue_, work.shape, band.tile_count), chunk.payload, entries,
-                static_cast<cl_uint>(part.size()), tables.spans, tables.weights, tables.boundaries,
-                function_count, exposed.function_of_tile, exposed.function_of_lane, light.values, exposed.sums,
-                band.first_tile, band.tile_count, band.columns, band.skipped_columns, block == 0 ? 1u : 0u);
+            const cl::Event event =
+                kernel(items(queue_, work.shape, band.tile_count), chunk.payload, entries,
+                       static_cast<cl_uint>(part.size()), tables.spans, tables.weights, tables.boundaries,
+                       function_count, exposed.function_of_tile, exposed.function_of_lane, light.values,
+                       exposed.sums, band.first_tile, band.tile_count, band.columns, band.skipped_columns,
+                       block == 0 ? 1u : 0u);
             event.wait();
             const std::optional<double> took_ms = milliseconds(event);
             statistics.expose_ms += took_ms.value_or(0.0);

@@ -39,7 +39,8 @@ bool Validation::is_within_bounds() const {
 
 Validation validate(const RenderPlan& plan, CaptureSource& capture, const OutputFormat& output,
                     OpenClRenderer& renderer, std::uint32_t runs,
-                    const std::function<void(std::uint64_t done, std::uint64_t total)>& progress) {
+                    const std::function<void(std::uint64_t done, std::uint64_t total)>& progress,
+                    std::uint64_t memory_bytes) {
   const auto precisions = renderer.precisions();
   const std::uint64_t total = 1 + precisions.size() * (2 + std::uint64_t{runs});
   std::uint64_t done = 0;
@@ -48,15 +49,17 @@ Validation validate(const RenderPlan& plan, CaptureSource& capture, const Output
   validation.output = output;
 
   const Clock::time_point start = Clock::now();
-  const Picture expected = ReferenceRenderer().render(plan, capture, kLight).picture;
+  RenderControl control;
+  control.memory_bytes = memory_bytes;
+  const Picture expected = ReferenceRenderer().render(plan, capture, kLight, control).picture;
   validation.reference_ms = milliseconds_since(start);
   step();
 
   renderer.keep_resident(&capture);
   const auto render = [&](Precision precision, const OutputFormat& format) {
-    RenderControl control;
-    control.precision = precision;
-    return renderer.render(plan, capture, format, control);
+    RenderControl with_precision = control;
+    with_precision.precision = precision;
+    return renderer.render(plan, capture, format, with_precision);
   };
   std::vector<Precision> trusted;
   for (const Precision precision : precisions) {

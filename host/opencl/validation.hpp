@@ -45,6 +45,7 @@ struct Validation {
 // The capture is the renderer's resident one meanwhile; none is afterwards.
 [[nodiscard]] Validation validate(
     const RenderPlan& plan, CaptureSource& capture, const OutputFormat& output, OpenClRenderer& renderer,
-    std::uint32_t runs, const std::function<void(std::uint64_t done, std::uint64_t total)>& progress);
+    std::uint32_t runs, const std::function<void(std::uint64_t done, std::uint64_t total)>& progress,
+    std::uint64_t memory_bytes = 0);
 
 }  // namespace nutik

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture/memory_needs.hpp"
 #include "imev/each_block.hpp"
 #include "render/code_scale.hpp"
 #include "render/value_walk.hpp"
@@ -96,11 +97,9 @@ class Reference {
   std::vector<ValueWalk> walks_;  // by value of the rectangle
 };
 
-}  // namespace
-
-Rendered ReferenceRenderer::render_part(const RenderPlan& plan, CaptureSource& source,
-                                        const OutputFormat& output, const Rectangle& rectangle,
-                                        const RenderControl& control) {
+// A rectangle's light.
+Picture light_of(const RenderPlan& plan, CaptureSource& source, const Rectangle& rectangle,
+                 const RenderControl& control, std::uint32_t white_code) {
   Reference reference(plan, source.timeline(), rectangle);
   BlockCursor cursor(source);
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
@@ -110,25 +109,73 @@ Rendered ReferenceRenderer::render_part(const RenderPlan& plan, CaptureSource& s
     reference.add_block(planned, cursor.at(planned.block), follows);
   }
   throw_if_cancelled(control);
+  Picture light({rectangle.width, rectangle.height, plan.capture.shape.channels}, ValueType::light64,
+                white_code);
+  for (std::uint64_t i = 0; i < light.shape.value_count(); ++i)
+    light.values<double>()[i] = reference.light(i);
+  return light;
+}
 
+// What it takes for each value that it walks along: the walk, its light, and that as it is stored.
+constexpr std::uint64_t kWalkBytes = sizeof(ValueWalk) + 2 * sizeof(double);
+
+// How many rows of pixels are walked along at a time. Whole rows of tiles: a tile is read for all of its pixels.
+std::uint32_t rows_at_once(const RenderPlan& plan, const CaptureSource& source, const Shape& shape,
+                           ValueType type, std::uint64_t allowed) {
+  if (allowed == 0) return shape.height;
+  std::uint64_t block_bytes = 0;
+  for (const PlannedBlock& planned : plan.blocks) {
+    block_bytes = std::max(block_bytes, source.lent_bytes(planned.block));
+  }
+  const std::uint64_t tile_row = std::uint64_t{shape.width} * shape.channels * kTileSide * kWalkBytes;
+  const MemoryNeeds needs{{"the picture", shape.value_count() * value_bytes(type)},
+                          {"a block", block_bytes},
+                          {"sums of a row of tiles", tile_row}};
+  const std::uint64_t rows = (1 + needs.rest_of(allowed) / tile_row) * kTileSide;
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, shape.height));
+}
+
+// Light of type light64 as a picture of another.
+Picture stored(Picture light, const OutputFormat& output, const Transfer& transfer, Saturation& saturation) {
+  if (output.type == ValueType::light64) return light;
+  if (holds_codes(output.type)) {
+    const CodeScale scale(transfer, output);
+    saturation += count_saturated(light, scale);
+    return encoded(light, scale, output);
+  }
+  Picture narrow(light.shape, output.type, output.white_code);
+  std::ranges::transform(light.values<double>(), narrow.values<float>().begin(),
+                         [](double value) { return static_cast<float>(value); });
+  return narrow;
+}
+
+}  // namespace
+
+// In strips, each of which goes through all blocks: one, unless memory is short.
+Rendered ReferenceRenderer::render_part(const RenderPlan& plan, CaptureSource& source,
+                                        const OutputFormat& output, const Rectangle& rectangle,
+                                        const RenderControl& control) {
   const Shape shape{rectangle.width, rectangle.height, plan.capture.shape.channels};
+  const std::uint32_t rows = source.access().is_forward_only
+                                 ? shape.height
+                                 : rows_at_once(plan, source, shape, output.type, control.memory_bytes);
   Rendered rendered;
-  if (output.type == ValueType::light32) {
-    rendered.picture = Picture(shape, output.type, output.white_code);
-    for (std::uint64_t i = 0; i < shape.value_count(); ++i) {
-      rendered.picture.values<float>()[i] = static_cast<float>(reference.light(i));
+  Picture& picture = rendered.picture;
+  if (rows < shape.height) {
+    picture = Picture({shape.width, 0, shape.channels}, output.type, output.white_code);
+    picture.bytes.reserve(shape.value_count() * value_bytes(output.type));
+  }
+  for (std::uint32_t y = 0; y < shape.height; y += rows) {
+    const Rectangle strip{rectangle.x, rectangle.y + y, rectangle.width, std::min(rows, shape.height - y)};
+    Picture part = stored(light_of(plan, source, strip, control, output.white_code), output,
+                          plan.capture.transfer, rendered.saturation);
+    if (rows == shape.height) {
+      picture = std::move(part);
+    } else {
+      picture.bytes.insert(picture.bytes.end(), part.bytes.begin(), part.bytes.end());
+      picture.shape.height += part.shape.height;
     }
-    return rendered;
   }
-  Picture light(shape, ValueType::light64, output.white_code);
-  for (std::uint64_t i = 0; i < shape.value_count(); ++i) light.values<double>()[i] = reference.light(i);
-  if (output.type == ValueType::light64) {
-    rendered.picture = std::move(light);
-    return rendered;
-  }
-  const CodeScale scale(plan.capture.transfer, output);
-  rendered.saturation = count_saturated(light, scale);
-  rendered.picture = encoded(light, scale, output);
   return rendered;
 }
 

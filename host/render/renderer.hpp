@@ -24,6 +24,10 @@ struct RenderControl {
   std::stop_token stop;                // looked at between launches: render() throws Cancelled
   std::optional<Rectangle> rectangle;  // only these pixels, which are the whole picture's; none: all
   std::optional<Precision> precision;  // instead of what the renderer was made with
+
+  // What the render may take, the picture included: MemoryTooLittle where that does not do. 0: it may take what the
+  // renderer was made with for blocks, and for the picture what that needs.
+  std::uint64_t memory_bytes = 0;
 };
 
 // What a render took.
@@ -31,11 +35,12 @@ struct RenderStatistics {
   double read_ms = 0.0;    // waited for payloads to be where the kernel reads them: unpacking, copying
   double expose_ms = 0.0;  // of the kernels, by the device's own clock
   double develop_ms = 0.0;
-  bool is_timed = true;             // false: the driver does not time kernels, and both are 0
-  std::uint64_t payload_bytes = 0;  // read by the kernel
-  std::uint64_t device_bytes = 0;   // largest sum of buffers at a time
+  bool is_timed = true;                   // false: the driver does not time kernels, and both are 0
+  std::uint64_t payload_bytes = 0;        // read by the kernel
+  std::uint64_t device_bytes = 0;         // largest sum of buffers at a time
   std::uint64_t table_bytes_written = 0;  // of gain tables, and
-  std::uint64_t map_bytes_written = 0;    // of functions of pixels, that were not on the device from renders before
+  std::uint64_t map_bytes_written =
+      0;  // of functions of pixels, that were not on the device from renders before
   std::uint64_t blocks = 0;
   std::uint64_t launches = 0;  // of the kernel that exposes: a chunk of blocks in a band of the picture each
 };

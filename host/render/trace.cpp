@@ -23,7 +23,7 @@ struct LightRecord {
 // Walks along one pixel's light, or a mean of them, which a function of the blocks gives.
 using ReadLight = std::function<std::vector<LightRecord>(const BlockView& block)>;
 
-Trace trace(const RenderPlan& plan, CaptureSource& source, std::size_t function,
+Trace trace(const RenderPlan& plan, CaptureSource& source, std::size_t function, const WantsTiles& wants,
             const ReadLight& read_light) {
   Trace trace;
   trace.channels = plan.capture.shape.channels;
@@ -36,7 +36,7 @@ Trace trace(const RenderPlan& plan, CaptureSource& source, std::size_t function,
   for (const PlannedBlock& planned : plan.blocks) {
     // The reference also walks through what other functions need: there it adds zeros, which change no bit.
     if (plan.functions[function].table->span_in(planned.extent).empty()) continue;
-    const auto records = read_light(cursor.at(planned.block));
+    const auto records = read_light(cursor.at(planned.block, wants));
     const std::vector<SampleTimes> times = source.timeline().times(planned.extent.range());
     const bool follows = block_before && *block_before + 1 == planned.block;
     block_before = planned.block;
@@ -106,9 +106,11 @@ Trace trace_pixel(const RenderPlan& plan, CaptureSource& source, std::uint32_t x
   }
   const TileGrid grid(shape);
   const std::uint64_t pixel = std::uint64_t{y} * shape.width + x;
+  const std::uint64_t tile = grid.tile_of(x, y);
+  const auto wants = [&](std::uint64_t first, std::uint64_t last) { return first <= tile && tile < last; };
   std::vector<ChangeRecord> history;
-  Trace result = trace(plan, source, plan.function_of(pixel), [&](const BlockView& block) {
-    block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);
+  Trace result = trace(plan, source, plan.function_of(pixel), wants, [&](const BlockView& block) {
+    block.read_history(tile, TileGrid::lane_of(x, y), history);
     std::vector<LightRecord> records;
     for (const ChangeRecord& change : history) {
       LightRecord record{change.sample, {}};
@@ -132,7 +134,7 @@ Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t t
   const std::vector<double> light_of =
       plan.capture.transfer.light_of_all_codes(plan.capture.white_code, plan.capture.code_bytes);
   std::vector<ChangeRecord> history;
-  Trace result = trace(plan, source, function, [&](const BlockView& block) {
+  Trace result = trace(plan, source, function, {}, [&](const BlockView& block) {
     LightSum sum(block.extent());
     for (std::uint64_t pixel = 0; pixel < shape.pixel_count(); ++pixel) {
       if (plan.function_of(pixel) != function) continue;

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "capture/format.hpp"
-#include "imev/block_builder.hpp"
 #include "session/measured_noise.hpp"
 #include "system/mapped_file.hpp"
 #include "tik/header.hpp"
@@ -67,28 +66,23 @@ Timeline ClipSource::timeline(std::uint64_t sample_count) const {
                      request.shutter_angle.value_or(Timeline::kFullShutter), sample_count);
 }
 
+ReadClip ClipSource::read_clip() const {
+  return {capture, clip->info().decoder_bytes, request.block_samples, announced_samples()};
+}
+
 ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory) {
   ClipSource source;
   source.request = request;
   refuse_streams(request.path);
-  source.clip = open_clip(request.path, request.clip);
+  ClipOptions options = request.clip;
+  options.decoder_bytes = memory.bytes / 8;
+  source.clip = open_clip(request.path, options);
   if (request.shutter_angle && !request.clip.rate && !source.clip->info().timing.exposures.empty()) {
     throw ExposuresAreListed(request.path.string());
   }
   source.capture = clip_format(*source.clip, request.clip);
   source.notes = source.clip->info().notes;
   source.capture.noise = noise_model(source);
-  source.block_samples = request.block_samples.value_or(
-      default_block_samples(source.capture, std::min(kDefaultBlockBytes, memory.block_bytes())));
-  source.block_limits = request.block_samples ? BlockLimits(*request.block_samples)
-                                              : default_block_limits(source.capture, memory.block_bytes());
-  // With a camera's noise a block takes memory for the samples it may hold: no more than there are.
-  if (const std::uint64_t announced = source.announced_samples(); announced != 0) {
-    for (std::uint32_t* samples : {&source.block_samples, &source.block_limits.samples}) {
-      *samples = static_cast<std::uint32_t>(std::min<std::uint64_t>(*samples, announced));
-    }
-  }
-  memory.check(source.capture, source.block_samples);
   return source;
 }
 

@@ -1,7 +1,7 @@
 // Clips as a session reads them.
 //
-//   in:      a request, the memory that blocks may take
-//   out:     the clip, the format of its samples with the noise model, when its blocks close
+//   in:      a request, what may be held in memory
+//   out:     the clip, the format of its samples with the noise model
 //   always:  nothing of the clip has been read but what its noise was measured on
 #pragma once
 
@@ -12,9 +12,8 @@
 #include <vector>
 
 #include "capture/error.hpp"
-#include "imev/block_builder.hpp"
 #include "media/clip.hpp"
-#include "session/memory_budget.hpp"
+#include "session/clip_memory.hpp"
 #include "session/source_request.hpp"
 
 namespace nutik {
@@ -30,19 +29,18 @@ namespace nutik {
 struct ClipSource {
   SourceRequest request;
   std::unique_ptr<Clip> clip;
-  CaptureFormat capture;            // of its samples; what is held of them has held_format()
-  std::uint32_t block_samples = 0;  // of a stream's blocks
-  BlockLimits block_limits = {kDefaultBlockSamples};  // of a file's
-  std::vector<Note> notes;                            // on the clip and its noise: what a person should know
+  CaptureFormat capture;    // of its samples; what is held of them has held_format()
+  std::vector<Note> notes;  // on the clip and its noise: what a person should know
 
   // As the files announce it; 0: they do not.
   [[nodiscard]] std::uint64_t announced_samples() const { return clip->info().sample_count; }
   // Of so many samples. Throws InputError where nothing tells how fast they were taken.
   [[nodiscard]] Timeline timeline(std::uint64_t sample_count) const;
+  // What its memory is shared out by.
+  [[nodiscard]] ReadClip read_clip() const;
 };
 
-// Throws InputError where the clip cannot be read, UsageError where the request does not fit it: ExposuresAreListed,
-// BlocksTooLong, PicturesTooLarge.
+// Throws InputError where the clip cannot be read, UsageError where the request does not fit it: ExposuresAreListed.
 [[nodiscard]] ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory);
 
 // A shutter angle was stated for pictures whose exposures are listed.

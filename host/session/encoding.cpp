@@ -28,7 +28,7 @@ constexpr std::size_t kPayloads = 1;  // besides the one that is being built
 class Encoding {
  public:
   // Reads the first sample.
-  Encoding(ClipSource source, const EncodeRequest& request, const MemoryBudget& memory);
+  Encoding(ClipSource source, const EncodeRequest& request, const ClipMemory& memory);
 
   Encoded run(const ReportedProgress& progress, const std::stop_token& stop);
 
@@ -56,12 +56,12 @@ class Encoding {
   Channel<PageBuffer> spare_payloads_;
 };
 
-Encoding::Encoding(ClipSource source, const EncodeRequest& request, const MemoryBudget& memory)
+Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMemory& memory)
     : source_(std::move(source)),
-      builder_(source_.capture, source_.block_limits, source_.request.tiles),
+      builder_(source_.capture, memory.blocks, source_.request.tiles),
       // Before anything is read, so that times that cannot be used are said at once.
       times_(source_.timeline(std::max<std::uint64_t>(source_.announced_samples(), 1))),
-      samples_(*source_.clip, memory.read_ahead_bytes()),
+      samples_(*source_.clip, memory.read_ahead_bytes),
       first_(samples_.next(1)),
       blocks_(kPayloads),
       spare_payloads_(kPayloads) {
@@ -71,7 +71,8 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const Memory
   const std::optional<Rational>& stated_rate = source_.request.clip.rate;
   header.rate = stated_rate ? stated_rate : source_.clip->info().timing.rate;
   header.shutter_angle = times_.shutter_angle();
-  writer_.emplace(request.output, header, request.codec, to_held_codes(source_.capture, first_.front()));
+  writer_.emplace(request.output, header, request.codec, to_held_codes(source_.capture, first_.front()),
+                  memory.threads);
   for (std::size_t i = 0; i < kPayloads; ++i) spare_payloads_.push(PageBuffer());
 }
 
@@ -137,14 +138,16 @@ void Encoding::store() {
 
 }  // namespace
 
-Encoded encode(ClipSource source, const EncodeRequest& request, const MemoryBudget& memory,
+Encoded encode(ClipSource source, const EncodeRequest& request, const ClipMemory& memory,
                const ReportedProgress& progress, std::stop_token stop) {
   return Encoding(std::move(source), request, memory).run(progress, stop);
 }
 
 Encoded encode(const SourceRequest& source, const EncodeRequest& request, const MemoryBudget& memory,
                const ReportedProgress& progress, std::stop_token stop) {
-  return encode(open_clip_source(source, memory), request, memory, progress, std::move(stop));
+  ClipSource clip = open_clip_source(source, memory);
+  const ClipMemory shares = memory_for_encoding(memory, clip.read_clip());
+  return encode(std::move(clip), request, shares, progress, std::move(stop));
 }
 
 }  // namespace nutik

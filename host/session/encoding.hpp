@@ -30,10 +30,10 @@ struct Encoded {
 
 // Reads all of the clip; `progress` counts samples. Throws InputError where there is no sample or where the clip's
 // times cannot be used, OutputError where the file cannot be written, Cancelled.
-[[nodiscard]] Encoded encode(ClipSource source, const EncodeRequest& request, const MemoryBudget& memory,
+[[nodiscard]] Encoded encode(ClipSource source, const EncodeRequest& request, const ClipMemory& memory,
                              const ReportedProgress& progress = {}, std::stop_token stop = {});
 
-// The same of what open_clip_source() opens.
+// The same of what open_clip_source() opens; throws MemoryTooLittle, BlocksTooLong besides.
 [[nodiscard]] Encoded encode(const SourceRequest& source, const EncodeRequest& request,
                              const MemoryBudget& memory, const ReportedProgress& progress = {},
                              std::stop_token stop = {});

@@ -6,36 +6,43 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/read_ahead.hpp"
+#include "session/clip_memory.hpp"
 
 namespace nutik {
 namespace {
 
 ExposedPicture expose_once(ClipSource& source, std::uint64_t sample_count, const MemoryBudget& memory,
-                           const ExposureRequest& request, const ExposeStream& expose) {
+                           const ExposureRequest& request, ValueType type, const MemoryNeeds& besides,
+                           const ExposeStream& expose) {
   const Timeline timeline = source.timeline(sample_count);
   const FunctionSet functions = functions_of(request, timeline);
   const Mask mask = mask_of(request, source.capture.shape);
   PlanOptions options = plan_options_of(request);
   options.transfer.reset();  // it went into the capture's format
+  MemoryNeeds rendering = rendering_needs(source.capture, type, functions.size(),
+                                          source.request.block_samples.value_or(kDefaultBlockSamples));
+  rendering.add(besides);
+  const ClipMemory shares = memory_for_streaming(memory, source.read_clip(), rendering);
   const SampleRange needed = needed_samples(timeline, functions, mask, options);
   const std::uint64_t last =
-      streamed_samples(source.capture, needed, source.block_samples, timeline.sample_count()).last;
+      streamed_samples(source.capture, needed, shares.stream_samples, timeline.sample_count()).last;
   // At the timeline's end samples that follow are counted: they prove it wrong.
   const bool is_end = last == timeline.sample_count();
-  ReadAhead samples(*source.clip, memory.read_ahead_bytes(), is_end ? ReadAhead::kAll : last);
-  StreamingCapture stream(source.capture, timeline, needed, source.block_samples, source.request.tiles,
+  ReadAhead samples(*source.clip, shares.read_ahead_bytes, is_end ? ReadAhead::kAll : last);
+  StreamingCapture stream(source.capture, timeline, needed, shares.stream_samples, source.request.tiles,
                           [&](std::uint64_t most) { return samples.next(most); });
-  return expose(stream, functions, mask, options);
+  return expose(stream, functions, mask, options, shares.bytes);
 }
 
 }  // namespace
 
 ExposedPicture expose_forward(ClipSource source, const MemoryBudget& memory, const ExposureRequest& request,
-                              const ExposeStream& expose) {
+                              ValueType type, const MemoryNeeds& besides, const ExposeStream& expose) {
   std::optional<std::uint64_t> decoded;  // samples, where they are not those announced
   for (;;) {
     try {
-      return expose_once(source, decoded.value_or(source.announced_samples()), memory, request, expose);
+      return expose_once(source, decoded.value_or(source.announced_samples()), memory, request, type, besides,
+                         expose);
     } catch (const SampleCountMismatch& mismatch) {
       if (decoded == mismatch.sample_count || mismatch.sample_count == 0) {
         throw InputError(format("{}: only {} pictures can be decoded", source.request.path.string(),

@@ -50,4 +50,13 @@ Frames frames_of(const FramesRequest& request, const Timeline& timeline) {
   return frames;
 }
 
+NeedsOfFormat video_needs(std::uint32_t encoder_frames) {
+  return [encoder_frames](const CaptureFormat& capture) {
+    const std::uint64_t bytes = capture.shape.value_count() * value_bytes(code_type(capture));
+    const std::uint64_t encoded = capture.shape.pixel_count() * 3 / 2;
+    return MemoryNeeds{{"frames that wait", (waiting_pictures(bytes) + 3) * bytes},
+                       {"frames within the encoder", encoder_frames * encoded}};
+  };
+}
+
 }  // namespace nutik

@@ -8,6 +8,7 @@
 #include "capture/frame_times.hpp"
 #include "capture/rational.hpp"
 #include "session/exposure_request.hpp"
+#include "session/memory_budget.hpp"
 
 namespace nutik {
 
@@ -35,5 +36,9 @@ struct Frames {
 
 // Throws UsageError where the capture has none, or times make no sense.
 [[nodiscard]] Frames frames_of(const FramesRequest& request, const Timeline& timeline);
+
+// What a video takes while it is written beside what renders it: frames that wait, one that is converted and becomes
+// what its encoder takes, and so many that the encoder keeps.
+[[nodiscard]] NeedsOfFormat video_needs(std::uint32_t encoder_frames);
 
 }  // namespace nutik

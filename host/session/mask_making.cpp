@@ -191,6 +191,12 @@ class MaskMaker {
 
 }  // namespace
 
+MemoryNeeds mask_making_needs(const CaptureFormat& capture) {
+  const Shape& shape = capture.shape;
+  return {{"codes of pixels", 2 * shape.value_count() * sizeof(std::uint16_t)},
+          {"spans and regions of pixels", shape.pixel_count() * (2 * sizeof(std::uint32_t) + 4)}};
+}
+
 MadeMask make_mask(const MaskRequest& request, CaptureSource* capture, const std::string& capture_name) {
   const MaskSize size = size_of(request, capture, capture_name);
   MaskMaker maker(request.base ? *request.base->mask : Mask::uniform(size.width, size.height, 0), capture);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capture/error.hpp"
+#include "capture/memory_needs.hpp"
 #include "exposure/mask.hpp"
 #include "imev/capture_source.hpp"
 #include "session/mask_request.hpp"
@@ -31,6 +32,10 @@ struct MadeMask {
   Mask mask;
   std::vector<StepReport> steps;
 };
+
+// What making a mask of a capture takes, beside a block of it: two codes of each value, or two pictures, and of each
+// pixel its span, that again while the usual noise is sought, and a few regions.
+[[nodiscard]] MemoryNeeds mask_making_needs(const CaptureFormat& capture);
 
 // Of the size that everything stated agrees on. `capture` is null where no step reads one; `capture_name` is for
 // messages. Throws NoMaskSize, UsageError where sizes differ or a time lies outside the capture, InputError

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 
 #include "capture/error.hpp"
+#include "capture/memory_needs.hpp"
 #include "capture/picture.hpp"
 
 namespace nutik {
@@ -15,30 +17,29 @@ struct MemoryBudget {
   // Half of the machine's memory.
   static MemoryBudget of_machine();
 
-  // Of a block's samples as rasters. Encoding holds about four: one being built, one being packed, and what it is
-  // packed into, in parts and whole; with a camera's noise a fifth, the samples as they came.
-  [[nodiscard]] std::uint64_t block_bytes() const { return bytes / 6; }
-  // Of samples decoded ahead.
-  [[nodiscard]] std::uint64_t read_ahead_bytes() const {
-    return std::min<std::uint64_t>(64 << 20, bytes / 8);
-  }
   // Of tables that plans have in common.
   [[nodiscard]] std::uint64_t table_bytes() const { return bytes / 32; }
   // Of blocks where a device reads them.
   [[nodiscard]] std::uint64_t rendering_bytes() const { return bytes / 2; }
 
-  // Throws PicturesTooLarge or BlocksTooLong where a single sample, or a block of so many, does not fit.
-  void check(const CaptureFormat& capture, std::uint32_t block_samples) const;
-
   friend bool operator==(const MemoryBudget&, const MemoryBudget&) = default;
 };
 
-// The budget does not hold the pictures that reading a clip needs at the least.
-struct PicturesTooLarge : UsageError {
-  std::uint64_t least_bytes;  // that would do
+// How many finished pictures of a size may wait to be written: no more than 64 MB of them, but one.
+[[nodiscard]] inline std::uint32_t waiting_pictures(std::uint64_t picture_bytes) {
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>((64 << 20) / picture_bytes, 1, 4));
+}
 
-  PicturesTooLarge(std::uint64_t bytes, std::uint64_t sample_bytes, std::uint64_t sample_count);
-};
+// What is held of a capture, or beside it, by its format.
+using NeedsOfFormat = std::function<MemoryNeeds(const CaptureFormat& capture)>;
+
+// What is held of a capture of this format, whatever is rendered of it: the mask of a request, as it is used, and as it
+// was used before.
+[[nodiscard]] MemoryNeeds mask_needs(const CaptureFormat& capture);
+
+// What rendering takes at the least, with tables of so many functions over a block of so many samples.
+[[nodiscard]] MemoryNeeds rendering_needs(const CaptureFormat& capture, ValueType type,
+                                          std::uint64_t function_count, std::uint64_t block_samples);
 
 // The budget does not hold blocks of so many samples.
 struct BlocksTooLong : UsageError {

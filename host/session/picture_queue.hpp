@@ -8,6 +8,7 @@
 #include <string>
 
 #include "capture/error.hpp"
+#include "capture/memory_needs.hpp"
 #include "capture/picture.hpp"
 #include "system/channel.hpp"
 
@@ -23,6 +24,12 @@ class PictureQueue {
   ~PictureQueue();
   PictureQueue(const PictureQueue&) = delete;
   PictureQueue& operator=(const PictureQueue&) = delete;
+
+  // What the pictures take that wait and are written, codes of a capture's depth.
+  [[nodiscard]] static MemoryNeeds needs(const CaptureFormat& capture) {
+    return {{"pictures that are written",
+             (kWaiting + 1) * capture.shape.value_count() * value_bytes(code_type(capture))}};
+  }
 
   // Waits while too many pictures wait already. `number` tells the caller which one failed; `text` goes into
   // the picture (media/picture_writer.hpp).

@@ -1,5 +1,6 @@
 #include "session/session.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <future>
 #include <mutex>
@@ -9,12 +10,26 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/expected_values.hpp"
+#include "render/picture_memory.hpp"
 #include "render/plan_cache.hpp"
+#include "session/clip_memory.hpp"
 #include "session/clip_source.hpp"
 #include "session/forward_clip.hpp"
 #include "session/scratch_capture.hpp"
 
 namespace nutik {
+
+namespace {
+
+std::uint64_t largest_block(const CaptureSource& source) {
+  std::uint64_t bytes = 0;
+  for (std::uint64_t block = 0; block < source.block_count(); ++block) {
+    bytes = std::max(bytes, source.lent_bytes(block));
+  }
+  return bytes;
+}
+
+}  // namespace
 
 SessionIsSpent::SessionIsSpent()
     : UsageError(
@@ -50,18 +65,29 @@ class Session::Implementation {
                                            std::uint32_t runs, const ReportedProgress& progress);
   [[nodiscard]] SourceCheck compare_with(const SourceRequest& clip, const ReportedProgress& progress);
 
- private:
   [[nodiscard]] const MemoryBudget& memory() const { return devices_->request().memory; }
+
+ private:
+  [[nodiscard]] MemoryNeeds besides_of(const CaptureFormat& format) const {
+    return besides_ ? besides_(format) : MemoryNeeds();
+  }
+  // What is held while a picture is rendered, beside what rendering itself takes.
+  [[nodiscard]] MemoryNeeds held_needs() const;
+  // The same while the capture is read without a picture: with a block of it.
+  void check_reading(const MemoryNeeds& more) const;
   [[nodiscard]] RenderPlan plan(const ExposureRequest& request);
   [[nodiscard]] ExposedPicture expose(CaptureSource& source, const FunctionSet& functions, const Mask& mask,
                                       const PlanOptions& options, const OutputFormat& output,
-                                      const RenderControl& control);
+                                      const RenderControl& control, std::uint64_t stream_bytes = 0);
+  template <typename Work>
+  auto within(const MemoryNeeds& more, Work work) const;
   void warm_up(CaptureSource& source, const RenderPlan& plan, const OutputFormat& output);
   void spend();
 
   SourceRequest source_;
   std::shared_ptr<Devices> devices_;
   Reading reading_;
+  NeedsOfFormat besides_;
   bool is_clip_;
   CaptureFormat format_;
   std::vector<Note> notes_;
@@ -82,6 +108,7 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
     : source_(source),
       devices_(std::move(devices)),
       reading_(terms.reading),
+      besides_(terms.besides),
       is_clip_(!is_tik(source.path)),
       plans_(memory().table_bytes()) {
   if (!is_clip_) {
@@ -91,7 +118,16 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
     }
     reader_ = std::make_unique<tik::Reader>(source.path);
   } else if (reading_ == Reading::whole) {
-    ScratchCapture scratch = encode_to_scratch(source, memory(), terms.progress, terms.stop);
+    ScratchCapture scratch = encode_to_scratch(
+        source, memory(),
+        [&](const CaptureFormat& format) {
+          MemoryNeeds needs = terms.renders
+                                  ? rendering_needs(format, code_type(format), 1, kDefaultBlockSamples)
+                                  : MemoryNeeds();
+          needs.add(besides_of(format));
+          return needs;
+        },
+        terms.progress, terms.stop);
     reader_ = std::move(scratch.reader);
     notes_ = std::move(scratch.encoded.notes);
     warnings_ = std::move(scratch.encoded.warnings);
@@ -101,6 +137,34 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
     notes_ = clip_->notes;
   }
   format_ = reader_ ? reader_->format() : held_format(clip_->capture);
+  if (reader_ && !terms.renders) check_reading({});
+}
+
+MemoryNeeds Session::Implementation::held_needs() const {
+  MemoryNeeds needs = mask_needs(format_);
+  needs.add(besides_of(format_));
+  return needs;
+}
+
+void Session::Implementation::check_reading(const MemoryNeeds& more) const {
+  MemoryNeeds needs = more;
+  needs.add(besides_of(format_));
+  needs.add("a block", largest_block(*reader_));
+  needs.rest_of(memory().bytes);
+}
+
+// Calls work(bytes) with what the budget leaves of what is held beside, so much more of it. What that says to be too
+// little becomes the least of all together.
+template <typename Work>
+auto Session::Implementation::within(const MemoryNeeds& more, Work work) const {
+  MemoryNeeds held = held_needs();
+  held.add(more);
+  try {
+    return work(std::max(memory().bytes - std::min(memory().bytes, held.bytes()), std::uint64_t{1}));
+  } catch (const MemoryTooLittle& error) {
+    held.add(error.needs);
+    throw MemoryTooLittle(memory().bytes, std::move(held));
+  }
 }
 
 void Session::Implementation::spend() {
@@ -117,23 +181,35 @@ RenderPlan Session::Implementation::plan(const ExposureRequest& request) {
                      plan_options_of(request));
 }
 
-// A device that is still starting loads its kernels beside the first block.
+// A device that is still starting loads its kernels beside the first block, unless much of that may not be needed.
 void Session::Implementation::warm_up(CaptureSource& source, const RenderPlan& plan,
                                       const OutputFormat& output) {
   if (devices_->is_ready()) return;
   auto ready = std::async(std::launch::async, [&] { devices_->renderer().prepare(plan, output); });
-  if (!plan.blocks.empty()) source.preload(plan.blocks.front().block);
+  if (!plan.blocks.empty()) {
+    const PlannedBlock& first = plan.blocks.front();
+    const bool is_read_whole = std::ranges::none_of(plan.functions, [&](const PlannedFunction& function) {
+      return function.table->span_in(first.extent).empty();
+    });
+    const bool is_small = source.lent_bytes(first.block) <= memory().bytes / 4;
+    if (is_read_whole && is_small) source.preload(first.block);
+  }
   ready.get();
 }
 
 ExposedPicture Session::Implementation::expose(CaptureSource& source, const FunctionSet& functions,
                                                const Mask& mask, const PlanOptions& options,
-                                               const OutputFormat& output, const RenderControl& control) {
+                                               const OutputFormat& output, const RenderControl& control,
+                                               std::uint64_t stream_bytes) {
   throw_if_cancelled(control);
   RenderPlan plan = plans_.plan(source, functions, mask, options);
   std::call_once(warmed_up_, [&] { warm_up(source, plan, output); });
   if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());
-  Rendered rendered = devices_->renderer().render(plan, source, output, control);
+  Rendered rendered = within({{"reading the clip", stream_bytes}}, [&](std::uint64_t left) {
+    RenderControl limited = control;
+    limited.memory_bytes = left;
+    return devices_->renderer().render(plan, source, output, limited);
+  });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
   const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
   return {std::move(rendered), ExposureFigures::of(std::move(plan), source.timeline(), block_count), output};
@@ -146,11 +222,11 @@ ExposedPicture Session::Implementation::render(const ExposureRequest& request, c
     return expose(*reader_, functions_of(request, timeline()), mask_of(request, format_.shape),
                   plan_options_of(request), output, control);
   }
-  return expose_forward(
-      std::move(*clip_), memory(), request,
-      [&](CaptureSource& stream, const FunctionSet& functions, const Mask& mask, const PlanOptions& options) {
-        return expose(stream, functions, mask, options, output, control);
-      });
+  return expose_forward(std::move(*clip_), memory(), request, output.type, besides_of(format_),
+                        [&](CaptureSource& stream, const FunctionSet& functions, const Mask& mask,
+                            const PlanOptions& options, std::uint64_t stream_bytes) {
+                          return expose(stream, functions, mask, options, output, control, stream_bytes);
+                        });
 }
 
 ExposedPicture Session::Implementation::render(const FunctionSet& functions, const Mask& mask,
@@ -162,6 +238,7 @@ ExposedPicture Session::Implementation::render(const FunctionSet& functions, con
 template <typename Follow>
 TracedExposure Session::Implementation::trace(const ExposureRequest& request, const Follow& follow) {
   RenderPlan planned = plan(request);
+  check_reading(mask_needs(format_));
   Trace trace = follow(planned, *reader_);
   std::vector<std::string> warnings = std::move(planned.warnings);
   return {std::move(trace), ExposureFigures::of(std::move(planned), timeline(), reader_->block_count()),
@@ -174,8 +251,15 @@ ValidatedExposure Session::Implementation::validate(const ExposureRequest& reque
   RenderPlan planned = plan(request);
   devices_->release(reader_.get());  // validating names its own
   const auto ignored = [](std::uint64_t, std::uint64_t) {};
-  Validation validation = nutik::validate(planned, *reader_, output, devices_->opencl(), runs,
-                                          progress ? progress : ReportedProgress(ignored));
+  const std::uint64_t light_bytes = format_.shape.value_count() * value_bytes(ValueType::light64);
+  Validation validation = within({{"the reference's picture", light_bytes}}, [&](std::uint64_t left) {
+    // Of the widest arithmetic, which comes late.
+    MemoryNeeds needs = picture_needs(format_.shape, ValueType::light64);
+    needs.add("a block", largest_block(*reader_));
+    needs.rest_of(left);
+    return nutik::validate(planned, *reader_, output, devices_->opencl(), runs,
+                           progress ? progress : ReportedProgress(ignored), left);
+  });
   std::vector<std::string> warnings = std::move(planned.warnings);
   return {std::move(validation), ExposureFigures::of(std::move(planned), timeline(), reader_->block_count()),
           std::move(warnings)};
@@ -204,6 +288,9 @@ const CaptureFormat& Session::format() const { return implementation_->format();
 const Timeline& Session::timeline() const { return implementation_->timeline(); }
 const std::vector<Note>& Session::notes() const { return implementation_->notes(); }
 const std::vector<std::string>& Session::warnings() const { return implementation_->warnings(); }
+std::uint32_t Session::waiting_pictures(ValueType type) const {
+  return nutik::waiting_pictures(format().shape.value_count() * value_bytes(type));
+}
 tik::Reader& Session::capture() { return implementation_->capture(); }
 
 ExposedPicture Session::render(const ExposureRequest& request, const OutputFormat& output,

@@ -66,12 +66,16 @@ class Session {
   // How a session is opened.
   struct Terms {
     Reading reading = Reading::whole;
-    ReportedProgress progress;  // of a clip that is read whole, in samples
-    std::stop_token stop;       // ends that: Cancelled
+    ReportedProgress progress = {};  // of a clip that is read whole, in samples
+    std::stop_token stop = {};       // ends that: Cancelled
+
+    // What the caller will hold in memory beside the session, of the budget: pictures that wait to be written, say.
+    NeedsOfFormat besides = {};
+    bool renders = true;  // false: whoever asks only reads the capture
   };
 
   // Throws UsageError where the request describes a clip and names a .tik, or does not fit the clip; InputError where
-  // the capture cannot be read; OutputError where there is no space for a temporary one.
+  // the capture cannot be read; OutputError where there is no space for a temporary one; MemoryTooLittle.
   Session(const SourceRequest& source, std::shared_ptr<Devices> devices, const Terms& terms);
   Session(const SourceRequest& source, std::shared_ptr<Devices> devices);
   // With devices of its own.
@@ -111,6 +115,9 @@ class Session {
 
   // The capture beside the clip it was made from.
   [[nodiscard]] SourceCheck compare_with(const SourceRequest& clip, const ReportedProgress& progress = {});
+
+  // How many finished pictures of a type may wait to be written.
+  [[nodiscard]] std::uint32_t waiting_pictures(ValueType type) const;
 
   // The capture itself, for whoever reads its blocks; of a whole session.
   [[nodiscard]] tik::Reader& capture();

@@ -4,6 +4,14 @@
 
 namespace nutik {
 
+NeedsOfFormat sheet_needs(const sheet::SheetWishes& wishes) {
+  constexpr std::uint64_t kPixelBytes = 8;  // on the canvas and in the picture
+  const std::uint64_t width = wishes.width.value_or(sheet::kUsualWidth);
+  return [bytes = kPixelBytes * width * width](const CaptureFormat&) {
+    return MemoryNeeds{{"the sheet", bytes}};
+  };
+}
+
 Sheet make_sheet(Session& session, const SheetRequest& request, const ReportedProgress& progress,
                  const std::function<void(std::size_t number, const ExposedPicture& exposed)>& add) {
   const CaptureFormat& capture = session.format();

@@ -35,6 +35,9 @@ struct Sheet {
   sheet::SheetLayout layout;
 };
 
+// What a sheet takes while it is drawn, if it is no higher than wide.
+[[nodiscard]] NeedsOfFormat sheet_needs(const sheet::SheetWishes& wishes);
+
 // `add` is told each picture as it was exposed, and its number. Throws UsageError where the sheet cannot be laid out,
 // and as Session::render() does.
 [[nodiscard]] Sheet make_sheet(

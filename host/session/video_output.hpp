@@ -30,6 +30,8 @@ class VideoOutput {
   [[nodiscard]] std::unique_ptr<VideoWriter> open(const Shape& shape, const OutputFormat& format,
                                                   const Transfer& transfer) const;
 
+  // That the encoder keeps.
+  [[nodiscard]] std::uint32_t encoder_frames() const { return codec_ == nullptr ? 1 : codec_->held_frames; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   // `h264`, or `stills`.
   [[nodiscard]] std::string kind() const;

@@ -13,10 +13,10 @@
 
 namespace nutik {
 
-// Calls work(i) for every i in [0, count), each once, on as many threads as there are cores. The first
-// exception is thrown again when all have stopped; a signal is one (system/interruption.hpp).
+// Calls work(i) for every i in [0, count), each once, on as many threads as there are cores, or `most_threads` if that is
+// fewer. The first exception is thrown again when all have stopped; a signal is one (system/interruption.hpp).
 template <typename Work>
-void parallel_for(std::uint64_t count, Work work) {
+void parallel_for(std::uint64_t count, Work work, std::uint32_t most_threads = ~std::uint32_t{0}) {
   std::atomic<std::uint64_t> next{0};
   std::exception_ptr failure;
   std::mutex failure_mutex;
@@ -33,7 +33,8 @@ void parallel_for(std::uint64_t count, Work work) {
     }
   };
   {
-    const std::uint64_t workers = std::min<std::uint64_t>(count, std::thread::hardware_concurrency());
+    const std::uint64_t workers =
+        std::min<std::uint64_t>(count, std::min(most_threads, std::thread::hardware_concurrency()));
     std::vector<std::jthread> helpers;
     for (std::uint64_t i = 1; i < workers; ++i) helpers.emplace_back(run);
     run();

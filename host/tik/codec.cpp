@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -210,7 +211,7 @@ std::string Codec::text() const {
 }
 
 std::vector<std::byte> pack(const Codec& codec, const BlockGeometry& geometry,
-                            std::span<const std::byte> payload) {
+                            std::span<const std::byte> payload, std::uint32_t most_threads) {
   if (codec.id == CodecId::none) return {payload.begin(), payload.end()};
   std::vector<TileEntry> entries(geometry.tile_count);
   std::memcpy(entries.data(), payload.data(), entries.size() * sizeof(TileEntry));
@@ -222,12 +223,19 @@ std::vector<std::byte> pack(const Codec& codec, const BlockGeometry& geometry,
   std::vector<std::size_t> firsts(sizes.size(), 0);
   for (std::size_t g = 1; g < sizes.size(); ++g) firsts[g] = firsts[g - 1] + sizes[g - 1];
   std::vector<std::vector<std::byte>> packed(sizes.size());
-  parallel_for(sizes.size(), [&](std::uint64_t g) {
-    const TileGroup group{std::span(entries).subspan(firsts[g], sizes[g]), geometry};
-    packed[g] = pack_group(codec, predict(group, payload));
-  });
+  parallel_for(
+      sizes.size(),
+      [&](std::uint64_t g) {
+        const TileGroup group{std::span(entries).subspan(firsts[g], sizes[g]), geometry};
+        packed[g] = pack_group(codec, predict(group, payload));
+        packed[g].shrink_to_fit();  // it grew part by part
+      },
+      most_threads);
 
   std::vector<std::byte> stored;
+  std::size_t packed_bytes = 0;
+  for (const std::vector<std::byte>& group : packed) packed_bytes += group.size();
+  stored.reserve(packed_bytes + sizes.size() * sizeof(StoredGroup) + ZSTD_compressBound(counts.size() * 4));
   const std::array<std::uint32_t, 2> head{static_cast<std::uint32_t>(sizes.size()), 0};
   append(stored, head.data(), sizeof head);
   for (std::size_t g = 0; g < sizes.size(); ++g) {
@@ -238,7 +246,10 @@ std::vector<std::byte> pack(const Codec& codec, const BlockGeometry& geometry,
   const std::array<std::uint32_t, 2> counts_head{static_cast<std::uint32_t>(packed_counts.size()), 0};
   append(stored, counts_head.data(), sizeof counts_head);
   append(stored, packed_counts.data(), packed_counts.size());
-  for (const std::vector<std::byte>& group : packed) append(stored, group.data(), group.size());
+  for (std::vector<std::byte>& group : packed) {
+    append(stored, group.data(), group.size());
+    group = {};  // its memory is wanted for those that follow
+  }
   return stored;
 }
 
@@ -252,7 +263,7 @@ std::vector<TileEntry> unpack_directory(CodecId codec, const BlockGeometry& geom
 }
 
 void unpack(CodecId codec, const BlockGeometry& geometry, std::span<const std::byte> stored,
-            std::span<std::byte> payload) {
+            std::span<std::byte> payload, const WantsTiles& wants) {
   if (codec == CodecId::none) {
     if (stored.size() != payload.size()) fail_damaged();
     std::memcpy(payload.data(), stored.data(), stored.size());
@@ -262,20 +273,25 @@ void unpack(CodecId codec, const BlockGeometry& geometry, std::span<const std::b
   std::memset(payload.data(), 0, geometry.directory_bytes());
   std::memcpy(payload.data(), front.entries.data(), front.entries.size() * sizeof(TileEntry));
 
-  std::vector<std::span<const std::byte>> packed;
-  std::vector<std::size_t> firsts;
+  struct PackedGroup {
+    std::span<const TileEntry> tiles;
+    std::span<const std::byte> bytes;
+  };
+  std::vector<PackedGroup> wanted;
   std::size_t next = 0;
   for (const StoredGroup& group : front.groups) {
-    firsts.push_back(next);
-    next += group.tile_count;
-    packed.push_back(front.bodies.take(group.packed_bytes));
+    const std::span<const std::byte> bytes = front.bodies.take(group.packed_bytes);
+    if (group.tile_count > front.entries.size() - next) fail_damaged();
+    const std::size_t first = std::exchange(next, next + group.tile_count);
+    if (wants && !wants(first, next)) continue;
+    wanted.push_back({std::span(front.entries).subspan(first, group.tile_count), bytes});
   }
   if (next != front.entries.size() || !front.bodies.is_empty()) fail_damaged();
   std::atomic<bool> good{true};
-  parallel_for(front.groups.size(), [&](std::uint64_t g) {
-    const TileGroup group{std::span(front.entries).subspan(firsts[g], front.groups[g].tile_count), geometry};
+  parallel_for(wanted.size(), [&](std::uint64_t g) {
+    const TileGroup group{wanted[g].tiles, geometry};
     PlainGroup plain;
-    if (unpack_group(codec, group, packed[g], plain)) {
+    if (unpack_group(codec, group, wanted[g].bytes, plain)) {
       reconstruct(group, plain, payload);
     } else {
       good = false;

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "imev/block.hpp"
+#include "imev/block_lease.hpp"
 #include "tik/format.hpp"
 
 namespace nutik::tik {
@@ -36,14 +37,16 @@ struct Codec {
   friend bool operator==(const Codec&, const Codec&) = default;
 };
 
-// The stored form of a payload; `geometry` is its block's.
+// The stored form of a payload; `geometry` is its block's. No more threads than these work on it.
 [[nodiscard]] std::vector<std::byte> pack(const Codec& codec, const BlockGeometry& geometry,
-                                          std::span<const std::byte> payload);
+                                          std::span<const std::byte> payload,
+                                          std::uint32_t most_threads = ~std::uint32_t{0});
 
-// Writes the payload, whose size the block's header tells. Throws InputError where the stored form is
-// damaged.
+// Writes the payload, whose size the block's header tells; with `wants` only its directory and those groups of tiles
+// of which any is wanted (imev/block_lease.hpp). Throws InputError where the stored form is damaged, as far as it was
+// looked at.
 void unpack(CodecId codec, const BlockGeometry& geometry, std::span<const std::byte> stored,
-            std::span<std::byte> payload);
+            std::span<std::byte> payload, const WantsTiles& wants = {});
 
 // The payload's tile directory alone, without its bodies. Throws as unpack() does.
 [[nodiscard]] std::vector<TileEntry> unpack_directory(CodecId codec, const BlockGeometry& geometry,

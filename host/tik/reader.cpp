@@ -237,7 +237,7 @@ BlockLease Reader::unpacked(std::uint64_t block, const LeaseTerms& terms) const 
   const std::span<std::byte> payload = room.first(header.payload_bytes);
   try {
     unpack(static_cast<CodecId>(header.codec), BlockGeometry(header_.capture, header.sample_count), stored,
-           payload);
+           payload, terms.wants);
   } catch (const InputError& error) {
     fail_block(block, error.what());
   }

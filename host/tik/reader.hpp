@@ -29,6 +29,11 @@ class Reader final : public CaptureSource {
     return {index_[block].first_sample, index_[block].sample_count};
   }
 
+  // Of a packed block all of its payload.
+  [[nodiscard]] std::uint64_t lent_bytes(std::uint64_t block) const override {
+    return index_[block].codec == static_cast<std::uint32_t>(CodecId::none) ? 0 : index_[block].payload_bytes;
+  }
+
   // Unpacks a packed block, unless it is large.
   void preload(std::uint64_t block) override;
 

@@ -38,8 +38,8 @@ void pad(OutputFile& file) {
 }  // namespace
 
 Writer::Writer(const std::filesystem::path& path, const Header& header, const Codec& codec,
-               std::span<const std::byte> first_sample)
-    : file_(path), header_(header), codec_(codec) {
+               std::span<const std::byte> first_sample, std::uint32_t most_threads)
+    : file_(path), header_(header), codec_(codec), most_threads_(most_threads) {
   header_.codec = codec.text();
   std::vector<std::byte> front = netpbm_raster(header_.capture, first_sample);
   const std::string text = header_.text();
@@ -63,7 +63,7 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
   std::span<const std::byte> packed_part;
   std::span<const std::span<const std::byte>> stored = parts.parts();
   if (codec_.id != CodecId::none) {
-    packed = pack(codec_, geometry, block.payload);
+    packed = pack(codec_, geometry, block.payload, most_threads_);
     packed_part = packed;
     stored = {&packed_part, 1};
   }

@@ -26,7 +26,7 @@ class Writer {
   // Starts the file with the picture of the first sample: header.capture.sample_bytes() bytes. Nothing
   // stands under `path` before finish(). Throws OutputError where it cannot be written.
   Writer(const std::filesystem::path& path, const Header& header, const Codec& codec,
-         std::span<const std::byte> first_sample);
+         std::span<const std::byte> first_sample, std::uint32_t most_threads = ~std::uint32_t{0});
 
   // Appends the next block; with an irregular timeline also its samples' exposures, times from the
   // first sample's start.
@@ -45,6 +45,7 @@ class Writer {
   OutputFile file_;
   Header header_;
   Codec codec_;
+  std::uint32_t most_threads_;  // that pack
   std::vector<IndexEntry> index_;
   std::uint64_t front_checksum_ = 0;  // of what stands before the first block
   std::uint64_t sample_count_ = 0;

@@ -80,8 +80,9 @@ TEST(BlockLimits, ChangeNothingOfWhatIsHeld) {
     random.capture.noise = {};
     test::Random draw(seed);
     const std::uint64_t raw = random.capture.sample_bytes();
-    const BlockLimits limits(static_cast<std::uint32_t>(draw.whole(1, 300)),
-                             static_cast<std::uint64_t>(draw.whole(1, static_cast<std::int64_t>(6 * raw))));
+    BlockLimits limits(static_cast<std::uint32_t>(draw.whole(1, 300)),
+                       static_cast<std::uint64_t>(draw.whole(1, static_cast<std::int64_t>(6 * raw))));
+    if (draw.chance(0.5)) limits.memory_bytes = static_cast<std::uint64_t>(draw.whole(1, 400'000));
     const MemoryCapture capture(random.capture, random.timeline, random.rasters, limits, random.policy);
     std::uint64_t samples = 0;
     std::vector<std::byte> held(raw);
@@ -94,6 +95,46 @@ TEST(BlockLimits, ChangeNothingOfWhatIsHeld) {
     }
     EXPECT_EQ(samples, random.rasters.size());
   }
+}
+
+// Tiles that change at their own times leave rooms behind: what a block takes while it is built stays within twice the
+// limit and a sample all the same.
+TEST(BlockLimits, KeepToTheirMemory) {
+  CaptureFormat format;
+  format.shape = {256, 256, 1};
+  const BlockGeometry geometry(format, 64);
+  const std::uint64_t sample = geometry.tile_count * (geometry.row_bytes() + kBlockAlignment);
+  const TileGrid grid(format.shape);
+  double most = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    test::Random random(seed);
+    const auto memory = static_cast<std::uint64_t>(random.whole(1, static_cast<std::int64_t>(30 * sample)));
+    BlockLimits limits = default_block_limits(format, memory);
+    limits.memory_bytes = memory;
+    BlockBuilder builder(format, limits, TilePolicy::automatic);
+    std::vector<std::byte> raster(format.sample_bytes());
+    PageBuffer payload;
+    const auto every = static_cast<std::uint64_t>(random.whole(1, 4));
+    std::uint64_t blocks = 0;
+    for (std::uint64_t k = 0; k < 150; ++k) {
+      const double share = k % every == 0 ? 1.0 : random.real(0, 0.6);
+      for (std::uint64_t tile = 0; tile < grid.tile_count(); ++tile) {
+        if (!random.chance(share)) continue;
+        const std::uint64_t pixel = tile / grid.columns() * 8 * 256 + tile % grid.columns() * 8;
+        raster[pixel] = static_cast<std::byte>(static_cast<int>(raster[pixel]) + 1);
+      }
+      builder.add(raster);
+      if (!builder.is_full()) continue;
+      const FinishedBlock finished = builder.finish(payload);
+      ++blocks;
+      const double allowed =
+          2.0 * static_cast<double>(memory) + static_cast<double>(2 * sample + geometry.directory_bytes());
+      most = std::max(most, static_cast<double>(finished.span_bytes) / allowed);
+      ASSERT_LE(static_cast<double>(finished.span_bytes), allowed) << "seed " << seed << ", sample " << k;
+    }
+    EXPECT_GT(blocks, 2u) << seed;
+  }
+  std::printf("at most %.2f of what is allowed\n", most);
 }
 
 TEST(BlockLimits, FollowTheContentUnlessTheNoiseIsKnown) {

@@ -115,6 +115,34 @@ TEST(BlockFeed, KeepsNoMoreThanItsMemory) {
   }
 }
 
+// What an exposure does not need goes for what it needs, the blocks that were needed last after the others.
+TEST(BlockFeed, KeepsWhatWasNeededLast) {
+  Scene scene;
+  CountingCapture counted(*scene.capture);
+  std::size_t block_bytes = 0;
+  for (std::uint64_t block = 0; block < counted.block_count(); ++block) {
+    block_bytes = std::max(block_bytes, scene.capture->view(block).payload().size());
+  }
+  OpenClOptions options = test::renderer_options(Precision::double_);
+  options.chunk_bytes = 1;  // a block each
+  options.memory_bytes = 2 * 6 * (align_up(block_bytes, 4096));
+  OpenClRenderer renderer(options), plain(test::renderer_options(Precision::double_));
+  renderer.keep_resident(&counted);
+  const auto reads = [&](std::int64_t first, std::int64_t last) {
+    const RenderPlan plan = scene.plan(first, last);
+    const std::uint64_t before = counted.reads;
+    EXPECT_EQ(render(renderer, plan, counted), render(plain, plan, *scene.capture)) << first << " … " << last;
+    return counted.reads - before;
+  };
+  EXPECT_EQ(reads(0, 12), 3u);   // blocks 0 … 2
+  EXPECT_EQ(reads(20, 32), 3u);  // 5 … 7: there is room for six
+  EXPECT_EQ(reads(0, 12), 0u);
+  EXPECT_EQ(reads(40, 52), 3u);  // 10 … 12, for 5 … 7
+  EXPECT_EQ(reads(0, 12), 0u);
+  EXPECT_EQ(reads(40, 52), 0u);
+  EXPECT_EQ(reads(20, 32), 3u);
+}
+
 TEST(BlockFeed, ReadsInChunksOfAnySize) {
   Scene scene;
   const RenderPlan plan = scene.plan(3, 88);

@@ -9,6 +9,7 @@
 #include "capture/error.hpp"
 #include "render/reference_renderer.hpp"
 #include "support/bounds.hpp"
+#include "support/packed_capture.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik {
@@ -24,11 +25,13 @@ TEST(Trace, EqualsTheReferenceToTheLastBit) {
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
+    test::PackedCapture packed(capture, 2);
     test::Random draw(seed);
     for (int i = 0; i < 10; ++i) {
       const auto x = static_cast<std::uint32_t>(draw.whole(0, picture.shape.width - 1));
       const auto y = static_cast<std::uint32_t>(draw.whole(0, picture.shape.height - 1));
       const Trace trace = trace_pixel(plan, capture, x, y);
+      EXPECT_EQ(trace_pixel(plan, packed, x, y).light, trace.light);
       ASSERT_EQ(trace.channels, picture.shape.channels);
       for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
         const double reference =

@@ -199,8 +199,8 @@ constexpr Option kRows[] = {
      "to be right to half a code, or to half a float's step (default: auto; see -v)",
      "auto single compensated double fixed"},
     {0, "memory", "SIZE", computing, kReadsClips | kExposes, &Options::memory,
-     "what pictures and blocks may take: 500MB, 2GB, 1GiB; libraries take some 150 MB besides (default: half "
-     "of the machine's)"},
+     "the most that may be held: 500MB, 2GB, 1GiB; libraries and drivers come on top (default: half of the "
+     "machine's)"},
 
     heading("Validation"),
     {0, "source", "CLIP", subject, bit(Id::validate), &Options::source,

@@ -133,7 +133,8 @@ int run_activity(const Options& options) {
   const ActivityOutputs outputs = outputs_of(options);
   const ActivityRequest request = activity_request(options);
   const std::string& name = options.operands.front();
-  Session session = open_session(name, options, make_devices(options));
+  Session session =
+      open_session(name, options, make_devices(options), {.besides = Activity::needs, .renders = false});
   const MeasuredActivity measured =
       measure_activity(session.capture(), request, progress_bar("counting", options.quiet));
   const Activity& activity = measured.activity;

@@ -154,7 +154,7 @@ class Batch {
     if (!session_ || session_->source().path != name) {
       session_.reset();
       capture_checksum_.reset();
-      session_.emplace(open_session(name, options_, devices_));
+      session_.emplace(open_session(name, options_, devices_, {.besides = PictureQueue::needs}));
       print_source(*session_, options_);
     }
     return *session_;

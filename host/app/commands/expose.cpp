@@ -19,7 +19,7 @@ int run_expose(const Options& options) {
   check_output(output, OutputKind::picture, input_files(options));
 
   PictureRecipe recipe(recipe_sources(options));
-  Session session = open_session(options, Reading::forward);
+  Session session = open_session(options, {.reading = Reading::forward});
   const ExposedPicture exposed =
       session.render(request, output_format(output_request(options), output, session.format()));
   tally.add(exposed);

@@ -163,7 +163,10 @@ Answer answer_of(const std::filesystem::path& output, const MadeMask& made) {
 int run_mask(const Options& options) {
   const MaskJob job = job_of(options);
   std::optional<Session> session;
-  if (job.capture) session.emplace(open_session(*job.capture, options, make_devices(options)));
+  if (job.capture) {
+    session.emplace(open_session(*job.capture, options, make_devices(options),
+                                 {.besides = mask_making_needs, .renders = options.preview.has_value()}));
+  }
 
   const MadeMask made =
       make_mask(job.request, session ? &session->capture() : nullptr, job.capture.value_or(""));

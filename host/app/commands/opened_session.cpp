@@ -9,16 +9,16 @@
 
 namespace nutik::app {
 
-Session open_session(const Options& options, Reading reading) {
+Session open_session(const Options& options, Session::Terms terms) {
   const std::shared_ptr<Devices> devices = make_devices(options);
   devices->start();
-  return open_session(options.operands.front(), options, devices, reading);
+  return open_session(options.operands.front(), options, devices, std::move(terms));
 }
 
 Session open_session(const std::string& name, const Options& options, std::shared_ptr<Devices> devices,
-                     Reading reading) {
-  Session session(source_request(options, name), std::move(devices),
-                  {reading, progress_bar("reading", options.quiet), {}});
+                     Session::Terms terms) {
+  terms.progress = progress_bar("reading", options.quiet);
+  Session session(source_request(options, name), std::move(devices), terms);
   print_warnings(session.warnings());
   return session;
 }

@@ -13,10 +13,10 @@ namespace nutik::app {
 // On the first operand; its devices start beside it. A clip that is read whole is read with a progress bar. Prints what
 // is doubtful about what came of it. Throws UsageError where options describe a clip and this is a .tik, and what
 // Session throws.
-[[nodiscard]] Session open_session(const Options& options, Reading reading = Reading::whole);
+[[nodiscard]] Session open_session(const Options& options, Session::Terms terms = {});
 // On another capture, with devices that start when the first picture is asked for.
 [[nodiscard]] Session open_session(const std::string& name, const Options& options,
-                                   std::shared_ptr<Devices> devices, Reading reading = Reading::whole);
+                                   std::shared_ptr<Devices> devices, Session::Terms terms = {});
 
 // On a clip, what its timing was taken from, and what else to know: whole lines. Empty for a .tik.
 [[nodiscard]] std::vector<std::string> source_lines(const Session& session, const Timeline& timeline);

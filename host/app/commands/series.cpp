@@ -52,7 +52,7 @@ int run_series(const Options& options) {
   const std::vector<std::string> inputs = input_files(options);
   check_output(names[0], OutputKind::picture, inputs);  // before a clip is read
   PictureRecipe recipe(recipe_sources(options));
-  Session session = open_session(options);
+  Session session = open_session(options, {.besides = PictureQueue::needs});
   const std::vector<StatedTime> starts = starts_of(series, request, session.timeline());
   for (std::uint64_t k = 1; k < starts.size(); ++k) check_output(names[k], OutputKind::picture, inputs);
   const OutputFormat output = output_format(output_request(options), names[0], session.format());

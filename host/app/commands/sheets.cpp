@@ -114,7 +114,7 @@ int run_contact(const Options& options) {
   SheetRequest request;
   request.wishes = sheet_wishes(options);
   SheetJob job(options, "contact", "-contact.png");
-  Session session = open_session(options);
+  Session session = open_session(options, {.besides = sheet_needs(request.wishes)});
   const Timeline& timeline = session.timeline();
   const std::vector<Exposure> exposures = exposures_of(contact, timeline);
   const std::vector<std::string> labels = labels_of(exposures, timeline);
@@ -148,7 +148,7 @@ int run_sweep(const Options& options) {
   SheetJob job(options, "sweep", "-" + label + "-sweep.png");
   const std::vector<std::filesystem::path> singles = single_names(options, points.size(), job.inputs());
 
-  Session session = open_session(options);
+  Session session = open_session(options, {.besides = sheet_needs(sheet.wishes)});
   const Timeline& timeline = session.timeline();
   const Shape& shape = session.format().shape;
   for (const std::filesystem::path& single : singles) {

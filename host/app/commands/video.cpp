@@ -26,7 +26,7 @@ int run_video(const Options& options) {
   const std::vector<std::string> inputs = input_files(options);
   output.check(0, inputs);  // a container's name, before the clip is read
 
-  Session session = open_session(options);
+  Session session = open_session(options, {.besides = video_needs(output.encoder_frames())});
   const CaptureFormat& capture = session.format();
   const Frames frames = frames_of(request, session.timeline());
   if (!frames.warning.empty()) print_warning(frames.warning);
@@ -36,7 +36,8 @@ int run_video(const Options& options) {
   output.check(frames.count, inputs);
 
   const Transfer transfer = plan.transfer.value_or(capture.transfer);
-  FrameQueue queue([&] { return output.open(capture.shape, frame_format, transfer); });
+  FrameQueue queue([&] { return output.open(capture.shape, frame_format, transfer); },
+                   session.waiting_pictures(frame_format.type));
   std::optional<Interrupted> interruption;
   std::uint64_t exposed_frames = 0;
   {

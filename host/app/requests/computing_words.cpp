@@ -7,6 +7,7 @@
 #include "app/text/number_text.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
+#include "system/freed_memory.hpp"
 
 namespace nutik::app {
 namespace {
@@ -39,6 +40,7 @@ MemoryBudget memory_budget(const Options& options) {
   const std::optional<std::uint64_t> stated = parse_bytes(*options.memory);
   if (!stated || *stated == 0)
     throw UsageError(format("--memory '{}' is no size; write 500MB, 2GB or 1GiB", *options.memory));
+  return_freed_memory();
   return MemoryBudget{*stated};
 }
 

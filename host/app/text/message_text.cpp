@@ -80,8 +80,8 @@ std::string options_text(const std::vector<Setting>& settings) {
 
 std::string message_text(const std::exception& error) {
   const std::string message = error.what();
-  if (const auto* pictures = dynamic_cast<const PicturesTooLarge*>(&error)) {
-    return format("{}; allow more: --memory {}MB", message, pictures->least_bytes / 1'000'000 + 1);
+  if (const auto* memory = dynamic_cast<const MemoryTooLittle*>(&error)) {
+    return format("{}; allow more: --memory {}MB", message, memory->least_bytes() / 1'000'000 + 1);
   }
   if (const auto* blocks = dynamic_cast<const BlocksTooLong*>(&error)) {
     return format("{} (--memory); use fewer samples a block (--block-samples {})", message,

@@ -1,4 +1,7 @@
 // Video through libavcodec; pixels.hpp says what its codes become.
+#include <algorithm>
+#include <thread>
+
 #include "media/videos/libav.hpp"
 #include "media/videos/pixels.hpp"
 #include "media/videos/videos.hpp"
@@ -19,7 +22,7 @@ class LibavClip final : public Clip {
     const AVCodec* decoder = avcodec_find_decoder(parameters->codec_id);
     if (decoder == nullptr) throw InputError(format("{}: no decoder here knows its pictures", name_));
     codec_.reset(allocated(avcodec_alloc_context3(decoder)));
-    codec_->thread_count = 0;  // as many as there are cores
+    codec_->thread_count = threads(options);
     codec_->err_recognition = AV_EF_CRCCHECK;
     if (avcodec_parameters_to_context(codec_.get(), parameters) < 0 ||
         avcodec_open2(codec_.get(), decoder, nullptr) < 0) {
@@ -42,6 +45,8 @@ class LibavClip final : public Clip {
     info_.notes = probe.notes;
     info_.timing = probe.timing;
     info_.sample_count = probe.sample_count;
+    const auto pictures = static_cast<std::uint64_t>(codec_->thread_count) + kept_pictures();
+    info_.decoder_bytes = pictures * decoded_bytes();
   }
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
@@ -67,6 +72,31 @@ class LibavClip final : public Clip {
 
  private:
   [[nodiscard]] const AVStream& stream() const { return *opened_.format->streams[opened_.stream]; }
+
+  // Of a decoded picture.
+  [[nodiscard]] std::uint64_t decoded_bytes() const {
+    const AVCodecParameters& parameters = *stream().codecpar;
+    const int bytes = av_image_get_buffer_size(static_cast<AVPixelFormat>(parameters.format),
+                                               parameters.width, parameters.height, 64);
+    return bytes > 0 ? static_cast<std::uint64_t>(bytes) : std::uint64_t{coded_.width} * coded_.height * 3;
+  }
+
+  // Pictures that are kept beside those worked on: the packet and the picture it becomes; where pictures refer to
+  // others, those, of which encoders use five or fewer unless they are told otherwise, and those that are shown later.
+  [[nodiscard]] std::uint64_t kept_pictures() const {
+    const AVCodecParameters& parameters = *stream().codecpar;
+    const AVCodecDescriptor* kind = avcodec_descriptor_get(parameters.codec_id);
+    const bool refers = kind == nullptr || (kind->props & AV_CODEC_PROP_INTRA_ONLY) == 0;
+    return 2 + (refers ? 5 + static_cast<std::uint64_t>(parameters.video_delay) : 0);
+  }
+
+  [[nodiscard]] int threads(const ClipOptions& options) const {
+    const std::uint64_t cores = std::max(std::thread::hardware_concurrency(), 1u);
+    if (!options.decoder_bytes) return static_cast<int>(cores);
+    const std::uint64_t pictures = *options.decoder_bytes / std::max<std::uint64_t>(decoded_bytes(), 1);
+    return static_cast<int>(
+        std::clamp<std::uint64_t>(pictures - std::min(pictures, kept_pictures()), 1, cores));
+  }
 
   void set_white(std::uint32_t white, const PixelKind& pixels) {
     if (!pixels.is_grey && white != pixels.white_code()) {

@@ -1,0 +1,42 @@
+#include "capture/memory_needs.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "capture/format.hpp"
+
+namespace nutik {
+namespace {
+
+double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) * 1e-6; }
+
+std::string text_of(std::uint64_t allowed, const MemoryNeeds& least) {
+  std::string text = format("{:.4g} MB of memory are too little; at least {:.4g} MB are needed",
+                            megabytes(allowed), megabytes(least.bytes()));
+  std::vector<MemoryPart> parts = least.parts();
+  std::ranges::stable_sort(parts, std::greater(), &MemoryPart::bytes);
+  std::string before = ": ";
+  for (const MemoryPart& part : parts) {
+    if (part.bytes < least.bytes() / 100) break;  // these add up to nothing worth telling
+    text += format("{}{} {:.3g} MB", std::exchange(before, ", "), part.what, megabytes(part.bytes));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::uint64_t MemoryNeeds::bytes() const {
+  std::uint64_t bytes = 0;
+  for (const MemoryPart& part : parts_) bytes += part.bytes;
+  return bytes;
+}
+
+std::uint64_t MemoryNeeds::rest_of(std::uint64_t allowed) const {
+  if (bytes() > allowed) throw MemoryTooLittle(allowed, *this);
+  return allowed - bytes();
+}
+
+MemoryTooLittle::MemoryTooLittle(std::uint64_t allowed, MemoryNeeds least)
+    : UsageError(text_of(allowed, least)), needs(std::move(least)) {}
+
+}  // namespace nutik

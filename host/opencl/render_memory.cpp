@@ -1,0 +1,54 @@
+#include "opencl/render_memory.hpp"
+
+#include <algorithm>
+
+#include "opencl/kernel_tables.hpp"
+#include "render/picture_memory.hpp"
+
+namespace nutik {
+namespace {
+
+// Large enough that launching costs nothing, small enough that reading the next one hides behind it.
+constexpr std::uint64_t kChunkBytes = 64ull << 20;
+
+// Of a row of tables: weights and boundaries on the device, as many while they are packed, and what they are packed
+// from.
+std::uint64_t row_bytes(const RenderPlan& plan, Precision precision) {
+  return plan.function_count() * (4 * weight_bytes(precision) + 2 * sizeof(double));
+}
+
+}  // namespace
+
+RenderMemory memory_for_blocks(std::uint64_t memory_bytes) {
+  return {{std::min(kChunkBytes, memory_bytes / 4), memory_bytes / 2, true}, memory_bytes / 32};
+}
+
+RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, const CaptureSource& source,
+                               const Shape& picture, ValueType type, Precision precision) {
+  std::uint64_t block_bytes = 0, block_rows = 0;
+  for (const PlannedBlock& planned : plan.blocks) {
+    block_bytes = std::max(block_bytes, align_up(source.lent_bytes(planned.block), kBlockAlignment));
+    block_rows = std::max(block_rows, planned.row_count());
+  }
+  MemoryNeeds needs = picture_needs(picture, type, sum_bytes(precision));
+  const std::uint64_t least_tables = block_rows * row_bytes(plan, precision);
+  needs.add("gain tables of a block", least_tables);
+  needs.add("a block", block_bytes);
+  std::uint64_t rest = needs.rest_of(allowed);
+
+  const std::uint64_t all_tables = plan.row_count() * row_bytes(plan, precision);
+  const std::uint64_t more_tables = std::min(all_tables - least_tables, rest / 4);
+  rest -= more_tables;
+  RenderMemory memory;
+  memory.slice_bytes = (least_tables + more_tables) / row_bytes(plan, precision) * plan.function_count() *
+                       weight_bytes(precision);
+  const std::uint64_t blocks = block_bytes + rest;
+  memory.feed.reads_ahead = blocks >= 2 * block_bytes;
+  memory.feed.chunk_bytes = std::min(kChunkBytes, blocks / 4);
+  const std::uint64_t passing =
+      (memory.feed.reads_ahead ? 2 : 1) * std::max(block_bytes, memory.feed.chunk_bytes);
+  memory.feed.resident_bytes = blocks - std::min(blocks, passing);
+  return memory;
+}
+
+}  // namespace nutik

@@ -1,0 +1,25 @@
+// How a render shares out its memory among the picture, tables and blocks.
+#pragma once
+
+#include <cstdint>
+
+#include "opencl/block_feed.hpp"
+#include "render/renderer.hpp"
+
+namespace nutik {
+
+struct RenderMemory {
+  FeedLimits feed;
+  std::uint64_t slice_bytes = 0;  // of weights and as many of boundaries (allocation_cuts.hpp)
+};
+
+// Of `memory_bytes` for blocks alone: half of them for those of the resident capture.
+[[nodiscard]] RenderMemory memory_for_blocks(std::uint64_t memory_bytes);
+
+// Of `allowed` bytes for everything. Throws MemoryTooLittle where picture, the tables of a block and one block take
+// more.
+[[nodiscard]] RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan,
+                                             const CaptureSource& source, const Shape& picture,
+                                             ValueType type, Precision precision);
+
+}  // namespace nutik

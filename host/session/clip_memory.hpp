@@ -1,0 +1,43 @@
+// How reading a clip shares out its memory.
+//
+//   in:      what may be held, the format of the clip's samples, what its decoder holds
+//   out:     how far ahead is decoded, when blocks close, how many threads pack
+//   always:  all parts together stay within what may be held, or MemoryTooLittle says the least that does
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "capture/memory_needs.hpp"
+#include "capture/picture.hpp"
+#include "imev/block_builder.hpp"
+#include "session/memory_budget.hpp"
+
+namespace nutik {
+
+struct ClipMemory {
+  std::uint64_t read_ahead_bytes = 0;
+  BlockLimits blocks = {kDefaultBlockSamples};  // of a file
+  std::uint32_t stream_samples = 0;             // of a stream's blocks
+  std::uint32_t threads = 1;                    // that pack
+  std::uint64_t bytes = 0;                      // of everything, where a clip is streamed
+};
+
+// What a clip is, as far as memory goes.
+struct ReadClip {
+  CaptureFormat capture;  // of its samples
+  std::uint64_t decoder_bytes = 0;
+  std::optional<std::uint32_t> block_samples;  // as stated
+  std::uint64_t announced_samples = 0;         // 0: they are not
+};
+
+// Where it is encoded. Besides, what will be held when the capture is rendered: a block of it must fit beside that.
+// Throws MemoryTooLittle, BlocksTooLong.
+[[nodiscard]] ClipMemory memory_for_encoding(const MemoryBudget& budget, const ReadClip& clip,
+                                             const MemoryNeeds& rendering = {});
+
+// Where it is rendered while it is read: `rendering` is held at the same time.
+[[nodiscard]] ClipMemory memory_for_streaming(const MemoryBudget& budget, const ReadClip& clip,
+                                              const MemoryNeeds& rendering);
+
+}  // namespace nutik
