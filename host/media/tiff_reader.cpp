@@ -3,6 +3,9 @@
 #include <tiffio.h>
 
 #include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <new>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -198,39 +201,61 @@ class PageReader {
   bool separate_ = false;
 };
 
-TIFF* open(const std::filesystem::path& path) {
-  TIFFSetErrorHandler(nullptr);  // what matters is thrown
-  TIFFSetWarningHandler(nullptr);
-  TIFF* file = TIFFOpen(path.c_str(), "r");
-  if (file == nullptr) {
-    throw InputError(format("{} cannot be read: it is damaged or no TIFF", path.string()));
-  }
-  return file;
-}
-
 }  // namespace
 
-TiffReader::TiffReader(const std::filesystem::path& path) : name_(path.string()), file_(open(path)) {}
+struct TiffReader::File {
+  explicit File(const std::filesystem::path& path) {
+    struct FreeOptions {
+      void operator()(TIFFOpenOptions* options) const { TIFFOpenOptionsFree(options); }
+    };
+    const std::unique_ptr<TIFFOpenOptions, FreeOptions> options(TIFFOpenOptionsAlloc());
+    if (!options) throw std::bad_alloc();
+    TIFFOpenOptionsSetErrorHandlerExtR(options.get(), note_trouble, this);
+    TIFFOpenOptionsSetWarningHandlerExtR(
+        options.get(), [](auto...) { return 1; }, nullptr);
+    handle.reset(TIFFOpenExt(path.c_str(), "r", options.get()));
+  }
+
+  // In several places libtiff only reports damage, and returns what it could make of it.
+  static int note_trouble(TIFF*, void* user, const char*, const char* form, va_list values) {
+    auto& trouble = static_cast<File*>(user)->trouble;
+    char text[512];
+    if (trouble.empty() && std::vsnprintf(text, sizeof text, form, values) > 0) trouble = text;
+    return 1;  // libtiff is to say it nowhere else
+  }
+
+  struct Close {
+    void operator()(TIFF* file) const { TIFFClose(file); }
+  };
+  std::string trouble;  // the first of it
+  std::unique_ptr<TIFF, Close> handle;
+};
+
+TiffReader::TiffReader(const std::filesystem::path& path)
+    : name_(path.string()), file_(std::make_unique<File>(path)) {
+  if (!file_->handle) throw InputError(format("{} cannot be read: it is damaged or no TIFF", name_));
+  page_count_ = TIFFNumberOfDirectories(file_->handle.get());
+  if (page_count_ == 0 || !file_->trouble.empty()) {
+    throw InputError(
+        format("{} cannot be read: it is damaged or was cut off: its list of pages breaks at page {} ({})",
+               name_, page_count_ + 1, file_->trouble));
+  }
+}
 TiffReader::~TiffReader() = default;
 TiffReader::TiffReader(TiffReader&&) noexcept = default;
 TiffReader& TiffReader::operator=(TiffReader&&) noexcept = default;
 
-void TiffReader::Close::operator()(tiff* file) const { TIFFClose(file); }
-
-std::uint64_t TiffReader::count_pages(const std::filesystem::path& path) {
-  const std::unique_ptr<tiff, Close> file(open(path));
-  return TIFFNumberOfDirectories(file.get());
-}
-
 std::optional<TiffPage> TiffReader::next() {
-  if (at_end_) return std::nullopt;
-  ++pages_read_;
-  TiffPage page = PageReader(file_.get(), format("{}, page {},", name_, pages_read_)).read();
-  at_end_ = TIFFLastDirectory(file_.get()) != 0;
-  if (!at_end_ && TIFFReadDirectory(file_.get()) == 0) {
-    throw InputError(
-        format("{} is cut off or damaged behind page {}: there should be another one", name_, pages_read_));
+  if (pages_read_ == page_count_) return std::nullopt;
+  const std::string page_name = format("{}, page {},", name_, pages_read_ + 1);
+  TIFF* const handle = file_->handle.get();
+  const bool found = pages_read_ == 0 || TIFFReadDirectory(handle) != 0;
+  std::optional<TiffPage> page;
+  if (found) page = PageReader(handle, page_name).read();
+  if (!found || !file_->trouble.empty()) {
+    throw InputError(format("{} cannot be read: it is damaged ({})", page_name, file_->trouble));
   }
+  ++pages_read_;
   return page;
 }
 

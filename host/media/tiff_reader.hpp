@@ -9,8 +9,6 @@
 
 #include "capture/picture.hpp"
 
-struct tiff;
-
 namespace nutik {
 
 // One page's codes as stored: code8 up to 8 bits a value, else code16. Values of 9 to 15 bits are
@@ -25,27 +23,26 @@ struct TiffPage {
 
 class TiffReader {
  public:
-  // Throws InputError where the file is no TIFF.
+  // Walks through the file's directories, without reading a pixel. Throws InputError where the file is no TIFF, or
+  // where their chain breaks: what lies behind that would be missing without a word.
   explicit TiffReader(const std::filesystem::path& path);
   ~TiffReader();
   TiffReader(TiffReader&&) noexcept;
   TiffReader& operator=(TiffReader&&) noexcept;
 
-  // Walks through the file's directories, without reading a pixel.
-  [[nodiscard]] static std::uint64_t count_pages(const std::filesystem::path& path);
+  [[nodiscard]] std::uint64_t page_count() const { return page_count_; }
 
   // The next page, in time proportional to its size. Empty after the last one. Throws InputError
-  // naming file and page where it is damaged or of a kind that is not read.
+  // naming file and page where it is damaged, as far as libtiff notices, or of a kind that is not read.
   [[nodiscard]] std::optional<TiffPage> next();
 
  private:
+  struct File;
+
   std::string name_;
-  struct Close {
-    void operator()(tiff* file) const;
-  };
-  std::unique_ptr<tiff, Close> file_;
+  std::unique_ptr<File> file_;
+  std::uint64_t page_count_ = 0;
   std::uint64_t pages_read_ = 0;
-  bool at_end_ = false;
 };
 
 }  // namespace nutik

@@ -170,6 +170,28 @@ TEST(StillClip, RefusesAStackThatWasCutOff) {
   }
 }
 
+// The last bytes of a TIFF say that no page follows. Without them the picture may be whole, and the file is not.
+TEST(StillClip, RefusesATiffThatLacksItsLastBytes) {
+  const auto stills = test::random_stills(kGrey, 255, 3, 1);
+  const auto file_of = [](const std::vector<Picture>& pages) { return tiff_file(pages, {8}); };
+  for (std::size_t missing = 1; missing <= 8; ++missing) {
+    SCOPED_TRACE(missing);
+    const Scratch scratch;
+    const auto cut = [&](const std::string& whole) { return whole.substr(0, whole.size() - missing); };
+    scratch.write("f0.tif", file_of({stills[0]}));
+    const auto damaged = scratch.write("f1.tif", cut(file_of({stills[1]})));
+    scratch.write("f2.tif", file_of({stills[2]}));
+    expect_refused(damaged, {"f1.tif cannot be read: it is damaged or"});
+    expect_refused(scratch.folder(), {"f1.tif cannot be read: it is damaged or"});
+    expect_refused(
+        scratch.write("table.csv", "file,start_ns,exposure_ns\nf0.tif,0,10\nf1.tif,10,10\nf2.tif,20,10\n"),
+        {"f1.tif cannot be read: it is damaged or"});
+    expect_refused(
+        scratch.write("stack.tif", cut(file_of(stills))),
+        {"stack.tif cannot be read: it is damaged or was cut off: its list of pages breaks at page 3"});
+  }
+}
+
 TEST(StillClip, SaysWhichStillDiffersAndHow) {
   const Scratch scratch;
   const auto write = [&](const std::string& name, Shape shape, std::uint32_t white) {

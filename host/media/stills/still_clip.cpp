@@ -89,7 +89,7 @@ class StillClip final : public Clip {
             const ClipOptions& options) {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     for (const std::filesystem::path& file : files) {
-      const std::uint64_t count = is_tiff(file) ? TiffReader::count_pages(file) : 1;
+      const std::uint64_t count = is_tiff(file) ? TiffReader(file).page_count() : 1;
       if (count > 1 && timing.is_known()) {
         throw InputError(format("{} has {} pages; in a table with times each picture is a file of its own",
                                 file.string(), count));
