@@ -142,6 +142,11 @@ class BlockView {
   [[nodiscard]] TileEntry entry(std::uint64_t tile) const;
   [[nodiscard]] std::span<const std::byte> body(std::uint64_t tile) const;
 
+  // Throws InputError, naming tile and pixel, where sample numbers do not increase or are not the block's: what a
+  // checksum cannot tell of a file that was made up. Sources check what they read, so that every renderer refuses the
+  // same.
+  void check_samples() const;
+
   // What one pixel holds: its start (sample 0) followed by its change records in time order. Rows of a
   // tile that leave the pixel's codes as they were are skipped. `history` is replaced. Sample numbers are
   // those of the block and strictly increase; throws InputError where the payload's do not.
@@ -154,6 +159,8 @@ class BlockView {
  private:
   [[noreturn]] void fail(const std::string& why) const;
   [[nodiscard]] std::uint32_t index_at(const std::byte* list, std::uint64_t position) const;
+  template <typename Index>
+  [[nodiscard]] bool slots_increase(const std::byte* body, std::uint32_t slots) const;
   // The sample at which a row of a tile of rows begins, the one before it beginning at `before`.
   [[nodiscard]] std::uint32_t row_sample(std::uint64_t tile, std::uint32_t row, std::uint32_t before) const;
   [[nodiscard]] ChangeRecord record_at(std::uint32_t sample, const std::byte* codes,

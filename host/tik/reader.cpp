@@ -209,7 +209,15 @@ void Reader::check(std::uint64_t block, const BlockHeader& header) const {
   check_interruption();
   const std::span<const std::byte> stored = stored_payload(block, header);
   if (checksum(stored) != header.payload_checksum) fail_block(block, "its checksum does not match");
-  if (!is_packed(header)) BlockView(header_.capture, block_extent(block), stored);  // checks the directory
+  if (!is_packed(header)) check_payload(block, stored);
+}
+
+void Reader::check_payload(std::uint64_t block, std::span<const std::byte> payload) const {
+  try {
+    BlockView(header_.capture, block_extent(block), payload).check_samples();
+  } catch (const InputError& error) {
+    throw InputError(nutik::format("{}: {}", name_, error.what()));
+  }
 }
 
 BlockLease Reader::lend(std::uint64_t block, const LeaseTerms& terms) {
@@ -241,6 +249,7 @@ BlockLease Reader::unpacked(std::uint64_t block, const LeaseTerms& terms) const 
   } catch (const InputError& error) {
     fail_block(block, error.what());
   }
+  check_payload(block, payload);
   file_.release(stored);  // a capture may be larger than memory
   return {block_extent(block), payload, std::move(own)};
 }

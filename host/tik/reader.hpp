@@ -37,8 +37,8 @@ class Reader final : public CaptureSource {
   // Unpacks a packed block, unless it is large.
   void preload(std::uint64_t block) override;
 
-  // Checks the block's checksums, and of one that is not packed the directory; throws InputError naming its samples
-  // and times where it is damaged.
+  // Checks the block's checksums, and of one that is not packed the directory and the sample numbers; throws
+  // InputError naming its samples where it is damaged.
   void check(std::uint64_t block) const;
 
   // A block's tile directory alone: what kinds of tiles it has costs no look at their bodies. Only the
@@ -60,6 +60,8 @@ class Reader final : public CaptureSource {
   [[nodiscard]] BlockLease unpacked(std::uint64_t block, const LeaseTerms& terms) const;
   [[nodiscard]] BlockLease take_preloaded(std::uint64_t block);
   void check(std::uint64_t block, const BlockHeader& header) const;
+  // Directory and sample numbers, whose checksums are right whatever a file was made up of.
+  void check_payload(std::uint64_t block, std::span<const std::byte> payload) const;
   [[nodiscard]] std::uint64_t mapped_offset(std::uint64_t block, const BlockHeader& header) const;
 
   [[nodiscard]] BlockHeader block_header(std::uint64_t block) const;
