@@ -9,7 +9,7 @@
 namespace nutik {
 namespace {
 
-constexpr double kLongestNs = 4.6e18;                 // 2^62
+constexpr std::int64_t kLongestNs = std::int64_t{1} << 62;
 constexpr std::int64_t kLargestTerm = 1'000'000'000;  // keeps every product below 2^126
 
 void check_angle(Rational angle) {
@@ -30,9 +30,21 @@ std::int64_t constant_time_ns(Rational rate, Rational angle, std::uint64_t sampl
 
 constexpr Rational kNoDegrees{0, 1};
 
-// Samples a second to a thousandth: a mean, for people to read.
+// Samples a second: a mean, for people to read. To a thousandth, or of slower ones one in so many milliseconds.
 Rational mean_rate(std::uint64_t sample_count, std::int64_t duration_ns) {
-  return Rational::of(round_half_up(static_cast<int128>(sample_count) * kSecondNs * 1000, duration_ns), 1000);
+  const auto samples = static_cast<int128>(sample_count);
+  if (samples * kSecondNs >= duration_ns) {
+    return Rational::of(round_half_up(samples * kSecondNs * 1000, duration_ns), 1000);
+  }
+  return Rational::of(1000, round_half_up(duration_ns, samples * (kSecondNs / 1000)));
+}
+
+// From `origin`, where sample k is; both may be any numbers at all.
+std::int64_t time_from(std::int64_t origin, std::int64_t time_ns, std::uint64_t k) {
+  const int128 from = static_cast<int128>(time_ns) - origin;
+  if (from <= kLongestNs && from >= -kLongestNs) return static_cast<std::int64_t>(from);
+  throw InputError(
+      format("sample {} is more than 146 years from the first, which is longer than a capture lasts", k));
 }
 
 }  // namespace
@@ -49,7 +61,7 @@ Timeline Timeline::constant(Rational rate, Rational shutter_angle, std::uint64_t
   }
   check_angle(shutter_angle);
   const double duration = static_cast<double>(sample_count) / rate.value() * static_cast<double>(kSecondNs);
-  if (duration > kLongestNs) {
+  if (!(duration < static_cast<double>(kLongestNs))) {
     throw UsageError(
         format("{} samples at {} a second last longer than 146 years", sample_count, rate.text()));
   }
@@ -76,6 +88,7 @@ Timeline Timeline::irregular(std::vector<std::int64_t> starts_ns, Rational shutt
   const std::size_t count = starts_ns.size();
   std::vector<Exposure> exposures(count);
   for (std::size_t k = 0; k < count; ++k) {
+    exposures[k].start_ns = time_from(starts_ns[0], starts_ns[k], k);
     if (k > 0 && starts_ns[k] <= starts_ns[k - 1]) {
       throw InputError(
           format("sample {} starts at {} ns, not after sample {} at {} ns; if they were taken at a "
@@ -83,15 +96,19 @@ Timeline Timeline::irregular(std::vector<std::int64_t> starts_ns, Rational shutt
                  k, starts_ns[k], k - 1, starts_ns[k - 1]),
           {Setting::frame_rate});
     }
-    const std::int64_t period =
-        k + 1 < count ? starts_ns[k + 1] - starts_ns[k] : starts_ns[k] - starts_ns[k - 1];
-    const std::int64_t exposed = round_half_up(static_cast<int128>(period) * shutter_angle.numerator,
-                                               static_cast<int128>(360) * shutter_angle.denominator);
-    exposures[k].start_ns = starts_ns[k] - starts_ns[0];
+  }
+  const std::int64_t last_period = exposures[count - 1].start_ns - exposures[count - 2].start_ns;
+  if (last_period > kLongestNs - exposures.back().start_ns) {
+    throw InputError(format("the capture's {} samples last longer than 146 years", count));
+  }
+  const std::int64_t duration_ns = exposures.back().start_ns + last_period;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::int64_t next_ns = k + 1 < count ? exposures[k + 1].start_ns : duration_ns;
+    const std::int64_t exposed =
+        round_half_up(static_cast<int128>(next_ns - exposures[k].start_ns) * shutter_angle.numerator,
+                      static_cast<int128>(360) * shutter_angle.denominator);
     exposures[k].end_ns = exposures[k].start_ns + std::max<std::int64_t>(exposed, 1);
   }
-  const std::int64_t last_period = starts_ns[count - 1] - starts_ns[count - 2];
-  const std::int64_t duration_ns = exposures.back().start_ns + last_period;
   return stored(std::move(exposures), duration_ns, shutter_angle);
 }
 
@@ -100,6 +117,9 @@ Timeline Timeline::stored(std::vector<Exposure> exposures, std::int64_t duration
   if (duration_ns < timeline.duration_ns_) {
     throw InputError(format("the capture ends at {} ns, before its last exposure at {} ns", duration_ns,
                             timeline.duration_ns_));
+  }
+  if (duration_ns > kLongestNs) {
+    throw InputError(format("the capture ends at {} ns; 146 years are the most that one lasts", duration_ns));
   }
   timeline.duration_ns_ = duration_ns;
   timeline.rate_ = mean_rate(timeline.sample_count_, duration_ns);
@@ -117,15 +137,15 @@ Timeline Timeline::explicit_exposures(std::vector<Exposure> exposures) {
       throw InputError(format("sample {} ends at {} ns, not after its start at {} ns", k, exposure.end_ns,
                               exposure.start_ns));
     }
-    exposure.start_ns -= origin;
-    exposure.end_ns -= origin;
-    exposed_ns += exposure.end_ns - exposure.start_ns;
+    exposure.start_ns = time_from(origin, exposure.start_ns, k);
+    exposure.end_ns = time_from(origin, exposure.end_ns, k);
     if (k > 0 && exposure.start_ns < exposures[k - 1].end_ns) {
       throw InputError(
           format("sample {} starts at {} ns, before sample {} ends at {} ns (times from the "
                  "first sample)",
                  k, exposure.start_ns, k - 1, exposures[k - 1].end_ns));
     }
+    exposed_ns += exposure.end_ns - exposure.start_ns;
   }
   Timeline timeline;
   timeline.sample_count_ = exposures.size();

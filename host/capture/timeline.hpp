@@ -53,7 +53,7 @@ class Timeline {
 
   // e_k = s_k + angle/360 · (s_(k+1) - s_k), the last period equal to the one before; times are shifted
   // so that the first is 0. Throws InputError naming the first sample whose time does not increase, or
-  // where one sample gives no period.
+  // where one sample gives no period, and like those below where the capture is longer than 2^62 ns.
   static Timeline irregular(std::vector<std::int64_t> starts_ns, Rational shutter_angle);
 
   // Exposures as given, shifted so that the first starts at 0; the capture ends with the last one.
@@ -88,7 +88,7 @@ class Timeline {
   [[nodiscard]] std::span<const Exposure> table() const { return exposures_; }
   [[nodiscard]] bool is_constant() const { return exposures_.empty(); }
 
-  // Samples a second: exact where constant, else the mean. The angle a constant or irregular timeline
+  // Samples a second, above 0: exact where constant, else the mean. The angle a constant or irregular timeline
   // was made with; for explicit exposures the mean share of the period, in degrees.
   [[nodiscard]] Rational rate() const { return rate_; }
   [[nodiscard]] Rational shutter_angle() const { return shutter_angle_; }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "capture/format.hpp"
+#include "capture/seconds_text.hpp"
 #include "exposure/mistyped_time.hpp"
 
 namespace nutik {
@@ -37,7 +38,7 @@ std::optional<FunctionFinding> held_finding(const GainFunction& function, const 
   if (is_held_after) {
     held += format("{}the last gain, {}, holds to the end of the capture", held.empty() ? "" : ", and ",
                    function.last_gain());
-    if (domain.is_capture) held += format(" at {:.6g} s", static_cast<double>(domain.duration_ns) * 1e-9);
+    if (domain.is_capture) held += " at " + seconds_text(domain.duration_ns);
   }
   if (held.empty()) return std::nullopt;
   const std::size_t point = is_held_after ? function.points().size() - 1 : 0;
@@ -104,11 +105,11 @@ std::string_view to_text(Kind kind) {
 std::vector<FunctionFinding> check_domain(const GainFunction& function, const GainSummary& summary,
                                           const CheckedDomain& domain) {
   std::vector<FunctionFinding> findings;
-  const double seconds = static_cast<double>(domain.duration_ns) * 1e-9;
+  const std::string end = seconds_text(domain.duration_ns);
   if (summary.support_ns == 0 && domain.is_capture) {
     findings.push_back(
         {Kind::zero_everywhere,
-         format("the function is zero everywhere in the capture (0 … {:.6g} s); its pixels are 0", seconds),
+         format("the function is zero everywhere in the capture (0 … {}); its pixels are 0", end),
          {}});
   } else if (summary.support_ns == 0) {
     findings.push_back({Kind::zero_everywhere, "the function is zero everywhere; its pixels are 0", {}});
@@ -121,7 +122,7 @@ std::vector<FunctionFinding> check_domain(const GainFunction& function, const Ga
   if (summary.reaches_after_capture) {
     findings.push_back(
         {Kind::after_capture,
-         format("parts that are not zero lie after the capture's end at {:.6g} s and do not count", seconds),
+         format("parts that are not zero lie after the capture's end at {} and do not count", end),
          first_outside(function, [&](std::int64_t time_ns) { return time_ns > domain.duration_ns; })});
   }
   if (auto held = held_finding(function, summary, domain)) findings.push_back(std::move(*held));

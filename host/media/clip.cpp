@@ -72,7 +72,15 @@ Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOp
     throw InputError(format("{} does not say how fast it was taken; state the rate", name),
                      {Setting::frame_rate});
   }
-  if (info.timing.rate) return Timeline::constant(*info.timing.rate, shutter_angle, sample_count);
+  if (info.timing.rate) {
+    try {
+      static_cast<void>(Timeline::constant(*info.timing.rate, Timeline::kFullShutter, sample_count));
+    } catch (const UsageError& error) {  // nobody stated it
+      throw InputError(format("{}: the rate in the file cannot be: {}; state another", name, error.what()),
+                       {Setting::frame_rate});
+    }
+    return Timeline::constant(*info.timing.rate, shutter_angle, sample_count);
+  }
   const std::size_t times = std::max(info.timing.starts_ns.size(), info.timing.exposures.size());
   if (times < sample_count) {
     throw InputError(

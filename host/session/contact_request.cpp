@@ -13,11 +13,15 @@ constexpr std::uint64_t kUsualCount = 24;
 
 void check_count(int128 count, const StatedTime& every, std::int64_t span_ns) {
   if (count <= static_cast<int128>(sheet::kMostPictures)) return;
-  const double least_s = static_cast<double>(span_ns) / static_cast<double>(sheet::kMostPictures) * 1e-9;
+  constexpr auto kMost = static_cast<std::int64_t>(sheet::kMostPictures);
+  std::int64_t least_ns = std::max<std::int64_t>((span_ns - 1) / kMost + 1, 1);
+  std::int64_t unit_ns = 1;
+  while (least_ns / unit_ns >= 1000) unit_ns *= 10;
+  least_ns = (least_ns + unit_ns - 1) / unit_ns * unit_ns;
   throw TooManyForSheet(
       format("{} makes {} pictures and a sheet holds {}", every.text(),
              static_cast<std::uint64_t>(std::min<int128>(count, INT64_MAX)), sheet::kMostPictures),
-      std::ceil(least_s * 1000) / 1000);
+      StatedTime::of_nanoseconds(least_ns));
 }
 
 std::vector<std::int64_t> starts_of(const ContactRequest& request, const Timeline& timeline) {
@@ -80,10 +84,13 @@ std::vector<std::string> labels_of(const std::vector<Exposure>& exposures, const
     double nanoseconds;
   };
   const auto last = static_cast<double>(exposures.back().start_ns);
-  const Unit unit = last >= 1e9   ? Unit{"s", 1e9}
-                    : last >= 1e6 ? Unit{"ms", 1e6}
-                    : last >= 1e3 ? Unit{"µs", 1e3}
-                                  : Unit{"ns", 1};
+  constexpr double kHour = 3600e9;
+  const Unit unit = last >= 1000 * kHour ? Unit{"days", 24 * kHour}
+                    : last >= 10 * kHour ? Unit{"h", kHour}
+                    : last >= 1e9        ? Unit{"s", 1e9}
+                    : last >= 1e6        ? Unit{"ms", 1e6}
+                    : last >= 1e3        ? Unit{"µs", 1e3}
+                                         : Unit{"ns", 1};
   const double step = exposures.size() < 2
                           ? unit.nanoseconds
                           : static_cast<double>(exposures[1].start_ns - exposures[0].start_ns);

@@ -21,8 +21,9 @@ struct ContactRequest {
 
 // More exposures than a sheet has room for.
 struct TooManyForSheet : UsageError {
-  TooManyForSheet(const std::string& message, double least) : UsageError(message), least_every_s(least) {}
-  double least_every_s;  // that would do, to the next millisecond
+  TooManyForSheet(const std::string& message, const StatedTime& least)
+      : UsageError(message), least_every(least) {}
+  StatedTime least_every;  // that would do, of three digits
 };
 
 // Sample by sample where pictures are counted or nothing is stated, else at exact multiples of a time. An exposure

@@ -19,6 +19,17 @@ int128 common_divisor(int128 a, int128 b) {
   return a < 0 ? -a : a;
 }
 
+// So many periods of a clip: its mean ones where its times are irregular.
+std::int64_t periods_ns(const Rational& count, const Timeline& timeline) {
+  const Rational rate = timeline.rate();
+  return timeline.is_constant()
+             ? round_half_up(static_cast<int128>(count.numerator) * rate.denominator * kSecondNs,
+                             static_cast<int128>(count.denominator) * rate.numerator)
+             : round_half_up(
+                   static_cast<int128>(count.numerator) * timeline.duration_ns(),
+                   static_cast<int128>(count.denominator) * static_cast<int128>(timeline.sample_count()));
+}
+
 // The functions with one value applied.
 FunctionSet with_value(const FunctionSet& functions, const SweepRange& range, const Rational& value,
                        const Timeline& timeline) {
@@ -31,13 +42,8 @@ FunctionSet with_value(const FunctionSet& functions, const SweepRange& range, co
     return each([&](const GainFunction& function) { return function.scaled(value.value()); });
   }
   if (range.parameter == SweepParameter::shift) {
-    const Rational rate = timeline.rate();
     // A whole number of nanoseconds, or periods of the clip.
-    const std::int64_t by_ns =
-        range.counts_pictures
-            ? round_half_up(static_cast<int128>(value.numerator) * rate.denominator * kSecondNs,
-                            static_cast<int128>(value.denominator) * rate.numerator)
-            : value.numerator;
+    const std::int64_t by_ns = range.counts_pictures ? periods_ns(value, timeline) : value.numerator;
     return each([&](const GainFunction& function) { return function.shifted(by_ns); });
   }
   std::int64_t fixed_ns = timeline.duration_ns();

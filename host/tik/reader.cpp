@@ -5,6 +5,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/seconds_text.hpp"
 #include "system/interruption.hpp"
 #include "system/output_file.hpp"
 #include "tik/checksum.hpp"
@@ -92,6 +93,18 @@ std::vector<Exposure> load_exposures(std::span<const std::byte> bytes) {
   return exposures;
 }
 
+// Of what a file says. Throws InputError beginning with `name`, also where a person may not state such a rate either.
+Timeline timeline_of(const Header& header, std::uint64_t samples, std::vector<Exposure> exposures,
+                     std::optional<std::int64_t> duration_ns, const std::string& name) {
+  try {
+    if (header.rate) return Timeline::constant(*header.rate, header.shutter_angle, samples);
+    return duration_ns ? Timeline::stored(std::move(exposures), *duration_ns, header.shutter_angle)
+                       : Timeline::explicit_exposures(std::move(exposures));
+  } catch (const Error& error) {
+    throw InputError(nutik::format("{}: its times are damaged: {}", name, error.what()));
+  }
+}
+
 constexpr const char* kDamagedFront =
     "the text or picture at its start is damaged, which says when and how it was filmed; encode the clip "
     "again";
@@ -128,7 +141,7 @@ void Reader::read_footer() {
   const auto footer = load<Footer>(file, file.size() - sizeof(Footer));
   if (std::memcmp(footer.magic, kFooterMagic, sizeof footer.magic) != 0) fail_cut_off();
   const bool intact = footer.checksum == checksum_of(footer, offsetof(Footer, checksum)) &&
-                      footer.block_count <= file.size() / sizeof(IndexEntry) &&
+                      footer.block_count != 0 && footer.block_count <= file.size() / sizeof(IndexEntry) &&
                       fits(footer.index_offset, footer.block_count * sizeof(IndexEntry), file.size());
   const std::string way_out = nutik::format("; save it with: nutik-cl recover {} -o recovered.tik", name_);
   if (!intact) fail("its footer is damaged" + way_out);
@@ -148,7 +161,7 @@ void Reader::read_footer() {
   if (samples != footer.sample_count || samples == 0) fail("its index contradicts its sample count");
 
   if (header_.rate) {
-    timeline_ = Timeline::constant(*header_.rate, header_.shutter_angle, samples);
+    timeline_ = timeline_of(header_, samples, {}, {}, name_);
     return;
   }
   if (samples > file.size() / sizeof(Exposure) ||
@@ -158,7 +171,7 @@ void Reader::read_footer() {
   const auto exposure_bytes = file.subspan(footer.exposures_offset, samples * sizeof(Exposure));
   if (footer.exposures_checksum != checksum(exposure_bytes))
     fail("its list of exposures is damaged" + way_out);
-  timeline_ = Timeline::stored(load_exposures(exposure_bytes), footer.duration_ns, header_.shutter_angle);
+  timeline_ = timeline_of(header_, samples, load_exposures(exposure_bytes), footer.duration_ns, name_);
 }
 
 std::uint64_t Reader::content_checksum() const {
@@ -196,11 +209,11 @@ std::span<const std::byte> Reader::stored_payload(std::uint64_t block, const Blo
 
 void Reader::fail_block(std::uint64_t block, const std::string& why) const {
   const SampleRange samples = block_extent(block).range();
-  throw InputError(nutik::format(
-      "{}: the block of samples {} to {} ({:.6g} s to {:.6g} s) is damaged: {}; other times of the "
-      "capture can still be exposed",
-      name_, samples.first, samples.last - 1, static_cast<double>(timeline_.start_ns(samples.first)) * 1e-9,
-      static_cast<double>(timeline_.reach_end_ns(samples.last - 1)) * 1e-9, why));
+  throw InputError(
+      nutik::format("{}: the block of samples {} to {} ({} to {}) is damaged: {}; other times of the "
+                    "capture can still be exposed",
+                    name_, samples.first, samples.last - 1, seconds_text(timeline_.start_ns(samples.first)),
+                    seconds_text(timeline_.reach_end_ns(samples.last - 1)), why));
 }
 
 void Reader::check(std::uint64_t block) const { check(block, block_header(block)); }
@@ -339,10 +352,7 @@ Recovery recover(const std::filesystem::path& damaged, const std::filesystem::pa
   const std::uint64_t kept = std::min<std::uint64_t>(offset, file.size());
   recovery.lost_bytes = file.size() - kept;
 
-  const Header& header = parsed.header;
-  const Timeline timeline =
-      header.rate ? Timeline::constant(*header.rate, header.shutter_angle, recovery.sample_count)
-                  : Timeline::explicit_exposures(exposures);
+  const Timeline timeline = timeline_of(parsed.header, recovery.sample_count, exposures, {}, name);
   OutputFile out(whole);
   out.write(file.first(kept));
   finish_file(out, index, timeline);

@@ -89,7 +89,7 @@ TEST_F(Moment, ContactSheetTakesTimesOfAnyKind) {
 TEST_F(Moment, ContactSheetRefusesWhatMakesNoSense) {
   expect_refused({"contact"}, 2, "an input is missing");
   expect_refused({"contact", "--every", "1us", "clip.tik"}, 2,
-                 "makes 200000 pictures and a sheet holds 400; take --every 0.001s or more");
+                 "makes 200000 pictures and a sheet holds 400; take --every 500us or more");
   expect_refused({"contact", "--every", "0s", "clip.tik"}, 2, "--every '0s' is not longer than nothing");
   expect_refused({"contact", "--every", "1.5f", "clip.tik"}, 2, "is not a whole number of pictures");
   expect_refused({"contact", "--exposure", "1.5f", "clip.tik"}, 2, "is not a whole number of pictures");

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "capture/error.hpp"
 #include "support/exact.hpp"
 #include "support/messages.hpp"
@@ -107,6 +109,55 @@ TEST(Timeline, FindsTheSamplesThatReachAnInterval) {
           << "seed " << seed << ", sample " << k << ", [" << begin << ", " << end << "]";
     }
   }
+}
+
+TEST(Timeline, TellsAMeanRateHoweverSlow) {
+  for (const std::int64_t period_ns :
+       {1ll, 7'000'000ll, 999'999'999ll, 1'000'000'000ll, 2'000'000'001'000ll, 3'600'000'000'000ll,
+        86'400'000'000'000ll, 31'536'000'000'000'000ll, 1'000'000'000'000'000'000ll}) {
+    const Timeline timeline = Timeline::irregular({0, period_ns, 2 * period_ns}, {180, 1});
+    const double exact = 1e9 / static_cast<double>(period_ns);
+    EXPECT_NEAR(timeline.rate().value(), exact, 0.0005 * exact) << period_ns;
+    EXPECT_GT(timeline.rate().numerator, 0);
+  }
+  EXPECT_EQ(Timeline::irregular({0, 3'600'000'000'000}, {360, 1}).rate(), (Rational{1, 3600}));
+}
+
+// 2^62 ns are documented. Beyond them differences of times leave 64 bits.
+TEST(Timeline, RefusesTimesThatNoCaptureLasts) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max(),
+                         kLeast = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kLongest = std::int64_t{1} << 62;
+  const auto refusal = [](auto make) {
+    return test::message_of<InputError>([&] { static_cast<void>(make()); });
+  };
+  const std::string too_long = "longer than";
+  for (const auto& starts : std::vector<std::vector<std::int64_t>>{{kLeast, kMost},
+                                                                   {kLeast, 0, kMost},
+                                                                   {0, kMost},
+                                                                   {0, kLongest + 1},
+                                                                   {0, kLongest},
+                                                                   {kMost, kLeast}}) {
+    EXPECT_NE(refusal([&] {
+                return Timeline::irregular(starts, {360, 1});
+              }).find(too_long),
+              std::string::npos)
+        << starts[1];
+  }
+  for (const auto& exposures :
+       std::vector<std::vector<Exposure>>{{{kLeast, kMost}},
+                                          {{0, kLongest + 1}},
+                                          {{0, 1}, {kMost - 1, kMost}},
+                                          {{kMost - 1, kMost}, {kLeast, kLeast + 1}}}) {
+    EXPECT_NE(refusal([&] { return Timeline::explicit_exposures(exposures); }).find(too_long),
+              std::string::npos);
+  }
+  EXPECT_NE(refusal([&] {
+              return Timeline::stored({{0, 1}}, kLongest + 1, {360, 1});
+            }).find("146 years"),
+            std::string::npos);
+  EXPECT_EQ(Timeline::stored({{0, 1}}, kLongest, {360, 1}).duration_ns(), kLongest);
+  EXPECT_EQ(Timeline::irregular({kLeast, kLeast + kLongest / 2}, {360, 1}).duration_ns(), kLongest);
 }
 
 }  // namespace

@@ -49,5 +49,19 @@ TEST_F(MadeUpFiles, AreRefusedAlikeByEveryRenderer) {
   }
 }
 
+// Nobody stated this rate: the file is wrong, and named.
+TEST_F(MadeUpFiles, WithARateThatCannotBeAreNamed) {
+  for (const char* rate : {"0", "-3", "1234567890123", "1/999999999999", "1/900000000"}) {
+    SCOPED_TRACE(rate);
+    test::write_made_up_tik(scratch_ / "c.tik", MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0}, rate);
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"info", "c.tik"},
+             {"expose", "--start", "0s", "--exposure", "1f", "c.tik", "p.png"},
+             {"activity", "c.tik", "a.png"}}) {
+      expect_refused(words, 3, "c.tik: its times are damaged: ");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace nutik

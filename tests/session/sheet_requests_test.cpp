@@ -52,7 +52,7 @@ TEST(ContactRequest, SaysWhichStepFitsASheet) {
     static_cast<void>(exposures_of({time("0s"), time("1us"), {}}, kTimeline));
     FAIL() << "a sheet has no room for 100 000 pictures";
   } catch (const TooManyForSheet& error) {
-    EXPECT_DOUBLE_EQ(error.least_every_s, 0.001);
+    EXPECT_EQ(error.least_every.text(), "250us");
   }
 }
 

@@ -43,11 +43,12 @@ struct MadeUpTile {
   }
 };
 
+// `rate` is what its text says of the rate.
 inline void write_made_up_tik(const std::filesystem::path& path, const MadeUpTile& tile,
-                              const tik::Codec& codec) {
+                              const tik::Codec& codec, const std::string& rate = "10") {
   tik::Header header;
   header.capture.shape = {8, 8, 1};
-  header.rate = Rational{10, 1};
+  header.rate = Rational::parse(rate, "rate");
   header.codec = codec.text();
   tik::Writer writer(path, header, codec, std::vector<std::byte>(64, std::byte{20}));
   std::vector<std::byte> payload(kBlockAlignment);
@@ -55,7 +56,7 @@ inline void write_made_up_tik(const std::filesystem::path& path, const MadeUpTil
   std::memcpy(payload.data(), &entry, sizeof entry);
   payload.insert(payload.end(), tile.body.begin(), tile.body.end());
   writer.append({{0, MadeUpTile::kSamples}, payload, 0});
-  writer.finish(Timeline::constant(*header.rate, header.shutter_angle, MadeUpTile::kSamples));
+  writer.finish(Timeline::constant({10, 1}, header.shutter_angle, MadeUpTile::kSamples));
 }
 
 }  // namespace nutik::test

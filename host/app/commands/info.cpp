@@ -100,8 +100,8 @@ int run_info(const Options& options) {
   }
   print_line(
       format("  samples     {} in {}", timeline.sample_count(), counted(reader.block_count(), "block")));
-  print_line(format("  time        {}, {} samples a second{}, shutter {} degrees",
-                    duration_text(timeline.duration_ns()), timeline.rate().text(),
+  print_line(format("  time        {}, {}{}, shutter {} degrees", duration_text(timeline.duration_ns()),
+                    rate_text(timeline.rate(), "sample"),
                     timeline.is_constant() ? "" : " on average (irregular)",
                     timeline.shutter_angle().text()));
   print_line(

@@ -98,8 +98,8 @@ std::string message_text(const std::exception& error) {
     return message + "; --count 1 makes one that goes on behind its end";
   }
   if (const auto* sheet = dynamic_cast<const TooManyForSheet*>(&error)) {
-    return format("--every {}; take --every {:.3g}s or more, or begin later with --start", message,
-                  sheet->least_every_s);
+    return format("--every {}; take --every {} or more, or begin later with --start", message,
+                  sheet->least_every.text());
   }
   if (dynamic_cast<const NoMaskSize*>(&error) != nullptr) return message + ", or say --size 640x360";
   if (dynamic_cast<const NoSinglePicture*>(&error) != nullptr) {

@@ -40,7 +40,8 @@ std::optional<std::int64_t> date_ns(const std::string& text) {
   }
   const std::chrono::year_month_day day{std::chrono::year(static_cast<int>(part[0])),
                                         std::chrono::month(part[1]), std::chrono::day(part[2])};
-  if (!day.ok()) return std::nullopt;
+  // Nanoseconds since 1970 reach from 1678 to 2262.
+  if (!day.ok() || part[0] < 1700 || part[0] > 2200) return std::nullopt;
   const std::int64_t days = std::chrono::sys_days(day).time_since_epoch().count();
   return (((days * 24 + part[3]) * 60 + part[4]) * 60 + part[5]) * kSecondNs;
 }

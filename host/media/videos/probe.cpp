@@ -41,20 +41,27 @@ bool fits(const std::vector<std::int64_t>& times, Rational time_base, Rational r
         static_cast<std::int64_t>(i) * static_cast<int128>(rate.denominator) * time_base.denominator;
     const std::int64_t expected =
         round_half_up(ticks, static_cast<int128>(rate.numerator) * time_base.numerator);
-    if (std::abs(times[i] - times[0] - expected) > 1) return false;
+    const int128 off = static_cast<int128>(times[i]) - times[0] - expected;
+    if (off > 1 || off < -1) return false;
   }
   return true;
 }
 
+constexpr std::int64_t kLongestSeconds = (std::int64_t{1} << 62) / kSecondNs;
+
 // The timing of pictures at `times`, in order, in units of `time_base` seconds: the first of the
 // rates that fits them, or else the times themselves. The rates are those that a file announces.
-ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base,
-                     std::vector<Rational> rates) {
+ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base, std::vector<Rational> rates,
+                     const std::string& name) {
+  const int128 span = (static_cast<int128>(times.back()) - times.front()) * time_base.numerator;
+  if (span / time_base.denominator >= kLongestSeconds) {
+    throw InputError(format("{}: its pictures' times are more than 146 years apart; state its rate", name),
+                     {Setting::frame_rate});
+  }
   // The rate that the first and last picture tell, for files that announce another or none.
-  if (times.back() > times.front()) {
-    const auto periods = static_cast<std::int64_t>(times.size()) - 1;
-    rates.push_back(
-        Rational::of(periods * time_base.denominator, (times.back() - times.front()) * time_base.numerator));
+  const int128 turns = static_cast<int128>(times.size() - 1) * time_base.denominator;
+  if (span > 0 && span <= INT64_MAX && turns <= INT64_MAX) {
+    rates.push_back(Rational::of(static_cast<std::int64_t>(turns), static_cast<std::int64_t>(span)));
   }
   for (const Rational& rate : rates) {
     if (fits(times, time_base, rate)) return {rate, {}, {}};
@@ -62,7 +69,7 @@ ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base,
   ClipTiming timing;
   for (const std::int64_t time : times) {
     timing.starts_ns.push_back(round_half_up(
-        static_cast<int128>(time - times[0]) * time_base.numerator * kSecondNs, time_base.denominator));
+        (static_cast<int128>(time) - times[0]) * time_base.numerator * kSecondNs, time_base.denominator));
   }
   return timing;
 }
@@ -75,12 +82,12 @@ std::vector<Rational> announced_rates(const AVStream& stream) {
   return rates;
 }
 
-ClipTiming packet_timing(const AVStream& stream, std::vector<std::int64_t> times) {
+ClipTiming packet_timing(const AVStream& stream, std::vector<std::int64_t> times, const std::string& name) {
   const std::vector<Rational> rates = announced_rates(stream);
   const bool timed = std::find(times.begin(), times.end(), AV_NOPTS_VALUE) == times.end();
   if (timed && times.size() > 1) {
     std::sort(times.begin(), times.end());  // packets come in the order of decoding
-    return timing_of(times, Rational::of(stream.time_base.num, stream.time_base.den), rates);
+    return timing_of(times, Rational::of(stream.time_base.num, stream.time_base.den), rates, name);
   }
   if (!rates.empty()) return {rates.front(), {}, {}};
   return {};
@@ -104,12 +111,13 @@ std::size_t first_senseless(const std::vector<std::int64_t>& starts_ns) {
 
 // The demuxer numbers the pictures of a .cine and knows the camera's nominal rate. When they were
 // taken the camera wrote down, too: a file may hold every tenth picture only.
-void add_cine_header(const CineHeader& header, const AVStream& stream, Probe& result) {
+void add_cine_header(const CineHeader& header, const AVStream& stream, const std::string& name,
+                     Probe& result) {
   const std::vector<std::int64_t>& starts = header.starts_ns;
   if (starts.size() > 1 && starts.size() == result.sample_count) {
     const std::size_t senseless = first_senseless(starts);
     if (senseless == 0) {
-      result.timing = timing_of(starts, {1, kSecondNs}, announced_rates(stream));
+      result.timing = timing_of(starts, {1, kSecondNs}, announced_rates(stream), name);
     } else {
       result.notes.emplace_back(
           format("the camera's times are not used: picture {} is stamped {} ns after the one "
@@ -183,8 +191,8 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
         format("the file is damaged or was cut off behind picture {}: {}", times.size(), error_text(code)));
   }
   result.sample_count = times.size();
-  result.timing = packet_timing(stream, std::move(times));
-  if (const auto header = read_cine_header(path)) add_cine_header(*header, stream, result);
+  result.timing = packet_timing(stream, std::move(times), path.string());
+  if (const auto header = read_cine_header(path)) add_cine_header(*header, stream, path.string(), result);
   return result;
 }
 
