@@ -30,6 +30,9 @@ struct Excerpt {
 // that Unicode sets aside, and bytes that are no UTF-8 as escapes (\r, \x1b, \u00a0, \xe9).
 [[nodiscard]] std::string printable(std::string_view text);
 
+// The same of a message or a result, whose lines and tabs stay. A terminal obeys what it is sent.
+[[nodiscard]] std::string printable_lines(std::string_view text);
+
 // A piece of a file for a message: at most 40 characters and "…", printable.
 [[nodiscard]] std::string shown(std::string_view piece);
 [[nodiscard]] std::string quoted(std::string_view piece);

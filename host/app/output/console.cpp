@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "session/error.hpp"
+#include "session/functions.hpp"
 
 namespace nutik::app {
 namespace {
@@ -33,19 +34,19 @@ bool has_colours() {
 
 // A message behind a word that says what it is.
 void write_message(const char* colour, const std::string& label, const std::string& text) {
-  write_line(stderr, (has_colours() ? colour + label + kPlain : label) + " " + text);
+  write_line(stderr, (has_colours() ? colour + label + kPlain : label) + " " + printable_lines(text));
 }
 
 }  // namespace
 
-void print_line(const std::string& text) { write_line(stdout, text); }
+void print_line(const std::string& text) { write_line(stdout, printable_lines(text)); }
 void print_text(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);
 }
 void print_warning(const std::string& text) { write_message(kYellow, "warning:", text); }
 void print_error(const std::string& text) { write_message(kRed, "nutik-cl:", text); }
-void print_note(const std::string& text) { write_line(stderr, text); }
+void print_note(const std::string& text) { write_line(stderr, printable_lines(text)); }
 void print_warnings(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) print_warning(text);
 }

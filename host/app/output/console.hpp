@@ -6,6 +6,7 @@
 
 namespace nutik::app {
 
+// All but print_text() print what can be seen (printable_lines()): names and texts of strangers are among it.
 void print_line(const std::string& text);     // result, to stdout
 void print_text(const std::string& text);     // result that ends its own lines, to stdout
 void print_warning(const std::string& text);  // to stderr, behind "warning:", in colour on a terminal

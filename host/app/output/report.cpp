@@ -5,6 +5,7 @@
 
 #include "app/text/text_table.hpp"
 #include "session/format.hpp"
+#include "session/functions.hpp"
 #include "session/size_text.hpp"
 #include "session/time_text.hpp"
 
@@ -28,7 +29,12 @@ struct FunctionTexts {
 
 }  // namespace
 
-void print_json(const Json& json) { print_line(json.dump(2, ' ', false, Json::error_handler_t::replace)); }
+void print_json(const Json& json) {
+  constexpr auto kReplace = Json::error_handler_t::replace;
+  const std::string text = json.dump(2, ' ', false, kReplace);
+  // What a terminal would obey stands there as JSON's own escapes.
+  print_text((printable_lines(text) == text ? text : json.dump(2, ' ', true, kReplace)) + "\n");
+}
 
 Json shape_json(const Shape& shape) {
   return {{"width", shape.width}, {"height", shape.height}, {"channels", shape.channels}};
@@ -46,7 +52,7 @@ int tell(const Options& options, const std::filesystem::path& output, const Answ
     for (const std::string& detail : answer.details) print_line(detail);
     print_notes(answer.notes);
   } else if (!was_named) {
-    print_line(output.string());
+    print_text(output.string() + "\n");  // for a script, byte by byte
   }
   return 0;
 }

@@ -2,6 +2,7 @@
 
 #include "session/error.hpp"
 #include "session/format.hpp"
+#include "session/functions.hpp"
 
 namespace nutik::app {
 
@@ -9,6 +10,15 @@ std::string shell_word(std::string_view word) {
   constexpr std::string_view kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,=+@%";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos) return std::string(word);
+  if (printable(word) != word) {
+    // Seen before it is run: what a terminal would obey, or not show, as $'…' of bash, zsh and ksh has it.
+    std::string escaped = "$'";
+    for (const char c : word) {
+      const bool is_plain = c >= ' ' && c <= '~' && c != '\'' && c != '\\';
+      escaped += is_plain ? std::string(1, c) : format("\\{:03o}", static_cast<unsigned char>(c));
+    }
+    return escaped + "'";
+  }
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";

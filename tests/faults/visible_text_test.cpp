@@ -1,0 +1,75 @@
+// Names and texts of strangers are printed; a terminal is sent nothing of them that it obeys.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/made_up_tik.hpp"
+#include "support/program_test.hpp"
+
+namespace nutik {
+namespace {
+
+// Moves the cursor up and clears the line: what was printed before is gone. Then a C1 control, and an override of the
+// direction that text is written in.
+constexpr const char* kEvil = "\x1b[1A\x1b[2K\xc2\x9b\xe2\x80\xae\x7f\x07";
+
+struct VisibleText : test::ProgramTest {
+  static void expect_visible(const test::ProgramResult& result, const std::string& what) {
+    const std::string text = result.out + result.err;
+    for (const char* part : {"\x1b", "\xc2\x9b", "\xe2\x80\xae", "\x07", "\r"}) {
+      EXPECT_EQ(text.find(part), std::string::npos) << what << " prints a control character";
+    }
+  }
+  const std::string name_ = std::string("c") + kEvil + ".tik";
+};
+
+TEST_F(VisibleText, IsAllThatIsPrintedOfNames) {
+  test::write_made_up_tik(scratch_ / name_, test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  const std::vector<std::vector<std::string>> commands{
+      {"info", name_},
+      {"info", "--json", name_},
+      {"check", "--json", name_},
+      {"expose", "--renderer", "reference", "--start", "0s", "--exposure", "1s", name_,
+       std::string("p") + kEvil + ".png"},
+      {"again", std::string("p") + kEvil + ".png"},
+      {"activity", name_, "a.png"},
+      {"trace", "--pixel", "1,1", "--start", "0s", "--exposure", "1s", name_},
+      {"contact", "--renderer", "reference", name_, "s.png"},
+      {"encode", std::string("absent") + kEvil + ".mp4", "d.tik"},
+      {"expose", "-k", std::string("absent") + kEvil, name_, "p.png"},
+      {std::string("unknown") + kEvil},
+      {"expose", std::string("--unknown") + kEvil},
+  };
+  for (const auto& words : commands) expect_visible(run(words), words.front());
+}
+
+TEST_F(VisibleText, OfAFunctionFileIsAllThatIsPrinted) {
+  test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  scratch_.write("f.fn", std::string("M0 { [0:1] ") + kEvil + " }\n");
+  const auto result = run({"check", "-k", "f.fn", "c.tik"});
+  EXPECT_EQ(result.status, 3);
+  expect_visible(result, "check");
+  EXPECT_NE((result.out + result.err).find("\\x1b"), std::string::npos) << result.out << result.err;
+}
+
+// The command that `again` prints says what it does, and a shell takes it as it is meant.
+TEST_F(VisibleText, OfACommandIsWhatTheCommandDoes) {
+  if (test::run_shell("command -v bash", scratch_.folder()).status != 0) GTEST_SKIP() << "no bash here";
+  test::write_made_up_tik(scratch_ / name_, test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  ASSERT_EQ(
+      run({"expose", "--renderer", "reference", "--start", "0s", "--exposure", "1s", name_, "p.png"}).status,
+      0);
+  const auto again = run({"again", "p.png"});
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_NE(again.out.find("$'c\\033[1A\\033[2K\\302\\233\\342\\200\\256\\177\\007.tik'"), std::string::npos)
+      << again.out;
+  const std::string before = test::read_file(scratch_ / "p.png");
+  scratch_.write("again.sh", again.out);
+  std::filesystem::remove(scratch_ / "p.png");
+  const auto result = test::run_shell("bash again.sh", scratch_.folder());
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(test::read_file(scratch_ / "p.png") == before);
+}
+
+}  // namespace
+}  // namespace nutik
