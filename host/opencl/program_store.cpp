@@ -1,14 +1,11 @@
 #include "opencl/program_store.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "opencl/cache_folder.hpp"
 
 namespace nutik {
 namespace {
@@ -24,11 +21,6 @@ bool take_number(std::string_view& from, std::uint64_t& number) {
   std::memcpy(&number, from.data(), sizeof number);
   from.remove_prefix(sizeof number);
   return true;
-}
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace
@@ -53,32 +45,6 @@ std::string identity_of(const cl::Device& device) {
   return identity;
 }
 
-void write_to_cache(const std::filesystem::path& path, std::string_view bytes) {
-  try {
-    std::filesystem::create_directories(path.parent_path());
-    const std::filesystem::path unfinished = path.string() + format(".{}", getpid());
-    std::ofstream out(unfinished, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (out) {
-      std::filesystem::rename(unfinished, path);
-    } else {
-      std::filesystem::remove(unfinished);
-    }
-  } catch (const std::exception&) {  // what is cached is made again
-  }
-}
-
-std::filesystem::path default_cache_folder() {
-  if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder != nullptr && *folder != '\0') {
-    return std::filesystem::path(folder) / "nutik-cl";
-  }
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
-    return std::filesystem::path(home) / ".cache" / "nutik-cl";
-  }
-  return {};
-}
-
 ProgramStore::ProgramStore(cl::Context context, cl::Device device, std::filesystem::path cache_folder,
                            Announce announce)
     : context_(std::move(context)),
@@ -95,7 +61,7 @@ std::filesystem::path ProgramStore::file_for(const std::string& name, const std:
 bool ProgramStore::load(const std::string& name, const std::string& key, const std::string& options,
                         cl::Program& program) const {
   if (cache_folder_.empty()) return false;
-  const std::string bytes = read_file(file_for(name, key));
+  const std::string bytes = read_from_cache(file_for(name, key));
   std::string_view rest = bytes;
   std::uint64_t key_bytes = 0, binary_bytes = 0, hash = 0;
   if (!rest.starts_with(kMagic)) return false;

@@ -60,10 +60,4 @@ class ProgramStore {
 // A device with its driver, in lines: what a binary was built for.
 [[nodiscard]] std::string identity_of(const cl::Device& device);
 
-// Whole or not at all; a folder that cannot be written is no error.
-void write_to_cache(const std::filesystem::path& path, std::string_view bytes);
-
-// $XDG_CACHE_HOME/nutik-cl, or ~/.cache/nutik-cl; empty where neither is known.
-[[nodiscard]] std::filesystem::path default_cache_folder();
-
 }  // namespace nutik

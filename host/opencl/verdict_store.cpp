@@ -1,11 +1,10 @@
 #include "opencl/verdict_store.hpp"
 
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "opencl/cache_folder.hpp"
 #include "opencl/kernel_sources.hpp"
 #include "opencl/program_store.hpp"
 
@@ -15,11 +14,6 @@ namespace {
 // Counts the scenes: what they hold is part of what was tested.
 constexpr std::string_view kMagic = "nutik-cl self-test 1\n";
 constexpr std::string_view kPrefix = "self-test-";
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 std::string verdict_line(Precision precision, const Verdict& verdict) {
   return format("{} {} {:.17g} {:.17g} {} {}\n", to_text(precision), verdict.is_right ? "right" : "wrong",
@@ -51,7 +45,7 @@ std::optional<KeptVerdict> parse_verdict(const std::string& line) {
 
 // What a file says behind `key`.
 std::optional<KeptVerdict> read_verdict(const std::filesystem::path& path, std::string_view key) {
-  const std::string text = text_of(path);
+  const std::string text = read_from_cache(path);
   if (!text.starts_with(key)) return {};
   const std::size_t end = text.find_last_not_of('\n');
   const std::size_t line = end == std::string::npos ? end : text.rfind('\n', end);

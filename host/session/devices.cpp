@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "capture/error.hpp"
-#include "opencl/program_store.hpp"
+#include "opencl/cache_folder.hpp"
 #include "render/reference_renderer.hpp"
 
 namespace nutik {
@@ -25,6 +25,10 @@ std::shared_ptr<Renderer> made(const ComputingRequest& request, Devices::Announc
   options.precision = request.precision;
   options.memory_bytes = request.memory.rendering_bytes();
   options.cache_folder = request.cache_folder.value_or(default_cache_folder());
+  if (const std::string flaw = flaw_of_cache(options.cache_folder); !flaw.empty()) {
+    options.cache_folder.clear();
+    if (announce) announce(flaw);
+  }
   options.tests_itself = request.tests_drivers;
   options.announce = std::move(announce);
   return std::make_shared<OpenClRenderer>(options);
@@ -33,7 +37,8 @@ std::shared_ptr<Renderer> made(const ComputingRequest& request, Devices::Announc
 }  // namespace
 
 std::map<Precision, Verdict> known_verdicts(std::size_t device) {
-  return kept_verdicts(device, default_cache_folder());
+  const std::filesystem::path folder = default_cache_folder();
+  return flaw_of_cache(folder).empty() ? kept_verdicts(device, folder) : std::map<Precision, Verdict>{};
 }
 
 Devices::Devices(const ComputingRequest& request, Announce announce)

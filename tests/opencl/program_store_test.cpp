@@ -1,10 +1,12 @@
 #include "opencl/program_store.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 
 #include "capture/error.hpp"
+#include "opencl/cache_folder.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik {
@@ -68,6 +70,44 @@ TEST_F(ProgramStoreTest, RebuildsADamagedEntry) {
 TEST_F(ProgramStoreTest, WorksWithoutAPlaceToWrite) {
   std::ofstream(scratch_.folder() / "cache") << "a file where the folder should be";
   EXPECT_EQ(run("7"), 7);
+}
+
+TEST_F(ProgramStoreTest, BuildsWhereAFolderHasAFilesName) {
+  EXPECT_EQ(run("7"), 7);
+  const auto file = cached().front();
+  std::filesystem::remove(file);
+  std::filesystem::create_directory(file);
+  EXPECT_EQ(run("7"), 7);
+  EXPECT_EQ(builds_, 2);
+  EXPECT_EQ(cached().size(), 1u) << "something was left behind";
+}
+
+// Binaries are native code.
+TEST_F(ProgramStoreTest, LoadsNothingThatOthersMayWrite) {
+  namespace fs = std::filesystem;
+  EXPECT_EQ(run("7"), 7);
+  const fs::path folder = scratch_ / "cache";
+  EXPECT_EQ(fs::status(folder).permissions(), fs::perms::owner_all);
+  EXPECT_EQ(flaw_of_cache(folder), "");
+  EXPECT_EQ(flaw_of_cache(scratch_ / "absent"), "");
+  for (const fs::perms others : {fs::perms::group_write, fs::perms::others_write}) {
+    const auto file = cached().front();
+    fs::permissions(file, others, fs::perm_options::add);
+    const int before = builds_;
+    EXPECT_EQ(run("7"), 7);
+    EXPECT_EQ(builds_, before + 1);
+
+    fs::permissions(folder, others, fs::perm_options::add);
+    EXPECT_NE(flaw_of_cache(folder).find("other users may write to " + folder.string()), std::string::npos);
+    fs::permissions(folder, fs::perms::owner_all);
+  }
+  if (geteuid() != 0) GTEST_SKIP() << "only root can give a file to another user";
+  ASSERT_EQ(chown(cached().front().c_str(), 12345, 12345), 0);
+  const int before = builds_;
+  EXPECT_EQ(run("7"), 7);
+  EXPECT_EQ(builds_, before + 1);
+  ASSERT_EQ(chown(folder.c_str(), 12345, 12345), 0);
+  EXPECT_NE(flaw_of_cache(folder).find("belongs to another user"), std::string::npos);
 }
 
 TEST_F(ProgramStoreTest, AFailureCarriesProgramOptionsAndLog) {

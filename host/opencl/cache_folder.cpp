@@ -1,0 +1,84 @@
+#include "opencl/cache_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <system_error>
+
+#include "capture/format.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr mode_t kOthersMayWrite = S_IWGRP | S_IWOTH;
+
+bool is_ours_alone(const struct stat& status) {
+  return status.st_uid == geteuid() && (status.st_mode & kOthersMayWrite) == 0;
+}
+
+}  // namespace
+
+std::filesystem::path default_cache_folder() {
+  if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder != nullptr && *folder != '\0') {
+    return std::filesystem::path(folder) / "nutik-cl";
+  }
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
+    return std::filesystem::path(home) / ".cache" / "nutik-cl";
+  }
+  return {};
+}
+
+std::string flaw_of_cache(const std::filesystem::path& folder) {
+  struct stat status {};
+  if (folder.empty() || stat(folder.c_str(), &status) != 0) return {};
+  if (status.st_uid != geteuid()) {
+    return format(
+        "built kernels are not kept: {} belongs to another user, who could put code of their own there; move "
+        "it "
+        "away, or set XDG_CACHE_HOME",
+        folder.string());
+  }
+  if ((status.st_mode & kOthersMayWrite) != 0) {
+    return format(
+        "built kernels are not kept: other users may write to {} and put code of their own there; remove it, "
+        "and it is made again for you alone",
+        folder.string());
+  }
+  return {};
+}
+
+std::string read_from_cache(const std::filesystem::path& path) {
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (descriptor < 0) return {};
+  struct stat status {};
+  std::string bytes;
+  if (fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && is_ours_alone(status)) {
+    bytes.resize(static_cast<std::size_t>(status.st_size));
+    std::size_t filled = 0;
+    while (filled < bytes.size()) {
+      const ssize_t count = read(descriptor, bytes.data() + filled, bytes.size() - filled);
+      if (count <= 0) break;
+      filled += static_cast<std::size_t>(count);
+    }
+    bytes.resize(filled);
+  }
+  close(descriptor);
+  return bytes;
+}
+
+void write_to_cache(const std::filesystem::path& path, std::string_view bytes) {
+  const std::filesystem::path unfinished = path.string() + format(".{}", getpid());
+  std::error_code error;
+  std::filesystem::create_directories(path.parent_path().parent_path(), error);
+  mkdir(path.parent_path().c_str(), S_IRWXU);  // there already, or it is the file that cannot be written
+  std::ofstream out(unfinished, std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (out) std::filesystem::rename(unfinished, path, error);
+  if (!out || error) std::filesystem::remove(unfinished, error);
+}
+
+}  // namespace nutik
