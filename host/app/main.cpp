@@ -9,6 +9,7 @@
 #include "app/text/message_text.hpp"
 #include "session/error.hpp"
 #include "system/interruption.hpp"
+#include "system/mapped_file.hpp"
 
 namespace {
 
@@ -19,21 +20,33 @@ int fail(const std::exception& error, ExitStatus status) {
   return status;
 }
 
+// What seems damaged may be a file that changed under our hands.
+int fail_input(const nutik::InputError& error) {
+  try {
+    nutik::check_mapped_files();
+  } catch (const nutik::InputError& lost) {
+    return fail(lost, kInput);
+  }
+  return fail(error, kInput);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   nutik::catch_interruptions();
+  nutik::watch_mapped_files();
   try {
     const std::vector<std::string> words(argv + 1, argv + argc);
     nutik::app::ParsedCommandLine parsed = nutik::app::parse_command_line(words);
     parsed.options.program = argv[0];
     const int status = parsed.command == nullptr ? kOk : parsed.command->run(parsed.options);
+    nutik::check_mapped_files();
     nutik::app::flush_output();
     return status;
   } catch (const nutik::UsageError& error) {
     return fail(error, kUsage);
   } catch (const nutik::InputError& error) {
-    return fail(error, kInput);
+    return fail_input(error);
   } catch (const nutik::DeviceError& error) {
     return fail(error, kDevice);
   } catch (const nutik::OutputError& error) {

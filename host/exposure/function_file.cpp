@@ -8,6 +8,7 @@
 #include "capture/format.hpp"
 #include "capture/source_text.hpp"
 #include "exposure/function_numbers.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 namespace {
@@ -142,6 +143,7 @@ class Parser {
   }
 
   void parse_point(std::vector<ControlPoint>& points) {
+    if (points.size() % 1024 == 0) check_interruption();
     const std::size_t bracket = at_++;
     skip_blanks();
     const std::size_t time_at = at_;

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "capture/format.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 namespace {
@@ -32,6 +33,7 @@ struct Neighbourhood {
   explicit Neighbourhood(const Mask& mask) {
     std::array<bool, kMaskValues> is_known{};
     for (std::uint32_t y = 0; y < mask.height; ++y) {
+      check_interruption();
       for (std::uint32_t x = 0; x < mask.width; ++x) {
         const std::size_t pixel = std::size_t{y} * mask.width + x;
         const int value = mask.tags[pixel];

@@ -37,6 +37,8 @@ BlockView::BlockView(const CaptureFormat& capture, BlockExtent extent, std::span
     fail(format("its {} bytes end within the tile directory of {}", payload.size(),
                 geometry_.directory_bytes()));
   }
+  entries_.resize(geometry_.tile_count);
+  std::memcpy(entries_.data(), payload.data(), entries_.size() * sizeof(TileEntry));
   for (std::uint64_t tile = 0; tile < geometry_.tile_count; ++tile) {
     const TileEntry at = entry(tile);
     if (const std::string flaw = geometry_.flaw_of(at); !flaw.empty()) fail(format("tile {} {}", tile, flaw));
@@ -52,11 +54,7 @@ void BlockView::fail(const std::string& why) const {
                           extent_.range().last - 1, why));
 }
 
-TileEntry BlockView::entry(std::uint64_t tile) const {
-  TileEntry at;
-  std::memcpy(&at, payload_.data() + tile * sizeof at, sizeof at);
-  return at;
-}
+TileEntry BlockView::entry(std::uint64_t tile) const { return entries_[tile]; }
 
 std::span<const std::byte> BlockView::body(std::uint64_t tile) const {
   const TileEntry at = entry(tile);

@@ -170,6 +170,7 @@ class BlockView {
   BlockExtent extent_;
   BlockGeometry geometry_;
   std::span<const std::byte> payload_;
+  std::vector<TileEntry> entries_;  // as they were checked: a mapped file may be written to meanwhile
 };
 
 }  // namespace nutik

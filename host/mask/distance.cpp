@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "system/interruption.hpp"
+
 namespace nutik {
 namespace {
 
@@ -61,11 +63,13 @@ std::vector<std::uint64_t> squared_distances(const Region& region) {
   Envelope envelope;
   std::vector<std::uint64_t> line(height), least;
   for (std::size_t x = 0; x < width; ++x) {
+    check_interruption();
     for (std::size_t y = 0; y < height; ++y) line[y] = region.inside[y * width + x] != 0 ? 0 : kFarAway;
     envelope.run(line, least);
     for (std::size_t y = 0; y < height; ++y) distances[y * width + x] = least[y];
   }
   for (std::size_t y = 0; y < height; ++y) {
+    check_interruption();
     const std::span row(distances.data() + y * width, width);
     envelope.run(row, least);
     std::copy(least.begin(), least.end(), row.begin());

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "system/interruption.hpp"
+
 namespace nutik {
 namespace {
 
@@ -13,6 +15,7 @@ Region of_centres(std::uint32_t width, std::uint32_t height, Holds holds) {
   Region region = Region::none(width, height);
   std::size_t pixel = 0;
   for (std::uint32_t y = 0; y < height; ++y) {
+    check_interruption();
     for (std::uint32_t x = 0; x < width; ++x, ++pixel) region.inside[pixel] = holds(x + 0.5, y + 0.5) ? 1 : 0;
   }
   return region;
@@ -23,6 +26,7 @@ std::vector<std::size_t> take_part(Region& rest, std::size_t start) {
   std::vector<std::size_t> part{start};
   rest.inside[start] = 0;
   for (std::size_t next = 0; next < part.size(); ++next) {
+    if (next % 4096 == 0) check_interruption();
     const std::size_t x = part[next] % rest.width, y = part[next] / rest.width;
     for (std::size_t v = y == 0 ? 0 : y - 1; v <= std::min<std::size_t>(y + 1, rest.height - 1); ++v) {
       for (std::size_t u = x == 0 ? 0 : x - 1; u <= std::min<std::size_t>(x + 1, rest.width - 1); ++u) {

@@ -66,8 +66,13 @@ const void* load_module(const char* name, const char* symbol, const char* withou
 
 template <typename Module>
 const Module& module() {
-  static const void* const loaded = load_module(Module::kFile, Module::kSymbol, Module::kWithout);
-  return *static_cast<const Module*>(loaded);
+  static const Module* const loaded = [] {
+    const auto* found =
+        static_cast<const Module*>(load_module(Module::kFile, Module::kSymbol, Module::kWithout));
+    found->use_shared_state(shared_state());
+    return found;
+  }();
+  return *loaded;
 }
 
 }  // namespace

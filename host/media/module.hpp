@@ -9,6 +9,7 @@
 #include "media/clip.hpp"
 #include "media/stills_table.hpp"
 #include "media/video_writer.hpp"
+#include "system/shared_state.hpp"
 
 namespace nutik {
 
@@ -18,6 +19,7 @@ struct VideoModule {
   static constexpr const char* kSymbol = "nutik_video_module";
   static constexpr const char* kWithout = "videos cannot be read or written";
 
+  void (*use_shared_state)(SharedState& of_program);  // first
   std::unique_ptr<Clip> (*open)(const std::filesystem::path& path, const ClipOptions& options);
   std::unique_ptr<VideoWriter> (*open_writer)(const std::filesystem::path& path, const VideoFormat& format,
                                               const VideoCodec& codec);
@@ -29,6 +31,7 @@ struct StillModule {
   static constexpr const char* kSymbol = "nutik_still_module";
   static constexpr const char* kWithout = "stills cannot be read";
 
+  void (*use_shared_state)(SharedState& of_program);  // first
   // Stills, one sample each; a TIFF may hold several, but not where `timing` has times for them.
   std::unique_ptr<Clip> (*open)(std::span<const std::filesystem::path> files, const ClipTiming& timing,
                                 const ClipOptions& options);

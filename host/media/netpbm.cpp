@@ -5,6 +5,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 namespace {
@@ -40,6 +41,7 @@ class NetpbmReader {
     }
     Picture picture(shape, maximum > 255 ? ValueType::code16 : ValueType::code8, maximum);
     for (std::uint64_t i = 0; i < shape.value_count(); ++i) {
+      if (i % 65'536 == 0) check_interruption();
       const std::uint32_t code = raw ? raw_value(value_size) : number("value", 65'535);
       if (code > maximum) fail(format("value {} is above its maximum of {}", code, maximum));
       if (maximum > 255) {

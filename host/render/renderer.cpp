@@ -1,6 +1,7 @@
 #include "render/renderer.hpp"
 
 #include "capture/format.hpp"
+#include "system/mapped_file.hpp"
 
 namespace nutik {
 
@@ -14,7 +15,9 @@ Rendered Renderer::render(const RenderPlan& plan, CaptureSource& source, const O
                             shape.height));
   }
   throw_if_cancelled(control);
-  return render_part(plan, source, output, rectangle, control);
+  Rendered rendered = render_part(plan, source, output, rectangle, control);
+  check_mapped_files();  // blocks may lie where the system maps them, and be read by a device at any time
+  return rendered;
 }
 
 }  // namespace nutik

@@ -9,6 +9,7 @@
 
 #include "session/clip_source.hpp"
 #include "session/reported_progress.hpp"
+#include "system/output_file.hpp"
 #include "tik/codec.hpp"
 
 namespace nutik {
@@ -16,6 +17,7 @@ namespace nutik {
 struct EncodeRequest {
   std::filesystem::path output;  // .tik; appears under its name when it is whole
   tik::Codec codec{tik::CodecId::zstd, 0};
+  OutputFile::Lasting lasting = OutputFile::Lasting::yes;
   friend bool operator==(const EncodeRequest&, const EncodeRequest&) = default;
 };
 

@@ -1,26 +1,23 @@
 #include "system/interruption.hpp"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <csignal>
+#include <cstring>
+#include <ctime>
+
+#include "system/output_file.hpp"
+#include "system/shared_state.hpp"
 
 namespace nutik {
 namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-// The only mutable global of the program: a signal handler can reach nothing else. It is written in the
-// handler and read in every thread, which needs an atomic without a lock.
-std::atomic<int> noted_signal{0};
-static_assert(std::atomic<int>::is_always_lock_free);
-
-void note(int number) {
-  noted_signal.store(number, std::memory_order_relaxed);
-  // Whoever asks twice means now. A signal that was ignored before stays ignored.
-  for (const int signal : kSignals) {
-    struct sigaction now {};
-    if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler == note) std::signal(signal, SIG_DFL);
-  }
-}
+// Runs from the first signal on, unless it was cleared.
+timer_t waiting{};
+std::atomic<bool> has_timer{false};
 
 const char* name_of(int number) {
   switch (number) {
@@ -30,11 +27,52 @@ const char* name_of(int number) {
   }
 }
 
+void set_timer(long milliseconds) {
+  if (!has_timer.load()) return;
+  struct itimerspec after {};
+  after.it_value.tv_nsec = milliseconds * 1'000'000;
+  timer_settime(waiting, 0, &after, nullptr);
+}
+
+// Nobody has looked. What a signal handler may do is little, and enough.
+void end_now(int) {
+  const int number = shared_state().noted_signal.load();
+  if (number == 0 || shared_state().takes_its_time.load() > 0) return;
+  remove_temporary_files();
+  char line[32] = "";
+  if (isatty(STDERR_FILENO) == 1) std::strcat(line, "\n");  // below a progress bar
+  std::strcat(line, name_of(number));
+  std::strcat(line, "\n");
+  [[maybe_unused]] const auto told = write(STDERR_FILENO, line, std::strlen(line));
+  constexpr int kSignalStatus = 128;
+  _exit(kSignalStatus + number);
+}
+
+void note(int number) {
+  constexpr long kPatienceMs = 800;
+  shared_state().noted_signal.store(number, std::memory_order_relaxed);
+  set_timer(kPatienceMs);
+  // Whoever asks twice means now. A signal that was ignored before stays ignored.
+  for (const int signal : kSignals) {
+    struct sigaction now {};
+    if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler == note) std::signal(signal, SIG_DFL);
+  }
+}
+
 }  // namespace
 
 Interrupted::Interrupted(int number) : Error(name_of(number)), signal(number) {}
 
 void catch_interruptions() {
+  struct sigaction when_late {};
+  when_late.sa_handler = end_now;
+  when_late.sa_flags = SA_RESTART;
+  sigemptyset(&when_late.sa_mask);
+  struct sigevent event {};
+  event.sigev_notify = SIGEV_SIGNAL;
+  event.sigev_signo = SIGALRM;
+  has_timer =
+      sigaction(SIGALRM, &when_late, nullptr) == 0 && timer_create(CLOCK_MONOTONIC, &event, &waiting) == 0;
   for (const int signal : kSignals) {
     struct sigaction before {};
     if (sigaction(signal, nullptr, &before) != 0 || before.sa_handler == SIG_IGN) continue;
@@ -48,9 +86,16 @@ void catch_interruptions() {
 }
 
 void check_interruption() {
-  if (const int number = noted_signal.load(std::memory_order_relaxed)) throw Interrupted(number);
+  if (const int number = shared_state().noted_signal.load(std::memory_order_relaxed))
+    throw Interrupted(number);
 }
 
-void clear_interruption() { noted_signal.store(0, std::memory_order_relaxed); }
+void clear_interruption() {
+  shared_state().noted_signal.store(0, std::memory_order_relaxed);
+  set_timer(0);
+}
+
+TimeToEnd::TimeToEnd() { ++shared_state().takes_its_time; }
+TimeToEnd::~TimeToEnd() { --shared_state().takes_its_time; }
 
 }  // namespace nutik

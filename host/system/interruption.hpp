@@ -2,7 +2,8 @@
 // and throw, and what is thrown passes destructors that remove temporary files.
 //
 //   in:      a program's wish to be interruptible, once, at its start
-//   always:  without that wish nothing here has any effect; a second signal ends the program at once
+//   always:  without that wish nothing here has any effect; a second signal ends the program at once. So does the first
+//            where nobody looks for a while, inside a library for example; temporary files are removed all the same
 #pragma once
 
 #include "capture/error.hpp"
@@ -23,5 +24,15 @@ void check_interruption();
 
 // Forgets a signal that was noted, for who has caught Interrupted and still has work to finish.
 void clear_interruption();
+
+// While one lives, a signal is answered when somebody looks, however long that takes: for work that is worth more than a
+// quick answer.
+class TimeToEnd {
+ public:
+  TimeToEnd();
+  ~TimeToEnd();
+  TimeToEnd(const TimeToEnd&) = delete;
+  TimeToEnd& operator=(const TimeToEnd&) = delete;
+};
 
 }  // namespace nutik

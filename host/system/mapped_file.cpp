@@ -6,15 +6,110 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <mutex>
 #include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/shared_state.hpp"
 
 namespace nutik {
+
+struct WatchedMapping {
+  // What a signal handler looks at; 0 where nothing is mapped.
+  std::atomic<std::uintptr_t> begin{0};
+  std::atomic<std::size_t> bytes{0};
+  WatchedMapping* next = nullptr;
+  // The rest is guarded by `registering_mappings`.
+  bool is_free = false;
+  std::string name;
+  int descriptor = -1;
+  struct stat at_first {};
+};
+
+namespace {
+
+std::size_t page_bytes() {
+  static const auto bytes = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  return bytes;
+}
+
+std::size_t whole_pages(std::size_t bytes) {
+  return (bytes + page_bytes() - 1) / page_bytes() * page_bytes();
+}
+
+// Puts zeros where the file's bytes were, from the page on that could not be read, so that whoever reads them can go
+// on until it is asked whether anything was lost.
+void replace_lost_pages(int number, siginfo_t* info, void*) {
+  const int error = errno;
+  const auto at = reinterpret_cast<std::uintptr_t>(info->si_addr);
+  for (WatchedMapping* mapping = shared_state().mappings.load(); mapping != nullptr;
+       mapping = mapping->next) {
+    const std::uintptr_t begin = mapping->begin.load();
+    const std::uintptr_t end = begin + whole_pages(mapping->bytes.load());
+    if (at < begin || at >= end) continue;
+    const std::uintptr_t page = at / page_bytes() * page_bytes();
+    if (mmap(reinterpret_cast<void*>(page), end - page, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED,
+             -1, 0) == MAP_FAILED) {
+      break;
+    }
+    shared_state().lost_mapping.store(mapping);
+    errno = error;
+    return;
+  }
+  std::signal(number, SIG_DFL);  // not of ours: it has its usual end
+  raise(number);
+}
+
+bool is_unchanged(const WatchedMapping& mapping) {
+  struct stat now {};
+  const struct stat& before = mapping.at_first;
+  return fstat(mapping.descriptor, &now) == 0 && now.st_size == before.st_size &&
+         now.st_mtim.tv_sec == before.st_mtim.tv_sec && now.st_mtim.tv_nsec == before.st_mtim.tv_nsec;
+}
+
+WatchedMapping* watch(std::string name, int descriptor, const struct stat& status, const void* begin) {
+  const std::scoped_lock lock(shared_state().registering_mappings);
+  WatchedMapping* mapping = shared_state().mappings.load();
+  while (mapping != nullptr && !mapping->is_free) mapping = mapping->next;
+  if (mapping == nullptr) {
+    mapping = new WatchedMapping;
+    mapping->next = shared_state().mappings.load();
+    shared_state().mappings.store(mapping);
+  }
+  mapping->is_free = false;
+  mapping->name = std::move(name);
+  mapping->descriptor = descriptor;
+  mapping->at_first = status;
+  mapping->begin.store(reinterpret_cast<std::uintptr_t>(begin));
+  mapping->bytes.store(static_cast<std::size_t>(status.st_size));
+  return mapping;
+}
+
+void forget(WatchedMapping* mapping) {
+  const std::scoped_lock lock(shared_state().registering_mappings);
+  if (!is_unchanged(*mapping)) shared_state().lost_mapping.store(mapping);
+  close(mapping->descriptor);
+  mapping->descriptor = -1;
+  mapping->bytes.store(0);
+  mapping->begin.store(0);
+  mapping->is_free = shared_state().lost_mapping.load() != mapping;  // its name is still to be told
+}
+
+[[noreturn]] void throw_lost(const WatchedMapping& mapping) {
+  throw InputError(
+      format("{} changed or could not be read any more while it was read; nothing made of it is kept. Leave "
+             "the file alone, or make a copy first",
+             mapping.name));
+}
+
+}  // namespace
 
 MappedFile::MappedFile(const std::filesystem::path& path) {
   const auto fail = [&](const char* reason) {
@@ -29,26 +124,58 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
     fail(known && S_ISDIR(status.st_mode) ? "it is a folder" : "it is no regular file");
   }
   const auto size = static_cast<std::size_t>(status.st_size);
-  void* mapped = size == 0 ? nullptr : mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+  if (size == 0) {
+    close(descriptor);
+    return;
+  }
+  void* mapped = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
   const int reason = errno;
-  close(descriptor);
-  if (mapped == MAP_FAILED) fail(std::strerror(reason));
+  if (mapped == MAP_FAILED) {
+    close(descriptor);
+    fail(std::strerror(reason));
+  }
   bytes_ = {static_cast<const std::byte*>(mapped), size};
+  watched_ = watch(path.string(), descriptor, status, mapped);
 }
 
 MappedFile::~MappedFile() {
-  if (!bytes_.empty()) munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+  if (watched_ == nullptr) return;
+  const std::span<const std::byte> bytes = bytes_;
+  forget(watched_);
+  munmap(const_cast<std::byte*>(bytes.data()), bytes.size());
 }
 
-MappedFile::MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+MappedFile::MappedFile(MappedFile&& other) noexcept
+    : bytes_(std::exchange(other.bytes_, {})), watched_(std::exchange(other.watched_, nullptr)) {}
 
 void MappedFile::release(std::span<const std::byte> part) const {
   // Whole pages only: those at the ends hold others' bytes too.
-  static const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  const std::size_t page = page_bytes();
   const auto offset = static_cast<std::size_t>(part.data() - bytes_.data());
   const std::size_t begin = (offset + page - 1) / page * page;
   const std::size_t end = (offset + part.size()) / page * page;
   if (begin < end) madvise(const_cast<std::byte*>(bytes_.data()) + begin, end - begin, MADV_DONTNEED);
+}
+
+void watch_mapped_files() {
+  static_cast<void>(page_bytes());  // a handler may not be the first to ask
+  struct sigaction action {};
+  action.sa_sigaction = replace_lost_pages;
+  action.sa_flags = SA_SIGINFO;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGBUS, &action, nullptr);
+}
+
+void check_mapped_files() {
+  if (const WatchedMapping* lost = shared_state().lost_mapping.load()) throw_lost(*lost);
+  const std::scoped_lock lock(shared_state().registering_mappings);
+  for (WatchedMapping* mapping = shared_state().mappings.load(); mapping != nullptr;
+       mapping = mapping->next) {
+    if (mapping->descriptor >= 0 && !is_unchanged(*mapping)) {
+      shared_state().lost_mapping.store(mapping);
+      throw_lost(*mapping);
+    }
+  }
 }
 
 std::string first_bytes(const std::filesystem::path& path) {

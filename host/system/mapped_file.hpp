@@ -1,4 +1,9 @@
 // A file's bytes, mapped into memory read-only.
+//
+// What is mapped may be lost while it is looked at: a file that somebody makes shorter, a disk that fails. The system then
+// ends the process (SIGBUS) unless an application has asked for something else, with watch_mapped_files().
+//
+//   always:  what was made of a file that was lost or written to meanwhile is not used: check_mapped_files() throws
 #pragma once
 
 #include <cstddef>
@@ -7,6 +12,9 @@
 #include <string>
 
 namespace nutik {
+
+// What is known of a mapping, also to a signal handler.
+struct WatchedMapping;
 
 class MappedFile {
  public:
@@ -25,7 +33,17 @@ class MappedFile {
 
  private:
   std::span<const std::byte> bytes_;
+  WatchedMapping* watched_ = nullptr;
 };
+
+// From now on bytes of mapped files that cannot be read are zeros, on every thread, those of a device's driver
+// included. A program that does this calls check_mapped_files() before it ends well. Other libraries' SIGBUS ends the
+// program as before.
+void watch_mapped_files();
+
+// Throws InputError naming a file that was lost, made shorter or written to while it was mapped, from then on whenever
+// it is called. Nothing gets its name (system/output_file.hpp) without this having been called.
+void check_mapped_files();
 
 // The first 16 bytes of a regular file, or all it has; of anything else (a pipe would never end), none.
 [[nodiscard]] std::string first_bytes(const std::filesystem::path& path);

@@ -1,47 +1,143 @@
 #include "system/output_file.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/mapped_file.hpp"
+#include "system/shared_state.hpp"
 
 namespace nutik {
 
-OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
-  std::error_code ignored;
-  if (std::filesystem::is_symlink(path_, ignored)) {
-    path_ = std::filesystem::weakly_canonical(path_, ignored);  // what it points to is replaced, not it
+struct KnownTemporary {
+  std::atomic<bool> is_there{false};
+  bool is_free = false;  // guarded by `registering_temporaries`
+  KnownTemporary* next = nullptr;
+  std::array<char, 4096> path{};
+};
+
+namespace {
+
+KnownTemporary* make_known(const std::string& path) {
+  const std::scoped_lock lock(shared_state().registering_temporaries);
+  KnownTemporary* known = shared_state().temporaries.load();
+  while (known != nullptr && !known->is_free) known = known->next;
+  if (known == nullptr) {
+    known = new KnownTemporary;
+    known->next = shared_state().temporaries.load();
+    shared_state().temporaries.store(known);
   }
+  known->is_free = false;
+  if (path.size() < known->path.size()) {
+    std::memcpy(known->path.data(), path.c_str(), path.size() + 1);
+    known->is_there = true;
+  }
+  return known;
+}
+
+void make_unknown(KnownTemporary* known) {
+  const std::scoped_lock lock(shared_state().registering_temporaries);
+  known->is_there = false;
+  known->is_free = true;
+}
+
+// What a link points to is written, not the link replaced; also where it points to nothing yet.
+std::filesystem::path followed(std::filesystem::path path) {
+  if (std::error_code ignored; !std::filesystem::is_symlink(path, ignored)) return path;
+  std::error_code error;
+  if (std::filesystem::exists(path, error)) {
+    const std::filesystem::path target = std::filesystem::canonical(path, error);
+    return error ? path : target;
+  }
+  for (int links = 0; std::filesystem::is_symlink(path, error); ++links) {
+    constexpr int kMostLinks = 40;  // as many as the system follows
+    const std::filesystem::path target = std::filesystem::read_symlink(path, error);
+    if (error || links == kMostLinks) {
+      throw OutputError(format("{} is a link that leads nowhere; choose another name", path.string()));
+    }
+    path = path.parent_path() / target;
+  }
+  return path;
+}
+
+// An open, locked, empty file of ours under this name; -1 and errno where there is none to be had. EEXIST: another
+// process's, or another's altogether.
+int open_temporary(const std::filesystem::path& path) {
+  for (;;) {
+    const int descriptor = open(path.c_str(), O_CREAT | O_NOFOLLOW | O_WRONLY | O_CLOEXEC | O_NONBLOCK, 0666);
+    if (descriptor < 0) {
+      const int reason = errno;
+      struct stat there {};
+      errno = lstat(path.c_str(), &there) == 0 ? EEXIST : reason;
+      return -1;
+    }
+    const auto refuse = [&](int error) {
+      close(descriptor);
+      errno = error;
+      return -1;
+    };
+    struct stat opened {};
+    struct stat named {};
+    if (fstat(descriptor, &opened) != 0) return refuse(errno);
+    // Never through what somebody else put there, in a folder that all may write to.
+    if (!S_ISREG(opened.st_mode) || opened.st_uid != geteuid() || opened.st_nlink > 1) return refuse(EEXIST);
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return refuse(EEXIST);
+    // Its process may have given it its name before this one held the lock.
+    if (lstat(path.c_str(), &named) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev) {
+      return ftruncate(descriptor, 0) == 0 ? descriptor : refuse(errno);
+    }
+    close(descriptor);
+  }
+}
+
+}  // namespace
+
+void remove_temporary_files() {
+  for (const KnownTemporary* known = shared_state().temporaries.load(); known != nullptr;
+       known = known->next) {
+    if (known->is_there) unlink(known->path.data());
+  }
+}
+
+OutputFile::OutputFile(std::filesystem::path path, Lasting lasting)
+    : path_(followed(std::move(path))), lasting_(lasting) {
+  std::error_code ignored;
   if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored)) {
     throw OutputError(format("{} exists and is no regular file; choose another name", path_.string()));
   }
-  // Never through what stands there already, be it another's link in a folder that all may write to.
   constexpr int kMostTries = 100;
   for (int tried = 0; descriptor_ < 0 && tried < kMostTries; ++tried) {
     const std::string again = tried == 0 ? "" : format("-{}", tried);
-    temporary_path_ =
-        path_.parent_path() / format(".{}.{}{}.part", path_.filename().string(), getpid(), again);
-    descriptor_ = open(temporary_path_.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0666);
+    temporary_path_ = path_.parent_path() / format(".{}.nutik{}.part", path_.filename().string(), again);
+    descriptor_ = open_temporary(temporary_path_);
     if (descriptor_ < 0 && errno != EEXIST) break;
   }
   if (descriptor_ < 0) fail("cannot be created");
+  known_ = make_known(temporary_path_.string());
 }
 
 OutputFile::~OutputFile() {
   if (descriptor_ < 0) return;
-  close(descriptor_);
   unlink(temporary_path_.c_str());
+  make_unknown(known_);
+  close(descriptor_);  // and with it the lock
 }
 
 void OutputFile::fail(const char* what) const {
+  const int reason = errno;
+  check_mapped_files();  // what cannot be read cannot be written either
+  errno = reason;
   throw OutputError(format("{} {}: {}", path_.string(), what, std::strerror(errno)));
 }
 
@@ -96,17 +192,15 @@ void OutputFile::replace(std::uint64_t offset, std::span<const std::byte> bytes)
 void OutputFile::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
 
 void OutputFile::commit() {
+  check_mapped_files();
   // A temporary file has the process's own permissions; what it replaces keeps its mode.
   struct stat before {};
   if (stat(path_.c_str(), &before) == 0) fchmod(descriptor_, before.st_mode & 07777);
-  const int descriptor = descriptor_;
-  descriptor_ = -1;
-  if (close(descriptor) != 0 || rename(temporary_path_.c_str(), path_.c_str()) != 0) {
-    const int reason = errno;
-    unlink(temporary_path_.c_str());
-    errno = reason;
-    fail("cannot be written");
-  }
+  // Not every file system can; all that can fail to write say so here.
+  if (lasting_ == Lasting::yes && fsync(descriptor_) != 0 && errno != EINVAL) fail("cannot be written");
+  if (rename(temporary_path_.c_str(), path_.c_str()) != 0) fail("cannot be written");
+  make_unknown(known_);
+  close(std::exchange(descriptor_, -1));
 }
 
 void write_text(const std::filesystem::path& path, std::string_view text) {

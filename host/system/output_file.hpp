@@ -10,11 +10,21 @@
 
 namespace nutik {
 
+// What a signal handler knows of a temporary file.
+struct KnownTemporary;
+
+// Removes the temporary files of this process. May be called in a signal handler, if the process then ends.
+void remove_temporary_files();
+
 class OutputFile {
  public:
-  // Creates the temporary file, `.<name>.<process>.part`, or `.<name>.<process>-1.part` where there is one.
+  // Where a file is to be found again after the power failed, or only while the program runs.
+  enum class Lasting { yes, no };
+
+  // Creates the temporary file, `.<name>.nutik.part`, or `.<name>.nutik-1.part` where another process is writing that one. What a
+  // process left behind that was killed is taken over. A link's target is written, whether there is one or not.
   // Throws OutputError where the folder is absent or not writable.
-  explicit OutputFile(std::filesystem::path path);
+  explicit OutputFile(std::filesystem::path path, Lasting lasting = Lasting::yes);
   // Removes the temporary file unless commit() was called.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -33,7 +43,8 @@ class OutputFile {
   // Replaces what was written at `offset`, as many bytes.
   void replace(std::uint64_t offset, std::span<const std::byte> bytes);
 
-  // Gives the file its name.
+  // Gives the file its name, once it has reached the disk. Throws InputError where what it was made of was lost
+  // (system/mapped_file.hpp).
   void commit();
 
  private:
@@ -41,7 +52,9 @@ class OutputFile {
 
   std::filesystem::path path_;
   std::filesystem::path temporary_path_;
-  int descriptor_ = -1;
+  Lasting lasting_;
+  KnownTemporary* known_ = nullptr;
+  int descriptor_ = -1;  // locked: the process lives
   std::uint64_t size_ = 0;
 };
 

@@ -83,6 +83,18 @@ std::uint64_t raster_bytes(const CaptureFormat& capture) {
   return capture.shape.value_count() * (capture.white_code > 255 ? 2 : 1);
 }
 
+// The picture at the front, of all pixels and not packed: what a file says of its size is true, and whatever is
+// allocated for it no surprise.
+void check_raster(const ParsedHeader& parsed, std::uint64_t file_bytes, const std::string& name) {
+  const Shape& shape = parsed.header.capture.shape;
+  // So that its bytes can be counted in 64 bits.
+  const bool is_possible = shape.pixel_count() <= file_bytes;
+  if (is_possible && fits(parsed.raster_offset, raster_bytes(parsed.header.capture) + 1, file_bytes)) return;
+  throw InputError(nutik::format(
+      "{}: it was cut off or is damaged: it states {} x {} pixels, which its {} bytes do not hold", name,
+      shape.width, shape.height, file_bytes));
+}
+
 std::uint64_t first_block_offset(const ParsedHeader& parsed) {
   return align_up(parsed.raster_offset + raster_bytes(parsed.header.capture) + 1, kAlignment);
 }
@@ -112,7 +124,9 @@ constexpr const char* kDamagedFront =
 }  // namespace
 
 Reader::Reader(const std::filesystem::path& path) : name_(path.string()), file_(path) {
-  header_ = parse_header(file_.bytes(), name_).header;
+  const ParsedHeader parsed = parse_header(file_.bytes(), name_);
+  header_ = parsed.header;
+  check_raster(parsed, file_.bytes().size(), name_);
   read_footer();
   check_front();
 }
@@ -229,11 +243,12 @@ void Reader::check_payload(std::uint64_t block, std::span<const std::byte> paylo
   try {
     BlockView(header_.capture, block_extent(block), payload).check_samples();
   } catch (const InputError& error) {
-    throw InputError(nutik::format("{}: {}", name_, error.what()));
+    fail(error.what());
   }
 }
 
 BlockLease Reader::lend(std::uint64_t block, const LeaseTerms& terms) {
+  check_mapped_files();
   if (BlockLease preloaded = take_preloaded(block); !preloaded.is_empty()) return preloaded;
   const BlockHeader header = block_header(block);
   if (is_packed(header)) return unpacked(block, terms);
@@ -314,6 +329,7 @@ Recovery recover(const std::filesystem::path& damaged, const std::filesystem::pa
   const MappedFile mapped(damaged);
   const std::span<const std::byte> file = mapped.bytes();
   const ParsedHeader parsed = parse_header(file, name);
+  check_raster(parsed, file.size(), name);
   if (is_readable(damaged)) {
     throw InputError(nutik::format(
         "{}: it was not cut off: expose from it as it is; a damaged block costs its own times only", name));

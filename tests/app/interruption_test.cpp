@@ -1,111 +1,23 @@
 // Signals: what was begun is ended in good order, or leaves nothing but its temporary file.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <fstream>
-#include <functional>
-#include <thread>
 
 #include "support/clips.hpp"
 #include "support/program.hpp"
+#include "support/running_program.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik {
 namespace {
 
+using test::bytes_so_far;
+using test::files_with;
+using test::has_begun_writing;
 using test::Scratch;
+using Running = test::RunningProgram;
 namespace fs = std::filesystem;
-
-// The program in the background.
-class Running {
- public:
-  // `ignored` is a signal that it is started with as under nohup; 0: none.
-  Running(std::vector<std::string> words, const fs::path& folder, int ignored = 0) {
-    words.insert(words.begin(), NUTIK_TEST_PROGRAM);
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    const std::string log = folder / "log";
-    process_ = fork();
-    if (process_ != 0) return;
-    // A test that runs in the background of a shell has SIGINT ignored, and its children with it.
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-      std::signal(signal, signal == ignored ? SIG_IGN : SIG_DFL);
-    const int out = open(log.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0666);
-    dup2(out, 1);
-    dup2(out, 2);
-    if (chdir(folder.c_str()) == 0) execv(arguments[0], arguments.data());
-    _exit(127);
-  }
-  ~Running() {
-    if (process_ > 0) end_with(SIGKILL);
-  }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
-
-  // Waits until something has happened, and returns whether it did before the program ended.
-  bool reaches(const std::function<bool()>& happened) const {
-    while (!happened()) {
-      siginfo_t ended{};
-      waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT);
-      if (ended.si_pid != 0) return happened();
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    return true;
-  }
-
-  // Whether the program has a handler for the signal already.
-  [[nodiscard]] bool catches(int signal) const {
-    std::ifstream status("/proc/" + std::to_string(process_) + "/status");
-    for (std::string word; status >> word;) {
-      if (word != "SigCgt:") continue;
-      std::string mask;
-      status >> mask;
-      return (std::stoull(mask, nullptr, 16) >> (signal - 1) & 1) != 0;
-    }
-    return false;
-  }
-
-  [[nodiscard]] bool takes(int signal) const { return kill(process_, signal) == 0; }
-
-  // The exit status after a signal, or minus the number of the signal that ended it.
-  int end_with(int signal) {
-    kill(process_, signal);
-    int status = 0;
-    waitpid(process_, &status, 0);
-    process_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
-
- private:
-  pid_t process_ = -1;
-};
-
-std::vector<fs::path> files_with(const fs::path& folder, const std::string& part) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().filename().string().find(part) != std::string::npos) files.push_back(entry.path());
-  }
-  return files;
-}
-
-// Of what is not whole yet.
-std::uintmax_t bytes_so_far(const fs::path& folder) {
-  std::uintmax_t most = 0;
-  for (const fs::path& file : files_with(folder, ".part")) {
-    std::error_code gone;
-    const std::uintmax_t bytes = fs::file_size(file, gone);
-    if (!gone) most = std::max(most, bytes);
-  }
-  return most;
-}
-
-bool has_begun_writing(const fs::path& folder) { return bytes_so_far(folder) > 0; }
 
 class Interruption : public testing::Test {
  protected:
@@ -159,7 +71,7 @@ TEST_F(Interruption, LeavesOnlyTheTemporaryFileOfAVideoThatIsKilled) {
       << test::read_file(scratch_ / "log");
   EXPECT_EQ(running.end_with(SIGKILL), -SIGKILL);
   EXPECT_FALSE(fs::exists(scratch_ / "v.mkv"));
-  EXPECT_EQ(files_with(scratch_.folder(), ".v.mkv.").size(), 1u);
+  EXPECT_EQ(files_with(scratch_.folder(), ".v.mkv.nutik.part").size(), 1u);
 }
 
 TEST_F(Interruption, KeepsTheStillsThatAreWhole) {

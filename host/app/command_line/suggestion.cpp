@@ -45,6 +45,8 @@ std::vector<std::string> starting_with(std::string_view word, std::span<const st
 }  // namespace
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> known) {
+  constexpr std::size_t kLongest = 100;  // characters; what is longer was not mistyped
+  if (word.size() > kLongest) return {};
   std::vector<std::string> meant = starting_with(word, known);
   if (meant.empty()) {
     const std::string* nearest = nullptr;

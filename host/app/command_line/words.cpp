@@ -7,6 +7,7 @@
 #include "app/command_line/value_check.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
+#include "session/functions.hpp"
 
 namespace nutik::app {
 namespace {
@@ -19,10 +20,12 @@ namespace {
   if (named != words.end()) {
     for (const Option* option : options_of(*find_command(*named))) known.push_back(option->name());
     if (const std::string suggestion = did_you_mean(name, known); !suggestion.empty())
-      throw UsageError(format("there is no option {}{}; see nutik-cl {} --help", name, suggestion, *named));
+      throw UsageError(
+          format("there is no option {}{}; see nutik-cl {} --help", shown(name), suggestion, *named));
   }
   for (const Option& option : options()) known.push_back(option.name());
-  throw UsageError(format("there is no option {}{}; see nutik-cl --help", name, did_you_mean(name, known)));
+  throw UsageError(
+      format("there is no option {}{}; see nutik-cl --help", shown(name), did_you_mean(name, known)));
 }
 
 class Reader {

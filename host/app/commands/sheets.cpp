@@ -39,6 +39,7 @@ class SheetJob {
     check_picture_output(output_, kColour, inputs_);
   }
 
+  [[nodiscard]] const std::filesystem::path& output() const { return output_; }
   [[nodiscard]] const std::vector<std::string>& inputs() const { return inputs_; }
   [[nodiscard]] const ExposureTally& tally() const { return tally_; }
   [[nodiscard]] std::string heading(const std::string& of) const {
@@ -80,7 +81,8 @@ class SheetJob {
 
 // Names for the single pictures; empty where none are asked for.
 std::vector<std::filesystem::path> single_names(const Options& options, std::size_t count,
-                                                std::span<const std::string> inputs) {
+                                                std::span<const std::string> inputs,
+                                                const std::filesystem::path& sheet) {
   std::vector<std::filesystem::path> names;
   if (!options.each) return names;
   const std::filesystem::path pattern = *options.each;
@@ -91,6 +93,12 @@ std::vector<std::filesystem::path> single_names(const Options& options, std::siz
   for (std::size_t i = 0; i < count; ++i) {
     names.push_back(pattern.parent_path() / numbered->with(i));
     check_output(names.back(), OutputKind::picture, inputs);
+    if (std::filesystem::absolute(names.back()).lexically_normal() ==
+        std::filesystem::absolute(sheet).lexically_normal()) {
+      throw UsageError(
+          format("--each names a picture {} and the sheet is {}; choose another name for one of them",
+                 names.back().string(), sheet.string()));
+    }
   }
   return names;
 }
@@ -146,7 +154,8 @@ int run_sweep(const Options& options) {
   const ExposureRequest request = exposure_request(options);
   const std::string label = exposure_label(options);
   SheetJob job(options, "sweep", "-" + label + "-sweep.png");
-  const std::vector<std::filesystem::path> singles = single_names(options, points.size(), job.inputs());
+  const std::vector<std::filesystem::path> singles =
+      single_names(options, points.size(), job.inputs(), job.output());
 
   Session session = open_session(options, {.besides = sheet_needs(sheet.wishes)});
   const Timeline& timeline = session.timeline();

@@ -36,6 +36,7 @@ int run_video(const Options& options) {
   output.check(frames.count, inputs);
 
   const Transfer transfer = plan.transfer.value_or(capture.transfer);
+  const TimeToEnd is_kept;  // the frames so far, whatever a frame takes
   FrameQueue queue([&] { return output.open(capture.shape, frame_format, transfer); },
                    session.waiting_pictures(frame_format.type));
   std::optional<Interrupted> interruption;

@@ -2,5 +2,5 @@
 #include "media/module.hpp"
 #include "media/stills/stills.hpp"
 
-extern "C" __attribute__((visibility("default")))
-const nutik::StillModule nutik_still_module{nutik::stills::open_still_files, nutik::stills::read_exif_times};
+extern "C" __attribute__((visibility("default"))) const nutik::StillModule nutik_still_module{
+    nutik::use_shared_state, nutik::stills::open_still_files, nutik::stills::read_exif_times};

@@ -1,0 +1,32 @@
+// What signal handlers look at, and whoever tells them: the only mutable globals. A program and the modules that it
+// loads are each linked with a copy of this room, and use the program's.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+
+namespace nutik {
+
+struct KnownTemporary;
+struct WatchedMapping;
+
+struct SharedState {
+  // A signal handler writes and every thread reads them, which needs atomics without locks.
+  std::atomic<int> noted_signal{0};
+  std::atomic<int> takes_its_time{0};  // works that must not be cut short
+
+  // Lists that never get shorter, whose entries are used again. Who is no signal handler adds to them under a lock.
+  std::atomic<WatchedMapping*> mappings{nullptr};
+  std::atomic<const WatchedMapping*> lost_mapping{nullptr};
+  std::mutex registering_mappings;
+  std::atomic<KnownTemporary*> temporaries{nullptr};
+  std::mutex registering_temporaries;
+};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<WatchedMapping*>::is_always_lock_free);
+
+[[nodiscard]] SharedState& shared_state();
+
+// For a module, before anything else is asked of it.
+void use_shared_state(SharedState& of_program);
+
+}  // namespace nutik

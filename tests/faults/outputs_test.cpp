@@ -1,0 +1,23 @@
+// No output of a command replaces another one of the same command.
+#include <gtest/gtest.h>
+
+#include "support/made_up_tik.hpp"
+#include "support/program_test.hpp"
+
+namespace nutik {
+namespace {
+
+struct OwnOutputs : test::ProgramTest {};
+
+TEST_F(OwnOutputs, OfASweepAreNotTheSheet) {
+  test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  for (const char* sheet : {"q-01.png", "./q-01.png"}) {
+    expect_refused({"sweep", "--renderer", "reference", "--start", "0s", "--exposure", "1f", "--shift",
+                    "0f..2f/1f", "--each", "q-%02d.png", "c.tik", sheet},
+                   2, "--each names a picture q-01.png and the sheet is ");
+    EXPECT_FALSE(std::filesystem::exists(scratch_ / "q-01.png"));
+  }
+}
+
+}  // namespace
+}  // namespace nutik

@@ -1,0 +1,123 @@
+// Files that are lost while they are mapped: the process lives, and makes nothing of them.
+#include "system/mapped_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <numeric>
+#include <thread>
+
+#include "capture/error.hpp"
+#include "support/scratch.hpp"
+#include "system/output_file.hpp"
+
+namespace nutik {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Scratch;
+
+constexpr std::size_t kBytes = 1 << 20;
+
+std::uint64_t sum_of(std::span<const std::byte> bytes) {
+  return std::accumulate(bytes.begin(), bytes.end(), std::uint64_t{0}, [](std::uint64_t sum, std::byte byte) {
+    return sum + static_cast<std::uint64_t>(byte);
+  });
+}
+
+// What is lost stays so for the rest of a process: each case has one of its own.
+class LostFile : public testing::Test {
+ protected:
+  LostFile() : path_(scratch_.write("c.tik", std::string(kBytes, '\1'))) {}
+
+  // Ends with the message of check_mapped_files(), status 3.
+  [[noreturn]] static void end_by_check() {
+    try {
+      check_mapped_files();
+    } catch (const InputError& error) {
+      std::fputs(error.what(), stderr);
+      std::exit(3);
+    }
+    std::exit(0);
+  }
+
+  Scratch scratch_;
+  fs::path path_;
+};
+
+TEST_F(LostFile, IsZerosAndThenAnError) {
+  const auto run = [&] {
+    watch_mapped_files();
+    const MappedFile file(path_);
+    check_mapped_files();
+    fs::resize_file(path_, kBytes / 2);
+    std::uint64_t of_a_thread = 0;
+    std::jthread([&] { of_a_thread = sum_of(file.bytes()); }).join();
+    if (sum_of(file.bytes()) != kBytes / 2 || of_a_thread != kBytes / 2) std::exit(1);
+    end_by_check();
+  };
+  EXPECT_EXIT(run(), testing::ExitedWithCode(3),
+              "c.tik changed or could not be read any more while it was read");
+}
+
+// Also of one that nobody read again: what was read before may be another file's already.
+TEST_F(LostFile, IsNoticedWhenItIsClosed) {
+  for (const bool is_shorter : {true, false}) {
+    const auto run = [&] {
+      {
+        const MappedFile file(path_);
+        if (is_shorter) {
+          fs::resize_file(path_, kBytes - 1);
+        } else {
+          std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the clock of a file's time is coarse
+          std::fstream(path_, std::ios::in | std::ios::out).write("other", 5);
+        }
+      }
+      end_by_check();
+    };
+    EXPECT_EXIT(run(), testing::ExitedWithCode(3), "c.tik changed");
+  }
+}
+
+TEST_F(LostFile, GivesNothingAName) {
+  const auto run = [&] {
+    watch_mapped_files();
+    const MappedFile file(path_);
+    OutputFile output(scratch_ / "p.png");
+    output.write("made of it");
+    fs::resize_file(path_, 0);
+    try {
+      output.commit();
+    } catch (const InputError&) {
+      std::exit(fs::exists(scratch_ / "p.png") ? 1 : 3);
+    }
+    std::exit(0);
+  };
+  EXPECT_EXIT(run(), testing::ExitedWithCode(3), "");
+}
+
+TEST_F(LostFile, MayBeReplacedByAnother) {
+  const auto run = [&] {
+    watch_mapped_files();
+    const MappedFile file(path_);
+    scratch_.write("new", "another");
+    fs::rename(scratch_ / "new", path_);
+    if (sum_of(file.bytes()) != kBytes) std::exit(1);
+    end_by_check();
+  };
+  EXPECT_EXIT(run(), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(LostFile, OfAnotherLibraryEndsTheProcessAsBefore) {
+  const auto run = [&] {
+    watch_mapped_files();
+    raise(SIGBUS);
+    std::exit(0);
+  };
+  EXPECT_EXIT(run(), testing::KilledBySignal(SIGBUS), "");
+}
+
+}  // namespace
+}  // namespace nutik
