@@ -18,7 +18,7 @@ script_packages=(python3 python3-numpy python3-opencv python3-matplotlib)
 # What only tests and benchmarks use. clang checks the kernels while building and, with libFuzzer, builds what tools/fuzz
 # runs; oclgrind checks kernels while they run; Mesa has a second OpenCL driver for the processor, which shows itself where
 # RUSTICL_ENABLE=llvmpipe is set.
-test_packages=(clang libclang-rt-14-dev oclgrind mesa-opencl-icd libgtest-dev libboost-dev netpbm ffmpeg python3-mpmath zsh fish groff)
+test_packages=(clang libclang-rt-14-dev oclgrind mesa-opencl-icd libgtest-dev libboost-dev zlib1g-dev netpbm ffmpeg python3-mpmath zsh fish groff)
 
 # Debian's own Python, which the packages above belong to, even where another one comes first in PATH.
 python=/usr/bin/python3

@@ -13,8 +13,9 @@ Picture read_mask(const std::filesystem::path& path) {
   return read_mask(file.bytes(), path.string());
 }
 
-Picture read_mask(std::span<const std::byte> bytes, const std::string& name) {
-  if (is_png(bytes)) return read_grey_png(bytes, name);
+Picture read_mask(std::span<const std::byte> bytes, const std::string& name,
+                  const CheckMaskSize& check_size) {
+  if (is_png(bytes)) return read_grey_png(bytes, name, check_size);
   if (bytes.size() < 2 || bytes[0] != std::byte{'P'}) {
     throw InputError(
         format("{} is neither a PGM nor a PNG; masks are 8-bit grey pictures of these kinds "

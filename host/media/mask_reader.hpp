@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -10,11 +11,15 @@
 
 namespace nutik {
 
+// Told the size that a mask states, before anything is allocated for it; may throw.
+using CheckMaskSize = std::function<void(std::uint32_t width, std::uint32_t height)>;
+
 // Reads an 8-bit picture with one channel (PGM P2 or P5, PNG), tags taken literally: a maximum other
 // than 255 does not rescale them. Throws InputError that says what was found and what is needed.
 [[nodiscard]] Picture read_mask(const std::filesystem::path& path);
 
 // The same of bytes that messages call `name`.
-[[nodiscard]] Picture read_mask(std::span<const std::byte> bytes, const std::string& name);
+[[nodiscard]] Picture read_mask(std::span<const std::byte> bytes, const std::string& name,
+                                const CheckMaskSize& check_size = {});
 
 }  // namespace nutik

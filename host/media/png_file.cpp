@@ -9,6 +9,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_text.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 namespace {
@@ -94,7 +95,8 @@ bool is_png(std::span<const std::byte> file) {
   return file.size() >= 8 && png_sig_cmp(reinterpret_cast<png_const_bytep>(file.data()), 0, 8) == 0;
 }
 
-Picture read_grey_png(std::span<const std::byte> file, const std::string& name) {
+Picture read_grey_png(std::span<const std::byte> file, const std::string& name,
+                      const std::function<void(std::uint32_t, std::uint32_t)>& check_size) {
   std::string error_name = name;
   ReadStructure read(error_name);
   ByteReader reader{file};
@@ -106,15 +108,27 @@ Picture read_grey_png(std::span<const std::byte> file, const std::string& name) 
     throw InputError(
         format("{} is a PNG of {} bits, {}; it must be 8 bits, grey", name, bits, colour_name(colour)));
   }
-  png_set_interlace_handling(read.png);
+  const Shape shape{png_get_image_width(read.png, read.info), png_get_image_height(read.png, read.info), 1};
+  if (check_size) check_size(shape.width, shape.height);
+  constexpr std::uint64_t kMostExpansion = 1032;  // of Deflate
+  if (shape.pixel_count() > file.size() * kMostExpansion) {
+    throw InputError(
+        format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged",
+               name, shape.width, shape.height, file.size()));
+  }
+  const int passes = png_set_interlace_handling(read.png);
   png_read_update_info(read.png, read.info);
-  Picture picture({png_get_image_width(read.png, read.info), png_get_image_height(read.png, read.info), 1},
-                  ValueType::code8, 255);
+  Picture picture(shape, ValueType::code8, 255);
   std::vector<png_bytep> rows(picture.shape.height);
   for (std::uint32_t y = 0; y < picture.shape.height; ++y) {
     rows[y] = reinterpret_cast<png_bytep>(picture.bytes.data()) + std::size_t{y} * picture.shape.width;
   }
-  png_read_image(read.png, rows.data());
+  for (int pass = 0; pass < passes; ++pass) {
+    for (const png_bytep row : rows) {
+      check_interruption();
+      png_read_row(read.png, row, nullptr);
+    }
+  }
   png_read_end(read.png, nullptr);
   return picture;
 }

@@ -23,7 +23,7 @@ struct CloseTiff {
 std::optional<std::string> read_tiff_description(const std::filesystem::path& path) {
   TIFFSetErrorHandler(nullptr);
   TIFFSetWarningHandler(nullptr);
-  const std::unique_ptr<TIFF, CloseTiff> tiff(TIFFOpen(path.c_str(), "r"));
+  const std::unique_ptr<TIFF, CloseTiff> tiff(TIFFOpen(path.c_str(), "rm"));
   if (!tiff) throw InputError(format("{} cannot be read: it is no TIFF, or was cut off", path.string()));
   const char* text = nullptr;
   if (TIFFGetField(tiff.get(), TIFFTAG_IMAGEDESCRIPTION, &text) == 0 || text == nullptr) return std::nullopt;

@@ -10,6 +10,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 namespace {
@@ -17,10 +18,18 @@ namespace {
 constexpr std::uint64_t kLargestSide = 1u << 20;
 constexpr std::uint64_t kLargestPage = std::uint64_t{16} << 30;  // bytes
 
+// What a page may take that lies in a file of so many bytes. LZW, which packs most of what photographs are kept in,
+// makes 2558 bytes of one at most; blank fax pages, of which more can be made, are small.
+std::uint64_t most_page_bytes(std::uint64_t file_bytes) {
+  constexpr std::uint64_t kMostExpansion = 2560, kSmallPage = 64 << 20;
+  return std::min(kLargestPage, std::max(kSmallPage, file_bytes * kMostExpansion));
+}
+
 // One page of an open file.
 class PageReader {
  public:
-  PageReader(TIFF* file, std::string name) : file_(file), name_(std::move(name)) {}
+  PageReader(TIFF* file, std::string name)
+      : file_(file), name_(std::move(name)), file_bytes_(TIFFGetSizeProc(file)(TIFFClientdata(file))) {}
 
   TiffPage read() {
     read_layout();
@@ -57,8 +66,15 @@ class PageReader {
     photometric_ = field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
     separate_ = field<std::uint16_t>(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_SEPARATE;
     if (shape_.width == 0 || shape_.height == 0 || shape_.width > kLargestSide ||
-        shape_.height > kLargestSide || shape_.value_count() * 2 > kLargestPage) {
+        shape_.height > kLargestSide) {
       fail(format("it states {} x {} pixels", shape_.width, shape_.height));
+    }
+    // Before anything is allocated.
+    const std::uint64_t stored_bytes = (shape_.value_count() * bits_ + 7) / 8;
+    const bool is_packed = field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE;
+    if (stored_bytes > (is_packed ? most_page_bytes(file_bytes_) : file_bytes_)) {
+      fail(format("it states {} x {} pixels, which its {} bytes do not hold; it is damaged or was cut off",
+                  shape_.width, shape_.height, file_bytes_));
     }
     if (shape_.channels != 1 && shape_.channels != 3) {
       fail(format("it has {} channels; grey (1) and colour (3) are read, transparency is not",
@@ -133,11 +149,12 @@ class PageReader {
   void read_rows(Picture& picture, std::uint16_t plane) const {
     const std::uint64_t row_bytes = TIFFScanlineSize64(file_);
     const std::uint64_t together = separate_ ? 1 : shape_.channels;
-    if (row_bytes < (shape_.width * together * bits_ + 7) / 8 || row_bytes > kLargestPage) {
+    if (row_bytes < (shape_.width * together * bits_ + 7) / 8 || row_bytes > most_page_bytes(file_bytes_)) {
       fail(format("it states rows of {} bytes", row_bytes));
     }
     std::vector<std::uint8_t> row(row_bytes);
     for (std::uint32_t y = 0; y < shape_.height; ++y) {
+      check_interruption();
       if (TIFFReadScanline(file_, row.data(), y, plane) < 0) {
         fail(format("it is damaged or was cut off at row {} of {}", y, shape_.height));
       }
@@ -152,12 +169,13 @@ class PageReader {
     const std::uint64_t together = separate_ ? 1 : shape_.channels;
     if (width == 0 || height == 0 || width > kLargestSide || height > kLargestSide ||
         row_bytes < (width * together * bits_ + 7) / 8 || tile_bytes < row_bytes * height ||
-        tile_bytes > kLargestPage) {
+        tile_bytes > most_page_bytes(file_bytes_)) {
       fail(format("it states tiles of {} x {} pixels", width, height));
     }
     std::vector<std::uint8_t> tile(tile_bytes);
     for (std::uint32_t y = 0; y < shape_.height; y += height) {
       for (std::uint32_t x = 0; x < shape_.width; x += width) {
+        check_interruption();
         if (TIFFReadTile(file_, tile.data(), x, y, 0, plane) < 0) {
           fail(format("it is damaged or was cut off at row {} of {}", y, shape_.height));
         }
@@ -195,6 +213,7 @@ class PageReader {
 
   TIFF* file_;
   std::string name_;
+  std::uint64_t file_bytes_;
   Shape shape_;
   std::uint16_t bits_ = 0;
   std::uint16_t photometric_ = 0;
@@ -213,7 +232,13 @@ struct TiffReader::File {
     TIFFOpenOptionsSetErrorHandlerExtR(options.get(), note_trouble, this);
     TIFFOpenOptionsSetWarningHandlerExtR(
         options.get(), [](auto...) { return 1; }, nullptr);
-    handle.reset(TIFFOpenExt(path.c_str(), "r", options.get()));
+    std::error_code error;
+    const std::uint64_t file_bytes = std::filesystem::file_size(path, error);
+    if (!error) {
+      TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), static_cast<tmsize_t>(most_page_bytes(file_bytes)));
+    }
+    handle.reset(
+        TIFFOpenExt(path.c_str(), "rm", options.get()));  // m: not mapped, so that it may become shorter
   }
 
   // In several places libtiff only reports damage, and returns what it could make of it.

@@ -48,6 +48,16 @@ bool is_tik(const std::filesystem::path& path) {
   return tik::looks_like_tik(std::as_bytes(std::span(start))) || path.extension() == ".tik";
 }
 
+std::optional<Shape> known_shape(const std::filesystem::path& path) {
+  if (!is_tik(path)) return std::nullopt;
+  try {
+    const MappedFile file(path);
+    return tik::parse_header(file.bytes(), path.string()).header.capture.shape;
+  } catch (const InputError&) {  // it is said when it is opened
+    return std::nullopt;
+  }
+}
+
 CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
   CaptureFormat capture = clip.info().format;
   if (options.transfer) capture.transfer = *options.transfer;

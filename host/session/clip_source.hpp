@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ namespace nutik {
 
 // Whether a file is to be read as a .tik: by its content, else by its name.
 [[nodiscard]] bool is_tik(const std::filesystem::path& path);
+
+// The size of a .tik's pictures, from its first bytes; nothing of a clip, or of what is damaged.
+[[nodiscard]] std::optional<Shape> known_shape(const std::filesystem::path& path);
 
 // A clip's format as it is or as it was stated, without noise. Throws UsageError where the white code that was
 // stated does not fit its codes.

@@ -1,6 +1,7 @@
 // Functions and masks as requests hold them, from what a person names: a file, or `-` for standard input.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,7 @@ struct FunctionInput {
 [[nodiscard]] FunctionInput read_function_input(const std::string& name);
 
 // Throws InputError that says what was found and what is needed (media/mask_reader.hpp).
-[[nodiscard]] Mask read_mask_input(const std::string& name);
+// Where it is for a `capture` whose size costs nothing to know, a .tik, another size is refused before it is read.
+[[nodiscard]] Mask read_mask_input(const std::string& name, const std::optional<std::string>& capture = {});
 
 }  // namespace nutik

@@ -1,12 +1,14 @@
 // Stills of every kind give their codes back, say what is white, and are refused with a reason.
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/error.hpp"
 #include "support/clips.hpp"
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 namespace {
@@ -294,6 +296,18 @@ TEST(StillClip, NotesAHoleInAFolderOfNumberedStills) {
   const auto pattern = open_test_clip(scratch / "frames/*.pgm");
   EXPECT_TRUE(pattern->info().notes.empty());
   expect_codes(*pattern, stills);
+}
+
+// A module is a library of its own, and a signal the program's.
+TEST(StillClip, EndsAtASignal) {
+  const Scratch scratch;
+  const auto path = scratch.write("a.tif", tiff_file(test::random_stills(kGrey, 255, 1, 1), {8}));
+  EXPECT_EQ(read_all(*open_test_clip(path)).size(), 1u);
+  catch_interruptions();
+  std::raise(SIGTERM);
+  EXPECT_THROW(open_test_clip(path), Interrupted);
+  clear_interruption();
+  EXPECT_EQ(read_all(*open_test_clip(path)).size(), 1u);
 }
 
 }  // namespace

@@ -82,7 +82,10 @@ ExposureRequest timeless_request(const Options& options) {
                             input_title(*options.functions), functions->size()));
   }
   request.gains = functions;
-  if (options.mask) request.mask = Shared(CountedMask(read_mask_input(*options.mask)));
+  if (options.mask) {
+    const auto capture = options.operands.empty() ? std::nullopt : std::optional(options.operands.front());
+    request.mask = Shared(CountedMask(read_mask_input(*options.mask, capture)));
+  }
   return request;
 }
 

@@ -59,8 +59,54 @@ bool is_cut_off_jpeg(const std::filesystem::path& file) {
   return bytes.starts_with("\xFF\xD8") && (scan == bytes.npos || end == bytes.npos || end < scan);
 }
 
+std::uint32_t big_endian(std::string_view bytes, std::size_t at, std::size_t count) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < count; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
+// Width and height that a PNG or JPEG states; nothing where there are none to be found.
+std::optional<Shape> stated_size(std::string_view bytes) {
+  constexpr std::size_t kIhdrEnd = 26;
+  if (bytes.size() >= kIhdrEnd && bytes.substr(1, 3) == "PNG") {
+    return Shape{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4), 1};
+  }
+  // The segments of a JPEG up to its frame header: FF, marker, length, data.
+  for (std::size_t at = 2; bytes.starts_with("\xFF\xD8") && at + 9 <= bytes.size() && bytes[at] == '\xFF';) {
+    const std::uint32_t marker = big_endian(bytes, at + 1, 1);
+    const bool is_frame =
+        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    if (is_frame) return Shape{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2), 1};
+    at += marker == 0xFF ? 1 : 2 + big_endian(bytes, at + 2, 2);
+  }
+  return std::nullopt;
+}
+
+// Before OpenCV allocates what a file says: Deflate makes 1032 bytes of one at most, which may be 8 pixels each, and a
+// JPEG's block of 64 pixels takes more than that.
+void check_stated_size(const std::filesystem::path& file) {
+  constexpr std::uint64_t kMostPixelsAByte = 1032 * 8, kSmallPixels = 16 << 20;
+  const MappedFile mapped(file);
+  const auto size =
+      stated_size({reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size()});
+  if (!size || size->pixel_count() <= std::max(kSmallPixels, mapped.bytes().size() * kMostPixelsAByte))
+    return;
+  throw InputError(
+      format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged",
+             file.string(), size->width, size->height, mapped.bytes().size()));
+}
+
+cv::Mat decoded_by_opencv(const std::filesystem::path& file) {
+  check_stated_size(file);
+  try {
+    return cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception& error) {  // larger than it takes, or than there is memory for
+    throw InputError(format("{} cannot be read: OpenCV says: {}", file.string(), error.err));
+  }
+}
+
 Still read_with_opencv(const std::filesystem::path& file) {
-  cv::Mat picture = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  cv::Mat picture = decoded_by_opencv(file);
   const std::string name = file.string();
   if (picture.empty() || is_cut_off_jpeg(file)) {
     throw InputError(format("{} cannot be read: it is damaged or no picture", name));

@@ -1,0 +1,74 @@
+// Tiny files that state a huge size are refused before memory is taken for it.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "capture/format.hpp"
+#include "support/hostile.hpp"
+#include "support/made_up_tik.hpp"
+#include "support/program_test.hpp"
+
+namespace nutik {
+namespace {
+
+struct Ceilings : test::ProgramTest {
+  // Of all programs that were run, in MB; the largest counts.
+  static long peak_mb() {
+    struct rusage usage {};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    return usage.ru_maxrss / 1024;
+  }
+  // A program that does nothing takes some 60 MB for its libraries, and small pictures may be up to 64 MB.
+  static constexpr long kMostMb = 250;
+
+  void expect_cheaply_refused(const std::vector<std::string>& words, std::string_view part) const {
+    expect_refused(words, 3, part);
+    EXPECT_LT(peak_mb(), kMostMb) << words.back();
+  }
+};
+
+TEST_F(Ceilings, OfTiffs) {
+  for (const int compression : {1, 5, 8, 32773}) {
+    scratch_.write("t.tif", test::tiny_tiff(65'536, 65'536, static_cast<std::uint16_t>(compression)));
+    expect_cheaply_refused({"encode", "-f", "10", "t.tif", "c.tik"},
+                           "t.tif, page 1, cannot be read: it states 65536 x 65536 pixels, which its ");
+  }
+}
+
+TEST_F(Ceilings, OfPngs) {
+  scratch_.write("p.png", test::black_png(30'000, 30'000, 10));
+  expect_cheaply_refused({"encode", "-f", "10", "p.png", "c.tik"},
+                         "p.png cannot be read: it states 30000 x 30000 pixels");
+  expect_cheaply_refused({"mask", "--threshold", "p.png", "1..255", "-o", "m.pgm"},
+                         "p.png cannot be read: it states 30000 x 30000 pixels");
+  // OpenCV's own limit.
+  scratch_.write("q.png", test::black_png(100'000, 100'000, 2'000));
+  scratch_.write("big.png", test::read_file(scratch_ / "q.png") + std::string(2 << 20, ' '));
+  expect_cheaply_refused({"encode", "-f", "10", "big.png", "c.tik"}, "big.png cannot be read: OpenCV says: ");
+}
+
+// A whole PNG of 16000 x 16000 black pixels has 250 kB.
+TEST_F(Ceilings, OfMasksAreTheCapturesSize) {
+  test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  scratch_.write("f.fn", "M0 [0:1], [1000:0]\n");
+  scratch_.write("m.png", test::black_png(16'000, 16'000, 16'000));
+  expect_cheaply_refused({"expose", "--renderer", "reference", "-k", "f.fn", "-m", "m.png", "c.tik", "p.png"},
+                         "the mask is 16000 x 16000 pixels, the capture 8 x 8");
+}
+
+TEST_F(Ceilings, OfCaptures) {
+  test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::zstd, 0});
+  const std::string file = test::read_file(scratch_ / "c.tik");
+  for (const char* size : {"65536 65536", "4294967295 4294967295", "4294967295 1", "900 1"}) {
+    std::string damaged = file;
+    damaged.replace(damaged.find("\n8 8\n") + 1, 3, size);
+    scratch_.write("d.tik", damaged);
+    for (const char* command : {"info", "recover", "activity"}) {
+      std::vector<std::string> words{command, "d.tik"};
+      if (words[0] != "info") words.emplace_back(words[0] == "recover" ? "r.tik" : "a.png");
+      expect_cheaply_refused(words, "d.tik: it was cut off or is damaged: it states ");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nutik
