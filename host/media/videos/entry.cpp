@@ -1,13 +1,13 @@
 // What nutik-videos.so gives the program (media/module.hpp).
 #include "media/module.hpp"
-#include "media/videos/libav.hpp"
+#include "media/videos/damage_log.hpp"
 #include "media/videos/videos.hpp"
 
 namespace nutik::videos {
 namespace {
 
 std::unique_ptr<Clip> open_video_clip(const std::filesystem::path& path, const ClipOptions& options) {
-  av_log_set_level(AV_LOG_FATAL);  // what matters is thrown, and said once
+  listen_to_ffmpeg();
   return open_with_libav(path, probe(path, options.raw), options);
 }
 

@@ -81,6 +81,7 @@ inline OpenedVideo open_video(const std::filesystem::path& path, const std::opti
   AVFormatContext* context = nullptr;
   AVDictionary* settings = nullptr;
   const AVInputFormat* kind = nullptr;
+  av_dict_set(&settings, "protocol_whitelist", "file", 0);  // a playlist may name what it likes
   if (raw) {
     if (av_get_pix_fmt(raw->pixel_format.c_str()) == AV_PIX_FMT_NONE) {
       throw UsageError(

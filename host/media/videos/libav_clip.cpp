@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "media/videos/damage_log.hpp"
 #include "media/videos/libav.hpp"
 #include "media/videos/pixels.hpp"
 #include "media/videos/videos.hpp"
@@ -24,6 +25,7 @@ class LibavClip final : public Clip {
     codec_.reset(allocated(avcodec_alloc_context3(decoder)));
     codec_->thread_count = threads(options);
     codec_->err_recognition = AV_EF_CRCCHECK;
+    damage_->listen_to(*codec_);
     if (avcodec_parameters_to_context(codec_.get(), parameters) < 0 ||
         avcodec_open2(codec_.get(), decoder, nullptr) < 0) {
       throw InputError(format("{}: its decoder cannot be started", name_));
@@ -59,11 +61,15 @@ class LibavClip final : public Clip {
                               frames_read_, frame_->width, frame_->height, coded_.width, coded_.height));
     }
     // A decoder fills damaged parts with what was there before, which would pass for a still scene.
-    if (frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0) {
+    const bool is_flagged = frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0;
+    const auto said = damage_->said();
+    if (is_flagged || said) {
+      // Decoders are some pictures ahead of who reads them.
       throw InputError(format(
-          "{}: picture {} is damaged; cut the clip before it, or encode it anew with what is left of it: "
+          "{}: picture {}{} is damaged{}; cut the clip before it, or encode it anew with what is left of it: "
           "ffmpeg -i {} -c:v ffv1 mended.mkv",
-          name_, frames_read_, name_));
+          name_, frames_read_, is_flagged ? "" : " or one soon after it",
+          said ? format(" (FFmpeg says: {})", *said) : std::string(), name_));
     }
     converter_.convert(*frame_, raster, name_);
     ++frames_read_;
@@ -132,6 +138,7 @@ class LibavClip final : public Clip {
       // A clip that was cut starts with packets that refer to pictures before it.
       const bool is_cut = code == AVERROR_INVALIDDATA && frames_read_ == 0;
       if (code < 0 && !is_cut) fail(code);
+      if (is_cut) damage_->forget();
       if (wanted) return;
     }
   }
@@ -145,6 +152,7 @@ class LibavClip final : public Clip {
   OpenedVideo opened_;
   Shape coded_;  // before the pictures are turned upright
   PixelConverter converter_;
+  std::unique_ptr<DamageLog> damage_ = std::make_unique<DamageLog>();  // outlives the decoder
   CodecPointer codec_;
   PacketPointer packet_;
   FramePointer frame_;

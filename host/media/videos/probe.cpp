@@ -140,6 +140,34 @@ void add_cine_header(const CineHeader& header, const AVStream& stream, const std
   }
 }
 
+// How long a file says that its pictures last, in seconds; nothing where it does not, or may mean its sound.
+std::optional<double> announced_seconds(const AVFormatContext& file, const AVStream& stream) {
+  if (stream.duration != AV_NOPTS_VALUE && stream.duration > 0) {
+    return static_cast<double>(stream.duration) * av_q2d(stream.time_base);
+  }
+  const bool is_estimated = file.duration_estimation_method == AVFMT_DURATION_FROM_BITRATE;
+  if (file.nb_streams != 1 || is_estimated || file.duration == AV_NOPTS_VALUE || file.duration <= 0)
+    return {};
+  return static_cast<double>(file.duration) / AV_TIME_BASE;
+}
+
+// A container that was cut off is often read to its end without a word, which comes too early.
+std::optional<std::string> missing_end_note(const AVFormatContext& file, const AVStream& stream,
+                                            std::int64_t last_end, std::size_t pictures) {
+  const auto announced = announced_seconds(file, stream);
+  if (!announced || last_end == INT64_MIN || pictures < 2) return {};
+  const std::int64_t start = stream.start_time == AV_NOPTS_VALUE ? 0 : stream.start_time;
+  const double found =
+      (static_cast<double>(last_end) - static_cast<double>(start)) * av_q2d(stream.time_base);
+  constexpr double kPeriods = 2.5;  // that containers may be off by
+  if (*announced - found <= kPeriods * found / static_cast<double>(pictures)) return {};
+  return format(
+      "the file says that it lasts {:.4g} s, and its pictures end after {:.4g} s: it was cut off, or damaged "
+      "so "
+      "that some are missing",
+      *announced, found);
+}
+
 // How many pictures the file holds. A size or format that is wrong would cut them at the wrong places.
 std::uint64_t count_raw_pictures(const std::filesystem::path& path, const RawVideo& raw) {
   const int bytes = av_image_get_buffer_size(av_get_pix_fmt(raw.pixel_format.c_str()),
@@ -179,11 +207,17 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   }
 
   std::vector<std::int64_t> times;
+  std::int64_t last_end = INT64_MIN;
   const PacketPointer packet(allocated(av_packet_alloc()));
   int code = 0;
   while ((code = av_read_frame(opened.format.get(), packet.get())) >= 0) {
     const bool counts = packet->stream_index == opened.stream && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
-    if (counts) times.push_back(packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts);
+    if (counts) {
+      times.push_back(packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts);
+      if (times.back() != AV_NOPTS_VALUE && times.back() < INT64_MAX - packet->duration) {
+        last_end = std::max(last_end, times.back() + packet->duration);
+      }
+    }
     av_packet_unref(packet.get());
   }
   if (code != AVERROR_EOF) {
@@ -191,6 +225,9 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
         format("the file is damaged or was cut off behind picture {}: {}", times.size(), error_text(code)));
   }
   result.sample_count = times.size();
+  if (auto note = missing_end_note(*opened.format, stream, last_end, times.size())) {
+    result.notes.emplace_back(std::move(*note));
+  }
   result.timing = packet_timing(stream, std::move(times), path.string());
   if (const auto header = read_cine_header(path)) add_cine_header(*header, stream, path.string(), result);
   return result;

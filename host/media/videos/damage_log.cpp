@@ -1,0 +1,81 @@
+#include "media/videos/damage_log.hpp"
+
+#include <cstdarg>
+#include <cstdio>
+#include <set>
+
+#include "media/videos/libav.hpp"
+
+namespace nutik::videos {
+namespace {
+
+// FFmpeg has one log for a process, and decoders of other libraries write to it, too.
+struct Listeners {
+  std::mutex mutex;
+  std::set<const void*> known;  // DamageLogs that live
+};
+
+Listeners& listeners() {
+  static Listeners instance;
+  return instance;
+}
+
+// The decoder on whose behalf a context logs; null where there is none.
+const AVCodecContext* decoder_of(const void* context) {
+  while (context != nullptr) {
+    const AVClass* kind = *static_cast<const AVClass* const*>(context);
+    if (kind == nullptr) return nullptr;
+    if (kind == avcodec_get_class()) return static_cast<const AVCodecContext*>(context);
+    if (kind->parent_log_context_offset == 0) return nullptr;
+    context = *reinterpret_cast<const void* const*>(static_cast<const char*>(context) +
+                                                    kind->parent_log_context_offset);
+  }
+  return nullptr;
+}
+
+void take_log(void* context, int level, const char* form, va_list values) {
+  if (level > AV_LOG_ERROR) return;
+  const AVCodecContext* decoder = decoder_of(context);
+  if (decoder == nullptr || decoder->opaque == nullptr) return;
+  char text[512];
+  if (std::vsnprintf(text, sizeof text, form, values) <= 0) return;
+  std::string said = text;
+  while (!said.empty() && (said.back() == '\n' || said.back() == ' ')) said.pop_back();
+  const std::scoped_lock lock(listeners().mutex);
+  if (listeners().known.contains(decoder->opaque)) static_cast<DamageLog*>(decoder->opaque)->note(said);
+}
+
+}  // namespace
+
+void listen_to_ffmpeg() {
+  av_log_set_level(AV_LOG_ERROR);
+  av_log_set_callback(take_log);
+}
+
+DamageLog::~DamageLog() {
+  const std::scoped_lock lock(listeners().mutex);
+  listeners().known.erase(this);
+}
+
+void DamageLog::listen_to(AVCodecContext& decoder) {
+  const std::scoped_lock lock(listeners().mutex);
+  listeners().known.insert(this);
+  decoder.opaque = this;
+}
+
+void DamageLog::note(const std::string& text) {
+  const std::scoped_lock lock(mutex_);
+  if (!first_) first_ = text;
+}
+
+std::optional<std::string> DamageLog::said() const {
+  const std::scoped_lock lock(mutex_);
+  return first_;
+}
+
+void DamageLog::forget() {
+  const std::scoped_lock lock(mutex_);
+  first_.reset();
+}
+
+}  // namespace nutik::videos

@@ -1,0 +1,92 @@
+// Videos that were damaged or cut off: refused, the same pictures, or a note. Decoders hand out pictures all the same.
+#include <gtest/gtest.h>
+
+#include "support/ffmpeg.hpp"
+#include "support/random_case.hpp"
+#include "support/stills.hpp"
+
+namespace nutik {
+namespace {
+
+using test::open_test_clip;
+using test::read_all;
+using test::Scratch;
+
+constexpr Shape kShape{64, 48, 1};
+constexpr int kPictures = 30;
+
+class DamagedVideo : public testing::Test {
+ protected:
+  void make_clip(const std::string& codec, const std::string& name) const {
+    const auto pictures = test::random_stills(kShape, 255, kPictures, 1);
+    scratch_.write("raw", test::bytes_of(pictures));
+    test::make(scratch_, test::from_raw(kShape, "gray") + codec + " " + name);
+  }
+  Scratch scratch_;
+};
+
+TEST_F(DamagedVideo, OfFfv1IsNeverExposedSilently) {
+  NEEDS_FFMPEG();
+  make_clip("-c:v ffv1 -level 3 -slices 4 -slicecrc 1", "whole.mkv");
+  const std::string whole = test::read_file(scratch_ / "whole.mkv");
+  const auto pictures = read_all(*open_test_clip(scratch_ / "whole.mkv"));
+  ASSERT_EQ(pictures.size(), std::size_t{kPictures});
+  test::Random random(7);
+  int refused = 0;
+  for (int flip = 0; flip < 40; ++flip) {
+    std::string damaged = whole;
+    // Behind what tells where pictures lie, which a container may lose without a decoder's knowing.
+    const auto at =
+        static_cast<std::size_t>(random.whole(2000, static_cast<std::int64_t>(whole.size()) - 1000));
+    damaged[at] = static_cast<char>(damaged[at] ^ 1 << random.whole(0, 7));
+    const auto path = scratch_.write("damaged.mkv", damaged);
+    try {
+      const auto clip = open_test_clip(path);
+      const auto read = read_all(*clip);
+      const bool is_told = !clip->info().notes.empty() || read.size() != clip->info().sample_count;
+      EXPECT_TRUE(read == pictures || is_told) << "byte " << at << " of " << whole.size();
+    } catch (const InputError& error) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 20);
+}
+
+TEST_F(DamagedVideo, ThatWasCutOffSaysSo) {
+  NEEDS_FFMPEG();
+  for (const auto& [codec, name] :
+       std::vector<std::pair<std::string, std::string>>{{"-c:v ffv1", "c.mkv"},
+                                                        {"-c:v libx264 -qp 0 -pix_fmt gray", "h.mkv"},
+                                                        {"-c:v mjpeg -pix_fmt yuvj420p", "m.avi"}}) {
+    SCOPED_TRACE(name);
+    make_clip(codec, name);
+    EXPECT_TRUE(open_test_clip(scratch_ / name)->info().notes.empty());
+    const std::string whole = test::read_file(scratch_ / name);
+    for (const double share : {0.3, 0.5, 0.7}) {
+      scratch_.write("cut-" + name,
+                     whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
+      try {
+        const auto clip = open_test_clip(scratch_ / ("cut-" + name));
+        const std::size_t count = read_all(*clip).size();
+        EXPECT_LT(count, std::size_t{kPictures});
+        EXPECT_FALSE(clip->info().notes.empty() && count == clip->info().sample_count) << share;
+      } catch (const InputError&) {
+      }
+    }
+  }
+}
+
+TEST_F(DamagedVideo, WithSoundThatLastsLongerIsWhole) {
+  NEEDS_FFMPEG();
+  scratch_.write("raw", test::bytes_of(test::random_stills(kShape, 255, kPictures, 1)));
+  for (const char* name : {"s.mkv", "s.mp4", "s.avi"}) {
+    test::make(scratch_, test::from_raw(kShape, "gray") +
+                             "-f lavfi -i sine=duration=5 -c:v mjpeg -pix_fmt yuvj420p -c:a aac " + name);
+    const auto clip = open_test_clip(scratch_ / name);
+    EXPECT_TRUE(clip->info().notes.empty()) << name << ": " << clip->info().notes.front().text;
+    EXPECT_EQ(read_all(*clip).size(), std::size_t{kPictures}) << name;
+  }
+}
+
+}  // namespace
+}  // namespace nutik
