@@ -13,6 +13,25 @@ if(NUTIK_WARNINGS_AS_ERRORS)
   target_compile_options(nutik_warnings INTERFACE -Werror)
 endif()
 
+# What makes a mistake in our code harder to use for who feeds it files. Linked to whatever has our warnings.
+option(NUTIK_HARDENED "Stack protector, checked libc calls, read-only relocations, position-independent programs" ON)
+option(NUTIK_LIBRARY_ASSERTIONS "Check indices of the standard library's containers, also in optimized builds" OFF)
+add_library(nutik_hardening INTERFACE)
+if(NUTIK_HARDENED)
+  include(CheckPIESupported)
+  check_pie_supported(LANGUAGES CXX)
+  target_compile_options(nutik_hardening INTERFACE -fstack-protector-strong)
+  # The C library checks what an optimizer knows; sanitizers check more, and in their own way.
+  if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize" AND NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
+    target_compile_options(nutik_hardening INTERFACE -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
+  endif()
+  target_link_options(nutik_hardening INTERFACE LINKER:-z,relro LINKER:-z,now)
+endif()
+if(NUTIK_LIBRARY_ASSERTIONS)
+  target_compile_definitions(nutik_hardening INTERFACE _GLIBCXX_ASSERTIONS)
+endif()
+target_link_libraries(nutik_warnings INTERFACE nutik_hardening)
+
 # <format> where the standard library has it, else fmt (host/capture/format.hpp).
 include(CheckCXXSourceCompiles)
 set(CMAKE_REQUIRED_FLAGS -std=c++20)

@@ -82,8 +82,20 @@ def check_bash(program, work):
         offers(f"nutik-cl {command} --", set(re.findall(r"^(?:  -., |      )(--[a-z-]+)", page, re.M)) | {"--help"})
 
 
+def has_terminals():
+    try:
+        for end in os.openpty():
+            os.close(end)
+    except OSError:
+        return False
+    return True
+
+
 @section("zsh")
 def check_zsh(program, work):
+    if not has_terminals():
+        print("SKIPPED: there is no pseudo terminal here, which zsh is asked through")
+        return
     script = work / "_nutik-cl"
     script.write_text(output(program, "completion", "zsh"))
     output("zsh", "-n", str(script))
