@@ -105,12 +105,12 @@ bool BlockView::slots_increase(const std::byte* body, std::uint32_t slots) const
   return true;
 }
 
-void BlockView::check_samples() const {
+void BlockView::check_samples(std::uint64_t first, std::uint64_t last) const {
   constexpr std::uint64_t kTilesAtOnce = 4096;
-  parallel_for((geometry_.tile_count + kTilesAtOnce - 1) / kTilesAtOnce, [&](std::uint64_t part) {
+  parallel_for((last - first + kTilesAtOnce - 1) / kTilesAtOnce, [&](std::uint64_t part) {
     std::vector<ChangeRecord> history;
-    const std::uint64_t first = part * kTilesAtOnce;
-    for (std::uint64_t tile = first; tile < std::min(first + kTilesAtOnce, geometry_.tile_count); ++tile) {
+    const std::uint64_t begin = first + part * kTilesAtOnce;
+    for (std::uint64_t tile = begin; tile < std::min(begin + kTilesAtOnce, last); ++tile) {
       const TileEntry at = entry(tile);
       if (!at.is_records()) {
         for (std::uint32_t row = 0, before = 0; row < at.rows(); ++row)

@@ -144,8 +144,8 @@ class BlockView {
 
   // Throws InputError, naming tile and pixel, where sample numbers do not increase or are not the block's: what a
   // checksum cannot tell of a file that was made up. Sources check what they read, so that every renderer refuses the
-  // same.
-  void check_samples() const;
+  // same. Of the tiles [first, last).
+  void check_samples(std::uint64_t first, std::uint64_t last) const;
 
   // What one pixel holds: its start (sample 0) followed by its change records in time order. Rows of a
   // tile that leave the pixel's codes as they were are skipped. `history` is replaced. Sample numbers are

@@ -72,7 +72,7 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMe
   header.rate = stated_rate ? stated_rate : source_.clip->info().timing.rate;
   header.shutter_angle = times_.shutter_angle();
   writer_.emplace(request.output, header, request.codec, to_held_codes(source_.capture, first_.front()),
-                  request.lasting, memory.threads);
+                  memory.threads, request.lasting);
   for (std::size_t i = 0; i < kPayloads; ++i) spare_payloads_.push(PageBuffer());
 }
 

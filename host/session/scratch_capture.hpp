@@ -16,8 +16,8 @@ struct ScratchCapture {
 
 // Encodes into a temporary file, in TMPDIR, else /tmp. It has no name any more when this returns, and takes no space
 // once the reader is gone; what a killed process left behind is removed by the next that makes one. Throws as encode()
-// does, OutputError where there is no space. `rendering` tells what will be held while the capture is used, beside a
-// block of it.
+// does, OutputError where there is no space.
+// `rendering` tells what will be held while the capture is used, beside a block of it.
 [[nodiscard]] ScratchCapture encode_to_scratch(const SourceRequest& source, const MemoryBudget& memory,
                                                const NeedsOfFormat& rendering,
                                                const ReportedProgress& progress = {},

@@ -239,9 +239,12 @@ void Reader::check(std::uint64_t block, const BlockHeader& header) const {
   if (!is_packed(header)) check_payload(block, stored);
 }
 
-void Reader::check_payload(std::uint64_t block, std::span<const std::byte> payload) const {
+void Reader::check_payload(std::uint64_t block, std::span<const std::byte> payload,
+                           const std::optional<TileRuns>& unpacked) const {
   try {
-    BlockView(header_.capture, block_extent(block), payload).check_samples();
+    const BlockView view(header_.capture, block_extent(block), payload);
+    const TileRuns whole{{0, view.geometry().tile_count}};
+    for (const auto& [first, last] : unpacked.value_or(whole)) view.check_samples(first, last);
   } catch (const InputError& error) {
     fail(error.what());
   }
@@ -271,13 +274,23 @@ BlockLease Reader::unpacked(std::uint64_t block, const LeaseTerms& terms) const 
   check(block, header);
   const std::span<const std::byte> stored = stored_payload(block, header);
   const std::span<std::byte> payload = room.first(header.payload_bytes);
+  std::optional<TileRuns> wanted;
+  WantsTiles wants;
+  if (terms.wants) {
+    wanted.emplace();
+    wants = [&](std::uint64_t first, std::uint64_t last) {
+      const bool is_wanted = terms.wants(first, last);
+      if (is_wanted) wanted->emplace_back(first, last);
+      return is_wanted;
+    };
+  }
   try {
     unpack(static_cast<CodecId>(header.codec), BlockGeometry(header_.capture, header.sample_count), stored,
-           payload, terms.wants);
+           payload, wants);
   } catch (const InputError& error) {
     fail_block(block, error.what());
   }
-  check_payload(block, payload);
+  check_payload(block, payload, wanted);
   file_.release(stored);  // a capture may be larger than memory
   return {block_extent(block), payload, std::move(own)};
 }

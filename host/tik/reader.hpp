@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "imev/capture_source.hpp"
@@ -61,7 +62,10 @@ class Reader final : public CaptureSource {
   [[nodiscard]] BlockLease take_preloaded(std::uint64_t block);
   void check(std::uint64_t block, const BlockHeader& header) const;
   // Directory and sample numbers, whose checksums are right whatever a file was made up of.
-  void check_payload(std::uint64_t block, std::span<const std::byte> payload) const;
+  // Of the tiles [first, last) of each pair: the others were not unpacked.
+  using TileRuns = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
+  void check_payload(std::uint64_t block, std::span<const std::byte> payload,
+                     const std::optional<TileRuns>& unpacked = {}) const;
   [[nodiscard]] std::uint64_t mapped_offset(std::uint64_t block, const BlockHeader& header) const;
 
   [[nodiscard]] BlockHeader block_header(std::uint64_t block) const;

@@ -38,7 +38,8 @@ void pad(OutputFile& file) {
 }  // namespace
 
 Writer::Writer(const std::filesystem::path& path, const Header& header, const Codec& codec,
-               std::span<const std::byte> first_sample, OutputFile::Lasting lasting, std::uint32_t most_threads)
+               std::span<const std::byte> first_sample, std::uint32_t most_threads,
+               OutputFile::Lasting lasting)
     : file_(path, lasting), header_(header), codec_(codec), most_threads_(most_threads) {
   header_.codec = codec.text();
   std::vector<std::byte> front = netpbm_raster(header_.capture, first_sample);

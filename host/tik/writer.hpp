@@ -26,8 +26,8 @@ class Writer {
   // Starts the file with the picture of the first sample: header.capture.sample_bytes() bytes. Nothing
   // stands under `path` before finish(). Throws OutputError where it cannot be written.
   Writer(const std::filesystem::path& path, const Header& header, const Codec& codec,
-         std::span<const std::byte> first_sample, OutputFile::Lasting lasting = OutputFile::Lasting::yes,
-         std::uint32_t most_threads = ~std::uint32_t{0});
+         std::span<const std::byte> first_sample, std::uint32_t most_threads = ~std::uint32_t{0},
+         OutputFile::Lasting lasting = OutputFile::Lasting::yes);
 
   // Appends the next block; with an irregular timeline also its samples' exposures, times from the
   // first sample's start.
