@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <vector>
 
 #include "capture/noise_model.hpp"
+#include "capture/primaries.hpp"
+#include "capture/rational.hpp"
 #include "capture/transfer.hpp"
 
 namespace nutik {
@@ -58,8 +61,21 @@ struct CaptureFormat {
   std::uint32_t white_code = 255;  // the code that stands for light 1; no code is larger
   Transfer transfer = Transfer::srgb();
   NoiseModel noise;
+  Primaries primaries = Primaries::bt709;  // of colour
+  Rational pixel_aspect{1, 1};             // how much wider than high a pixel is to be shown
 
   [[nodiscard]] std::uint64_t sample_bytes() const { return shape.value_count() * code_bytes; }
+  // Its size in square pixels, no side smaller than it is.
+  [[nodiscard]] Shape shown_shape() const {
+    Shape shown = shape;
+    const auto longer = [](std::uint32_t side, std::int64_t by, std::int64_t than) {
+      return static_cast<std::uint32_t>(round_half_up(static_cast<int128>(side) * by, than));
+    };
+    const auto [wide, high] = pixel_aspect;
+    if (wide > high) shown.width = longer(shape.width, wide, high);
+    if (high > wide) shown.height = longer(shape.height, high, wide);
+    return shown;
+  }
   friend bool operator==(const CaptureFormat&, const CaptureFormat&) = default;
 };
 
@@ -90,6 +106,11 @@ struct Picture {
   ValueType type = ValueType::code8;
   std::uint32_t white_code = 255;  // meaningful for codes
   std::vector<std::byte> bytes;
+
+  // What the values mean to whoever shows them.
+  std::optional<Transfer> transfer;  // of codes; none: they stand for no light, or nobody said
+  Primaries primaries = Primaries::bt709;
+  Rational pixel_aspect{1, 1};
 
   Picture() = default;
   Picture(Shape picture_shape, ValueType value_type, std::uint32_t white)

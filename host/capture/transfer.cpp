@@ -1,5 +1,6 @@
 #include "capture/transfer.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -23,6 +24,45 @@ constexpr double kBt709ToeLight = 0.018053968510807;
 constexpr double kBt709ToeSlope = 4.5;
 constexpr double kBt709Exponent = 0.45;
 
+// ITU-R BT.2100, table 5. The third is 1/2 - a ln 4a, in full, so that the two pieces meet.
+constexpr double kHlgA = 0.17883277;
+constexpr double kHlgB = 1.0 - 4.0 * kHlgA;
+constexpr double kHlgC = 0.559910729529562;
+constexpr double kHlgRootFraction = 0.5;
+constexpr double kHlgReferenceWhite = 0.75;  // BT.2408
+
+// ITU-R BT.2100, table 4.
+constexpr double kPqM1 = 2610.0 / 16384;
+constexpr double kPqM2 = 2523.0 / 4096 * 128;
+constexpr double kPqC1 = 3424.0 / 4096;
+constexpr double kPqC2 = 2413.0 / 4096 * 32;
+constexpr double kPqC3 = 2392.0 / 4096 * 32;
+constexpr double kPqPeak = 10'000.0;         // cd/m²
+constexpr double kPqReferenceWhite = 203.0;  // BT.2408
+
+double hlg_light(double fraction) {
+  if (fraction <= kHlgRootFraction) return fraction <= 0.0 ? 0.0 : fraction * fraction / 3.0;
+  // The printed constants pass 1 by 3e-8, and light beyond the last code is nobody's.
+  const double light = (std::exp((fraction - kHlgC) / kHlgA) + kHlgB) / 12.0;
+  return fraction <= 1.0 ? std::min(light, 1.0) : light;
+}
+
+double hlg_fraction(double light) {
+  if (light <= 0.0) return 0.0;
+  if (light <= kHlgRootFraction * kHlgRootFraction / 3.0) return std::sqrt(3.0 * light);
+  return kHlgA * std::log(12.0 * light - kHlgB) + kHlgC;
+}
+
+double pq_light(double fraction) {
+  const double power = std::pow(std::max(fraction, 0.0), 1.0 / kPqM2);
+  return std::pow(std::max(power - kPqC1, 0.0) / (kPqC2 - kPqC3 * power), 1.0 / kPqM1);
+}
+
+double pq_fraction(double light) {
+  const double power = std::pow(std::max(light, 0.0), kPqM1);
+  return std::pow((kPqC1 + kPqC2 * power) / (1.0 + kPqC3 * power), kPqM2);
+}
+
 }  // namespace
 
 Transfer Transfer::gamma(double exponent) {
@@ -36,6 +76,8 @@ Transfer Transfer::parse(std::string_view text) {
   if (text == "srgb") return srgb();
   if (text == "bt709") return bt709();
   if (text == "linear") return linear();
+  if (text == "hlg") return hlg();
+  if (text == "pq") return pq();
   constexpr std::string_view kGamma = "gamma:";
   if (text.starts_with(kGamma)) {
     const std::string_view number = text.substr(kGamma.size());
@@ -44,7 +86,8 @@ Transfer Transfer::parse(std::string_view text) {
     if (error == std::errc() && end == number.data() + number.size()) return gamma(exponent);
   }
   throw UsageError(
-      format("transfer '{}' is not known; choose srgb, bt709, linear or gamma:G (as in gamma:2.2)", text));
+      format("transfer '{}' is not known; choose srgb, bt709, linear, gamma:G (as in gamma:2.2), hlg or pq",
+             text));
 }
 
 std::string Transfer::text() const {
@@ -53,6 +96,8 @@ std::string Transfer::text() const {
     case Kind::bt709: return "bt709";
     case Kind::linear: return "linear";
     case Kind::gamma: return format("gamma:{}", exponent_);
+    case Kind::hlg: return "hlg";
+    case Kind::pq: return "pq";
   }
   return {};
 }
@@ -69,6 +114,8 @@ double Transfer::light_of(double fraction) const {
                  : std::pow((fraction + kBt709Offset) / (1.0 + kBt709Offset), 1.0 / kBt709Exponent);
     case Kind::linear: return fraction;
     case Kind::gamma: return fraction <= 0.0 ? 0.0 : std::pow(fraction, exponent_);
+    case Kind::hlg: return hlg_light(fraction);
+    case Kind::pq: return pq_light(fraction);
   }
   return fraction;
 }
@@ -84,8 +131,18 @@ double Transfer::fraction_of(double light) const {
                                     : (1.0 + kBt709Offset) * std::pow(light, kBt709Exponent) - kBt709Offset;
     case Kind::linear: return light;
     case Kind::gamma: return light <= 0.0 ? 0.0 : std::pow(light, 1.0 / exponent_);
+    case Kind::hlg: return hlg_fraction(light);
+    case Kind::pq: return pq_fraction(light);
   }
   return light;
+}
+
+double Transfer::reference_white() const {
+  switch (kind_) {
+    case Kind::hlg: return hlg_light(kHlgReferenceWhite);
+    case Kind::pq: return kPqReferenceWhite / kPqPeak;
+    default: return 1.0;
+  }
 }
 
 std::optional<Transfer::Toe> Transfer::toe() const {
@@ -93,7 +150,9 @@ std::optional<Transfer::Toe> Transfer::toe() const {
     case Kind::srgb: return Toe{kSrgbToeFraction, 1.0 / kSrgbToeSlope};
     case Kind::bt709: return Toe{kBt709ToeSlope * kBt709ToeLight, 1.0 / kBt709ToeSlope};
     case Kind::linear:
-    case Kind::gamma: return std::nullopt;
+    case Kind::gamma:
+    case Kind::hlg:
+    case Kind::pq: return std::nullopt;
   }
   return std::nullopt;
 }

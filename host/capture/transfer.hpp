@@ -1,7 +1,7 @@
 // The transfer function: how a stored code stands for light.
 //
-// Both sides are fractions in [0, 1]: a code divided by its white code, and light relative to white.
-// Integration is always done in light.
+// Both sides are fractions in [0, 1]: a code divided by its white code, and light relative to the most that a code
+// stands for. Integration is always done in light.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,18 @@ namespace nutik {
 
 class Transfer {
  public:
-  enum class Kind { srgb, bt709, linear, gamma };
+  enum class Kind { srgb, bt709, linear, gamma, hlg, pq };
 
   static Transfer srgb() { return Transfer(Kind::srgb, 1.0); }      // IEC 61966-2-1
   static Transfer bt709() { return Transfer(Kind::bt709, 1.0); }    // ITU-R BT.709, BT.2020's constants
   static Transfer linear() { return Transfer(Kind::linear, 1.0); }  // light = code / white code
   static Transfer gamma(double exponent);                           // light = fraction ^ exponent
+  // ITU-R BT.2100: the scene's light of hybrid log-gamma, by its OETF; the display's light of the perceptual
+  // quantizer, by its EOTF, where light 1 is 10 000 cd/m².
+  static Transfer hlg() { return Transfer(Kind::hlg, 1.0); }
+  static Transfer pq() { return Transfer(Kind::pq, 1.0); }
 
-  // `srgb`, `bt709`, `linear` or `gamma:2.2` (0.1 … 10). Throws UsageError listing these.
+  // `srgb`, `bt709`, `linear`, `gamma:2.2` (0.1 … 10), `hlg` or `pq`. Throws UsageError listing these.
   static Transfer parse(std::string_view text);
   [[nodiscard]] std::string text() const;
 
@@ -31,6 +35,10 @@ class Transfer {
   // Light of a code fraction, and back. Inverse of each other to a few ulp; increasing.
   [[nodiscard]] double light_of(double fraction) const;
   [[nodiscard]] double fraction_of(double light) const;
+
+  // The light that a screen shows as white: 1, or below it where codes also stand for what is brighter than white
+  // (ITU-R BT.2408: 75 % of HLG, 203 cd/m² of PQ).
+  [[nodiscard]] double reference_white() const;
 
   // Light of every code 0 … white_code.
   [[nodiscard]] std::vector<double> light_of_codes(std::uint32_t white_code) const;
@@ -53,7 +61,7 @@ class Transfer {
   friend bool operator==(const Transfer&, const Transfer&) = default;
 
  private:
-  Transfer(Kind kind, double exponent) : kind_(kind), exponent_(exponent) {}
+  constexpr Transfer(Kind kind, double exponent) : kind_(kind), exponent_(exponent) {}
 
   Kind kind_;
   double exponent_;

@@ -1,6 +1,7 @@
 #include "media/clip.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <system_error>
 
 #include "capture/error.hpp"
@@ -63,6 +64,67 @@ std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOpt
     throw InputError(format("{} cannot be read: no such file", path.string()));
   }
   return video_module().open(path, options);
+}
+
+std::string_view to_text(YuvMatrix matrix) {
+  switch (matrix) {
+    case YuvMatrix::bt601: return "bt601";
+    case YuvMatrix::bt709: return "bt709";
+    case YuvMatrix::bt2020: return "bt2020";
+    case YuvMatrix::fcc: return "fcc";
+    case YuvMatrix::smpte240m: return "smpte240m";
+  }
+  return {};
+}
+
+std::string_view to_text(CodeRange range) { return range == CodeRange::full ? "full" : "limited"; }
+
+YuvMatrix parse_yuv_matrix(std::string_view text) {
+  for (const YuvMatrix matrix : {YuvMatrix::bt601, YuvMatrix::bt709, YuvMatrix::bt2020}) {
+    if (text == to_text(matrix)) return matrix;
+  }
+  throw UsageError(format("matrix '{}' is not known; choose bt601, bt709 or bt2020", text));
+}
+
+CodeRange parse_code_range(std::string_view text) {
+  for (const CodeRange range : {CodeRange::limited, CodeRange::full}) {
+    if (text == to_text(range)) return range;
+  }
+  throw UsageError(format("range '{}' is not known; choose limited or full", text));
+}
+
+Rational parse_pixel_aspect(std::string_view text) {
+  constexpr double kMost = 64.0;
+  const auto colon = text.find(':');
+  std::string fraction(text);
+  if (colon != std::string_view::npos) fraction[colon] = '/';
+  const Rational aspect = Rational::parse(fraction, "pixel aspect");
+  if (!(aspect.value() >= 1 / kMost && aspect.value() <= kMost)) {
+    throw UsageError(format("pixel aspect '{}' lies outside 1:64 … 64:1", text));
+  }
+  return aspect;
+}
+
+Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOptions& options,
+                     std::uint64_t sample_count) {
+  const ClipTiming& timing = info.timing;
+  const std::optional<Rational> rate = options.rate ? options.rate : timing.rate;
+  if (!timing.exposed_ns) return timeline_of(name, info, options, Timeline::kFullShutter, sample_count);
+  if (rate) {
+    const double degrees =
+        360.0 * static_cast<double>(*timing.exposed_ns) * rate->value() / static_cast<double>(kSecondNs);
+    // As exact as anybody reads an angle; longer than a period none is.
+    constexpr std::int64_t kParts = 1'000'000;
+    const auto parts = static_cast<std::int64_t>(std::clamp(std::round(degrees * kParts), 1.0, 360.0 * kParts));
+    return timeline_of(name, info, options, Rational::of(parts, kParts), sample_count);
+  }
+  ClipInfo listed = info;
+  const std::vector<std::int64_t>& starts = timing.starts_ns;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const std::int64_t end_ns = starts[k] + *timing.exposed_ns;
+    listed.timing.exposures.push_back({starts[k], k + 1 < starts.size() ? std::min(end_ns, starts[k + 1]) : end_ns});
+  }
+  return timeline_of(name, listed, options, Timeline::kFullShutter, sample_count);
 }
 
 Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOptions& options,

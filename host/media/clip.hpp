@@ -8,9 +8,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "capture/error.hpp"
+#include "capture/fact.hpp"
 #include "capture/picture.hpp"
 #include "capture/timeline.hpp"
 
@@ -22,6 +24,9 @@ struct ClipTiming {
   std::optional<Rational> rate;         // samples a second
   std::vector<std::int64_t> starts_ns;  // where the rate is not constant
   std::vector<Exposure> exposures;      // in order, without overlaps
+  // Of each sample, beside rate or starts, where the camera wrote it down.
+  std::optional<std::int64_t> exposed_ns;
+  std::string rate_from = "the file";  // what tells the times, for people
 
   [[nodiscard]] bool is_known() const { return rate || !starts_ns.empty() || !exposures.empty(); }
 };
@@ -33,7 +38,19 @@ struct ClipInfo {
   std::uint64_t sample_count = 0;
   std::uint64_t decoder_bytes = 0;  // of the pictures that its decoder holds, about
   std::vector<Note> notes;
+  std::vector<Fact> facts;  // what samples are taken for, each with who said it
 };
+
+// How YUV becomes RGB, and which codes stand for black and white.
+enum class YuvMatrix { bt601, bt709, bt2020, fcc, smpte240m };
+enum class CodeRange { limited, full };
+[[nodiscard]] std::string_view to_text(YuvMatrix matrix);
+[[nodiscard]] std::string_view to_text(CodeRange range);
+// `bt601`, `bt709` or `bt2020`; `limited` or `full`. Throw UsageError listing these.
+[[nodiscard]] YuvMatrix parse_yuv_matrix(std::string_view text);
+[[nodiscard]] CodeRange parse_code_range(std::string_view text);
+// `32:27`, from 1:64 to 64:1. Throws UsageError.
+[[nodiscard]] Rational parse_pixel_aspect(std::string_view text);
 
 // A video without a header: what its bytes are.
 struct RawVideo {
@@ -49,8 +66,12 @@ struct ClipOptions {
   std::optional<std::uint32_t> white_code;
   std::optional<Transfer> transfer;
   std::optional<RawVideo> raw;
+  std::optional<YuvMatrix> matrix = std::nullopt;
+  std::optional<CodeRange> range = std::nullopt;
+  std::optional<Primaries> primaries = std::nullopt;
+  std::optional<Rational> pixel_aspect = std::nullopt;
   // What its decoder may hold: it works on no more pictures at a time than fit, one at least. None: on one for each core.
-  std::optional<std::uint64_t> decoder_bytes;
+  std::optional<std::uint64_t> decoder_bytes = std::nullopt;
   friend bool operator==(const ClipOptions&, const ClipOptions&) = default;
 };
 
@@ -75,5 +96,8 @@ class Clip {
 // tells how fast it was taken, or its times are not in order.
 [[nodiscard]] Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOptions& options,
                                    Rational shutter_angle, std::uint64_t sample_count);
+// The same where no angle was stated: each sample exposed for as long as the camera wrote down, else all the time.
+[[nodiscard]] Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOptions& options,
+                                   std::uint64_t sample_count);
 
 }  // namespace nutik

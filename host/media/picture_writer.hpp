@@ -24,7 +24,8 @@ enum class Depth { bits8, bits16, floating };
 // Whether the name's extension is one that write_picture() knows.
 [[nodiscard]] bool is_picture_name(const std::filesystem::path& path);
 
-// Writes a picture whole or not at all, with a line of text where its format has a place for one (picture_text.hpp).
+// Writes a picture whole or not at all, with what its values mean and a line of text where its format has a place for
+// them (picture_text.hpp).
 // Throws OutputError.
 void write_picture(const std::filesystem::path& path, const Picture& picture, const std::string& text = {});
 

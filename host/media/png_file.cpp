@@ -2,6 +2,8 @@
 
 #include <png.h>
 
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 #include <vector>
@@ -75,6 +77,56 @@ const char* colour_name(int colour_type) {
 
 // Fast rather than small: a picture is written and looked at many times while a function is adjusted.
 constexpr int kCompressionLevel = 2;
+
+// Numbers of ITU-T H.273, which cICP has; none where it has none for a function.
+std::optional<png_byte> number_of(const Transfer& transfer) {
+  switch (transfer.kind()) {
+    case Transfer::Kind::srgb: return png_byte{13};
+    case Transfer::Kind::bt709: return png_byte{1};
+    case Transfer::Kind::linear: return png_byte{8};
+    case Transfer::Kind::hlg: return png_byte{18};
+    case Transfer::Kind::pq: return png_byte{16};
+    case Transfer::Kind::gamma: break;
+  }
+  if (transfer == Transfer::gamma(2.2)) return png_byte{4};
+  if (transfer == Transfer::gamma(2.8)) return png_byte{5};
+  return std::nullopt;
+}
+png_byte number_of(Primaries primaries) {
+  switch (primaries) {
+    case Primaries::bt709: return 1;
+    case Primaries::bt2020: return 9;
+    case Primaries::p3: return 12;
+  }
+  return 2;  // not said
+}
+
+// What codes stand for: in cICP, which this libpng has no function for, and in older chunks where these can say it.
+void set_meaning(png_structp png, png_infop info, const Picture& picture) {
+  if (picture.pixel_aspect != Rational{1, 1}) {
+    // Pixels for the same length, of no unit: the wider a pixel, the fewer.
+    png_set_pHYs(png, info, static_cast<png_uint_32>(picture.pixel_aspect.denominator),
+                 static_cast<png_uint_32>(picture.pixel_aspect.numerator), PNG_RESOLUTION_UNKNOWN);
+  }
+  if (!picture.transfer) return;
+  const Transfer& transfer = *picture.transfer;
+  if (transfer == Transfer::srgb() && picture.primaries == Primaries::bt709) {
+    png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  } else if (transfer.is_linear() || transfer.kind() == Transfer::Kind::gamma) {
+    png_set_gAMA(png, info, std::log(transfer.fraction_of(0.5)) / std::log(0.5));
+    const auto& xy = chromaticities(picture.primaries);
+    png_set_cHRM(png, info, xy[3][0], xy[3][1], xy[0][0], xy[0][1], xy[1][0], xy[1][1], xy[2][0], xy[2][1]);
+  }
+}
+
+void write_coding_points(png_structp png, const Picture& picture) {
+  const auto transfer = picture.transfer ? number_of(*picture.transfer) : std::nullopt;
+  if (!transfer) return;
+  constexpr png_byte kRgb = 0, kFullRange = 1;
+  const std::array<png_byte, 4> points{number_of(picture.primaries), *transfer, kRgb, kFullRange};
+  constexpr png_byte kName[]{'c', 'I', 'C', 'P'};
+  png_write_chunk(png, kName, points.data(), points.size());
+}
 
 // From here on a text is compressed.
 constexpr std::size_t kLongText = 1024;
@@ -167,7 +219,10 @@ void write_png(OutputFile& file, const Picture& picture, const std::string& text
   png_set_compression_level(write.png, kCompressionLevel);
   png_set_filter(write.png, 0, PNG_FILTER_SUB);
   png_set_compression_buffer_size(write.png, 1 << 16);
+  set_meaning(write.png, write.info, picture);
   if (!text.empty()) set_text(write.png, write.info, text);
+  png_write_info_before_PLTE(write.png, write.info);  // where cICP has its place
+  write_coding_points(write.png, picture);
   png_write_info(write.png, write.info);
   if (bytes == 2) png_set_swap(write.png);  // PNG has the high byte first
   const std::size_t row_bytes = std::size_t{shape.width} * shape.channels * bytes;

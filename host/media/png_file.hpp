@@ -24,7 +24,8 @@ namespace nutik {
 [[nodiscard]] std::optional<std::string> read_png_text(std::span<const std::byte> file, const char* keyword,
                                                        const std::string& name);
 
-// Writes codes: 8 or 16 bits, grey or RGB. `text` is kept as picture_text.hpp says; none where it is empty.
+// Writes codes: 8 or 16 bits, grey or RGB; what they mean in the chunks cICP, sRGB or gAMA and cHRM, pixels that are
+// not square in pHYs. `text` is kept as picture_text.hpp says; none where it is empty.
 void write_png(OutputFile& file, const Picture& picture, const std::string& text);
 
 }  // namespace nutik

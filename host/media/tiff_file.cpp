@@ -8,6 +8,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/colour_profile.hpp"
 
 namespace nutik {
 namespace {
@@ -50,6 +51,16 @@ void write_tiff(const std::filesystem::path& path, const Picture& picture, const
   TIFFSetField(tiff.get(), TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   TIFFSetField(tiff.get(), TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
   TIFFSetField(tiff.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+  if (picture.pixel_aspect != Rational{1, 1}) {
+    // Pixels for the same length, of no unit: the wider a pixel, the fewer.
+    TIFFSetField(tiff.get(), TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE);
+    TIFFSetField(tiff.get(), TIFFTAG_XRESOLUTION, static_cast<double>(picture.pixel_aspect.denominator));
+    TIFFSetField(tiff.get(), TIFFTAG_YRESOLUTION, static_cast<double>(picture.pixel_aspect.numerator));
+  }
+  const std::vector<std::byte> profile = colour_profile(picture);
+  if (!profile.empty()) {
+    TIFFSetField(tiff.get(), TIFFTAG_ICCPROFILE, static_cast<std::uint32_t>(profile.size()), profile.data());
+  }
   if (!text.empty()) TIFFSetField(tiff.get(), TIFFTAG_IMAGEDESCRIPTION, text.c_str());
   TIFFSetField(tiff.get(), TIFFTAG_ROWSPERSTRIP, TIFFDefaultStripSize(tiff.get(), 0));
   const std::size_t row_bytes = std::size_t{shape.width} * shape.channels * bytes;

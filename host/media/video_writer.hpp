@@ -22,6 +22,8 @@ struct VideoFormat {
   std::uint32_t white_code = 255;  // the full range of the type, for a container
   Transfer transfer = Transfer::srgb();
   Rational rate{24, 1};  // frames a second of playback; numerator and denominator below 2^31
+  Primaries primaries = Primaries::bt709;
+  Rational pixel_aspect{1, 1};
 };
 
 class VideoWriter {

@@ -2,9 +2,6 @@
 
 #include <cmath>
 
-#include "capture/error.hpp"
-#include "capture/format.hpp"
-
 namespace nutik {
 
 std::vector<double> code_thresholds(const Transfer& transfer, std::uint32_t white_code, double white_light) {
@@ -16,8 +13,7 @@ std::vector<double> code_thresholds(const Transfer& transfer, std::uint32_t whit
   return thresholds;
 }
 
-CodeSearch code_search(std::vector<double> thresholds, double white_light, double roundoff,
-                       const Transfer& transfer) {
+std::optional<CodeSearch> code_search(std::vector<double> thresholds, double white_light, double roundoff) {
   constexpr std::uint32_t kMostGuesses = 1u << 22;
   const double slack = 16 * roundoff;  // the device's √ times the number of steps errs by less
   const std::size_t white_code = thresholds.size() - 1;
@@ -38,10 +34,7 @@ CodeSearch code_search(std::vector<double> thresholds, double white_light, doubl
     }
     if (fits) return search;
   }
-  throw UsageError(format("transfer {} puts codes of a white of {} too close together to tell apart; write "
-                          "floating point, or use the reference",
-                          transfer.text(), white_code),
-                   {Setting::depth, Setting::renderer});
+  return std::nullopt;
 }
 
 }  // namespace nutik

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "capture/picture.hpp"
@@ -21,9 +22,9 @@ struct CodeSearch {
                                                   double white_light);
 
 // `thresholds` increase from 0 to at most white_light; guesses are made in arithmetic of unit roundoff
-// `roundoff`. Throws UsageError where codes lie too close to be told apart by one comparison: beyond 2^22 steps
-// (a gamma above 3 or so, whose first codes hardly differ in light).
-[[nodiscard]] CodeSearch code_search(std::vector<double> thresholds, double white_light, double roundoff,
-                                     const Transfer& transfer);
+// `roundoff`. None where codes lie too close to be told apart by one comparison: beyond 2^22 steps (a gamma above 3 or
+// so, or PQ, whose first codes hardly differ in light).
+[[nodiscard]] std::optional<CodeSearch> code_search(std::vector<double> thresholds, double white_light,
+                                                    double roundoff);
 
 }  // namespace nutik

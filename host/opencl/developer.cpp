@@ -30,21 +30,30 @@ Picture Developer::develop(std::span<const ExposedBand> bands) {
   return holds_codes(output_.type) ? counted_codes(bands) : light(bands);
 }
 
-// Codes, and how many pixels saturate. The kernel knows no negative codes and counts nothing: where a plan's
-// functions can saturate, or negative light is to be seen, the sums are read and turned into light here.
+// Codes, and how many pixels saturate. The kernel knows neither negative codes nor primaries, and counts nothing: where
+// these are asked for, codes lie too close together to be searched, or a plan's functions can saturate, the sums are
+// read and turned into light here.
 Picture Developer::counted_codes(std::span<const ExposedBand> bands) {
-  const CodeScale scale(plan_.capture.transfer, output_);
-  if (output_.negative != NegativeLight::saturate) {
+  const CodeMaking making = CodeMaking::of(plan_.capture, output_);
+  const CodeScale scale(making.transfer, output_);
+  const DeviceMemory::Scope scope(memory_);
+  const DeviceCodes* const tables =
+      kernels_make_codes(plan_.capture, output_)
+          ? constants_.codes(CodeKey::of(plan_, work_.precision, output_), memory_)
+          : nullptr;
+  if (tables == nullptr) {
     Picture picture(shape_, output_.type, output_.white_code);
-    for_each_part(bands, ValueType::light64, [&](const Rectangle& part, const Picture& seen) {
+    for_each_part(bands, ValueType::light64, [&](const Rectangle& part, Picture& seen) {
+      to_shown_light(seen, making);
       saturation_ += count_saturated(seen, scale);
       put(encoded(seen, scale, output_), part, picture);
     });
     return picture;
   }
-  Picture picture = codes(bands);
-  if (can_saturate(plan_, scale) && has_end_code(picture)) {
-    for_each_part(bands, ValueType::light64, [&](const Rectangle&, const Picture& seen) {
+  Picture picture = codes(bands, *tables);
+  if (can_saturate(plan_, making, scale) && has_end_code(picture)) {
+    for_each_part(bands, ValueType::light64, [&](const Rectangle&, Picture& seen) {
+      to_shown_light(seen, making);
       saturation_ += count_saturated(seen, scale);
     });
   }
@@ -98,10 +107,7 @@ void Developer::put(const Picture& of_part, const Rectangle& part, Picture& pict
                     picture.bytes.begin() + static_cast<std::ptrdiff_t>((part.y - rectangle_.y) * row_bytes));
 }
 
-Picture Developer::codes(std::span<const ExposedBand> bands) {
-  const DeviceMemory::Scope scope(memory_);
-  const DeviceCodes& tables =
-      constants_.codes(CodeKey::of(plan_, work_.precision, output_.white_code), memory_);
+Picture Developer::codes(std::span<const ExposedBand> bands, const DeviceCodes& tables) {
   const cl::Buffer scales = memory_.upload(light_scales(plan_, work_.precision));
   Picture picture(shape_, output_.type, output_.white_code);
   DevelopCodesKernel kernel(program_, "develop_codes");

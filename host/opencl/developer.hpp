@@ -44,7 +44,6 @@ class Developer {
         constants_(constants),
         memory_(memory) {}
 
-  // Throws UsageError where codes lie too close together (code_search.hpp).
   [[nodiscard]] Picture develop(std::span<const ExposedBand> bands);
 
   [[nodiscard]] const Saturation& saturation() const { return saturation_; }
@@ -53,7 +52,7 @@ class Developer {
 
  private:
   Picture light(std::span<const ExposedBand> bands);
-  Picture codes(std::span<const ExposedBand> bands);
+  Picture codes(std::span<const ExposedBand> bands, const DeviceCodes& tables);
   Picture counted_codes(std::span<const ExposedBand> bands);
   template <typename Visit>
   void for_each_part(std::span<const ExposedBand> bands, ValueType type, Visit visit);

@@ -22,15 +22,16 @@ const DeviceLight& KernelConstants::light(const RenderPlan& plan, Precision prec
   return light_.keep({key, source.kind, memory.upload(values), values.size()});
 }
 
-const DeviceCodes& KernelConstants::codes(const CodeKey& key, DeviceMemory& memory) {
+const DeviceCodes* KernelConstants::codes(const CodeKey& key, DeviceMemory& memory) {
   if (const DeviceCodes* kept = codes_.find([&](const DeviceCodes& each) { return each.key == key; })) {
     memory.count(kept->bytes());
-    return *kept;
+    return kept;
   }
-  const CodeTables tables = code_tables(key);
-  return codes_.keep({key, memory.upload(tables.thresholds), memory.upload(tables.guesses),
-                      static_cast<cl_uint>(tables.guesses.size()),
-                      tables.thresholds.size() + tables.guesses.size() * sizeof(std::uint32_t)});
+  const std::optional<CodeTables> tables = code_tables(key);
+  if (!tables) return nullptr;
+  return &codes_.keep({key, memory.upload(tables->thresholds), memory.upload(tables->guesses),
+                       static_cast<cl_uint>(tables->guesses.size()),
+                       tables->thresholds.size() + tables->guesses.size() * sizeof(std::uint32_t)});
 }
 
 const DeviceMap& KernelConstants::map(const std::shared_ptr<const MaskMap>& map, const Band& band,

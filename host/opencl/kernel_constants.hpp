@@ -64,7 +64,8 @@ class KernelConstants {
   // `permutes_pieces` as for light_source(). What is returned counts in `memory`; it stays until the next of its kind is asked for.
   const DeviceLight& light(const RenderPlan& plan, Precision precision, bool permutes_pieces,
                            DeviceMemory& memory);
-  const DeviceCodes& codes(const CodeKey& key, DeviceMemory& memory);
+  // Null where the codes lie too close together (code_search.hpp).
+  const DeviceCodes* codes(const CodeKey& key, DeviceMemory& memory);
   // Adds to `written_bytes` what had to be written.
   const DeviceMap& map(const std::shared_ptr<const MaskMap>& map, const Band& band, DeviceMemory& memory,
                        std::uint64_t& written_bytes);

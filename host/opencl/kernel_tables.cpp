@@ -83,33 +83,31 @@ Bytes fixed_scales(const RenderPlan& plan) {
   return bytes_of(scales);
 }
 
-CodeTables floating_code_tables(const CodeKey& key) {
-  const double white_light = white_light_of(key.transfer, key.capture_white_code);
-  std::vector<double> thresholds = code_thresholds(key.transfer, key.white_code, white_light);
+std::optional<CodeTables> floating_code_tables(const CodeKey& key) {
+  std::vector<double> thresholds = code_thresholds(key.transfer, key.white_code, key.white_light);
   const bool is_double = key.precision == Precision::double_;
   if (key.precision == Precision::single_) {
     for (double& threshold : thresholds) threshold = static_cast<float>(threshold);
   } else if (!is_double) {
     for (double& threshold : thresholds) threshold = value_of(pair_of(threshold));
   }
-  CodeSearch search =
-      code_search(std::move(thresholds), white_light, is_double ? 0x1p-53 : 0x1p-24, key.transfer);
-  search.thresholds.front() = white_light;
-  search.thresholds.push_back(kInfinite);
-  return {numbers_of(search.thresholds, key.precision), std::move(search.guesses)};
+  auto search = code_search(std::move(thresholds), key.white_light, is_double ? 0x1p-53 : 0x1p-24);
+  if (!search) return std::nullopt;
+  search->thresholds.front() = key.white_light;
+  search->thresholds.push_back(kInfinite);
+  return CodeTables{numbers_of(search->thresholds, key.precision), std::move(search->guesses)};
 }
 
-CodeTables fixed_code_tables(const CodeKey& key) {
-  const double white_light =
-      std::scalbn(static_cast<double>(key.fixed_white_light), kFixedLightBits - key.fixed_light_bits);
-  std::vector<double> thresholds = code_thresholds(key.transfer, key.white_code, white_light);
+std::optional<CodeTables> fixed_code_tables(const CodeKey& key) {
+  std::vector<double> thresholds = code_thresholds(key.transfer, key.white_code, key.white_light);
   for (double& threshold : thresholds) threshold = std::ceil(threshold);
-  CodeSearch search = code_search(std::move(thresholds), white_light, 0x1p-24, key.transfer);
-  search.thresholds.front() = white_light;
-  search.thresholds.push_back(0x1p63);
-  return {converted<std::uint64_t>(search.thresholds,
-                                   [](double value) { return static_cast<std::uint64_t>(value); }),
-          std::move(search.guesses)};
+  auto search = code_search(std::move(thresholds), key.white_light, 0x1p-24);
+  if (!search) return std::nullopt;
+  search->thresholds.front() = key.white_light;
+  search->thresholds.push_back(0x1p63);
+  return CodeTables{converted<std::uint64_t>(search->thresholds,
+                                             [](double value) { return static_cast<std::uint64_t>(value); }),
+                    std::move(search->guesses)};
 }
 
 // A block's rows of one column: the numbers of the samples from `first` on, 0 and flat boundaries round them.
@@ -232,17 +230,17 @@ Bytes light_scales(const RenderPlan& plan, Precision precision) {
   return fixed_scales(plan);
 }
 
-CodeKey CodeKey::of(const RenderPlan& plan, Precision precision, std::uint32_t white_code) {
-  CodeKey key{plan.capture.transfer, plan.capture.white_code, white_code, precision};
+CodeKey CodeKey::of(const RenderPlan& plan, Precision precision, const OutputFormat& output) {
+  const CodeMaking making = CodeMaking::of(plan.capture, output);
+  double white_light = white_light_of(plan.capture.transfer, plan.capture.white_code);
   if (precision == Precision::fixed) {
     const FixedScale scale = fixed_scale(plan);
-    key.fixed_light_bits = scale.light_bits;
-    key.fixed_white_light = scale.white_light;
+    white_light = std::scalbn(static_cast<double>(scale.white_light), kFixedLightBits - scale.light_bits);
   }
-  return key;
+  return {making.transfer, output.white_code, white_light * making.white_light, precision};
 }
 
-CodeTables code_tables(const CodeKey& key) {
+std::optional<CodeTables> code_tables(const CodeKey& key) {
   return key.precision == Precision::fixed ? fixed_code_tables(key) : floating_code_tables(key);
 }
 

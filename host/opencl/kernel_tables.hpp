@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -43,16 +44,21 @@ void pack_column(const GainTable& table, const RenderPlan& plan, const TableSlic
 // What brings sums onto the scale of the thresholds: LightScale [function].
 [[nodiscard]] Bytes light_scales(const RenderPlan& plan, Precision precision);
 
-// How light becomes codes. It depends on this much of a plan.
-struct CodeKey {
-  Transfer transfer = Transfer::linear();
-  std::uint32_t capture_white_code = 255;
-  std::uint32_t white_code = 255;  // of the picture
-  Precision precision = Precision::single_;
-  int fixed_light_bits = 0;  // FixedScale's, for whole numbers
-  std::uint64_t fixed_white_light = 0;
+// Whether kernels make the codes of a picture. The host makes those that show light below 0, or that have other
+// primaries than the capture.
+[[nodiscard]] inline bool kernels_make_codes(const CaptureFormat& capture, const OutputFormat& output) {
+  return holds_codes(output.type) && output.negative == NegativeLight::saturate &&
+         !CodeMaking::of(capture, output).conversion;
+}
 
-  [[nodiscard]] static CodeKey of(const RenderPlan& plan, Precision precision, std::uint32_t white_code);
+// How light becomes codes. It depends on this much of a plan and a picture's format.
+struct CodeKey {
+  Transfer transfer = Transfer::linear();  // of the picture's codes
+  std::uint32_t white_code = 255;
+  double white_light = 1.0;  // the kernel's light that has the white code
+  Precision precision = Precision::single_;
+
+  [[nodiscard]] static CodeKey of(const RenderPlan& plan, Precision precision, const OutputFormat& output);
   friend bool operator==(const CodeKey&, const CodeKey&) = default;
 };
 struct CodeTables {
@@ -60,8 +66,8 @@ struct CodeTables {
       thresholds;  // Threshold: what white is, the least light of code 1 … white code, then more than any light
   std::vector<std::uint32_t> guesses;
 };
-// Throws UsageError where the codes lie too close together (code_search.hpp).
-[[nodiscard]] CodeTables code_tables(const CodeKey& key);
+// None where the codes lie too close together (code_search.hpp).
+[[nodiscard]] std::optional<CodeTables> code_tables(const CodeKey& key);
 
 // The light of `raster`, sums [pixel][channel][plane] of a rectangle as develop_sums writes them, into a picture of
 // light32 or light64. Done by the host in double, so that it is the same for every device.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capture/format.hpp"
+#include "opencl/kernel_tables.hpp"
 #include "render/picture_errors.hpp"
 #include "render/reference_renderer.hpp"
 
@@ -145,7 +146,8 @@ Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFo
   Verdict verdict;
   ReferenceRenderer reference;
   const auto judge = [&](CaptureSource& capture, const RenderPlan& plan, bool with_codes) {
-    const OutputFormat codes{output.type, output.white_code};
+    OutputFormat codes = output;
+    codes.negative = NegativeLight::saturate;
     const ErrorBound bound = error_bound(plan, precision, with_codes ? codes : kLight);
     const Picture expected = reference.render(plan, capture, kLight).picture;
     judge_light(verdict, plan, bound, expected, render(plan, capture, kLight));
@@ -159,7 +161,8 @@ Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFo
   judge(endless, make_plan(endless, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(1, 1, 0), {}), false);
   const TilesOfAllKinds scene(like);
   MemoryCapture tiles = scene.capture();
-  judge(tiles, make_plan(tiles, TilesOfAllKinds::functions(), scene.mask(), {}), kernels_make_codes(output));
+  judge(tiles, make_plan(tiles, TilesOfAllKinds::functions(), scene.mask(), {}),
+        kernels_make_codes(like, output));
   return verdict;
 }
 

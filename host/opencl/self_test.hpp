@@ -33,11 +33,6 @@ struct Verdict {
 // `light is wrong by 0.1 instead of 3e-07`, `37 of 3741 codes are wrong`
 [[nodiscard]] std::string fault_text(const Verdict& verdict);
 
-// Pictures that show negative light are encoded by the host.
-[[nodiscard]] inline bool kernels_make_codes(const OutputFormat& output) {
-  return holds_codes(output.type) && output.negative == NegativeLight::saturate;
-}
-
 using RenderScene = std::function<Picture(const RenderPlan&, CaptureSource&, const OutputFormat&)>;
 
 // `like` is the capture whose shape alone is not the scenes'. `output` is how the picture will be stored.

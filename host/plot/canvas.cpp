@@ -190,6 +190,7 @@ Picture Canvas::finished() const {
   // After its first error Cairo leaves out all that follows, and says so only when asked.
   check(cairo_status(sheet_->context.get()));
   Picture picture({width_, height_, 3}, ValueType::code8, 255);
+  picture.transfer = Transfer::srgb();
   cairo_surface_t* surface = sheet_->surface.get();
   cairo_surface_flush(surface);
   check(cairo_surface_status(surface));

@@ -65,6 +65,26 @@ std::uint32_t CodeScale::code_of(double light) const {
   return light < 0.0 ? middle - rounded(half_) : middle + rounded(half_);
 }
 
+void to_shown_light(Picture& light, const CodeMaking& making) {
+  const auto values = light.values<double>();
+  if (making.white_light != 1.0) {
+    for_each_part(values.size(), [&](std::uint64_t first, std::uint64_t last) {
+      for (std::uint64_t i = first; i < last; ++i) values[i] /= making.white_light;
+    });
+  }
+  if (!making.conversion) return;
+  const ColourMatrix& matrix = *making.conversion;
+  for_each_part(light.shape.pixel_count(), [&](std::uint64_t first, std::uint64_t last) {
+    for (std::uint64_t pixel = first; pixel < last; ++pixel) {
+      double* const of_pixel = &values[pixel * 3];
+      const double red = of_pixel[0], green = of_pixel[1], blue = of_pixel[2];
+      for (std::size_t row = 0; row < 3; ++row) {
+        of_pixel[row] = matrix[row][0] * red + matrix[row][1] * green + matrix[row][2] * blue;
+      }
+    }
+  });
+}
+
 Saturation count_saturated(const Picture& light, const CodeScale& scale) {
   const auto values = light.values<double>();
   const std::uint32_t channels = light.shape.channels;
@@ -89,11 +109,12 @@ Picture encoded(const Picture& light, const CodeScale& scale, const OutputFormat
   return codes;
 }
 
-bool can_saturate(const RenderPlan& plan, const CodeScale& scale) {
+bool can_saturate(const RenderPlan& plan, const CodeMaking& making, const CodeScale& scale) {
+  if (making.conversion) return true;  // colours lie outside other primaries
   return std::ranges::any_of(plan.functions, [&](const PlannedFunction& planned) {
     // Light of [0, 1] comes to between -∫g⁻/D and ∫g⁺/D.
-    const double sum = planned.summary.error_scale();
-    const double difference = planned.summary.still_gain();
+    const double sum = planned.summary.error_scale() / making.white_light;
+    const double difference = planned.summary.still_gain() / making.white_light;
     return scale.saturates_above((sum + difference) / 2) || scale.saturates_below((difference - sum) / 2) ||
            scale.saturates_above((difference - sum) / 2);
   });

@@ -1,6 +1,7 @@
-// From light to codes on the host, where light below 0 is to be seen: and which light no code is left for.
+// From light to codes on the host, where light below 0 is to be seen or primaries are converted: and which light no
+// code is left for.
 //
-//   in:      light as floating point, a picture's transfer function, white code and NegativeLight
+//   in:      light as floating point, of which 1 is white, a picture's transfer function, white code and NegativeLight
 //   out:     codes 0 … white code, and how many pixels saturate at either end
 //   always:  light 0 and light 1 never saturate, nor does what rounds to their codes
 //
@@ -37,13 +38,16 @@ class CodeScale {
   double highest_;
 };
 
-// How many pixels of light (light64) saturate. A pixel counts once at an end, whatever its channels are.
+// Light of a capture (light64) becomes what its codes are made of: white is 1, in the primaries of the codes.
+void to_shown_light(Picture& light, const CodeMaking& making);
+
+// How many pixels of shown light (light64) saturate. A pixel counts once at an end, whatever its channels are.
 [[nodiscard]] Saturation count_saturated(const Picture& light, const CodeScale& scale);
 
-// The codes of a picture of light (light64), in the format asked for.
+// The codes of a picture of shown light (light64), in the format asked for.
 [[nodiscard]] Picture encoded(const Picture& light, const CodeScale& scale, const OutputFormat& output);
 
 // Whether some light of [0, 1] can saturate at all under the plan's functions: told from ∫g and ∫|g|.
-[[nodiscard]] bool can_saturate(const RenderPlan& plan, const CodeScale& scale);
+[[nodiscard]] bool can_saturate(const RenderPlan& plan, const CodeMaking& making, const CodeScale& scale);
 
 }  // namespace nutik

@@ -75,12 +75,24 @@ double fixed_error(const FunctionCourse& course, const FixedScale& scale, std::s
   return light * course.magnitude + (boundaries + running_sum) * (1 + light);
 }
 
+// Of light in other primaries: a channel has shares of the errors of all three, and rounds entries, products and sums.
+double converted_error(const ColourMatrix& matrix, double light, double scale) {
+  constexpr double kMatrixRoundings = 4;  // in u₆₄ of what is added up
+  double largest_row = 0.0;
+  for (const auto& row : matrix) {
+    largest_row = std::max(largest_row, std::fabs(row[0]) + std::fabs(row[1]) + std::fabs(row[2]));
+  }
+  return largest_row * (light + kMatrixRoundings * kRoundoff64 * (scale + light));
+}
+
 double in_steps(const RenderPlan& plan, const GainSummary& gain, double light, double threshold,
                 const OutputFormat& output) {
-  if (holds_codes(output.type)) {
-    return code_error(plan.capture.transfer, output.white_code, light + threshold);
-  }
   const double scale = gain.error_scale();
+  if (holds_codes(output.type)) {
+    const CodeMaking making = CodeMaking::of(plan.capture, output);
+    const double seen = making.conversion ? converted_error(*making.conversion, light, scale) : light;
+    return code_error(making.transfer, output.white_code, seen / making.white_light + threshold);
+  }
   // Numbers of the format have no smaller steps than its least one.
   const double least = output.type == ValueType::light64 ? std::numeric_limits<double>::denorm_min()
                                                          : std::numeric_limits<float>::denorm_min();
@@ -102,7 +114,7 @@ double code_error(const Transfer& transfer, std::uint32_t white_code, double lig
 ErrorBound error_bound(const RenderPlan& plan, Precision precision, const OutputFormat& output) {
   const Roundings roundings = roundings_of(precision, plan.capture.transfer);
   const FixedScale scale = precision == Precision::fixed ? fixed_scale(plan) : FixedScale{};
-  ErrorBound bound{precision, {}, {}};
+  ErrorBound bound{precision, {}, {}, output};
   for (std::size_t f = 0; f < plan.functions.size(); ++f) {
     const GainSummary& gain = plan.functions[f].summary;
     PictureError error;

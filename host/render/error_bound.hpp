@@ -32,6 +32,7 @@ struct ErrorBound {
   Precision precision = Precision::single_;
   std::vector<PictureError> functions;  // by planned function
   PictureError worst;                   // the largest of each
+  OutputFormat output = {};             // that it holds for
 };
 
 [[nodiscard]] ErrorBound error_bound(const RenderPlan& plan, Precision precision, const OutputFormat& output);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "render/code_scale.hpp"
+
 namespace nutik {
 namespace {
 
@@ -30,11 +32,31 @@ double place_of(const Transfer& transfer, double light, std::uint32_t white_code
   return transfer.fraction_of(std::clamp(light, 0.0, 1.0)) * white_code;
 }
 
+// Light of the plan's capture as the codes of `output` are made of it.
+Picture shown(const RenderPlan& plan, const OutputFormat& output, Picture light) {
+  to_shown_light(light, CodeMaking::of(plan.capture, output));
+  return light;
+}
+
 // How far `place` lies from the places that round to `code`, which for black and white go on without end.
 double distance_to_code(double place, double code, double white_code) {
   const double below = code == 0.0 ? 0.0 : code - 0.5 - place;
   const double above = code == white_code ? 0.0 : place - (code + 0.5);
   return std::max({below, above, 0.0});
+}
+
+// The largest distance of both on the scale of codes, of which white is 1: all of it where light is no number.
+double worst_share_of_white(const RenderPlan& plan, const OutputFormat& output, const Picture& expected,
+                            const Picture& light) {
+  const Picture wanted = shown(plan, output, expected), found = shown(plan, output, light);
+  const Transfer transfer = CodeMaking::of(plan.capture, output).transfer;
+  double worst = 0.0;
+  for (std::uint64_t i = 0; i < wanted.shape.value_count(); ++i) {
+    const double share = std::fabs(place_of(transfer, found.values<double>()[i], 1) -
+                                   place_of(transfer, wanted.values<double>()[i], 1));
+    worst = std::isnan(found.values<double>()[i]) ? 1.0 : std::max(worst, share);
+  }
+  return worst;
 }
 
 template <typename Code>
@@ -43,9 +65,11 @@ StoredErrors code_errors(const RenderPlan& plan, const ErrorBound& bound, const 
   StoredErrors errors{picture.shape.value_count(), 0, 0};
   const double white = picture.white_code;
   const auto codes = picture.values<Code>();
-  const auto light = expected.values<double>();
+  const Picture wanted = shown(plan, bound.output, expected);
+  const auto light = wanted.values<double>();
+  const Transfer transfer = CodeMaking::of(plan.capture, bound.output).transfer;
   for (std::uint64_t i = 0; i < errors.values; ++i) {
-    const double place = place_of(plan.capture.transfer, light[i], picture.white_code);
+    const double place = place_of(transfer, light[i], picture.white_code);
     const double code = codes[i];
     if (code == std::floor(place + 0.5)) continue;
     ++errors.differing;
@@ -94,15 +118,11 @@ LightErrors light_errors(const RenderPlan& plan, const ErrorBound& bound, const 
     }
     errors.rms = std::hypot(errors.rms, error);  // squares of large light would overflow
     errors.share_of_bound = std::max(errors.share_of_bound, error / bound_of_value(plan, bound, i).light);
-    // A full scale where it is no number.
-    const double share_of_white = error == kInfinite
-                                      ? 1.0
-                                      : std::fabs(place_of(plan.capture.transfer, found[i], 1) -
-                                                  place_of(plan.capture.transfer, wanted[i], 1));
-    errors.worst_8_bit_codes = std::max(errors.worst_8_bit_codes, 255 * share_of_white);
-    errors.worst_16_bit_codes = std::max(errors.worst_16_bit_codes, 65'535 * share_of_white);
   }
   errors.rms /= std::sqrt(static_cast<double>(std::max<std::size_t>(1, wanted.size())));
+  const double share_of_white = worst_share_of_white(plan, bound.output, expected, light);
+  errors.worst_8_bit_codes = 255 * share_of_white;
+  errors.worst_16_bit_codes = 65'535 * share_of_white;
   return errors;
 }
 

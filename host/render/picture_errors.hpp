@@ -12,7 +12,7 @@
 
 namespace nutik {
 
-// Between two pictures of light64.
+// Between two pictures of light64; codes are those of the bound's format.
 struct LightErrors {
   double worst = 0.0;             // in light
   std::uint64_t worst_value = 0;  // where, counted row by row, channels interleaved

@@ -136,10 +136,11 @@ std::uint32_t rows_at_once(const RenderPlan& plan, const CaptureSource& source, 
 }
 
 // Light of type light64 as a picture of another.
-Picture stored(Picture light, const OutputFormat& output, const Transfer& transfer, Saturation& saturation) {
+Picture stored(Picture light, const OutputFormat& output, const CodeMaking& making, Saturation& saturation) {
   if (output.type == ValueType::light64) return light;
   if (holds_codes(output.type)) {
-    const CodeScale scale(transfer, output);
+    const CodeScale scale(making.transfer, output);
+    to_shown_light(light, making);
     saturation += count_saturated(light, scale);
     return encoded(light, scale, output);
   }
@@ -168,7 +169,7 @@ Rendered ReferenceRenderer::render_part(const RenderPlan& plan, CaptureSource& s
   for (std::uint32_t y = 0; y < shape.height; y += rows) {
     const Rectangle strip{rectangle.x, rectangle.y + y, rectangle.width, std::min(rows, shape.height - y)};
     Picture part = stored(light_of(plan, source, strip, control, output.white_code), output,
-                          plan.capture.transfer, rendered.saturation);
+                          CodeMaking::of(plan.capture, output), rendered.saturation);
     if (rows == shape.height) {
       picture = std::move(part);
     } else {

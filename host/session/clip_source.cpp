@@ -5,6 +5,7 @@
 
 #include "capture/format.hpp"
 #include "session/measured_noise.hpp"
+#include "session/time_text.hpp"
 #include "system/mapped_file.hpp"
 #include "tik/header.hpp"
 
@@ -72,8 +73,35 @@ CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
 }
 
 Timeline ClipSource::timeline(std::uint64_t sample_count) const {
-  return timeline_of(request.path.string(), clip->info(), request.clip,
-                     request.shutter_angle.value_or(Timeline::kFullShutter), sample_count);
+  const std::string name = request.path.string();
+  return request.shutter_angle
+             ? timeline_of(name, clip->info(), request.clip, *request.shutter_angle, sample_count)
+             : timeline_of(name, clip->info(), request.clip, sample_count);
+}
+
+std::vector<Fact> ClipSource::facts(const Timeline& timeline) const {
+  const ClipTiming& timing = clip->info().timing;
+  const bool is_stated = request.clip.rate.has_value();
+  const Rational mean = timeline.rate();
+  Fact rate{timeline.is_constant() || mean.value() < 1
+                ? rate_text(mean, "picture") + (timeline.is_constant() ? "" : " on average, at irregular times")
+                : format("irregular times, {:.4g} pictures a second on average", mean.value()),
+            is_stated ? Origin::stated : Origin::file, Setting::frame_rate};
+  if (!is_stated) rate.source = timing.rate_from;
+  const bool is_written_down = timing.exposed_ns || !timing.exposures.empty();
+  Fact angle{format("shutter {} degrees", timeline.shutter_angle().text()),
+             request.shutter_angle ? Origin::stated
+             : is_written_down     ? Origin::file
+                                   : Origin::assumed,
+             Setting::shutter_angle};
+  if (!request.shutter_angle && timing.exposed_ns) {
+    angle.source = format("the file: {} ns", *timing.exposed_ns);
+  } else if (!request.shutter_angle && !timing.exposures.empty()) {
+    angle.source = "the listed exposures' mean";
+  }
+  std::vector<Fact> facts{std::move(rate), std::move(angle)};
+  facts.insert(facts.end(), clip->info().facts.begin(), clip->info().facts.end());
+  return facts;
 }
 
 ReadClip ClipSource::read_clip() const {

@@ -36,6 +36,9 @@ struct ClipSource {
   CaptureFormat capture;    // of its samples; what is held of them has held_format()
   std::vector<Note> notes;  // on the clip and its noise: what a person should know
 
+  // What the capture is taken for, its times included, each with who said it.
+  [[nodiscard]] std::vector<Fact> facts(const Timeline& timeline) const;
+
   // As the files announce it; 0: they do not.
   [[nodiscard]] std::uint64_t announced_samples() const { return clip->info().sample_count; }
   // Of so many samples. Throws InputError where nothing tells how fast they were taken.

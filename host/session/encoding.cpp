@@ -71,6 +71,7 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMe
   const std::optional<Rational>& stated_rate = source_.request.clip.rate;
   header.rate = stated_rate ? stated_rate : source_.clip->info().timing.rate;
   header.shutter_angle = times_.shutter_angle();
+  for (const Fact& fact : source_.facts(times_)) header.facts.push_back(fact.line());
   writer_.emplace(request.output, header, request.codec, to_held_codes(source_.capture, first_.front()),
                   memory.threads, request.lasting);
   for (std::size_t i = 0; i < kPayloads; ++i) spare_payloads_.push(PageBuffer());
@@ -82,8 +83,9 @@ Encoded Encoding::run(const ReportedProgress& progress, const std::stop_token& s
   storing.get();
   Timeline timeline = source_.timeline(samples);
   writer_->finish(timeline);
-  return {source_.capture, std::move(timeline), writer_->bytes_written(), std::move(source_.notes),
-          warnings(samples)};
+  std::vector<Fact> facts = source_.facts(timeline);
+  return {source_.capture,  std::move(timeline),      writer_->bytes_written(),
+          std::move(facts), std::move(source_.notes), warnings(samples)};
 }
 
 // Pictures that a decoder leaves out shift all behind them to earlier times.

@@ -26,6 +26,7 @@ struct Encoded {
   CaptureFormat capture;  // of the clip's samples
   Timeline timeline;
   std::uint64_t file_bytes = 0;
+  std::vector<Fact> facts;            // what it was taken for
   std::vector<Note> notes;            // on the clip
   std::vector<std::string> warnings;  // what is doubtful about the capture, whole sentences
 };

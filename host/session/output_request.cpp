@@ -5,13 +5,22 @@
 namespace nutik {
 namespace {
 
-// A picture of the capture's own depth has the capture's codes; another depth its full range.
-OutputFormat format_of(ValueType type, const CaptureFormat& capture) {
+// Throws UsageError where codes were asked for that such values are not.
+OutputFormat format_of(const OutputRequest& request, ValueType type, const CaptureFormat& capture) {
   OutputFormat format;
   format.type = type;
-  format.white_code = type == code_type(capture)  ? capture.white_code
-                      : type == ValueType::code16 ? 65'535
-                                                  : 255;
+  format.white_code = type == ValueType::code16 ? 65'535 : 255;
+  const auto* const stated = request.transfer ? std::get_if<Transfer>(&*request.transfer) : nullptr;
+  const bool keeps_codes = request.transfer && stated == nullptr;
+  if (!holds_codes(type)) {
+    if (keeps_codes || (stated != nullptr && !stated->is_linear())) {
+      throw UsageError("floating point holds light itself, which is linear; leave out how codes are made",
+                       {Setting::out_transfer});
+    }
+    return format;
+  }
+  if (!keeps_codes) format.transfer = stated != nullptr ? *stated : Transfer::srgb();
+  if (keeps_codes && type == code_type(capture)) format.white_code = capture.white_code;
   return format;
 }
 
@@ -20,18 +29,32 @@ OutputFormat format_of(ValueType type, const CaptureFormat& capture) {
 LightIsKept::LightIsKept(const std::filesystem::path& file)
     : UsageError(format("{} holds floating point, which keeps light below 0", file.string())), output(file) {}
 
-NegativeLight negative_light(const OutputRequest& request, ValueType type,
-                             const std::filesystem::path& output) {
+std::variant<Transfer, SourceCodes> parse_out_transfer(std::string_view text) {
+  if (text == "source") return SourceCodes{};
+  const std::string choices = "choose srgb, bt709, linear, gamma:G (as in gamma:2.2) or source";
+  try {
+    const Transfer transfer = Transfer::parse(text);
+    if (transfer.reference_white() == 1.0) return transfer;
+  } catch (const UsageError&) {
+    throw UsageError(format("transfer '{}' is not known for codes that are made; {}", text, choices),
+                     {Setting::out_transfer});
+  }
+  throw UsageError(format("codes of {} are read and not made; {}", text, choices), {Setting::out_transfer});
+}
+
+OutputFormat output_format(const OutputRequest& request, const std::filesystem::path& output, ValueType type,
+                           const CaptureFormat& capture) {
+  OutputFormat chosen = format_of(request, type, capture);
   if (request.negative && !holds_codes(type)) throw LightIsKept(output);
-  return request.negative.value_or(NegativeLight::saturate);
+  chosen.negative = request.negative.value_or(NegativeLight::saturate);
+  return chosen;
 }
 
 OutputFormat output_format(const OutputRequest& request, const std::filesystem::path& output,
                            const CaptureFormat& capture) {
-  OutputFormat chosen =
-      format_of(value_type_for(output, request.depth, code_type(capture), capture.shape.channels), capture);
-  chosen.negative = negative_light(request, chosen.type, output);
-  return chosen;
+  return output_format(request, output,
+                       value_type_for(output, request.depth, code_type(capture), capture.shape.channels),
+                       capture);
 }
 
 OutputFormat output_format(const OutputRequest& request, const CaptureFormat& capture) {
@@ -39,7 +62,18 @@ OutputFormat output_format(const OutputRequest& request, const CaptureFormat& ca
                          : request.depth == Depth::bits8  ? ValueType::code8
                          : request.depth == Depth::bits16 ? ValueType::code16
                                                           : ValueType::light32;
-  return format_of(type, capture);
+  return format_of(request, type, capture);
+}
+
+std::string codes_text(const CaptureFormat& capture, const OutputFormat& output) {
+  if (!holds_codes(output.type) || !output.transfer) return {};
+  const bool is_scaled = output.type == code_type(capture) && output.white_code != capture.white_code;
+  if (*output.transfer == capture.transfer && !is_scaled) return {};
+  const auto codes = [&](const Transfer& transfer, std::uint32_t white_code) {
+    return is_scaled ? format("{} with white {}", transfer.text(), white_code) : transfer.text();
+  };
+  return format(", codes {} (the capture's: {})", codes(*output.transfer, output.white_code),
+                codes(capture.transfer, capture.white_code));
 }
 
 }  // namespace nutik

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "capture/error.hpp"
 #include "capture/picture.hpp"
@@ -12,9 +13,16 @@
 
 namespace nutik {
 
+// The codes of the capture itself, as they are: its transfer function, its white code where the depth is its own.
+struct SourceCodes {
+  friend bool operator==(const SourceCodes&, const SourceCodes&) = default;
+};
+
 struct OutputRequest {
   std::optional<Depth> depth;             // none: the capture's own, light where the file holds no codes
   std::optional<NegativeLight> negative;  // none: black
+  // How light becomes codes, whose white is the last one that their type holds. None: sRGB, which screens show.
+  std::optional<std::variant<Transfer, SourceCodes>> transfer = std::nullopt;
 
   friend bool operator==(const OutputRequest&, const OutputRequest&) = default;
 };
@@ -25,6 +33,9 @@ struct LightIsKept : UsageError {
   std::filesystem::path output;
 };
 
+// `source`, or what Transfer::parse() knows, but for functions that go beyond a screen's white. Throws UsageError.
+[[nodiscard]] std::variant<Transfer, SourceCodes> parse_out_transfer(std::string_view text);
+
 // For a file of this name. Throws UsageError where it cannot hold what was asked for, LightIsKept.
 [[nodiscard]] OutputFormat output_format(const OutputRequest& request, const std::filesystem::path& output,
                                          const CaptureFormat& capture);
@@ -32,8 +43,12 @@ struct LightIsKept : UsageError {
 // The same where no file is written: the capture's own depth unless another was asked for.
 [[nodiscard]] OutputFormat output_format(const OutputRequest& request, const CaptureFormat& capture);
 
-// What light below 0 becomes in a file of such values. Throws LightIsKept.
-[[nodiscard]] NegativeLight negative_light(const OutputRequest& request, ValueType type,
-                                           const std::filesystem::path& output);
+// The same for values of a type that is known: a video's.
+[[nodiscard]] OutputFormat output_format(const OutputRequest& request, const std::filesystem::path& output,
+                                         ValueType type, const CaptureFormat& capture);
+
+// `, codes srgb with white 65535 (the capture's: linear with white 4095)`; nothing where a picture's codes are the
+// capture's, or it holds light.
+[[nodiscard]] std::string codes_text(const CaptureFormat& capture, const OutputFormat& output);
 
 }  // namespace nutik

@@ -50,6 +50,7 @@ class Session::Implementation {
   [[nodiscard]] bool is_clip() const { return is_clip_; }
   [[nodiscard]] const CaptureFormat& format() const { return format_; }
   [[nodiscard]] const Timeline& timeline() const { return reader_ ? reader_->timeline() : *announced_; }
+  [[nodiscard]] const std::vector<Fact>& facts() const { return facts_; }
   [[nodiscard]] const std::vector<Note>& notes() const { return notes_; }
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
   [[nodiscard]] tik::Reader& capture();
@@ -90,6 +91,7 @@ class Session::Implementation {
   NeedsOfFormat besides_;
   bool is_clip_;
   CaptureFormat format_;
+  std::vector<Fact> facts_;
   std::vector<Note> notes_;
   std::vector<std::string> warnings_;
 
@@ -129,11 +131,13 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
         },
         terms.progress, terms.stop);
     reader_ = std::move(scratch.reader);
+    facts_ = std::move(scratch.encoded.facts);
     notes_ = std::move(scratch.encoded.notes);
     warnings_ = std::move(scratch.encoded.warnings);
   } else {
     clip_ = open_clip_source(source, memory());
     announced_ = clip_->timeline(clip_->announced_samples());
+    facts_ = clip_->facts(*announced_);
     notes_ = clip_->notes;
   }
   format_ = reader_ ? reader_->format() : held_format(clip_->capture);
@@ -286,6 +290,7 @@ Devices& Session::devices() const { return implementation_->devices(); }
 bool Session::is_clip() const { return implementation_->is_clip(); }
 const CaptureFormat& Session::format() const { return implementation_->format(); }
 const Timeline& Session::timeline() const { return implementation_->timeline(); }
+const std::vector<Fact>& Session::facts() const { return implementation_->facts(); }
 const std::vector<Note>& Session::notes() const { return implementation_->notes(); }
 const std::vector<std::string>& Session::warnings() const { return implementation_->warnings(); }
 std::uint32_t Session::waiting_pictures(ValueType type) const {

@@ -91,6 +91,8 @@ class Session {
   [[nodiscard]] const CaptureFormat& format() const;
   // Of a clip that is read forward, as its files announce it: a picture brings the true one.
   [[nodiscard]] const Timeline& timeline() const;
+  // What a clip is taken for, each with who said it: its times first. None of a .tik, whose header has them.
+  [[nodiscard]] const std::vector<Fact>& facts() const;
   // On a clip: what a person should know, and what is doubtful about the capture made from it. Whole sentences.
   [[nodiscard]] const std::vector<Note>& notes() const;
   [[nodiscard]] const std::vector<std::string>& warnings() const;

@@ -17,19 +17,15 @@ Sheet make_sheet(Session& session, const SheetRequest& request, const ReportedPr
   const CaptureFormat& capture = session.format();
   const std::size_t count = request.exposures.size();
   const sheet::SheetLayout layout =
-      sheet::lay_out(capture.shape, static_cast<std::uint32_t>(count), request.wishes);
-  OutputFormat output;
-  output.type = code_type(capture);
-  output.white_code = capture.white_code;
-  output.negative = request.negative.value_or(NegativeLight::saturate);
-  const Transfer transfer = request.plan.transfer.value_or(capture.transfer);
+      sheet::lay_out(capture.shown_shape(), static_cast<std::uint32_t>(count), request.wishes);
+  const OutputFormat output = output_format(request.codes, {}, code_type(capture), capture);
 
   sheet::ContactSheet sheet(layout, request.heading);
   for (std::size_t i = 0; i < count; ++i) {
     if (progress) progress(i, count);
     const auto& [label, functions] = request.exposures[i];
     const ExposedPicture exposed = session.render(functions, request.mask, request.plan, output);
-    sheet.add(label, exposed.picture, transfer);
+    sheet.add(label, exposed.picture);
     add(i, exposed);
   }
   return {sheet.finished(), layout};

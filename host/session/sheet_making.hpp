@@ -1,6 +1,6 @@
 // Makes a sheet: exposures of one capture with ever other functions, one after another, with labels.
 //
-//   always:  every picture is what expose would write in the capture's own codes
+//   always:  every picture is what expose would write at the capture's own depth; the sheet has square pixels and sRGB
 #pragma once
 
 #include <cstddef>
@@ -25,9 +25,9 @@ struct SheetRequest {
   std::string heading;
   std::vector<Exposed> exposures;
   Mask mask;
-  PlanOptions plan;  // its transfer is what codes stand for, too
+  PlanOptions plan;
   sheet::SheetWishes wishes;
-  std::optional<NegativeLight> negative;  // none: black
+  OutputRequest codes;  // of the pictures, at the capture's own depth
 };
 
 struct Sheet {

@@ -20,4 +20,8 @@ std::string shape_text(const Shape& shape) {
   return format("{} x {} {}", shape.width, shape.height, shape.channels == 1 ? "grey" : "colour");
 }
 
+std::string aspect_text(const Rational& aspect) {
+  return format("{}:{}", aspect.numerator, aspect.denominator);
+}
+
 }  // namespace nutik

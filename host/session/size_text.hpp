@@ -13,4 +13,7 @@ namespace nutik {
 [[nodiscard]] std::string bytes_text(std::uint64_t bytes);                      // `94 kB`, `1.49 GB`
 [[nodiscard]] std::string shape_text(const Shape& shape);                       // `640 x 480 colour`
 
+// `32:27`
+[[nodiscard]] std::string aspect_text(const Rational& aspect);
+
 }  // namespace nutik

@@ -8,6 +8,7 @@
 
 #include "capture/format.hpp"
 #include "plot/graph.hpp"
+#include "render/code_scale.hpp"
 #include "session/time_text.hpp"
 
 namespace nutik {
@@ -139,6 +140,19 @@ std::string light_text(const Trace& trace) {
   std::string text;
   for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
     text += format("{}{:.6g}", channel == 0 ? "" : "  ", trace.light[channel]);
+  }
+  return text;
+}
+
+std::string traced_codes(const Trace& trace, const CaptureFormat& capture, const OutputFormat& output) {
+  Picture light({1, 1, trace.channels}, ValueType::light64, output.white_code);
+  std::copy_n(trace.light.begin(), trace.channels, light.values<double>().begin());
+  const CodeMaking making = CodeMaking::of(capture, output);
+  to_shown_light(light, making);
+  const CodeScale scale(making.transfer, output);
+  std::string text;
+  for (const double value : light.values<double>()) {
+    text += format("{}{}", text.empty() ? "" : " ", scale.code_of(value));
   }
   return text;
 }

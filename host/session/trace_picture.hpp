@@ -4,12 +4,17 @@
 #include <string>
 
 #include "capture/picture.hpp"
+#include "render/output_format.hpp"
 #include "render/trace.hpp"
 
 namespace nutik {
 
 // The exposure's light by channel: `0.2159  0.301  0.112`.
 [[nodiscard]] std::string light_text(const Trace& trace);
+
+// What that is as codes of a picture: `146 106 71`.
+[[nodiscard]] std::string traced_codes(const Trace& trace, const CaptureFormat& capture,
+                                       const OutputFormat& output);
 
 // Of the live interval, with a margin. `heading` says what was traced; 8-bit colour.
 [[nodiscard]] Picture trace_picture(const Trace& trace, const PlannedFunction& function,

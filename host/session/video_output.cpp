@@ -34,10 +34,9 @@ VideoOutput::VideoOutput(std::filesystem::path path, Rational rate, const std::o
 
 OutputFormat VideoOutput::frame_format(const CaptureFormat& capture) const {
   if (codec_ == nullptr) return output_format(request_, path_, capture);
-  OutputFormat output;
-  output.type = video_value_type(*codec_, request_.depth, code_type(capture));
+  OutputFormat output = output_format(
+      request_, path_, video_value_type(*codec_, request_.depth, code_type(capture)), capture);
   output.white_code = output.type == ValueType::code8 ? 255 : 65'535;  // what players take for white
-  output.negative = negative_light(request_, output.type, path_);
   return output;
 }
 
@@ -55,10 +54,14 @@ void VideoOutput::check(std::uint64_t frames, std::span<const std::string> input
   }
 }
 
-std::unique_ptr<VideoWriter> VideoOutput::open(const Shape& shape, const OutputFormat& format,
-                                               const Transfer& transfer) const {
+std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture,
+                                               const OutputFormat& format) const {
   if (codec_ == nullptr) return open_still_writer(path_);
-  return open_video_writer(path_, {shape, format.type, format.white_code, transfer, rate_}, *codec_);
+  const CodeMaking making = CodeMaking::of(capture, format);
+  return open_video_writer(path_,
+                           {capture.shape, format.type, format.white_code, making.transfer, rate_,
+                            making.primaries, capture.pixel_aspect},
+                           *codec_);
 }
 
 std::string VideoOutput::kind() const { return codec_ == nullptr ? "stills" : std::string(codec_->name); }

@@ -26,9 +26,8 @@ class VideoOutput {
   // Throws UsageError where one of the files to write is an input or of another kind.
   void check(std::uint64_t frames, std::span<const std::string> inputs) const;
 
-  // `transfer` is what codes are made with.
-  [[nodiscard]] std::unique_ptr<VideoWriter> open(const Shape& shape, const OutputFormat& format,
-                                                  const Transfer& transfer) const;
+  [[nodiscard]] std::unique_ptr<VideoWriter> open(const CaptureFormat& capture,
+                                                  const OutputFormat& format) const;
 
   // That the encoder keeps.
   [[nodiscard]] std::uint32_t encoder_frames() const { return codec_ == nullptr ? 1 : codec_->held_frames; }

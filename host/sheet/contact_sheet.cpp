@@ -77,13 +77,13 @@ ContactSheet::ContactSheet(const SheetLayout& layout, const std::string& heading
                plot::fitted(canvas_, heading, layout.width() - 2.0 * kMargin, style), style);
 }
 
-void ContactSheet::add(const std::string& label, const Picture& picture, const Transfer& transfer) {
+void ContactSheet::add(const std::string& label, const Picture& picture) {
   const std::uint32_t column = count_ % layout_.columns, row = count_ / layout_.columns;
   ++count_;
   const plot::Box box{kMargin + column * (layout_.cell_width + double{kGap}),
                       kMargin + kHeadingHeight + row * (layout_.cell_height + kLabelHeight + double{kGap}),
                       double(layout_.cell_width), double(layout_.cell_height)};
-  canvas_.picture(box, thumbnail(picture, transfer, layout_.cell_width, layout_.cell_height));
+  canvas_.picture(box, thumbnail(picture, layout_.cell_width, layout_.cell_height));
   const plot::TextStyle style{.size = 13.0, .rise = plot::Rise::top};
   canvas_.text({box.x, box.bottom() + 2.0}, plot::fitted(canvas_, label, box.width, style), style);
 }

@@ -43,7 +43,7 @@ class ContactSheet {
   ContactSheet(const SheetLayout& layout, const std::string& heading);
 
   // The next picture, of codes, row by row from the top left. `label` is shortened where it does not fit.
-  void add(const std::string& label, const Picture& picture, const Transfer& transfer);
+  void add(const std::string& label, const Picture& picture);
 
   [[nodiscard]] Picture finished() const { return canvas_.finished(); }
 

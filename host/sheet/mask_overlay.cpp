@@ -113,7 +113,7 @@ std::vector<std::string> legend_of(const std::vector<Tag>& tags, std::uint64_t p
 
 }  // namespace
 
-Picture mask_overlay(const Mask& mask, const Picture& picture, const Transfer& transfer) {
+Picture mask_overlay(const Mask& mask, const Picture& picture) {
   const std::uint32_t zoom = std::max(1u, (kNarrowest + mask.width - 1) / mask.width);
   const std::uint32_t width = mask.width * zoom, height = mask.height * zoom;
   const std::vector<Tag> tags = tags_of(mask);
@@ -131,7 +131,7 @@ Picture mask_overlay(const Mask& mask, const Picture& picture, const Transfer& t
 
   plot::Canvas canvas(width, height + legend_height);
   canvas.picture(plot::Box{0, 0, double(width), double(height)},
-                 tinted(mask, tags, thumbnail(picture, transfer, width, height), zoom));
+                 tinted(mask, tags, thumbnail(picture, width, height), zoom));
   for (const Tag& tag : tags) {
     if (tag.tag != 0) number_region(canvas, mask, tag, zoom);
   }

@@ -9,6 +9,6 @@ namespace nutik::sheet {
 // Every tag but 0 as a colour over the greys of the picture, with its number where its region is widest, and
 // below it a legend: colour, tag, pixels. Tag 0 shows the picture as it is. The picture is one of codes, of the
 // mask's size; a small one is enlarged by a whole number.
-[[nodiscard]] Picture mask_overlay(const Mask& mask, const Picture& picture, const Transfer& transfer);
+[[nodiscard]] Picture mask_overlay(const Mask& mask, const Picture& picture);
 
 }  // namespace nutik::sheet

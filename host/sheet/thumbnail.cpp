@@ -35,15 +35,15 @@ std::uint32_t code_at(const Picture& picture, std::uint64_t value) {
 
 }  // namespace
 
-Picture thumbnail(const Picture& picture, const Transfer& transfer, std::uint32_t width,
-                  std::uint32_t height) {
+Picture thumbnail(const Picture& picture, std::uint32_t width, std::uint32_t height) {
   const std::uint32_t channels = picture.shape.channels;
-  const std::vector<double> light =
-      transfer.light_of_all_codes(picture.white_code, static_cast<std::uint32_t>(value_bytes(picture.type)));
+  const Transfer srgb = Transfer::srgb();
+  const std::vector<double> light = picture.transfer.value_or(srgb).light_of_all_codes(
+      picture.white_code, static_cast<std::uint32_t>(value_bytes(picture.type)));
   const auto columns = shares(picture.shape.width, width);
   const auto rows = shares(picture.shape.height, height);
-  const Transfer srgb = Transfer::srgb();
   Picture small({width, height, channels}, ValueType::code8, 255);
+  small.transfer = srgb;
   const auto codes = small.values<std::uint8_t>();
   std::vector<double> sums(std::size_t{width} * channels);
   for (std::uint32_t y = 0; y < height; ++y) {

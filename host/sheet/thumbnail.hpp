@@ -6,8 +6,8 @@
 namespace nutik::sheet {
 
 // A picture of codes at another size, as 8-bit sRGB: each pixel has the mean light of the area that it covers,
-// so that fine bright patterns keep their brightness. Channels stay as they are.
-[[nodiscard]] Picture thumbnail(const Picture& picture, const Transfer& transfer, std::uint32_t width,
-                                std::uint32_t height);
+// so that fine bright patterns keep their brightness. Channels stay as they are. Codes of which nobody said what they
+// stand for are taken to be sRGB.
+[[nodiscard]] Picture thumbnail(const Picture& picture, std::uint32_t width, std::uint32_t height);
 
 }  // namespace nutik::sheet

@@ -1,9 +1,11 @@
-// The .tik container, version 0: what docs/tik-format.md specifies.
+// The .tik container, version 1: what docs/tik-format.md specifies.
 //
 //   ┌───────────────────────────────┐ 0
 //   │ PGM or PPM of sample 0, with  │   opens in any image viewer; comments describe the capture
 //   │ "# TIK" comments              │
 //   ├───────────────────────────────┤ next multiple of 64, padded with zeros
+//   │ fields (tik/fields.hpp)       │   from version 1 on
+//   ├───────────────────────────────┤
 //   │ block 0: BlockHeader          │
 //   │          exposures (maybe)    │   each part at a multiple of 64
 //   │          payload              │   imev/block.hpp, or packed by tik/codec.hpp
@@ -25,7 +27,7 @@
 
 namespace nutik::tik {
 
-inline constexpr std::uint32_t kVersion = 0;
+inline constexpr std::uint32_t kVersion = 1;  // that is written; this one and those before it are read
 inline constexpr std::uint64_t kAlignment = 64;
 
 inline constexpr char kBlockMagic[8] = {'T', 'I', 'K', 'b', 'l', 'o', 'c', 'k'};
@@ -70,7 +72,8 @@ struct Footer {
   std::int64_t duration_ns;
   std::uint64_t index_checksum;
   std::uint64_t exposures_checksum;
-  std::uint8_t reserved[56];  // zeros
+  std::uint64_t fields_offset;  // of fields that were known at the end only, 0 where there are none
+  std::uint8_t reserved[48];    // zeros
   std::uint64_t checksum;     // of the bytes before it
   char magic[8];
 };

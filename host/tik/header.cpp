@@ -1,12 +1,17 @@
 #include "tik/header.hpp"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
+#include <cstring>
 #include <map>
 #include <string_view>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/noise_file.hpp"
+#include "capture/source_text.hpp"
+#include "imev/block.hpp"
 #include "imev/expected_values.hpp"
 #include "tik/format.hpp"
 
@@ -18,6 +23,10 @@ constexpr std::string_view kPurpose =
     " - an image evolution model; the picture is the first sample, change records follow it.";
 constexpr std::string_view kNoise = "noise";
 constexpr std::size_t kLongestHeader = 65'536;
+
+// Tags of fields. Those that are not written yet have a name, so that nobody takes it for something else.
+constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = "fact";
+constexpr std::array<std::string_view, 3> kKnownFields{kPixelAspect, kPrimaries, kFacts};
 
 bool is_netpbm(std::string_view text) {
   return text.size() > 2 && text[0] == 'P' && text[1] >= '1' && text[1] <= '7' &&
@@ -33,6 +42,7 @@ class HeaderParser {
     const bool colour = text_[1] == '6';
     std::map<std::string, std::string, std::less<>> words = take_comments();
     ParsedHeader parsed;
+    parsed.header.version = version_;
     CaptureFormat& capture = parsed.header.capture;
     capture.shape.width = take_number();
     capture.shape.height = take_number();
@@ -88,18 +98,17 @@ class HeaderParser {
                             "nutik-cl {} -o capture.tik",
                             name_, name_));
     }
-    std::uint32_t version = 0;
     const std::string_view rest = line.substr(kComment.size());
-    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), version);
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), version_);
     if (error != std::errc() || (end != rest.data() + rest.size() && *end != ' ')) {
       throw InputError(
           format("{} is a TIK file of another program, whose records have another layout; "
                  "encode its source clip again with nutik-cl",
                  name_));
     }
-    if (version != kVersion) {
-      throw InputError(
-          format("{} is a .tik of version {}; this program reads version {}", name_, version, kVersion));
+    if (version_ > kVersion) {
+      throw InputError(format("{} is a .tik of version {}; this program reads versions up to {}", name_,
+                              version_, kVersion));
     }
     if (text_[1] != '5' && text_[1] != '6') fail("its picture is neither P5 nor P6");
   }
@@ -169,8 +178,30 @@ class HeaderParser {
   std::string_view text_;
   const std::string& name_;
   std::size_t at_ = 0;
+  std::uint32_t version_ = 0;
   std::string noise_;  // the text of its noise file
 };
+
+// Throws UsageError where a value is none.
+void take_fields(std::span<const Field> fields, Header& header) {
+  CaptureFormat& capture = header.capture;
+  for (const Field& field : fields) {
+    if (field.tag == kPixelAspect && field.data.size() == 2 * sizeof(std::uint32_t)) {
+      std::array<std::uint32_t, 2> aspect{};
+      std::memcpy(aspect.data(), field.data.data(), sizeof aspect);
+      if (aspect[0] == 0) throw UsageError("its pixel aspect is 0");
+      capture.pixel_aspect = Rational::of(aspect[0], aspect[1]);
+    } else if (field.tag == kPrimaries) {
+      capture.primaries = parse_primaries(field.data);
+    } else if (field.tag == kFacts) {
+      for (std::size_t at = 0; at < field.data.size();) {
+        const std::size_t end = std::min(field.data.find('\n', at), field.data.size());
+        header.facts.push_back(printable(std::string_view(field.data).substr(at, end - at)));
+        at = end + 1;
+      }
+    }
+  }
+}
 
 std::string_view front_text(std::span<const std::byte> file) {
   return {reinterpret_cast<const char*>(file.data()), std::min(file.size(), kLongestHeader)};
@@ -192,6 +223,8 @@ std::string Header::text() const {
   line("rate", rate ? format("{} samples a second", rate->text()) : "irregular, every exposure is listed");
   line("shutter angle", format("{} degrees", shutter_angle.text()));
   line("transfer", capture.transfer.text());
+  line("pixel aspect", format("{}:{}", capture.pixel_aspect.numerator, capture.pixel_aspect.denominator));
+  line("primaries", std::string(to_text(capture.primaries)));
   if (capture.noise.camera) {
     line("sigmas", format("{} standard deviations", capture.noise.sigmas));
     for (const std::string& each : noise_lines(*capture.noise.camera)) line(kNoise, each);
@@ -203,6 +236,51 @@ std::string Header::text() const {
   return text;
 }
 
+std::vector<Field> Header::fields() const {
+  std::vector<Field> fields;
+  if (capture.pixel_aspect != Rational{1, 1}) {
+    const std::array<std::uint32_t, 2> aspect{static_cast<std::uint32_t>(capture.pixel_aspect.numerator),
+                                              static_cast<std::uint32_t>(capture.pixel_aspect.denominator)};
+    fields.push_back({std::string(kPixelAspect), false,
+                      std::string(reinterpret_cast<const char*>(aspect.data()), sizeof aspect)});
+  }
+  if (capture.primaries != Primaries::bt709) {
+    fields.push_back({std::string(kPrimaries), true, std::string(to_text(capture.primaries))});
+  }
+  std::string lines;
+  for (const std::string& fact : facts) lines += fact + "\n";
+  if (!lines.empty()) fields.push_back({std::string(kFacts), false, lines});
+  return fields;
+}
+
+void refuse_unknown(std::span<const Field> fields, const std::string& name) {
+  for (const Field& field : fields) {
+    if (!field.must_be_understood || std::ranges::count(kKnownFields, field.tag) > 0) continue;
+    throw InputError(format("{} holds what this program does not know and must not pass over ({}); read it with "
+                            "a later one",
+                            name, quoted(field.tag)));
+  }
+}
+
+std::uint64_t raster_bytes(const CaptureFormat& capture) {
+  return capture.shape.value_count() * (capture.white_code > 255 ? 2 : 1);
+}
+
+namespace {
+
+// The picture at the front, of all pixels and not packed: what a file says of its size is true, and whatever is
+// allocated for it no surprise.
+void check_raster(const ParsedHeader& parsed, std::uint64_t file_bytes, const std::string& name) {
+  const Shape& shape = parsed.header.capture.shape;
+  // So that its bytes can be counted in 64 bits.
+  const bool is_possible = shape.pixel_count() <= file_bytes;
+  if (is_possible && parsed.raster_offset + raster_bytes(parsed.header.capture) < file_bytes) return;
+  throw InputError(format("{}: it was cut off or is damaged: it states {} x {} pixels, which its {} bytes do not hold",
+                          name, shape.width, shape.height, file_bytes));
+}
+
+}  // namespace
+
 bool looks_like_tik(std::span<const std::byte> file) {
   const std::string_view text = front_text(file);
   return is_netpbm(text) && text.substr(3).starts_with(kComment);
@@ -210,7 +288,17 @@ bool looks_like_tik(std::span<const std::byte> file) {
 
 ParsedHeader parse_header(std::span<const std::byte> file, const std::string& name) {
   try {
-    return HeaderParser(front_text(file), name).parse();
+    ParsedHeader parsed = HeaderParser(front_text(file), name).parse();
+    check_raster(parsed, file.size(), name);
+    parsed.first_block_offset =
+        align_up(parsed.raster_offset + raster_bytes(parsed.header.capture) + 1, kAlignment);
+    if (parsed.header.version == 0) return parsed;
+    const auto behind = file.subspan(std::min<std::uint64_t>(parsed.first_block_offset, file.size()));
+    const ReadFields read = read_fields(behind, name);
+    parsed.first_block_offset = align_up(parsed.first_block_offset + read.bytes, kAlignment);
+    refuse_unknown(read.fields, name);
+    take_fields(read.fields, parsed.header);
+    return parsed;
   } catch (const UsageError& error) {  // a value that a person may not state either
     throw InputError(format("{}: the text at its start is damaged: {}", name, error.what()));
   }

@@ -2,7 +2,7 @@
 // the capture is.
 //
 //   P6
-//   # TIK 0 - an image evolution model; the picture is the first sample, change records follow it.
+//   # TIK 1 - an image evolution model; the picture is the first sample, change records follow it.
 //   # TIK size: 640 x 480
 //   # TIK channels: 3
 //   # TIK depth: 8 bits
@@ -10,6 +10,8 @@
 //   # TIK rate: 300 samples a second
 //   # TIK shutter angle: 360 degrees
 //   # TIK transfer: srgb
+//   # TIK pixel aspect: 1:1
+//   # TIK primaries: bt709
 //   # TIK tolerance: 0 codes
 //   # TIK codec: zstd
 //   640 480
@@ -26,34 +28,49 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "capture/picture.hpp"
 #include "capture/timeline.hpp"
+#include "tik/fields.hpp"
+#include "tik/format.hpp"
 
 namespace nutik::tik {
 
 struct Header {
+  std::uint32_t version = kVersion;
   CaptureFormat capture;  // of what is held
   // Samples a second where the rate is constant; absent where every exposure is listed.
   std::optional<Rational> rate;
   Rational shutter_angle = Timeline::kFullShutter;
   std::string codec;  // a word for people; each block says what it really uses
+  // Who said what of the capture: `matrix bt601, assumed`. Lines for people.
+  std::vector<std::string> facts;
 
   // The header as text, up to and including the line end before the raster.
   [[nodiscard]] std::string text() const;
+  // What stands behind the picture.
+  [[nodiscard]] std::vector<Field> fields() const;
 };
 
 struct ParsedHeader {
   Header header;
-  std::uint64_t raster_offset = 0;  // bytes from the file's start
+  std::uint64_t raster_offset = 0;       // bytes from the file's start
+  std::uint64_t first_block_offset = 0;  // behind picture and fields
 };
 
 // Whether a file starts as a .tik of any version does.
 [[nodiscard]] bool looks_like_tik(std::span<const std::byte> file);
 
-// Throws InputError, beginning with `name`, where the file is no .tik, of another version, or its header
-// is damaged; a Netpbm picture without TIK comments and a .tik of the original program are told apart
+// Throws InputError, beginning with `name`, where the file is no .tik, of a later version or with a field that it must
+// not be read without, or its header is damaged; a Netpbm picture without TIK comments and a .tik of the original program are told apart
 // from garbage.
 [[nodiscard]] ParsedHeader parse_header(std::span<const std::byte> file, const std::string& name);
+
+// Throws InputError where a field that is not known must be understood.
+void refuse_unknown(std::span<const Field> fields, const std::string& name);
+
+// Bytes of the picture at the front.
+[[nodiscard]] std::uint64_t raster_bytes(const CaptureFormat& capture);
 
 }  // namespace nutik::tik

@@ -79,26 +79,6 @@ std::string flaw_of(const BlockHeader& header, const HeaderPlace& place, std::ui
   return {};
 }
 
-std::uint64_t raster_bytes(const CaptureFormat& capture) {
-  return capture.shape.value_count() * (capture.white_code > 255 ? 2 : 1);
-}
-
-// The picture at the front, of all pixels and not packed: what a file says of its size is true, and whatever is
-// allocated for it no surprise.
-void check_raster(const ParsedHeader& parsed, std::uint64_t file_bytes, const std::string& name) {
-  const Shape& shape = parsed.header.capture.shape;
-  // So that its bytes can be counted in 64 bits.
-  const bool is_possible = shape.pixel_count() <= file_bytes;
-  if (is_possible && fits(parsed.raster_offset, raster_bytes(parsed.header.capture) + 1, file_bytes)) return;
-  throw InputError(nutik::format(
-      "{}: it was cut off or is damaged: it states {} x {} pixels, which its {} bytes do not hold", name,
-      shape.width, shape.height, file_bytes));
-}
-
-std::uint64_t first_block_offset(const ParsedHeader& parsed) {
-  return align_up(parsed.raster_offset + raster_bytes(parsed.header.capture) + 1, kAlignment);
-}
-
 std::vector<Exposure> load_exposures(std::span<const std::byte> bytes) {
   std::vector<Exposure> exposures(bytes.size() / sizeof(Exposure));
   if (!exposures.empty()) std::memcpy(exposures.data(), bytes.data(), exposures.size() * sizeof(Exposure));
@@ -124,9 +104,7 @@ constexpr const char* kDamagedFront =
 }  // namespace
 
 Reader::Reader(const std::filesystem::path& path) : name_(path.string()), file_(path) {
-  const ParsedHeader parsed = parse_header(file_.bytes(), name_);
-  header_ = parsed.header;
-  check_raster(parsed, file_.bytes().size(), name_);
+  header_ = parse_header(file_.bytes(), name_).header;
   read_footer();
   check_front();
 }
@@ -163,6 +141,11 @@ void Reader::read_footer() {
   if (footer.index_checksum != checksum(index_bytes)) fail("its index is damaged" + way_out);
   index_.resize(footer.block_count);
   std::memcpy(index_.data(), index_bytes.data(), index_bytes.size());
+
+  if (footer.fields_offset != 0) {
+    if (footer.fields_offset > file.size()) fail("its footer contradicts itself");
+    refuse_unknown(read_fields(file.subspan(footer.fields_offset), name_).fields, name_);
+  }
 
   std::uint64_t samples = 0;
   for (const IndexEntry& entry : index_) {
@@ -219,6 +202,18 @@ std::uint64_t Reader::mapped_offset(std::uint64_t block, const BlockHeader& head
 
 std::span<const std::byte> Reader::stored_payload(std::uint64_t block, const BlockHeader& header) const {
   return file_.bytes().subspan(mapped_offset(block, header), header.stored_bytes);
+}
+
+Reader::StoredBlock Reader::stored(std::uint64_t block) const {
+  const BlockHeader header = block_header(block);
+  const std::span<const std::byte> payload = stored_payload(block, header);
+  if (checksum(payload) != header.payload_checksum) fail_block(block, "its checksum does not match");
+  return {header, payload};
+}
+
+std::span<const std::byte> Reader::first_sample() const {
+  const ParsedHeader parsed = parse_header(file_.bytes(), name_);
+  return file_.bytes().subspan(parsed.raster_offset, raster_bytes(header_.capture));
 }
 
 void Reader::fail_block(std::uint64_t block, const std::string& why) const {
@@ -342,7 +337,6 @@ Recovery recover(const std::filesystem::path& damaged, const std::filesystem::pa
   const MappedFile mapped(damaged);
   const std::span<const std::byte> file = mapped.bytes();
   const ParsedHeader parsed = parse_header(file, name);
-  check_raster(parsed, file.size(), name);
   if (is_readable(damaged)) {
     throw InputError(nutik::format(
         "{}: it was not cut off: expose from it as it is; a damaged block costs its own times only", name));
@@ -350,7 +344,7 @@ Recovery recover(const std::filesystem::path& damaged, const std::filesystem::pa
   Recovery recovery;
   std::vector<IndexEntry> index;
   std::vector<Exposure> exposures;
-  std::uint64_t offset = first_block_offset(parsed);
+  std::uint64_t offset = parsed.first_block_offset;
   const std::uint64_t front_checksum = checksum(file.first(std::min<std::uint64_t>(offset, file.size())));
   while (fits(offset, sizeof(BlockHeader), file.size())) {
     check_interruption();

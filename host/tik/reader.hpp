@@ -42,6 +42,15 @@ class Reader final : public CaptureSource {
   // InputError naming its samples where it is damaged.
   void check(std::uint64_t block) const;
 
+  // A block as it lies in the file, its checksum compared. Throws as check() does.
+  struct StoredBlock {
+    BlockHeader header;
+    std::span<const std::byte> payload;
+  };
+  [[nodiscard]] StoredBlock stored(std::uint64_t block) const;
+  // The raster of the picture at the front.
+  [[nodiscard]] std::span<const std::byte> first_sample() const;
+
   // A block's tile directory alone: what kinds of tiles it has costs no look at their bodies. Only the
   // header's checksum is checked.
   [[nodiscard]] std::vector<TileEntry> directory(std::uint64_t block) const;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "capture/error.hpp"
 #include "imev/payload_parts.hpp"
@@ -35,29 +36,44 @@ void pad(OutputFile& file) {
   file.write(std::span(kZeros).first(align_up(file.size(), kAlignment) - file.size()));
 }
 
+Header with_codec(Header header, const Codec& codec) {
+  header.codec = codec.text();
+  return header;
+}
+
 }  // namespace
 
 Writer::Writer(const std::filesystem::path& path, const Header& header, const Codec& codec,
                std::span<const std::byte> first_sample, std::uint32_t most_threads,
                OutputFile::Lasting lasting)
-    : file_(path, lasting), header_(header), codec_(codec), most_threads_(most_threads) {
-  header_.codec = codec.text();
-  std::vector<std::byte> front = netpbm_raster(header_.capture, first_sample);
+    : Writer(path, with_codec(header, codec), codec,
+             NetpbmRaster{netpbm_raster(header.capture, first_sample)}, most_threads, lasting) {}
+
+Writer Writer::from_raster(const std::filesystem::path& path, const Header& header,
+                           std::span<const std::byte> raster) {
+  return {path, header, Codec{CodecId::none, 0}, NetpbmRaster{{raster.begin(), raster.end()}}, 1,
+          OutputFile::Lasting::yes};
+}
+
+Writer::Writer(const std::filesystem::path& path, Header header, const Codec& codec, const NetpbmRaster& raster,
+               std::uint32_t most_threads, OutputFile::Lasting lasting)
+    : file_(path, lasting), header_(std::move(header)), codec_(codec), most_threads_(most_threads) {
+  header_.version = kVersion;
+  std::vector<std::byte> front = raster.bytes;
   const std::string text = header_.text();
   const auto text_bytes = std::as_bytes(std::span(text));
   front.insert(front.begin(), text_bytes.begin(), text_bytes.end());
   // Never 'P', after which a reader would look for a second picture.
   front.push_back(std::byte{'\n'});
   front.resize(align_up(front.size(), kAlignment));
+  const std::vector<std::byte> fields = packed_fields(header_.fields());
+  front.insert(front.end(), fields.begin(), fields.end());
+  front.resize(align_up(front.size(), kAlignment));
   front_checksum_ = checksum(front);
   file_.write(front);
 }
 
 void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures) {
-  if (exposures.size() != (header_.rate ? 0 : block.extent.sample_count) ||
-      block.extent.first_sample != sample_count_) {
-    throw std::logic_error("a block does not continue its .tik file");
-  }
   const BlockGeometry geometry(header_.capture, block.extent.sample_count);
   const PayloadParts parts(geometry, block.payload);
   std::vector<std::byte> packed;
@@ -69,16 +85,29 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
     stored = {&packed_part, 1};
   }
   BlockHeader header{};
-  std::memcpy(header.magic, kBlockMagic, sizeof header.magic);
-  header.block = index_.size();
   header.first_sample = block.extent.first_sample;
   header.sample_count = block.extent.sample_count;
   header.codec = static_cast<std::uint32_t>(codec_.id);
-  header.exposure_bytes = exposures.size_bytes();
   header.stored_bytes = codec_.id == CodecId::none ? parts.bytes() : packed.size();
   header.payload_bytes = parts.bytes();
   header.record_count = block.record_count;
-  if (!exposures.empty()) header.exposures_checksum = checksum(std::as_bytes(exposures));
+  append(header, stored, exposures);
+}
+
+void Writer::append(const BlockHeader& stored, std::span<const std::byte> payload,
+                    std::span<const Exposure> exposures) {
+  append(stored, {&payload, 1}, exposures);
+}
+
+void Writer::append(BlockHeader header, std::span<const std::span<const std::byte>> payload,
+                    std::span<const Exposure> exposures) {
+  if (exposures.size() != (header_.rate ? 0 : header.sample_count) || header.first_sample != sample_count_) {
+    throw std::logic_error("a block does not continue its .tik file");
+  }
+  std::memcpy(header.magic, kBlockMagic, sizeof header.magic);
+  header.block = index_.size();
+  header.exposure_bytes = exposures.size_bytes();
+  header.exposures_checksum = exposures.empty() ? 0 : checksum(std::as_bytes(exposures));
   header.front_checksum = front_checksum_;
 
   const std::uint64_t offset = file_.size();
@@ -88,11 +117,11 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
   file_.write(std::vector<std::byte>(sizeof header));
   file_.write(std::as_bytes(exposures));
   pad(file_);
-  header.payload_checksum = write_summed(stored);
+  header.payload_checksum = write_summed(payload);
   pad(file_);
   header.header_checksum = checksum_of(header, offsetof(BlockHeader, header_checksum));
   file_.replace(offset, bytes_of(header));
-  sample_count_ += block.extent.sample_count;
+  sample_count_ += header.sample_count;
 }
 
 std::uint64_t Writer::write_summed(std::span<const std::span<const std::byte>> parts) {

@@ -29,9 +29,17 @@ class Writer {
          std::span<const std::byte> first_sample, std::uint32_t most_threads = ~std::uint32_t{0},
          OutputFile::Lasting lasting = OutputFile::Lasting::yes);
 
+  // The same of a picture that lay at the front of another .tik: a Netpbm raster.
+  static Writer from_raster(const std::filesystem::path& path, const Header& header,
+                            std::span<const std::byte> raster);
+
   // Appends the next block; with an irregular timeline also its samples' exposures, times from the
   // first sample's start.
   void append(const BuiltBlock& block, std::span<const Exposure> exposures = {});
+
+  // The same of a block as it lay in another .tik.
+  void append(const BlockHeader& stored, std::span<const std::byte> payload,
+              std::span<const Exposure> exposures);
 
   // Writes index, exposures and footer and gives the file its name. The timeline must be the header's
   // kind and have as many samples as were appended.
@@ -40,6 +48,14 @@ class Writer {
   [[nodiscard]] std::uint64_t bytes_written() const { return file_.size(); }
 
  private:
+  struct NetpbmRaster {
+    std::vector<std::byte> bytes;
+  };
+  Writer(const std::filesystem::path& path, Header header, const Codec& codec, const NetpbmRaster& raster,
+         std::uint32_t most_threads, OutputFile::Lasting lasting);
+
+  void append(BlockHeader header, std::span<const std::span<const std::byte>> payload,
+              std::span<const Exposure> exposures);
   // Appends what lies in these parts; returns its checksum.
   std::uint64_t write_summed(std::span<const std::span<const std::byte>> parts);
 

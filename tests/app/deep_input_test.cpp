@@ -77,11 +77,17 @@ TEST_F(DeepInput, OneSampleIsTheSourceCodeForCode) {
       for (const std::string& transfer : transfers) {
         succeed({"encode", "-q", "-f", "100", "-a", "180", "--transfer", transfer, folder, "x.tik"});
         for (const char* renderer : {"opencl", "reference"}) {
-          succeed({"--start", "3f", "--exposure", "1f", "--renderer", renderer, "x.tik", "x.png"});
+          const std::vector<std::string> words{"--start", "3f", "--exposure", "1f", "--renderer", renderer, "x.tik", "x.png"};
+          std::vector<std::string> of_source = words;
+          of_source.insert(of_source.end(), {"--out-transfer", "source"});
+          succeed(of_source);
+          expect_codes(scratch_ / "x.png", stills[3]);
+          if (transfer != "srgb" || (white != 255 && white != 65'535)) continue;
+          succeed(words);
           expect_codes(scratch_ / "x.png", stills[3]);
         }
       }
-      succeed({"-f", "100", "--start", "4f", "--exposure", "1f", folder, "y.tif"});
+      succeed({"-f", "100", "--start", "4f", "--exposure", "1f", "--out-transfer", "source", folder, "y.tif"});
       expect_codes(scratch_ / "y.tif", stills[4]);
     }
   }

@@ -60,7 +60,7 @@ TEST_F(TraceCommand, ByHand) {
             " 5000000  10000000  1     0.2        0.05  0.05\n"
             "10000000  25000000  1     0.4        0.3   0.35\n"
             "25000000  40000000  0     (2 steps)  0     0.35\n"
-            "clip.tik, pixel 3,2, the exposure: light 0.35, code 89; 5 steps, D 20 ms, ∫g 20 ms\n");
+            "clip.tik, pixel 3,2, the exposure: light 0.35, code 160; 5 steps, D 20 ms, ∫g 20 ms\n");
 }
 
 TEST_F(TraceCommand, ATableOfTheIntegrals) {

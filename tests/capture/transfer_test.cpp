@@ -10,7 +10,7 @@ namespace nutik {
 namespace {
 
 const Transfer kAll[] = {Transfer::srgb(), Transfer::bt709(), Transfer::linear(), Transfer::gamma(2.2),
-                         Transfer::gamma(0.5)};
+                         Transfer::gamma(0.5), Transfer::hlg(), Transfer::pq()};
 
 // Values of the standards, from their own formulas worked out by hand.
 TEST(Transfer, HasTheStandardsValues) {
@@ -23,6 +23,42 @@ TEST(Transfer, HasTheStandardsValues) {
   for (const Transfer& transfer : kAll) {
     EXPECT_EQ(transfer.light_of(0.0), 0.0) << transfer.text();
     EXPECT_DOUBLE_EQ(transfer.light_of(1.0), 1.0) << transfer.text();
+  }
+}
+
+// BT.2100 prints these of its formulas, and BT.2408 table 1 where reference white lies.
+TEST(Transfer, HasThoseOfHighDynamicRange) {
+  const Transfer hlg = Transfer::hlg(), pq = Transfer::pq();
+  EXPECT_DOUBLE_EQ(hlg.light_of(0.5), 1.0 / 12);
+  EXPECT_DOUBLE_EQ(hlg.light_of(0.25), 0.25 * 0.25 / 3);
+  EXPECT_NEAR(hlg.light_of(0.75), (std::exp((0.75 - 0.55991073) / 0.17883277) + 0.28466892) / 12, 1e-8);
+  EXPECT_NEAR(10'000 * pq.light_of(0.5081), 100, 0.1);
+  EXPECT_NEAR(10'000 * pq.light_of(0.5807), 203, 0.2);
+  EXPECT_NEAR(10'000 * pq.light_of(0.7518), 1000, 1);
+  EXPECT_NEAR(pq.fraction_of(0.1), 0.7518, 1e-4);
+  EXPECT_DOUBLE_EQ(pq.reference_white(), 0.0203);
+  EXPECT_DOUBLE_EQ(hlg.reference_white(), hlg.light_of(0.75));
+  EXPECT_EQ(Transfer::srgb().reference_white(), 1.0);
+  // The two pieces of HLG meet, with the same slope.
+  const double step = 1e-6;
+  const double below = (hlg.light_of(0.5) - hlg.light_of(0.5 - step)) / step;
+  const double above = (hlg.light_of(0.5 + step) - hlg.light_of(0.5)) / step;
+  EXPECT_NEAR(above / below, 1.0, 1e-5);
+}
+
+// What bounds of codes take for granted (render/error_bound.hpp): a function bends one way only.
+TEST(Transfer, BendsOneWay) {
+  for (const Transfer& transfer : kAll) {
+    const bool bends_down = transfer.fraction_of(0.25) > 0.25;
+    if (transfer.is_linear()) continue;
+    double last = bends_down ? HUGE_VAL : 0.0;
+    for (double low = 1e-15; low < 0.9; low *= 1.05) {
+      const double high = low * 1.05;
+      const double slope = (transfer.fraction_of(high) - transfer.fraction_of(low)) / (high - low);
+      EXPECT_TRUE(bends_down ? slope <= last * (1 + 1e-9) : slope >= last * (1 - 1e-9))
+          << transfer.text() << " at " << low;
+      last = slope;
+    }
   }
 }
 

@@ -4,7 +4,7 @@
     check_golden.py --program nutik-cl --work FOLDER
 
 golden.json lists each capture beside it: what `info --json` tells of it, and exposures with the checksum of their
-picture. Exposures are computed in fixed precision on an OpenCL device, which gives the same codes on every machine.
+picture, of the capture's own codes. Exposures are computed in fixed precision on an OpenCL device, which gives the same codes on every machine.
 """
 
 import argparse
@@ -42,7 +42,7 @@ def checksums_of(program, capture, exposures, work):
     pictures = [work / f"{Path(capture).stem}-{k}.pnm" for k in range(len(exposures))]
     for picture in pictures:
         picture.unlink(missing_ok=True)
-    lines = "".join(f"{exposure} --no-recipe '{picture}'\n" for exposure, picture in zip(exposures, pictures))
+    lines = "".join(f"{exposure} --out-transfer source --no-recipe '{picture}'\n" for exposure, picture in zip(exposures, pictures))
     done = subprocess.run([program, "batch", "-q", "--precision", "fixed", "-", capture], cwd=HERE,
                           input=lines, capture_output=True, text=True)
     if done.returncode != 0:

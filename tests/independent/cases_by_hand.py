@@ -122,8 +122,13 @@ def means_in_light(checks, folder):
     for transfer, want in (("srgb", [[188], [187]]), ("bt709", [[180], [179]]),
                            ("gamma:2", [[180], [180]])):
         checks.codes_are(f"{transfer}: half of codes 255 and 254", folder,
+                         ["-f100", "--transfer", transfer, "--out-transfer", "source", "--start", "0s",
+                          "--exposure", "2f", "means.mkv"], np.array(want))
+    # Shown as sRGB, light 0.5 is 187.516 whatever the codes were; 254 of linear 255 is 0.498039: 187.192.
+    for transfer in ("srgb", "bt709", "linear", "gamma:2"):
+        checks.codes_are(f"{transfer}, shown: half of code 255", folder,
                          ["-f100", "--transfer", transfer, "--start", "0s", "--exposure", "2f",
-                          "means.mkv"], np.array(want))
+                          "means.mkv"], np.array([[188], [187]]))
 
 
 def codes_come_back(checks, folder):
@@ -136,7 +141,10 @@ def codes_come_back(checks, folder):
         for name, interval in (("exactly sample 1", ("--start", "1f", "--exposure", "1f")),
                                ("1 us inside it", ("--start", "15ms", "--exposure", "1us"))):
             checks.codes_are(f"{transfer}: {name} gives its codes back", folder,
-                             ["-f100", "--transfer", transfer, *interval, "codes.mkv"], samples[1])
+                             ["-f100", "--transfer", transfer, "--out-transfer", "source", *interval,
+                              "codes.mkv"], samples[1])
+    checks.codes_are("srgb is shown as it is", folder,
+                     ["-f100", "--start", "1f", "--exposure", "1f", "codes.mkv"], samples[1])
 
 
 def still_scenes(checks, folder):

@@ -83,11 +83,12 @@ def both_ways(checks, name, samples, white, transfer, timeline, source_options, 
     kernel_is_reference(checks, name, found["opencl"], found["reference"])
     path = folder / "codes.png"
     path.unlink(missing_ok=True)
-    run = checks.run(folder, *exposure, "clip.tik", "-o", path.name)
-    if run.status == 0:
-        checks.integer_picture(f"{name}: codes", path, expected, transfer, run.command, white, 16)
+    for way, shown, most in (("source", transfer, white), ("srgb", "srgb", 65535)):
+        run = checks.run(folder, *exposure, "--out-transfer", way, "clip.tik", "-o", path.name)
+        if run.status == 0:
+            checks.integer_picture(f"{name}: {way} codes", path, expected, shown, run.command, most, 16)
     for k in sorted({0, len(samples) // 2, len(samples) - 1}):
-        one = ["--start", f"{k}f", "--exposure", "1f"]
+        one = ["--start", f"{k}f", "--exposure", "1f", "--out-transfer", "source"]
         checks.codes_are(f"{name}: sample {k} is the source", folder, [*one, "clip.tik"], samples[k])
 
 

@@ -82,17 +82,25 @@ def one_case(checks, case, seed):
 
 
 def integer_pictures(checks, name, folder, case, exposure, expected):
-    """The capture's own depth, and 16 bits of it."""
+    """The capture's own depth, 8 and 16 bits, with each transfer function and the capture's own codes."""
     own_bits = 8 if case.white == 255 else 16
-    for options, bits, white in (([], own_bits, case.white), (["--depth", "16"], 16, None)):
-        # A 16-bit picture of a capture that has 16-bit codes keeps its codes and white code.
-        white = white or (65535 if own_bits == 8 else case.white)
+    full = {8: 255, 16: 65535}
+    ways = [([], own_bits, "srgb", full[own_bits]),
+            (["--depth", "16"], 16, "srgb", 65535),
+            (["--depth", "8", "--out-transfer", "linear"], 8, "linear", 255),
+            (["--out-transfer", "bt709"], own_bits, "bt709", full[own_bits]),
+            (["--depth", "16", "--out-transfer", "gamma:1.8"], 16, "gamma:1.8", 65535),
+            (["--out-transfer", "source"], own_bits, case.transfer, case.white),
+            # A 16-bit picture of a capture that has 16-bit codes keeps its codes and white code.
+            (["--depth", "16", "--out-transfer", "source"], 16, case.transfer,
+             65535 if own_bits == 8 else case.white)]
+    for options, bits, transfer, white in ways:
         path = folder / "codes.png"
         path.unlink(missing_ok=True)
         run = checks.run(folder, *exposure, *options, "clip.tik", "-o", path.name)
         if run.status == 0:
             checks.integer_picture(f"{name}: {' '.join(options) or 'own depth'}", path, expected,
-                                   case.transfer, run.command, white, bits)
+                                   transfer, run.command, white, bits)
 
 
 def source_options(case):

@@ -231,14 +231,14 @@ TEST(VideoClip, SaysThatATransferFunctionIsNotKnown) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   scratch.write("raw", bytes_of(test::random_stills({17, 27, 1}, 1023, 1, 4)));
-  for (const auto& [name, known] : {std::pair<std::string, bool>{"bt709", true}, {"smpte2084", false}}) {
+  for (const auto& [name, known] : {std::pair<std::string, bool>{"bt709", true}, {"smpte428", false}}) {
     make(scratch,
          from_raw(kGrey, "yuv444p10le") + "-c:v ffv1 -pix_fmt yuv444p10le -color_trc " + name + " clip.mkv");
     const auto clip = open_test_clip(scratch / "clip.mkv");
     EXPECT_EQ(clip->info().format.transfer, known ? Transfer::bt709() : Transfer::srgb());
     ASSERT_EQ(clip->info().notes.size(), known ? 0u : 1u);
     if (known) continue;
-    EXPECT_NE(clip->info().notes[0].text.find("transfer function, smpte2084, is not known"), std::string::npos);
+    EXPECT_NE(clip->info().notes[0].text.find("transfer function, smpte428, is not known"), std::string::npos);
   }
 }
 

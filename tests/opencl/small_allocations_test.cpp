@@ -74,7 +74,8 @@ struct Scene {
 // The least that a device must allocate at a time for an exposure of this capture: a block's payload where it lies
 // in a file, a block's tables, a row of tiles; and what is not cut.
 std::uint64_t smallest_allocation(const RenderPlan& plan, const MemoryCapture& capture, Precision precision) {
-  const CodeTables tables = code_tables(CodeKey::of(plan, precision, plan.capture.white_code));
+  const OutputFormat codes{code_type(plan.capture), plan.capture.white_code};
+  const CodeTables tables = code_tables(CodeKey::of(plan, precision, codes)).value();
   std::uint64_t bytes =
       sums_bytes(TileGrid(plan.capture.shape).columns(), plan.capture.shape.channels, precision);
   bytes = std::max({bytes, tables.thresholds.size(), tables.guesses.size() * sizeof(std::uint32_t)});

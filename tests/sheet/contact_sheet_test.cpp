@@ -55,7 +55,7 @@ TEST(ContactSheet, HasEachPictureInItsPlace) {
   for (const int code : {10, 20, 30}) {
     Picture picture(shape, ValueType::code8, 255);
     std::fill(picture.bytes.begin(), picture.bytes.end(), std::byte(code));
-    sheet.add("a label that is much too long for so narrow a picture", picture, Transfer::srgb());
+    sheet.add("a label that is much too long for so narrow a picture", picture);
   }
   const Picture finished = sheet.finished();
   EXPECT_EQ(finished.shape, (Shape{layout.width(), layout.height(), 3}));

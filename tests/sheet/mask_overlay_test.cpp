@@ -29,7 +29,7 @@ TEST(MaskOverlay, ShowsEveryTagInAColourAndTagZeroAsItIs) {
   for (std::uint8_t i = 0; i < 6; ++i) {
     paint(mask, rectangle(600, 300, {i * 100.0, 100}, 100, 100), static_cast<std::uint8_t>(40 * (i + 1)));
   }
-  const Picture overlay = mask_overlay(mask, grey(600, 300, 77), Transfer::srgb());
+  const Picture overlay = mask_overlay(mask, grey(600, 300, 77));
   EXPECT_EQ(overlay.shape.width, 600u);
   EXPECT_GT(overlay.shape.height, 300u);  // the legend
   EXPECT_EQ(at(overlay, 50, 50), (Rgb{77, 77, 77}));
@@ -46,10 +46,10 @@ TEST(MaskOverlay, ShowsEveryTagInAColourAndTagZeroAsItIs) {
 TEST(MaskOverlay, EnlargesASmallPictureAndTakesAllTags) {
   Mask mask = Mask::uniform(16, 16, 0);
   for (std::size_t pixel = 0; pixel < 256; ++pixel) mask.tags[pixel] = static_cast<std::uint8_t>(pixel);
-  const Picture overlay = mask_overlay(mask, grey(16, 16, 200), Transfer::srgb());
+  const Picture overlay = mask_overlay(mask, grey(16, 16, 200));
   EXPECT_EQ(overlay.shape.width, 480u);
   EXPECT_EQ(at(overlay, 5, 5), (Rgb{200, 200, 200}));  // tag 0, thirty pixels wide
-  const Picture plain = mask_overlay(Mask::uniform(16, 16, 9), grey(16, 16, 0), Transfer::srgb());
+  const Picture plain = mask_overlay(Mask::uniform(16, 16, 9), grey(16, 16, 0));
   EXPECT_EQ(at(plain, 3, 3), (Rgb{0, 57, 89}));
 }
 

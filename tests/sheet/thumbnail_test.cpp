@@ -15,6 +15,12 @@ Picture grey(std::uint32_t width, std::uint32_t height, const std::vector<std::u
   return picture;
 }
 
+Picture linear(std::uint32_t width, std::uint32_t height, const std::vector<std::uint8_t>& codes) {
+  Picture picture = grey(width, height, codes);
+  picture.transfer = Transfer::linear();
+  return picture;
+}
+
 std::vector<int> codes_of(const Picture& picture) {
   const auto codes = picture.values<std::uint8_t>();
   return {codes.begin(), codes.end()};
@@ -24,38 +30,38 @@ TEST(Thumbnail, OfTheSameSizeIsThePicture) {
   std::vector<std::uint8_t> codes(256);
   for (std::size_t i = 0; i < 256; ++i) codes[i] = static_cast<std::uint8_t>(i);
   const Picture picture = grey(16, 16, codes);
-  EXPECT_EQ(thumbnail(picture, Transfer::srgb(), 16, 16).bytes, picture.bytes);
+  EXPECT_EQ(thumbnail(picture, 16, 16).bytes, picture.bytes);
 }
 
 TEST(Thumbnail, MeansLightAndNotCodes) {
   // Half the light of white is code 188 in sRGB, not 128.
-  EXPECT_EQ(codes_of(thumbnail(grey(2, 2, {0, 255, 255, 0}), Transfer::srgb(), 1, 1)),
+  EXPECT_EQ(codes_of(thumbnail(grey(2, 2, {0, 255, 255, 0}), 1, 1)),
             (std::vector<int>{188}));
   // Linear codes are light themselves; the thumbnail is sRGB all the same.
-  EXPECT_EQ(codes_of(thumbnail(grey(2, 1, {0, 255}), Transfer::linear(), 2, 1)), (std::vector<int>{0, 255}));
-  EXPECT_EQ(codes_of(thumbnail(grey(2, 1, {0, 255}), Transfer::linear(), 1, 1)), (std::vector<int>{188}));
+  EXPECT_EQ(codes_of(thumbnail(linear(2, 1, {0, 255}), 2, 1)), (std::vector<int>{0, 255}));
+  EXPECT_EQ(codes_of(thumbnail(linear(2, 1, {0, 255}), 1, 1)), (std::vector<int>{188}));
 }
 
 TEST(Thumbnail, SharesPixelsThatItCuts) {
   // Three pixels on two: each half has one whole pixel and half of the middle one, whose light is 1.
   const Transfer srgb = Transfer::srgb();
   const int third = static_cast<int>(std::lround(255 * srgb.fraction_of(1.0 / 3)));
-  EXPECT_EQ(codes_of(thumbnail(grey(3, 1, {0, 255, 0}), srgb, 2, 1)), (std::vector<int>{third, third}));
-  EXPECT_EQ(codes_of(thumbnail(grey(2, 1, {7, 9}), srgb, 4, 2)), (std::vector<int>{7, 7, 9, 9, 7, 7, 9, 9}));
+  EXPECT_EQ(codes_of(thumbnail(grey(3, 1, {0, 255, 0}), 2, 1)), (std::vector<int>{third, third}));
+  EXPECT_EQ(codes_of(thumbnail(grey(2, 1, {7, 9}), 4, 2)), (std::vector<int>{7, 7, 9, 9, 7, 7, 9, 9}));
 }
 
 TEST(Thumbnail, KeepsChannelsAndDepths) {
   Picture deep({2, 1, 3}, ValueType::code16, 4095);
   const std::uint16_t codes[] = {4095, 0, 0, 0, 0, 4095};
   std::copy_n(codes, 6, deep.values<std::uint16_t>().begin());
-  EXPECT_EQ(codes_of(thumbnail(deep, Transfer::srgb(), 1, 1)), (std::vector<int>{188, 0, 188}));
+  EXPECT_EQ(codes_of(thumbnail(deep, 1, 1)), (std::vector<int>{188, 0, 188}));
 }
 
 TEST(Thumbnail, TakesCodesAboveWhiteForWhite) {
   Picture deep({2, 1, 1}, ValueType::code16, 1023);
   deep.values<std::uint16_t>()[0] = 65'535;
   deep.values<std::uint16_t>()[1] = 1024;
-  EXPECT_EQ(codes_of(thumbnail(deep, Transfer::srgb(), 2, 1)), (std::vector<int>{255, 255}));
+  EXPECT_EQ(codes_of(thumbnail(deep, 2, 1)), (std::vector<int>{255, 255}));
 }
 
 TEST(Thumbnail, KeepsTheMeanLightOfAnyPicture) {
@@ -71,7 +77,7 @@ TEST(Thumbnail, KeepsTheMeanLightOfAnyPicture) {
       light += srgb.light_of(code / 255.0) / static_cast<double>(codes.size());
     }
     const Picture small =
-        thumbnail(grey(width, height, codes), srgb, static_cast<std::uint32_t>(random.whole(1, width)),
+        thumbnail(grey(width, height, codes), static_cast<std::uint32_t>(random.whole(1, width)),
                   static_cast<std::uint32_t>(random.whole(1, height)));
     double mean = 0.0;
     for (const int code : codes_of(small)) {

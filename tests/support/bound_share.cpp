@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
+
+#include "support/chromaticity.hpp"
 
 namespace nutik::test {
 namespace {
@@ -43,15 +47,38 @@ double share_of(const Transfer& transfer, const PictureError& error, const Outpu
   return distance <= rounding ? 0.0 : (distance - rounding) / error.light;
 }
 
+// Light as the codes of `output` are made of it: white is 1, in BT.709's primaries if it is to be seen.
+std::vector<double> shown(const CaptureFormat& capture, const OutputFormat& output, std::span<const double> light) {
+  std::vector<double> result(light.begin(), light.end());
+  if (!holds_codes(output.type) || !output.transfer) return result;
+  // ITU-R BT.2408: 75 % of HLG, 203 of 10 000 cd/m².
+  const double white = capture.transfer == Transfer::hlg()  ? capture.transfer.light_of(0.75)
+                       : capture.transfer == Transfer::pq() ? 203.0 / 10'000
+                                                            : 1.0;
+  for (double& value : result) value /= white;
+  if (capture.shape.channels == 1) return result;
+  const Matrix from = to_xyz(chromaticities(capture.primaries));
+  const Matrix to = to_xyz(chromaticities(Primaries::bt709));
+  for (std::size_t i = 0; i + 2 < result.size(); i += 3) {
+    std::array<double, 3> xyz{};
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t channel = 0; channel < 3; ++channel) xyz[row] += from[row][channel] * result[i + channel];
+    }
+    if (capture.primaries != Primaries::bt709) std::ranges::copy(solved(to, xyz), result.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return result;
+}
+
 }  // namespace
 
 Difference share_of_bound(const RenderPlan& plan, const ErrorBound& bound, const OutputFormat& output,
                           const Picture& picture, const Picture& light) {
   Difference difference;
+  const Transfer transfer = output.transfer.value_or(plan.capture.transfer);
+  const std::vector<double> seen = shown(plan.capture, output, light.values<double>());
   for (std::uint64_t i = 0; i < picture.shape.value_count(); ++i) {
     const std::size_t function = plan.function_of(i / picture.shape.channels);
-    double share = share_of(plan.capture.transfer, bound.functions[function], output, value_of(picture, i),
-                            light.values<double>()[i]);
+    double share = share_of(transfer, bound.functions[function], output, value_of(picture, i), seen[i]);
     if (std::isnan(share)) share = INFINITY;
     if (share > difference.worst) difference = {share, i};
   }

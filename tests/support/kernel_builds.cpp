@@ -20,8 +20,10 @@ constexpr std::uint32_t kItemTiles[] = {1, 3, 16};
 constexpr std::uint32_t kCodeBytes[] = {1, 2};
 constexpr std::uint32_t kChannels[] = {1, 3};
 constexpr bool kFuses[] = {true, false};
-constexpr OutputFormat kOutputs[] = {{ValueType::code8, 255},
+const OutputFormat kOutputs[] = {{ValueType::code8, 255},
                                      {ValueType::code16, 65'535},
+                                     {ValueType::code8, 255, NegativeLight::saturate, Transfer::bt709()},
+                                     {ValueType::code16, 65'535, NegativeLight::saturate, Transfer::linear()},
                                      {ValueType::light32, 0},
                                      {ValueType::light64, 0},
                                      {ValueType::code8, 255, NegativeLight::offset},
@@ -56,6 +58,7 @@ const char* name_of(LightKind light) {
 const char* name_of(const OutputFormat& output) {
   if (output.negative == NegativeLight::offset) return "offset8";
   if (output.negative == NegativeLight::absolute) return "absolute12";
+  if (output.transfer) return output.type == ValueType::code8 ? "shown8" : "shown16";
   switch (output.type) {
     case ValueType::code8: return "code8";
     case ValueType::code16: return "code16";

@@ -36,6 +36,12 @@ constexpr Command kCommands[] = {
     {Id::recover, "recover", "DAMAGED.tik WHOLE.tik",
      "Save the whole blocks of a .tik file that was cut off.", "nutik-cl recover damaged.tik -o whole.tik",
      run_recover, kCaptures},
+    {Id::retime, "retime", "CAPTURE.tik [CORRECTED.tik]",
+     "Correct what a capture says of itself, without encoding its clip again: rate, shutter angle, transfer "
+     "function, primaries, pixel aspect. Without a second name the capture itself is replaced.",
+     "nutik-cl retime clip.tik -f 960 -a 180\n"
+     "nutik-cl retime clip.tik --transfer linear -o corrected.tik",
+     run_retime, kCaptures},
     {Id::noise, "noise", "CLIP... [-o CAMERA.noise]",
      "Measure a camera's noise on footage of a still scene: one clip, or several exposures of it. The file "
      "is text; tools/NoisePlotter.py draws it, --noise encodes with it.",

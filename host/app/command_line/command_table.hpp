@@ -16,6 +16,7 @@ enum class CommandId {
   info,
   devices,
   recover,
+  retime,
   batch,
   check,
   trace,

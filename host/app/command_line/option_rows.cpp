@@ -41,17 +41,31 @@ constexpr Option step(std::string_view name, std::string_view value, std::string
 
 constexpr Option kRows[] = {
     heading("The source clip"),
-    {'f', "fps", "RATE", timing, kReadsClips | bit(Id::shutter), &Options::fps,
+    {'f', "fps", "RATE", timing, kReadsClips | set_of(Id::shutter, Id::retime), &Options::fps,
      "pictures a second that the clip was filmed with: 120, 29.97, 30000/1001 (default: what the file says)"},
-    {'a', "shutter-angle", "DEGREES", timing, kReadsClips | bit(Id::shutter), &Options::shutter_angle,
-     "share of the time between pictures that the shutter was open, 360 being all of it (default: 360)"},
+    {'a', "shutter-angle", "DEGREES", timing, kReadsClips | set_of(Id::shutter, Id::retime),
+     &Options::shutter_angle,
+     "share of the time between pictures that the shutter was open, 360 being all of it (default: what the "
+     "file says, else 360)"},
     {0, "white", "CODE", decoding, kDecodesClips, &Options::white,
      "the code that stands for white: 255, 4095 for 12 bits, … (default: what the file says)"},
     // A capture has one too, which a picture may be exposed without: so it is none of what only a clip has.
-    {0, "transfer", "NAME", exposure, kDecodesClips, &Options::transfer,
-     "how codes stand for light: srgb, bt709, linear or gamma:G (default: srgb; linear for stills and grey "
-     "video of more than 8 bits and for 16-bit colour; what deep or raw video names; a .tik's own)",
-     "srgb bt709 linear gamma:"},
+    {0, "transfer", "NAME", exposure, kDecodesClips | bit(Id::retime), &Options::transfer,
+     "how codes stand for light: srgb, bt709, linear, gamma:G, hlg or pq (default: srgb; linear for stills "
+     "and grey video of more than 8 bits and for 16-bit colour; what deep video names; a .tik's own)",
+     "srgb bt709 linear gamma: hlg pq"},
+    {0, "matrix", "NAME", decoding, kDecodesClips, &Options::matrix,
+     "how a video's YUV becomes RGB: bt601, bt709 or bt2020 (default: what the file says; else bt709 from 720 "
+     "lines on, bt601 below)",
+     "bt601 bt709 bt2020"},
+    {0, "range", "NAME", decoding, kDecodesClips, &Options::range,
+     "which codes of YUV are black and white: limited or full (default: what the file says, else limited)",
+     "limited full"},
+    {0, "primaries", "NAME", decoding, kDecodesClips | bit(Id::retime), &Options::primaries,
+     "the colours of red, green and blue: bt709, bt2020 or p3 (default: what the file says, else bt709)",
+     "bt709 bt2020 p3"},
+    {0, "pixel-aspect", "W:H", decoding, kDecodesClips | bit(Id::retime), &Options::pixel_aspect,
+     "how much wider than high a pixel is shown, as in 32:27 (default: what the file says, else 1:1)"},
     {0, "raw", "WxH:FORMAT", decoding, kDecodesClips, &Options::raw,
      "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le"},
     {0, "tolerance", "CODES", encoding, kEncodesClips, &Options::tolerance,
@@ -210,7 +224,7 @@ constexpr Option kRows[] = {
 
     heading("Output"),
     {'o', "output", "FILE", output,
-     (kReadsClips & ~set_of(Id::batch, Id::check, Id::validate)) | set_of(Id::recover, Id::noise),
+     (kReadsClips & ~set_of(Id::batch, Id::check, Id::validate)) | set_of(Id::recover, Id::noise, Id::retime),
      &Options::output, "where to write; without it the last operand, or a name made from the inputs"},
     {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate), &Options::depth,
      "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
@@ -219,6 +233,11 @@ constexpr Option kRows[] = {
      "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
      "darker), abs (as bright as light above it) (default: saturate)",
      "saturate offset abs"},
+    {0, "out-transfer", "NAME", exposure,
+     set_of(Id::expose, Id::video, Id::sweep, Id::trace, Id::validate), &Options::out_transfer,
+     "how the picture's codes stand for light: srgb, bt709, linear, gamma:G, or source: as in the capture, with "
+     "its own white code (default: srgb, white being the largest code)",
+     "srgb source linear bt709 gamma:"},
     {0, "codec", "NAME", encoding, bit(Id::encode), &Options::codec,
      "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",
      "none lz4 zstd zstd:"},

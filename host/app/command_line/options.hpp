@@ -22,7 +22,7 @@ struct Options {
   std::vector<Said> said;  // every option, in the order of the command line
 
   // The source clip.
-  Value fps, shutter_angle, white, transfer, raw, noise, sigmas;
+  Value fps, shutter_angle, white, transfer, matrix, range, primaries, pixel_aspect, raw, noise, sigmas;
   Value tolerance, codec, tiles, block_samples;
 
   // The exposure, and what is followed or counted: a pixel, or a tag of the mask.
@@ -40,7 +40,7 @@ struct Options {
   Value by, base, size, preview, csv, moment, map;
 
   // What is written.
-  Value output, depth, negative, activity;
+  Value output, depth, negative, out_transfer, activity;
   bool json = false, no_recipe = false, quiet = false, verbose = false;
 };
 

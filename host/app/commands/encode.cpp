@@ -43,8 +43,9 @@ int run_encode(const Options& options) {
                       {"raw_bytes", raw_bytes},
                       {"seconds", seconds}});
   answer.line = format("{}: {}, {}, {}, {} of {} raw, {:.2f} s", output.string(), shape_text(shape),
-                       counted(timeline.sample_count(), "sample"), timing_text(timeline, source),
+                       counted(timeline.sample_count(), "sample"), timing_text(encoded.facts),
                        bytes_text(encoded.file_bytes), bytes_text(raw_bytes), seconds);
+  answer.details.push_back(fact_lines(encoded.facts).back());
   answer.notes = note_lines(encoded.notes, timeline, source);
   return tell(options, output, answer);
 }

@@ -1,8 +1,12 @@
+#include <algorithm>
+#include <iterator>
+
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
+#include "app/text/timing_text.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/pictures.hpp"
@@ -33,14 +37,14 @@ int run_expose(const Options& options) {
   answer.json.update(shape_json(exposed.picture.shape));
   answer.json.update(
       {{"samples", samples}, {"live_samples", figures.live_samples}, {"functions", functions_json(figures)}});
-  answer.line = format("{}: {}, {} of {} samples{}", output.string(), shape_text(shape), figures.live_samples,
-                       samples, still_gains_text(figures, !options.functions));
+  answer.line = format("{}: {}, {} of {} samples{}{}", output.string(), shape_text(shape), figures.live_samples,
+                       samples, still_gains_text(figures, !options.functions),
+                       codes_text(figures.capture, exposed.output));
   if (options.verbose) answer.details.push_back(plan_text(figures));
   tally.end(answer, session, options.verbose);
-  answer.notes = source_lines(session, figures.timeline);
-  if (!answer.notes.empty()) {  // the first line tells of the result's times
-    answer.details.push_back(answer.notes.front());
-    answer.notes.erase(answer.notes.begin());
+  if (session.is_clip()) {
+    std::ranges::move(fact_lines(session.facts()), std::back_inserter(answer.details));
+    answer.notes = note_lines(session.notes(), figures.timeline, session.source());
   }
   return tell(options, output, answer);
 }

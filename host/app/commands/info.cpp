@@ -62,11 +62,14 @@ int run_info(const Options& options) {
   };
 
   if (options.json) {
-    Json json{{"capture", name}, {"version", tik::kVersion}};
+    Json json{{"capture", name}, {"version", reader.header().version}};
     json.update(shape_json(capture.shape));
     json.update({{"code_bits", capture.code_bytes * 8},
                  {"white_code", capture.white_code},
                  {"transfer", capture.transfer.text()},
+                 {"primaries", to_text(capture.primaries)},
+                 {"pixel_aspect", aspect_text(capture.pixel_aspect)},
+                 {"facts", reader.header().facts},
                  {"tolerance_codes", capture.noise.tolerance},
                  {"has_camera_noise", capture.noise.camera.has_value()},
                  {"samples", timeline.sample_count()},
@@ -90,9 +93,10 @@ int run_info(const Options& options) {
     return status;
   }
 
-  print_line(format("{}: a .tik capture, version {}", name, tik::kVersion));
-  print_line(format("  pictures    {}, {} bits, white code {}, transfer {}", shape_text(capture.shape),
-                    capture.code_bytes * 8, capture.white_code, capture.transfer.text()));
+  print_line(format("{}: a .tik capture, version {}", name, reader.header().version));
+  print_line(format("  pictures    {}, {} bits, white code {}, transfer {}, primaries {}, pixels {}",
+                    shape_text(capture.shape), capture.code_bytes * 8, capture.white_code,
+                    capture.transfer.text(), to_text(capture.primaries), aspect_text(capture.pixel_aspect)));
   if (capture.noise.camera) {
     print_line(format("  codes       means of the source's, whose white code is {}, times {}",
                       capture.noise.camera->white_code, held_scale(capture)));
@@ -104,6 +108,7 @@ int run_info(const Options& options) {
                     rate_text(timeline.rate(), "sample"),
                     timeline.is_constant() ? "" : " on average (irregular)",
                     timeline.shutter_angle().text()));
+  for (const std::string& fact : reader.header().facts) print_line("  taken for   " + fact);
   print_line(
       format("  changes     {:.2f} records a pixel, at {:.2f} % of samples, {}",
              static_cast<double>(figures.record_count) / static_cast<double>(capture.shape.pixel_count()),

@@ -106,7 +106,7 @@ Picture backdrop(const Options& options, const MaskRequest& request, const Mask&
   PlanOptions plan_options;
   plan_options.function_name = "the preview's exposure";
   ExposedPicture exposed = session->render(functions, Mask::uniform(mask.width, mask.height, 0), plan_options,
-                                           {code_type(format), format.white_code});
+                                           output_format({}, format));
   print_warnings(exposure_warnings(exposed));
   return std::move(exposed.picture);
 }
@@ -174,9 +174,8 @@ int run_mask(const Options& options) {
     if (step.pixel_count == 0) print_warning(format("{} for M{} selects no pixel", step.name, step.tag));
   }
   if (options.preview) {
-    const Transfer transfer = session ? session->format().transfer : Transfer::srgb();
     const Picture below = backdrop(options, job.request, made.mask, session ? &*session : nullptr);
-    write_picture(*options.preview, sheet::mask_overlay(made.mask, below, transfer));
+    write_picture(*options.preview, sheet::mask_overlay(made.mask, below));
   }
   write_picture(job.output, made.mask.to_picture());
   tell(options, job.output, answer_of(job.output, made));

@@ -1,5 +1,7 @@
 #include "app/commands/opened_session.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "app/output/console.hpp"
@@ -23,15 +25,12 @@ Session open_session(const std::string& name, const Options& options, std::share
   return session;
 }
 
-std::vector<std::string> source_lines(const Session& session, const Timeline& timeline) {
-  if (!session.is_clip()) return {};
-  std::vector<std::string> lines = note_lines(session.notes(), timeline, session.source());
-  lines.insert(lines.begin(), "source: " + timing_text(timeline, session.source()));
-  return lines;
-}
-
 std::vector<std::string> source_lines(const Session& session) {
-  return source_lines(session, session.timeline());
+  if (!session.is_clip()) return {};
+  std::vector<std::string> lines = fact_lines(session.facts());
+  std::ranges::move(note_lines(session.notes(), session.timeline(), session.source()),
+                    std::back_inserter(lines));
+  return lines;
 }
 
 void print_source(const Session& session, const Options& options) {

@@ -85,9 +85,10 @@ int run_series(const Options& options) {
   }
   answer.json.update(shape_json(session.format().shape));
   answer.json["functions"] = functions_json(*first);
-  answer.line = format("{} … {}: {} exposures every {}, {}{}", names[0].string(),
+  answer.line = format("{} … {}: {} exposures every {}, {}{}{}", names[0].string(),
                        names[starts.size() - 1].filename().string(), starts.size(), series.every.text(),
-                       shape_text(session.format().shape), still_gains_text(*first, request.is_plain()));
+                       shape_text(session.format().shape), still_gains_text(*first, request.is_plain()),
+                       codes_text(first->capture, output));
   if (options.verbose) answer.details.push_back("first " + plan_text(*first));
   tally.end(answer, session, options.verbose,
             format(", {:.1f} exposures a second", static_cast<double>(starts.size()) / tally.seconds()));

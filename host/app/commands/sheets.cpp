@@ -34,7 +34,7 @@ class SheetJob {
       : options_(options),
         output_(output_name(options, command, behind)),
         inputs_(input_files(options)),
-        negative_(output_request(options).negative) {
+        codes_(output_request(options)) {
     constexpr std::uint32_t kColour = 3;
     check_picture_output(output_, kColour, inputs_);
   }
@@ -49,7 +49,7 @@ class SheetJob {
   // `each` is told every picture beside that. Returns the exit status.
   int run(Session& session, SheetRequest request, const std::string& counted_as, std::string_view key,
           Json exposures, const Each& each = {}) {
-    request.negative = negative_;
+    request.codes = codes_;
     if (options_.transfer) request.plan.transfer = Transfer::parse(*options_.transfer);
     const Sheet sheet = [&] {
       WarningsAtEnd warnings;
@@ -75,7 +75,7 @@ class SheetJob {
   const Options& options_;
   std::filesystem::path output_;
   std::vector<std::string> inputs_;
-  std::optional<NegativeLight> negative_;
+  OutputRequest codes_;
   ExposureTally tally_;
 };
 

@@ -56,17 +56,6 @@ struct Traced {
 
 bool is_table_name(const std::filesystem::path& path) { return path.extension() == ".csv"; }
 
-// What the light comes out as in a picture of the capture's own codes.
-std::string codes_text(const Trace& trace, const CaptureFormat& capture) {
-  std::string text;
-  for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
-    const double light = std::clamp(trace.light[channel], 0.0, 1.0);
-    text += format("{}{}", channel == 0 ? "" : " ",
-                   std::floor(capture.transfer.fraction_of(light) * capture.white_code + 0.5));
-  }
-  return text;
-}
-
 // `clip.tik, pixel 3,4, M128`; a plain interval has no mask value.
 std::string heading(const std::string& name, const Traced& traced, const Trace& trace,
                     const PlannedFunction& function, bool plain) {
@@ -120,7 +109,7 @@ int run_trace(const Options& options) {
   if (!options.quiet) {
     const GainSummary& summary = function.summary;
     print_line(format("{}{}: light {}, code {}; {} steps, D {}, ∫g {}", output ? output->string() + ": " : "",
-                      title, light_text(trace), codes_text(trace, exposure.figures.capture),
+                      title, light_text(trace), traced_codes(trace, exposure.figures.capture, output_format(output_request(options), session.format())),
                       trace.steps.size(), integral_text(static_cast<double>(summary.support_ns)),
                       integral_text(std::scalbn(summary.integral_ns, summary.exponent))));
     print_source(session, options);

@@ -27,7 +27,7 @@ int run_video(const Options& options) {
   output.check(0, inputs);  // a container's name, before the clip is read
 
   Session session = open_session(options, {.besides = video_needs(output.encoder_frames())});
-  const CaptureFormat& capture = session.format();
+  CaptureFormat capture = session.format();
   const Frames frames = frames_of(request, session.timeline());
   if (!frames.warning.empty()) print_warning(frames.warning);
   const PlanOptions plan = plan_options_of(request.exposure);
@@ -35,9 +35,9 @@ int run_video(const Options& options) {
   const OutputFormat frame_format = output.frame_format(capture);
   output.check(frames.count, inputs);
 
-  const Transfer transfer = plan.transfer.value_or(capture.transfer);
+  capture.transfer = plan.transfer.value_or(capture.transfer);
   const TimeToEnd is_kept;  // the frames so far, whatever a frame takes
-  FrameQueue queue([&] { return output.open(capture.shape, frame_format, transfer); },
+  FrameQueue queue([&] { return output.open(capture, frame_format); },
                    session.waiting_pictures(frame_format.type));
   std::optional<Interrupted> interruption;
   std::uint64_t exposed_frames = 0;
@@ -77,7 +77,7 @@ int run_video(const Options& options) {
                       {"end_ns", end_ns}});
   answer.line = format("{}: {}, {} ({}), from {} to {} of the capture, {}", name, shape_text(capture.shape),
                        counted(frames.count, "frame"), request.text(), duration_text(start_ns),
-                       duration_text(end_ns), output.kind());
+                       duration_text(end_ns), output.kind() + codes_text(capture, frame_format));
   tally.end(answer, session, options.verbose);
   for (const std::string& note : queue.notes()) answer.notes.push_back("note: " + note);
   std::ranges::move(source_lines(session), std::back_inserter(answer.notes));

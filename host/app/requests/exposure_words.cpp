@@ -153,6 +153,7 @@ OutputRequest output_request(const Options& options) {
   OutputRequest request;
   if (options.depth) request.depth = parse_depth(*options.depth);
   if (options.negative) request.negative = parse_negative_light(*options.negative);
+  if (options.out_transfer) request.transfer = parse_out_transfer(*options.out_transfer);
   return request;
 }
 

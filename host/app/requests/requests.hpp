@@ -45,7 +45,7 @@ inline constexpr std::string_view kAutomaticNoise = "auto";
 // The shutter of that name, and what --gain and --ev multiply light with.
 [[nodiscard]] Shutter parse_shutter(const std::string& shape, const std::optional<std::string>& error);
 [[nodiscard]] double brightening(const Options& options);
-// What --depth and --negative ask of a picture.
+// What --depth, --negative and --out-transfer ask of a picture.
 [[nodiscard]] OutputRequest output_request(const Options& options);
 
 // Many exposures: a series, a sheet of moments, a sheet of variations (in the order of the command line), a video.

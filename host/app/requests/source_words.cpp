@@ -73,6 +73,10 @@ SourceRequest clip_request(const Options& options, const std::string& name) {
   if (options.white) request.clip.white_code = parse_whole_number(*options.white, "white code", 1, 65'535);
   if (options.raw) request.clip.raw = parse_raw_video(*options.raw);
   if (options.transfer) request.clip.transfer = Transfer::parse(*options.transfer);
+  if (options.matrix) request.clip.matrix = parse_yuv_matrix(*options.matrix);
+  if (options.range) request.clip.range = parse_code_range(*options.range);
+  if (options.primaries) request.clip.primaries = parse_primaries(*options.primaries);
+  if (options.pixel_aspect) request.clip.pixel_aspect = parse_pixel_aspect(*options.pixel_aspect);
   read_noise(request, options);
   if (options.tiles) request.tiles = parse_tile_policy(*options.tiles);
   if (options.block_samples) {

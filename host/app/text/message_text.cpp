@@ -27,8 +27,13 @@ std::string_view option_of(Setting setting) {
     case Setting::columns: return "--columns";
     case Setting::depth: return "--depth";
     case Setting::frame_rate: return "--fps";
+    case Setting::matrix: return "--matrix";
     case Setting::normalization: return "--normalize";
+    case Setting::out_transfer: return "--out-transfer";
+    case Setting::pixel_aspect: return "--pixel-aspect";
     case Setting::precision: return "--precision";
+    case Setting::primaries: return "--primaries";
+    case Setting::range: return "--range";
     case Setting::raw_layout: return "--raw";
     case Setting::renderer: return "--renderer";
     case Setting::shutter_angle: return "--shutter-angle";

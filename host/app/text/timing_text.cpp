@@ -11,18 +11,39 @@ namespace {
 constexpr double kLowestPlaybackRate = 1.0;
 constexpr double kHighestPlaybackRate = 60.0;
 
+bool is_timing(const Fact& fact) {
+  return fact.setting == Setting::frame_rate || fact.setting == Setting::shutter_angle;
+}
+
+// Each fact with who said it, those of times or the others.
+std::string facts_text(std::span<const Fact> facts, bool of_times) {
+  std::string text;
+  for (const Fact& fact : facts) {
+    if (is_timing(fact) != of_times) continue;
+    const std::string who = fact.origin == Origin::file     ? format(" (from {}", fact.source)
+                            : fact.origin == Origin::stated ? options_text({fact.setting})
+                                                            : std::string(" (assumed");
+    text += format("{}{}{}", text.empty() ? "" : ", ", fact.text, who);
+    if (fact.origin != Origin::stated) text += format("{}{})", fact.remark.empty() ? "" : ": ", fact.remark);
+  }
+  return text;
+}
+
 }  // namespace
 
-std::string timing_text(const Timeline& timeline, const SourceRequest& request) {
-  const std::string rate =
-      request.clip.rate ? rate_text(timeline.rate(), "picture") + " (--fps)"
-      : timeline.is_constant()
-          ? rate_text(timeline.rate(), "picture") + " (from the file)"
-          : format("irregular times (from the file), {} on average", rate_text(timeline.rate(), "picture"));
-  return format("{}, shutter {} degrees ({})", rate, timeline.shutter_angle().text(),
-                request.shutter_angle                                ? "--shutter-angle"
-                : timeline.shutter_angle() != Timeline::kFullShutter ? "mean of the listed exposures"
-                                                                     : "assumed");
+std::string timing_text(std::span<const Fact> facts) { return facts_text(facts, true); }
+
+std::vector<std::string> fact_lines(std::span<const Fact> facts) {
+  std::vector<std::string> lines{"source: " + timing_text(facts)};
+  std::vector<Setting> assumed;
+  for (const Fact& fact : facts) {
+    if (!is_timing(fact) && fact.origin == Origin::assumed) assumed.push_back(fact.setting);
+  }
+  if (const std::string colours = facts_text(facts, false); !colours.empty()) {
+    const std::string others = options_text(assumed);
+    lines.push_back(format("colour: {}{}", colours, others.empty() ? "" : "; what is assumed can be stated" + others));
+  }
+  return lines;
 }
 
 std::vector<std::string> note_lines(std::span<const Note> notes, const Timeline& timeline,

@@ -10,8 +10,11 @@
 
 namespace nutik::app {
 
-// `120 pictures a second (--fps), shutter 180 degrees (--shutter-angle)`: what a timeline was made from.
-[[nodiscard]] std::string timing_text(const Timeline& timeline, const SourceRequest& request);
+// `120 pictures a second (--fps), shutter 180 degrees (--shutter-angle)`: what times were made from.
+[[nodiscard]] std::string timing_text(std::span<const Fact> facts);
+
+// `source: …` with that, and `colour: …` with the other facts and the options that change what is assumed.
+[[nodiscard]] std::vector<std::string> fact_lines(std::span<const Fact> facts);
 
 // What else a person should know of a clip, as lines: the `notes` on it, and that a low rate from a file may not be the
 // rate it was filmed with.

@@ -3,7 +3,7 @@
 //      0  "CI"          file header of 44 bytes
 //     20  u32           pictures in the file
 //     24  u32           offset of the bitmap header; 16 bytes into it: u32 compression
-//     28  u32           offset of the setup; 140 bytes into it: "ST", then u16 length
+//     28  u32           offset of the setup; 140 bytes into it: "ST", then u16 length; 772 bytes: u32 exposure in us
 //     32  u32           offset of the pictures' offsets, behind the tagged blocks
 //
 // Tagged blocks follow the setup: u32 size (of all of it), u16 type, u16 reserved, data.
@@ -54,6 +54,11 @@ std::optional<CineHeader> read_cine_header(const std::filesystem::path& path) {
       number<std::uint32_t>(file, std::uint64_t{number<std::uint32_t>(file, 24)} + 16) == kPacked10;
   if (setup + 144 > file.size() || std::memcmp(file.data() + setup + 140, "ST", 2) != 0) return header;
   std::uint64_t tag = setup + number<std::uint16_t>(file, setup + 142);
+  constexpr std::uint64_t kShutter = 772;
+  constexpr std::int64_t kNsInUs = 1000;
+  if (const auto shutter_us = number<std::uint32_t>(file, setup + kShutter); shutter_us > 0 && tag >= setup + kShutter + 4) {
+    header.exposed_ns = shutter_us * kNsInUs;
+  }
   while (tag + kTagHeaderBytes <= tags_end) {
     const std::uint64_t size = number<std::uint32_t>(file, tag), data = tag + kTagHeaderBytes;
     const auto type = number<std::uint16_t>(file, tag + 4);

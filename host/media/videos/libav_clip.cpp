@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "media/videos/clip_colour.hpp"
 #include "media/videos/damage_log.hpp"
 #include "media/videos/libav.hpp"
 #include "media/videos/pixels.hpp"
@@ -16,7 +17,7 @@ class LibavClip final : public Clip {
       : name_(path.string()),
         opened_(open_video(path, options.raw)),
         coded_(probe.shape),
-        converter_(probe.pixels, probe.quarter_turns),
+        converter_(probe.pixels, probe.upright, yuv_coding(probe, options)),
         packet_(allocated(av_packet_alloc())),
         frame_(allocated(av_frame_alloc())) {
     const AVCodecParameters* parameters = stream().codecpar;
@@ -34,21 +35,16 @@ class LibavClip final : public Clip {
     CaptureFormat& capture = info_.format;
     capture.shape = coded_;
     capture.shape.channels = pixels.is_grey ? 1 : 3;
-    if (probe.quarter_turns % 2 != 0) std::swap(capture.shape.width, capture.shape.height);
+    if (probe.upright.quarter_turns % 2 != 0) std::swap(capture.shape.width, capture.shape.height);
     capture.code_bytes = pixels.bits > 8 ? 2 : 1;
     capture.white_code = pixels.white_code();
     if (options.white_code) set_white(*options.white_code, pixels);
-    // Deep grey pictures, and those of 16 bits, come from scientific cameras, which are linear;
-    // other deep colour from film cameras.
-    const bool scientific = pixels.bits > 8 && (pixels.is_grey || pixels.bits == 16);
-    // Everyday cameras name BT.709's curve whatever theirs is, and players show sRGB's.
-    const auto named = pixels.is_everyday() ? std::nullopt : probe.transfer;
-    capture.transfer = named.value_or(scientific ? Transfer::linear() : Transfer::srgb());
     info_.notes = probe.notes;
     info_.timing = probe.timing;
     info_.sample_count = probe.sample_count;
     const auto pictures = static_cast<std::uint64_t>(codec_->thread_count) + kept_pictures();
     info_.decoder_bytes = pictures * decoded_bytes();
+    describe(capture, info_.facts, probe, options);
   }
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }

@@ -44,9 +44,20 @@ AVColorTransferCharacteristic characteristic_of(const Transfer& transfer) {
   if (transfer == Transfer::srgb()) return AVCOL_TRC_IEC61966_2_1;
   if (transfer == Transfer::bt709()) return AVCOL_TRC_BT709;
   if (transfer == Transfer::linear()) return AVCOL_TRC_LINEAR;
+  if (transfer == Transfer::hlg()) return AVCOL_TRC_ARIB_STD_B67;
+  if (transfer == Transfer::pq()) return AVCOL_TRC_SMPTE2084;
   if (transfer == Transfer::gamma(2.2)) return AVCOL_TRC_GAMMA22;
   if (transfer == Transfer::gamma(2.8)) return AVCOL_TRC_GAMMA28;
   return AVCOL_TRC_UNSPECIFIED;
+}
+
+AVColorPrimaries primaries_of(Primaries primaries) {
+  switch (primaries) {
+    case Primaries::bt709: return AVCOL_PRI_BT709;
+    case Primaries::bt2020: return AVCOL_PRI_BT2020;
+    case Primaries::p3: return AVCOL_PRI_SMPTE432;
+  }
+  return AVCOL_PRI_UNSPECIFIED;
 }
 
 // What an encoder is told by name.
@@ -154,7 +165,8 @@ class LibavVideoWriter final : public VideoWriter {
     context.width = width_;
     context.height = height_;
     context.pix_fmt = encoded_pixels(video_, codec);
-    context.sample_aspect_ratio = {1, 1};
+    context.sample_aspect_ratio = {static_cast<int>(video_.pixel_aspect.numerator),
+                                   static_cast<int>(video_.pixel_aspect.denominator)};
     context.framerate = {static_cast<int>(video_.rate.numerator), static_cast<int>(video_.rate.denominator)};
     context.time_base = av_inv_q(context.framerate);
     context.thread_count = 0;  // as many as there are cores
@@ -165,7 +177,7 @@ class LibavVideoWriter final : public VideoWriter {
                                                      : AVCOL_SPC_RGB;
     context.color_range =
         is_yuv && context.pix_fmt != AV_PIX_FMT_YUVJ420P ? AVCOL_RANGE_MPEG : AVCOL_RANGE_JPEG;
-    context.color_primaries = AVCOL_PRI_BT709;
+    context.color_primaries = primaries_of(video_.primaries);
     context.color_trc = characteristic_of(video_.transfer);
     if ((muxer_->oformat->flags & AVFMT_GLOBALHEADER) != 0) context.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
 
@@ -194,6 +206,7 @@ class LibavVideoWriter final : public VideoWriter {
     }
     check(avcodec_parameters_from_context(stream_->codecpar, &context));
     stream_->time_base = context.time_base;
+    stream_->sample_aspect_ratio = context.sample_aspect_ratio;
     stream_->avg_frame_rate = context.framerate;
     // What Apple's players know H.265 by.
     if (codec.name == "h265" && std::string_view(muxer_->oformat->name) != "matroska") {

@@ -20,22 +20,28 @@ AVPixelFormat raster_format(const PixelKind& kind) {
   }
 }
 
-bool is_yuv(AVPixelFormat format) {
-  const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(format);
-  return pixels.nb_components >= 3 && (pixels.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BAYER)) == 0 &&
-         format != AV_PIX_FMT_XYZ12LE && format != AV_PIX_FMT_XYZ12BE;
+bool has_j_name(AVPixelFormat format) {
+  const char* name = av_get_pix_fmt_name(format);
+  return name != nullptr && std::string_view(name).starts_with("yuvj");
 }
 
-bool has_full_range(const AVFrame& frame) {
-  return frame.color_range == AVCOL_RANGE_JPEG ||
-         std::string_view(av_get_pix_fmt_name(static_cast<AVPixelFormat>(frame.format))).starts_with("yuvj");
+int swscale_number(YuvMatrix matrix) {
+  switch (matrix) {
+    case YuvMatrix::bt601: return SWS_CS_ITU601;
+    case YuvMatrix::bt709: return SWS_CS_ITU709;
+    case YuvMatrix::bt2020: return SWS_CS_BT2020;
+    case YuvMatrix::fcc: return SWS_CS_FCC;
+    case YuvMatrix::smpte240m: return SWS_CS_SMPTE240M;
+  }
+  return SWS_CS_DEFAULT;
 }
 
 // libswscale takes every YUV picture for BT.601 with limited range unless it is told otherwise.
-void set_colours(SwsContext* scaler, const AVFrame& frame) {
+void set_colours(SwsContext* scaler, const YuvCoding& coding) {
   constexpr int kOne = 1 << 16;  // contrast and saturation
-  sws_setColorspaceDetails(scaler, sws_getCoefficients(frame.colorspace), has_full_range(frame) ? 1 : 0,
-                           sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, kOne, kOne);
+  sws_setColorspaceDetails(scaler, sws_getCoefficients(swscale_number(coding.matrix)),
+                           coding.range == CodeRange::full ? 1 : 0, sws_getCoefficients(SWS_CS_DEFAULT), 1, 0,
+                           kOne, kOne);
 }
 
 // What red and blue weigh in a matrix's luma.
@@ -43,15 +49,15 @@ struct LumaWeights {
   double red, blue;
 };
 
-LumaWeights luma_weights(AVColorSpace space) {
-  switch (space) {
-    case AVCOL_SPC_BT709: return {0.2126, 0.0722};
-    case AVCOL_SPC_FCC: return {0.30, 0.11};
-    case AVCOL_SPC_SMPTE240M: return {0.212, 0.087};
-    case AVCOL_SPC_BT2020_NCL:
-    case AVCOL_SPC_BT2020_CL: return {0.2627, 0.0593};
-    default: return {0.299, 0.114};  // BT.601
+LumaWeights luma_weights(YuvMatrix matrix) {
+  switch (matrix) {
+    case YuvMatrix::bt601: return {0.299, 0.114};
+    case YuvMatrix::bt709: return {0.2126, 0.0722};
+    case YuvMatrix::bt2020: return {0.2627, 0.0593};
+    case YuvMatrix::fcc: return {0.30, 0.11};
+    case YuvMatrix::smpte240m: return {0.212, 0.087};
   }
+  return {};
 }
 
 AVPixelFormat planar_format(std::uint32_t bits) {
@@ -67,9 +73,9 @@ AVPixelFormat planar_format(std::uint32_t bits) {
 // Turns planes of Y, U and V of `bits` bits into RGB over 16 bits, each code the nearest there is.
 // libswscale would do it, too, but its white is 65280 for limited range and 65472 for full range of
 // 10 bits: off by up to 4 codes of the source.
-void yuv_to_rgb(const AVFrame& planes, std::uint32_t bits, AVFrame& rgb) {
-  const auto [red_weight, blue_weight] = luma_weights(planes.colorspace);
-  const bool full = has_full_range(planes);
+void yuv_to_rgb(const AVFrame& planes, std::uint32_t bits, const YuvCoding& coding, AVFrame& rgb) {
+  const auto [red_weight, blue_weight] = luma_weights(coding.matrix);
+  const bool full = coding.range == CodeRange::full;
   const double unit = std::ldexp(1.0, static_cast<int>(bits) - 8);
   const double black = full ? 0.0 : 16.0 * unit, grey = 128.0 * unit;
   const double most = std::ldexp(1.0, static_cast<int>(bits)) - 1;
@@ -106,23 +112,26 @@ bool is_aligned(std::span<const std::byte> raster, std::size_t row_bytes) {
   return reinterpret_cast<std::uintptr_t>(raster.data()) % kVectorBytes == 0 && row_bytes % kVectorBytes == 0;
 }
 
-// Copies a row-major picture of `height` rows while it is turned.
-void copy_turned(const std::uint8_t* from, std::ptrdiff_t stride, std::size_t width, std::size_t height,
-                 std::size_t pixel_bytes, int turns, std::span<std::byte> raster) {
+// Copies a row-major picture of `height` rows while it is mirrored and turned.
+void copy_upright(const std::uint8_t* from, std::ptrdiff_t stride, std::size_t width, std::size_t height,
+                  std::size_t pixel_bytes, const Upright& upright, std::span<std::byte> raster) {
+  const int turns = upright.quarter_turns;
   const auto pixel = [&](std::size_t x, std::size_t y) {
+    if (upright.is_mirrored) x = width - 1 - x;
     return from + static_cast<std::ptrdiff_t>(y) * stride + static_cast<std::ptrdiff_t>(x * pixel_bytes);
   };
-  if (turns == 0) {
+  if (turns == 0 && !upright.is_mirrored) {
     for (std::size_t y = 0; y < height; ++y) {
       std::memcpy(raster.data() + y * width * pixel_bytes, pixel(0, y), width * pixel_bytes);
     }
     return;
   }
   std::byte* to = raster.data();
-  const std::size_t columns = turns == 2 ? width : height, rows = turns == 2 ? height : width;
+  const std::size_t columns = turns % 2 == 0 ? width : height, rows = turns % 2 == 0 ? height : width;
   for (std::size_t y = 0; y < rows; ++y) {
     for (std::size_t x = 0; x < columns; ++x, to += pixel_bytes) {
-      const std::uint8_t* source = turns == 1   ? pixel(y, height - 1 - x)
+      const std::uint8_t* source = turns == 0   ? pixel(x, y)
+                                   : turns == 1 ? pixel(y, height - 1 - x)
                                    : turns == 2 ? pixel(width - 1 - x, height - 1 - y)
                                                 : pixel(width - 1 - y, x);
       std::memcpy(to, source, pixel_bytes);
@@ -170,28 +179,65 @@ PixelKind pixel_kind(const AVCodecParameters& codec, const std::string& name) {
   return kind;
 }
 
-int quarter_turns(const AVStream& stream) {
-  const auto* matrix = reinterpret_cast<const std::int32_t*>(
+bool is_yuv(AVPixelFormat format) {
+  const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(format);
+  return pixels.nb_components >= 3 &&
+         (pixels.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BAYER | AV_PIX_FMT_FLAG_PAL)) == 0 &&
+         format != AV_PIX_FMT_XYZ12LE && format != AV_PIX_FMT_XYZ12BE;
+}
+
+std::optional<YuvMatrix> named_matrix(AVColorSpace space) {
+  switch (space) {
+    case AVCOL_SPC_BT470BG:
+    case AVCOL_SPC_SMPTE170M: return YuvMatrix::bt601;
+    case AVCOL_SPC_BT709: return YuvMatrix::bt709;
+    case AVCOL_SPC_BT2020_NCL:
+    case AVCOL_SPC_BT2020_CL: return YuvMatrix::bt2020;
+    case AVCOL_SPC_FCC: return YuvMatrix::fcc;
+    case AVCOL_SPC_SMPTE240M: return YuvMatrix::smpte240m;
+    default: return std::nullopt;
+  }
+}
+
+std::optional<CodeRange> named_range(const AVCodecParameters& codec) {
+  if (codec.color_range == AVCOL_RANGE_JPEG || has_j_name(static_cast<AVPixelFormat>(codec.format))) {
+    return CodeRange::full;
+  }
+  return codec.color_range == AVCOL_RANGE_MPEG ? std::optional(CodeRange::limited) : std::nullopt;
+}
+
+Upright upright(const AVStream& stream) {
+  const auto* stored = reinterpret_cast<const std::int32_t*>(
       av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr));
-  if (matrix == nullptr) return 0;
+  if (stored == nullptr) return {};
+  // A row for where each axis of the picture goes. Of a mirrored one what is left is a turn once the first is reversed.
+  std::int32_t matrix[9];
+  std::copy_n(stored, 9, matrix);
+  Upright upright;
+  upright.is_mirrored = std::int64_t{matrix[0]} * matrix[4] < std::int64_t{matrix[1]} * matrix[3];
+  if (upright.is_mirrored) {
+    matrix[0] = -matrix[0];
+    matrix[1] = -matrix[1];
+  }
   const double turned = av_display_rotation_get(matrix);  // counter-clockwise
-  if (std::isnan(turned)) return 0;
-  return static_cast<int>((std::lround(-turned / 90.0) % 4 + 4) % 4);
+  if (!std::isnan(turned)) upright.quarter_turns = static_cast<int>((std::lround(-turned / 90.0) % 4 + 4) % 4);
+  return upright;
 }
 
 void PixelConverter::scale(const AVFrame& frame, AVPixelFormat wanted, const std::string& name,
                            std::uint8_t* const* planes, const int* strides) {
   const auto from = static_cast<AVPixelFormat>(frame.format);
-  // Without the flags 8-bit pictures are what OpenCV makes of them, and converting costs less than decoding.
-  const int flags = SWS_BICUBIC | (kind_.is_everyday() ? 0 : SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT);
+  // Without the flags 8-bit pictures are what OpenCV makes of them, and converting costs less than decoding. By other
+  // matrices than those of most cameras they would be off by three codes.
+  const bool is_usual = coding_.matrix == YuvMatrix::bt601 || coding_.matrix == YuvMatrix::bt709;
+  const int flags =
+      SWS_BICUBIC | (kind_.is_everyday() && is_usual ? 0 : SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT);
   scaler_.reset(sws_getCachedContext(scaler_.release(), frame.width, frame.height, from, frame.width,
                                      frame.height, wanted, flags, nullptr, nullptr, nullptr));
   if (!scaler_) {
     throw InputError(format("{}: pixels of {} cannot be converted", name, av_get_pix_fmt_name(from)));
   }
-  if (is_yuv(from) && !is_yuv(wanted)) {
-    set_colours(scaler_.get(), frame);
-  }
+  if (is_yuv(from) && !is_yuv(wanted)) set_colours(scaler_.get(), coding_);
   sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, planes, strides);
 }
 
@@ -199,8 +245,6 @@ const AVFrame& PixelConverter::scaled(const AVFrame& frame, AVPixelFormat wanted
   if (frame.format == wanted) return frame;
   if (!scaled_ || scaled_->format != wanted) scaled_ = new_frame(wanted, frame.width, frame.height);
   scale(frame, wanted, name, scaled_->data, scaled_->linesize);
-  scaled_->colorspace = frame.colorspace;
-  scaled_->color_range = frame.color_range;
   return *scaled_;
 }
 
@@ -210,7 +254,7 @@ const AVFrame& PixelConverter::converted(const AVFrame& frame, const std::string
   // libswscale only gives every pixel its U and V.
   const AVFrame& planes = scaled(frame, planar_format(kind_.bits), name);
   if (!rgb_) rgb_ = new_frame(AV_PIX_FMT_RGB48, frame.width, frame.height);
-  yuv_to_rgb(planes, kind_.bits, *rgb_);
+  yuv_to_rgb(planes, kind_.bits, coding_, *rgb_);
   return *rgb_;
 }
 
@@ -218,15 +262,16 @@ void PixelConverter::convert(const AVFrame& frame, std::span<std::byte> raster, 
   const std::size_t pixel_bytes = (kind_.is_grey ? 1u : 3u) * (kind_.bits > 8 ? 2u : 1u);
   const std::size_t row_bytes = static_cast<std::size_t>(frame.width) * pixel_bytes;
   const AVPixelFormat wanted = raster_format(kind_);
-  if (wanted == AV_PIX_FMT_RGB24 && frame.format != wanted && turns_ == 0 && is_aligned(raster, row_bytes)) {
+  const bool stays = upright_.quarter_turns == 0 && !upright_.is_mirrored;
+  if (wanted == AV_PIX_FMT_RGB24 && frame.format != wanted && stays && is_aligned(raster, row_bytes)) {
     auto* row = reinterpret_cast<std::uint8_t*>(raster.data());
     const int stride = static_cast<int>(row_bytes);
     scale(frame, wanted, name, &row, &stride);
     return;
   }
   const AVFrame& picture = converted(frame, name);
-  copy_turned(picture.data[0], picture.linesize[0], static_cast<std::size_t>(picture.width),
-              static_cast<std::size_t>(picture.height), pixel_bytes, turns_, raster);
+  copy_upright(picture.data[0], picture.linesize[0], static_cast<std::size_t>(picture.width),
+              static_cast<std::size_t>(picture.height), pixel_bytes, upright_, raster);
   if (kind_.padding_bits == 0) return;
   auto* codes = reinterpret_cast<std::uint16_t*>(raster.data());
   for (std::size_t i = 0; i < raster.size() / 2; ++i) {

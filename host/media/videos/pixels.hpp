@@ -1,13 +1,13 @@
 // How FFmpeg's pictures become rasters of codes.
 //
 //   grey      as stored: 8, 9, 10, 12, 14 or 16 bits, code for code
-//   colour    8 bits as 8-bit RGB, deeper as RGB over the full 16-bit range, YUV by the matrix and range
-//             that the picture names (BT.601 and limited range where it names none)
+//   colour    8 bits as 8-bit RGB, deeper as RGB over the full 16-bit range, YUV by a matrix and a range
 // Transparency is left out.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -30,12 +30,28 @@ struct PixelKind {
 // Throws InputError naming the file where its pixels are of no kind that is read.
 [[nodiscard]] PixelKind pixel_kind(const AVCodecParameters& codec, const std::string& name);
 
-// Quarter turns clockwise after which a stream's pictures stand upright, 0 … 3.
-[[nodiscard]] int quarter_turns(const AVStream& stream);
+// How a stream's pictures come to stand upright: first mirrored, left for right, then turned clockwise.
+struct Upright {
+  bool is_mirrored = false;
+  int quarter_turns = 0;  // 0 … 3
+};
+[[nodiscard]] Upright upright(const AVStream& stream);
+
+// How YUV becomes RGB.
+struct YuvCoding {
+  YuvMatrix matrix = YuvMatrix::bt601;
+  CodeRange range = CodeRange::limited;
+};
+// Whether the pixels of a stream are YUV of three components.
+[[nodiscard]] bool is_yuv(AVPixelFormat format);
+// What a stream says of its YUV; none where it does not.
+[[nodiscard]] std::optional<YuvMatrix> named_matrix(AVColorSpace space);
+[[nodiscard]] std::optional<CodeRange> named_range(const AVCodecParameters& codec);
 
 class PixelConverter {
  public:
-  PixelConverter(PixelKind kind, int turns) : kind_(kind), turns_(turns) {}
+  PixelConverter(PixelKind kind, Upright upright, YuvCoding coding)
+      : kind_(kind), upright_(upright), coding_(coding) {}
 
   // Writes `frame`, turned upright, as a raster of width x height x (1 or 3) codes of 1 or 2 bytes.
   // All frames must have one size. Throws InputError naming the file where FFmpeg cannot convert
@@ -49,7 +65,8 @@ class PixelConverter {
   const AVFrame& scaled(const AVFrame& frame, AVPixelFormat wanted, const std::string& name);
 
   PixelKind kind_;
-  int turns_;
+  Upright upright_;
+  YuvCoding coding_;
   ScalerPointer scaler_;
   FramePointer scaled_;
   FramePointer rgb_;

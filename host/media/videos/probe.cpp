@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "media/videos/capture_rate.hpp"
 #include "media/videos/cine_header.hpp"
 #include "media/videos/libav.hpp"
 
@@ -18,18 +19,42 @@ std::optional<Transfer> transfer_of(AVColorTransferCharacteristic characteristic
     case AVCOL_TRC_GAMMA22: return Transfer::gamma(2.2);
     case AVCOL_TRC_GAMMA28: return Transfer::gamma(2.8);
     case AVCOL_TRC_LINEAR: return Transfer::linear();
+    case AVCOL_TRC_ARIB_STD_B67: return Transfer::hlg();
+    case AVCOL_TRC_SMPTE2084: return Transfer::pq();
     default: return std::nullopt;
   }
 }
 
-// A transfer function that the file names and that is not known here; empty where it names none.
-std::string unknown_transfer(AVColorTransferCharacteristic characteristic) {
-  if (transfer_of(characteristic) || characteristic == AVCOL_TRC_UNSPECIFIED ||
-      characteristic == AVCOL_TRC_RESERVED0 || characteristic == AVCOL_TRC_RESERVED) {
+// What the file calls its transfer function; empty where it names none.
+std::string transfer_name(AVColorTransferCharacteristic characteristic) {
+  if (characteristic == AVCOL_TRC_UNSPECIFIED || characteristic == AVCOL_TRC_RESERVED0 ||
+      characteristic == AVCOL_TRC_RESERVED) {
     return {};
   }
   const char* name = av_color_transfer_name(characteristic);
   return name == nullptr ? std::to_string(characteristic) : name;
+}
+
+// Those that lie closest; none where the file names none. NTSC's and PAL's differ from BT.709's by less than an eye
+// notices.
+std::optional<Primaries> primaries_of(AVColorPrimaries primaries) {
+  switch (primaries) {
+    case AVCOL_PRI_BT2020: return Primaries::bt2020;
+    case AVCOL_PRI_SMPTE431:
+    case AVCOL_PRI_SMPTE432: return Primaries::p3;
+    case AVCOL_PRI_BT709:
+    case AVCOL_PRI_BT470BG:
+    case AVCOL_PRI_SMPTE170M:
+    case AVCOL_PRI_SMPTE240M: return Primaries::bt709;
+    default: return std::nullopt;
+  }
+}
+
+std::optional<Rational> pixel_aspect(AVFormatContext* format, AVStream& stream, const Upright& upright) {
+  const AVRational stored = av_guess_sample_aspect_ratio(format, &stream, nullptr);
+  if (stored.num <= 0 || stored.den <= 0) return std::nullopt;
+  return upright.quarter_turns % 2 == 0 ? Rational::of(stored.num, stored.den)
+                                        : Rational::of(stored.den, stored.num);
 }
 
 // Whether every time is where a constant rate puts it, but for the rounding to the container's
@@ -49,6 +74,12 @@ bool fits(const std::vector<std::int64_t>& times, Rational time_base, Rational r
 
 constexpr std::int64_t kLongestSeconds = (std::int64_t{1} << 62) / kSecondNs;
 
+ClipTiming of_rate(Rational rate) {
+  ClipTiming timing;
+  timing.rate = rate;
+  return timing;
+}
+
 // The timing of pictures at `times`, in order, in units of `time_base` seconds: the first of the
 // rates that fits them, or else the times themselves. The rates are those that a file announces.
 ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base, std::vector<Rational> rates,
@@ -64,7 +95,7 @@ ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base,
     rates.push_back(Rational::of(static_cast<std::int64_t>(turns), static_cast<std::int64_t>(span)));
   }
   for (const Rational& rate : rates) {
-    if (fits(times, time_base, rate)) return {rate, {}, {}};
+    if (fits(times, time_base, rate)) return of_rate(rate);
   }
   ClipTiming timing;
   for (const std::int64_t time : times) {
@@ -89,7 +120,7 @@ ClipTiming packet_timing(const AVStream& stream, std::vector<std::int64_t> times
     std::sort(times.begin(), times.end());  // packets come in the order of decoding
     return timing_of(times, Rational::of(stream.time_base.num, stream.time_base.den), rates, name);
   }
-  if (!rates.empty()) return {rates.front(), {}, {}};
+  if (!rates.empty()) return of_rate(rates.front());
   return {};
 }
 
@@ -118,6 +149,7 @@ void add_cine_header(const CineHeader& header, const AVStream& stream, const std
     const std::size_t senseless = first_senseless(starts);
     if (senseless == 0) {
       result.timing = timing_of(starts, {1, kSecondNs}, announced_rates(stream), name);
+      result.timing.rate_from = "the camera's times in the file";
     } else {
       result.notes.emplace_back(
           format("the camera's times are not used: picture {} is stamped {} ns after the one "
@@ -125,13 +157,7 @@ void add_cine_header(const CineHeader& header, const AVStream& stream, const std
                  senseless, starts[senseless] - starts[senseless - 1]));
     }
   }
-  if (header.exposed_ns) {
-    result.notes.emplace_back(
-        format("the camera exposed each picture for {} ns: the shutter angle is 360 degrees "
-               "times that share of the time between pictures; state it",
-               *header.exposed_ns),
-        std::vector{Setting::shutter_angle});
-  }
+  result.timing.exposed_ns = header.exposed_ns;
   if (header.is_packed) {
     result.notes.emplace_back(
         "the codes are packed into 10 bits, for which Phantom cameras compress their range by a "
@@ -186,20 +212,29 @@ std::uint64_t count_raw_pictures(const std::filesystem::path& path, const RawVid
 
 Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& raw) {
   const OpenedVideo opened = open_video(path, raw);
-  const AVStream& stream = *opened.format->streams[opened.stream];
+  AVStream& stream = *opened.format->streams[opened.stream];
   const AVCodecParameters& codec = *stream.codecpar;
   Probe result;
   result.stream = opened.stream;
   result.shape = {static_cast<std::uint32_t>(codec.width), static_cast<std::uint32_t>(codec.height), 3};
   result.pixels = pixel_kind(codec, path.string());
-  result.quarter_turns = quarter_turns(stream);
+  result.pixel_format = static_cast<AVPixelFormat>(codec.format);
+  result.upright = upright(stream);
   result.transfer = transfer_of(codec.color_trc);
-  if (const std::string name = unknown_transfer(codec.color_trc); !name.empty()) {
+  result.transfer_name = transfer_name(codec.color_trc);
+  result.matrix = named_matrix(codec.color_space);
+  result.range = named_range(codec);
+  result.primaries = primaries_of(codec.color_primaries);
+  result.pixel_aspect = pixel_aspect(opened.format.get(), stream, result.upright);
+  if (!result.transfer && !result.transfer_name.empty()) {
     result.notes.emplace_back(
         format("the file's transfer function, {}, is not known here and another is taken; "
                "state which",
-               name),
+               result.transfer_name),
         std::vector{Setting::transfer});
+  }
+  if ((av_pix_fmt_desc_get(static_cast<AVPixelFormat>(codec.format))->flags & AV_PIX_FMT_FLAG_ALPHA) != 0) {
+    result.notes.emplace_back("the file's transparency is left out");
   }
   if (raw) {
     result.sample_count = count_raw_pictures(path, *raw);
@@ -230,6 +265,14 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   }
   result.timing = packet_timing(stream, std::move(times), path.string());
   if (const auto header = read_cine_header(path)) add_cine_header(*header, stream, path.string(), result);
+  if (const auto filmed = capture_rate(*opened.format, path)) {
+    apply_capture_rate(*filmed, result.timing, result.notes);
+  } else if (has_slow_parts(path)) {
+    result.notes.emplace_back(
+        "Samsung's camera names parts of the file that are slow motion: they may have been filmed faster than "
+        "the file plays; state the rate of the part that you use",
+        std::vector{Setting::frame_rate});
+  }
   return result;
 }
 

@@ -1,0 +1,44 @@
+#include <array>
+
+#include "app/commands/commands.hpp"
+#include "app/output/output_name.hpp"
+#include "app/output/report.hpp"
+#include "session/clip_source.hpp"
+#include "session/format.hpp"
+#include "session/retiming.hpp"
+#include "session/size_text.hpp"
+
+namespace nutik::app {
+
+int run_retime(const Options& options) {
+  const auto output = stated_output(options, "retime");
+  RetimeRequest request;
+  request.capture = options.operands.front();
+  request.output = output.value_or(request.capture);
+  if (options.fps) request.rate = Rational::parse(*options.fps, "frame rate");
+  if (options.shutter_angle) request.shutter_angle = Rational::parse(*options.shutter_angle, "shutter angle");
+  if (options.transfer) request.transfer = Transfer::parse(*options.transfer);
+  if (options.primaries) request.primaries = parse_primaries(*options.primaries);
+  if (options.pixel_aspect) request.pixel_aspect = parse_pixel_aspect(*options.pixel_aspect);
+  if (output) check_output(*output, OutputKind::tik, std::array{request.capture.string()});
+
+  const auto [capture, timeline, file_bytes] = retime(request);
+  Answer answer{{{"capture", request.output.string()}}};
+  answer.json.update(shape_json(capture.shape));
+  answer.json.update({{"samples", timeline.sample_count()},
+                      {"samples_a_second", timeline.rate().text()},
+                      {"shutter_angle_degrees", timeline.shutter_angle().text()},
+                      {"duration_ns", timeline.duration_ns()},
+                      {"transfer", capture.transfer.text()},
+                      {"primaries", to_text(capture.primaries)},
+                      {"pixel_aspect", aspect_text(capture.pixel_aspect)},
+                      {"file_bytes", file_bytes}});
+  answer.line = format("{}: {}, {}, {} a second, shutter {} degrees, transfer {}, primaries {}, pixels {}",
+                       request.output.string(), shape_text(capture.shape),
+                       counted(timeline.sample_count(), "sample"), timeline.rate().text(),
+                       timeline.shutter_angle().text(), capture.transfer.text(), to_text(capture.primaries),
+                       aspect_text(capture.pixel_aspect));
+  return tell(options, request.output, answer, true);
+}
+
+}  // namespace nutik::app

@@ -1,0 +1,26 @@
+// The colours that red, green and blue light have, and what they are in those of screens.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace nutik {
+
+// BT.709, which are sRGB's too; BT.2020, which are BT.2100's; P3 with the white of screens (SMPTE EG 432-1). All
+// have the white D65.
+enum class Primaries { bt709, bt2020, p3 };
+
+// `bt709`, `bt2020`, `p3`.
+[[nodiscard]] std::string_view to_text(Primaries primaries);
+// Throws UsageError listing them.
+[[nodiscard]] Primaries parse_primaries(std::string_view text);
+
+// x and y of red, green, blue and white (CIE 1931).
+[[nodiscard]] const std::array<std::array<double, 2>, 4>& chromaticities(Primaries primaries);
+
+// Light in some primaries to the same light in others: a row for each of red, green and blue.
+using ColourMatrix = std::array<std::array<double, 3>, 3>;
+[[nodiscard]] const ColourMatrix& to_bt709(Primaries primaries);
+
+}  // namespace nutik

@@ -1,0 +1,153 @@
+#include "media/videos/capture_rate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <initializer_list>
+#include <span>
+#include <string_view>
+
+#include "system/mapped_file.hpp"
+
+namespace nutik::videos {
+namespace {
+
+using Bytes = std::span<const std::byte>;
+
+// Rates that lie this close are the same, as cameras keep time.
+constexpr double kSameRate = 0.02;
+
+std::uint64_t big_endian(Bytes bytes, std::size_t at, std::size_t count) {
+  std::uint64_t number = 0;
+  for (std::size_t i = 0; i < count; ++i) number = number << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
+  return number;
+}
+
+// What the first box holds that lies within boxes of these types; empty where there is none. A box is u32 size with its
+// header of 8 bytes, then four letters; a size of 1 stands for a u64 behind them, 0 for all that is left.
+Bytes box_at(Bytes boxes, std::span<const std::string_view> path) {
+  constexpr std::size_t kHeader = 8, kLongHeader = 16;
+  while (boxes.size() >= kHeader) {
+    std::uint64_t size = big_endian(boxes, 0, 4);
+    std::size_t header = kHeader;
+    if (size == 1 && boxes.size() >= kLongHeader) {
+      size = big_endian(boxes, kHeader, 8);
+      header = kLongHeader;
+    }
+    if (size == 0) size = boxes.size();
+    if (size < header || size > boxes.size()) return {};
+    if (std::memcmp(boxes.data() + 4, path.front().data(), 4) == 0) {
+      const Bytes held = boxes.subspan(header, size - header);
+      const Bytes found = path.size() == 1 ? held : box_at(held, path.subspan(1));
+      if (!found.empty()) return found;
+    }
+    boxes = boxes.subspan(size);
+  }
+  return {};
+}
+
+Bytes box_at(Bytes boxes, std::initializer_list<std::string_view> path) {
+  return box_at(boxes, std::span(path.begin(), path.size()));
+}
+
+// smta: u32 version and flags, then boxes. saut: four letters, then pairs of a key and a value of one byte each; key 0 is
+// the recording mode. srfr: the rate as 16.16 bits.
+std::optional<Rational> samsung_rate(Bytes file) {
+  constexpr std::size_t kVersionBytes = 4, kAuthorBytes = 4;
+  Bytes smta = box_at(file, {"moov", "udta", "smta"});
+  if (smta.size() < kVersionBytes) return std::nullopt;
+  smta = smta.subspan(kVersionBytes);
+  const Bytes author = box_at(smta, {"saut"});
+  for (std::size_t at = kAuthorBytes; at + 2 <= author.size(); at += 2) {
+    if (author[at] != std::byte{0}) continue;
+    switch (std::to_integer<int>(author[at + 1])) {
+      case 12: return Rational{240, 1};
+      case 13: return Rational{120, 1};
+      case 21: {
+        const Bytes rate = box_at(smta, {"srfr"});
+        if (rate.size() >= 4 && big_endian(rate, 0, 2) > 0) {
+          return Rational::of(static_cast<std::int64_t>(big_endian(rate, 0, 4)), 1 << 16);
+        }
+        return std::nullopt;
+      }
+      default: return std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+bool is_mp4(Bytes file) { return file.size() >= 8 && std::memcmp(file.data() + 4, "ftyp", 4) == 0; }
+
+double mean_rate(const ClipTiming& timing) {
+  if (timing.rate) return timing.rate->value();
+  if (timing.starts_ns.size() < 2) return 0.0;
+  return static_cast<double>(timing.starts_ns.size() - 1) * static_cast<double>(kSecondNs) /
+         static_cast<double>(timing.starts_ns.back() - timing.starts_ns.front());
+}
+
+}  // namespace
+
+std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std::filesystem::path& path) {
+  constexpr const char* kAndroid = "com.android.capture.fps";
+  if (const AVDictionaryEntry* entry = av_dict_get(format.metadata, kAndroid, nullptr, 0)) {
+    try {
+      const Rational rate = Rational::parse(entry->value, kAndroid);
+      if (rate.numerator > 0) return CaptureRate{rate, kAndroid};
+    } catch (const UsageError&) {  // no number: the file does not tell
+    }
+  }
+  const MappedFile mapped(path);
+  if (!is_mp4(mapped.bytes())) return std::nullopt;
+  const auto rate = samsung_rate(mapped.bytes());
+  return rate ? std::optional(CaptureRate{*rate, "Samsung's smta"}) : std::nullopt;
+}
+
+bool has_slow_parts(const std::filesystem::path& path) {
+  // The trailer ends with its length and four letters.
+  constexpr std::string_view kEnd = "SEFT", kName = "SlowMotion_Data";
+  constexpr std::size_t kTail = 8, kMostBytes = 1u << 20;
+  const MappedFile mapped(path);
+  const Bytes file = mapped.bytes();
+  if (!is_mp4(file) || std::memcmp(file.data() + file.size() - kEnd.size(), kEnd.data(), kEnd.size()) != 0) {
+    return false;
+  }
+  const Bytes tail = file.last(std::min(file.size(), kMostBytes + kTail));
+  return std::string_view(reinterpret_cast<const char*>(tail.data()), tail.size()).find(kName) !=
+         std::string_view::npos;
+}
+
+void apply_capture_rate(const CaptureRate& filmed, ClipTiming& timing, std::vector<Note>& notes) {
+  const double played = mean_rate(timing);
+  if (!(played > 0.0)) return;
+  const double times = filmed.rate.value() / played;
+  if (std::fabs(times - 1.0) < kSameRate) {
+    timing.rate_from = format("the file, as {} says", filmed.name);
+    return;
+  }
+  const double whole = times > 1.0 ? times : 1.0 / times;
+  const double nearest = std::round(whole);
+  if (std::fabs(whole / nearest - 1.0) > kSameRate) {
+    notes.emplace_back(
+        format("{} says that {} pictures a second were filmed, and the file plays {:.6g}, no whole number of "
+               "times slower or faster: its own times are taken; state the rate that is right",
+               filmed.name, filmed.rate.text(), played),
+        std::vector{Setting::frame_rate});
+    return;
+  }
+  notes.emplace_back(
+      format("{} says that {} pictures a second were filmed, which the file plays as {:.6g}: times are those of "
+             "filming; state another rate if that is wrong",
+             filmed.name, filmed.rate.text(), played),
+      std::vector{Setting::frame_rate});
+  timing.rate_from = format("the file's {}", filmed.name);
+  if (timing.rate) {
+    timing.rate = filmed.rate;
+    return;
+  }
+  const auto factor = static_cast<std::int64_t>(nearest);
+  for (std::int64_t& start_ns : timing.starts_ns) {
+    start_ns = times > 1.0 ? round_half_up(start_ns, factor) : start_ns * factor;
+  }
+}
+
+}  // namespace nutik::videos

@@ -1,0 +1,31 @@
+// How fast a phone filmed what its file plays slower or faster.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "media/clip.hpp"
+#include "media/videos/libav.hpp"
+
+namespace nutik::videos {
+
+struct CaptureRate {
+  Rational rate;     // pictures a second
+  std::string name;  // of what states it
+};
+
+// What Android's cameras write (com.android.capture.fps), or Samsung's (moov/udta/smta).
+[[nodiscard]] std::optional<CaptureRate> capture_rate(const AVFormatContext& format,
+                                                      const std::filesystem::path& path);
+
+// Whether Samsung's trailer names parts that were filmed faster than others.
+[[nodiscard]] bool has_slow_parts(const std::filesystem::path& path);
+
+// Times as they were filmed, where the rate is one that the file's own times were stretched or pressed from: a whole
+// number of times as fast, or slow. Where the times run at it already nothing changes. Says in `notes` what was done, or
+// why not.
+void apply_capture_rate(const CaptureRate& filmed, ClipTiming& timing, std::vector<Note>& notes);
+
+}  // namespace nutik::videos

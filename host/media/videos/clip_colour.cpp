@@ -1,0 +1,66 @@
+#include "media/videos/clip_colour.hpp"
+
+namespace nutik::videos {
+namespace {
+
+constexpr std::uint32_t kLinesOfHighDefinition = 720;
+
+// A fact of what was stated, else what the file says, else what is taken.
+template <typename Value, typename Text>
+Value settle(std::vector<Fact>& facts, const std::optional<Value>& stated, const std::optional<Value>& named,
+             const Value& usual, Setting setting, Text text) {
+  const Origin origin = stated ? Origin::stated : named ? Origin::file : Origin::assumed;
+  const Value value = stated ? *stated : named ? *named : usual;
+  facts.push_back({text(value), origin, setting});
+  return value;
+}
+
+YuvMatrix usual_matrix(const Probe& probe) {
+  return probe.shape.height >= kLinesOfHighDefinition ? YuvMatrix::bt709 : YuvMatrix::bt601;
+}
+
+std::string aspect_text(const Rational& aspect) {
+  if (aspect == Rational{1, 1}) return "square pixels";
+  return format("pixels {}:{}", aspect.numerator, aspect.denominator);
+}
+
+}  // namespace
+
+YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options) {
+  return {options.matrix.value_or(probe.matrix.value_or(usual_matrix(probe))),
+          options.range.value_or(probe.range.value_or(CodeRange::limited))};
+}
+
+void describe(CaptureFormat& capture, std::vector<Fact>& facts, const Probe& probe,
+              const ClipOptions& options) {
+  const PixelKind& pixels = probe.pixels;
+  // Deep grey pictures, and those of 16 bits, come from scientific cameras, which are linear; other deep colour from
+  // film cameras.
+  const bool is_scientific = pixels.bits > 8 && (pixels.is_grey || pixels.bits == 16);
+  // Everyday cameras name BT.709's curve whatever theirs is, and players show sRGB's. HLG and PQ are meant.
+  const bool is_meant = !pixels.is_everyday() || (probe.transfer && probe.transfer->reference_white() < 1.0);
+  const auto named = is_meant ? probe.transfer : std::nullopt;
+  capture.transfer = settle(facts, options.transfer, named,
+                            is_scientific ? Transfer::linear() : Transfer::srgb(), Setting::transfer,
+                            [](const Transfer& transfer) { return "transfer " + transfer.text(); });
+  if (facts.back().origin == Origin::assumed && !probe.transfer_name.empty()) {
+    facts.back().remark = format("the file names {}", probe.transfer_name);
+  }
+  if (is_yuv(probe.pixel_format) && !pixels.is_grey) {
+    settle(facts, options.matrix, probe.matrix, usual_matrix(probe), Setting::matrix,
+           [](YuvMatrix matrix) { return format("matrix {}", to_text(matrix)); });
+    settle(facts, options.range, probe.range, CodeRange::limited, Setting::range,
+           [](CodeRange range) { return format("{} range", to_text(range)); });
+  }
+  if (!pixels.is_grey) {
+    const bool is_wide = yuv_coding(probe, options).matrix == YuvMatrix::bt2020;
+    capture.primaries =
+        settle(facts, options.primaries, probe.primaries, is_wide ? Primaries::bt2020 : Primaries::bt709,
+               Setting::primaries,
+               [](Primaries primaries) { return format("primaries {}", to_text(primaries)); });
+  }
+  capture.pixel_aspect = settle(facts, options.pixel_aspect, probe.pixel_aspect, Rational{1, 1},
+                                Setting::pixel_aspect, aspect_text);
+}
+
+}  // namespace nutik::videos

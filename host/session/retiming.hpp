@@ -1,0 +1,38 @@
+// Corrects what a capture says of itself, without encoding its clip again.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "capture/picture.hpp"
+#include "capture/timeline.hpp"
+
+namespace nutik {
+
+struct RetimeRequest {
+  std::filesystem::path capture;
+  std::filesystem::path output;  // may be the capture itself, which is replaced when the new file is whole
+  std::optional<Rational> rate;
+  std::optional<Rational> shutter_angle;
+  std::optional<Transfer> transfer;
+  std::optional<Primaries> primaries;
+  std::optional<Rational> pixel_aspect;
+
+  [[nodiscard]] bool changes_nothing() const {
+    return !rate && !shutter_angle && !transfer && !primaries && !pixel_aspect;
+  }
+  friend bool operator==(const RetimeRequest&, const RetimeRequest&) = default;
+};
+
+struct Retimed {
+  CaptureFormat capture;
+  Timeline timeline;
+  std::uint64_t file_bytes = 0;
+};
+
+// Copies blocks as they are. Throws UsageError where nothing is to be changed, or samples are means of light by the
+// transfer function that is to go; InputError where the capture is damaged; OutputError.
+[[nodiscard]] Retimed retime(const RetimeRequest& request);
+
+}  // namespace nutik

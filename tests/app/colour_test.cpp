@@ -1,0 +1,168 @@
+// One brightness for a person to see, whichever command shows a capture; files that say what they hold.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "capture/transfer.hpp"
+#include "support/ffmpeg.hpp"
+#include "support/program_test.hpp"
+#include "support/stills.hpp"
+
+namespace nutik {
+namespace {
+
+using Json = nlohmann::json;
+
+class Colour : public test::ProgramTest {
+ protected:
+  void succeed(const std::vector<std::string>& words) const {
+    const auto result = run(words);
+    ASSERT_EQ(result.status, 0) << result.err;
+  }
+
+  // A still scene of a linear 12-bit camera: even fields of 64 x 64 pixels, from light 0.01 to 1.
+  void write_scene() const {
+    std::filesystem::create_directories(scratch_ / "scene");
+    Picture picture({256, 64, 1}, ValueType::code16, 4095);
+    const auto codes = picture.values<std::uint16_t>();
+    for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = kCodes[i % 256 / 64];
+    for (const char* name : {"scene/a.pgm", "scene/b.pgm", "scene/c.pgm", "scene/d.pgm"}) {
+      scratch_.write(name, test::netpbm_file(picture, true));
+    }
+  }
+  static constexpr std::uint16_t kCodes[] = {41, 410, 1638, 4095};
+
+  // What a screen shows of a field, as 8-bit sRGB.
+  static int shown(std::size_t field) {
+    return static_cast<int>(std::lround(255 * Transfer::srgb().fraction_of(kCodes[field] / 4095.0)));
+  }
+};
+
+TEST_F(Colour, OfALinearCaptureIsTheSameInPictureSheetAndVideo) {
+  write_scene();
+  succeed({"-q", "-f", "30", "scene", "scene.tik"});
+  succeed({"--start", "0s", "--exposure", "0.1s", "scene.tik", "picture.png"});
+  succeed({"contact", "--every", "4f", "--columns", "1", "--width", "280", "scene.tik", "sheet.png"});
+  succeed({"sweep", "--start", "0s", "--exposure", "0.05s", "--shift", "0..1f/1f", "--each", "each-%d.png", "scene.tik", "sweep.png"});
+  succeed({"video", "--out-fps", "10", "--out-angle", "360", "scene.tik", "video.mkv"});
+  const cv::Mat picture = cv::imread((scratch_ / "picture.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat each = cv::imread((scratch_ / "each-1.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat sheet = cv::imread((scratch_ / "sheet.png").string(), cv::IMREAD_COLOR);
+  cv::Mat frame;
+  ASSERT_TRUE(cv::VideoCapture((scratch_ / "video.mkv").string(), cv::CAP_FFMPEG).read(frame));
+  ASSERT_EQ(picture.depth(), CV_16U);
+  for (std::size_t field = 0; field < 4; ++field) {
+    const int x = static_cast<int>(field) * 64 + 32;
+    const double exact = 65'535 * Transfer::srgb().fraction_of(kCodes[field] / 4095.0);
+    EXPECT_NEAR(picture.at<std::uint16_t>(32, x), exact, 0.51);
+    EXPECT_NEAR(each.at<std::uint16_t>(32, x), exact, 0.51);
+    EXPECT_EQ(sheet.at<cv::Vec3b>(12 + 26 + 32, 12 + x)[0], shown(field)) << "of the sheet, field " << field;
+    EXPECT_NEAR(frame.at<cv::Vec3b>(32, x)[0], shown(field), 1) << "of the video, field " << field;
+  }
+  EXPECT_EQ(picture.at<std::uint16_t>(32, 250), 65'535) << "white is white";
+}
+
+TEST_F(Colour, OfTheSourceIsKeptWhereThatIsAskedFor) {
+  write_scene();
+  const auto result = run({"--start", "0s", "--exposure", "1f", "-f", "30", "scene", "shown.png"});
+  EXPECT_NE(result.out.find("codes srgb with white 65535 (the capture's: linear with white 4095)"), std::string::npos)
+      << result.out;
+  succeed({"--start", "0s", "--exposure", "1f", "-f", "30", "--out-transfer", "source", "scene", "codes.png"});
+  const cv::Mat codes = cv::imread((scratch_ / "codes.png").string(), cv::IMREAD_UNCHANGED);
+  for (std::size_t field = 0; field < 4; ++field) {
+    EXPECT_EQ(codes.at<std::uint16_t>(32, static_cast<int>(field) * 64 + 32), kCodes[field]);
+  }
+  const auto again = run({"again", "codes.png"});
+  EXPECT_NE(again.out.find("--out-transfer source"), std::string::npos) << again.out << again.err;
+  expect_refused({"--start", "0s", "--exposure", "1f", "-f", "30", "--out-transfer", "srgb", "scene", "x.pfm"}, 2,
+                 "(--out-transfer)");
+}
+
+// A .tik whose codes are said to stand for other light is exposed so.
+TEST_F(Colour, OfACaptureFollowsAStatedTransfer) {
+  write_scene();
+  succeed({"-q", "-f", "30", "scene", "scene.tik"});
+  succeed({"--start", "0s", "--exposure", "1f", "--transfer", "srgb", "--depth", "8", "scene.tik", "srgb.png"});
+  const cv::Mat codes = cv::imread((scratch_ / "srgb.png").string(), cv::IMREAD_UNCHANGED);
+  for (std::size_t field = 0; field < 4; ++field) {
+    EXPECT_EQ(codes.at<std::uint8_t>(32, static_cast<int>(field) * 64 + 32), std::lround(kCodes[field] / 4095.0 * 255));
+  }
+}
+
+// Names and data of a PNG's chunks before its pixels.
+std::map<std::string, std::string> chunks_of(const std::string& png) {
+  std::map<std::string, std::string> chunks;
+  for (std::size_t at = 8; at + 8 < png.size();) {
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < 4; ++i) size = size << 8 | static_cast<unsigned char>(png[at + i]);
+    const std::string name = png.substr(at + 4, 4);
+    if (name == "IDAT") break;
+    chunks[name] = png.substr(at + 8, size);
+    at += 12 + size;
+  }
+  return chunks;
+}
+
+TEST_F(Colour, StandsInTheFile) {
+  NEEDS_FFMPEG();
+  test::make(scratch_, "-f lavfi -i testsrc2=s=64x48:d=0.2:r=25 -vf setsar=32/27 -c:v ffv1 -pix_fmt yuv420p10le "
+                       "-colorspace bt2020nc -color_primaries bt2020 -color_trc arib-std-b67 clip.mkv");
+  const auto coded = [&](const char* out) {
+    succeed({"--start", "0s", "--exposure", "1f", "--out-transfer", out, "clip.mkv", "x.png"});
+    return chunks_of(test::read_file(scratch_ / "x.png"));
+  };
+  auto srgb = coded("srgb");
+  EXPECT_EQ(srgb["cICP"], std::string("\x01\x0D\x00\x01", 4));
+  EXPECT_EQ(srgb.count("sRGB"), 1u);
+  EXPECT_EQ(srgb["gAMA"], std::string("\x00\x00\xB1\x8F", 4));
+  EXPECT_EQ(srgb["pHYs"], std::string("\x00\x00\x00\x1B\x00\x00\x00\x20\x00", 9));  // 27 and 32 for one length
+  auto source = coded("source");
+  EXPECT_EQ(source["cICP"], std::string("\x09\x12\x00\x01", 4));
+  EXPECT_EQ(source.count("sRGB") + source.count("gAMA"), 0u);
+  auto linear = coded("linear");
+  EXPECT_EQ(linear["cICP"], std::string("\x01\x08\x00\x01", 4));
+  EXPECT_EQ(linear["gAMA"], std::string("\x00\x01\x86\xA0", 4));
+  auto gamma = coded("gamma:1.8");
+  EXPECT_EQ(gamma.count("cICP"), 0u);
+  EXPECT_EQ(gamma["gAMA"], std::string("\x00\x00\xD9\x04", 4));  // 1 / 1.8
+
+  succeed({"-q", "clip.mkv", "clip.tik"});
+  const Json info = Json::parse(run({"info", "--json", "clip.tik"}).out);
+  EXPECT_EQ(info["pixel_aspect"], "32:27");
+  EXPECT_EQ(info["primaries"], "bt2020");
+  EXPECT_EQ(info["transfer"], "hlg");
+  EXPECT_EQ(info["version"], 1);
+  succeed({"video", "--out-fps", "25", "clip.tik", "video.mp4"});
+  const auto probed = test::run_shell("ffprobe -v error -of json -show_streams video.mp4", scratch_.folder());
+  const Json stream = Json::parse(probed.out)["streams"][0];
+  EXPECT_EQ(stream["sample_aspect_ratio"], "32:27");
+  EXPECT_EQ(stream["color_transfer"], "iec61966-2-1");
+  EXPECT_EQ(stream["color_primaries"], "bt709");
+  // Round things look round on a sheet.
+  succeed({"contact", "--every", "1f", "--columns", "1", "clip.tik", "sheet.png"});
+  const cv::Mat sheet = cv::imread((scratch_ / "sheet.png").string());
+  EXPECT_EQ(sheet.cols, 2 * 12 + std::max(96, static_cast<int>(std::lround(64 * 32.0 / 27))));
+}
+
+TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
+  NEEDS_FFMPEG();
+  test::make(scratch_, "-f lavfi -i testsrc2=s=64x48:d=1:r=30 -c:v ffv1 -pix_fmt yuv420p clip.mkv");
+  succeed({"-q", "clip.mkv", "clip.tik"});
+  const auto told = run({"retime", "clip.tik", "-f", "960", "-a", "180", "--transfer", "linear"});
+  EXPECT_EQ(told.status, 0) << told.err;
+  EXPECT_NE(told.out.find("960 a second, shutter 180 degrees, transfer linear"), std::string::npos) << told.out;
+  succeed({"-q", "-f", "960", "-a", "180", "--transfer", "linear", "clip.mkv", "anew.tik"});
+  for (const char* name : {"clip", "anew"}) {
+    succeed({"--start", "3f", "--exposure", "20ms", std::string(name) + ".tik", std::string(name) + ".pfm"});
+  }
+  EXPECT_EQ(test::read_file(scratch_ / "clip.pfm"), test::read_file(scratch_ / "anew.pfm"));
+  expect_refused({"retime", "clip.tik"}, 2, "what is to be corrected?");
+  expect_refused({"retime", "clip.mkv", "-f", "9"}, 3, "no .tik file");
+}
+
+}  // namespace
+}  // namespace nutik

@@ -1,0 +1,45 @@
+#include "capture/primaries.hpp"
+
+#include <gtest/gtest.h>
+
+#include "capture/error.hpp"
+#include "support/chromaticity.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr Primaries kAll[] = {Primaries::bt709, Primaries::bt2020, Primaries::p3};
+
+// A colour has one XYZ, in whichever primaries its light is told.
+TEST(Primaries, MatricesKeepColours) {
+  for (const Primaries primaries : kAll) {
+    const ColourMatrix& matrix = to_bt709(primaries);
+    const test::Matrix from = test::to_xyz(chromaticities(primaries));
+    const test::Matrix to = test::to_xyz(chromaticities(Primaries::bt709));
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        const double converted = to[i][0] * matrix[0][j] + to[i][1] * matrix[1][j] + to[i][2] * matrix[2][j];
+        EXPECT_NEAR(converted, from[i][j], 1e-14) << to_text(primaries) << i << j;
+      }
+    }
+  }
+}
+
+// As ITU-R BT.2087 prints it.
+TEST(Primaries, OfBt2020AreThoseOfTheStandard) {
+  const double printed[3][3] = {
+      {1.6605, -0.5876, -0.0728}, {-0.1246, 1.1329, -0.0083}, {-0.0182, -0.1006, 1.1187}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      EXPECT_NEAR(to_bt709(Primaries::bt2020)[i][j], printed[i][j], 5.1e-5);
+    }
+  }
+}
+
+TEST(Primaries, ReadTheirOwnText) {
+  for (const Primaries primaries : kAll) EXPECT_EQ(parse_primaries(to_text(primaries)), primaries);
+  EXPECT_THROW(static_cast<void>(parse_primaries("bt601")), UsageError);
+}
+
+}  // namespace
+}  // namespace nutik

@@ -1,0 +1,140 @@
+// How fast phones and cameras filmed, where their files say it in a place of their own.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "support/clips.hpp"
+#include "support/ffmpeg.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Scratch;
+
+std::string phone_clip(const char* played, const std::string& words) {
+  return "-f lavfi -i testsrc2=s=32x32:d=1:r=" + std::string(played) +
+         " -fflags +bitexact -map_metadata -1 -movflags use_metadata_tags -c:v mpeg4 " + words + " clip.mp4";
+}
+
+std::string android(const char* rate) { return "-metadata com.android.capture.fps=" + std::string(rate); }
+
+std::string notes_of(const Clip& clip) {
+  std::string all;
+  for (const Note& note : clip.info().notes) all += note.text + "\n";
+  return all;
+}
+
+TEST(CaptureRate, IsAndroidsWhereTheFilePlaysSlower) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  test::make(scratch, phone_clip("30", android("240.000000")));
+  const auto clip = test::open_test_clip(scratch / "clip.mp4");
+  EXPECT_EQ(clip->info().timing.rate, (Rational{240, 1}));
+  EXPECT_NE(notes_of(*clip).find("com.android.capture.fps says that 240"), std::string::npos);
+  ClipOptions options;
+  options.rate = Rational{960, 1};
+  const auto stated = test::open_test_clip(scratch / "clip.mp4", options);
+  EXPECT_EQ(timeline_of("", stated->info(), options, 30).rate(), (Rational{960, 1}));
+  test::make(scratch, phone_clip("30", android("3")));  // time-lapse
+  EXPECT_EQ(test::open_test_clip(scratch / "clip.mp4")->info().timing.rate, (Rational{3, 1}));
+}
+
+TEST(CaptureRate, ChangesNothingWhereTheFileRunsAtIt) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  test::make(scratch, phone_clip("240", android("240")));
+  const auto clip = test::open_test_clip(scratch / "clip.mp4");
+  EXPECT_EQ(clip->info().timing.rate, (Rational{240, 1}));
+  EXPECT_EQ(notes_of(*clip), "");
+  EXPECT_NE(clip->info().timing.rate_from.find("com.android.capture.fps"), std::string::npos);
+}
+
+TEST(CaptureRate, IsOnlyNamedWhereItFitsNoTimes) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  test::make(scratch, phone_clip("25", android("33")));
+  const auto clip = test::open_test_clip(scratch / "clip.mp4");
+  EXPECT_EQ(clip->info().timing.rate, (Rational{25, 1}));
+  ASSERT_EQ(clip->info().notes.size(), 1u);
+  EXPECT_NE(notes_of(*clip).find("its own times are taken"), std::string::npos);
+  EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::frame_rate});
+  test::make(scratch, phone_clip("25", android("fast")));
+  EXPECT_EQ(notes_of(*test::open_test_clip(scratch / "clip.mp4")), "");
+}
+
+// Pictures that phones leave out stay left out: times are pressed, not made even.
+TEST(CaptureRate, KeepsTheUnevennessOfTimes) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  test::make(scratch, "-f lavfi -i testsrc2=s=32x32:d=2:r=30 -vf \"select='not(eq(n,20))'\" -vsync vfr "
+                      "-movflags use_metadata_tags -metadata com.android.capture.fps=240 -c:v mpeg4 clip.mp4");
+  const auto clip = test::open_test_clip(scratch / "clip.mp4");
+  const Timeline timeline = timeline_of("", clip->info(), {}, 59);
+  ASSERT_FALSE(timeline.is_constant());
+  EXPECT_NEAR(static_cast<double>(timeline.start_ns(19)), 19 * 1e9 / 240, 2);
+  EXPECT_NEAR(static_cast<double>(timeline.start_ns(20)), 21 * 1e9 / 240, 2);
+}
+
+std::string box(const std::string& type, const std::string& data) {
+  const auto size = static_cast<std::uint32_t>(data.size() + 8);
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(size >> shift);
+  return bytes + type + data;
+}
+
+// Adds boxes at the end of the last box, moov.
+void add_to_moov(const std::filesystem::path& path, const std::string& boxes) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  const std::size_t moov = bytes.find("moov") - 4;
+  ASSERT_LT(moov, bytes.size());
+  const std::string whole = box("moov", bytes.substr(moov + 8) + boxes);
+  std::ofstream(path, std::ios::binary) << bytes.substr(0, moov) + whole;
+}
+
+TEST(CaptureRate, IsSamsungsByItsRecordingMode) {
+  NEEDS_FFMPEG();
+  const std::string fixed_point("\x00\xF0\x80\x00", 4);  // 240.5
+  const auto smta = [&](char mode) {
+    const std::string author = "samp" + std::string("\x01\x03\x00", 3) + mode;
+    return box("udta", box("smta", std::string(4, '\0') + box("saut", author) + box("srfr", fixed_point)));
+  };
+  const Scratch scratch;
+  for (const auto& [mode, rate] : {std::pair{12, Rational{240, 1}}, {13, {120, 1}}, {21, {481, 2}}, {0, {30, 1}}}) {
+    test::make(scratch, phone_clip("30", ""));
+    add_to_moov(scratch / "clip.mp4", smta(static_cast<char>(mode)));
+    const auto clip = test::open_test_clip(scratch / "clip.mp4");
+    EXPECT_EQ(clip->info().timing.rate, rate) << mode;
+    EXPECT_EQ(clip->info().notes.empty(), mode == 0);
+  }
+}
+
+TEST(CaptureRate, IsNotKnownOfSamsungsSlowParts) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  test::make(scratch, phone_clip("30", ""));
+  std::ofstream(scratch / "clip.mp4", std::ios::binary | std::ios::app)
+      << std::string("\x00\x00\x90\x08", 4) << "SlowMotion_Data120*1*1" << std::string("\x20\x00\x00\x00", 4) << "SEFT";
+  const auto clip = test::open_test_clip(scratch / "clip.mp4");
+  EXPECT_EQ(clip->info().timing.rate, (Rational{30, 1}));
+  EXPECT_NE(notes_of(*clip).find("slow motion"), std::string::npos) << notes_of(*clip);
+}
+
+TEST(CaptureRate, OfACineComesWithItsShutter) {
+  const std::filesystem::path media = NUTIK_TEST_MEDIA;
+  if (!std::filesystem::exists(media / "cine_781.cine")) GTEST_SKIP() << "no clips in " << media;
+  const auto clip = test::open_test_clip(media / "cine_781.cine");
+  EXPECT_EQ(clip->info().timing.exposed_ns, 9696);
+  const Timeline timeline = timeline_of("", clip->info(), {}, 15);
+  for (std::uint64_t k = 0; k < 15; ++k) {
+    EXPECT_NEAR(static_cast<double>(timeline.end_ns(k) - timeline.start_ns(k)), 9696, 1) << k;
+  }
+  // The other has no list of exposures, but the setup's shutter of 70 µs.
+  const auto other = test::open_test_clip(media / "data_small_cine.cine");
+  EXPECT_EQ(other->info().timing.exposed_ns, 70'000);
+}
+
+}  // namespace
+}  // namespace nutik

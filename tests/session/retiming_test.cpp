@@ -1,0 +1,96 @@
+// A capture that is corrected is, but for what was corrected, the capture it was.
+#include "session/retiming.hpp"
+
+#include <gtest/gtest.h>
+
+#include "capture/error.hpp"
+#include "support/messages.hpp"
+#include "support/payloads.hpp"
+#include "support/random_case.hpp"
+#include "support/scratch.hpp"
+#include "support/tik_files.hpp"
+#include "tik/reader.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Scratch;
+
+// Blocks as they lie in both files.
+void expect_same_blocks(tik::Reader& before, tik::Reader& after) {
+  ASSERT_EQ(before.block_count(), after.block_count());
+  for (std::uint64_t block = 0; block < before.block_count(); ++block) {
+    const auto a = before.stored(block), b = after.stored(block);
+    EXPECT_EQ(a.header.first_sample, b.header.first_sample);
+    EXPECT_EQ(a.header.record_count, b.header.record_count);
+    EXPECT_TRUE(std::ranges::equal(a.payload, b.payload));
+    EXPECT_EQ(test::payload_of(before, block), test::payload_of(after, block));
+  }
+  EXPECT_TRUE(std::ranges::equal(before.first_sample(), after.first_sample()));
+}
+
+TEST(Retiming, ChangesWhatWasStatedAndNothingElse) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const test::RandomCase random(seed);
+    const Scratch scratch;
+    const auto path =
+        test::write_tik(random, {seed % 2 == 0 ? tik::CodecId::none : tik::CodecId::zstd, 0}, scratch);
+    RetimeRequest request{path, scratch / "after.tik", {}, {}, Transfer::linear(), Primaries::p3, Rational{4, 3}};
+    if (seed % 3 == 0) request.rate = Rational{30'000, 1001};
+    const Retimed retimed = retime(request);
+    tik::Reader before(path), after(request.output);
+    expect_same_blocks(before, after);
+    EXPECT_EQ(after.format().transfer, Transfer::linear());
+    EXPECT_EQ(after.format().primaries, Primaries::p3);
+    EXPECT_EQ(after.format().pixel_aspect, (Rational{4, 3}));
+    EXPECT_EQ(after.timeline(), retimed.timeline);
+    if (request.rate) {
+      EXPECT_EQ(after.timeline().rate(), *request.rate);
+      EXPECT_TRUE(after.timeline().is_constant());
+    } else {
+      EXPECT_EQ(after.timeline(), before.timeline());
+    }
+    CaptureFormat format = after.format();
+    format.transfer = before.format().transfer;
+    format.primaries = before.format().primaries;
+    format.pixel_aspect = before.format().pixel_aspect;
+    EXPECT_EQ(format, before.format());
+  }
+}
+
+TEST(Retiming, GivesIrregularStartsAnotherAngle) {
+  test::RandomCase random(1);
+  for (std::uint64_t seed = 2; random.timeline.is_constant(); ++seed) random = test::RandomCase(seed);
+  const Scratch scratch;
+  const auto path = test::write_tik(random, {tik::CodecId::lz4, 0}, scratch);
+  static_cast<void>(retime({path, path, {}, Rational{90, 1}, {}, {}, {}}));  // in place
+  const tik::Reader after(path);
+  const Timeline& before = random.timeline;
+  ASSERT_EQ(after.timeline().sample_count(), before.sample_count());
+  for (std::uint64_t k = 0; k + 1 < before.sample_count(); ++k) {
+    EXPECT_EQ(after.timeline().start_ns(k), before.start_ns(k));
+    const std::int64_t period = before.start_ns(k + 1) - before.start_ns(k);
+    EXPECT_NEAR(static_cast<double>(after.timeline().end_ns(k) - before.start_ns(k)), static_cast<double>(period) / 4, 1);
+  }
+  EXPECT_EQ(after.header().facts, std::vector<std::string>{"shutter 90 degrees, as stated"});
+}
+
+TEST(Retiming, RefusesWhatItCannotDo) {
+  const test::RandomCase random(3);
+  const Scratch scratch;
+  const auto path = test::write_tik(random, {tik::CodecId::lz4, 0}, scratch);
+  const auto message = [&](const RetimeRequest& request) {
+    return test::message_of<Error>([&] { static_cast<void>(retime(request)); });
+  };
+  EXPECT_NE(message({path, scratch / "a.tik", {}, {}, {}, {}, {}}).find("what is to be corrected?"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(scratch / "a.tik"));
+  const test::RandomCase noisy = test::noisy_case(4);
+  const auto held = test::write_tik(noisy, {tik::CodecId::lz4, 0}, scratch);
+  const Transfer other = noisy.capture.transfer == Transfer::linear() ? Transfer::srgb() : Transfer::linear();
+  EXPECT_NE(message({held, scratch / "a.tik", {}, {}, other, {}, {}}).find("encode the clip again"), std::string::npos);
+  EXPECT_EQ(message({held, scratch / "a.tik", Rational{7, 1}, {}, noisy.capture.transfer, {}, {}}), "");
+}
+
+}  // namespace
+}  // namespace nutik

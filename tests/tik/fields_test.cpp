@@ -1,0 +1,117 @@
+// The list of fields: what it holds, what may be passed over, and damage.
+#include "tik/fields.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "capture/error.hpp"
+#include "support/messages.hpp"
+#include "support/random_case.hpp"
+#include "support/scratch.hpp"
+#include "support/tik_files.hpp"
+#include "tik/checksum.hpp"
+#include "tik/header.hpp"
+#include "tik/reader.hpp"
+#include "tik/writer.hpp"
+
+namespace nutik::tik {
+namespace {
+
+using test::Scratch;
+
+TEST(TikFields, AreReadAsTheyWereWritten) {
+  for (const std::vector<Field>& fields :
+       {std::vector<Field>{}, {{"one ", false, ""}}, {{"abcd", true, "1"}, {"efgh", false, std::string("12\0345678", 9)}}}) {
+    std::vector<std::byte> bytes = packed_fields(fields);
+    EXPECT_EQ(bytes.size() % 8, 0u);
+    bytes.resize(bytes.size() + 100);  // what follows in a file
+    const ReadFields read = read_fields(bytes, "x.tik");
+    EXPECT_EQ(read.fields, fields);
+    EXPECT_EQ(read.bytes + 100, bytes.size());
+  }
+}
+
+TEST(TikFields, AreRefusedWhereABitDiffersOrTheEndIsMissing) {
+  const std::vector<std::byte> bytes = packed_fields(std::vector<Field>{{"abcd", true, "some data"}});
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    std::vector<std::byte> damaged = bytes;
+    damaged[bit / 8] ^= std::byte{1} << bit % 8;
+    EXPECT_THROW(static_cast<void>(read_fields(damaged, "x.tik")), InputError) << bit;
+  }
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_THROW(static_cast<void>(read_fields(std::span(bytes).first(size), "x.tik")), InputError) << size;
+  }
+}
+
+// A list may be whole and lie: checksums keep nobody from that.
+TEST(TikFields, AreRefusedWhereAFieldLeavesTheList) {
+  std::vector<std::byte> bytes = packed_fields(std::vector<Field>{{"abcd", false, "12345678"}});
+  const auto seal = [&] {
+    const std::uint64_t sum = checksum(std::span(bytes).first(bytes.size() - 8));
+    std::memcpy(bytes.data() + bytes.size() - 8, &sum, 8);
+  };
+  for (const std::uint64_t length : {std::uint64_t{9}, ~std::uint64_t{0}}) {
+    std::memcpy(bytes.data() + 32, &length, 8);
+    seal();
+    EXPECT_THROW(static_cast<void>(read_fields(bytes, "x.tik")), InputError);
+  }
+  const std::uint64_t eight = 8;
+  std::memcpy(bytes.data() + 32, &eight, 8);
+  const std::uint32_t two = 2;
+  std::memcpy(bytes.data() + 16, &two, 4);
+  seal();
+  EXPECT_THROW(static_cast<void>(read_fields(bytes, "x.tik")), InputError);
+}
+
+TEST(TikFields, OfACaptureSayHowItIsShown) {
+  test::RandomCase random(5);
+  random.capture.pixel_aspect = {32, 27};
+  random.capture.primaries = Primaries::bt2020;
+  random.capture.transfer = Transfer::hlg();
+  const Scratch scratch;
+  Header header;
+  header.capture = random.capture;
+  if (random.timeline.is_constant()) header.rate = random.timeline.rate();
+  header.shutter_angle = random.timeline.shutter_angle();
+  header.facts = {"240 pictures a second, from the file's com.android.capture.fps", "matrix bt2020, assumed"};
+  EXPECT_EQ(header.fields().size(), 3u);
+  const auto path = test::write_tik(random, {CodecId::zstd, 0}, scratch);
+  Reader reader(path);
+  EXPECT_EQ(reader.header().version, 1u);
+  EXPECT_EQ(reader.format().pixel_aspect, (Rational{32, 27}));
+  EXPECT_EQ(reader.format().primaries, Primaries::bt2020);
+  EXPECT_EQ(reader.format().transfer, Transfer::hlg());
+  test::expect_same_capture(random, reader);
+}
+
+// A file with these fields behind its picture.
+std::string file_with(const std::vector<Field>& fields) {
+  std::string text = "P5\n# TIK 1 - later\n# TIK depth: 8 bits\n# TIK white code: 255\n# TIK rate: 30 samples a second\n"
+                     "# TIK shutter angle: 360 degrees\n# TIK transfer: srgb\n# TIK tolerance: 0 codes\n# TIK codec: none\n"
+                     "1 1\n255\nx\n";
+  text.resize((text.size() + 63) / 64 * 64);
+  const std::vector<std::byte> list = packed_fields(fields);
+  text.append(reinterpret_cast<const char*>(list.data()), list.size());
+  text.resize((text.size() + 63) / 64 * 64);
+  return text;
+}
+
+TEST(TikFields, OfLaterProgramsArePassedOverUnlessTheyMustNotBe) {
+  const auto parse = [](const std::string& file) {
+    return parse_header(std::as_bytes(std::span(file)), "x.tik");
+  };
+  const std::string passed = file_with({{"late", false, "whatever"}, {"fact", false, "one\ntwo\n"}});
+  const ParsedHeader parsed = parse(passed);
+  EXPECT_EQ(parsed.header.facts, (std::vector<std::string>{"one", "two"}));
+  EXPECT_EQ(parsed.first_block_offset, passed.size());
+  const std::string message = test::message_of<InputError>(
+      [&] { static_cast<void>(parse(file_with({{"late", true, ""}}))); });
+  EXPECT_NE(message.find("'late'"), std::string::npos) << message;
+  EXPECT_NE(message.find("a later one"), std::string::npos) << message;
+  EXPECT_THROW(static_cast<void>(parse(file_with({{"prim", true, "bt1886"}}))), InputError);
+  EXPECT_THROW(static_cast<void>(parse(file_with({{"aspc", false, std::string(8, '\0')}}))), InputError);
+}
+
+}  // namespace
+}  // namespace nutik::tik
