@@ -39,6 +39,7 @@ class Case(NamedTuple):
     width: int = 19  # no multiples of a tile's 8
     height: int = 13
     name: str = ""
+    options: tuple = ()  # of encoding, besides
 
     def file(self):
         words = (self.codec, self.tiles, f"{self.depth}-bit", *self[3:6], self.transfer.replace(":", "-"))
@@ -75,6 +76,11 @@ SPECIAL = [
     # More than 255 samples a block take an index of two bytes.
     Case("zstd", "rows", 8, "grey", "constant", "lossless", "srgb", 310, 300, 9, 3, "long-block-rows"),
     Case("none", "records", 12, "colour", "irregular", "lossless", "linear", 310, 300, 9, 3, "long-block-records"),
+    # Fields, which version 0 has none of.
+    Case("zstd", "auto", 10, "colour", "constant", "lossless", "hlg", name="version-1-wide-bt2020-hlg",
+         options=("--primaries", "bt2020", "--pixel-aspect", "32:27")),
+    Case("lz4", "auto", 8, "grey", "irregular", "tolerance", "gamma:1.8", name="version-1-narrow-irregular",
+         options=("--pixel-aspect", "3:4")),
     # A packed group of tiles has up to 2 MiB unpacked.
     Case("zstd", "dense", 12, "colour", "constant", "lossless", "bt709", 100, 100, 131, 67, "several-groups-of-tiles"),
 ]
@@ -159,7 +165,7 @@ def write_capture(program, case):
         if change is None:
             write_noise(case, scratch / "camera.noise")
             change = ["--noise", "camera.noise", "--sigmas", "3.5"]
-        subprocess.run([program, "encode", "-q", *RATES[case.timeline], "--transfer", case.transfer, *change,
+        subprocess.run([program, "encode", "-q", *case.options, *RATES[case.timeline], "--transfer", case.transfer, *change,
                         "--codec", case.codec, "--tiles", case.tiles, "--block-samples", str(case.block_samples),
                         source, str(HERE / case.file())], cwd=scratch, check=True)
 
