@@ -7,6 +7,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/module.hpp"
+#include "media/photron_header.hpp"
 #include "media/still_sequence.hpp"
 #include "media/stills_table.hpp"
 
@@ -28,11 +29,9 @@ std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const ClipOp
 }
 
 // A clip of which there is more to tell than its module knows.
-class NotedClip final : public Clip {
+class DescribedClip final : public Clip {
  public:
-  NotedClip(std::unique_ptr<Clip> clip, std::string note) : clip_(std::move(clip)), info_(clip_->info()) {
-    info_.notes.emplace_back(std::move(note));
-  }
+  DescribedClip(std::unique_ptr<Clip> clip, ClipInfo info) : clip_(std::move(clip)), info_(std::move(info)) {}
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
   bool read(std::span<std::byte> raster) override { return clip_->read(raster); }
@@ -42,14 +41,33 @@ class NotedClip final : public Clip {
   ClipInfo info_;
 };
 
+// Pictures that tell no times themselves have those of the camera's header beside them.
+void add_photron_header(ClipInfo& info, const std::filesystem::path& pictures) {
+  if (info.timing.is_known()) return;
+  const auto header = photron_header_of(pictures);
+  if (!header) return;
+  info.timing.rate = header->rate;
+  info.timing.exposed_ns = header->exposed_ns;
+  info.timing.rate_from = header->file.filename().string();
+}
+
 std::unique_ptr<Clip> open_stills(const std::filesystem::path& path,
                                   const std::vector<std::filesystem::path>& stills,
                                   const ClipOptions& options) {
   std::unique_ptr<Clip> clip = still_module().open(stills, {}, options);
   std::error_code error;
   if (!std::filesystem::is_directory(path, error)) return clip;
-  auto note = missing_still_note(path, stills);
-  return note ? std::make_unique<NotedClip>(std::move(clip), std::move(*note)) : std::move(clip);
+  ClipInfo info = clip->info();
+  if (auto note = missing_still_note(path, stills)) info.notes.emplace_back(std::move(*note));
+  add_photron_header(info, path);
+  return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
+}
+
+std::unique_ptr<Clip> open_raw(const std::filesystem::path& path, const ClipOptions& options) {
+  std::unique_ptr<Clip> clip = video_module().open(path, options);
+  ClipInfo info = clip->info();
+  add_photron_header(info, path);
+  return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
 }
 
 }  // namespace
@@ -63,7 +81,7 @@ std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOpt
   if (!std::filesystem::exists(path, error)) {
     throw InputError(format("{} cannot be read: no such file", path.string()));
   }
-  return video_module().open(path, options);
+  return options.raw ? open_raw(path, options) : video_module().open(path, options);
 }
 
 std::string_view to_text(YuvMatrix matrix) {

@@ -95,7 +95,8 @@ std::vector<Fact> ClipSource::facts(const Timeline& timeline) const {
                                    : Origin::assumed,
              Setting::shutter_angle};
   if (!request.shutter_angle && timing.exposed_ns) {
-    angle.source = format("the file: {} ns", *timing.exposed_ns);
+    angle.source = format("{}: {} ns", timing.rate_from.starts_with("the ") ? "the file" : timing.rate_from,
+                          *timing.exposed_ns);
   } else if (!request.shutter_angle && !timing.exposures.empty()) {
     angle.source = "the listed exposures' mean";
   }

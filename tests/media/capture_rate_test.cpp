@@ -4,9 +4,11 @@
 #include <fstream>
 #include <iterator>
 
+#include "media/photron_header.hpp"
 #include "support/clips.hpp"
 #include "support/ffmpeg.hpp"
 #include "support/scratch.hpp"
+#include "support/stills.hpp"
 
 namespace nutik {
 namespace {
@@ -134,6 +136,52 @@ TEST(CaptureRate, OfACineComesWithItsShutter) {
   // The other has no list of exposures, but the setup's shutter of 70 µs.
   const auto other = test::open_test_clip(media / "data_small_cine.cine");
   EXPECT_EQ(other->info().timing.exposed_ns, 70'000);
+}
+
+TEST(CaptureRate, IsReadOfPhotronsHeaders) {
+  const PhotronHeader text = parse_photron_header(
+      "#Camera Information Header\nDate : 2023/1/18\nRecord Rate(fps) : 30000\nShutter Speed(s) : 1/50000\n");
+  EXPECT_EQ(text.rate, (Rational{30'000, 1}));
+  EXPECT_EQ(text.exposed_ns, 20'000);
+  const PhotronHeader xml = parse_photron_header("<cih><recordRate>2000</recordRate><shutterSpeed>4000</shutterSpeed>");
+  EXPECT_EQ(xml.rate, (Rational{2000, 1}));
+  EXPECT_EQ(xml.exposed_ns, 250'000);
+  for (const char* nothing : {"", "Record Rate(fps) :", "Record Rate(fps) : 0", "<recordRate>fast</recordRate>",
+                              "Record Rate(fps) : 1/0"}) {
+    EXPECT_EQ(parse_photron_header(nothing).rate, std::nullopt) << nothing;
+  }
+}
+
+TEST(CaptureRate, OfPicturesIsThatOfTheHeaderBesideThem) {
+  const Scratch scratch;
+  const std::string header = "Record Rate(fps) : 1000\nShutter Speed(s) : 1/4000\n";
+  std::filesystem::create_directories(scratch / "stills");
+  const std::vector<Picture> stills = test::random_stills({4, 4, 1}, 4095, 2, 1);
+  scratch.write("stills/a.pgm", test::netpbm_file(stills[0], true));
+  scratch.write("stills/b.pgm", test::netpbm_file(stills[1], true));
+  scratch.write("stills/camera.cih", header);
+  scratch.write("raw.mraw", std::string(4 * 4 * 2 * 3, '\1'));
+  scratch.write("raw.cihx", "<recordRate>500</recordRate>");
+  ClipOptions raw;
+  raw.raw = RawVideo{4, 4, "gray16le"};
+  const auto folder = test::open_test_clip(scratch / "stills"), file = test::open_test_clip(scratch / "raw.mraw", raw);
+  EXPECT_EQ(folder->info().timing.rate_from, "camera.cih");
+  const Timeline timeline = timeline_of("", folder->info(), {}, 2);
+  EXPECT_EQ(timeline.rate(), (Rational{1000, 1}));
+  EXPECT_EQ(timeline.shutter_angle(), (Rational{90, 1}));
+  EXPECT_EQ(timeline_of("", file->info(), raw, 3).rate(), (Rational{500, 1}));
+  scratch.write("stills/other.cih", header);  // which of the two?
+  EXPECT_FALSE(test::open_test_clip(scratch / "stills")->info().timing.is_known());
+}
+
+// The shared recording, whose header the camera wrote.
+TEST(CaptureRate, OfARecordedHeaderIsTheCameras) {
+  const std::filesystem::path media = NUTIK_TEST_MEDIA;
+  if (!std::filesystem::exists(media / "ball_12bit.cihx")) GTEST_SKIP() << "no clips in " << media;
+  const auto header = photron_header_of(media / "ball_12bit.mraw");
+  ASSERT_TRUE(header);
+  EXPECT_EQ(header->rate, (Rational{30'000, 1}));
+  EXPECT_EQ(header->exposed_ns, 20'000);
 }
 
 }  // namespace
