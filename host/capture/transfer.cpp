@@ -85,9 +85,8 @@ Transfer Transfer::parse(std::string_view text) {
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), exponent);
     if (error == std::errc() && end == number.data() + number.size()) return gamma(exponent);
   }
-  throw UsageError(
-      format("transfer '{}' is not known; choose srgb, bt709, linear, gamma:G (as in gamma:2.2), hlg or pq",
-             text));
+  throw UsageError(format(
+      "transfer '{}' is not known; choose srgb, bt709, linear, gamma:G (as in gamma:2.2), hlg or pq", text));
 }
 
 std::string Transfer::text() const {

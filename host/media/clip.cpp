@@ -133,14 +133,16 @@ Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOp
         360.0 * static_cast<double>(*timing.exposed_ns) * rate->value() / static_cast<double>(kSecondNs);
     // As exact as anybody reads an angle; longer than a period none is.
     constexpr std::int64_t kParts = 1'000'000;
-    const auto parts = static_cast<std::int64_t>(std::clamp(std::round(degrees * kParts), 1.0, 360.0 * kParts));
+    const auto parts =
+        static_cast<std::int64_t>(std::clamp(std::round(degrees * kParts), 1.0, 360.0 * kParts));
     return timeline_of(name, info, options, Rational::of(parts, kParts), sample_count);
   }
   ClipInfo listed = info;
   const std::vector<std::int64_t>& starts = timing.starts_ns;
   for (std::size_t k = 0; k < starts.size(); ++k) {
     const std::int64_t end_ns = starts[k] + *timing.exposed_ns;
-    listed.timing.exposures.push_back({starts[k], k + 1 < starts.size() ? std::min(end_ns, starts[k + 1]) : end_ns});
+    listed.timing.exposures.push_back(
+        {starts[k], k + 1 < starts.size() ? std::min(end_ns, starts[k + 1]) : end_ns});
   }
   return timeline_of(name, listed, options, Timeline::kFullShutter, sample_count);
 }

@@ -80,8 +80,7 @@ std::optional<PhotronHeader> photron_header_of(const fs::path& pictures) {
   if (headers.size() != 1) return std::nullopt;
   const MappedFile mapped(headers.front());
   const auto bytes = mapped.bytes();
-  PhotronHeader header =
-      parse_photron_header({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  PhotronHeader header = parse_photron_header({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   header.file = headers.front();
   return header.rate ? std::optional(header) : std::nullopt;
 }

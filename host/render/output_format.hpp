@@ -30,7 +30,8 @@ struct CodeMaking {
   Transfer transfer;
   double white_light;  // that has the white code
   Primaries primaries;
-  std::optional<ColourMatrix> conversion;  // of the capture's primaries to these; none where they are the same
+  std::optional<ColourMatrix>
+      conversion;  // of the capture's primaries to these; none where they are the same
 
   [[nodiscard]] static CodeMaking of(const CaptureFormat& capture, const OutputFormat& output) {
     if (!output.transfer) return {capture.transfer, 1.0, capture.primaries, std::nullopt};

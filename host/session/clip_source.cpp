@@ -98,7 +98,7 @@ std::vector<Fact> ClipSource::facts(const Timeline& timeline) const {
     angle.source = format("{}: {} ns", timing.rate_from.starts_with("the ") ? "the file" : timing.rate_from,
                           *timing.exposed_ns);
   } else if (!request.shutter_angle && !timing.exposures.empty()) {
-    angle.source = "the listed exposures' mean";
+    angle.source = "the mean of the listed exposures";
   }
   std::vector<Fact> facts{std::move(rate), std::move(angle)};
   facts.insert(facts.end(), clip->info().facts.begin(), clip->info().facts.end());

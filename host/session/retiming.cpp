@@ -38,7 +38,8 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
   if (request.transfer) state("transfer", "transfer " + request.transfer->text());
   if (request.primaries) state("primaries", format("primaries {}", to_text(*request.primaries)));
   if (request.pixel_aspect) {
-    state("pixels", format("pixels {}:{}", request.pixel_aspect->numerator, request.pixel_aspect->denominator));
+    state("pixels",
+          format("pixels {}:{}", request.pixel_aspect->numerator, request.pixel_aspect->denominator));
   }
   return facts;
 }
@@ -47,18 +48,20 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
 
 Retimed retime(const RetimeRequest& request) {
   if (request.changes_nothing()) {
-    throw UsageError("what is to be corrected? State rate, angle, transfer function, primaries or pixel aspect",
-                     {Setting::frame_rate, Setting::shutter_angle, Setting::transfer, Setting::primaries,
-                      Setting::pixel_aspect});
+    throw UsageError(
+        "what is to be corrected? State rate, angle, transfer function, primaries or pixel aspect",
+        {Setting::frame_rate, Setting::shutter_angle, Setting::transfer, Setting::primaries,
+         Setting::pixel_aspect});
   }
   const tik::Reader reader(request.capture);
   tik::Header header = reader.header();
   CaptureFormat& capture = header.capture;
   if (request.transfer && *request.transfer != capture.transfer && capture.noise.camera) {
-    throw UsageError(format("{} holds means of light by {}: with another transfer function they are others; encode "
-                            "the clip again with it",
-                            request.capture.string(), capture.transfer.text()),
-                     {Setting::transfer});
+    throw UsageError(
+        format("{} holds means of light by {}: with another transfer function they are others; encode "
+               "the clip again with it",
+               request.capture.string(), capture.transfer.text()),
+        {Setting::transfer});
   }
   const Timeline timeline = timeline_of(request, reader.timeline());
   header.rate = timeline.is_constant() ? std::optional(timeline.rate()) : std::nullopt;

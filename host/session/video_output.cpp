@@ -34,8 +34,8 @@ VideoOutput::VideoOutput(std::filesystem::path path, Rational rate, const std::o
 
 OutputFormat VideoOutput::frame_format(const CaptureFormat& capture) const {
   if (codec_ == nullptr) return output_format(request_, path_, capture);
-  OutputFormat output = output_format(
-      request_, path_, video_value_type(*codec_, request_.depth, code_type(capture)), capture);
+  OutputFormat output =
+      output_format(request_, path_, video_value_type(*codec_, request_.depth, code_type(capture)), capture);
   output.white_code = output.type == ValueType::code8 ? 255 : 65'535;  // what players take for white
   return output;
 }

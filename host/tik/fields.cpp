@@ -71,9 +71,10 @@ std::vector<std::byte> packed_fields(std::span<const Field> fields) {
 
 ReadFields read_fields(std::span<const std::byte> bytes, const std::string& name) {
   const auto fail = [&] [[noreturn]] () {
-    throw InputError(format("{}: the list of fields that says what its samples are is damaged; encode the clip "
-                            "again",
-                            name));
+    throw InputError(
+        format("{}: the list of fields that says what its samples are is damaged; encode the clip "
+               "again",
+               name));
   };
   if (bytes.size() < sizeof(ListHeader) + sizeof(std::uint64_t)) fail();
   const auto header = load<ListHeader>(bytes, 0);

@@ -74,7 +74,7 @@ struct Footer {
   std::uint64_t exposures_checksum;
   std::uint64_t fields_offset;  // of fields that were known at the end only, 0 where there are none
   std::uint8_t reserved[48];    // zeros
-  std::uint64_t checksum;     // of the bytes before it
+  std::uint64_t checksum;       // of the bytes before it
   char magic[8];
 };
 static_assert(sizeof(Footer) == 128 && offsetof(Footer, checksum) == 112);

@@ -256,9 +256,10 @@ std::vector<Field> Header::fields() const {
 void refuse_unknown(std::span<const Field> fields, const std::string& name) {
   for (const Field& field : fields) {
     if (!field.must_be_understood || std::ranges::count(kKnownFields, field.tag) > 0) continue;
-    throw InputError(format("{} holds what this program does not know and must not pass over ({}); read it with "
-                            "a later one",
-                            name, quoted(field.tag)));
+    throw InputError(
+        format("{} holds what this program does not know and must not pass over ({}); read it with "
+               "a later one",
+               name, quoted(field.tag)));
   }
 }
 

@@ -47,7 +47,8 @@ TEST_F(Colour, OfALinearCaptureIsTheSameInPictureSheetAndVideo) {
   succeed({"-q", "-f", "30", "scene", "scene.tik"});
   succeed({"--start", "0s", "--exposure", "0.1s", "scene.tik", "picture.png"});
   succeed({"contact", "--every", "4f", "--columns", "1", "--width", "280", "scene.tik", "sheet.png"});
-  succeed({"sweep", "--start", "0s", "--exposure", "0.05s", "--shift", "0..1f/1f", "--each", "each-%d.png", "scene.tik", "sweep.png"});
+  succeed({"sweep", "--start", "0s", "--exposure", "0.05s", "--shift", "0..1f/1f", "--each", "each-%d.png",
+           "scene.tik", "sweep.png"});
   succeed({"video", "--out-fps", "10", "--out-angle", "360", "scene.tik", "video.mkv"});
   const cv::Mat picture = cv::imread((scratch_ / "picture.png").string(), cv::IMREAD_UNCHANGED);
   const cv::Mat each = cv::imread((scratch_ / "each-1.png").string(), cv::IMREAD_UNCHANGED);
@@ -69,27 +70,32 @@ TEST_F(Colour, OfALinearCaptureIsTheSameInPictureSheetAndVideo) {
 TEST_F(Colour, OfTheSourceIsKeptWhereThatIsAskedFor) {
   write_scene();
   const auto result = run({"--start", "0s", "--exposure", "1f", "-f", "30", "scene", "shown.png"});
-  EXPECT_NE(result.out.find("codes srgb with white 65535 (the capture's: linear with white 4095)"), std::string::npos)
+  EXPECT_NE(result.out.find("codes srgb with white 65535 (the capture's: linear with white 4095)"),
+            std::string::npos)
       << result.out;
-  succeed({"--start", "0s", "--exposure", "1f", "-f", "30", "--out-transfer", "source", "scene", "codes.png"});
+  succeed(
+      {"--start", "0s", "--exposure", "1f", "-f", "30", "--out-transfer", "source", "scene", "codes.png"});
   const cv::Mat codes = cv::imread((scratch_ / "codes.png").string(), cv::IMREAD_UNCHANGED);
   for (std::size_t field = 0; field < 4; ++field) {
     EXPECT_EQ(codes.at<std::uint16_t>(32, static_cast<int>(field) * 64 + 32), kCodes[field]);
   }
   const auto again = run({"again", "codes.png"});
   EXPECT_NE(again.out.find("--out-transfer source"), std::string::npos) << again.out << again.err;
-  expect_refused({"--start", "0s", "--exposure", "1f", "-f", "30", "--out-transfer", "srgb", "scene", "x.pfm"}, 2,
-                 "(--out-transfer)");
+  expect_refused(
+      {"--start", "0s", "--exposure", "1f", "-f", "30", "--out-transfer", "srgb", "scene", "x.pfm"}, 2,
+      "(--out-transfer)");
 }
 
 // A .tik whose codes are said to stand for other light is exposed so.
 TEST_F(Colour, OfACaptureFollowsAStatedTransfer) {
   write_scene();
   succeed({"-q", "-f", "30", "scene", "scene.tik"});
-  succeed({"--start", "0s", "--exposure", "1f", "--transfer", "srgb", "--depth", "8", "scene.tik", "srgb.png"});
+  succeed(
+      {"--start", "0s", "--exposure", "1f", "--transfer", "srgb", "--depth", "8", "scene.tik", "srgb.png"});
   const cv::Mat codes = cv::imread((scratch_ / "srgb.png").string(), cv::IMREAD_UNCHANGED);
   for (std::size_t field = 0; field < 4; ++field) {
-    EXPECT_EQ(codes.at<std::uint8_t>(32, static_cast<int>(field) * 64 + 32), std::lround(kCodes[field] / 4095.0 * 255));
+    EXPECT_EQ(codes.at<std::uint8_t>(32, static_cast<int>(field) * 64 + 32),
+              std::lround(kCodes[field] / 4095.0 * 255));
   }
 }
 
@@ -109,8 +115,9 @@ std::map<std::string, std::string> chunks_of(const std::string& png) {
 
 TEST_F(Colour, StandsInTheFile) {
   NEEDS_FFMPEG();
-  test::make(scratch_, "-f lavfi -i testsrc2=s=64x48:d=0.2:r=25 -vf setsar=32/27 -c:v ffv1 -pix_fmt yuv420p10le "
-                       "-colorspace bt2020nc -color_primaries bt2020 -color_trc arib-std-b67 clip.mkv");
+  test::make(scratch_,
+             "-f lavfi -i testsrc2=s=64x48:d=0.2:r=25 -vf setsar=32/27 -c:v ffv1 -pix_fmt yuv420p10le "
+             "-colorspace bt2020nc -color_primaries bt2020 -color_trc arib-std-b67 clip.mkv");
   const auto coded = [&](const char* out) {
     succeed({"--start", "0s", "--exposure", "1f", "--out-transfer", out, "clip.mkv", "x.png"});
     return chunks_of(test::read_file(scratch_ / "x.png"));
@@ -119,7 +126,8 @@ TEST_F(Colour, StandsInTheFile) {
   EXPECT_EQ(srgb["cICP"], std::string("\x01\x0D\x00\x01", 4));
   EXPECT_EQ(srgb.count("sRGB"), 1u);
   EXPECT_EQ(srgb["gAMA"], std::string("\x00\x00\xB1\x8F", 4));
-  EXPECT_EQ(srgb["pHYs"], std::string("\x00\x00\x00\x1B\x00\x00\x00\x20\x00", 9));  // 27 and 32 for one length
+  EXPECT_EQ(srgb["pHYs"],
+            std::string("\x00\x00\x00\x1B\x00\x00\x00\x20\x00", 9));  // 27 and 32 for one length
   auto source = coded("source");
   EXPECT_EQ(source["cICP"], std::string("\x09\x12\x00\x01", 4));
   EXPECT_EQ(source.count("sRGB") + source.count("gAMA"), 0u);
@@ -154,7 +162,8 @@ TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
   succeed({"-q", "clip.mkv", "clip.tik"});
   const auto told = run({"retime", "clip.tik", "-f", "960", "-a", "180", "--transfer", "linear"});
   EXPECT_EQ(told.status, 0) << told.err;
-  EXPECT_NE(told.out.find("960 a second, shutter 180 degrees, transfer linear"), std::string::npos) << told.out;
+  EXPECT_NE(told.out.find("960 a second, shutter 180 degrees, transfer linear"), std::string::npos)
+      << told.out;
   succeed({"-q", "-f", "960", "-a", "180", "--transfer", "linear", "clip.mkv", "anew.tik"});
   for (const char* name : {"clip", "anew"}) {
     succeed({"--start", "3f", "--exposure", "20ms", std::string(name) + ".tik", std::string(name) + ".pfm"});

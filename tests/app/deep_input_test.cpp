@@ -77,7 +77,8 @@ TEST_F(DeepInput, OneSampleIsTheSourceCodeForCode) {
       for (const std::string& transfer : transfers) {
         succeed({"encode", "-q", "-f", "100", "-a", "180", "--transfer", transfer, folder, "x.tik"});
         for (const char* renderer : {"opencl", "reference"}) {
-          const std::vector<std::string> words{"--start", "3f", "--exposure", "1f", "--renderer", renderer, "x.tik", "x.png"};
+          const std::vector<std::string> words{"--start",    "3f",     "--exposure", "1f",
+                                               "--renderer", renderer, "x.tik",      "x.png"};
           std::vector<std::string> of_source = words;
           of_source.insert(of_source.end(), {"--out-transfer", "source"});
           succeed(of_source);
@@ -87,7 +88,8 @@ TEST_F(DeepInput, OneSampleIsTheSourceCodeForCode) {
           expect_codes(scratch_ / "x.png", stills[3]);
         }
       }
-      succeed({"-f", "100", "--start", "4f", "--exposure", "1f", "--out-transfer", "source", folder, "y.tif"});
+      succeed(
+          {"-f", "100", "--start", "4f", "--exposure", "1f", "--out-transfer", "source", folder, "y.tif"});
       expect_codes(scratch_ / "y.tif", stills[4]);
     }
   }

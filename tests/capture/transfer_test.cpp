@@ -9,8 +9,8 @@
 namespace nutik {
 namespace {
 
-const Transfer kAll[] = {Transfer::srgb(), Transfer::bt709(), Transfer::linear(), Transfer::gamma(2.2),
-                         Transfer::gamma(0.5), Transfer::hlg(), Transfer::pq()};
+const Transfer kAll[] = {Transfer::srgb(),     Transfer::bt709(), Transfer::linear(), Transfer::gamma(2.2),
+                         Transfer::gamma(0.5), Transfer::hlg(),   Transfer::pq()};
 
 // Values of the standards, from their own formulas worked out by hand.
 TEST(Transfer, HasTheStandardsValues) {

@@ -70,8 +70,9 @@ TEST(CaptureRate, IsOnlyNamedWhereItFitsNoTimes) {
 TEST(CaptureRate, KeepsTheUnevennessOfTimes) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  test::make(scratch, "-f lavfi -i testsrc2=s=32x32:d=2:r=30 -vf \"select='not(eq(n,20))'\" -vsync vfr "
-                      "-movflags use_metadata_tags -metadata com.android.capture.fps=240 -c:v mpeg4 clip.mp4");
+  test::make(scratch,
+             "-f lavfi -i testsrc2=s=32x32:d=2:r=30 -vf \"select='not(eq(n,20))'\" -vsync vfr "
+             "-movflags use_metadata_tags -metadata com.android.capture.fps=240 -c:v mpeg4 clip.mp4");
   const auto clip = test::open_test_clip(scratch / "clip.mp4");
   const Timeline timeline = timeline_of("", clip->info(), {}, 59);
   ASSERT_FALSE(timeline.is_constant());
@@ -104,7 +105,8 @@ TEST(CaptureRate, IsSamsungsByItsRecordingMode) {
     return box("udta", box("smta", std::string(4, '\0') + box("saut", author) + box("srfr", fixed_point)));
   };
   const Scratch scratch;
-  for (const auto& [mode, rate] : {std::pair{12, Rational{240, 1}}, {13, {120, 1}}, {21, {481, 2}}, {0, {30, 1}}}) {
+  for (const auto& [mode, rate] :
+       {std::pair{12, Rational{240, 1}}, {13, {120, 1}}, {21, {481, 2}}, {0, {30, 1}}}) {
     test::make(scratch, phone_clip("30", ""));
     add_to_moov(scratch / "clip.mp4", smta(static_cast<char>(mode)));
     const auto clip = test::open_test_clip(scratch / "clip.mp4");
@@ -118,7 +120,8 @@ TEST(CaptureRate, IsNotKnownOfSamsungsSlowParts) {
   const Scratch scratch;
   test::make(scratch, phone_clip("30", ""));
   std::ofstream(scratch / "clip.mp4", std::ios::binary | std::ios::app)
-      << std::string("\x00\x00\x90\x08", 4) << "SlowMotion_Data120*1*1" << std::string("\x20\x00\x00\x00", 4) << "SEFT";
+      << std::string("\x00\x00\x90\x08", 4) << "SlowMotion_Data120*1*1" << std::string("\x20\x00\x00\x00", 4)
+      << "SEFT";
   const auto clip = test::open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(clip->info().timing.rate, (Rational{30, 1}));
   EXPECT_NE(notes_of(*clip).find("slow motion"), std::string::npos) << notes_of(*clip);
@@ -143,11 +146,12 @@ TEST(CaptureRate, IsReadOfPhotronsHeaders) {
       "#Camera Information Header\nDate : 2023/1/18\nRecord Rate(fps) : 30000\nShutter Speed(s) : 1/50000\n");
   EXPECT_EQ(text.rate, (Rational{30'000, 1}));
   EXPECT_EQ(text.exposed_ns, 20'000);
-  const PhotronHeader xml = parse_photron_header("<cih><recordRate>2000</recordRate><shutterSpeed>4000</shutterSpeed>");
+  const PhotronHeader xml =
+      parse_photron_header("<cih><recordRate>2000</recordRate><shutterSpeed>4000</shutterSpeed>");
   EXPECT_EQ(xml.rate, (Rational{2000, 1}));
   EXPECT_EQ(xml.exposed_ns, 250'000);
-  for (const char* nothing : {"", "Record Rate(fps) :", "Record Rate(fps) : 0", "<recordRate>fast</recordRate>",
-                              "Record Rate(fps) : 1/0"}) {
+  for (const char* nothing : {"", "Record Rate(fps) :", "Record Rate(fps) : 0",
+                              "<recordRate>fast</recordRate>", "Record Rate(fps) : 1/0"}) {
     EXPECT_EQ(parse_photron_header(nothing).rate, std::nullopt) << nothing;
   }
 }
@@ -164,7 +168,8 @@ TEST(CaptureRate, OfPicturesIsThatOfTheHeaderBesideThem) {
   scratch.write("raw.cihx", "<recordRate>500</recordRate>");
   ClipOptions raw;
   raw.raw = RawVideo{4, 4, "gray16le"};
-  const auto folder = test::open_test_clip(scratch / "stills"), file = test::open_test_clip(scratch / "raw.mraw", raw);
+  const auto folder = test::open_test_clip(scratch / "stills"),
+             file = test::open_test_clip(scratch / "raw.mraw", raw);
   EXPECT_EQ(folder->info().timing.rate_from, "camera.cih");
   const Timeline timeline = timeline_of("", folder->info(), {}, 2);
   EXPECT_EQ(timeline.rate(), (Rational{1000, 1}));

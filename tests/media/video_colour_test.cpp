@@ -41,11 +41,13 @@ TEST(VideoColour, OfFilesThatSayNothingDependsOnTheirLines) {
   EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "high.mkv"))[Setting::matrix], assumed("matrix bt709"));
   EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "low.mkv"))[Setting::matrix], assumed("matrix bt601"));
   EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "low.mkv"))[Setting::range], assumed("limited range"));
-  EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "low.mkv"))[Setting::transfer], assumed("transfer srgb"));
+  EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "low.mkv"))[Setting::transfer],
+            assumed("transfer srgb"));
   // It matters: the codes are those of the matrix that was taken.
   ClipOptions other;
   other.matrix = YuvMatrix::bt601;
-  const auto usual = test::open_test_clip(scratch / "high.mkv"), changed = test::open_test_clip(scratch / "high.mkv", other);
+  const auto usual = test::open_test_clip(scratch / "high.mkv"),
+             changed = test::open_test_clip(scratch / "high.mkv", other);
   EXPECT_NE(test::read_all(*usual).at(0), test::read_all(*changed).at(0));
   EXPECT_EQ(facts_of(*changed)[Setting::matrix], stated("matrix bt601"));
 }
@@ -118,9 +120,10 @@ TEST(VideoColour, OfHighDynamicRangeIsTheLightOfTheStandard) {
   }
   scratch.write("raw", planes_of(yuv));
   for (const bool is_hlg : {true, false}) {
-    test::make(scratch, "-f rawvideo -s 64x64 -pix_fmt yuv444p10le -r 25 -i raw -c:v ffv1 -color_primaries bt2020 "
-                        "-colorspace bt2020nc -color_range tv -color_trc " +
-                            std::string(is_hlg ? "arib-std-b67" : "smpte2084") + " clip.mkv");
+    test::make(scratch,
+               "-f rawvideo -s 64x64 -pix_fmt yuv444p10le -r 25 -i raw -c:v ffv1 -color_primaries bt2020 "
+               "-colorspace bt2020nc -color_range tv -color_trc " +
+                   std::string(is_hlg ? "arib-std-b67" : "smpte2084") + " clip.mkv");
     const auto clip = test::open_test_clip(scratch / "clip.mkv");
     const CaptureFormat& format = clip->info().format;
     ASSERT_EQ(format.transfer, is_hlg ? Transfer::hlg() : Transfer::pq());
@@ -139,7 +142,8 @@ TEST(VideoColour, OfHighDynamicRangeIsTheLightOfTheStandard) {
         const double light =
             format.transfer.light_of(test::code_at(format, raster, i * 3 + channel) / 65'535.0);
         ASSERT_GE(light, light_of(std::max(signal - kHalf, 0.0)) * (1 - 1e-9)) << i << ", " << channel;
-        ASSERT_LE(light, light_of(std::min(signal + kHalf, 1.0)) * (1 + 1e-9) + 1e-15) << i << ", " << channel;
+        ASSERT_LE(light, light_of(std::min(signal + kHalf, 1.0)) * (1 + 1e-9) + 1e-15)
+            << i << ", " << channel;
       }
     }
   }
@@ -149,7 +153,9 @@ TEST(VideoColour, OfHighDynamicRangeIsTheLightOfTheStandard) {
 TEST(VideoColour, OfEveryMatrixAndRangeIsThatOfZscale) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  if (test::run_shell("ffmpeg -v error -f lavfi -i color=s=16x16:d=0.04 -vf zscale -f null -", scratch.folder()).status != 0) {
+  if (test::run_shell("ffmpeg -v error -f lavfi -i color=s=16x16:d=0.04 -vf zscale -f null -",
+                      scratch.folder())
+          .status != 0) {
     GTEST_SKIP() << "this ffmpeg has no zscale";
   }
   constexpr std::size_t kSide = 320, kPatch = 16;
@@ -160,13 +166,15 @@ TEST(VideoColour, OfEveryMatrixAndRangeIsThatOfZscale) {
   test::Random random(6);
   for (const Kind& kind : {Kind{"yuv420p", "gbrp", 8}, Kind{"yuv420p10le", "gbrp10le", 10}}) {
     const std::size_t bytes = kind.bits > 8 ? 2 : 1;
-    for (const auto& [matrix, zscale] : {std::pair{YuvMatrix::bt601, "170m"}, {YuvMatrix::bt709, "709"}, {YuvMatrix::bt2020, "2020_ncl"}}) {
+    for (const auto& [matrix, zscale] :
+         {std::pair{YuvMatrix::bt601, "170m"}, {YuvMatrix::bt709, "709"}, {YuvMatrix::bt2020, "2020_ncl"}}) {
       for (const CodeRange range : {CodeRange::limited, CodeRange::full}) {
         std::array<std::vector<int>, 3> patches;
         for (std::size_t i = 0; i < (kSide / kPatch) * (kSide / kPatch); ++i) {
           const int unit = 1 << (kind.bits - 8);
           patches[0].push_back(static_cast<int>(random.whole(16, 235)) * unit);
-          for (std::size_t plane : {1, 2}) patches[plane].push_back(static_cast<int>(random.whole(90, 166)) * unit);
+          for (std::size_t plane : {1, 2})
+            patches[plane].push_back(static_cast<int>(random.whole(90, 166)) * unit);
         }
         std::string raw;
         for (std::size_t plane = 0; plane < 3; ++plane) {
@@ -180,10 +188,11 @@ TEST(VideoColour, OfEveryMatrixAndRangeIsThatOfZscale) {
           }
         }
         scratch.write("raw", raw);
-        test::make(scratch, "-f rawvideo -s 320x320 -r 25 -pix_fmt " + std::string(kind.pixels) + " -i raw -c:v ffv1 clip.mkv");
-        test::make(scratch, "-i clip.mkv -vf zscale=matrixin=" + std::string(zscale) + ":rangein=" +
-                                std::string(to_text(range)) + ":matrix=gbr:range=full,format=" + kind.rgb +
-                                " -f rawvideo wanted");
+        test::make(scratch, "-f rawvideo -s 320x320 -r 25 -pix_fmt " + std::string(kind.pixels) +
+                                " -i raw -c:v ffv1 clip.mkv");
+        test::make(scratch, "-i clip.mkv -vf zscale=matrixin=" + std::string(zscale) +
+                                ":rangein=" + std::string(to_text(range)) +
+                                ":matrix=gbr:range=full,format=" + kind.rgb + " -f rawvideo wanted");
         std::ifstream file(scratch / "wanted", std::ios::binary);
         const std::string wanted((std::istreambuf_iterator<char>(file)), {});
         ASSERT_EQ(wanted.size(), kSide * kSide * 3 * bytes);
@@ -218,7 +227,8 @@ TEST(VideoColour, OfEveryMatrixAndRangeIsThatOfZscale) {
 void set_directions(const std::filesystem::path& path, const std::array<int, 4>& directions) {
   std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-  const std::size_t at = bytes.find("tkhd") + 4 + 4 + 36;  // version and flags, then times, number, layer, volume
+  const std::size_t at =
+      bytes.find("tkhd") + 4 + 4 + 36;  // version and flags, then times, number, layer, volume
   ASSERT_LT(at + 36, bytes.size());
   std::string matrix(36, '\0');
   const auto put = [&](std::size_t index, std::int32_t value) {
@@ -242,12 +252,18 @@ void set_directions(const std::filesystem::path& path, const std::array<int, 4>&
 TEST(VideoColour, StandsUprightInAllEightDirections) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  test::make(scratch, "-f lavfi -i color=black:s=48x32:d=0.04:r=25,drawbox=0:0:16:16:white:fill,setsar=4/3 -c:v ffv1 "
-                      "-pix_fmt gray clip.mkv");
+  test::make(scratch,
+             "-f lavfi -i color=black:s=48x32:d=0.04:r=25,drawbox=0:0:16:16:white:fill,setsar=4/3 -c:v ffv1 "
+             "-pix_fmt gray clip.mkv");
   test::make(scratch, "-i clip.mkv -c:v mjpeg -q:v 1 -pix_fmt yuvj444p clip.mp4");
-  for (const std::array<int, 4>& d :
-       {std::array{1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0}, {-1, 0, 0, 1}, {1, 0, 0, -1}, {0, 1, 1, 0},
-        {0, -1, -1, 0}}) {
+  for (const std::array<int, 4>& d : {std::array{1, 0, 0, 1},
+                                      {0, 1, -1, 0},
+                                      {-1, 0, 0, -1},
+                                      {0, -1, 1, 0},
+                                      {-1, 0, 0, 1},
+                                      {1, 0, 0, -1},
+                                      {0, 1, 1, 0},
+                                      {0, -1, -1, 0}}) {
     set_directions(scratch / "clip.mp4", d);
     const auto clip = test::open_test_clip(scratch / "clip.mp4");
     const bool lies = d[0] == 0;
@@ -260,7 +276,8 @@ TEST(VideoColour, StandsUprightInAllEightDirections) {
     const int row = y < 0 ? static_cast<int>(format.shape.height) + y : y;
     for (int cell_y = 8; cell_y < static_cast<int>(format.shape.height); cell_y += 16) {
       for (int cell_x = 8; cell_x < static_cast<int>(format.shape.width); cell_x += 16) {
-        const auto at = static_cast<std::uint64_t>(cell_y) * format.shape.width + static_cast<std::uint64_t>(cell_x);
+        const auto at =
+            static_cast<std::uint64_t>(cell_y) * format.shape.width + static_cast<std::uint64_t>(cell_x);
         EXPECT_EQ(test::code_at(format, raster, at * 3) > 128, cell_x == column && cell_y == row)
             << d[0] << d[1] << d[2] << d[3] << " at " << cell_x << "," << cell_y;
       }

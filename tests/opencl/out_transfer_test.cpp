@@ -16,7 +16,7 @@ namespace {
 
 const Transfer kCaptures[] = {Transfer::srgb(),     Transfer::bt709(), Transfer::linear(),
                               Transfer::gamma(2.2), Transfer::hlg(),   Transfer::pq()};
-const std::optional<Transfer> kOutputs[] = {Transfer::srgb(),     Transfer::bt709(), Transfer::linear(),
+const std::optional<Transfer> kOutputs[] = {Transfer::srgb(),     Transfer::bt709(),  Transfer::linear(),
                                             Transfer::gamma(1.8), Transfer::gamma(6), std::nullopt};
 
 TEST(OutTransfer, IsWithinTheBoundInEveryArithmetic) {
@@ -36,15 +36,15 @@ TEST(OutTransfer, IsWithinTheBoundInEveryArithmetic) {
       const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
       const Picture light = reference.render(plan, capture, {ValueType::light64, 0}).picture;
       for (const std::optional<Transfer>& out : kOutputs) {
-        for (const OutputFormat& output : {OutputFormat{ValueType::code8, 255, NegativeLight::saturate, out},
-                                           OutputFormat{ValueType::code16, 65'535, NegativeLight::saturate, out}}) {
+        for (const OutputFormat& output :
+             {OutputFormat{ValueType::code8, 255, NegativeLight::saturate, out},
+              OutputFormat{ValueType::code16, 65'535, NegativeLight::saturate, out}}) {
           for (auto& [precision, renderer] : renderers) {
             SCOPED_TRACE(random.text() + " " + std::string(to_text(primaries)) + " as " +
                          (out ? out->text() : "its own") + " in " + to_text(precision));
             const ErrorBound bound = error_bound(plan, precision, output);
             const Rendered rendered = renderer->render(plan, capture, output);
-            const test::Difference share =
-                test::share_of_bound(plan, bound, output, rendered.picture, light);
+            const test::Difference share = test::share_of_bound(plan, bound, output, rendered.picture, light);
             EXPECT_LE(share.worst, 1.0) << "of the bound, at value " << share.value;
             worst[precision] = std::max(worst[precision], share.worst);
             EXPECT_EQ(rendered.picture.transfer, out ? *out : transfer);
@@ -65,7 +65,8 @@ TEST(OutTransfer, IsWithinTheBoundInEveryArithmetic) {
 
 // What is as bright as white on paper is as bright as white on a screen.
 TEST(OutTransfer, ShowsReferenceWhiteAsWhite) {
-  for (const auto& [transfer, code] : {std::pair{Transfer::hlg(), 0.75 * 65'535}, {Transfer::pq(), 0.58069 * 65'535}}) {
+  for (const auto& [transfer, code] :
+       {std::pair{Transfer::hlg(), 0.75 * 65'535}, {Transfer::pq(), 0.58069 * 65'535}}) {
     CaptureFormat format;
     format.shape = {1, 1, 3};
     format.code_bytes = 2;

@@ -36,7 +36,8 @@ TEST(Retiming, ChangesWhatWasStatedAndNothingElse) {
     const Scratch scratch;
     const auto path =
         test::write_tik(random, {seed % 2 == 0 ? tik::CodecId::none : tik::CodecId::zstd, 0}, scratch);
-    RetimeRequest request{path, scratch / "after.tik", {}, {}, Transfer::linear(), Primaries::p3, Rational{4, 3}};
+    RetimeRequest request{path,          scratch / "after.tik", {}, {}, Transfer::linear(),
+                          Primaries::p3, Rational{4, 3}};
     if (seed % 3 == 0) request.rate = Rational{30'000, 1001};
     const Retimed retimed = retime(request);
     tik::Reader before(path), after(request.output);
@@ -71,7 +72,8 @@ TEST(Retiming, GivesIrregularStartsAnotherAngle) {
   for (std::uint64_t k = 0; k + 1 < before.sample_count(); ++k) {
     EXPECT_EQ(after.timeline().start_ns(k), before.start_ns(k));
     const std::int64_t period = before.start_ns(k + 1) - before.start_ns(k);
-    EXPECT_NEAR(static_cast<double>(after.timeline().end_ns(k) - before.start_ns(k)), static_cast<double>(period) / 4, 1);
+    EXPECT_NEAR(static_cast<double>(after.timeline().end_ns(k) - before.start_ns(k)),
+                static_cast<double>(period) / 4, 1);
   }
   EXPECT_EQ(after.header().facts, std::vector<std::string>{"shutter 90 degrees, as stated"});
 }
@@ -83,12 +85,14 @@ TEST(Retiming, RefusesWhatItCannotDo) {
   const auto message = [&](const RetimeRequest& request) {
     return test::message_of<Error>([&] { static_cast<void>(retime(request)); });
   };
-  EXPECT_NE(message({path, scratch / "a.tik", {}, {}, {}, {}, {}}).find("what is to be corrected?"), std::string::npos);
+  EXPECT_NE(message({path, scratch / "a.tik", {}, {}, {}, {}, {}}).find("what is to be corrected?"),
+            std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(scratch / "a.tik"));
   const test::RandomCase noisy = test::noisy_case(4);
   const auto held = test::write_tik(noisy, {tik::CodecId::lz4, 0}, scratch);
   const Transfer other = noisy.capture.transfer == Transfer::linear() ? Transfer::srgb() : Transfer::linear();
-  EXPECT_NE(message({held, scratch / "a.tik", {}, {}, other, {}, {}}).find("encode the clip again"), std::string::npos);
+  EXPECT_NE(message({held, scratch / "a.tik", {}, {}, other, {}, {}}).find("encode the clip again"),
+            std::string::npos);
   EXPECT_EQ(message({held, scratch / "a.tik", Rational{7, 1}, {}, noisy.capture.transfer, {}, {}}), "");
 }
 

@@ -35,8 +35,7 @@ TEST(Thumbnail, OfTheSameSizeIsThePicture) {
 
 TEST(Thumbnail, MeansLightAndNotCodes) {
   // Half the light of white is code 188 in sRGB, not 128.
-  EXPECT_EQ(codes_of(thumbnail(grey(2, 2, {0, 255, 255, 0}), 1, 1)),
-            (std::vector<int>{188}));
+  EXPECT_EQ(codes_of(thumbnail(grey(2, 2, {0, 255, 255, 0}), 1, 1)), (std::vector<int>{188}));
   // Linear codes are light themselves; the thumbnail is sRGB all the same.
   EXPECT_EQ(codes_of(thumbnail(linear(2, 1, {0, 255}), 2, 1)), (std::vector<int>{0, 255}));
   EXPECT_EQ(codes_of(thumbnail(linear(2, 1, {0, 255}), 1, 1)), (std::vector<int>{188}));

@@ -48,7 +48,8 @@ double share_of(const Transfer& transfer, const PictureError& error, const Outpu
 }
 
 // Light as the codes of `output` are made of it: white is 1, in BT.709's primaries if it is to be seen.
-std::vector<double> shown(const CaptureFormat& capture, const OutputFormat& output, std::span<const double> light) {
+std::vector<double> shown(const CaptureFormat& capture, const OutputFormat& output,
+                          std::span<const double> light) {
   std::vector<double> result(light.begin(), light.end());
   if (!holds_codes(output.type) || !output.transfer) return result;
   // ITU-R BT.2408: 75 % of HLG, 203 of 10 000 cd/m².
@@ -62,9 +63,11 @@ std::vector<double> shown(const CaptureFormat& capture, const OutputFormat& outp
   for (std::size_t i = 0; i + 2 < result.size(); i += 3) {
     std::array<double, 3> xyz{};
     for (std::size_t row = 0; row < 3; ++row) {
-      for (std::size_t channel = 0; channel < 3; ++channel) xyz[row] += from[row][channel] * result[i + channel];
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        xyz[row] += from[row][channel] * result[i + channel];
     }
-    if (capture.primaries != Primaries::bt709) std::ranges::copy(solved(to, xyz), result.begin() + static_cast<std::ptrdiff_t>(i));
+    if (capture.primaries != Primaries::bt709)
+      std::ranges::copy(solved(to, xyz), result.begin() + static_cast<std::ptrdiff_t>(i));
   }
   return result;
 }

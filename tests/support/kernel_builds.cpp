@@ -21,13 +21,13 @@ constexpr std::uint32_t kCodeBytes[] = {1, 2};
 constexpr std::uint32_t kChannels[] = {1, 3};
 constexpr bool kFuses[] = {true, false};
 const OutputFormat kOutputs[] = {{ValueType::code8, 255},
-                                     {ValueType::code16, 65'535},
-                                     {ValueType::code8, 255, NegativeLight::saturate, Transfer::bt709()},
-                                     {ValueType::code16, 65'535, NegativeLight::saturate, Transfer::linear()},
-                                     {ValueType::light32, 0},
-                                     {ValueType::light64, 0},
-                                     {ValueType::code8, 255, NegativeLight::offset},
-                                     {ValueType::code16, 4095, NegativeLight::absolute}};
+                                 {ValueType::code16, 65'535},
+                                 {ValueType::code8, 255, NegativeLight::saturate, Transfer::bt709()},
+                                 {ValueType::code16, 65'535, NegativeLight::saturate, Transfer::linear()},
+                                 {ValueType::light32, 0},
+                                 {ValueType::light64, 0},
+                                 {ValueType::code8, 255, NegativeLight::offset},
+                                 {ValueType::code16, 4095, NegativeLight::absolute}};
 
 constexpr Exclusion kExclusions[] = {
     {"an item's pixels are whole vectors",

@@ -22,7 +22,9 @@ using test::Scratch;
 
 TEST(TikFields, AreReadAsTheyWereWritten) {
   for (const std::vector<Field>& fields :
-       {std::vector<Field>{}, {{"one ", false, ""}}, {{"abcd", true, "1"}, {"efgh", false, std::string("12\0345678", 9)}}}) {
+       {std::vector<Field>{},
+        {{"one ", false, ""}},
+        {{"abcd", true, "1"}, {"efgh", false, std::string("12\0345678", 9)}}}) {
     std::vector<std::byte> bytes = packed_fields(fields);
     EXPECT_EQ(bytes.size() % 8, 0u);
     bytes.resize(bytes.size() + 100);  // what follows in a file
@@ -87,9 +89,10 @@ TEST(TikFields, OfACaptureSayHowItIsShown) {
 
 // A file with these fields behind its picture.
 std::string file_with(const std::vector<Field>& fields) {
-  std::string text = "P5\n# TIK 1 - later\n# TIK depth: 8 bits\n# TIK white code: 255\n# TIK rate: 30 samples a second\n"
-                     "# TIK shutter angle: 360 degrees\n# TIK transfer: srgb\n# TIK tolerance: 0 codes\n# TIK codec: none\n"
-                     "1 1\n255\nx\n";
+  std::string text =
+      "P5\n# TIK 1 - later\n# TIK depth: 8 bits\n# TIK white code: 255\n# TIK rate: 30 samples a second\n"
+      "# TIK shutter angle: 360 degrees\n# TIK transfer: srgb\n# TIK tolerance: 0 codes\n# TIK codec: none\n"
+      "1 1\n255\nx\n";
   text.resize((text.size() + 63) / 64 * 64);
   const std::vector<std::byte> list = packed_fields(fields);
   text.append(reinterpret_cast<const char*>(list.data()), list.size());
@@ -105,8 +108,9 @@ TEST(TikFields, OfLaterProgramsArePassedOverUnlessTheyMustNotBe) {
   const ParsedHeader parsed = parse(passed);
   EXPECT_EQ(parsed.header.facts, (std::vector<std::string>{"one", "two"}));
   EXPECT_EQ(parsed.first_block_offset, passed.size());
-  const std::string message = test::message_of<InputError>(
-      [&] { static_cast<void>(parse(file_with({{"late", true, ""}}))); });
+  const std::string message = test::message_of<InputError>([&] {
+    static_cast<void>(parse(file_with({{"late", true, ""}})));
+  });
   EXPECT_NE(message.find("'late'"), std::string::npos) << message;
   EXPECT_NE(message.find("a later one"), std::string::npos) << message;
   EXPECT_THROW(static_cast<void>(parse(file_with({{"prim", true, "bt1886"}}))), InputError);

@@ -55,7 +55,8 @@ constexpr Option kRows[] = {
      "and grey video of more than 8 bits and for 16-bit colour; what deep video names; a .tik's own)",
      "srgb bt709 linear gamma: hlg pq"},
     {0, "matrix", "NAME", decoding, kDecodesClips, &Options::matrix,
-     "how a video's YUV becomes RGB: bt601, bt709 or bt2020 (default: what the file says; else bt709 from 720 "
+     "how a video's YUV becomes RGB: bt601, bt709 or bt2020 (default: what the file says; else bt709 from "
+     "720 "
      "lines on, bt601 below)",
      "bt601 bt709 bt2020"},
     {0, "range", "NAME", decoding, kDecodesClips, &Options::range,
@@ -233,9 +234,10 @@ constexpr Option kRows[] = {
      "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
      "darker), abs (as bright as light above it) (default: saturate)",
      "saturate offset abs"},
-    {0, "out-transfer", "NAME", exposure,
-     set_of(Id::expose, Id::video, Id::sweep, Id::trace, Id::validate), &Options::out_transfer,
-     "how the picture's codes stand for light: srgb, bt709, linear, gamma:G, or source: as in the capture, with "
+    {0, "out-transfer", "NAME", exposure, set_of(Id::expose, Id::video, Id::sweep, Id::trace, Id::validate),
+     &Options::out_transfer,
+     "how the picture's codes stand for light: srgb, bt709, linear, gamma:G, or source: as in the capture, "
+     "with "
      "its own white code (default: srgb, white being the largest code)",
      "srgb source linear bt709 gamma:"},
     {0, "codec", "NAME", encoding, bit(Id::encode), &Options::codec,

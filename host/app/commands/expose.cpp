@@ -37,8 +37,8 @@ int run_expose(const Options& options) {
   answer.json.update(shape_json(exposed.picture.shape));
   answer.json.update(
       {{"samples", samples}, {"live_samples", figures.live_samples}, {"functions", functions_json(figures)}});
-  answer.line = format("{}: {}, {} of {} samples{}{}", output.string(), shape_text(shape), figures.live_samples,
-                       samples, still_gains_text(figures, !options.functions),
+  answer.line = format("{}: {}, {} of {} samples{}{}", output.string(), shape_text(shape),
+                       figures.live_samples, samples, still_gains_text(figures, !options.functions),
                        codes_text(figures.capture, exposed.output));
   if (options.verbose) answer.details.push_back(plan_text(figures));
   tally.end(answer, session, options.verbose);

@@ -33,11 +33,11 @@ int run_retime(const Options& options) {
                       {"primaries", to_text(capture.primaries)},
                       {"pixel_aspect", aspect_text(capture.pixel_aspect)},
                       {"file_bytes", file_bytes}});
-  answer.line = format("{}: {}, {}, {} a second, shutter {} degrees, transfer {}, primaries {}, pixels {}",
-                       request.output.string(), shape_text(capture.shape),
-                       counted(timeline.sample_count(), "sample"), timeline.rate().text(),
-                       timeline.shutter_angle().text(), capture.transfer.text(), to_text(capture.primaries),
-                       aspect_text(capture.pixel_aspect));
+  answer.line =
+      format("{}: {}, {}, {} a second, shutter {} degrees, transfer {}, primaries {}, pixels {}",
+             request.output.string(), shape_text(capture.shape), counted(timeline.sample_count(), "sample"),
+             timeline.rate().text(), timeline.shutter_angle().text(), capture.transfer.text(),
+             to_text(capture.primaries), aspect_text(capture.pixel_aspect));
   return tell(options, request.output, answer, true);
 }
 

@@ -109,7 +109,9 @@ int run_trace(const Options& options) {
   if (!options.quiet) {
     const GainSummary& summary = function.summary;
     print_line(format("{}{}: light {}, code {}; {} steps, D {}, ∫g {}", output ? output->string() + ": " : "",
-                      title, light_text(trace), traced_codes(trace, exposure.figures.capture, output_format(output_request(options), session.format())),
+                      title, light_text(trace),
+                      traced_codes(trace, exposure.figures.capture,
+                                   output_format(output_request(options), session.format())),
                       trace.steps.size(), integral_text(static_cast<double>(summary.support_ns)),
                       integral_text(std::scalbn(summary.integral_ns, summary.exponent))));
     print_source(session, options);

@@ -41,7 +41,8 @@ std::vector<std::string> fact_lines(std::span<const Fact> facts) {
   }
   if (const std::string colours = facts_text(facts, false); !colours.empty()) {
     const std::string others = options_text(assumed);
-    lines.push_back(format("colour: {}{}", colours, others.empty() ? "" : "; what is assumed can be stated" + others));
+    lines.push_back(
+        format("colour: {}{}", colours, others.empty() ? "" : "; what is assumed can be stated" + others));
   }
   return lines;
 }

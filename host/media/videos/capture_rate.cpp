@@ -19,7 +19,8 @@ constexpr double kSameRate = 0.02;
 
 std::uint64_t big_endian(Bytes bytes, std::size_t at, std::size_t count) {
   std::uint64_t number = 0;
-  for (std::size_t i = 0; i < count; ++i) number = number << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
+  for (std::size_t i = 0; i < count; ++i)
+    number = number << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
   return number;
 }
 
@@ -135,9 +136,10 @@ void apply_capture_rate(const CaptureRate& filmed, ClipTiming& timing, std::vect
     return;
   }
   notes.emplace_back(
-      format("{} says that {} pictures a second were filmed, which the file plays as {:.6g}: times are those of "
-             "filming; state another rate if that is wrong",
-             filmed.name, filmed.rate.text(), played),
+      format(
+          "{} says that {} pictures a second were filmed, which the file plays as {:.6g}: times are those of "
+          "filming; state another rate if that is wrong",
+          filmed.name, filmed.rate.text(), played),
       std::vector{Setting::frame_rate});
   timing.rate_from = format("the file's {}", filmed.name);
   if (timing.rate) {

@@ -56,7 +56,8 @@ std::optional<CineHeader> read_cine_header(const std::filesystem::path& path) {
   std::uint64_t tag = setup + number<std::uint16_t>(file, setup + 142);
   constexpr std::uint64_t kShutter = 772;
   constexpr std::int64_t kNsInUs = 1000;
-  if (const auto shutter_us = number<std::uint32_t>(file, setup + kShutter); shutter_us > 0 && tag >= setup + kShutter + 4) {
+  if (const auto shutter_us = number<std::uint32_t>(file, setup + kShutter);
+      shutter_us > 0 && tag >= setup + kShutter + 4) {
     header.exposed_ns = shutter_us * kNsInUs;
   }
   while (tag + kTagHeaderBytes <= tags_end) {

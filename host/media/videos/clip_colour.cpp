@@ -40,9 +40,9 @@ void describe(CaptureFormat& capture, std::vector<Fact>& facts, const Probe& pro
   // Everyday cameras name BT.709's curve whatever theirs is, and players show sRGB's. HLG and PQ are meant.
   const bool is_meant = !pixels.is_everyday() || (probe.transfer && probe.transfer->reference_white() < 1.0);
   const auto named = is_meant ? probe.transfer : std::nullopt;
-  capture.transfer = settle(facts, options.transfer, named,
-                            is_scientific ? Transfer::linear() : Transfer::srgb(), Setting::transfer,
-                            [](const Transfer& transfer) { return "transfer " + transfer.text(); });
+  capture.transfer =
+      settle(facts, options.transfer, named, is_scientific ? Transfer::linear() : Transfer::srgb(),
+             Setting::transfer, [](const Transfer& transfer) { return "transfer " + transfer.text(); });
   if (facts.back().origin == Origin::assumed && !probe.transfer_name.empty()) {
     facts.back().remark = format("the file names {}", probe.transfer_name);
   }
@@ -54,10 +54,9 @@ void describe(CaptureFormat& capture, std::vector<Fact>& facts, const Probe& pro
   }
   if (!pixels.is_grey) {
     const bool is_wide = yuv_coding(probe, options).matrix == YuvMatrix::bt2020;
-    capture.primaries =
-        settle(facts, options.primaries, probe.primaries, is_wide ? Primaries::bt2020 : Primaries::bt709,
-               Setting::primaries,
-               [](Primaries primaries) { return format("primaries {}", to_text(primaries)); });
+    capture.primaries = settle(
+        facts, options.primaries, probe.primaries, is_wide ? Primaries::bt2020 : Primaries::bt709,
+        Setting::primaries, [](Primaries primaries) { return format("primaries {}", to_text(primaries)); });
   }
   capture.pixel_aspect = settle(facts, options.pixel_aspect, probe.pixel_aspect, Rational{1, 1},
                                 Setting::pixel_aspect, aspect_text);

@@ -15,6 +15,7 @@ namespace nutik::videos {
 [[nodiscard]] YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options);
 
 // Transfer function, primaries and pixel aspect of the capture; facts on these, and on matrix and range of YUV.
-void describe(CaptureFormat& capture, std::vector<Fact>& facts, const Probe& probe, const ClipOptions& options);
+void describe(CaptureFormat& capture, std::vector<Fact>& facts, const Probe& probe,
+              const ClipOptions& options);
 
 }  // namespace nutik::videos

@@ -220,7 +220,8 @@ Upright upright(const AVStream& stream) {
     matrix[1] = -matrix[1];
   }
   const double turned = av_display_rotation_get(matrix);  // counter-clockwise
-  if (!std::isnan(turned)) upright.quarter_turns = static_cast<int>((std::lround(-turned / 90.0) % 4 + 4) % 4);
+  if (!std::isnan(turned))
+    upright.quarter_turns = static_cast<int>((std::lround(-turned / 90.0) % 4 + 4) % 4);
   return upright;
 }
 
@@ -271,7 +272,7 @@ void PixelConverter::convert(const AVFrame& frame, std::span<std::byte> raster, 
   }
   const AVFrame& picture = converted(frame, name);
   copy_upright(picture.data[0], picture.linesize[0], static_cast<std::size_t>(picture.width),
-              static_cast<std::size_t>(picture.height), pixel_bytes, upright_, raster);
+               static_cast<std::size_t>(picture.height), pixel_bytes, upright_, raster);
   if (kind_.padding_bits == 0) return;
   auto* codes = reinterpret_cast<std::uint16_t*>(raster.data());
   for (std::size_t i = 0; i < raster.size() / 2; ++i) {

@@ -269,7 +269,8 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
     apply_capture_rate(*filmed, result.timing, result.notes);
   } else if (has_slow_parts(path)) {
     result.notes.emplace_back(
-        "Samsung's camera names parts of the file that are slow motion: they may have been filmed faster than "
+        "Samsung's camera names parts of the file that are slow motion: they may have been filmed faster "
+        "than "
         "the file plays; state the rate of the part that you use",
         std::vector{Setting::frame_rate});
   }

@@ -20,11 +20,11 @@ struct Probe {
   PixelKind pixels;
   AVPixelFormat pixel_format = AV_PIX_FMT_NONE;
   Upright upright;
-  std::optional<YuvMatrix> matrix;        // as the file names them
+  std::optional<YuvMatrix> matrix;  // as the file names them
   std::optional<CodeRange> range;
   std::optional<Primaries> primaries;
-  std::optional<Rational> pixel_aspect;   // of pictures that stand upright
-  std::string transfer_name;              // that the file has for its function, known here or not; empty: it has none
+  std::optional<Rational> pixel_aspect;  // of pictures that stand upright
+  std::string transfer_name;  // that the file has for its function, known here or not; empty: it has none
   ClipTiming timing;
   std::uint64_t sample_count = 0;
   std::optional<Transfer> transfer;  // where the file names one that is known here
