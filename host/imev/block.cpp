@@ -105,6 +105,29 @@ bool BlockView::slots_increase(const std::byte* body, std::uint32_t slots) const
   return true;
 }
 
+template <typename Index>
+bool BlockView::rows_increase(const std::byte* list, std::uint32_t rows) const {
+  Index before = 0, now = 0;
+  std::memcpy(&now, list, sizeof now);
+  unsigned flaws = now != 0;
+  for (std::uint32_t row = 1; row < rows; ++row, before = now) {
+    std::memcpy(&now, list + row * sizeof now, sizeof now);
+    flaws |= static_cast<unsigned>(now <= before) | static_cast<unsigned>(now >= geometry_.sample_count);
+  }
+  return flaws == 0;
+}
+
+bool BlockView::samples_increase(const TileEntry& at, const std::byte* body) const {
+  const bool is_narrow = geometry_.index_bytes() == 1;
+  if (at.is_records()) {
+    return is_narrow ? slots_increase<std::uint8_t>(body, at.slots())
+                     : slots_increase<std::uint16_t>(body, at.slots());
+  }
+  if (geometry_.row_index_bytes(at.rows()) == 0) return true;  // still or dense: no list
+  return is_narrow ? rows_increase<std::uint8_t>(body, at.rows())
+                   : rows_increase<std::uint16_t>(body, at.rows());
+}
+
 void BlockView::check_samples(std::uint64_t first, std::uint64_t last) const {
   constexpr std::uint64_t kTilesAtOnce = 4096;
   parallel_for((last - first + kTilesAtOnce - 1) / kTilesAtOnce, [&](std::uint64_t part) {
@@ -112,15 +135,13 @@ void BlockView::check_samples(std::uint64_t first, std::uint64_t last) const {
     const std::uint64_t begin = first + part * kTilesAtOnce;
     for (std::uint64_t tile = begin; tile < std::min(begin + kTilesAtOnce, last); ++tile) {
       const TileEntry at = entry(tile);
-      if (!at.is_records()) {
-        for (std::uint32_t row = 0, before = 0; row < at.rows(); ++row)
-          before = row_sample(tile, row, before);
-        continue;
+      if (samples_increase(at, body(tile).data())) continue;
+      // Again, for the sentence that says where not.
+      for (std::uint32_t row = 0, before = 0; !at.is_records() && row < at.rows(); ++row) {
+        before = row_sample(tile, row, before);
       }
-      const std::byte* bytes = body(tile).data();
-      const bool increase = geometry_.index_bytes() == 1 ? slots_increase<std::uint8_t>(bytes, at.slots())
-                                                         : slots_increase<std::uint16_t>(bytes, at.slots());
-      for (std::uint32_t lane = 0; !increase && lane < kTilePixels; ++lane) read_history(tile, lane, history);
+      for (std::uint32_t lane = 0; at.is_records() && lane < kTilePixels; ++lane)
+        read_history(tile, lane, history);
     }
   });
 }

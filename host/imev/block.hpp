@@ -161,6 +161,10 @@ class BlockView {
   [[nodiscard]] std::uint32_t index_at(const std::byte* list, std::uint64_t position) const;
   template <typename Index>
   [[nodiscard]] bool slots_increase(const std::byte* body, std::uint32_t slots) const;
+  template <typename Index>
+  [[nodiscard]] bool rows_increase(const std::byte* list, std::uint32_t rows) const;
+  // Whether a tile's sample numbers do, and are the block's.
+  [[nodiscard]] bool samples_increase(const TileEntry& at, const std::byte* body) const;
   // The sample at which a row of a tile of rows begins, the one before it beginning at `before`.
   [[nodiscard]] std::uint32_t row_sample(std::uint64_t tile, std::uint32_t row, std::uint32_t before) const;
   [[nodiscard]] ChangeRecord record_at(std::uint32_t sample, const std::byte* codes,
