@@ -1,5 +1,6 @@
 #include "media/png_file.hpp"
 
+#include <algorithm>
 #include <png.h>
 
 #include <array>
@@ -147,6 +148,8 @@ bool is_png(std::span<const std::byte> file) {
   return file.size() >= 8 && png_sig_cmp(reinterpret_cast<png_const_bytep>(file.data()), 0, 8) == 0;
 }
 
+constexpr std::uint64_t kMostExpansion = 1032;  // of Deflate
+
 Picture read_grey_png(std::span<const std::byte> file, const std::string& name,
                       const std::function<void(std::uint32_t, std::uint32_t)>& check_size) {
   std::string error_name = name;
@@ -162,7 +165,6 @@ Picture read_grey_png(std::span<const std::byte> file, const std::string& name,
   }
   const Shape shape{png_get_image_width(read.png, read.info), png_get_image_height(read.png, read.info), 1};
   if (check_size) check_size(shape.width, shape.height);
-  constexpr std::uint64_t kMostExpansion = 1032;  // of Deflate
   if (shape.pixel_count() > file.size() * kMostExpansion) {
     throw InputError(
         format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged",
@@ -191,8 +193,8 @@ std::optional<std::string> read_png_text(std::span<const std::byte> file, const 
   ReadStructure read(error_name, refuse_lost_text);
   ByteReader reader{file};
   png_set_read_fn(read.png, &reader, read_bytes);
-  png_set_chunk_malloc_max(read.png,
-                           kMostPictureTextBytes);  // libpng's own 8 MB are less than function files
+  // libpng's own 8 MB are less than function files, and more than a small file can hold.
+  png_set_chunk_malloc_max(read.png, std::min<std::uint64_t>(kMostPictureTextBytes, file.size() * kMostExpansion));
   png_read_info(read.png, read.info);
   png_textp texts = nullptr;
   const int count = png_get_text(read.png, read.info, &texts, nullptr);
