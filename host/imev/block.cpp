@@ -1,6 +1,7 @@
 #include "imev/block.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "capture/error.hpp"

@@ -28,8 +28,9 @@ struct LeaseTerms {
   // in memory anyway does not ask. Without it a payload is unpacked into memory of the source's own.
   RoomForPayload room = {};
 
-  // Asked by a source that unpacks tiles in groups, after `room`, for each group once, in their order. Bodies of a group
-  // that is not wanted are left as they were in the room; the directory is always whole. Without it all are wanted.
+  // Asked by a source that unpacks tiles in groups, after `room`, for each group once, in their order. Bodies of a
+  // group that is not wanted are left as they were in the room; the directory is always whole. Without it all are
+  // wanted.
   WantsTiles wants = {};
 };
 

@@ -70,7 +70,8 @@ struct ClipOptions {
   std::optional<CodeRange> range = std::nullopt;
   std::optional<Primaries> primaries = std::nullopt;
   std::optional<Rational> pixel_aspect = std::nullopt;
-  // What its decoder may hold: it works on no more pictures at a time than fit, one at least. None: on one for each core.
+  // What its decoder may hold: it works on no more pictures at a time than fit, one at least. None: on one for each
+  // core.
   std::optional<std::uint64_t> decoder_bytes = std::nullopt;
   friend bool operator==(const ClipOptions&, const ClipOptions&) = default;
 };

@@ -20,8 +20,8 @@ struct PhotronHeader {
 // What a header's text says; whatever it does not say, or what makes no sense, is left out.
 [[nodiscard]] PhotronHeader parse_photron_header(std::string_view text);
 
-// The header of a file of pictures, which has its name, or the only one in a folder of them. None where there is none, or
-// it tells no rate.
+// The header of a file of pictures, which has its name, or the only one in a folder of them. None where there is
+// none, or it tells no rate.
 [[nodiscard]] std::optional<PhotronHeader> photron_header_of(const std::filesystem::path& pictures);
 
 }  // namespace nutik

@@ -1,8 +1,8 @@
 #include "media/png_file.hpp"
 
-#include <algorithm>
 #include <png.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -129,6 +129,8 @@ void write_coding_points(png_structp png, const Picture& picture) {
   png_write_chunk(png, kName, points.data(), points.size());
 }
 
+constexpr std::uint64_t kMostExpansion = 1032;  // of Deflate
+
 // From here on a text is compressed.
 constexpr std::size_t kLongText = 1024;
 
@@ -147,8 +149,6 @@ void set_text(png_structp png, png_infop info, const std::string& text) {
 bool is_png(std::span<const std::byte> file) {
   return file.size() >= 8 && png_sig_cmp(reinterpret_cast<png_const_bytep>(file.data()), 0, 8) == 0;
 }
-
-constexpr std::uint64_t kMostExpansion = 1032;  // of Deflate
 
 Picture read_grey_png(std::span<const std::byte> file, const std::string& name,
                       const std::function<void(std::uint32_t, std::uint32_t)>& check_size) {
@@ -194,7 +194,8 @@ std::optional<std::string> read_png_text(std::span<const std::byte> file, const 
   ByteReader reader{file};
   png_set_read_fn(read.png, &reader, read_bytes);
   // libpng's own 8 MB are less than function files, and more than a small file can hold.
-  png_set_chunk_malloc_max(read.png, std::min<std::uint64_t>(kMostPictureTextBytes, file.size() * kMostExpansion));
+  png_set_chunk_malloc_max(read.png,
+                           std::min<std::uint64_t>(kMostPictureTextBytes, file.size() * kMostExpansion));
   png_read_info(read.png, read.info);
   png_textp texts = nullptr;
   const int count = png_get_text(read.png, read.info, &texts, nullptr);

@@ -14,9 +14,9 @@
 //            └─────────┴──────────┴─────────┴─────────
 //
 // Payloads come in chunks (block_feed.hpp), which end where a slice does. Chunks hold all tiles of their blocks,
-// so a kernel finds a tile by its number in the picture (Band::first_tile, skipped_columns); everything else that it reads and writes is the band's
-// or the slice's own, and numbered from there. However it is cut, each pixel's sum is made of the same blocks in
-// the same order: the picture is the same to the last bit.
+// so a kernel finds a tile by its number in the picture (Band::first_tile, skipped_columns); everything else that it
+// reads and writes is the band's or the slice's own, and numbered from there. However it is cut, each pixel's sum is
+// made of the same blocks in the same order: the picture is the same to the last bit.
 #pragma once
 
 #include <cstddef>

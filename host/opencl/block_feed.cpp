@@ -180,7 +180,8 @@ BlockLease BlockFeed::lease_next(Filling& filling) {
                                           wants(planned)});
 }
 
-// What this exposure reads of a block; all of it where it is resident already, but with too little of it: once is enough.
+// What this exposure reads of a block; all of it where it is resident already, but with too little of it: once is
+// enough.
 WantsTiles BlockFeed::wants(const PlannedBlock& planned) {
   unpacked_.clear();
   if (!is_resident()) return tiles_->of(planned);

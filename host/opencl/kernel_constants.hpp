@@ -61,7 +61,8 @@ class KernelConstants {
   // Maps of `most_map_bytes` are kept.
   explicit KernelConstants(std::uint64_t most_map_bytes) : maps_(most_map_bytes) {}
 
-  // `permutes_pieces` as for light_source(). What is returned counts in `memory`; it stays until the next of its kind is asked for.
+  // `permutes_pieces` as for light_source(). What is returned counts in `memory`; it stays until the next of its kind
+  // is asked for.
   const DeviceLight& light(const RenderPlan& plan, Precision precision, bool permutes_pieces,
                            DeviceMemory& memory);
   // Null where the codes lie too close together (code_search.hpp).

@@ -234,7 +234,8 @@ class OpenClRenderer::Implementation {
     expose_program(work, plan, light);
     if (!options_.tests_itself) return {};
     const TestedPrograms programs{precision, options_of_exposing(work, plan, light),
-                                  options_of_developing(work, plan, output), kernels_make_codes(plan.capture, output)};
+                                  options_of_developing(work, plan, output),
+                                  kernels_make_codes(plan.capture, output)};
     const std::string key = programs.text();
     if (const auto known = verdict_on_.find(key); known != verdict_on_.end()) return known->second;
     std::optional<Verdict> verdict;

@@ -2,8 +2,8 @@
 //
 //   in:      a plan, its capture, the picture's format, a device
 //   out:     for each arithmetic its bound, its errors against the reference, its times
-//   always:  the capture is resident on the device and all kernels are built before anything is timed; timed renders take
-//            turns, so that what else the machine does hits all arithmetics alike
+//   always:  the capture is resident on the device and all kernels are built before anything is timed; timed renders
+//            take turns, so that what else the machine does hits all arithmetics alike
 #pragma once
 
 #include <cstdint>

@@ -29,14 +29,14 @@ constexpr double kSmallest = 16 * std::numeric_limits<double>::denorm_min();
 
 // What an arithmetic adds to the error, to first order: multiples of `unit` for each of a function's measures.
 struct Roundings {
-  double unit;            // what one rounding errs by
-  double of_sum;          // each term added to others, or block to those before, of the largest that the sum can be
-  double of_weight;       // each weight: rounding it, or a difference of boundaries, the product, adding it
-  double of_boundary;     // each boundary that a difference is made of
-  double light;           // codes to light, absolute
-  double threshold;       // between codes, absolute
-  double unnormal;        // numbers too small to be normal: each operation, in scaled gain
-  double growth;          // a bound for what first order leaves out, each rounding in a row
+  double unit;    // what one rounding errs by
+  double of_sum;  // each term added to others, or block to those before, of the largest that the sum can be
+  double of_weight;    // each weight: rounding it, or a difference of boundaries, the product, adding it
+  double of_boundary;  // each boundary that a difference is made of
+  double light;        // codes to light, absolute
+  double threshold;    // between codes, absolute
+  double unnormal;     // numbers too small to be normal: each operation, in scaled gain
+  double growth;       // a bound for what first order leaves out, each rounding in a row
 };
 
 Roundings roundings_of(Precision precision, const Transfer& transfer) {
@@ -57,9 +57,8 @@ Roundings roundings_of(Precision precision, const Transfer& transfer) {
 
 double floating_error(const FunctionCourse& course, Precision precision, const Roundings& roundings) {
   const double first_order =
-      roundings.unit *
-          (roundings.of_sum * (course.partial_sums + course.block_sums) +
-           roundings.of_weight * course.magnitude + roundings.of_boundary * course.boundaries) +
+      roundings.unit * (roundings.of_sum * (course.partial_sums + course.block_sums) +
+                        roundings.of_weight * course.magnitude + roundings.of_boundary * course.boundaries) +
       course.boundary_errors(precision) + roundings.light * course.magnitude +
       roundings.unnormal * (course.sample_count + course.block_count);
   const double growth = roundings.growth * (course.longest_block + course.block_count + 8);

@@ -28,7 +28,8 @@ struct MeasuredActivity {
 
   [[nodiscard]] bool is_still() const { return changes() == 0; }
   [[nodiscard]] std::uint64_t changes() const;  // of all pixels, at all samples
-  // As shares of the pixels that count: of one sample; of a stretch, and of all that has a sample before it, on average.
+  // As shares of the pixels that count: of one sample; of a stretch, and of all that has a sample before it, on
+  // average.
   [[nodiscard]] double changed_share(std::uint64_t sample) const;
   [[nodiscard]] double mean_share(const ActivityStretch& stretch) const;
   [[nodiscard]] double mean_share() const;

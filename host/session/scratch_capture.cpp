@@ -46,7 +46,8 @@ class FolderLock {
   int descriptor_;
 };
 
-// Removes what processes left behind that were killed. A new folder is not locked at once: it is left alone for a while.
+// Removes what processes left behind that were killed. A new folder is not locked at once: it is left alone for a
+// while.
 void remove_abandoned_folders(const fs::path& where) {
   constexpr std::time_t kNewSeconds = 60;
   std::error_code ignored;

@@ -31,7 +31,7 @@ struct SheetWishes {
   friend bool operator==(const SheetWishes&, const SheetWishes&) = default;
 };
 inline constexpr std::uint32_t kUsualWidth = 1600;
-inline constexpr std::uint64_t kMostPictures = 400;    // on a sheet
+inline constexpr std::uint64_t kMostPictures = 400;  // on a sheet
 inline constexpr std::uint32_t kNarrowestCell = 48;  // in which a label can be read
 
 // A layout for `count` pictures of this shape. No picture is enlarged where no width was asked for. Throws

@@ -25,8 +25,8 @@ void check_interruption();
 // Forgets a signal that was noted, for who has caught Interrupted and still has work to finish.
 void clear_interruption();
 
-// While one lives, a signal is answered when somebody looks, however long that takes: for work that is worth more than a
-// quick answer.
+// While one lives, a signal is answered when somebody looks, however long that takes: for work that is worth more
+// than a quick answer.
 class TimeToEnd {
  public:
   TimeToEnd();

@@ -17,6 +17,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/reused_entries.hpp"
 #include "system/shared_state.hpp"
 
 namespace nutik {
@@ -76,14 +77,7 @@ bool is_unchanged(const WatchedMapping& mapping) {
 
 WatchedMapping* watch(std::string name, int descriptor, const struct stat& status, const void* begin) {
   const std::scoped_lock lock(shared_state().registering_mappings);
-  WatchedMapping* mapping = shared_state().mappings.load();
-  while (mapping != nullptr && !mapping->is_free) mapping = mapping->next;
-  if (mapping == nullptr) {
-    mapping = new WatchedMapping;
-    mapping->next = shared_state().mappings.load();
-    shared_state().mappings.store(mapping);
-  }
-  mapping->is_free = false;
+  WatchedMapping* const mapping = &reused_entry(shared_state().mappings);
   mapping->name = std::move(name);
   mapping->descriptor = descriptor;
   mapping->at_first = status;

@@ -1,7 +1,7 @@
 // A file's bytes, mapped into memory read-only.
 //
-// What is mapped may be lost while it is looked at: a file that somebody makes shorter, a disk that fails. The system then
-// ends the process (SIGBUS) unless an application has asked for something else, with watch_mapped_files().
+// What is mapped may be lost while it is looked at: a file that somebody makes shorter, a disk that fails. The system
+// then ends the process (SIGBUS) unless an application has asked for something else, with watch_mapped_files().
 //
 //   always:  what was made of a file that was lost or written to meanwhile is not used: check_mapped_files() throws
 #pragma once

@@ -16,6 +16,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "system/mapped_file.hpp"
+#include "system/reused_entries.hpp"
 #include "system/shared_state.hpp"
 
 namespace nutik {
@@ -31,14 +32,7 @@ namespace {
 
 KnownTemporary* make_known(const std::string& path) {
   const std::scoped_lock lock(shared_state().registering_temporaries);
-  KnownTemporary* known = shared_state().temporaries.load();
-  while (known != nullptr && !known->is_free) known = known->next;
-  if (known == nullptr) {
-    known = new KnownTemporary;
-    known->next = shared_state().temporaries.load();
-    shared_state().temporaries.store(known);
-  }
-  known->is_free = false;
+  KnownTemporary* const known = &reused_entry(shared_state().temporaries);
   if (path.size() < known->path.size()) {
     std::memcpy(known->path.data(), path.c_str(), path.size() + 1);
     known->is_there = true;

@@ -21,9 +21,9 @@ class OutputFile {
   // Where a file is to be found again after the power failed, or only while the program runs.
   enum class Lasting { yes, no };
 
-  // Creates the temporary file, `.<name>.nutik.part`, or `.<name>.nutik-1.part` where another process is writing that one. What a
-  // process left behind that was killed is taken over. A link's target is written, whether there is one or not.
-  // Throws OutputError where the folder is absent or not writable.
+  // Creates the temporary file, `.<name>.nutik.part`, or `.<name>.nutik-1.part` where another process is writing that
+  // one. What a process left behind that was killed is taken over. A link's target is written, whether there is one
+  // or not. Throws OutputError where the folder is absent or not writable.
   explicit OutputFile(std::filesystem::path path, Lasting lasting = Lasting::yes);
   // Removes the temporary file unless commit() was called.
   ~OutputFile();

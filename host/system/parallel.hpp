@@ -13,8 +13,9 @@
 
 namespace nutik {
 
-// Calls work(i) for every i in [0, count), each once, on as many threads as there are cores, or `most_threads` if that is
-// fewer. The first exception is thrown again when all have stopped; a signal is one (system/interruption.hpp).
+// Calls work(i) for every i in [0, count), each once, on as many threads as there are cores, or `most_threads` if
+// that is fewer. The first exception is thrown again when all have stopped; a signal is one
+// (system/interruption.hpp).
 template <typename Work>
 void parallel_for(std::uint64_t count, Work work, std::uint32_t most_threads = ~std::uint32_t{0}) {
   std::atomic<std::uint64_t> next{0};

@@ -276,8 +276,9 @@ void check_raster(const ParsedHeader& parsed, std::uint64_t file_bytes, const st
   // So that its bytes can be counted in 64 bits.
   const bool is_possible = shape.pixel_count() <= file_bytes;
   if (is_possible && parsed.raster_offset + raster_bytes(parsed.header.capture) < file_bytes) return;
-  throw InputError(format("{}: it was cut off or is damaged: it states {} x {} pixels, which its {} bytes do not hold",
-                          name, shape.width, shape.height, file_bytes));
+  throw InputError(
+      format("{}: it was cut off or is damaged: it states {} x {} pixels, which its {} bytes do not hold",
+             name, shape.width, shape.height, file_bytes));
 }
 
 }  // namespace

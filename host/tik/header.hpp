@@ -63,8 +63,8 @@ struct ParsedHeader {
 [[nodiscard]] bool looks_like_tik(std::span<const std::byte> file);
 
 // Throws InputError, beginning with `name`, where the file is no .tik, of a later version or with a field that it must
-// not be read without, or its header is damaged; a Netpbm picture without TIK comments and a .tik of the original program are told apart
-// from garbage.
+// not be read without, or its header is damaged; a Netpbm picture without TIK comments and a .tik of the original
+// program are told apart from garbage.
 [[nodiscard]] ParsedHeader parse_header(std::span<const std::byte> file, const std::string& name);
 
 // Throws InputError where a field that is not known must be understood.

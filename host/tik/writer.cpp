@@ -51,12 +51,16 @@ Writer::Writer(const std::filesystem::path& path, const Header& header, const Co
 
 Writer Writer::from_raster(const std::filesystem::path& path, const Header& header,
                            std::span<const std::byte> raster) {
-  return {path, header, Codec{CodecId::none, 0}, NetpbmRaster{{raster.begin(), raster.end()}}, 1,
+  return {path,
+          header,
+          Codec{CodecId::none, 0},
+          NetpbmRaster{{raster.begin(), raster.end()}},
+          1,
           OutputFile::Lasting::yes};
 }
 
-Writer::Writer(const std::filesystem::path& path, Header header, const Codec& codec, const NetpbmRaster& raster,
-               std::uint32_t most_threads, OutputFile::Lasting lasting)
+Writer::Writer(const std::filesystem::path& path, Header header, const Codec& codec,
+               const NetpbmRaster& raster, std::uint32_t most_threads, OutputFile::Lasting lasting)
     : file_(path, lasting), header_(std::move(header)), codec_(codec), most_threads_(most_threads) {
   header_.version = kVersion;
   std::vector<std::byte> front = raster.bytes;

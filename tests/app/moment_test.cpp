@@ -97,7 +97,8 @@ TEST_F(Moment, ContactSheetRefusesWhatMakesNoSense) {
   expect_refused({"contact", "--every", "often", "clip.tik"}, 2, "--every 'often' is no time");
   expect_refused({"contact", "--start", "3s", "clip.tik"}, 2, "outside the capture, which lasts 200 ms");
   expect_refused({"contact", "--columns", "0", "clip.tik"}, 2, "--columns '0' is no whole number");
-  expect_refused({"contact", "--columns", "20", "--width", "300", "clip.tik"}, 2, "choose fewer columns or a larger width (--columns, --width)");
+  expect_refused({"contact", "--columns", "20", "--width", "300", "clip.tik"}, 2,
+                 "choose fewer columns or a larger width (--columns, --width)");
   expect_refused({"contact", "clip.tik", "sheet.pgm"}, 2, "sheet.pgm holds grey pictures only");
   expect_refused({"contact", "clip.tik", "sheet.pfm"}, 2, "sheet.pfm holds floating point only");
   expect_refused({"contact", "clip.tik", "clip.tik"}, 2, "is also an input");

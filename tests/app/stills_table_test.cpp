@@ -29,7 +29,8 @@ TEST(StillsTableProgram, KeepsTheListedExposures) {
   scratch.write("stills.csv",
                 "file,start_ns,exposure_ns\ndark.pgm,7,10000000\nbright.pgm,40000007,10000000\n");
   const test::ProgramResult encoded = run({"--transfer", "linear", "stills.csv", "c.tik"});
-  EXPECT_NE(encoded.out.find("shutter 144 degrees (from the mean of the listed exposures)"), std::string::npos)
+  EXPECT_NE(encoded.out.find("shutter 144 degrees (from the mean of the listed exposures)"),
+            std::string::npos)
       << encoded.out;
   EXPECT_NE(run({"info", "c.tik"}).out.find("(irregular), shutter 144 degrees"), std::string::npos);
   const auto code_of = [&](std::vector<std::string> words) {
@@ -43,7 +44,8 @@ TEST(StillsTableProgram, KeepsTheListedExposures) {
   EXPECT_EQ(code_of({"--start", "30ms", "--exposure", "10ms", "c.tik"}), 133);
   EXPECT_EQ(code_of({"--transfer", "linear", "--start", "30ms", "--exposure", "10ms", "stills.csv"}), 133);
   // Frames of a video, too: 10 ms of every 10 ms, five in all.
-  run({"video", "--out-fps", "100", "--out-angle", "360", "c.tik", "v-%d.pgm", "-q", "--out-transfer", "source"});
+  run({"video", "--out-fps", "100", "--out-angle", "360", "c.tik", "v-%d.pgm", "-q", "--out-transfer",
+       "source"});
   const auto frames = test::read_all(*test::open_test_clip(scratch / "v-%d.pgm"));
   ASSERT_EQ(frames.size(), 5u);
   const int expected[] = {50, 67, 100, 133, 150};  // 50 + 100 · (1/6, 3/6, 5/6), rounded

@@ -1,4 +1,5 @@
-// open_clip() and all that it calls: the first byte chooses the file's kind, the rest is the file. Every sample is read.
+// open_clip() and all that it calls: the first byte chooses the file's kind, the rest is the file. Every sample is
+// read.
 #include <vector>
 
 #include "fuzz/target.hpp"

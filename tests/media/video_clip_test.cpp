@@ -238,7 +238,8 @@ TEST(VideoClip, SaysThatATransferFunctionIsNotKnown) {
     EXPECT_EQ(clip->info().format.transfer, known ? Transfer::bt709() : Transfer::srgb());
     ASSERT_EQ(clip->info().notes.size(), known ? 0u : 1u);
     if (known) continue;
-    EXPECT_NE(clip->info().notes[0].text.find("transfer function, smpte428, is not known"), std::string::npos);
+    EXPECT_NE(clip->info().notes[0].text.find("transfer function, smpte428, is not known"),
+              std::string::npos);
   }
 }
 

@@ -1,5 +1,5 @@
-// Light to codes by another function than the capture's, in every arithmetic, each within its bound of what the reference's
-// light comes to by the standards' own words (support/bound_share.cpp).
+// Light to codes by another function than the capture's, in every arithmetic, each within its bound of what the
+// reference's light comes to by the standards' own words (support/bound_share.cpp).
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -13,8 +13,8 @@ namespace nutik::test {
 
 class RunningProgram {
  public:
-  // Runs nutik-cl with these words in `folder`, where what it prints goes to a file `log`. `ignored` is a signal that it
-  // is started with as under nohup; 0: none.
+  // Runs nutik-cl with these words in `folder`, where what it prints goes to a file `log`. `ignored` is a signal that
+  // it is started with as under nohup; 0: none.
   RunningProgram(std::vector<std::string> words, const std::filesystem::path& folder, int ignored = 0);
   ~RunningProgram();
   RunningProgram(const RunningProgram&) = delete;

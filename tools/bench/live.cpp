@@ -2,10 +2,10 @@
 //
 //   bench_live [--width N] [--height N] [--samples N] [--functions N] [--runs N] [--device I] [--precision P]
 //
-// One capture stays where kernels read it, as in a window: 1280 x 720, 240 samples of 8 bits, each pixel's changes a tenth
-// of them, 64 functions in squares of the picture. Each run renders with a point moved, with the mask painted, and as it
-// was: all in turns, so that what else the machine does hits them alike. A render is a plan and its picture, by the host's
-// clock; the kernels by the device's own. Prints medians, and of each run the ratio of both.
+// One capture stays where kernels read it, as in a window: 1280 x 720, 240 samples of 8 bits, each pixel's changes a
+// tenth of them, 64 functions in squares of the picture. Each run renders with a point moved, with the mask painted,
+// and as it was: all in turns, so that what else the machine does hits them alike. A render is a plan and its
+// picture, by the host's clock; the kernels by the device's own. Prints medians, and of each run the ratio of both.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

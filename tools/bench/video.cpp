@@ -2,8 +2,9 @@
 //
 //   bench_video CAPTURE.tik VIDEO [RUNS]      e.g. film.mkv (FFV1), film.mp4 (H.264), still-%05d.png
 //
-// 24 frames a second of the capture, 180 degrees, at a tenth of its speed, at most 300 of them. Exposing alone throws its frames away,
-// encoding alone takes them from memory. Prints the medians of the seconds and the slower one's share of both.
+// 24 frames a second of the capture, 180 degrees, at a tenth of its speed, at most 300 of them. Exposing alone throws
+// its frames away, encoding alone takes them from memory. Prints the medians of the seconds and the slower one's
+// share of both.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

@@ -71,7 +71,8 @@ _nutik-cl() {
 _nutik-cl "$@"
 )sh";
 
-constexpr std::string_view kFish = R"sh(# Completion of nutik-cl for fish; written by `nutik-cl completion fish`.
+constexpr std::string_view kFish =
+    R"sh(# Completion of nutik-cl for fish; written by `nutik-cl completion fish`.
 
 function __nutik_cl
   set -l words (commandline -opc)

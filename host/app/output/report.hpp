@@ -40,8 +40,8 @@ struct Answer {
   std::vector<std::string> notes = {};
 };
 
-// Prints it as --json and -q ask; returns the exit status. -q leaves the output's name where nobody gave it one: with -o
-// or as the second operand, unless `was_named` says how.
+// Prints it as --json and -q ask; returns the exit status. -q leaves the output's name where nobody gave it one: with
+// -o or as the second operand, unless `was_named` says how.
 int tell(const Options& options, const std::filesystem::path& output, const Answer& answer);
 int tell(const Options& options, const std::filesystem::path& output, const Answer& answer, bool was_named);
 

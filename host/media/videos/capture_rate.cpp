@@ -51,8 +51,8 @@ Bytes box_at(Bytes boxes, std::initializer_list<std::string_view> path) {
   return box_at(boxes, std::span(path.begin(), path.size()));
 }
 
-// smta: u32 version and flags, then boxes. saut: four letters, then pairs of a key and a value of one byte each; key 0 is
-// the recording mode. srfr: the rate as 16.16 bits.
+// smta: u32 version and flags, then boxes. saut: four letters, then pairs of a key and a value of one byte each; key
+// 0 is the recording mode. srfr: the rate as 16.16 bits.
 std::optional<Rational> samsung_rate(Bytes file) {
   constexpr std::size_t kVersionBytes = 4, kAuthorBytes = 4;
   Bytes smta = box_at(file, {"moov", "udta", "smta"});

@@ -24,8 +24,8 @@ struct CaptureRate {
 [[nodiscard]] bool has_slow_parts(const std::filesystem::path& path);
 
 // Times as they were filmed, where the rate is one that the file's own times were stretched or pressed from: a whole
-// number of times as fast, or slow. Where the times run at it already nothing changes. Says in `notes` what was done, or
-// why not.
+// number of times as fast, or slow. Where the times run at it already nothing changes. Says in `notes` what was done,
+// or why not.
 void apply_capture_rate(const CaptureRate& filmed, ClipTiming& timing, std::vector<Note>& notes);
 
 }  // namespace nutik::videos

@@ -10,8 +10,8 @@
 
 namespace nutik::videos {
 
-// Of pictures of 720 lines and more that name no matrix it is BT.709's, as most programs have it, else BT.601's; where no
-// range is named it is the limited one.
+// Of pictures of 720 lines and more that name no matrix it is BT.709's, as most programs have it, else BT.601's;
+// where no range is named it is the limited one.
 [[nodiscard]] YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options);
 
 // Transfer function, primaries and pixel aspect of the capture; facts on these, and on matrix and range of YUV.
