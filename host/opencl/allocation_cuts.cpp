@@ -13,15 +13,14 @@ std::uint64_t sums_bytes(std::uint64_t tile_count, std::uint32_t channels, Preci
 }
 
 std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle, Precision precision,
-                              const DeviceInfo& device) {
+                              const DeviceInfo& device, std::uint64_t most_bytes) {
   const TileGrid grid(shape);
   const std::uint32_t left = rectangle.x / kTileSide;
   const std::uint32_t top = rectangle.y / kTileSide;
   const std::uint32_t columns = (rectangle.x + rectangle.width - 1) / kTileSide + 1 - left;
   const std::uint32_t rows = (rectangle.y + rectangle.height - 1) / kTileSide + 1 - top;
   const std::uint64_t row_bytes = sums_bytes(columns, shape.channels, precision);
-  const std::uint64_t most_rows = device.largest_allocation_bytes / row_bytes;
-  if (most_rows == 0) {
+  if (device.largest_allocation_bytes < row_bytes) {
     throw too_large(device, row_bytes,
                     format("a row of tiles of a picture {} pixels wide, in {} precision,",
                            std::min(shape.width, columns * kTileSide), to_text(precision)),
@@ -29,6 +28,8 @@ std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle, Pr
                            precision == Precision::single_ ? "" : "single precision, "),
                     {Setting::precision, Setting::renderer});
   }
+  const std::uint64_t most_rows =
+      std::max<std::uint64_t>(1, std::min(device.largest_allocation_bytes, most_bytes) / row_bytes);
   const std::uint64_t band_count = (rows + most_rows - 1) / most_rows;
   const auto band_rows = static_cast<std::uint32_t>((rows + band_count - 1) / band_count);
   const std::uint32_t first_column = left * kTileSide;

@@ -60,10 +60,11 @@ struct TableSlice {
 [[nodiscard]] std::uint64_t sums_bytes(std::uint64_t tile_count, std::uint32_t channels, Precision precision);
 
 // The bands of the tiles that a rectangle of a picture meets, from top to bottom, all but the last of the same
-// height. A band's sums take no less than its raster or its function of each pixel. Throws DeviceError where not
-// even one row of tiles fits.
+// height. A band's sums take no less than its raster or its function of each pixel; they take at most `most_bytes`, or
+// are of one row of tiles. Throws DeviceError where not even one row fits.
 [[nodiscard]] std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle,
-                                            Precision precision, const DeviceInfo& device);
+                                            Precision precision, const DeviceInfo& device,
+                                            std::uint64_t most_bytes = ~std::uint64_t{0});
 
 // The slices of a plan in time order; none of a plan without blocks. Weights and boundaries of a slice take at most
 // `most_bytes` each, or are of one block. Throws DeviceError where the table of a single block does not fit.

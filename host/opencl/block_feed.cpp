@@ -43,7 +43,6 @@ void BlockFeed::start(const RenderPlan& plan, std::span<const TableSlice> slices
   slice_ = 0;
   next_ = 0;
   in_place_bytes_ = 0;
-  lent_bytes_ = 0;
   is_read_by_kernel_ = false;
   for (Slab& slab : passing_) slab.used = 0;
   resident_.begin(is_resident() ? plan.blocks : std::span<const PlannedBlock>(), limits_.resident_bytes);
@@ -51,7 +50,7 @@ void BlockFeed::start(const RenderPlan& plan, std::span<const TableSlice> slices
 
 BlockFeed::Chunk BlockFeed::next() {
   Chunk chunk = reading_.valid() ? reading_.get() : next_chunk();
-  bytes_ = in_place_bytes_ + lent_bytes_ + passing_[0].used + passing_[1].used + resident_.bytes();
+  bytes_ = passing_[0].used + passing_[1].used + resident_.bytes();
   // What is resident or lies in place takes no time.
   if (limits_.reads_ahead && next_ < plan_->blocks.size() && in_place_bytes_ == 0 &&
       resident_place(plan_->blocks[next_]) == nullptr) {
@@ -94,6 +93,7 @@ BlockFeed::Chunk BlockFeed::resident_chunk() {
   }
   is_read_by_kernel_ |= slab == resident_.last_slab();
   chunk.payload = buffer_of(*slab);
+  chunk.stays = true;
   return chunk;
 }
 
@@ -119,6 +119,8 @@ BlockFeed::Chunk BlockFeed::in_place_chunk(BlockLease lease) {
   }
   pending_ = std::move(lease);
   in_place_bytes_ = std::min(bytes, region.size() - begin);
+  chunk.host_bytes = in_place_bytes_;
+  chunk.stays = true;
   chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, in_place_bytes_,
                              const_cast<std::byte*>(region.data()) + begin);
   return chunk;
@@ -129,8 +131,8 @@ BlockFeed::Chunk BlockFeed::lent_chunk(BlockLease lease) {
   Chunk chunk;
   chunk.entries.push_back(entry(0));
   chunk.payload_bytes = lease.bytes();
-  lent_bytes_ = lease.payload().size();
-  chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, lent_bytes_,
+  chunk.host_bytes = lease.payload().size();
+  chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, chunk.host_bytes,
                              const_cast<std::byte*>(lease.payload().data()));
   chunk.leases.push_back(std::move(lease));
   ++next_;
@@ -164,6 +166,7 @@ BlockFeed::Chunk BlockFeed::filled_chunk() {
   }
   is_read_by_kernel_ |= filling.stays;
   chunk.payload = buffer_of(*filling.slab);
+  chunk.stays = filling.stays;
   return chunk;
 }
 

@@ -39,6 +39,8 @@ class BlockFeed {
     cl::Buffer payload;
     std::vector<BlockEntry> entries;
     std::uint64_t payload_bytes = 0;  // of the blocks, without what lies between them
+    std::uint64_t host_bytes = 0;     // of other memory than the feed's
+    bool stays = false;               // where it is until the exposure ends, whatever else is asked for
   };
 
   BlockFeed(cl::Context context, const cl::Device& device, const DeviceInfo& info);
@@ -52,14 +54,13 @@ class BlockFeed {
              const NeededTiles& tiles, const FeedLimits& limits);
 
   // The next chunk, in time order; not to be called after the last block. Whoever asks has given the chunk before
-  // back. Throws InputError for a damaged block, DeviceError for one that the device cannot
-  // hold.
+  // back, unless it stays. Throws InputError for a damaged block, DeviceError for one that the device cannot hold.
   [[nodiscard]] Chunk next();
 
   // Waits for what is being read ahead, and forgets it: where an exposure fails.
   void stop();
 
-  // What blocks take on the device now.
+  // What the feed's own memory takes on the device now.
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
  private:
@@ -106,7 +107,6 @@ class BlockFeed {
   std::size_t next_ = 0;   // planned block
   BlockLease pending_;     // of that block, where it did not fit the chunk before
   std::uint64_t in_place_bytes_ = 0;
-  std::uint64_t lent_bytes_ = 0;
   std::uint64_t bytes_ = 0;
 
   std::array<Slab, 2> passing_;  // used in turns

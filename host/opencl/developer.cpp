@@ -18,22 +18,29 @@ constexpr std::uint64_t kPartBytes = 4 << 20;
 constexpr std::uint32_t kPartRows = 16;
 
 // Whether a value has the first code or the last.
-bool has_end_code(const Picture& codes) {
-  const auto is_end = [&](std::uint32_t code) { return code == 0 || code == codes.white_code; };
-  return codes.type == ValueType::code8 ? std::ranges::any_of(codes.values<std::uint8_t>(), is_end)
-                                        : std::ranges::any_of(codes.values<std::uint16_t>(), is_end);
+bool has_end_code(std::span<const std::byte> codes, ValueType type, std::uint32_t white_code) {
+  const auto is_end = [&](std::uint32_t code) { return code == 0 || code == white_code; };
+  if (type == ValueType::code8) {
+    return std::ranges::any_of(codes, is_end,
+                               [](std::byte code) { return std::to_integer<std::uint32_t>(code); });
+  }
+  const std::span wide(reinterpret_cast<const std::uint16_t*>(codes.data()), codes.size() / 2);
+  return std::ranges::any_of(wide, is_end);
 }
 
 }  // namespace
 
-Picture Developer::develop(std::span<const ExposedBand> bands) {
-  return holds_codes(output_.type) ? counted_codes(bands) : light(bands);
+void Developer::develop(const ExposedBand& exposed) {
+  if (holds_codes(output_.type)) return counted_codes(exposed);
+  for_each_part(exposed, output_.type, [&](const Rectangle& part, const Picture& of_part) {
+    std::ranges::copy(of_part.bytes, rows_of(part).begin());
+  });
 }
 
 // Codes, and how many pixels saturate. The kernel knows neither negative codes nor primaries, and counts nothing: where
 // these are asked for, codes lie too close together to be searched, or a plan's functions can saturate, the sums are
 // read and turned into light here.
-Picture Developer::counted_codes(std::span<const ExposedBand> bands) {
+void Developer::counted_codes(const ExposedBand& exposed) {
   const CodeMaking making = CodeMaking::of(plan_.capture, output_);
   const CodeScale scale(making.transfer, output_);
   const DeviceMemory::Scope scope(memory_);
@@ -41,89 +48,65 @@ Picture Developer::counted_codes(std::span<const ExposedBand> bands) {
       kernels_make_codes(plan_.capture, output_)
           ? constants_.codes(CodeKey::of(plan_, work_.precision, output_), memory_)
           : nullptr;
-  if (tables == nullptr) {
-    Picture picture(shape_, output_.type, output_.white_code);
-    for_each_part(bands, ValueType::light64, [&](const Rectangle& part, Picture& seen) {
-      to_shown_light(seen, making);
-      saturation_ += count_saturated(seen, scale);
-      put(encoded(seen, scale, output_), part, picture);
-    });
-    return picture;
+  if (tables != nullptr) {
+    codes(exposed, *tables);
+    const auto of_band = rows_of(part_in(exposed.band));
+    if (!can_saturate(plan_, making, scale) || !has_end_code(of_band, output_.type, output_.white_code))
+      return;
   }
-  Picture picture = codes(bands, *tables);
-  if (can_saturate(plan_, making, scale) && has_end_code(picture)) {
-    for_each_part(bands, ValueType::light64, [&](const Rectangle&, Picture& seen) {
-      to_shown_light(seen, making);
-      saturation_ += count_saturated(seen, scale);
-    });
-  }
-  return picture;
+  for_each_part(exposed, ValueType::light64, [&](const Rectangle& part, Picture& seen) {
+    to_shown_light(seen, making);
+    saturation_ += count_saturated(seen, scale);
+    if (tables == nullptr) std::ranges::copy(encoded(seen, scale, output_).bytes, rows_of(part).begin());
+  });
 }
 
-Picture Developer::light(std::span<const ExposedBand> bands) {
-  Picture picture(shape_, output_.type, output_.white_code);
-  for_each_part(bands, output_.type,
-                [&](const Rectangle& part, const Picture& of_part) { put(of_part, part, picture); });
-  return picture;
-}
-
-// Calls visit(part, its light) for the rectangle's parts from top to bottom. Light takes up to six times what codes do:
-// a part at a time, it takes next to nothing.
+// Calls visit(part, its light) for a band's parts from top to bottom. Light takes up to six times what codes do: a part
+// at a time, it takes next to nothing.
 template <typename Visit>
-void Developer::for_each_part(std::span<const ExposedBand> bands, ValueType type, Visit visit) {
+void Developer::for_each_part(const ExposedBand& exposed, ValueType type, Visit visit) {
   DevelopSumsKernel kernel(program_, "develop_sums");
-  for (const ExposedBand& exposed : bands) {
-    const std::uint64_t row_bytes = sums_bytes(exposed.band.columns, shape_.channels, work_.precision);
-    const auto all_rows = static_cast<std::uint32_t>(exposed.band.tile_count / exposed.band.columns);
-    const auto rows_at_once = static_cast<std::uint32_t>(
-        std::max<std::uint64_t>(1, kPartBytes / row_bytes / kPartRows) * kPartRows);
-    for (std::uint32_t row = 0; row < all_rows; row += rows_at_once) {
-      const std::uint32_t rows = std::min(rows_at_once, all_rows - row);
-      Band band = exposed.band;
-      band.tile_count = std::uint64_t{rows} * band.columns;
-      band.first_row += row * kTileSide;
-      band.shape.height = std::min(rows * kTileSide, exposed.band.shape.height - row * kTileSide);
-      cl::Buffer sums = exposed.sums;
-      cl_buffer_region region{row * row_bytes, rows * row_bytes};
-      if (rows < all_rows)
-        sums = sums.createSubBuffer(CL_MEM_READ_ONLY, CL_BUFFER_CREATE_TYPE_REGION, &region);
-      const Rectangle part = part_in(band);
-      Bytes of_sums(std::uint64_t{part.width} * part.height * shape_.channels * sum_bytes(work_.precision));
-      develop_band(band, part, of_sums, [&](const cl::Buffer& raster) {
-        return kernel(items(queue_, work_.shape, band.tile_count), sums, band.shape.width, band.shape.height,
-                      band.tile_count, raster);
-      });
-      Picture picture({part.width, part.height, shape_.channels}, type, output_.white_code);
-      store_light(plan_, part, work_.precision, of_sums, picture);
-      visit(part, picture);
-    }
-  }
-}
-
-// Puts a part's picture to where it lies in the rectangle's.
-void Developer::put(const Picture& of_part, const Rectangle& part, Picture& picture) const {
-  const std::uint64_t row_bytes = std::uint64_t{shape_.width} * shape_.channels * value_bytes(picture.type);
-  std::ranges::copy(of_part.bytes,
-                    picture.bytes.begin() + static_cast<std::ptrdiff_t>((part.y - rectangle_.y) * row_bytes));
-}
-
-Picture Developer::codes(std::span<const ExposedBand> bands, const DeviceCodes& tables) {
-  const cl::Buffer scales = memory_.upload(light_scales(plan_, work_.precision));
-  Picture picture(shape_, output_.type, output_.white_code);
-  DevelopCodesKernel kernel(program_, "develop_codes");
-  for (const ExposedBand& exposed : bands) {
-    const Band& band = exposed.band;
+  const std::uint64_t row_bytes = sums_bytes(exposed.band.columns, shape_.channels, work_.precision);
+  const auto all_rows = static_cast<std::uint32_t>(exposed.band.tile_count / exposed.band.columns);
+  const auto rows_at_once =
+      static_cast<std::uint32_t>(std::max<std::uint64_t>(1, kPartBytes / row_bytes / kPartRows) * kPartRows);
+  for (std::uint32_t row = 0; row < all_rows; row += rows_at_once) {
+    const std::uint32_t rows = std::min(rows_at_once, all_rows - row);
+    Band band = exposed.band;
+    band.tile_count = std::uint64_t{rows} * band.columns;
+    band.first_row += row * kTileSide;
+    band.shape.height = std::min(rows * kTileSide, exposed.band.shape.height - row * kTileSide);
+    cl::Buffer sums = exposed.sums;
+    cl_buffer_region region{row * row_bytes, rows * row_bytes};
+    if (rows < all_rows) sums = sums.createSubBuffer(CL_MEM_READ_ONLY, CL_BUFFER_CREATE_TYPE_REGION, &region);
     const Rectangle part = part_in(band);
-    const std::uint64_t row_bytes = picture.bytes.size() / shape_.height;
-    const auto raster_of_part =
-        std::span(picture.bytes).subspan((part.y - rectangle_.y) * row_bytes, part.height * row_bytes);
-    develop_band(band, part, raster_of_part, [&](const cl::Buffer& raster) {
-      return kernel(items(queue_, work_.shape, band.tile_count), exposed.sums, scales,
-                    exposed.function_of_lane, band.shape.width, band.shape.height, band.tile_count,
-                    tables.thresholds, tables.guesses, tables.guess_count, raster);
+    Bytes of_sums(std::uint64_t{part.width} * part.height * shape_.channels * sum_bytes(work_.precision));
+    develop_band(band, part, of_sums, [&](const cl::Buffer& raster) {
+      return kernel(items(queue_, work_.shape, band.tile_count), sums, band.shape.width, band.shape.height,
+                    band.tile_count, raster);
     });
+    Picture picture({part.width, part.height, shape_.channels}, type, output_.white_code);
+    store_light(plan_, part, work_.precision, of_sums, picture);
+    visit(part, picture);
   }
-  return picture;
+}
+
+void Developer::codes(const ExposedBand& exposed, const DeviceCodes& tables) {
+  const cl::Buffer scales = memory_.upload(light_scales(plan_, work_.precision));
+  DevelopCodesKernel kernel(program_, "develop_codes");
+  const Band& band = exposed.band;
+  const Rectangle part = part_in(band);
+  develop_band(band, part, rows_of(part), [&](const cl::Buffer& raster) {
+    return kernel(items(queue_, work_.shape, band.tile_count), exposed.sums, scales, exposed.function_of_lane,
+                  band.shape.width, band.shape.height, band.tile_count, tables.thresholds, tables.guesses,
+                  tables.guess_count, raster);
+  });
+}
+
+// Where a part, which has the rectangle's width, lies in its picture.
+std::span<std::byte> Developer::rows_of(const Rectangle& part) {
+  const std::uint64_t row_bytes = picture_.bytes.size() / shape_.height;
+  return std::span(picture_.bytes).subspan((part.y - rectangle_.y) * row_bytes, part.height * row_bytes);
 }
 
 // What a band and the rectangle have in common.

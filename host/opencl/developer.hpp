@@ -1,6 +1,6 @@
 // Develops a picture: the sums of its bands to codes or light, with kernels/develop.cl.
 //
-//   in:      a plan, a rectangle of its picture, and the sums of its exposure, band by band
+//   in:      a plan, a rectangle of its picture, and the sums of its exposure, band after band
 //   out:     the rectangle's picture; of codes also how many pixels saturate
 #pragma once
 
@@ -25,7 +25,7 @@ struct ExposedBand {
   Band band;
   cl::Buffer function_of_lane;  // function_map.hpp: the band's part
   cl::Buffer function_of_tile;
-  cl::Buffer sums;  // Σ_k v_k w_k of every pixel, tile-major
+  cl::Buffer sums;  // Σ_k v_k w_k of every pixel, tile-major; none until the band is exposed
   std::shared_ptr<const std::vector<std::uint16_t>> host_function_of_tile;
 };
 
@@ -42,21 +42,24 @@ class Developer {
         program_(std::move(program)),
         queue_(std::move(queue)),
         constants_(constants),
-        memory_(memory) {}
+        memory_(memory),
+        picture_(shape_, output.type, output.white_code) {}
 
-  [[nodiscard]] Picture develop(std::span<const ExposedBand> bands);
+  // Each band once, in any order.
+  void develop(const ExposedBand& exposed);
 
+  // When all bands have been developed.
+  [[nodiscard]] Picture take_picture() { return std::move(picture_); }
   [[nodiscard]] const Saturation& saturation() const { return saturation_; }
   // Of the kernels, by the device's own clock.
   [[nodiscard]] double develop_ms() const { return develop_ms_; }
 
  private:
-  Picture light(std::span<const ExposedBand> bands);
-  Picture codes(std::span<const ExposedBand> bands, const DeviceCodes& tables);
-  Picture counted_codes(std::span<const ExposedBand> bands);
+  void counted_codes(const ExposedBand& exposed);
+  void codes(const ExposedBand& exposed, const DeviceCodes& tables);
   template <typename Visit>
-  void for_each_part(std::span<const ExposedBand> bands, ValueType type, Visit visit);
-  void put(const Picture& of_part, const Rectangle& part, Picture& picture) const;
+  void for_each_part(const ExposedBand& exposed, ValueType type, Visit visit);
+  [[nodiscard]] std::span<std::byte> rows_of(const Rectangle& part);
   [[nodiscard]] Rectangle part_in(const Band& band) const;
   template <typename Launch>
   void develop_band(const Band& band, const Rectangle& part, std::span<std::byte> raster, Launch launch);
@@ -72,6 +75,7 @@ class Developer {
   cl::CommandQueue queue_;
   KernelConstants& constants_;
   DeviceMemory& memory_;
+  Picture picture_;
   Saturation saturation_;
   double develop_ms_ = 0.0;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <map>
 #include <mutex>
 
@@ -14,11 +13,10 @@
 #include "opencl/developer.hpp"
 #include "opencl/device_memory.hpp"
 #include "opencl/device_tables.hpp"
+#include "opencl/exposer.hpp"
 #include "opencl/kernel_constants.hpp"
 #include "opencl/kernel_sources.hpp"
-#include "opencl/launch.hpp"
 #include "opencl/light_pieces.hpp"
-#include "opencl/needed_tiles.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
 #include "opencl/render_memory.hpp"
@@ -30,9 +28,8 @@ namespace {
 
 constexpr std::uint64_t kDefaultMemoryBytes = 4ull << 30;
 
-using ExposeKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer,
-                                       cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong,
-                                       cl_ulong, cl_uint, cl_uint, cl_uint>;
+// Of a band's sums: large enough that launches cost nothing and a device is busy.
+constexpr std::uint64_t kBandBytes = 64ull << 20;
 
 // Whether fma() is the device's own. Devices that would emulate it do not report it, and a CPU's emulation
 // is 20 times slower than rounding twice.
@@ -53,36 +50,6 @@ struct Request {
   const OutputFormat& output;
   const Rectangle& rectangle;
   const RenderControl& control;
-};
-
-// A chunk's blocks, cut so that no launch reads more samples, but one block at least.
-std::vector<std::span<const BlockEntry>> launches_of(std::span<const BlockEntry> entries,
-                                                     std::uint64_t most_samples) {
-  std::vector<std::span<const BlockEntry>> launches;
-  std::size_t first = 0;
-  std::uint64_t samples = 0;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (i > first && samples + entries[i].sample_count > most_samples) {
-      launches.push_back(entries.subspan(first, i - first));
-      first = i;
-      samples = 0;
-    }
-    samples += entries[i].sample_count;
-  }
-  launches.push_back(entries.subspan(first));
-  return launches;
-}
-
-// Nothing is read from a capture any more when its exposure ends, however it does.
-class StoppedAtEnd {
- public:
-  explicit StoppedAtEnd(BlockFeed& feed) : feed_(feed) {}
-  ~StoppedAtEnd() { feed_.stop(); }
-  StoppedAtEnd(const StoppedAtEnd&) = delete;
-  StoppedAtEnd& operator=(const StoppedAtEnd&) = delete;
-
- private:
-  BlockFeed& feed_;
 };
 
 }  // namespace
@@ -259,15 +226,40 @@ class OpenClRenderer::Implementation {
 
   void expose_and_develop(const Work& work, const Request& request, const cl::Program& develop,
                           Rendered& rendered) {
+    const RenderPlan& plan = request.plan;
     DeviceMemory memory(context_, info_);
-    const std::vector<ExposedBand> bands = expose(work, request, memory, rendered.statistics);
-    throw_if_cancelled(request.control);
-    Developer developer(work, request.plan, request.output, request.rectangle, develop, queue_, *constants_,
-                        memory);
-    rendered.picture = developer.develop(bands);
+    std::vector<ExposedBand> bands = bands_of(work, request, memory, rendered.statistics);
+    Developer developer(work, plan, request.output, request.rectangle, develop, queue_, *constants_, memory);
+    const auto develop_band = [&](const ExposedBand& exposed) { developer.develop(exposed); };
+    if (plan.blocks.empty()) {
+      develop_dark(work, plan, bands, memory, develop_band);
+    } else {
+      const DeviceLight& light = light_of(work, plan, memory);
+      const RenderMemory shares = memory_for(request, work.precision);
+      const ExposingDevice device{info_, queue_, *feed_, *tables_, options_.last_block_first};
+      Exposer(device, work, plan, request.source, shares,
+              cl::Kernel(expose_program(work, plan, light), "expose"), light.values, memory,
+              rendered.statistics)
+          .expose(bands, request.control, develop_band);
+    }
+    rendered.picture = developer.take_picture();
     rendered.saturation = developer.saturation();
     rendered.statistics.develop_ms = developer.develop_ms();
     rendered.statistics.device_bytes = memory.most_bytes();
+  }
+
+  // Sums of nothing are 0 in every arithmetic.
+  void develop_dark(const Work& work, const RenderPlan& plan, std::span<ExposedBand> bands,
+                    DeviceMemory& memory, const Exposer::Develop& develop) {
+    for (ExposedBand& each : bands) {
+      const DeviceMemory::Scope scope(memory);
+      const std::uint64_t bytes =
+          sums_bytes(each.band.tile_count, plan.capture.shape.channels, work.precision);
+      each.sums = memory.allocate(bytes, CL_MEM_READ_WRITE);
+      queue_.enqueueFillBuffer(each.sums, std::uint8_t{0}, 0, bytes);
+      develop(each);
+      each.sums = {};
+    }
   }
 
   // Said only of what the program chose: a person who asks for an arithmetic gets it.
@@ -312,86 +304,16 @@ class OpenClRenderer::Implementation {
     return programs_->get("develop", kernel_source("develop"), options_of_developing(work, plan, output));
   }
 
-  // The bands of a rectangle with nothing in their sums yet.
+  // The bands of a rectangle, without sums.
   std::vector<ExposedBand> bands_of(const Work& work, const Request& request, DeviceMemory& memory,
                                     RenderStatistics& statistics) {
-    const Shape& shape = request.plan.capture.shape;
     std::vector<ExposedBand> bands;
-    for (const Band& band : cut_picture(shape, request.rectangle, work.precision, info_)) {
+    for (const Band& band :
+         cut_picture(request.plan.capture.shape, request.rectangle, work.precision, info_, kBandBytes)) {
       const DeviceMap& map = constants_->map(request.plan.map, band, memory, statistics.map_bytes_written);
-      const std::uint64_t bytes = sums_bytes(band.tile_count, shape.channels, work.precision);
-      bands.push_back(
-          {band, map.of_lane, map.of_tile, memory.allocate(bytes, CL_MEM_READ_WRITE), map.host_of_tile});
+      bands.push_back({band, map.of_lane, map.of_tile, {}, map.host_of_tile});
     }
     return bands;
-  }
-
-  // Σ_k v_k w_k of every pixel, slice by slice, chunk by chunk, band by band.
-  std::vector<ExposedBand> expose(const Work& work, const Request& request, DeviceMemory& memory,
-                                  RenderStatistics& statistics) {
-    const RenderPlan& plan = request.plan;
-    const RenderMemory shares = memory_for(request, work.precision);
-    std::vector<ExposedBand> bands = bands_of(work, request, memory, statistics);
-    if (plan.blocks.empty()) {
-      for (const ExposedBand& exposed : bands) {  // 0 in every arithmetic
-        const std::uint64_t bytes = exposed.sums.getInfo<CL_MEM_SIZE>();
-        queue_.enqueueFillBuffer(exposed.sums, std::uint8_t{0}, 0, bytes);
-      }
-      return bands;
-    }
-    const DeviceMemory::Scope scope(memory);  // of what is not the picture
-    const DeviceLight& light = light_of(work, plan, memory);
-    ExposeKernel kernel(expose_program(work, plan, light), "expose");
-
-    const std::vector<TableSlice> slices = cut_tables(plan, work.precision, info_, shares.slice_bytes);
-    const auto function_count = static_cast<cl_uint>(plan.function_count());
-    const std::uint64_t most_samples = most_samples_a_launch(info_, work.shape);
-
-    const NeededTiles tiles(plan, bands);
-    feed_->start(plan, slices, request.source, tiles, shares.feed);
-    const StoppedAtEnd stopped(*feed_);
-    std::size_t block = 0;
-    for (const TableSlice& slice : slices) {
-      const DeviceMemory::Scope slice_scope(memory);
-      const SliceTables tables =
-          tables_->slice(plan, slice, work.precision, memory, statistics.table_bytes_written);
-      while (block < slice.last_block) {
-        throw_if_cancelled(request.control);
-        BlockFeed::Chunk chunk = next_chunk(statistics);
-        if (options_.last_block_first) std::reverse(chunk.entries.begin(), chunk.entries.end());
-        const DeviceMemory::Scope chunk_scope(memory);
-        memory.count(feed_->bytes());
-        for (const std::span<const BlockEntry> part : launches_of(chunk.entries, most_samples)) {
-          const cl::Buffer entries = memory.upload(part);
-          for (const ExposedBand& exposed : bands) {
-            const Band& band = exposed.band;
-            const cl::Event event =
-                kernel(items(queue_, work.shape, band.tile_count), chunk.payload, entries,
-                       static_cast<cl_uint>(part.size()), tables.spans, tables.weights, tables.boundaries,
-                       function_count, exposed.function_of_tile, exposed.function_of_lane, light.values,
-                       exposed.sums, band.first_tile, band.tile_count, band.columns, band.skipped_columns,
-                       block == 0 ? 1u : 0u);
-            event.wait();
-            const std::optional<double> took_ms = milliseconds(event);
-            statistics.expose_ms += took_ms.value_or(0.0);
-            statistics.is_timed = took_ms.has_value();
-            ++statistics.launches;
-          }
-          statistics.blocks += part.size();
-          block += part.size();
-        }
-        statistics.payload_bytes += chunk.payload_bytes;
-      }
-    }
-    return bands;
-  }
-
-  BlockFeed::Chunk next_chunk(RenderStatistics& statistics) {
-    const auto start = std::chrono::steady_clock::now();
-    BlockFeed::Chunk chunk = feed_->next();
-    statistics.read_ms +=
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    return chunk;
   }
 
   OpenClOptions options_;

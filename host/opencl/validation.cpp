@@ -85,7 +85,7 @@ Validation validate(const RenderPlan& plan, CaptureSource& capture, const Output
       times[i].expose_ms.push_back(took.expose_ms);
       times[i].develop_ms.push_back(took.develop_ms);
       validation.variants[i].payload_bytes = took.payload_bytes;
-      validation.variants[i].is_timed = took.is_timed;
+      validation.variants[i].is_timed &= took.is_timed;
       step();
     }
   }

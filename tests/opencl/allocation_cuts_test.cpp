@@ -27,6 +27,8 @@ TEST(AllocationCuts, BandsTileAnyPicture) {
         const std::vector<Band> bands =
             cut_picture(shape, Rectangle::whole(shape), precision, test::device_allocating(limit));
         ASSERT_EQ(bands.size(), (grid.rows() + rows - 1) / rows) << limit;
+        const DeviceInfo large = test::device_allocating(1 << 30);
+        EXPECT_EQ(cut_picture(shape, Rectangle::whole(shape), precision, large, limit), bands);
         std::uint64_t tile = 0;
         std::uint32_t row = 0;
         for (const Band& band : bands) {
