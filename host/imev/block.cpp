@@ -129,6 +129,16 @@ bool BlockView::samples_increase(const TileEntry& at, const std::byte* body) con
                    : rows_increase<std::uint16_t>(body, at.rows());
 }
 
+std::optional<std::uint64_t> BlockView::checked_until(std::uint64_t first, std::uint64_t bytes) const {
+  for (; first < geometry_.tile_count; ++first) {
+    const TileEntry& at = entries_[first];
+    const std::uint64_t begin = at.offset * kBlockAlignment;
+    if (begin + geometry_.body_bytes(at) > bytes) break;
+    if (!samples_increase(at, payload_.data() + begin)) return {};
+  }
+  return first;
+}
+
 void BlockView::check_samples(std::uint64_t first, std::uint64_t last) const {
   constexpr std::uint64_t kTilesAtOnce = 4096;
   parallel_for((last - first + kTilesAtOnce - 1) / kTilesAtOnce, [&](std::uint64_t part) {

@@ -28,6 +28,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -146,6 +147,9 @@ class BlockView {
   // checksum cannot tell of a file that was made up. Sources check what they read, so that every renderer refuses the
   // same. Of the tiles [first, last).
   void check_samples(std::uint64_t first, std::uint64_t last) const;
+  // The same for whoever passes over the payload: looks at the tiles from `first` on whose bodies end within its first
+  // `bytes`, and returns the first that does not; none where a sample number is wrong.
+  [[nodiscard]] std::optional<std::uint64_t> checked_until(std::uint64_t first, std::uint64_t bytes) const;
 
   // What one pixel holds: its start (sample 0) followed by its change records in time order. Rows of a
   // tile that leave the pixel's codes as they were are skipped. `history` is replaced. Sample numbers are

@@ -55,7 +55,6 @@ Validation validate(const RenderPlan& plan, CaptureSource& capture, const Output
   validation.reference_ms = milliseconds_since(start);
   step();
 
-  renderer.keep_resident(&capture);
   const auto render = [&](Precision precision, const OutputFormat& format) {
     RenderControl with_precision = control;
     with_precision.precision = precision;
@@ -89,7 +88,6 @@ Validation validate(const RenderPlan& plan, CaptureSource& capture, const Output
       step();
     }
   }
-  renderer.keep_resident(nullptr);
   for (std::size_t i = 0; i < precisions.size(); ++i) {
     validation.variants[i].expose_ms = median(std::move(times[i].expose_ms));
     validation.variants[i].develop_ms = median(std::move(times[i].develop_ms));

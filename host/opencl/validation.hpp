@@ -2,8 +2,8 @@
 //
 //   in:      a plan, its capture, the picture's format, a device
 //   out:     for each arithmetic its bound, its errors against the reference, its times
-//   always:  the capture is resident on the device and all kernels are built before anything is timed; timed renders
-//            take turns, so that what else the machine does hits all arithmetics alike
+//   always:  all kernels are built before anything is timed; timed renders take turns, so that what else the machine
+//            does hits all arithmetics alike. They read the capture anew, unless whoever asks has made it resident
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,6 @@ struct Validation {
 };
 
 // `runs` renders are timed in each arithmetic; at least 1. `progress` is told how many of `total` renders are done.
-// The capture is the renderer's resident one meanwhile; none is afterwards.
 [[nodiscard]] Validation validate(
     const RenderPlan& plan, CaptureSource& capture, const OutputFormat& output, OpenClRenderer& renderer,
     std::uint32_t runs, const std::function<void(std::uint64_t done, std::uint64_t total)>& progress,

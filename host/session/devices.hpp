@@ -54,7 +54,7 @@ class Devices {
 
   // Blocks of this capture stay where the renderer reads them from, those of the one before no longer. Null: of none.
   void keep_resident(const CaptureSource* source);
-  // Before a capture goes, or after others used the renderer: it is no longer the resident one.
+  // Before a capture goes: it is no longer the resident one.
   void release(const CaptureSource* source);
 
  private:

@@ -253,7 +253,7 @@ ValidatedExposure Session::Implementation::validate(const ExposureRequest& reque
                                                     const OutputFormat& output, std::uint32_t runs,
                                                     const ReportedProgress& progress) {
   RenderPlan planned = plan(request);
-  devices_->release(reader_.get());  // validating names its own
+  devices_->keep_resident(reader_.get());
   const auto ignored = [](std::uint64_t, std::uint64_t) {};
   const std::uint64_t light_bytes = format_.shape.value_count() * value_bytes(ValueType::light64);
   Validation validation = within({{"the reference's picture", light_bytes}}, [&](std::uint64_t left) {

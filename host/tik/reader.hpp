@@ -67,12 +67,16 @@ class Reader final : public CaptureSource {
   void check_front() const;
   // A block that is not packed is lent where it is mapped; a packed one where it is unpacked. Throws as check() does.
   BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override;
-  [[nodiscard]] BlockLease unpacked(std::uint64_t block, const LeaseTerms& terms) const;
+  [[nodiscard]] BlockLease unpacked(std::uint64_t block, const BlockHeader& header,
+                                    const LeaseTerms& terms) const;
   [[nodiscard]] BlockLease take_preloaded(std::uint64_t block);
   void check(std::uint64_t block, const BlockHeader& header) const;
-  // Directory and sample numbers, whose checksums are right whatever a file was made up of.
-  // Of the tiles [first, last) of each pair: the others were not unpacked.
+  // Whether all is well with a payload as check() looks at it, in one pass.
+  [[nodiscard]] bool is_right(std::uint64_t block, const BlockHeader& header,
+                              std::span<const std::byte> payload) const;
   using TileRuns = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
+  // Directory and sample numbers: a file that was made up can have wrong ones under right checksums. Of the tiles
+  // [first, last) of each pair that was unpacked; without them of all.
   void check_payload(std::uint64_t block, std::span<const std::byte> payload,
                      const std::optional<TileRuns>& unpacked = {}) const;
   [[nodiscard]] std::uint64_t mapped_offset(std::uint64_t block, const BlockHeader& header) const;
@@ -80,6 +84,9 @@ class Reader final : public CaptureSource {
   [[nodiscard]] BlockHeader block_header(std::uint64_t block) const;
   [[nodiscard]] std::span<const std::byte> stored_payload(std::uint64_t block,
                                                           const BlockHeader& header) const;
+  // Throws where its checksum does not match.
+  [[nodiscard]] std::span<const std::byte> whole_payload(std::uint64_t block,
+                                                         const BlockHeader& header) const;
   [[noreturn]] void fail(const std::string& why) const;
   [[noreturn]] void fail_block(std::uint64_t block, const std::string& why) const;
 
