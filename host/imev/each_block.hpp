@@ -1,6 +1,8 @@
 // A walk over a capture's blocks, for whatever looks at all of its samples or at some.
 #pragma once
 
+#include <algorithm>
+
 #include "imev/capture_source.hpp"
 
 namespace nutik {
@@ -27,6 +29,15 @@ class BlockCursor {
   PageBuffer room_;
   BlockLease lease_;
 };
+
+// What a walk over a source holds of its blocks.
+[[nodiscard]] inline std::uint64_t largest_block(const CaptureSource& source) {
+  std::uint64_t bytes = 0;
+  for (std::uint64_t block = 0; block < source.block_count(); ++block) {
+    bytes = std::max(bytes, source.lent_bytes(block));
+  }
+  return bytes;
+}
 
 // Calls visit(BlockView) for each block that holds any of the samples [first, last), in time order. Throws
 // InputError where a block is damaged.

@@ -9,6 +9,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "imev/each_block.hpp"
 #include "imev/expected_values.hpp"
 #include "render/picture_memory.hpp"
 #include "render/plan_cache.hpp"
@@ -18,18 +19,6 @@
 #include "session/scratch_capture.hpp"
 
 namespace nutik {
-
-namespace {
-
-std::uint64_t largest_block(const CaptureSource& source) {
-  std::uint64_t bytes = 0;
-  for (std::uint64_t block = 0; block < source.block_count(); ++block) {
-    bytes = std::max(bytes, source.lent_bytes(block));
-  }
-  return bytes;
-}
-
-}  // namespace
 
 SessionIsSpent::SessionIsSpent()
     : UsageError(

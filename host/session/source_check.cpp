@@ -42,14 +42,10 @@ SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const 
                             samples_text(source.capture), samples_text(wanted)));
   }
 
-  std::uint64_t block_bytes = 0;
-  for (std::uint64_t block = 0; block < capture.block_count(); ++block) {
-    block_bytes = std::max(block_bytes, capture.lent_bytes(block));
-  }
   const MemoryNeeds needs{{"pictures within the decoder", source.clip->info().decoder_bytes},
                           {"a picture of the clip", wanted.sample_bytes()},
                           {"a picture of the capture", capture.format().sample_bytes()},
-                          {"a block", block_bytes}};
+                          {"a block", largest_block(capture)}};
   needs.rest_of(memory.bytes);
   SourceCheck check{SourceComparison(wanted), 0, capture.file_bytes(), 0, false};
   for (const tik::IndexEntry& block : capture.index()) check.record_count += block.record_count;

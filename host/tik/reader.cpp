@@ -229,8 +229,6 @@ void Reader::fail_block(std::uint64_t block, const std::string& why) const {
                     seconds_text(timeline_.reach_end_ns(samples.last - 1)), why));
 }
 
-void Reader::check(std::uint64_t block) const { check(block, block_header(block)); }
-
 void Reader::check(std::uint64_t block, const BlockHeader& header) const {
   check_interruption();
   if (!is_packed(header) && is_right(block, header, stored_payload(block, header))) return;

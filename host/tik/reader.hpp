@@ -38,11 +38,7 @@ class Reader final : public CaptureSource {
   // Unpacks a packed block, unless it is large.
   void preload(std::uint64_t block) override;
 
-  // Checks the block's checksums, and of one that is not packed the directory and the sample numbers; throws
-  // InputError naming its samples where it is damaged.
-  void check(std::uint64_t block) const;
-
-  // A block as it lies in the file, its checksum compared. Throws as check() does.
+  // A block as it lies in the file, its checksum compared. Throws as acquire() does.
   struct StoredBlock {
     BlockHeader header;
     std::span<const std::byte> payload;
@@ -65,11 +61,12 @@ class Reader final : public CaptureSource {
  private:
   void read_footer();
   void check_front() const;
-  // A block that is not packed is lent where it is mapped; a packed one where it is unpacked. Throws as check() does.
+  // A block that is not packed is lent where it is mapped; a packed one where it is unpacked.
   BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override;
   [[nodiscard]] BlockLease unpacked(std::uint64_t block, const BlockHeader& header,
                                     const LeaseTerms& terms) const;
   [[nodiscard]] BlockLease take_preloaded(std::uint64_t block);
+  // Checksums, and of a block that is not packed the payload.
   void check(std::uint64_t block, const BlockHeader& header) const;
   // Whether all is well with a payload as check() looks at it, in one pass.
   [[nodiscard]] bool is_right(std::uint64_t block, const BlockHeader& header,

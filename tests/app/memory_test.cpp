@@ -100,6 +100,7 @@ const Command kCommands[] = {
     {"validate", {"validate", "--start", "0s", "--exposure", "5f", "--runs", "1", "CAPTURE"}},
     {"mask", {"mask", "--moving", "CAPTURE", "o.pgm"}},
     {"activity", {"activity", "CAPTURE", "o.png"}},
+    {"check", {"check", "CAPTURE"}},
 };
 
 class MemoryOfCommands : public testing::TestWithParam<Command> {

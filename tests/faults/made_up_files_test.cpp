@@ -12,7 +12,7 @@ using test::MadeUpTile;
 struct MadeUpFiles : test::ProgramTest {};
 
 // A kernel takes such numbers for the block's end, the reference for damage. Neither is asked.
-TEST_F(MadeUpFiles, AreRefusedAlikeByEveryRenderer) {
+TEST_F(MadeUpFiles, AreRefusedAlikeByEveryRendererAndByCheck) {
   struct Case {
     std::string complaint;
     MadeUpTile tile;
@@ -45,6 +45,9 @@ TEST_F(MadeUpFiles, AreRefusedAlikeByEveryRenderer) {
         EXPECT_NE(result.err.find(made_up.complaint), std::string::npos) << result.err;
         EXPECT_EQ(std::filesystem::remove(scratch_ / "p.png"), made_up.complaint.empty());
       }
+      const auto check = run({"check", "c.tik"});
+      EXPECT_EQ(check.status, made_up.complaint.empty() ? 0 : 3) << check.out << check.err;
+      EXPECT_NE(check.out.find(made_up.complaint), std::string::npos) << check.out;
     }
   }
 }

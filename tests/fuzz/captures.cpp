@@ -27,7 +27,6 @@ void read(Bytes input) {
     static_cast<void>(reader.content_checksum());
     for (std::uint64_t block = 0; block < reader.block_count(); ++block) {
       static_cast<void>(reader.directory(block));
-      reader.check(block);
       static_cast<void>(reader.acquire(block));
     }
     expose(reader);
