@@ -55,6 +55,7 @@ std::string error_name(cl_int code) {
     case CL_MEM_OBJECT_ALLOCATION_FAILURE: return "CL_MEM_OBJECT_ALLOCATION_FAILURE";
     case CL_OUT_OF_RESOURCES: return "CL_OUT_OF_RESOURCES";
     case CL_OUT_OF_HOST_MEMORY: return "CL_OUT_OF_HOST_MEMORY";
+    case CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST: return "CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST";
     case CL_BUILD_PROGRAM_FAILURE: return "CL_BUILD_PROGRAM_FAILURE";
     case CL_INVALID_VALUE: return "CL_INVALID_VALUE";
     case CL_INVALID_BUFFER_SIZE: return "CL_INVALID_BUFFER_SIZE";
@@ -80,6 +81,10 @@ std::string to_text(DeviceKind kind) {
 
 std::string describe(const cl::Error& error, const std::string& doing) {
   return format("{}: {} in {}", doing, error_name(error.err()), error.what());
+}
+
+DeviceError device_failed(const cl::Error& error, const std::string& doing) {
+  return DeviceError(describe(error, doing) + "; use another device or the reference", {Setting::renderer});
 }
 
 std::vector<cl::Device> all_devices() {

@@ -26,6 +26,18 @@ bool is_of(const std::vector<std::uint64_t>& blocks, const RenderPlan& plan, con
                     [](std::uint64_t block, const PlannedBlock& planned) { return block == planned.block; });
 }
 
+// Enqueues writes, only the last of which is waited for. Where one fails, those before it are waited for as well: they
+// read memory that is let go then.
+template <typename Writes>
+void write_in_order(const cl::CommandQueue& queue, Writes writes) {
+  try {
+    writes();
+  } catch (const cl::Error&) {
+    clFinish(queue());
+    throw;
+  }
+}
+
 }  // namespace
 
 std::uint64_t DeviceTables::Slice::bytes() const {
@@ -105,10 +117,11 @@ void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice, st
   } else {
     for (std::uint64_t f = 0; f < functions; ++f) pack(f);
   }
-  // In order: the last is waited for.
-  queue_.enqueueWriteBuffer(to.tables.weights, CL_FALSE, 0, weights.size(), weights.data());
-  queue_.enqueueWriteBuffer(to.tables.boundaries, CL_FALSE, 0, boundaries.size(), boundaries.data());
-  queue_.enqueueWriteBuffer(to.tables.spans, CL_TRUE, 0, spans.size() * sizeof(SampleSpan), spans.data());
+  write_in_order(queue_, [&] {
+    queue_.enqueueWriteBuffer(to.tables.weights, CL_FALSE, 0, weights.size(), weights.data());
+    queue_.enqueueWriteBuffer(to.tables.boundaries, CL_FALSE, 0, boundaries.size(), boundaries.data());
+    queue_.enqueueWriteBuffer(to.tables.spans, CL_TRUE, 0, spans.size() * sizeof(SampleSpan), spans.data());
+  });
 }
 
 void DeviceTables::write_column(const RenderPlan& plan, const TableSlice& slice, std::size_t function,
@@ -123,9 +136,11 @@ void DeviceTables::write_column(const RenderPlan& plan, const TableSlice& slice,
     queue_.enqueueWriteBufferRect(buffer, waits ? CL_TRUE : CL_FALSE, {function * element, 0, 0}, {0, 0, 0},
                                   {element, rows, 1}, plan.function_count() * element, 0, element, 0, from);
   };
-  write(to.tables.weights, number, to.row_count, weights.data(), false);
-  write(to.tables.boundaries, number, to.row_count, boundaries.data(), false);
-  write(to.tables.spans, sizeof(SampleSpan), to.blocks.size(), spans.data(), true);
+  write_in_order(queue_, [&] {
+    write(to.tables.weights, number, to.row_count, weights.data(), false);
+    write(to.tables.boundaries, number, to.row_count, boundaries.data(), false);
+    write(to.tables.spans, sizeof(SampleSpan), to.blocks.size(), spans.data(), true);
+  });
 }
 
 }  // namespace nutik

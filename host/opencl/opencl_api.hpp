@@ -16,12 +16,16 @@
 #include <string>
 #include <vector>
 
+#include "capture/error.hpp"
 #include "opencl/device.hpp"
 
 namespace nutik {
 
 // An OpenCL error as a sentence: what was being done, the call and its code by name.
 std::string describe(const cl::Error& error, const std::string& doing);
+
+// The same with the way out, for what may happen to any device.
+DeviceError device_failed(const cl::Error& error, const std::string& doing);
 
 // All devices in the order of list_devices().
 std::vector<cl::Device> all_devices();

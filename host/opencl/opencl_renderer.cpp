@@ -100,7 +100,7 @@ class OpenClRenderer::Implementation {
       Rendered ignored;
       choose(plan, output, options_.precision, ignored);
     } catch (const cl::Error& error) {
-      throw DeviceError(describe(error, format("{} failed", info_.name)));
+      throw device_failed(error, format("{} failed", info_.name));
     }
   }
 
@@ -117,7 +117,7 @@ class OpenClRenderer::Implementation {
       programs_->save_new_binaries();
       return rendered;
     } catch (const cl::Error& error) {
-      throw DeviceError(describe(error, format("{} failed", info_.name)));
+      throw device_failed(error, format("{} failed", info_.name));
     }
   }
 
@@ -335,7 +335,7 @@ OpenClRenderer::OpenClRenderer(const OpenClOptions& options) {
   try {
     implementation_ = std::make_unique<Implementation>(options);
   } catch (const cl::Error& error) {
-    throw DeviceError(describe(error, "the OpenCL device cannot be started"));
+    throw device_failed(error, "the OpenCL device cannot be started");
   }
 }
 

@@ -95,9 +95,11 @@ cl::Program ProgramStore::get(const std::string& name, const std::string& source
     } catch (const cl::Error& error) {
       std::string log;
       if (program() != nullptr) log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_);
-      throw DeviceError(format("{}\n  options: {}\n  device: {}\n{}",
+      if (!log.empty() && log.back() != '\n') log += '\n';
+      throw DeviceError(format("{}\n  options: {}\n  device: {}\n{}use another device or the reference",
                                describe(error, format("kernels/{}.cl does not build", name)), options,
-                               device_.getInfo<CL_DEVICE_NAME>(), log));
+                               device_.getInfo<CL_DEVICE_NAME>(), log),
+                        {Setting::renderer});
     }
   }
   entries_.emplace(key, Entry{program, name, options, was_built, !was_built});

@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
-"""Lets calls of the system fail, and kills the program, in the middle of every command that writes.
+"""Lets calls of the system and of the device fail, and kills the program, in the middle of every command.
 
-    check_faults.py --program nutik-cl --preload libfail_calls.so --work FOLDER [--kills N] [--points N]
-                    [--only SECTION]
+    check_faults.py --program nutik-cl --libraries FOLDER --work FOLDER [--kills N] [--points N] [--only SECTION]
 
     calls   the n-th open, read, write, fsync, rename, mmap or large malloc fails, once or from then on
+    device  the n-th call of OpenCL of a kind fails, once or from then on, in every command that uses a device
     kills   SIGKILL, SIGTERM or SIGINT at a random moment
 
 Whatever happens, there is the old output or the whole new one; a video that SIGTERM or SIGINT ends has its frames so
 far. A call that failed is told in a sentence, with an exit status above 0, and leaves no temporary file; or the program
-got on without it, and the output is the right one.
+got on without it, and the output is the right one. A device that failed is status 4, and the sentence names the
+reference.
 """
 
 import argparse
@@ -33,6 +34,14 @@ WIDTH, HEIGHT, PICTURES = 160, 120, 24
 ERRORS = {"open": [errno.EMFILE, errno.EACCES], "read": [errno.EIO], "write": [errno.ENOSPC, errno.EIO],
           "fsync": [errno.EIO], "rename": [errno.ENOSPC], "mmap": [errno.ENOMEM], "malloc": [errno.ENOMEM]}
 
+# Of OpenCL, by kind of call (fail_device.cpp).
+OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY, NO_ALLOCATION, LOST_EVENT, NO_BUILD = -5, -6, -4, -14, -11
+DEVICE_ERRORS = {"start": [OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY], "build": [NO_BUILD, OUT_OF_HOST_MEMORY],
+                 "allocate": [NO_ALLOCATION, OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY],
+                 "enqueue": [OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY, NO_ALLOCATION],
+                 "wait": [LOST_EVENT, OUT_OF_RESOURCES]}
+DEVICE_STATUS = 4
+
 # Command lines without the program, and what each writes: the same bytes whenever it is run.
 COMMANDS = {
     "encode": ("clip/*.pgm -f 100 {}", "new.tik"),
@@ -48,6 +57,21 @@ COMMANDS = {
     "trace": ("trace --start 10ms --exposure 80ms --pixel 20,20 clip.tik {}", "new.csv"),
     "recover": ("recover cut.tik {}", "new.tik"),
     "noise": ("noise clip/*.pgm -o {}", "new.noise"),
+}
+
+# The same, of those that a device computes.
+DEVICE_COMMANDS = {
+    "expose": ("--start 10ms --exposure 80ms clip.tik {}", "new.png"),
+    "expose with a mask": ("-m mask.pgm -k two.fn --precision fixed packed.tik {}", "new.pfm"),
+    "expose a clip": ("-f 100 --start 10ms --exposure 80ms clip/*.pgm {}", "new.png"),
+    "series": ("--start 10ms --exposure 40ms --every 80ms --count 2 clip.tik -o new-%d.png", "new-0.png new-1.png"),
+    "batch": ("batch list.txt packed.tik", "new-a.png new-b.pfm"),
+    "video": ("video --out-fps 25 clip.tik {}", "new.avi"),
+    "contact": ("contact --every 120ms --exposure 40ms clip.tik {}", "new.png"),
+    "sweep": ("sweep --start 10ms --exposure 40ms --shift 0..80ms/40ms clip.tik new.png --each new-%d.pgm",
+              "new.png new-0.pgm new-1.pgm new-2.pgm"),
+    "validate": ("validate --runs 1 --start 10ms --exposure 80ms clip.tik", ""),
+    "mask": ("mask --moving --start 10ms --exposure 80ms --preview new.png clip.tik new.pgm", "new.png new.pgm"),
 }
 
 
@@ -67,16 +91,21 @@ class Bench:
                 picture[at:at + 30] = b"\xd0" * 30
             (folder / f"clip/{k:02}.pgm").write_bytes(b"P5 %d %d 255\n" % (WIDTH, HEIGHT) + picture)
         self.run("encode --codec none -f 100 clip/*.pgm clip.tik".split(), {})
+        self.run("encode --codec zstd --block-samples 6 -f 100 clip/*.pgm packed.tik".split(), {})
         whole = (folder / "clip.tik").read_bytes()
         (folder / "cut.tik").write_bytes(whole[:-100])
+        half = WIDTH * HEIGHT // 2
+        (folder / "mask.pgm").write_bytes(b"P5 %d %d 255\n" % (WIDTH, HEIGHT) + bytes(half) + b"\x80" * half)
+        (folder / "two.fn").write_text("M0 [0:1], [90000000:1], [90000001:0]\nM128 [50000000:0], [60000000:1]\n")
+        (folder / "list.txt").write_text("--start 0s --exposure 60ms new-a.png\n-m mask.pgm -k two.fn new-b.pfm\n")
 
-    def command(self, name):
-        """Words of the command line; the output's path."""
-        line, output = COMMANDS[name]
-        return line.format(output).split(), self.folder / output
+    def command(self, line):
+        """Words of a command line, and what it writes."""
+        text, outputs = line
+        return text.format(outputs).split(), [self.folder / output for output in outputs.split()]
 
     def start(self, words, settings):
-        environment = os.environ | {"NUTIK_SELF_TEST": "off"} | settings
+        environment = os.environ | {"NUTIK_SELF_TEST": "off", "XDG_CACHE_HOME": str(self.folder / "cache")} | settings
         return subprocess.Popen([self.program, *words], cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
@@ -85,13 +114,14 @@ class Bench:
         out, err = process.communicate(timeout=limit)
         return process.returncode, err.decode(errors="replace")
 
-    def right_output(self, name):
-        words, output = self.command(name)
-        output.unlink(missing_ok=True)
+    def right_outputs(self, line):
+        words, outputs = self.command(line)
+        for output in outputs:
+            output.unlink(missing_ok=True)
         status, err = self.run(words, {})
         if status != 0:
-            sys.exit(f"{name} fails without any fault: {err}")
-        return output.read_bytes()
+            sys.exit(f"{line[0]} fails without any fault: {err}")
+        return [output.read_bytes() for output in outputs]
 
     def parts(self):
         return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*.part"))
@@ -115,48 +145,62 @@ def spread(count, points):
     return sorted({*range(1, third + 1), *middle, *range(count - third + 1, count + 1)})
 
 
-def check_calls(report, bench, preload, points):
-    for name in COMMANDS:
-        right = bench.right_output(name)
-        old = older(right)
-        words, output = bench.command(name)
-        tried, wrong = 0, []
-        for call, errors in ERRORS.items():
+class Faults:
+    """What a library that is preloaded lets fail, one call after another."""
+
+    def __init__(self, library, errors, settings=None, status=None, hint="", to_text=str):
+        self.library, self.errors, self.settings = library, errors, settings or {}
+        self.status, self.hint, self.to_text = status, hint, to_text
+
+    def flaw_of(self, status, err, outputs, right, parts):
+        """What is wrong about how a run ended; empty where nothing is. outputs: the old one, and what there is."""
+        if any(found not in (older(wanted), wanted) for found, wanted in zip(outputs, right)):
+            return "an output is neither the old one nor the right one"
+        if status == 0:
+            return "" if outputs == right else "status 0 without the output"
+        if status < 0:
+            return f"ended by signal {-status}: {err[-200:]}"
+        if self.status is not None and status != self.status:
+            return f"status {status}: {err[-200:]}"
+        if parts:
+            return f"left {', '.join(parts)}"
+        # Up to the loader's own, where a library could not be loaded.
+        if "nutik-cl" not in err and "error" not in err:
+            return f"no message: {err[-200:]!r}"
+        return "" if self.hint in err else f"no word of a way out: {err[-300:]!r}"
+
+
+def check_calls(report, bench, faults, commands, points):
+    for name, line in commands.items():
+        right = bench.right_outputs(line)
+        words, outputs = bench.command(line)
+
+        def run(settings):
+            for output, wanted in zip(outputs, right):
+                output.write_bytes(older(wanted))
+            return bench.run(words, {"LD_PRELOAD": str(faults.library), **faults.settings} | settings)
+
+        tried, told, wrong = 0, 0, []
+        for call, errors in faults.errors.items():
             counted = bench.folder / "calls"
-            settings = {"LD_PRELOAD": str(preload), "NUTIK_FAIL_CALL": call, "NUTIK_FAIL_FOLDER": str(bench.folder),
-                        "NUTIK_FAIL_REPORT": str(counted), "NUTIK_FAIL_AT": "0"}
-            output.write_bytes(old)
             counted.write_text("0")
-            bench.run(words, settings)
+            run({"NUTIK_FAIL_CALL": call, "NUTIK_FAIL_REPORT": str(counted), "NUTIK_FAIL_AT": "0"})
             count = int(counted.read_text())
             for at in spread(count, points):
                 for goes_on in ("off", "on"):
                     error = errors[at % len(errors)]
-                    output.write_bytes(old)
-                    status, err = bench.run(words, settings | {
-                        "NUTIK_FAIL_AT": str(at), "NUTIK_FAIL_ERROR": str(error), "NUTIK_FAIL_AFTER": goes_on})
+                    status, err = run({"NUTIK_FAIL_CALL": call, "NUTIK_FAIL_AT": str(at),
+                                       "NUTIK_FAIL_ERROR": str(error), "NUTIK_FAIL_AFTER": goes_on})
                     tried += 1
-                    flaw = flaw_of(status, err, output.read_bytes(), old, right, bench.parts())
+                    told += status > 0
+                    found = [output.read_bytes() for output in outputs]
+                    flaw = faults.flaw_of(status, err, found, right, bench.parts())
                     bench.clear_parts()
                     if flaw:
-                        wrong.append(f"{call} {at} of {count} ({os.strerror(error)}, then {goes_on}): {flaw}")
-        report.hold(not wrong, f"{name}: {tried} faults" + "".join(f"\n    {each}" for each in wrong[:12]))
-
-
-def flaw_of(status, err, output, old, right, parts):
-    """What is wrong about how a run ended; empty where nothing is."""
-    if output not in (old, right):
-        return "the output is neither the old one nor the right one"
-    if status == 0:
-        return "" if output == right else "status 0 without the output"
-    if status < 0:
-        return f"ended by signal {-status}: {err[-200:]}"
-    if parts:
-        return f"left {', '.join(parts)}"
-    # Up to the loader's own, where a library could not be loaded.
-    if "nutik-cl" not in err and "error" not in err:
-        return f"no message: {err[-200:]!r}"
-    return ""
+                        wrong.append(f"{call} {at} of {count} ({faults.to_text(error)}, then {goes_on}): {flaw}")
+        # Where nothing fails nothing was tried: a call may have another name now.
+        report.hold(not wrong and told > 0, f"{name}: {tried} faults, {told} of them errors" +
+                    "".join(f"\n    {each}" for each in wrong[:12]))
 
 
 def is_beginning(video, right):
@@ -178,10 +222,10 @@ def frames_of(video):
 
 def check_kills(report, bench, kills):
     draw = random.Random(7)
-    for name in COMMANDS:
-        right = bench.right_output(name)
+    for name, line in COMMANDS.items():
+        [right] = bench.right_outputs(line)
         old = older(right)
-        words, output = bench.command(name)
+        words, [output] = bench.command(line)
         began = time.monotonic()
         bench.run(words, {})
         whole = time.monotonic() - began
@@ -208,18 +252,25 @@ def check_kills(report, bench, kills):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", type=Path, required=True)
-    parser.add_argument("--preload", type=Path, required=True)
+    parser.add_argument("--libraries", type=Path, required=True, help="folder of what is preloaded")
     parser.add_argument("--work", type=Path, required=True)
     parser.add_argument("--points", type=int, default=6, help="of the calls of a kind, that fail one by one")
     parser.add_argument("--kills", type=int, default=200)
-    parser.add_argument("--only", choices=["calls", "kills"])
+    parser.add_argument("--only", choices=["calls", "device", "kills"])
     arguments = parser.parse_args()
     report = Report()
     work = (arguments.work / (arguments.only or "all")).resolve()
     bench = Bench(arguments.program.resolve(), work)
-    if arguments.only != "kills":
-        check_calls(report, bench, arguments.preload.resolve(), arguments.points)
-    if arguments.only != "calls":
+    libraries = arguments.libraries.resolve()
+    if arguments.only in (None, "calls"):
+        faults = Faults(libraries / "libfail_calls.so", ERRORS, {"NUTIK_FAIL_FOLDER": str(bench.folder)},
+                        to_text=os.strerror)
+        check_calls(report, bench, faults, COMMANDS, arguments.points)
+    if arguments.only in (None, "device"):
+        faults = Faults(libraries / "libfail_device.so", DEVICE_ERRORS, status=DEVICE_STATUS, hint="the reference",
+                        to_text=lambda error: f"OpenCL error {error}")
+        check_calls(report, bench, faults, DEVICE_COMMANDS, arguments.points)
+    if arguments.only in (None, "kills"):
         check_kills(report, bench, arguments.kills)
     report.end()
 

@@ -1,17 +1,12 @@
-// Preloaded before the program: lets one call of the system fail, so that it can be seen what becomes of the output.
+// Preloaded before the program: lets one call of the system fail, so that it can be seen what becomes of the output
+// (faults/fault.hpp: kinds are open, read, write, fsync, rename, mmap and malloc).
 //
-//   NUTIK_FAIL_CALL     open, read, write, fsync, rename, mmap or malloc
-//   NUTIK_FAIL_AT       which of them, from 1 on; 0: none
-//   NUTIK_FAIL_ERROR    its errno
-//   NUTIK_FAIL_AFTER    "on": all that follow fail as well, as on a full disk
 //   NUTIK_FAIL_FOLDER   calls count whose file lies in it; of malloc those of a mebibyte and more
-//   NUTIK_FAIL_REPORT   a file that the number of calls so far is written to
 //
 // Calls that the C library makes of its own are not seen.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/syscall.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
@@ -19,56 +14,23 @@
 #include <cerrno>
 #include <cstdarg>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
+
+#include "faults/fault.hpp"
 
 namespace {
 
 constexpr std::size_t kLargeAllocation = 1 << 20;
 
-// Environment variables are read before anything is allocated: malloc() below asks for them.
-struct Settings {
-  const char* call = std::getenv("NUTIK_FAIL_CALL");
-  const char* folder = std::getenv("NUTIK_FAIL_FOLDER");
-  const char* report = std::getenv("NUTIK_FAIL_REPORT");
-  const char* at = std::getenv("NUTIK_FAIL_AT");
-  const char* error = std::getenv("NUTIK_FAIL_ERROR");
-  const char* after = std::getenv("NUTIK_FAIL_AFTER");
-};
-
-const Settings& settings() {
-  static const Settings read;
-  return read;
-}
-
-std::atomic<long> calls{0};
-
-// The program may end without its destructors: so the number is written at every call, past the functions below.
-void report(long number) {
-  if (settings().report == nullptr) return;
-  const auto file =
-      static_cast<int>(syscall(SYS_openat, AT_FDCWD, settings().report, O_CREAT | O_WRONLY, 0666));
-  char text[24];
-  const int length = std::snprintf(text, sizeof text, "%20ld\n", number);
-  syscall(SYS_pwrite64, file, text, length, 0);
-  syscall(SYS_close, file);
-}
-
 // Counts a call, and says whether it is to fail; errno is set then.
 bool fails(const char* call) {
-  const Settings& wanted = settings();
-  if (wanted.call == nullptr || std::strcmp(call, wanted.call) != 0) return false;
-  const long number = ++calls;
-  report(number);
-  const long at = wanted.at == nullptr ? 0 : std::atol(wanted.at);
-  const bool goes_on = wanted.after != nullptr && std::strcmp(wanted.after, "on") == 0;
-  if (at == 0 || number < at || (number > at && !goes_on)) return false;
-  errno = wanted.error == nullptr ? EIO : std::atoi(wanted.error);
-  return true;
+  const int error = nutik::test::fault_of(call, EIO);
+  if (error != 0) errno = error;
+  return error != 0;
 }
 
 bool lies_in_folder(const char* path) {
-  const char* folder = settings().folder;
+  static const char* const folder = std::getenv("NUTIK_FAIL_FOLDER");
   return folder != nullptr && path != nullptr && std::strncmp(path, folder, std::strlen(folder)) == 0;
 }
 
