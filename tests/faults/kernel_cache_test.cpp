@@ -1,5 +1,10 @@
-// Kernels that were kept are native code: others' are not loaded, and the program says so.
+// Kernels that were kept are native code: others' are not loaded, and the program says so. Whatever lies there, and
+// however many programs are at it, pictures are right.
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <future>
 
 #include "support/made_up_tik.hpp"
 #include "support/program_test.hpp"
@@ -14,10 +19,41 @@ struct KernelCache : test::ProgramTest {
     test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
     fs::create_directories(cache_);
   }
-  [[nodiscard]] test::ProgramResult expose() const {
-    return test::run_program({"--start", "0s", "--exposure", "1s", "c.tik", "p.png"}, scratch_.folder(),
-                             {"XDG_CACHE_HOME=" + (scratch_ / "home").string()});
+  [[nodiscard]] test::ProgramResult expose(const std::string& picture = "p.png",
+                                           std::vector<std::string> settings = {}) const {
+    settings.push_back("XDG_CACHE_HOME=" + (scratch_ / "home").string());
+    return test::run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "c.tik", picture},
+                             scratch_.folder(), settings);
   }
+  [[nodiscard]] std::vector<fs::path> kept() const {
+    const fs::directory_iterator files(cache_);
+    return {begin(files), end(files)};
+  }
+
+  [[nodiscard]] std::string right_picture() const {
+    const auto result = test::run_program(
+        {"--start", "0s", "--exposure", "1s", "--no-recipe", "--renderer", "reference", "c.tik", "right.png"},
+        scratch_.folder());
+    EXPECT_EQ(result.status, 0) << result.err;
+    return test::read_file(scratch_ / "right.png");
+  }
+
+  // So many programs at a time make the picture that is right, and say `note`.
+  void expect_right(int programs, std::string_view note = {}) const {
+    const std::string right = right_picture();
+    std::vector<std::future<test::ProgramResult>> running;
+    for (int i = 0; i < programs; ++i) {
+      running.push_back(
+          std::async(std::launch::async, [this, i] { return expose("p" + std::to_string(i) + ".png"); }));
+    }
+    for (int i = 0; i < programs; ++i) {
+      const test::ProgramResult result = running[i].get();
+      EXPECT_EQ(result.status, 0) << result.err;
+      EXPECT_NE(result.err.find(note), std::string::npos) << result.err;
+      EXPECT_EQ(test::read_file(scratch_ / ("p" + std::to_string(i) + ".png")), right) << i;
+    }
+  }
+
   fs::path cache_ = scratch_ / "home/nutik-cl";
 };
 
@@ -38,10 +74,8 @@ TEST_F(KernelCache, ThatOthersMayWriteToIsNotUsed) {
 TEST_F(KernelCache, WithFoldersForFilesFailsNoExposure) {
   fs::permissions(cache_, fs::perms::owner_all);
   ASSERT_EQ(expose().status, 0);
-  std::vector<fs::path> kept;
-  for (const auto& file : fs::directory_iterator(cache_)) kept.push_back(file.path());
-  ASSERT_GE(kept.size(), 3u);  // both kernels, and the verdict on them
-  for (const fs::path& file : kept) {
+  ASSERT_GE(kept().size(), 3u);  // both kernels, and the verdict on them
+  for (const fs::path& file : kept()) {
     fs::remove(file);
     fs::create_directory(file);
   }
@@ -50,6 +84,57 @@ TEST_F(KernelCache, WithFoldersForFilesFailsNoExposure) {
   const auto devices =
       test::run_program({"devices"}, scratch_.folder(), {"XDG_CACHE_HOME=" + (scratch_ / "home").string()});
   EXPECT_EQ(devices.status, 0) << devices.err;
+}
+
+TEST_F(KernelCache, ThatIsEmptyServesTenPrograms) {
+  fs::remove_all(scratch_ / "home");
+  expect_right(10);
+  EXPECT_EQ(fs::status(cache_).permissions(), fs::perms::owner_all);
+  for (const fs::path& file : kept()) {
+    EXPECT_TRUE(file.extension() == ".bin" || file.extension() == ".txt") << file << " was left unfinished";
+  }
+  EXPECT_EQ(expose().err.find("building kernels"), std::string::npos);
+}
+
+TEST_F(KernelCache, ThatIsDamagedServesTenPrograms) {
+  fs::permissions(cache_, fs::perms::owner_all);
+  ASSERT_EQ(expose().status, 0);
+  int kind = 0;
+  for (const fs::path& file : kept()) {
+    std::string bytes = test::read_file(file);
+    switch (kind++ % 3) {
+      case 0: bytes[bytes.size() - bytes.size() / 4] ^= 0x10; break;
+      case 1: bytes.resize(bytes.size() - 5); break;
+      case 2: bytes.clear(); break;
+    }
+    std::ofstream(file, std::ios::binary) << bytes;
+  }
+  ASSERT_GE(kind, 3);
+  expect_right(10);
+}
+
+// Kernels that compute wrongly lie there under the names of the right ones. Where the cache is our own alone they are
+// taken, for nothing tells them apart.
+TEST_F(KernelCache, OfOthersIsNotLoaded) {
+  fs::permissions(cache_, fs::perms::owner_all);
+  const std::string untested = "NUTIK_SELF_TEST=off";
+  ASSERT_EQ(expose("wrong.png", {untested, "LD_PRELOAD=" NUTIK_TEST_MUTATION,
+                                 "NUTIK_MUTATE_FROM=  return multiply_add(weights, lights, sums);",
+                                 "NUTIK_MUTATE_TO=  return multiply_add(weights, lights * (real)0.5, sums);"})
+                .status,
+            0);
+  ASSERT_EQ(expose("p.png", {untested}).status, 0);
+  ASSERT_EQ(test::read_file(scratch_ / "p.png"), test::read_file(scratch_ / "wrong.png"));
+  ASSERT_NE(test::read_file(scratch_ / "p.png"), right_picture());
+
+  fs::permissions(cache_, fs::perms::group_write, fs::perm_options::add);
+  expect_right(10, "other users may write to " + cache_.string());
+  fs::permissions(cache_, fs::perms::owner_all);
+  if (::chown(cache_.c_str(), 12'345, 12'345) != 0) GTEST_SKIP() << "only root can give a folder away";
+  expect_right(1, cache_.string() + " belongs to another user");
+  ASSERT_EQ(::chown(cache_.c_str(), ::geteuid(), ::getegid()), 0);
+  for (const fs::path& file : kept()) ASSERT_EQ(::chown(file.c_str(), 12'345, 12'345), 0);
+  expect_right(1);
 }
 
 }  // namespace
