@@ -62,7 +62,7 @@ def stills():
 def cine():
     """A Phantom file of two pictures of 16-bit words, with their times."""
     width, height = 8, 4
-    header, bitmap, setup, times = 44, 40, 5000, 8 + 2 * 8
+    header, bitmap, setup, times = 44, 40, 5692, 8 + 2 * 8  # FFmpeg reads no shorter setup
     offsets_at = header + bitmap + setup + times
     first = offsets_at + 2 * 8
     frame = 8 + width * height * 2

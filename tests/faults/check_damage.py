@@ -1,0 +1,324 @@
+#!/usr/bin/env python3
+"""Damages every kind of file that the program reads, and demands that it notices, or that nothing is lost.
+
+    check_damage.py --program nutik-cl --work FOLDER [--flips N] [--seed N] [--only PART]
+
+    inputs     each format of stills and each codec, cut by 1 to 8 bytes at its end, and N times with a bit flipped
+    captures   .tik files of every kind with a bit flipped N times in every class of their bytes
+
+All samples are exposed by the reference. A damaged file is refused with status 3 and a sentence, or its picture is the
+right one, or a note or warning tells of it. Where a format keeps no checksum, a flipped bit may also be another picture:
+these are counted and printed. Nothing else may happen: no signal, no other status, no other picture in silence.
+"""
+
+import argparse
+import os
+import random
+import re
+import shutil
+import struct
+import subprocess
+import sys
+from collections import Counter
+from pathlib import Path
+from typing import Callable, NamedTuple
+
+import cv2
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent / "tools"), str(HERE.parent / "fuzz")]
+from make_seeds import cine  # noqa: E402
+from report import Report  # noqa: E402
+
+WIDTH, HEIGHT, PICTURES = 48, 32, 6
+EXPOSE = ["--renderer", "reference", "--start", "0s", "--exposure", "1s", "--no-recipe"]
+CUTS = range(1, 9)
+SHOWN = 8
+
+
+FOR_RECOVERY = "exposures of blocks"  # which a whole file says again at its end
+
+
+def nowhere(_):
+    return []
+
+
+class Input(NamedTuple):
+    name: str
+    words: list                        # how the program is told to read it
+    damaged: str                       # the file that is damaged
+    notices: Callable = nowhere  # where a flipped bit must be noticed: pairs of offset and bytes
+
+
+def pictures(channels):
+    """A disc that crosses noise, [pictures, height, width, channels]."""
+    noise = np.random.default_rng(3).integers(60, 120, (PICTURES, HEIGHT, WIDTH, channels))
+    x, y = np.meshgrid(np.arange(WIDTH), np.arange(HEIGHT))
+    for k in range(PICTURES):
+        noise[k][(x - 7 * k - 4) ** 2 + (y - 15) ** 2 < 40] = 220
+    return noise.astype(np.uint8)
+
+
+def whole_file(path):
+    return [(0, path.stat().st_size)]
+
+
+def packets(path):
+    """Where a container holds what its codec made. A container's own bytes have no checksums."""
+    told = subprocess.run(["ffprobe", "-v", "error", "-show_entries", "packet=pos,size", "-of", "csv=p=0", path],
+                          capture_output=True, text=True, check=True).stdout
+    return [(int(at), int(size)) for size, at in re.findall(r"(\d+),(\d+)", told)]
+
+
+def write_stills(folder):
+    """A folder of each format; the third picture is damaged. Yields inputs."""
+    grey, colour = pictures(1), pictures(3)
+    formats = {
+        "png": (".png", colour, []), "png-grey": (".png", grey, []),
+        "png-16": (".png", colour.astype(np.uint16) * 257, []),
+        "tiff": (".tif", colour, [cv2.IMWRITE_TIFF_COMPRESSION, 1]),
+        "tiff-lzw": (".tif", colour, [cv2.IMWRITE_TIFF_COMPRESSION, 5]),
+        "tiff-deflate": (".tif", colour.astype(np.uint16) * 257, [cv2.IMWRITE_TIFF_COMPRESSION, 8]),
+        "jpeg": (".jpg", colour, []), "pgm": (".pgm", grey, []), "ppm-16": (".ppm", colour.astype(np.uint16) * 257, []),
+    }
+    for name, (ending, clip, options) in formats.items():
+        (folder / name).mkdir()
+        for k, picture in enumerate(clip):
+            cv2.imwrite(str(folder / name / f"{k}{ending}"), picture, options)
+        yield Input(name, ["-f", "100", name], f"{name}/2{ending}", whole_file if ending == ".png" else nowhere)
+    cv2.imwritemulti(str(folder / "pages.tif"), list(colour), [cv2.IMWRITE_TIFF_COMPRESSION, 1])
+    yield Input("tiff of pages", ["-f", "100", "pages.tif"], "pages.tif")
+    (folder / "camera").mkdir()
+    for k, picture in enumerate(grey):
+        cv2.imwrite(str(folder / "camera" / f"{k}.png"), picture)
+    (folder / "camera/camera.cih").write_text("#Camera Information Header\nRecord Rate(fps) : 1000\n"
+                                              "Shutter Speed(s) : 1/2000\nTotal Frame : 6\n")
+    yield Input(".cih", ["camera"], "camera/camera.cih")
+
+
+def write_videos(folder):
+    """A clip of each codec and container. Yields inputs."""
+    grey = pictures(1)
+    (folder / "raw.gray").write_bytes(grey.tobytes())
+    yield Input("raw video", ["-f", "100", "--raw", f"{WIDTH}x{HEIGHT}:gray", "raw.gray"], "raw.gray")
+    (folder / "clip.cine").write_bytes(cine())
+    yield Input(".cine", ["clip.cine"], "clip.cine")
+    if shutil.which("ffmpeg") is None:
+        print("SKIPPED: the ffmpeg command is missing, which makes videos")
+        return
+    (folder / "colour.rgb").write_bytes(pictures(3)[..., ::-1].tobytes())
+    for name, options, notices in (
+            ("h264.mp4", "-c:v libx264 -crf 12 -pix_fmt yuv420p", None),
+            ("h264.mkv", "-c:v libx264 -crf 12 -pix_fmt yuv420p", None),
+            ("hevc.mp4", "-c:v libx265 -crf 12 -pix_fmt yuv420p -x265-params log-level=error:pools=1", None),
+            ("ffv1.mkv", "-c:v ffv1 -level 3 -slices 4 -slicecrc 1 -pix_fmt bgr0", packets),
+            ("ffv1.avi", "-c:v ffv1 -level 3 -slices 4 -slicecrc 1 -pix_fmt bgr0", packets),
+            ("prores.mov", "-c:v prores_ks -pix_fmt yuv422p10le", None),
+            ("mjpeg.avi", "-c:v mjpeg -q:v 2 -pix_fmt yuvj420p", None),
+            ("raw.avi", "-c:v rawvideo -pix_fmt bgr24", None)):
+        made = subprocess.run(["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s",
+                               f"{WIDTH}x{HEIGHT}", "-r", "100", "-i", "colour.rgb", "-threads", "1", "-fflags", "bitexact",
+                               *options.split(), name], cwd=folder, check=False, capture_output=True, text=True)
+        if made.returncode != 0:
+            print(f"SKIPPED: this ffmpeg does not make {name}: {made.stderr.strip().splitlines()[0]}")
+            continue
+        yield Input(name, [name], name, notices or nowhere)
+
+
+def classes_of(data):
+    """The classes of a capture's bytes (docs/tik-format.md): name and a list of pairs of offset and bytes."""
+    found = {}
+
+    def add(name, first, last):
+        if last > first:
+            found.setdefault(name, []).append((first, last - first))
+
+    size = re.search(rb"\n(\d+) (\d+)\n(\d+)\n", data)
+    raster = int(size[1]) * int(size[2]) * (3 if data[:2] == b"P6" else 1) * (2 if int(size[3]) > 255 else 1)
+    fields, block = data.index(b"TIKfield", size.end() + raster), data.index(b"TIKblock", size.end() + raster)
+    fields_end = fields + struct.unpack_from("<Q", data, fields + 8)[0]
+    add("text", 0, size.end())
+    add("first picture", size.end(), size.end() + raster)
+    add("padding", size.end() + raster, fields)
+    add("fields", fields, fields_end)
+    add("padding", fields_end, block)
+    while data[block:block + 8] == b"TIKblock":
+        exposures, stored = struct.unpack_from("<QQ", data, block + 32)
+        header_end, exposures_end = block + 128, block + 128 + exposures
+        payload = aligned(exposures_end)
+        add("block headers", block, header_end)
+        add(FOR_RECOVERY, header_end, exposures_end)
+        add("padding", exposures_end, payload)
+        add("payloads", payload, payload + stored)
+        block = aligned(payload + stored)
+        add("padding", payload + stored, block)
+    footer = len(data) - 128
+    exposures = struct.unpack_from("<Q", data, footer + 24)[0]
+    add("index", block, exposures or footer)
+    if exposures:
+        add("exposures", exposures, footer)
+    add("footer", footer, len(data))
+    return found
+
+
+def aligned(offset):
+    return -(-offset // 64) * 64
+
+
+class Bench:
+    """Exposes what is damaged, and says what became of it."""
+
+    def __init__(self, program, folder):
+        self.program, self.folder = program, folder
+
+    def run(self, words):
+        environment = os.environ | {"XDG_CACHE_HOME": str(self.folder / "cache")}
+        done = subprocess.run([self.program, *words], cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
+                              capture_output=True, timeout=120, check=False)
+        return done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
+
+    def expose(self, words):
+        """The picture, None where there is none; status and what was said."""
+        picture = self.folder / "picture.tif"
+        picture.unlink(missing_ok=True)
+        status, _, said = self.run([*EXPOSE, *words, picture.name])
+        return picture.read_bytes() if picture.exists() else None, status, said
+
+    def right(self, words):
+        picture, status, said = self.expose(words)
+        if status != 0:
+            sys.exit(f"{' '.join(words)} fails without any damage: {said}")
+        return picture, said
+
+    def outcome(self, words, right):
+        """refused, same, told or silent; else what is wrong."""
+        picture, status, said = self.expose(words)
+        if status == 0:
+            if picture == right[0]:
+                return "same"
+            is_new = any(line not in right[1] for line in said.splitlines() if re.match("note|warning", line))
+            return "told" if is_new else "silent"
+        if status == 3 and picture is None and said.strip():
+            return "refused"
+        # A header that says nothing of the rate any more leaves it to be stated.
+        if status == 2 and picture is None and "--" in said:
+            return "refused"
+        return f"status {status}, {'a' if picture else 'no'} picture: {said[-200:]}"
+
+
+    def is_lost_by_recovery(self, capture, at):
+        """Whether recover, of a file that was cut off, keeps nothing of the block with this byte."""
+        whole, recovered = capture.read_bytes(), self.folder / "recovered.tik"
+        recovered.unlink(missing_ok=True)
+        (self.folder / "cut.tik").write_bytes(whole[:-1])
+        status, _, said = self.run(["recover", "cut.tik", recovered.name])
+        if status == 3 and said.strip() and not recovered.exists():
+            return True
+        return status == 0 and recovered.read_bytes()[:at + 1] != whole[:at + 1]
+
+
+def damaged(data, at, bit):
+    changed = bytearray(data)
+    changed[at] ^= 1 << bit
+    return bytes(changed)
+
+
+def check_inputs(report, bench, flips, seed):
+    for each in [*write_stills(bench.folder), *write_videos(bench.folder)]:
+        path = bench.folder / each.damaged
+        data, right, draw = path.read_bytes(), bench.right(each.words), random.Random(seed)
+        wrong, came, silent = [], Counter(), 0
+        for cut in CUTS:
+            path.write_bytes(data[:-cut])
+            outcome = bench.outcome(each.words, right)
+            came[outcome] += 1
+            if outcome not in ("refused", "same", "told"):
+                wrong.append(f"cut by {cut}: {outcome}")
+        path.write_bytes(data)
+        noticed = each.notices(path)
+        for k in range(flips):
+            # Half of them where they must be noticed, if anywhere.
+            first, count = draw.choice(noticed) if noticed and k % 2 == 0 else (0, len(data))
+            at, bit = first + draw.randrange(count), draw.randrange(8)
+            path.write_bytes(damaged(data, at, bit))
+            outcome = bench.outcome(each.words, right)
+            came[outcome] += 1
+            is_noticed = any(first <= at < first + count for first, count in noticed)
+            silent += outcome == "silent"
+            if outcome not in ("refused", "same", "told") and (outcome != "silent" or is_noticed):
+                wrong.append(f"bit {bit} of byte {at} of {len(data)}: {outcome}")
+        path.write_bytes(data)
+        report.hold(not wrong, f"{each.name}: " + summary(came) + "".join(f"\n    {one}" for one in wrong[:SHOWN]))
+
+
+def summary(came):
+    return ", ".join(f"{count} {outcome}" for outcome, count in sorted(came.items()) if " " not in outcome)
+
+
+# How captures are made from stills: with a rate or with times, grey and colour, packed and not.
+CAPTURES = {
+    "packed": "encode -f 100 --block-samples 4 png {}",
+    "not packed": "encode -f 100 --codec none --block-samples 4 --pixel-aspect 2:1 png-grey {}",
+    "16 bits, with times": "encode --codec lz4 --tiles records --block-samples 4 table.csv {}",
+}
+
+
+def check_captures(report, bench, flips, seed):
+    list(write_stills(bench.folder))
+    table = "".join(f"png-16/{k}.png,{10_000_000 * k + 7 * k * k},2000000\n" for k in range(PICTURES))
+    (bench.folder / "table.csv").write_text("file,start_ns,exposure_ns\n" + table)
+    path = bench.folder / "c.tik"
+    for name, line in CAPTURES.items():
+        status, _, said = bench.run(line.format(path.name).split())
+        if status != 0:
+            sys.exit(f"{line} fails: {said}")
+        data, right, draw = path.read_bytes(), bench.right([path.name]), random.Random(seed)
+        for kind, parts in classes_of(data).items():
+            wrong, came = [], Counter()
+            for _ in range(flips):
+                first, count = draw.choice(parts)
+                at, bit = first + draw.randrange(count), draw.randrange(8)
+                path.write_bytes(damaged(data, at, bit))
+                outcome = bench.outcome([path.name], right)
+                came[outcome] += 1
+                where = f"bit {bit} of byte {at} of {len(data)}"
+                if outcome not in ("refused", "same"):
+                    wrong.append(f"{where}: {outcome}")
+                if kind == FOR_RECOVERY:
+                    came["refused"] += bench.is_lost_by_recovery(path, at)
+                # What an exposure of everything refuses, check says.
+                checked, told, _ = bench.run(["check", path.name])
+                if (checked == 3) != (outcome == "refused"):
+                    wrong.append(f"{where}: {outcome}, but check ends with {checked}: {told[-200:]}")
+            if kind == FOR_RECOVERY and came["refused"] != flips:
+                wrong.append(f"recover kept {flips - came['refused']}")
+            if kind != "padding" and came["refused"] == 0:
+                wrong.append("not one flip was noticed")
+            report.hold(not wrong, f"capture, {name}, {kind}: " + summary(came) +
+                        "".join(f"\n    {one}" for one in wrong[:SHOWN]))
+
+
+PARTS = {"inputs": check_inputs, "captures": check_captures}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", type=Path, required=True)
+    parser.add_argument("--work", type=Path, required=True)
+    parser.add_argument("--flips", type=int, default=8, help="of each format, and of each class of a capture's bytes")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", choices=PARTS)
+    arguments = parser.parse_args()
+    report = Report()
+    for part, check in PARTS.items():
+        if arguments.only in (None, part):
+            folder = (arguments.work / part).resolve()
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir(parents=True)
+            check(report, Bench(arguments.program.resolve(), folder), arguments.flips, arguments.seed)
+    report.end(f" (--seed {arguments.seed})")
+
+
+if __name__ == "__main__":
+    main()
