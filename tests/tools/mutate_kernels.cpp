@@ -1,5 +1,5 @@
 // Preloaded before an OpenCL program: replaces one text of its kernels' sources by another before they are built, so
-// that it can be seen whether tests notice (tools/mutate_kernels).
+// that it can be seen whether tests notice (tools/mutate kernels).
 //
 //   NUTIK_MUTATE_FROM   a text that a source has at most once
 //   NUTIK_MUTATE_TO     what to put in its place

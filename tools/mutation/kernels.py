@@ -1,14 +1,9 @@
-#!/usr/bin/python3
-"""Changes the kernels for the worse, one line at a time, and demands that the tests of their roundings notice.
+"""Changes of the kernels for the worse, each of which the tests of their roundings must notice.
 
-    tools/mutate_kernels [--build build] [NAME ...]
-
-Each mutation below is applied to the kernels' source on its way to the OpenCL compiler (tests/tools/mutate_kernels.cpp);
-nothing is rebuilt. Prints which tests fail of each. Exit status 1 if one goes unnoticed, or if the tests fail without
-any. Takes some minutes.
+A mutation is applied to the kernels' source on its way to the OpenCL compiler (tests/tools/mutate_kernels.cpp); nothing
+is rebuilt.
 """
 
-import argparse
 import os
 import pathlib
 import re
@@ -75,11 +70,7 @@ def failed_tests(build, folder, mutation):
     return failed, "mutated" in done.stderr
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build"))
-    parser.add_argument("names", nargs="*", metavar="NAME", help="parts of mutations' names; all if none")
-    arguments = parser.parse_args()
+def run(arguments):
     wanted = [each for each in MUTATIONS
               if not arguments.names or any(name in each[0] for name in arguments.names)]
     build = arguments.build.resolve()
@@ -97,7 +88,3 @@ def main():
         print(f"{mutation[0]}: {', '.join(failed) or 'UNNOTICED'}", flush=True)
     print(f"{len(wanted)} mutations, {unnoticed} unnoticed")
     return 1 if unnoticed else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
