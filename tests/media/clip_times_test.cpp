@@ -1,7 +1,9 @@
 // When a clip's pictures were taken: irregular times of containers, and a camera's own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <sstream>
 
 #include "support/ffmpeg.hpp"
 #include "support/stills.hpp"
@@ -76,6 +78,114 @@ TEST(ClipTimes, RefusesTimesThatDoNotIncrease) {
   ClipOptions stated;
   stated.rate = Rational{25, 1};
   EXPECT_TRUE(timeline_of("", open_test_clip(clip, stated)->info(), stated, {360, 1}, 7).is_constant());
+}
+
+// What ffprobe says of decoded pictures: their times in ticks, without those that no decoder can tell (the last ones of
+// files that time packets' decoding alone), and the seconds of a tick.
+struct ProbedTimes {
+  std::vector<std::int64_t> ticks;
+  std::size_t pictures = 0;
+  Rational tick_s{1, 1};
+};
+
+ProbedTimes probed(const Scratch& scratch, const std::string& clip) {
+  const auto said = test::run_shell(
+      "ffprobe -v error -select_streams v -show_frames -show_entries "
+      "stream=time_base:frame=best_effort_timestamp "
+      "-of default=nw=1 " +
+          clip,
+      scratch.folder());
+  EXPECT_EQ(said.status, 0) << said.err;
+  ProbedTimes times;
+  std::istringstream lines(said.out);
+  for (std::string line; std::getline(lines, line);) {
+    const auto equals = line.find('=');
+    const std::string key = line.substr(0, equals);
+    if (key == "time_base") times.tick_s = Rational::parse(line.substr(equals + 1), key);
+    if (key != "best_effort_timestamp") continue;
+    ++times.pictures;
+    if (line.substr(equals + 1) != "N/A") times.ticks.push_back(std::stoll(line.substr(equals + 1)));
+  }
+  return times;
+}
+
+struct TimedClip {
+  std::string name;
+  std::string filter;  // pictures that are left out, at the rate that stands before it
+  std::string codec;
+  Rational rate;     // of the slots
+  bool is_constant;  // what must come of it
+};
+
+// A third of a second to two seconds of 64 x 48 pixels.
+void make_timed(const Scratch& scratch, const TimedClip& clip, int slots) {
+  const std::string source =
+      "-f lavfi -i testsrc=s=64x48:r=" + clip.rate.text() + " -frames:v " + std::to_string(slots);
+  const std::string left_out =
+      clip.filter.empty() ? "" : " -vf \"select='not(" + clip.filter + ")'\" -vsync vfr";
+  make(scratch, source + left_out + " " + clip.codec + " " + clip.name);
+}
+
+TEST(ClipTimes, AreThoseOfTheDecodedPictures) {
+  NEEDS_FFMPEG();
+  const std::string two = "eq(n,5)+eq(n,17)", second = "eq(n,1)";
+  const std::string mpeg4 = "-c:v mpeg4 -bf 2", h264 = "-c:v libx264 -bf 3 -b_strategy 0",
+                    mpeg2 = "-c:v mpeg2video -bf 2";
+  constexpr int kSlots = 60;
+  const TimedClip clips[] = {
+      // A tick of AVI is a whole picture.
+      {"plain.avi", "", "-c:v mjpeg", {30, 1}, true},
+      {"two-gaps.avi", two, "-c:v mjpeg", {30, 1}, false},
+      {"gap-behind-the-first.avi", second, "-c:v mjpeg", {30, 1}, false},
+      {"reordered.avi", "", mpeg4, {30, 1}, true},
+      {"reordered-with-gaps.avi", two, mpeg4, {30, 1}, false},
+      {"h264.avi", "", h264, {960, 1}, true},
+      {"h264-with-gaps.avi", two, h264, {960, 1}, false},
+      // Program streams time some of their pictures, or their decoding alone.
+      {"reordered.mpg", "", mpeg2, {30, 1}, true},
+      {"reordered-with-gap.mpg", "eq(n,40)", mpeg2, {30, 1}, false},
+      {"in-order.mpg", "", "-c:v mpeg1video -bf 0", {30, 1}, true},
+      {"camcorder.vob", "", "-c:v mpeg2video -b:v 4M -bf 2 -g 12 -f dvd", {25, 1}, true},
+      {"broadcast.ts", "", h264, {30, 1}, true},
+      {"broadcast-with-gaps.ts", two, h264, {30, 1}, false},
+      // Clocks as coarse as pictures: one that states the rate, one that does not.
+      {"fast.mkv", "", h264, {960, 1}, true},
+      {"fast-with-gaps.mkv", two, h264, {960, 1}, false},
+      {"coarse.mp4", "", h264 + " -video_track_timescale 30", {30, 1}, true},
+      {"coarse-with-gap.mp4", "eq(n,20)", h264 + " -video_track_timescale 30", {30, 1}, false},
+      {"phone.mov", "", "-c:v mjpeg -video_track_timescale 600", {240, 1}, true},
+      {"film.mp4", "", h264, {24000, 1001}, true},
+  };
+  for (const TimedClip& clip : clips) {
+    SCOPED_TRACE(clip.name);
+    const Scratch scratch;
+    make_timed(scratch, clip, kSlots);
+    const ProbedTimes want = probed(scratch, clip.name);
+    ASSERT_GE(want.ticks.size() + 2, want.pictures);
+    const auto opened = open_test_clip(scratch / clip.name);
+    ASSERT_EQ(opened->info().sample_count, want.pictures);
+    EXPECT_EQ(read_all(*opened).size(), want.pictures);
+    const Timeline timeline = timeline_of(clip.name, opened->info(), {}, {360, 1}, want.pictures);
+    EXPECT_EQ(timeline.is_constant(), clip.is_constant);
+    if (clip.is_constant) {
+      EXPECT_NEAR(timeline.rate().value(), clip.rate.value(), 0.01);
+    }
+    const double tick_ns = want.tick_s.value() * 1e9;
+    for (std::size_t k = 0; k < want.ticks.size(); ++k) {
+      const double want_ns = static_cast<double>(want.ticks[k] - want.ticks[0]) * tick_ns;
+      // A constant rate is what the clock's ticks were rounded from.
+      EXPECT_NEAR(static_cast<double>(timeline.start_ns(k)), want_ns, clip.is_constant ? tick_ns : 0.51) << k;
+    }
+  }
+}
+
+TEST(ClipTimes, NoRateIsInventedFromThreePictures) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  make_timed(scratch, {"three.mov", "eq(n,2)", "-c:v mjpeg -video_track_timescale 30", {30, 1}, false}, 3);
+  const auto clip = open_test_clip(scratch / "three.mov");
+  ASSERT_EQ(clip->info().sample_count, 3u);
+  EXPECT_EQ(clip->info().timing.starts_ns, (std::vector<std::int64_t>{0, 33'333'333, 100'000'000}));
 }
 
 // Camera files, against bytes picked out of them by hand.

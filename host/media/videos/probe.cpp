@@ -5,6 +5,7 @@
 #include "media/videos/capture_rate.hpp"
 #include "media/videos/cine_header.hpp"
 #include "media/videos/libav.hpp"
+#include "media/videos/picture_times.hpp"
 
 namespace nutik::videos {
 namespace {
@@ -57,73 +58,6 @@ std::optional<Rational> pixel_aspect(AVFormatContext* format, AVStream& stream, 
                                         : Rational::of(stored.den, stored.num);
 }
 
-// Whether every time is where a constant rate puts it, but for the rounding to the container's
-// clock.
-bool fits(const std::vector<std::int64_t>& times, Rational time_base, Rational rate) {
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    // i / rate, in ticks of the time base.
-    const auto ticks =
-        static_cast<std::int64_t>(i) * static_cast<int128>(rate.denominator) * time_base.denominator;
-    const std::int64_t expected =
-        round_half_up(ticks, static_cast<int128>(rate.numerator) * time_base.numerator);
-    const int128 off = static_cast<int128>(times[i]) - times[0] - expected;
-    if (off > 1 || off < -1) return false;
-  }
-  return true;
-}
-
-constexpr std::int64_t kLongestSeconds = (std::int64_t{1} << 62) / kSecondNs;
-
-ClipTiming of_rate(Rational rate) {
-  ClipTiming timing;
-  timing.rate = rate;
-  return timing;
-}
-
-// The timing of pictures at `times`, in order, in units of `time_base` seconds: the first of the
-// rates that fits them, or else the times themselves. The rates are those that a file announces.
-ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base, std::vector<Rational> rates,
-                     const std::string& name) {
-  const int128 span = (static_cast<int128>(times.back()) - times.front()) * time_base.numerator;
-  if (span / time_base.denominator >= kLongestSeconds) {
-    throw InputError(format("{}: its pictures' times are more than 146 years apart; state its rate", name),
-                     {Setting::frame_rate});
-  }
-  // The rate that the first and last picture tell, for files that announce another or none.
-  const int128 turns = static_cast<int128>(times.size() - 1) * time_base.denominator;
-  if (span > 0 && span <= INT64_MAX && turns <= INT64_MAX) {
-    rates.push_back(Rational::of(static_cast<std::int64_t>(turns), static_cast<std::int64_t>(span)));
-  }
-  for (const Rational& rate : rates) {
-    if (fits(times, time_base, rate)) return of_rate(rate);
-  }
-  ClipTiming timing;
-  for (const std::int64_t time : times) {
-    timing.starts_ns.push_back(round_half_up(
-        (static_cast<int128>(time) - times[0]) * time_base.numerator * kSecondNs, time_base.denominator));
-  }
-  return timing;
-}
-
-std::vector<Rational> announced_rates(const AVStream& stream) {
-  std::vector<Rational> rates;
-  for (const AVRational& rate : {stream.avg_frame_rate, stream.r_frame_rate}) {
-    if (rate.num > 0 && rate.den > 0) rates.push_back(Rational::of(rate.num, rate.den));
-  }
-  return rates;
-}
-
-ClipTiming packet_timing(const AVStream& stream, std::vector<std::int64_t> times, const std::string& name) {
-  const std::vector<Rational> rates = announced_rates(stream);
-  const bool timed = std::find(times.begin(), times.end(), AV_NOPTS_VALUE) == times.end();
-  if (timed && times.size() > 1) {
-    std::sort(times.begin(), times.end());  // packets come in the order of decoding
-    return timing_of(times, Rational::of(stream.time_base.num, stream.time_base.den), rates, name);
-  }
-  if (!rates.empty()) return of_rate(rates.front());
-  return {};
-}
-
 // The first picture whose time cannot be meant: not after the one before, or so long after it that
 // the clock was set in between. 0 where all can. Real files end with such a time.
 std::size_t first_senseless(const std::vector<std::int64_t>& starts_ns) {
@@ -142,13 +76,14 @@ std::size_t first_senseless(const std::vector<std::int64_t>& starts_ns) {
 
 // The demuxer numbers the pictures of a .cine and knows the camera's nominal rate. When they were
 // taken the camera wrote down, too: a file may hold every tenth picture only.
-void add_cine_header(const CineHeader& header, const AVStream& stream, const std::string& name,
+void add_cine_header(const CineHeader& header, const OpenedVideo& opened, const std::string& name,
                      Probe& result) {
   const std::vector<std::int64_t>& starts = header.starts_ns;
   if (starts.size() > 1 && starts.size() == result.sample_count) {
     const std::size_t senseless = first_senseless(starts);
     if (senseless == 0) {
-      result.timing = timing_of(starts, {1, kSecondNs}, announced_rates(stream), name);
+      const AVStream& stream = *opened.format->streams[opened.stream];
+      result.timing = timing_of(starts, {1, kSecondNs}, announced_rates(*opened.format, stream), name);
       result.timing.rate_from = "the camera's times in the file";
     } else {
       result.notes.emplace_back(
@@ -241,30 +176,31 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
     return result;
   }
 
-  std::vector<std::int64_t> times;
+  std::vector<PacketTimes> packets;
   std::int64_t last_end = INT64_MIN;
   const PacketPointer packet(allocated(av_packet_alloc()));
   int code = 0;
   while ((code = av_read_frame(opened.format.get(), packet.get())) >= 0) {
     const bool counts = packet->stream_index == opened.stream && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
     if (counts) {
-      times.push_back(packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts);
-      if (times.back() != AV_NOPTS_VALUE && times.back() < INT64_MAX - packet->duration) {
-        last_end = std::max(last_end, times.back() + packet->duration);
+      packets.push_back({packet->pts, packet->dts, packet->duration});
+      const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
+      if (time != AV_NOPTS_VALUE && time < INT64_MAX - packet->duration) {
+        last_end = std::max(last_end, time + packet->duration);
       }
     }
     av_packet_unref(packet.get());
   }
   if (code != AVERROR_EOF) {
     result.notes.emplace_back(
-        format("the file is damaged or was cut off behind picture {}: {}", times.size(), error_text(code)));
+        format("the file is damaged or was cut off behind picture {}: {}", packets.size(), error_text(code)));
   }
-  result.sample_count = times.size();
-  if (auto note = missing_end_note(*opened.format, stream, last_end, times.size())) {
+  result.sample_count = packets.size();
+  if (auto note = missing_end_note(*opened.format, stream, last_end, packets.size())) {
     result.notes.emplace_back(std::move(*note));
   }
-  result.timing = packet_timing(stream, std::move(times), path.string());
-  if (const auto header = read_cine_header(path)) add_cine_header(*header, stream, path.string(), result);
+  result.timing = timing_of(*opened.format, stream, packets, path.string());
+  if (const auto header = read_cine_header(path)) add_cine_header(*header, opened, path.string(), result);
   if (const auto filmed = capture_rate(*opened.format, path)) {
     apply_capture_rate(*filmed, result.timing, result.notes);
   } else if (has_slow_parts(path)) {

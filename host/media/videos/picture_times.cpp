@@ -1,0 +1,120 @@
+#include "media/videos/picture_times.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+namespace nutik::videos {
+namespace {
+
+constexpr std::int64_t kLongestSeconds = (std::int64_t{1} << 62) / kSecondNs;
+
+// How far apart the pictures are that lie furthest before and behind where a constant rate puts them, all in units of
+// 1 / (rate's numerator · time base's numerator) ticks, in which nothing is rounded.
+struct Deviation {
+  int128 spread, tick, period;
+};
+
+Deviation deviation(const std::vector<std::int64_t>& times, Rational time_base, Rational rate) {
+  const int128 tick = static_cast<int128>(rate.numerator) * time_base.numerator;
+  const int128 period = static_cast<int128>(rate.denominator) * time_base.denominator;
+  int128 least = 0, most = 0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const int128 off = (static_cast<int128>(times[i]) - times[0]) * tick - static_cast<int128>(i) * period;
+    least = std::min(least, off);
+    most = std::max(most, off);
+  }
+  return {most - least, tick, period};
+}
+
+// Whether every time is where a constant rate puts it, but for the rounding to the container's clock. Where that clock
+// has about a tick for a picture, as AVI's has, a slot that was left empty looks like rounding by the rate that the
+// slots' number makes up: it counts only what lies within a share of the period. Times that were rounded once are less
+// than a tick apart; those that cameras wrote were rounded twice.
+bool fits(const std::vector<std::int64_t>& times, Rational time_base, const KnownRate& known) {
+  const auto [spread, tick, period] = deviation(times, time_base, known.rate);
+  const bool is_near = spread <= 2 * tick && 2 * spread < period;
+  return is_near || (known.is_stated && spread < tick);
+}
+
+ClipTiming of_rate(Rational rate) {
+  ClipTiming timing;
+  timing.rate = rate;
+  return timing;
+}
+
+// The times at which pictures are shown, in order; none where the container does not tell.
+std::optional<std::vector<std::int64_t>> shown_times(const std::vector<PacketTimes>& packets, int delay) {
+  std::vector<std::int64_t> times;
+  const auto is_timed = [&](auto time) {
+    return std::ranges::none_of(packets,
+                                [&](const PacketTimes& packet) { return packet.*time == AV_NOPTS_VALUE; });
+  };
+  if (is_timed(&PacketTimes::shown)) {
+    for (const PacketTimes& packet : packets) times.push_back(packet.shown);
+    std::ranges::sort(times);  // packets come in the order of decoding
+    return times;
+  }
+  // AVI and MPEG program streams may time the decoding alone. A decoder hands out a picture whenever it takes one in,
+  // once it holds as many as are reordered; those that it holds at the end follow.
+  if (packets.empty() || !is_timed(&PacketTimes::decoded)) return std::nullopt;
+  const std::size_t held = std::min(packets.size(), static_cast<std::size_t>(std::max(delay, 0)));
+  for (std::size_t i = held; i < packets.size(); ++i) times.push_back(packets[i].decoded);
+  const PacketTimes& last = packets.back();
+  for (std::size_t i = 1; i <= held; ++i) {
+    times.push_back(last.decoded + static_cast<std::int64_t>(i) * std::max<std::int64_t>(last.duration, 1));
+  }
+  return times;
+}
+
+}  // namespace
+
+ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base, std::vector<KnownRate> rates,
+                     const std::string& name) {
+  const int128 span = (static_cast<int128>(times.back()) - times.front()) * time_base.numerator;
+  if (span / time_base.denominator >= kLongestSeconds) {
+    throw InputError(format("{}: its pictures' times are more than 146 years apart; state its rate", name),
+                     {Setting::frame_rate});
+  }
+  // The rate that the first and last picture tell, for files that announce another or none. Three pictures would be
+  // within a third of a period of it whatever the one in the middle is.
+  const int128 turns = static_cast<int128>(times.size() - 1) * time_base.denominator;
+  if (span > 0 && span <= INT64_MAX && turns <= INT64_MAX && times.size() > 3) {
+    rates.push_back({Rational::of(static_cast<std::int64_t>(turns), static_cast<std::int64_t>(span))});
+  }
+  for (const KnownRate& known : rates) {
+    if (fits(times, time_base, known)) return of_rate(known.rate);
+  }
+  ClipTiming timing;
+  for (const std::int64_t time : times) {
+    timing.starts_ns.push_back(round_half_up(
+        (static_cast<int128>(time) - times[0]) * time_base.numerator * kSecondNs, time_base.denominator));
+  }
+  return timing;
+}
+
+std::vector<KnownRate> announced_rates(const AVFormatContext& file, const AVStream& stream) {
+  // QuickTime and MP4 state none: their mean is that of the pictures' times.
+  const bool states_rate = !std::string_view(file.iformat->name).starts_with("mov");
+  std::vector<KnownRate> rates;
+  const auto add = [&](const AVRational& rate, bool is_stated) {
+    if (rate.num > 0 && rate.den > 0) rates.push_back({Rational::of(rate.num, rate.den), is_stated});
+  };
+  add(stream.avg_frame_rate, states_rate);
+  add(stream.r_frame_rate, false);
+  return rates;
+}
+
+ClipTiming timing_of(const AVFormatContext& file, const AVStream& stream,
+                     const std::vector<PacketTimes>& packets, const std::string& name) {
+  std::vector<KnownRate> rates = announced_rates(file, stream);
+  const auto times = shown_times(packets, stream.codecpar->video_delay);
+  if (times && times->size() > 1) {
+    const Rational clock = Rational::of(stream.time_base.num, stream.time_base.den);
+    return timing_of(*times, clock, std::move(rates), name);
+  }
+  if (!rates.empty()) return of_rate(rates.front().rate);
+  return {};
+}
+
+}  // namespace nutik::videos
