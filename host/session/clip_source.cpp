@@ -8,6 +8,7 @@
 #include "session/time_text.hpp"
 #include "system/mapped_file.hpp"
 #include "tik/header.hpp"
+#include "tik/reader.hpp"
 
 namespace nutik {
 namespace {
@@ -124,6 +125,17 @@ ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& me
   source.notes = source.clip->info().notes;
   source.capture.noise = noise_model(source);
   return source;
+}
+
+Timeline known_timeline(const SourceRequest& request, const MemoryBudget& memory) {
+  if (is_tik(request.path)) return tik::Reader(request.path).timeline();
+  const ClipSource source = open_clip_source(request, memory);
+  const std::uint64_t count = source.announced_samples();
+  if (count == 0) {
+    throw InputError(format("{} does not say how many pictures it has; encode it first and name the capture",
+                            request.path.string()));
+  }
+  return source.timeline(count);
 }
 
 }  // namespace nutik

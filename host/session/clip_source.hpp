@@ -50,6 +50,10 @@ struct ClipSource {
 // Throws InputError where the clip cannot be read, UsageError where the request does not fit it: ExposuresAreListed.
 [[nodiscard]] ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory);
 
+// When the pictures of a .tik or a clip were exposed, as far as that is known before one is decoded. Throws InputError
+// where nothing tells how many there are or how fast they were taken, and what open_clip_source() throws.
+[[nodiscard]] Timeline known_timeline(const SourceRequest& request, const MemoryBudget& memory);
+
 // A shutter angle was stated for pictures whose exposures are listed.
 struct ExposuresAreListed : UsageError {
   explicit ExposuresAreListed(const std::string& name);

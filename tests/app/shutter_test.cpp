@@ -1,6 +1,9 @@
 // Shutter shapes through the program: as text, and as exposures.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
+#include "support/clips.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 #include "support/still_clip.hpp"
@@ -36,11 +39,51 @@ TEST_F(ShutterCommand, WritesALineForAFunctionFile) {
       "# box from 2f for 3f\nM0 [1999999:0], [2000000:3], [4500000:3], [4500001:0]\n");
 }
 
+// Pictures of a capture are counted on its own times, which need not be regular.
+TEST_F(ShutterCommand, CountsThePicturesOfACapture) {
+  std::string table = "file,start_ns,exposure_ns\n";
+  const std::int64_t starts_ms[] = {0, 40, 50, 290, 300};
+  for (int k = 0; k < 5; ++k) {
+    const std::string name = std::to_string(k) + ".pgm";
+    scratch_.write(name, "P2 2 1 255\n" + std::to_string(50 * k) + " " + std::to_string(10 + 50 * k) + "\n");
+    table += name + "," + std::to_string(starts_ms[k] * 1'000'000) + ",10000000\n";
+  }
+  scratch_.write("stills.csv", table);
+  out({"stills.csv", "clip.tik"});
+  const std::vector<std::string> box{"shutter", "box", "--start", "3f", "--exposure", "1f"};
+  const auto function_of = [&](const std::vector<std::string>& source) {
+    std::vector<std::string> words = box;
+    words.insert(words.end(), source.begin(), source.end());
+    return out(words);
+  };
+  const std::string want =
+      "# box from 3f for 1f\nM0 [289999999:0], [290000000:1], [300000000:1], [300000001:0]\n";
+  EXPECT_EQ(function_of({"clip.tik"}), want);
+  EXPECT_EQ(function_of({"stills.csv"}), want) << "a clip that was not encoded";
+  EXPECT_EQ(function_of({"-f", "50", "stills.csv"}),
+            "# box from 3f for 1f\nM0 [59999999:0], [60000000:1], [80000000:1], [80000001:0]\n");
+  // It exposes just that picture, with what a search for a moment prints.
+  scratch_.write("f.fn", want);
+  out({"-k", "f.fn", "clip.tik", "a.pgm"});
+  out({"--start", "3f", "--exposure", "1f", "clip.tik", "b.pgm"});
+  EXPECT_EQ(test::read_all(*test::open_test_clip(scratch_ / "a.pgm")),
+            test::read_all(*test::open_test_clip(scratch_ / "b.pgm")));
+  std::istringstream moment(out({"activity", "--moment", "quietest", "clip.tik"}));
+  std::vector<std::string> counted{"shutter", "box", "clip.tik"};
+  for (std::string word; moment >> word;) counted.push_back(word);
+  EXPECT_EQ(out(counted).substr(0, 11), "# box from ");
+  expect_refused({"shutter", "box", "-f", "50", "--start", "3f", "--exposure", "1f", "clip.tik"},
+                 "--fps describes a clip that is encoded");
+  expect_refused({"shutter", "box", "--start", "5f", "--exposure", "1f", "clip.tik"},
+                 "picture 5 is outside the capture, which has 5");
+}
+
 TEST_F(ShutterCommand, SaysWhatIsWrong) {
   expect_refused({"shutter"}, "shutter takes one shape");
   expect_refused({"shutter", "hann"}, "how long is the exposure? Add --exposure 10ms");
   expect_refused({"shutter", "hat", "--exposure", "1s"}, "shutter 'hat' is not known; choose box");
-  expect_refused({"shutter", "hann", "--exposure", "3f"}, "add --fps, or write times in seconds");
+  expect_refused({"shutter", "hann", "--exposure", "3f"},
+                 "name the capture behind the shape, add --fps where its rate is constant, or write times");
   expect_refused({"shutter", "hann", "--exposure", "3s", "--tag", "256"},
                  "tag '256' is no whole number of 0 … 255");
   expect_refused({"shutter", "hann", "--exposure", "3s", "--shutter-error", "0"},

@@ -4,7 +4,7 @@ nutik-cl encode --tolerance 2 clip.mkv clip.tik
 nutik-cl mask --grid 32x1 clip.tik regions.pgm
 for column in {0..31}; do
   moment=$(nutik-cl activity --by 6 -m regions.pgm --tag $column --moment quietest clip.tik)
-  nutik-cl shutter box --fps 30 $moment --tag $column
+  nutik-cl shutter box $moment --tag $column clip.tik
 done > picture.fn
 nutik-cl -m regions.pgm -k picture.fn clip.tik picture.png
 head -n 8 picture.fn > first-four.fn

@@ -106,10 +106,12 @@ constexpr Command kCommands[] = {
      "nutik-cl video --depth 16 clip.tik frame-%05d.png\n"
      "nutik-cl video -k trail.fn --out-fps 25 clip.tik trail.mp4",
      run_video, kPictures},
-    {Id::shutter, "shutter", "SHAPE",
+    {Id::shutter, "shutter", "SHAPE [CAPTURE.tik|CLIP]",
      "Write a shutter's shape as a gain function: a line for a function file. Shapes: box, trapezoid:R, "
-     "triangle, gaussian, hann, strobe:N[,R], spline:0=G,…,1=G.",
+     "triangle, gaussian, hann, strobe:N[,R], spline:0=G,…,1=G. Times that count pictures (32f) are those of "
+     "the capture.",
      "nutik-cl shutter hann --start 0.4s --exposure 10ms --tag 128 > f.fn\n"
+     "nutik-cl shutter box --start 32f --exposure 1f clip.tik > picture-32.fn\n"
      "nutik-cl shutter spline:0=0,0.1=1,1=0 --exposure 1s > trail.fn\n"
      "nutik-cl shutter strobe:5 --start 30f --exposure 60f --fps 960",
      run_shutter, kUnderstanding},

@@ -131,10 +131,10 @@ std::string value_lines(const Option& option) {
   return lines + format(":files {}\n", extension == "pgm" ? "pgm|png" : extension);
 }
 
-std::string operand_lines(const Command& command) {
+std::string operand_lines(const Command& command, bool is_first) {
   const std::string_view text = command.operands;
   if (text.empty()) return {};
-  if (command.id == CommandId::shutter) return choice_lines(*find_option("shutter"));
+  if (command.id == CommandId::shutter && is_first) return choice_lines(*find_option("shutter"));
   if (std::ranges::all_of(text, [](char c) { return c == '|' || (c >= 'a' && c <= 'z'); })) {
     std::string lines = std::string(text) + '\n';
     std::ranges::replace(lines, '|', '\n');
@@ -174,7 +174,7 @@ std::string completions(std::span<const std::string> words) {
       return option != nullptr ? row(*option) : std::string();
     }
     if (typed.starts_with('-')) return option_lines(before.command);
-    if (before.command != nullptr) return operand_lines(*before.command);
+    if (before.command != nullptr) return operand_lines(*before.command, before.operands.empty());
     std::string lines;
     for (const Command& command : commands()) lines += described(command.name, command.summary);
     return lines + std::string(kAnyFile);

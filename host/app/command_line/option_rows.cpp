@@ -67,7 +67,7 @@ constexpr Option kRows[] = {
      "bt709 bt2020 p3"},
     {0, "pixel-aspect", "W:H", decoding, kDecodesClips | bit(Id::retime), &Options::pixel_aspect,
      "how much wider than high a pixel is shown, as in 32:27 (default: what the file says, else 1:1)"},
-    {0, "raw", "WxH:FORMAT", decoding, kDecodesClips, &Options::raw,
+    {0, "raw", "WxH:FORMAT", decoding, kDecodesClips | bit(Id::shutter), &Options::raw,
      "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le"},
     {0, "tolerance", "CODES", encoding, kEncodesClips, &Options::tolerance,
      "differences up to this many codes are no change; 0 keeps every one (default: 0)"},

@@ -6,6 +6,7 @@
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
+#include "session/clip_source.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/functions.hpp"
@@ -16,8 +17,12 @@ namespace {
 
 constexpr double kLongestSeconds = 3e9;  // a timeline that pictures can be counted on; almost a century
 
-// Pictures can be counted where the rate of the capture is stated.
+// Pictures can be counted on a capture's own times, or where its rate is stated.
 Timeline timeline_for(const Options& options, const StatedTime& start, const StatedTime& length) {
+  if (options.operands.size() == 2) {
+    return known_timeline(source_request(options, options.operands[1]), memory_budget(options));
+  }
+  if (options.raw) throw UsageError("--raw says what the bytes of a clip are; name the clip");
   const Rational angle = options.shutter_angle ? Rational::parse(*options.shutter_angle, "shutter angle")
                                                : Timeline::kFullShutter;
   if (options.fps) {
@@ -27,7 +32,9 @@ Timeline timeline_for(const Options& options, const StatedTime& start, const Sta
   }
   if (start.counts_samples() || length.counts_samples()) {
     throw UsageError(
-        "to count in pictures of a clip its rate must be known: add --fps, or write times in seconds");
+        "to count in pictures of a clip its times must be known: name the capture behind the shape, add "
+        "--fps "
+        "where its rate is constant, or write times in seconds");
   }
   return Timeline::constant({1, 1}, angle, 1);
 }
@@ -43,8 +50,11 @@ std::string whole_text(const StatedTime& time) {
 }  // namespace
 
 int run_shutter(const Options& options) {
-  if (options.operands.size() != 1) {
-    throw UsageError("shutter takes one shape: nutik-cl shutter hann --start 0.4s --exposure 10ms");
+  if (options.operands.empty() || options.operands.size() > 2) {
+    throw UsageError(
+        "shutter takes one shape, and a capture whose pictures are counted: nutik-cl shutter hann --start "
+        "32f "
+        "--exposure 3f clip.tik");
   }
   check_choice("shutter", options.operands.front(), *find_option("shutter"));
   if (!options.exposure) throw UsageError("how long is the exposure? Add --exposure 10ms");
