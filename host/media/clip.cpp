@@ -7,6 +7,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/module.hpp"
+#include "media/photron_clip.hpp"
 #include "media/photron_header.hpp"
 #include "media/still_sequence.hpp"
 #include "media/stills_table.hpp"
@@ -81,7 +82,21 @@ std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOpt
   if (!std::filesystem::exists(path, error)) {
     throw InputError(format("{} cannot be read: no such file", path.string()));
   }
-  return options.raw ? open_raw(path, options) : video_module().open(path, options);
+  if (options.raw) return open_raw(path, options);
+  return is_photron_clip(path) ? open_photron_clip(path, options) : video_module().open(path, options);
+}
+
+void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const Transfer& usual) {
+  if (options.matrix || options.range) {
+    throw UsageError("its pictures are RGB or grey as they are: leave matrix and range out",
+                     {Setting::matrix, Setting::range});
+  }
+  CaptureFormat& capture = info.format;
+  capture.transfer = options.transfer.value_or(usual);
+  info.facts.push_back({"transfer " + capture.transfer.text(),
+                        options.transfer ? Origin::stated : Origin::assumed, Setting::transfer});
+  if (options.pixel_aspect) capture.pixel_aspect = *options.pixel_aspect;
+  if (options.primaries) capture.primaries = *options.primaries;
 }
 
 std::string_view to_text(YuvMatrix matrix) {

@@ -88,10 +88,14 @@ class Clip {
   virtual bool read(std::span<std::byte> raster) = 0;
 };
 
-// Opens a video, a sequence of stills (media/still_sequence.hpp), or a table of stills (media/stills_table.hpp),
-// whose times do not count where a rate is stated. Throws InputError where there is
+// Opens a video, a sequence of stills (media/still_sequence.hpp), a table of stills (media/stills_table.hpp), or a
+// Photron camera's pictures (media/photron_clip.hpp). Their times do not count where a rate is stated. Throws InputError where there is
 // none, or none that can be read.
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options);
+
+// Of codes that are read as they are stored, of a format whose white code is known: what they stand for, as stated or
+// `usual`. Throws UsageError where what is stated is said of YUV.
+void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const Transfer& usual);
 
 // The timeline of the clip `name` with `sample_count` samples. Throws InputError where nothing
 // tells how fast it was taken, or its times are not in order.

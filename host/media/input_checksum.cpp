@@ -9,6 +9,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/photron_clip.hpp"
 #include "media/still_sequence.hpp"
 #include "media/stills_table.hpp"
 #include "system/mapped_file.hpp"
@@ -56,6 +57,7 @@ std::uint64_t size_of(const fs::path& file) {
 std::string input_checksum(const fs::path& path) {
   std::vector<fs::path> files = list_stills(path).value_or(std::vector<fs::path>{path});
   if (is_stills_table(path)) files.insert(files.begin(), path);  // the times of its stills
+  if (is_photron_clip(path)) files = photron_files(path);
   std::uint64_t total = 0;
   for (const fs::path& file : files) total += size_of(file);
   const bool whole = total <= kWholeChecksumBytes;

@@ -1,6 +1,8 @@
 #include "media/photron_header.hpp"
 
-#include <string>
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <system_error>
 #include <vector>
 
@@ -13,17 +15,67 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The number behind a name: `Record Rate(fps) : 30000`, `<recordRate>30000</recordRate>`.
-std::optional<Rational> number_behind(std::string_view text, std::string_view name) {
-  const auto at = text.find(name);
-  if (at == std::string_view::npos) return std::nullopt;
-  constexpr std::string_view kBetween = " \t:", kNumber = "0123456789./";
-  const std::string_view rest = text.substr(at + name.size());
-  const auto begin = rest.find_first_not_of(kBetween);
-  if (begin == std::string_view::npos) return std::nullopt;
-  const std::string_view number = rest.substr(begin, rest.find_first_not_of(kNumber, begin) - begin);
+// A value's names: that of a line, `Image Width : 384`, and that of an XML element behind those round it. Empty: none.
+struct Names {
+  std::string_view line;
+  std::array<std::string_view, 3> elements;
+};
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r\n";
+  const auto first = text.find_first_not_of(kSpace);
+  return first == text.npos ? std::string_view()
+                            : text.substr(first, text.find_last_not_of(kSpace) + 1 - first);
+}
+
+// Behind the name at a line's start and its colon; `Total Frame` is no part of `Original Total Frame`.
+std::string_view behind_line(std::string_view text, std::string_view name) {
+  if (name.empty()) return {};
+  for (auto at = text.find(name); at != text.npos; at = text.find(name, at + 1)) {
+    if (at > 0 && text[at - 1] != '\n') continue;
+    std::string_view rest = text.substr(at + name.size());
+    rest = trimmed(rest.substr(0, rest.find('\n')));
+    if (rest.starts_with(':')) return trimmed(rest.substr(1));
+  }
+  return {};
+}
+
+std::string_view within_element(std::string_view text, std::string_view name) {
+  const std::string open = "<" + std::string(name) + ">", close = "</" + std::string(name) + ">";
+  const auto at = text.find(open);
+  if (at == text.npos) return {};
+  const std::string_view rest = text.substr(at + open.size());
+  return trimmed(rest.substr(0, rest.find(close)));
+}
+
+std::string_view value_of(std::string_view text, const Names& names) {
+  if (const auto value = behind_line(text, names.line); !value.empty()) return value;
+  for (const std::string_view element : names.elements) {
+    if (!element.empty()) text = within_element(text, element);
+  }
+  return names.elements.back().empty() || text.find('<') != text.npos ? std::string_view() : text;
+}
+
+std::uint64_t number_of(std::string_view text, const Names& names) {
+  const std::string_view value = value_of(text, names);
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 32;
+  return error == std::errc() && end == value.data() + value.size() && number < kMost ? number : 0;
+}
+
+std::string word_of(std::string_view text, const Names& names) {
+  std::string word(value_of(text, names));
+  std::ranges::transform(word, word.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return word;
+}
+
+std::optional<Rational> fraction_of(std::string_view text, const Names& names) {
+  const std::string_view value_text = value_of(text, names);
   try {
-    const Rational value = Rational::parse(number, name);
+    const Rational value =
+        Rational::parse(value_text.substr(0, value_text.find_first_not_of("0123456789./")), names.line);
     return value.numerator > 0 ? std::optional(value) : std::nullopt;
   } catch (const UsageError&) {
     return std::nullopt;
@@ -37,9 +89,29 @@ std::optional<std::int64_t> nanoseconds(const std::optional<Rational>& seconds) 
   return ns > 0 ? std::optional(ns) : std::nullopt;
 }
 
-bool is_header(const fs::path& path) {
-  const std::string extension = extension_of(path);
-  return extension == ".cih" || extension == ".cihx";
+std::optional<std::int64_t> exposed_ns(std::string_view text) {
+  if (const auto ns = nanoseconds(fraction_of(text, {"Shutter Speed(s)", {}}))) return ns;
+  if (const auto ns = fraction_of(text, {{}, {"", "", "shutterSpeedNsec"}})) {
+    return round_half_up(ns->numerator, ns->denominator);
+  }
+  // Exposures a second.
+  const auto speed = fraction_of(text, {{}, {"", "", "shutterSpeed"}});
+  return speed ? nanoseconds(Rational::of(speed->denominator, speed->numerator)) : std::nullopt;
+}
+
+PhotronPictures pictures_of(std::string_view text) {
+  constexpr std::string_view kData = "imageDataInfo";
+  PhotronPictures pictures;
+  pictures.width = number_of(text, {"Image Width", {kData, "resolution", "width"}});
+  pictures.height = number_of(text, {"Image Height", {kData, "resolution", "height"}});
+  pictures.count = number_of(text, {"Total Frame", {"", "frameInfo", "totalFrame"}});
+  pictures.pixel_bits = number_of(text, {"Color Bit", {kData, "colorInfo", "bit"}});
+  pictures.colour = word_of(text, {"Color Type", {kData, "colorInfo", "type"}});
+  pictures.depth = number_of(text, {"EffectiveBit Depth", {kData, "effectiveBit", "depth"}});
+  pictures.side = word_of(text, {"EffectiveBit Side", {kData, "effectiveBit", "side"}});
+  pictures.file_format = word_of(text, {"File Format", {"", "imageFileInfo", "fileFormat"}});
+  pictures.is_processed = number_of(text, {{}, {"", kData, "applyImageProc"}}) != 0;
+  return pictures;
 }
 
 std::vector<fs::path> headers_of(const fs::path& pictures) {
@@ -47,7 +119,7 @@ std::vector<fs::path> headers_of(const fs::path& pictures) {
   std::error_code error;
   if (fs::is_directory(pictures, error)) {
     for (const auto& entry : fs::directory_iterator(pictures, error)) {
-      if (is_header(entry.path())) headers.push_back(entry.path());
+      if (is_photron_header(entry.path())) headers.push_back(entry.path());
     }
     return headers;
   }
@@ -63,25 +135,35 @@ std::vector<fs::path> headers_of(const fs::path& pictures) {
 
 PhotronHeader parse_photron_header(std::string_view text) {
   PhotronHeader header;
-  header.rate = number_behind(text, "Record Rate(fps)");
-  header.exposed_ns = nanoseconds(number_behind(text, "Shutter Speed(s)"));
-  if (!header.rate) header.rate = number_behind(text, "<recordRate>");
-  if (header.exposed_ns) return header;
-  if (const auto ns = number_behind(text, "<shutterSpeedNsec>")) {
-    header.exposed_ns = round_half_up(ns->numerator, ns->denominator);
-  } else if (const auto speed = number_behind(text, "<shutterSpeed>")) {
-    header.exposed_ns = nanoseconds(Rational::of(speed->denominator, speed->numerator));
+  header.rate = fraction_of(text, {"Record Rate(fps)", {"", "", "recordRate"}});
+  header.exposed_ns = exposed_ns(text);
+  header.step = std::max<std::uint64_t>(number_of(text, {"Save Step", {"", "frameInfo", "skipFrame"}}), 1);
+  if (header.rate && header.step > 1) {
+    header.rate = Rational::of(header.rate->numerator,
+                               header.rate->denominator * static_cast<std::int64_t>(header.step));
   }
+  header.device = word_of(text, {"Camera Type", {"", "deviceInfo", "deviceName"}});
+  header.pictures = pictures_of(text);
+  return header;
+}
+
+bool is_photron_header(const fs::path& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".cih" || extension == ".cihx";
+}
+
+PhotronHeader read_photron_header(const fs::path& file) {
+  const MappedFile mapped(file);
+  const auto bytes = mapped.bytes();
+  PhotronHeader header = parse_photron_header({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  header.file = file;
   return header;
 }
 
 std::optional<PhotronHeader> photron_header_of(const fs::path& pictures) {
   const std::vector<fs::path> headers = headers_of(pictures);
   if (headers.size() != 1) return std::nullopt;
-  const MappedFile mapped(headers.front());
-  const auto bytes = mapped.bytes();
-  PhotronHeader header = parse_photron_header({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  header.file = headers.front();
+  PhotronHeader header = read_photron_header(headers.front());
   return header.rate ? std::optional(header) : std::nullopt;
 }
 

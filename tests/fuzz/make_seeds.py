@@ -112,6 +112,13 @@ def texts(tests):
         yield "noise", noise.format(curve).encode()
     yield "tables", b"file,start_ns,exposure_ns\na.png,0,10000000\nb.png,40000000,20000000\n"
     yield "tables", b'\xef\xbb\xbf"a.png",5,\r\n\r\nb.png,99\r\n'
+    for bits, depth, side in (8, 8, "Lower"), (12, 12, "Lower"), (16, 12, "Higher"):
+        yield "recordings", (f"Record Rate(fps) : 4000\r\nShutter Speed(s) : 1/8000\r\nTotal Frame : {1920 // 40 // bits}"
+                             f"\r\nImage Width : 8\r\nImage Height : 5\r\nColor Type : Mono\r\nColor Bit : {bits}\r\n"
+                             f"EffectiveBit Depth : {depth}\r\nEffectiveBit Side : {side}\r\n").encode()
+    yield "recordings", (b"<cih><imageDataInfo><resolution><width>8</width><height>5</height></resolution><colorInfo>"
+                         b"<type>Raw</type><bit>16</bit></colorInfo></imageDataInfo><frameInfo><totalFrame>3</totalFrame>"
+                         b"</frameInfo><recordInfo><recordRate>4000</recordRate></recordInfo></cih>")
     for word in ("t0.4s", "t10ms", "t1/100s", "t37f", "t250us", "r29.97", "r30000/1001", "sbox", "strapezoid:0.2",
                  "shann", "sgaussian", "sstrobe:5", "sstrobe:3,0.25", "sspline:0=0,0.5=1,1=0.25", "striangle"):
         yield "words", word.encode()

@@ -152,16 +152,7 @@ class StillClip final : public Clip {
     capture.white_code = options.white_code.value_or(first_.maximum.value_or(full));
     // Deep stills come from scientific cameras, whose codes are linear; shallow ones are made to be
     // seen.
-    capture.transfer = first_.code_bytes == 1 ? Transfer::srgb() : Transfer::linear();
-    if (options.transfer) capture.transfer = *options.transfer;
-    info_.facts.push_back({"transfer " + capture.transfer.text(),
-                           options.transfer ? Origin::stated : Origin::assumed, Setting::transfer});
-    if (options.pixel_aspect) capture.pixel_aspect = *options.pixel_aspect;
-    if (options.primaries) capture.primaries = *options.primaries;
-    if (options.matrix || options.range) {
-      throw UsageError("stills are RGB or grey as they are: leave matrix and range out",
-                       {Setting::matrix, Setting::range});
-    }
+    describe_stored_codes(info_, options, first_.code_bytes == 1 ? Transfer::srgb() : Transfer::linear());
     if (capture.code_bytes == 2 && !first_.maximum && !options.white_code) {
       info_.notes.emplace_back(
           "the files do not say how many of their 16 bits are used: white is taken to be 65535; state "

@@ -1,0 +1,240 @@
+// Recordings of Photron's cameras: every layout of values that a header can name gives its codes back, and what a
+// header does not say, or cannot mean, is refused.
+#include <gtest/gtest.h>
+
+#include "capture/error.hpp"
+#include "media/input_checksum.hpp"
+#include "media/photron_clip.hpp"
+#include "support/clips.hpp"
+#include "support/messages.hpp"
+#include "support/scratch.hpp"
+#include "support/stills.hpp"
+
+namespace nutik {
+namespace {
+
+using test::message_of;
+using test::open_test_clip;
+using test::read_all;
+using test::Scratch;
+
+constexpr Shape kGrey{8, 5, 1}, kColour{4, 5, 3};
+
+std::uint32_t code_of(const Picture& picture, std::size_t index) {
+  return picture.type == ValueType::code8 ? picture.values<std::uint8_t>()[index]
+                                          : picture.values<std::uint16_t>()[index];
+}
+
+// The values as digits, as the format's description has them, and those as bytes.
+std::string packed(const std::vector<Picture>& pictures, int bits) {
+  std::string digits;
+  for (const Picture& picture : pictures) {
+    for (std::size_t i = 0; i < picture.shape.value_count(); ++i) {
+      for (int bit = bits - 1; bit >= 0; --bit) digits += (code_of(picture, i) >> bit & 1) != 0 ? '1' : '0';
+    }
+  }
+  std::string bytes;
+  for (std::size_t at = 0; at < digits.size(); at += 8) {
+    bytes += static_cast<char>(std::stoi(digits.substr(at, 8), nullptr, 2));
+  }
+  return bytes;
+}
+
+std::string words(const std::vector<Picture>& pictures, std::uint32_t shift) {
+  std::string bytes;
+  for (const Picture& picture : pictures) {
+    for (std::size_t i = 0; i < picture.shape.value_count(); ++i) {
+      const std::uint32_t value = code_of(picture, i) << shift;
+      bytes += {static_cast<char>(value & 255), static_cast<char>(value >> 8)};
+    }
+  }
+  return bytes;
+}
+
+struct Header {
+  Shape shape = kGrey;
+  std::string colour = "Mono";
+  int pixel_bits = 16, depth = 16;
+  std::string side = "Lower";
+  std::string count = "3";
+  std::string more = {};
+
+  // As the camera's program writes it, with line ends of its own.
+  [[nodiscard]] std::string text() const {
+    return "#Camera Information Header\r\nCamera Type : FASTCAM Mini\r\nRecord Rate(fps) : 4000\r\n"
+           "Shutter Speed(s) : 1/8000\r\nOriginal Total Frame : 1000\r\nTotal Frame : " +
+           count + "\r\nImage Width : " + std::to_string(shape.width) +
+           "\r\nImage Height : " + std::to_string(shape.height) + "\r\nColor Type : " + colour +
+           "\r\nColor Bit : " + std::to_string(pixel_bits) +
+           "\r\nFile Format : MRaw\r\nEffectiveBit Depth : " + std::to_string(depth) +
+           "\r\nEffectiveBit Side : " + side + "\r\n" + more + "END\r\n";
+  }
+  [[nodiscard]] std::string xml() const {
+    const std::string size = "<resolution><width>" + std::to_string(shape.width) + "</width><height>" +
+                             std::to_string(shape.height) + "</height></resolution>";
+    return "!!!\nCIHX\n<?xml version=\"1.0\"?>\n<cih><imageFileInfo><fileFormat>Mraw</fileFormat><resolution>"
+           "<width>1</width></resolution></imageFileInfo>\n<imageDataInfo>" +
+           size + "<colorInfo><type>" + colour + "</type><bit>" + std::to_string(pixel_bits) +
+           "</bit></colorInfo><effectiveBit><depth>" + std::to_string(depth) + "</depth><side>" + side +
+           "</side></effectiveBit></imageDataInfo><frameInfo><recordedFrame>9</recordedFrame><totalFrame>" +
+           count +
+           "</totalFrame></frameInfo><recordInfo><recordRate>4000</recordRate><shutterSpeedNsec>125000"
+           "</shutterSpeedNsec></recordInfo></cih>";
+  }
+};
+
+TEST(PhotronClip, GivesTheCodesOfEveryLayoutBack) {
+  struct Case {
+    const char* name;
+    Header header;
+    std::uint32_t white;
+  };
+  const Case cases[] = {
+      {"8 bits", {kGrey, "Mono", 8, 8}, 255},
+      {"12 packed", {kGrey, "Mono", 12, 12}, 4095},
+      {"10 packed, raw", {kGrey, "Raw", 10, 10}, 1023},
+      {"16 bits", {kGrey, "Mono", 16, 16}, 65'535},
+      {"12 of 16, lower", {kGrey, "Mono", 16, 12}, 4095},
+      {"12 of 16, upper", {kGrey, "Mono", 16, 12, "Higher"}, 4095},
+      {"8 of 16, upper", {kGrey, "Mono", 16, 8, "Higher"}, 255},
+      {"8 of 16, lower", {kGrey, "Mono", 16, 8}, 255},
+      {"colour of 8 bits", {kColour, "Color", 24, 8}, 255},
+      {"colour of 12 packed", {kColour, "Color", 36, 12}, 4095},
+      {"colour of 16 bits", {kColour, "Color", 48, 16}, 65'535},
+  };
+  for (const Case& tested : cases) {
+    for (const bool is_xml : {false, true}) {
+      SCOPED_TRACE(std::string(tested.name) + (is_xml ? ", .cihx" : ", .cih"));
+      const Header& header = tested.header;
+      const Scratch scratch;
+      const auto stills = test::random_stills(header.shape, tested.white, 3, tested.white);
+      const int bits = header.pixel_bits / static_cast<int>(header.shape.channels);
+      const std::uint32_t shift =
+          header.side == "Higher" ? static_cast<std::uint32_t>(bits - header.depth) : 0;
+      const auto pictures =
+          scratch.write("ball.mraw", bits == 16 ? words(stills, shift) : packed(stills, bits));
+      const auto beside =
+          scratch.write(is_xml ? "ball.cihx" : "ball.cih", is_xml ? header.xml() : header.text());
+      for (const auto& name : {pictures, beside}) {
+        const auto clip = open_test_clip(name);
+        EXPECT_EQ(clip->info().format.shape, header.shape);
+        EXPECT_EQ(clip->info().format.white_code, tested.white);
+        EXPECT_EQ(clip->info().format.transfer, Transfer::linear());
+        EXPECT_EQ(clip->info().timing.rate_from, beside.filename());
+        EXPECT_TRUE(clip->info().notes.empty());
+        const Timeline timeline = timeline_of("", clip->info(), {}, 3);
+        EXPECT_EQ(timeline.rate(), (Rational{4000, 1}));
+        EXPECT_EQ(timeline.shutter_angle(), (Rational{180, 1}));
+        const auto rasters = read_all(*clip);
+        ASSERT_EQ(rasters.size(), 3u);
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(test::difference(rasters[k], stills[k]), "") << k;
+      }
+    }
+  }
+}
+
+// With the right number of bytes for its header, unless another size is asked for.
+std::string refusal(const Header& header, std::size_t bytes = 8 * 5 * 2 * 3) {
+  const Scratch scratch;
+  const auto pictures = scratch.write("ball.mraw", std::string(bytes, '\1'));
+  scratch.write("ball.cih", header.text());
+  return message_of<InputError>([&] { read_all(*open_test_clip(pictures)); });
+}
+
+void expect_refusal(const std::string& part, const Header& header, std::size_t bytes = 8 * 5 * 2 * 3) {
+  const std::string message = refusal(header, bytes);
+  EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+TEST(PhotronClip, SaysWhatItsHeaderDoesNotFit) {
+  expect_refusal(
+      "ball.mraw was cut off: ball.cih names 3 pictures (8 x 5 pixels of 16 bits), and it has 2 whole", {},
+      8 * 5 * 2 * 3 - 1);
+  expect_refusal("ball.mraw has 241 bytes, and ball.cih names 3 pictures, 80 bytes each", {}, 241);
+  expect_refusal("does not say how large", {{0, 5, 1}});
+  expect_refusal("does not say how large", {{70'000, 5, 1}});
+  expect_refusal("its pixels have 0 bits", {kGrey, "Mono", 0, 0});
+  expect_refusal("its pixels have 7 bits", {kGrey, "Mono", 7, 7});
+  expect_refusal("its pixels have 32 bits", {kGrey, "Mono", 32, 16});
+  expect_refusal("its pixels have 16 bits in 3 channels", {kGrey, "Color", 16, 8});
+  expect_refusal("pictures of the type 'indexed' are not read", {kGrey, "Indexed"});
+  expect_refusal("mosaic of a colour sensor", {kGrey, "Bayer"});
+  expect_refusal("12 bits at the side 'higher' of values of 12 bits", {kGrey, "Mono", 12, 12, "Higher"});
+  expect_refusal("10 bits at the side 'lower' of values of 12 bits", {kGrey, "Mono", 12, 10});
+  expect_refusal("a picture is no whole number of bytes", {{3, 5, 1}, "Mono", 12, 12});
+  expect_refusal("17 bits at the side 'lower' of values of 16 bits", {kGrey, "Mono", 16, 17});
+  expect_refusal("at the side 'middle'", {kGrey, "Mono", 16, 12, "Middle"});
+  // Every value is 0x0101.
+  expect_refusal("picture 0 has the value 257, and ball.cih says that only the 12 upper of 16 bits count",
+                 {kGrey, "Mono", 16, 12, "Higher"});
+  expect_refusal("picture 0 has the value 257, and ball.cih says that 8 bits count", {kGrey, "Mono", 16, 8});
+}
+
+TEST(PhotronClip, OfAColourSensorIsRefusedWhereItIsAMosaic) {
+  const Scratch scratch;
+  scratch.write("ball.mraw", std::string(8 * 5 * 2 * 3, '\1'));
+  Header header{kGrey, "Raw"};
+  std::string xml = header.xml();
+  xml.replace(xml.find("</cih>"), 6,
+              "<deviceInfo><deviceName>FASTCAM Nova S16 type 1100K-C-64GB</deviceName></deviceInfo></cih>");
+  scratch.write("ball.cihx", xml);
+  const auto message = message_of<InputError>([&] { open_test_clip(scratch / "ball.mraw"); });
+  EXPECT_NE(message.find("mosaic of a colour sensor"), std::string::npos) << message;
+}
+
+TEST(PhotronClip, NamesTheFilesThatAreMissing) {
+  const Scratch scratch;
+  const auto pictures = scratch.write("ball.mraw", std::string(8 * 5 * 2 * 3, '\1'));
+  const auto message = [&](const std::filesystem::path& path) {
+    return message_of<InputError>([&] { open_test_clip(path); });
+  };
+  EXPECT_NE(message(pictures).find("ball.cih or ball.cihx beside it"), std::string::npos)
+      << message(pictures);
+  const auto text = scratch.write("ball.cih", Header{}.text());
+  scratch.write("ball.cihx", Header{}.xml());
+  EXPECT_NE(message(pictures).find("two headers lie beside it"), std::string::npos) << message(pictures);
+  EXPECT_EQ(open_test_clip(text)->info().sample_count, 3u);
+  std::filesystem::remove(pictures);
+  EXPECT_NE(message(text).find("its pictures, ball.mraw, do not lie beside it"), std::string::npos);
+}
+
+TEST(PhotronClip, CountsSavedPicturesAndSaysSo) {
+  const Scratch scratch;
+  scratch.write("ball.mraw", std::string(8 * 5 * 2 * 3, '\1'));
+  Header header;
+  header.more = "Save Step : 4\r\n";
+  scratch.write("ball.cih", header.text());
+  const auto clip = open_test_clip(scratch / "ball.mraw");
+  EXPECT_EQ(clip->info().timing.rate, (Rational{1000, 1}));
+  ASSERT_EQ(clip->info().notes.size(), 1u);
+  EXPECT_NE(clip->info().notes[0].text.find("one of 4 pictures was saved"), std::string::npos);
+}
+
+// A recipe knows a recording by its pictures and by what says how they are read.
+TEST(PhotronClip, ItsChecksumIsThatOfBothFiles) {
+  const Scratch scratch;
+  const auto pictures = scratch.write("ball.mraw", std::string(8 * 5 * 2 * 3, '\1'));
+  const auto header = scratch.write("ball.cih", Header{}.text());
+  const std::string checksum = input_checksum(pictures);
+  EXPECT_EQ(input_checksum(header), checksum);
+  scratch.write("ball.cih", Header{kGrey, "Mono", 16, 12}.text());
+  EXPECT_NE(input_checksum(pictures), checksum);
+}
+
+// The shared recording, which its owner converted to PNG, too.
+TEST(PhotronClip, ARecordingIsWhatItsPngsAre) {
+  const std::filesystem::path media = NUTIK_TEST_MEDIA;
+  if (!std::filesystem::exists(media / "ball_12bit.mraw")) GTEST_SKIP() << "no clips in " << media;
+  const auto recording = open_test_clip(media / "ball_12bit.mraw");
+  ClipOptions white;
+  white.white_code = 4095;
+  const auto pngs = open_test_clip(media / "ball_12bit_png", white);
+  EXPECT_EQ(recording->info().format, pngs->info().format);
+  EXPECT_EQ(timeline_of("", recording->info(), {}, 15).rate(), (Rational{30'000, 1}));
+  const auto got = read_all(*recording), wanted = read_all(*pngs);
+  ASSERT_EQ(got.size(), 15u);
+  EXPECT_TRUE(got == wanted);
+}
+
+}  // namespace
+}  // namespace nutik
