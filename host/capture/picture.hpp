@@ -111,6 +111,7 @@ struct Picture {
   std::optional<Transfer> transfer;  // of codes; none: they stand for no light, or nobody said
   Primaries primaries = Primaries::bt709;
   Rational pixel_aspect{1, 1};
+  std::optional<std::int64_t> exposed_ns = std::nullopt;  // how long its light was gathered, if that is one time
 
   Picture() = default;
   Picture(Shape picture_shape, ValueType value_type, std::uint32_t white)

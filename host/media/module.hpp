@@ -4,11 +4,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 
 #include "media/clip.hpp"
 #include "media/stills_table.hpp"
 #include "media/video_writer.hpp"
+#include "system/output_file.hpp"
 #include "system/shared_state.hpp"
 
 namespace nutik {
@@ -29,7 +32,7 @@ struct VideoModule {
 struct StillModule {
   static constexpr const char* kFile = "nutik-stills.so";
   static constexpr const char* kSymbol = "nutik_still_module";
-  static constexpr const char* kWithout = "stills cannot be read";
+  static constexpr const char* kWithout = "stills cannot be read, nor OpenEXR written";
 
   void (*use_shared_state)(SharedState& of_program);  // first
   // Stills, one sample each; a TIFF may hold several, but not where `timing` has times for them.
@@ -38,6 +41,9 @@ struct StillModule {
   // When a still was taken and for how long, as far as its EXIF data tell (JPEG): DateTimeOriginal with
   // SubSecTimeOriginal, and ExposureTime. Nothing for a file without them.
   StillTimes (*read_exif_times)(const std::filesystem::path& file);
+  // Light as OpenEXR has it (media/picture_writer.hpp), and the text that such a file carries.
+  void (*write_exr)(OutputFile& file, const Picture& picture, const std::string& text, bool as_half);
+  std::optional<std::string> (*read_exr_text)(const std::filesystem::path& file, const char* keyword);
 };
 
 // These look for their module in the folder that NUTIK_MODULES names, beside the program or library that this code

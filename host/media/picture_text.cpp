@@ -2,6 +2,8 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/jpeg_file.hpp"
+#include "media/module.hpp"
 #include "media/png_file.hpp"
 #include "media/tiff_file.hpp"
 #include "system/mapped_file.hpp"
@@ -31,12 +33,17 @@ std::optional<std::string> read_picture_text(const std::filesystem::path& path) 
   std::optional<std::string> text;
   if (is_png(file.bytes())) {
     text = read_png_text(file.bytes(), kPictureTextKeyword, path.string());
+  } else if (is_jpeg(file.bytes())) {
+    text = read_jpeg_comments(file.bytes(), path.string());
+  } else if (bytes.starts_with("\x76\x2f\x31\x01")) {
+    text = still_module().read_exr_text(path, kPictureTextKeyword);
   } else if (bytes.starts_with("II") || bytes.starts_with("MM")) {
     text = read_tiff_description(path);
   } else if (bytes.size() > 2 && bytes[0] == 'P' && (bytes[1] == '5' || bytes[1] == '6')) {
     text = netpbm_comment(bytes);
   } else if (!bytes.starts_with("PF") && !bytes.starts_with("Pf")) {
-    throw InputError(format("{} is no PNG, TIFF, PGM or PPM: it can carry no recipe", path.string()));
+    throw InputError(
+        format("{} is no PNG, TIFF, JPEG, OpenEXR, PGM or PPM: it can carry no recipe", path.string()));
   }
   if (text && !text->starts_with(kPictureTextStart)) text.reset();
   return text;

@@ -3,6 +3,8 @@
 //   PNG        text chunk with the keyword nutik-cl (tEXt; zTXt where it is long)
 //   TIFF       ImageDescription
 //   PGM, PPM   a comment behind the first line
+//   JPEG       comments (COM), as many as it takes
+//   OpenEXR    the attribute nutik-cl
 //   PFM        nowhere: the format has no place for it
 #pragma once
 

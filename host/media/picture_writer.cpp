@@ -6,6 +6,8 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/extension.hpp"
+#include "media/jpeg_file.hpp"
+#include "media/module.hpp"
 #include "media/netpbm.hpp"
 #include "media/png_file.hpp"
 #include "media/tiff_file.hpp"
@@ -16,27 +18,44 @@ namespace {
 
 struct FileKind {
   const char* extension;
-  bool holds_codes;
-  bool holds_light;
-  std::uint32_t only_channels;  // 0: any
-  void (*write)(OutputFile& file, const Picture& picture, const std::string& text);
+  bool is_usual = true;             // of several extensions
+  std::uint32_t code_bits = 0;      // that it holds at most; 0: no codes
+  bool holds_light = false;         // in 32 bits
+  bool holds_half = false;          // in 16
+  bool is_lossy = false;            // codes
+  std::uint32_t only_channels = 0;  // 0: any
+  void (*write)(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes& wishes);
 };
 
-void write_netpbm(OutputFile& file, const Picture& picture, const std::string& text) {
+void write_png_file(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
+  write_png(file, picture, text);
+}
+void write_netpbm(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
   file.write(netpbm_text(picture, text));
 }
-void write_tiff_file(OutputFile& file, const Picture& picture, const std::string& text) {
+void write_tiff_file(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
   write_tiff(file.temporary_path(), picture, text);
 }
+void write_jpeg_file(OutputFile& file, const Picture& picture, const std::string& text,
+                     const FileWishes& wishes) {
+  write_jpeg(file, picture, text, wishes.quality);
+}
+void write_exr_file(OutputFile& file, const Picture& picture, const std::string& text,
+                    const FileWishes& wishes) {
+  still_module().write_exr(file, picture, text, wishes.as_half);
+}
 
-constexpr std::array<FileKind, 7> kKinds{{
-    {".png", true, false, 0, write_png},
-    {".tif", true, true, 0, write_tiff_file},
-    {".tiff", true, true, 0, write_tiff_file},
-    {".ppm", true, false, 3, write_netpbm},
-    {".pgm", true, false, 1, write_netpbm},
-    {".pnm", true, false, 0, write_netpbm},
-    {".pfm", false, true, 0, write_netpbm},
+constexpr std::array<FileKind, 10> kKinds{{
+    {.extension = ".png", .code_bits = 16, .write = write_png_file},
+    {.extension = ".tif", .code_bits = 16, .holds_light = true, .write = write_tiff_file},
+    {.extension = ".tiff", .is_usual = false, .code_bits = 16, .holds_light = true, .write = write_tiff_file},
+    {.extension = ".jpg", .code_bits = 8, .is_lossy = true, .write = write_jpeg_file},
+    {.extension = ".jpeg", .is_usual = false, .code_bits = 8, .is_lossy = true, .write = write_jpeg_file},
+    {.extension = ".exr", .holds_light = true, .holds_half = true, .write = write_exr_file},
+    {.extension = ".ppm", .code_bits = 16, .only_channels = 3, .write = write_netpbm},
+    {.extension = ".pgm", .code_bits = 16, .only_channels = 1, .write = write_netpbm},
+    {.extension = ".pnm", .is_usual = false, .code_bits = 16, .write = write_netpbm},
+    {.extension = ".pfm", .holds_light = true, .write = write_netpbm},
 }};
 
 const FileKind* find_kind(const std::filesystem::path& path) {
@@ -48,8 +67,22 @@ const FileKind* find_kind(const std::filesystem::path& path) {
 
 const FileKind& kind_of(const std::filesystem::path& path) {
   if (const FileKind* kind = find_kind(path)) return *kind;
-  throw UsageError(format("{}: pictures are written as .png, .tif, .ppm, .pgm or .pfm, not as '{}'",
-                          path.string(), path.extension().string()));
+  throw UsageError(format("{}: pictures are written as {}, not as '{}'", path.string(), picture_extensions(),
+                          path.extension().string()));
+}
+
+// `.tif, .exr or .pfm`: the extensions of the kinds that are wanted.
+template <typename Wanted>
+std::string extensions_of(Wanted wanted) {
+  std::vector<std::string> names;
+  for (const FileKind& kind : kKinds) {
+    if (kind.is_usual && wanted(kind)) names.emplace_back(kind.extension);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+  }
+  return text;
 }
 
 }  // namespace
@@ -57,8 +90,9 @@ const FileKind& kind_of(const std::filesystem::path& path) {
 Depth parse_depth(std::string_view text) {
   if (text == "8") return Depth::bits8;
   if (text == "16") return Depth::bits16;
+  if (text == "half") return Depth::half;
   if (text == "float") return Depth::floating;
-  throw UsageError(format("depth '{}' is not known; choose 8, 16 or float", text));
+  throw UsageError(format("depth '{}' is not known; choose 8, 16, half or float", text));
 }
 
 ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth> wish, ValueType usual,
@@ -68,24 +102,46 @@ ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth>
     throw UsageError(format("{} holds {} pictures only and this one {}; write a .png or .tif", path.string(),
                             channels == 1 ? "colour" : "grey", channels == 1 ? "is grey" : "has colour"));
   }
-  const bool light = wish ? *wish == Depth::floating : !kind.holds_codes;
+  const bool light = wish ? *wish == Depth::floating || *wish == Depth::half : kind.code_bits == 0;
   if (light && !kind.holds_light) {
-    throw UsageError(format("{} cannot hold floating point; write a .tif or .pfm", path.string()));
+    throw UsageError(format("{} cannot hold floating point; write a {}", path.string(),
+                            extensions_of([](const FileKind& other) { return other.holds_light; })));
   }
-  if (!light && !kind.holds_codes) {
+  if (wish == Depth::half && !kind.holds_half) {
+    throw UsageError(format("{} holds floating point of 32 bits, not of 16; write a {}", path.string(),
+                            extensions_of([](const FileKind& other) { return other.holds_half; })));
+  }
+  if (!light && kind.code_bits == 0) {
     throw UsageError(format("{} holds floating point only; write a .png, .tif or .ppm", path.string()));
   }
   if (light) return ValueType::light32;
-  if (!wish) return usual;
+  if (wish == Depth::bits16 && kind.code_bits < 16) {
+    throw UsageError(format("{} holds 8 bits only; write a {}", path.string(),
+                            extensions_of([](const FileKind& other) { return other.code_bits == 16; })));
+  }
+  if (!wish) return kind.code_bits == 8 ? ValueType::code8 : usual;
   return *wish == Depth::bits8 ? ValueType::code8 : ValueType::code16;
 }
 
 bool is_picture_name(const std::filesystem::path& path) { return find_kind(path) != nullptr; }
 
-void write_picture(const std::filesystem::path& path, const Picture& picture, const std::string& text) {
+bool is_lossy_name(const std::filesystem::path& path) {
+  const FileKind* kind = find_kind(path);
+  return kind != nullptr && kind->is_lossy;
+}
+
+std::string picture_extensions() {
+  return extensions_of([](const FileKind&) { return true; });
+}
+
+void write_picture(const std::filesystem::path& path, const Picture& picture, const std::string& text,
+                   const FileWishes& wishes) {
   const FileKind& kind = kind_of(path);
+  const bool fits = holds_codes(picture.type) ? value_bytes(picture.type) * 8 <= kind.code_bits
+                                              : picture.type == ValueType::light32 && kind.holds_light;
+  if (!fits) throw UsageError(format("{} cannot hold the values of this picture", path.string()));
   OutputFile file(path);
-  kind.write(file, picture, text);
+  kind.write(file, picture, text, wishes);
   file.commit();
 }
 

@@ -11,22 +11,34 @@
 
 namespace nutik {
 
-// How many bits a person asked for: codes, or light as floating point.
-enum class Depth { bits8, bits16, floating };
-[[nodiscard]] Depth parse_depth(std::string_view text);  // `8`, `16`, `float`; throws UsageError
+// How many bits a person asked for: codes, or light as floating point of 16 or 32 bits.
+enum class Depth { bits8, bits16, half, floating };
+[[nodiscard]] Depth parse_depth(std::string_view text);  // `8`, `16`, `half`, `float`; throws UsageError
 
 // The value type that a picture of `channels` takes in a file of this name. Without a wish it is `usual`
-// (codes of the capture's own depth) where the file holds codes, else light. Throws UsageError where the
-// extension is not known, or the file cannot hold what was asked for, naming what can.
+// (codes of the capture's own depth, or 8 bits where the file holds no more) where the file holds codes, else light.
+// Throws UsageError where the extension is not known, or the file cannot hold what was asked for, naming what can.
 [[nodiscard]] ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth> wish,
                                        ValueType usual, std::uint32_t channels);
 
 // Whether the name's extension is one that write_picture() knows.
 [[nodiscard]] bool is_picture_name(const std::filesystem::path& path);
+// Whether it is one of files whose codes are near those of the picture, as near as a quality says.
+[[nodiscard]] bool is_lossy_name(const std::filesystem::path& path);
+// `.png, .tif, … or .pfm`: those extensions.
+[[nodiscard]] std::string picture_extensions();
+
+// What a person asked of a file beside its values.
+struct FileWishes {
+  static constexpr int kUsualQuality = 90;
+  int quality = kUsualQuality;  // 1 … 100, of lossy files
+  bool as_half = false;         // light in 16 bits
+};
 
 // Writes a picture whole or not at all, with what its values mean and a line of text where its format has a place for
 // them (picture_text.hpp).
-// Throws OutputError.
-void write_picture(const std::filesystem::path& path, const Picture& picture, const std::string& text = {});
+// Throws OutputError, UsageError where such a file cannot hold the picture.
+void write_picture(const std::filesystem::path& path, const Picture& picture, const std::string& text = {},
+                   const FileWishes& wishes = {});
 
 }  // namespace nutik

@@ -10,15 +10,20 @@ namespace {
 
 class StillWriter final : public VideoWriter {
  public:
-  explicit StillWriter(const std::filesystem::path& path)
-      : folder_(path.parent_path()), name_(NumberedName::parse(path.filename().string()).value()) {}
+  StillWriter(const std::filesystem::path& path, const FileWishes& wishes)
+      : folder_(path.parent_path()),
+        name_(NumberedName::parse(path.filename().string()).value()),
+        wishes_(wishes) {}
 
-  void write(const Picture& picture) override { write_picture(folder_ / name_.with(number_++), picture); }
+  void write(const Picture& picture) override {
+    write_picture(folder_ / name_.with(number_++), picture, {}, wishes_);
+  }
   void finish() override {}
 
  private:
   std::filesystem::path folder_;
   NumberedName name_;
+  FileWishes wishes_;
   std::uint64_t number_ = 0;
 };
 
@@ -29,13 +34,13 @@ std::unique_ptr<VideoWriter> open_video_writer(const std::filesystem::path& path
   return video_module().open_writer(path, format, codec);
 }
 
-std::unique_ptr<VideoWriter> open_still_writer(const std::filesystem::path& path) {
-  return std::make_unique<StillWriter>(path);
+std::unique_ptr<VideoWriter> open_still_writer(const std::filesystem::path& path, const FileWishes& wishes) {
+  return std::make_unique<StillWriter>(path, wishes);
 }
 
 ValueType video_value_type(const VideoCodec& codec, std::optional<Depth> wish, ValueType usual) {
-  if (wish == Depth::floating) {
-    throw UsageError("a video holds no floating point; write numbered stills: frame-%05d.pfm or .tif");
+  if (wish == Depth::floating || wish == Depth::half) {
+    throw UsageError("a video holds no floating point; write numbered stills: frame-%05d.exr or .tif");
   }
   if (wish == Depth::bits16 && !codec.holds_16_bits) {
     throw UsageError(format("{} holds 8 bits; for 16 use ffv1 in a .mkv, or numbered stills", codec.name),

@@ -48,7 +48,8 @@ class VideoWriter {
                                                              const VideoCodec& codec);
 
 // A still for each frame, `frame-%05d.png` from number 0 on: each appears when it is whole, and stays.
-[[nodiscard]] std::unique_ptr<VideoWriter> open_still_writer(const std::filesystem::path& path);
+[[nodiscard]] std::unique_ptr<VideoWriter> open_still_writer(const std::filesystem::path& path,
+                                                             const FileWishes& wishes = {});
 
 // The value type of frames for a container, as value_type_for() finds it for a picture. `usual` is the
 // capture's own, which gives way to 8 bits where the codec holds no more. Throws UsageError.

@@ -14,7 +14,8 @@ bool is_tik_content(const std::string& bytes) { return tik::looks_like_tik(std::
 
 bool is_picture_content(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG") || bytes.starts_with(std::string_view("II*\0", 4)) ||
-      bytes.starts_with(std::string_view("MM\0*", 4)) || bytes.starts_with("II+")) {
+      bytes.starts_with(std::string_view("MM\0*", 4)) || bytes.starts_with("II+") ||
+      bytes.starts_with("\xFF\xD8\xFF") || bytes.starts_with("\x76\x2f\x31\x01")) {
     return true;
   }
   return bytes.size() > 2 && bytes[0] == 'P' &&
@@ -79,7 +80,7 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
     throw UsageError(format("{} is no name for a text: a camera's noise is written as .noise", name));
   }
   if (kind == OutputKind::picture && !is_picture_name(output)) {
-    throw UsageError(format("{}: pictures are written as .png, .tif, .ppm, .pgm or .pfm", name));
+    throw UsageError(format("{}: pictures are written as {}", name, picture_extensions()));
   }
   if (kind == OutputKind::table && output.extension() != ".csv") {
     throw WrongOutputName(kind, format("{}: tables are written as .csv", name));

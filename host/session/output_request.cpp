@@ -42,8 +42,20 @@ std::variant<Transfer, SourceCodes> parse_out_transfer(std::string_view text) {
   throw UsageError(format("codes of {} are read and not made; {}", text, choices), {Setting::out_transfer});
 }
 
+FileWishes file_wishes(const OutputRequest& request) {
+  return {request.quality.value_or(FileWishes::kUsualQuality), request.depth == Depth::half};
+}
+
+void check_quality(const OutputRequest& request, const std::filesystem::path& output) {
+  if (!request.quality || is_lossy_name(output)) return;
+  throw UsageError(
+      format("{} keeps every value: a quality is one of .jpg files; leave it out", output.string()),
+      {Setting::quality});
+}
+
 OutputFormat output_format(const OutputRequest& request, const std::filesystem::path& output, ValueType type,
                            const CaptureFormat& capture) {
+  check_quality(request, output);
   OutputFormat chosen = format_of(request, type, capture);
   if (request.negative && !holds_codes(type)) throw LightIsKept(output);
   chosen.negative = request.negative.value_or(NegativeLight::saturate);

@@ -23,6 +23,7 @@ struct OutputRequest {
   std::optional<NegativeLight> negative;  // none: black
   // How light becomes codes, whose white is the last one that their type holds. None: sRGB, which screens show.
   std::optional<std::variant<Transfer, SourceCodes>> transfer = std::nullopt;
+  std::optional<int> quality = std::nullopt;  // of lossy files, 1 … 100
 
   friend bool operator==(const OutputRequest&, const OutputRequest&) = default;
 };
@@ -35,6 +36,12 @@ struct LightIsKept : UsageError {
 
 // `source`, or what Transfer::parse() knows, but for functions that go beyond a screen's white. Throws UsageError.
 [[nodiscard]] std::variant<Transfer, SourceCodes> parse_out_transfer(std::string_view text);
+
+// How a file is to be written, of all that.
+[[nodiscard]] FileWishes file_wishes(const OutputRequest& request);
+
+// Throws UsageError where a quality was asked for and a file of this name has none.
+void check_quality(const OutputRequest& request, const std::filesystem::path& output);
 
 // For a file of this name. Throws UsageError where it cannot hold what was asked for, LightIsKept.
 [[nodiscard]] OutputFormat output_format(const OutputRequest& request, const std::filesystem::path& output,

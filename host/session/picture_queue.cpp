@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "capture/error.hpp"
-#include "media/picture_writer.hpp"
 
 namespace nutik {
 
@@ -12,7 +11,7 @@ PictureQueue::PictureQueue(Failed failed)
         const ClosedAtEnd closed(jobs_);  // nobody waits for a writer that is gone
         while (const auto job = jobs_.pop()) {
           try {
-            write_picture(job->path, job->picture, job->text);
+            write_picture(job->path, job->picture, job->text, job->wishes);
           } catch (const OutputError& error) {
             failed(job->number, error);
           } catch (const UsageError& error) {
@@ -23,8 +22,9 @@ PictureQueue::PictureQueue(Failed failed)
 
 PictureQueue::~PictureQueue() { jobs_.close(); }
 
-void PictureQueue::push(std::size_t number, std::filesystem::path path, Picture picture, std::string text) {
-  jobs_.push({number, std::move(path), std::move(picture), std::move(text)});
+void PictureQueue::push(std::size_t number, std::filesystem::path path, Picture picture, std::string text,
+                        const FileWishes& wishes) {
+  jobs_.push({number, std::move(path), std::move(picture), std::move(text), wishes});
 }
 
 void PictureQueue::finish() {

@@ -10,6 +10,7 @@
 #include "capture/error.hpp"
 #include "capture/memory_needs.hpp"
 #include "capture/picture.hpp"
+#include "media/picture_writer.hpp"
 #include "system/channel.hpp"
 
 namespace nutik {
@@ -33,7 +34,8 @@ class PictureQueue {
 
   // Waits while too many pictures wait already. `number` tells the caller which one failed; `text` goes into
   // the picture (media/picture_writer.hpp).
-  void push(std::size_t number, std::filesystem::path path, Picture picture, std::string text);
+  void push(std::size_t number, std::filesystem::path path, Picture picture, std::string text,
+            const FileWishes& wishes);
   // Waits until everything is written. Nothing can be pushed any more.
   void finish();
 
@@ -43,6 +45,7 @@ class PictureQueue {
     std::filesystem::path path;
     Picture picture;
     std::string text;
+    FileWishes wishes;
   };
 
   // One being written, one waiting: more would only hold memory.

@@ -204,6 +204,7 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
     return devices_->renderer().render(plan, source, output, limited);
   });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
+  if (plan.functions.size() == 1) rendered.picture.exposed_ns = plan.functions.front().summary.support_ns;
   const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
   return {std::move(rendered), ExposureFigures::of(std::move(plan), source.timeline(), block_count), output};
 }

@@ -56,7 +56,7 @@ void VideoOutput::check(std::uint64_t frames, std::span<const std::string> input
 
 std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture,
                                                const OutputFormat& format) const {
-  if (codec_ == nullptr) return open_still_writer(path_);
+  if (codec_ == nullptr) return open_still_writer(path_, file_wishes(request_));
   const CodeMaking making = CodeMaking::of(capture, format);
   return open_video_writer(path_,
                            {capture.shape, format.type, format.white_code, making.transfer, rate_,

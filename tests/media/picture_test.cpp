@@ -92,9 +92,9 @@ TEST(PictureWriter, ChoosesTheTypeByNameAndWish) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
     }
   };
-  refused("a.png", Depth::floating, "cannot hold floating point; write a .tif or .pfm");
+  refused("a.png", Depth::floating, "cannot hold floating point; write a .tif, .exr or .pfm");
   refused("a.pfm", Depth::bits8, "holds floating point only");
-  refused("a.jpg", {}, "not as '.jpg'");
+  refused("a.gif", {}, "not as '.gif'");
   refused("a", {}, "not as ''");
   refused("a.pgm", {}, "holds grey pictures only and this one has colour");
 }

@@ -11,10 +11,14 @@
 
 namespace nutik::test {
 
-inline std::unique_ptr<Clip> open_test_clip(const std::filesystem::path& path,
-                                            const ClipOptions& options = {}) {
+inline void use_modules() {
   const auto folder = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path();
   setenv("NUTIK_MODULES", folder.c_str(), 0);
+}
+
+inline std::unique_ptr<Clip> open_test_clip(const std::filesystem::path& path,
+                                            const ClipOptions& options = {}) {
+  use_modules();
   return open_clip(path, options);
 }
 

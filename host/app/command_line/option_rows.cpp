@@ -228,8 +228,11 @@ constexpr Option kRows[] = {
      (kReadsClips & ~set_of(Id::batch, Id::check, Id::validate)) | set_of(Id::recover, Id::noise, Id::retime),
      &Options::output, "where to write; without it the last operand, or a name made from the inputs"},
     {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate), &Options::depth,
-     "8, 16 or float: light as it is, with negatives (default: the capture's own, float for .pfm)",
-     "8 16 float"},
+     "8, 16, float or half (.exr): light as it is, with negatives (default: the capture's own, 8 for .jpg, "
+     "float "
+     "for .exr and .pfm)",
+     "8 16 half float"},
+    {0, "quality", "N", exposure, kExposesFreely, &Options::quality, "of a .jpg, 1 … 100 (default: 90)"},
     {0, "negative", "HOW", exposure, kExposesFreely, &Options::negative,
      "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
      "darker), abs (as bright as light above it) (default: saturate)",

@@ -40,7 +40,7 @@ struct Options {
   Value by, base, size, preview, csv, moment, map;
 
   // What is written.
-  Value output, depth, negative, out_transfer, activity;
+  Value output, depth, quality, negative, out_transfer, activity;
   bool json = false, no_recipe = false, quiet = false, verbose = false;
 };
 

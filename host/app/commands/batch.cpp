@@ -115,14 +115,14 @@ class Batch {
         throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
       }
       Session& session = session_of(line.operands.front());
-      ExposedPicture exposed =
-          session.render(request, output_format(output_request(line), output, session.format()));
+      const OutputRequest wishes = output_request(line);
+      ExposedPicture exposed = session.render(request, output_format(wishes, output, session.format()));
       tally_.add(exposed);
       for (const std::string& warning : exposure_warnings(exposed)) {
         print_warning(format("{}:{}: {}", list_name_, listed.line, warning));
       }
       if (options_.verbose && !options_.json) print_line(format("{}: {}", output.string(), tally_.report()));
-      pictures_.push(listed.line, output, std::move(exposed.picture), recipe_text(line));
+      pictures_.push(listed.line, output, std::move(exposed.picture), recipe_text(line), file_wishes(wishes));
     } catch (const UsageError& error) {
       report(listed.line, error);
     } catch (const InputError& error) {

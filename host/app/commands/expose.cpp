@@ -28,7 +28,8 @@ int run_expose(const Options& options) {
       session.render(request, output_format(output_request(options), output, session.format()));
   tally.add(exposed);
   print_warnings(exposure_warnings(exposed));
-  write_picture(output, exposed.picture, recipe.text(tally.precision()));
+  write_picture(output, exposed.picture, recipe.text(tally.precision()),
+                file_wishes(output_request(options)));
 
   const ExposureFigures& figures = exposed.figures;
   const Shape& shape = figures.capture.shape;

@@ -55,7 +55,8 @@ int run_series(const Options& options) {
   Session session = open_session(options, {.besides = PictureQueue::needs});
   const std::vector<StatedTime> starts = starts_of(series, request, session.timeline());
   for (std::uint64_t k = 1; k < starts.size(); ++k) check_output(names[k], OutputKind::picture, inputs);
-  const OutputFormat output = output_format(output_request(options), names[0], session.format());
+  const OutputRequest wishes = output_request(options);
+  const OutputFormat output = output_format(wishes, names[0], session.format());
 
   ExposureTally tally;
   Channel<std::string> failures(starts.size());  // of pictures that could not be written
@@ -71,7 +72,7 @@ int run_series(const Options& options) {
       tally.add(exposed);
       warnings.add(names[k].string(), exposure_warnings(exposed));
       pictures.push(k, names[k], std::move(exposed.picture),
-                    recipe.text(tally.precision(), {{{"start", starts[k].text()}}, {}}));
+                    recipe.text(tally.precision(), {{{"start", starts[k].text()}}, {}}), file_wishes(wishes));
       if (k == 0) first = std::move(exposed.figures);
     }
     pictures.finish();

@@ -37,11 +37,13 @@ class SheetJob {
         codes_(output_request(options)) {
     constexpr std::uint32_t kColour = 3;
     check_picture_output(output_, kColour, inputs_);
+    check_quality(codes_, output_);
   }
 
   [[nodiscard]] const std::filesystem::path& output() const { return output_; }
   [[nodiscard]] const std::vector<std::string>& inputs() const { return inputs_; }
   [[nodiscard]] const ExposureTally& tally() const { return tally_; }
+  [[nodiscard]] const OutputRequest& wishes() const { return codes_; }
   [[nodiscard]] std::string heading(const std::string& of) const {
     return format("{}: {}", std::filesystem::path(options_.operands.front()).filename().string(), of);
   }
@@ -60,7 +62,7 @@ class SheetJob {
                           if (each) each(i, exposed, warnings);
                         });
     }();
-    write_picture(output_, sheet.picture);
+    write_picture(output_, sheet.picture, {}, file_wishes(codes_));
     const auto& [columns, rows] = std::pair(sheet.layout.columns, sheet.layout.rows);
     Answer answer{{{"sheet", output_.string()}, {"columns", columns}, {"rows", rows}}};
     answer.json[key] = std::move(exposures);
@@ -189,7 +191,7 @@ int run_sweep(const Options& options) {
       if (own) text = recipe.text(job.tally().precision(), own_recipe(*own));
       if (!own) warnings.add(singles[i].string(), std::array{std::string(kNoRecipe)});
     }
-    write_picture(singles[i], exposed.picture, text);
+    write_picture(singles[i], exposed.picture, text, file_wishes(job.wishes()));
   };
   return job.run(session, sheet, what, "pictures", std::move(json), write_single);
 }

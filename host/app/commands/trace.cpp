@@ -71,7 +71,7 @@ int run_trace(const Options& options) {
   const ExposureRequest request = exposure_request(options);
   if (output) {
     if (!is_table_name(*output) && !is_picture_name(*output)) {
-      throw UsageError(format("{}: traces are written as a table, .csv, or as a picture: .png, .tif or .ppm",
+      throw UsageError(format("{}: traces are written as a table, .csv, or as a picture: .png, .tif, .jpg or .ppm",
                               output->string()));
     }
     if (is_table_name(*output)) {

@@ -96,7 +96,7 @@ std::vector<std::string> exposure_warnings(const ExposedPicture& exposed) {
     if (still_gain >= 0.0) continue;
     warnings.push_back(
         format("M{}: the still gain is {:.6g}: whatever does not move comes out black; --negative "
-               "offset shows light below 0, a .pfm or a .tif with --depth float keeps it",
+               "offset shows light below 0, an .exr or a .tif with --depth float keeps it",
                function.tag, still_gain));
   }
   return warnings;

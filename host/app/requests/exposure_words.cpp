@@ -152,6 +152,9 @@ std::string exposure_label(const Options& options) {
 OutputRequest output_request(const Options& options) {
   OutputRequest request;
   if (options.depth) request.depth = parse_depth(*options.depth);
+  if (options.quality) {
+    request.quality = static_cast<int>(parse_whole_number(*options.quality, "quality", 1, 100));
+  }
   if (options.negative) request.negative = parse_negative_light(*options.negative);
   if (options.out_transfer) request.transfer = parse_out_transfer(*options.out_transfer);
   return request;

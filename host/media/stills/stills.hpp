@@ -3,10 +3,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 
 #include "media/clip.hpp"
 #include "media/stills_table.hpp"
+#include "system/output_file.hpp"
 
 namespace nutik::stills {
 
@@ -14,5 +17,9 @@ namespace nutik::stills {
                                                      const ClipTiming& timing, const ClipOptions& options);
 
 [[nodiscard]] StillTimes read_exif_times(const std::filesystem::path& file);
+
+void write_exr(OutputFile& file, const Picture& picture, const std::string& text, bool as_half);
+[[nodiscard]] std::optional<std::string> read_exr_text(const std::filesystem::path& file,
+                                                       const char* keyword);
 
 }  // namespace nutik::stills

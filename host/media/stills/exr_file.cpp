@@ -1,0 +1,136 @@
+// OpenEXR: one part of scan lines, channels R, G and B or Y, packed by ZIP without loss.
+#include <ImathBox.h>
+#include <ImfChannelList.h>
+#include <ImfChromaticities.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
+#include <half.h>
+
+#include <cmath>
+#include <exception>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/picture_text.hpp"
+#include "media/stills/stills.hpp"
+
+namespace nutik::stills {
+namespace {
+
+// What OpenEXR writes, which goes back to fill in where its lines lie. It writes the last of that where it cannot
+// throw: what failed is kept.
+class FileStream final : public Imf::OStream {
+ public:
+  explicit FileStream(OutputFile& file) : Imf::OStream(file.temporary_path().c_str()), file_(file) {}
+
+  void write(const char text[], int count) override {
+    const auto bytes = std::as_bytes(std::span(text, static_cast<std::size_t>(count)));
+    try {
+      if (at_ == file_.size()) {
+        file_.write(bytes);
+      } else {
+        file_.replace(at_, bytes);
+      }
+    } catch (...) {
+      failure_ = std::current_exception();
+      throw;
+    }
+    at_ += bytes.size();
+  }
+  std::uint64_t tellp() override { return at_; }
+  void seekp(std::uint64_t position) override { at_ = position; }
+
+  void check() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  OutputFile& file_;
+  std::uint64_t at_ = 0;
+  std::exception_ptr failure_;
+};
+
+Imf::Header header_of(const Picture& picture, const std::string& text) {
+  const Shape& shape = picture.shape;
+  Imf::Header header(static_cast<int>(shape.width), static_cast<int>(shape.height),
+                     static_cast<float>(picture.pixel_aspect.value()), Imath::V2f(0, 0), 1.0F,
+                     Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
+  const auto& xy = chromaticities(picture.primaries);
+  const auto point = [&](std::size_t i) {
+    return Imath::V2f(static_cast<float>(xy[i][0]), static_cast<float>(xy[i][1]));
+  };
+  Imf::addChromaticities(header, {point(0), point(1), point(2), point(3)});
+  if (picture.exposed_ns) {
+    Imf::addExpTime(header, static_cast<float>(static_cast<double>(*picture.exposed_ns) / kSecondNs));
+  }
+  if (!text.empty()) header.insert(kPictureTextKeyword, Imf::StringAttribute(text));
+  return header;
+}
+
+// Throws where a value is larger than a half holds: it would become infinite.
+std::vector<half> halves(const Picture& picture) {
+  const auto values = picture.values<float>();
+  std::vector<half> result(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    result[i] = half(values[i]);
+    if (!std::isfinite(values[i]) || result[i].isFinite()) continue;
+    const std::size_t pixel = i / picture.shape.channels;
+    throw OutputError(
+        format("pixel {},{} has light {:.6g}, and 16-bit floating point ends at {:.0f}; write 32 bits",
+               pixel % picture.shape.width, pixel / picture.shape.width, values[i], HALF_MAX),
+        {Setting::depth});
+  }
+  return result;
+}
+
+}  // namespace
+
+void write_exr(OutputFile& file, const Picture& picture, const std::string& text, bool as_half) {
+  const Shape& shape = picture.shape;
+  Imf::Header header = header_of(picture, text);
+  const Imf::PixelType type = as_half ? Imf::HALF : Imf::FLOAT;
+  const std::size_t value = as_half ? sizeof(half) : sizeof(float), pixel = value * shape.channels;
+  const std::vector<half> short_values = as_half ? halves(picture) : std::vector<half>();
+  // OpenEXR only reads it.
+  auto* first = as_half ? reinterpret_cast<char*>(const_cast<half*>(short_values.data()))
+                        : reinterpret_cast<char*>(const_cast<std::byte*>(picture.bytes.data()));
+  Imf::FrameBuffer buffer;
+  for (std::uint32_t channel = 0; channel < shape.channels; ++channel) {
+    constexpr const char* kColour[] = {"R", "G", "B"};
+    const char* name = shape.channels == 1 ? "Y" : kColour[channel];
+    header.channels().insert(name, Imf::Channel(type));
+    buffer.insert(name, Imf::Slice(type, first + channel * value, pixel, pixel * shape.width));
+  }
+  FileStream stream(file);
+  try {
+    Imf::OutputFile output(stream, header, 0);
+    output.setFrameBuffer(buffer);
+    output.writePixels(static_cast<int>(shape.height));
+  } catch (const std::exception& error) {
+    stream.check();
+    throw OutputError(format("the OpenEXR file cannot be written: {}", error.what()));
+  }
+  stream.check();
+}
+
+std::optional<std::string> read_exr_text(const std::filesystem::path& file, const char* keyword) {
+  try {
+    const Imf::InputFile input(file.c_str(), 0);
+    const auto* text = input.header().findTypedAttribute<Imf::StringAttribute>(keyword);
+    if (text == nullptr) return std::nullopt;
+    if (text->value().size() > kMostPictureTextBytes) {
+      throw InputError(format("its text has {} bytes", text->value().size()));
+    }
+    return text->value();
+  } catch (const std::exception& error) {
+    throw InputError(format("{} cannot be read: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace nutik::stills
