@@ -6,6 +6,7 @@
 
 #include "app/command_line/command_line.hpp"
 #include "app/output/console.hpp"
+#include "app/output/output_name.hpp"
 #include "app/text/message_text.hpp"
 #include "session/error.hpp"
 #include "system/interruption.hpp"
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
     nutik::app::ParsedCommandLine parsed = nutik::app::parse_command_line(words);
     parsed.options.program = argv[0];
+    if (nutik::app::writes_to_standard_output(parsed.options)) nutik::app::keep_lines_from_output();
     const int status = parsed.command == nullptr ? kOk : parsed.command->run(parsed.options);
     nutik::check_mapped_files();
     nutik::app::flush_output();

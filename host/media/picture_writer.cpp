@@ -58,8 +58,10 @@ constexpr std::array<FileKind, 10> kKinds{{
     {.extension = ".pfm", .holds_light = true, .write = write_netpbm},
 }};
 
+constexpr std::string_view kStandardOutput = "-", kBehindKind = ":-";
+
 const FileKind* find_kind(const std::filesystem::path& path) {
-  const std::string extension = extension_of(path);
+  const std::string extension = picture_extension(path);
   const auto found = std::find_if(kKinds.begin(), kKinds.end(),
                                   [&](const FileKind& kind) { return extension == kind.extension; });
   return found == kKinds.end() ? nullptr : &*found;
@@ -123,6 +125,19 @@ ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth>
   return *wish == Depth::bits8 ? ValueType::code8 : ValueType::code16;
 }
 
+bool names_standard_output(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  return name == kStandardOutput || (name.ends_with(kBehindKind) && find_kind(path) != nullptr);
+}
+
+std::string picture_extension(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  if (name == kStandardOutput) return ".png";
+  if (name.ends_with(kBehindKind))
+    return extension_of("of." + name.substr(0, name.size() - kBehindKind.size()));
+  return extension_of(path);
+}
+
 bool is_picture_name(const std::filesystem::path& path) { return find_kind(path) != nullptr; }
 
 bool is_lossy_name(const std::filesystem::path& path) {
@@ -140,6 +155,14 @@ void write_picture(const std::filesystem::path& path, const Picture& picture, co
   const bool fits = holds_codes(picture.type) ? value_bytes(picture.type) * 8 <= kind.code_bits
                                               : picture.type == ValueType::light32 && kind.holds_light;
   if (!fits) throw UsageError(format("{} cannot hold the values of this picture", path.string()));
+  if (names_standard_output(path)) {
+    // Made whole before anything is sent; some of it is written by libraries that go back in their file.
+    OutputFile file(std::filesystem::temp_directory_path() / (std::string("nutik-picture") + kind.extension),
+                    OutputFile::Lasting::no);
+    kind.write(file, picture, text, wishes);
+    file.send_to_standard_output();
+    return;
+  }
   OutputFile file(path);
   kind.write(file, picture, text, wishes);
   file.commit();

@@ -21,6 +21,10 @@ enum class Depth { bits8, bits16, half, floating };
 [[nodiscard]] ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth> wish,
                                        ValueType usual, std::uint32_t channels);
 
+// Whether a name stands for standard output: `-`, a PNG, or `exr:-` with the extension of another kind.
+[[nodiscard]] bool names_standard_output(const std::filesystem::path& path);
+// `.png` of shot.PNG and of `png:-`.
+[[nodiscard]] std::string picture_extension(const std::filesystem::path& path);
 // Whether the name's extension is one that write_picture() knows.
 [[nodiscard]] bool is_picture_name(const std::filesystem::path& path);
 // Whether it is one of files whose codes are near those of the picture, as near as a quality says.
@@ -35,7 +39,7 @@ struct FileWishes {
   bool as_half = false;         // light in 16 bits
 };
 
-// Writes a picture whole or not at all, with what its values mean and a line of text where its format has a place for
+// Writes a picture whole or not at all, to a file or to standard output, with what its values mean and a line of text where its format has a place for
 // them (picture_text.hpp).
 // Throws OutputError, UsageError where such a file cannot hold the picture.
 void write_picture(const std::filesystem::path& path, const Picture& picture, const std::string& text = {},

@@ -1,5 +1,7 @@
 #include "session/output_check.hpp"
 
+#include <unistd.h>
+
 #include <string_view>
 
 #include "capture/format.hpp"
@@ -68,6 +70,14 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 
 void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs) {
   const std::string name = output.string();
+  if (kind == OutputKind::picture && names_standard_output(output)) {
+    if (isatty(STDOUT_FILENO) == 1) {
+      throw UsageError(format(
+          "{} is standard output, which is a terminal; send it on to a program or a file, or name a file",
+          name));
+    }
+    return;
+  }
   for (const std::string& input : inputs) {
     if (is_same_file(output, input)) {
       throw UsageError(format("the output {} is also an input; choose another name", name));

@@ -18,8 +18,8 @@ struct WrongOutputName : UsageError {
   OutputKind kind;
 };
 
-// Throws UsageError where `output` names one of the inputs, has a name of another kind, or would replace a file of
-// another kind.
+// Throws UsageError where `output` names one of the inputs, has a name of another kind, would replace a file of
+// another kind, or is standard output and that a terminal.
 void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs);
 // The same of a picture of 8-bit codes, where its file cannot hold so many channels, too.
 void check_picture_output(const std::filesystem::path& output, std::uint32_t channels,

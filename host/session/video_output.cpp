@@ -11,6 +11,11 @@ namespace nutik {
 VideoOutput::VideoOutput(std::filesystem::path path, Rational rate, const std::optional<std::string>& codec,
                          const OutputRequest& request)
     : path_(std::move(path)), rate_(rate), request_(request) {
+  if (names_standard_output(path_)) {
+    throw UsageError(
+        format("{} is standard output, and a video is written to a file: what makes it goes back in it",
+               path_.string()));
+  }
   const bool is_numbered = NumberedName::parse(path_.filename().string()).has_value();
   if (is_picture_name(path_) && is_numbered) {
     if (codec) {

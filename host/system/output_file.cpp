@@ -197,6 +197,19 @@ void OutputFile::commit() {
   close(std::exchange(descriptor_, -1));
 }
 
+void OutputFile::send_to_standard_output() {
+  check_mapped_files();
+  const MappedFile written(temporary_path_);
+  for (auto rest = written.bytes(); !rest.empty();) {
+    const ssize_t sent = ::write(STDOUT_FILENO, rest.data(), rest.size());
+    if (sent >= 0) {
+      rest = rest.subspan(static_cast<std::size_t>(sent));
+    } else if (errno != EINTR) {
+      throw OutputError(format("standard output cannot be written: {}", std::strerror(errno)));
+    }
+  }
+}
+
 void write_text(const std::filesystem::path& path, std::string_view text) {
   OutputFile file(path);
   file.write(text);

@@ -47,6 +47,9 @@ class OutputFile {
   // (system/mapped_file.hpp).
   void commit();
 
+  // Sends what was written to standard output, and leaves no file behind. Throws as commit() does.
+  void send_to_standard_output();
+
  private:
   [[noreturn]] void fail(const char* what) const;
 

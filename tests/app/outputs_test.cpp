@@ -44,6 +44,67 @@ TEST_F(Outputs, ReplaceNoStillOfTheClip) {
   }
 }
 
+// What a second program gets through a pipe is the file, byte for byte, and nothing else.
+TEST_F(Outputs, GoToStandardOutput) {
+  const std::string program = NUTIK_TEST_PROGRAM;
+  const std::string expose =
+      " expose -f 100 --start 1f --exposure 2f frames --no-recipe --renderer reference";
+  const std::vector<std::pair<std::string, std::string>> kinds{{"-", "a.png"},     {"png:-", "a.png"},
+                                                               {"TIF:-", "a.tif"}, {"jpg:-", "a.jpg"},
+                                                               {"exr:-", "a.exr"}, {"pfm:-", "a.pfm"}};
+  for (const auto& [name, file] : kinds) {
+    SCOPED_TRACE(name);
+    const auto piped =
+        test::run_shell(program + expose + " -o " + name + " | cat > piped", scratch_.folder());
+    EXPECT_EQ(piped.status, 0);
+    EXPECT_NE(piped.err.find(name + ": 160 x 120 grey, 2 of 4 samples"), std::string::npos) << piped.err;
+    const auto named = test::run_shell(program + expose + " -o " + file, scratch_.folder());
+    EXPECT_EQ(named.status, 0) << named.err;
+    EXPECT_NE(named.out.find(file + ": 160 x 120 grey, 2 of 4 samples"), std::string::npos) << named.out;
+    const std::string wanted = test::read_file(scratch_ / file);
+    EXPECT_GT(wanted.size(), 100u);
+    EXPECT_TRUE(test::read_file(scratch_ / "piped") == wanted);
+  }
+  // The mask of a pipe, and the sheet.
+  const auto mask =
+      test::run_shell(program + " mask -f 100 frames --fill -o pgm:- | head -c 2", scratch_.folder());
+  EXPECT_EQ(mask.out, "P5") << mask.err;
+  const auto sheet =
+      test::run_shell(program + " contact -f 100 frames -o jpg:- | head -c 3", scratch_.folder());
+  EXPECT_EQ(sheet.out, "\xFF\xD8\xFF") << sheet.err;
+}
+
+TEST_F(Outputs, ThatStandardOutputCannotTakeAreRefused) {
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& part) {
+    std::vector<std::string> all{words};
+    all.insert(all.end(), {"-f", "100", "frames"});
+    const auto result = test::run_program(all, scratch_.folder());
+    EXPECT_EQ(result.status, 2) << result.err;
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+    EXPECT_EQ(result.out, "");
+  };
+  refused({"expose", "--exposure", "1f", "--json", "-o", "-"}, "--json answers on standard output");
+  refused({"expose", "--exposure", "1f", "-o", "gif:-"}, "gif:-: pictures are written as .png, .tif, .jpg");
+  refused({"encode", "-o", "-"}, "- is no name for a capture");
+  refused({"video", "-o", "-"}, "a video is written to a file");
+  scratch_.write("list.txt", "--exposure 1f -o -\n");
+  const auto batch = test::run_program({"batch", "-f", "100", "list.txt", "frames"}, scratch_.folder());
+  EXPECT_NE(batch.err.find("standard output takes one picture"), std::string::npos) << batch.err;
+  // `script` runs a command on a terminal.
+  const auto terminal = test::run_shell("script -qec '" + std::string(NUTIK_TEST_PROGRAM) +
+                                            " expose -f 100 --exposure 1f frames -o -' /dev/null",
+                                        scratch_.folder());
+  if (terminal.status == 127) GTEST_SKIP() << "the command script is missing, which makes a terminal";
+  EXPECT_EQ(terminal.status, 2);
+  EXPECT_NE(terminal.out.find("which is a terminal"), std::string::npos) << terminal.out << terminal.err;
+  // Nothing stays in the temporary folder.
+  std::filesystem::create_directory(scratch_ / "tmp");
+  const auto full = test::run_program({"expose", "-f", "100", "--exposure", "1f", "frames", "-o", "-"},
+                                      scratch_.folder(), {"TMPDIR=tmp"});
+  EXPECT_EQ(full.status, 0) << full.err;
+  EXPECT_TRUE(std::filesystem::is_empty(scratch_ / "tmp"));
+}
+
 // The temporary capture's name cannot be foreseen, and what somebody put in its place is not written to.
 TEST_F(Outputs, AreNotLedAstrayInATemporaryFolder) {
   std::filesystem::create_directory(scratch_ / "tmp");

@@ -226,7 +226,10 @@ constexpr Option kRows[] = {
     heading("Output"),
     {'o', "output", "FILE", output,
      (kReadsClips & ~set_of(Id::batch, Id::check, Id::validate)) | set_of(Id::recover, Id::noise, Id::retime),
-     &Options::output, "where to write; without it the last operand, or a name made from the inputs"},
+     &Options::output,
+     "where to write; without it the last operand, or a name made from the inputs. A picture goes to "
+     "standard output "
+     "as -, a PNG, or as exr:-, tif:-, …"},
     {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate), &Options::depth,
      "8, 16, float or half (.exr): light as it is, with negatives (default: the capture's own, 8 for .jpg, "
      "float "

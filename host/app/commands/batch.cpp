@@ -108,6 +108,9 @@ class Batch {
       }
       const ExposureRequest request = exposure_request(line);
       const std::filesystem::path output = output_name(line, "expose", "-" + exposure_label(line) + ".png");
+      if (names_standard_output(output)) {
+        throw UsageError("standard output takes one picture, and a batch makes many; name a file");
+      }
       check_output(output, OutputKind::picture, input_files(line));
       const auto [earlier, is_new] =
           line_of_output_.try_emplace(std::filesystem::absolute(output).lexically_normal(), listed.line);

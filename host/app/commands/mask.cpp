@@ -27,8 +27,8 @@ struct MaskJob {
 };
 
 bool is_mask_name(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  return extension == ".pgm" || extension == ".png" || extension == ".PGM" || extension == ".PNG";
+  const std::string extension = picture_extension(path);
+  return extension == ".pgm" || extension == ".png";
 }
 
 // Nothing large is read before all of it makes sense.

@@ -16,6 +16,9 @@ constexpr const char* kRed = "\x1b[1;31m";
 constexpr const char* kYellow = "\x1b[1;33m";
 constexpr const char* kPlain = "\x1b[0m";
 
+// Where lines of a result go.
+std::FILE* line_stream = stdout;
+
 void write_line(std::FILE* stream, const std::string& text) {
   std::fprintf(stream, "%s\n", text.c_str());
   std::fflush(stream);
@@ -39,7 +42,7 @@ void write_message(const char* colour, const std::string& label, const std::stri
 
 }  // namespace
 
-void print_line(const std::string& text) { write_line(stdout, printable_lines(text)); }
+void print_line(const std::string& text) { write_line(line_stream, printable_lines(text)); }
 void print_text(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);
@@ -53,6 +56,8 @@ void print_warnings(const std::vector<std::string>& texts) {
 void print_notes(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) print_note(text);
 }
+
+void keep_lines_from_output() { line_stream = stderr; }
 
 void flush_output() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

@@ -15,6 +15,9 @@ void print_note(const std::string& text);     // to stderr
 void print_warnings(const std::vector<std::string>& texts);
 void print_notes(const std::vector<std::string>& texts);
 
+// From now on lines go to stderr: standard output is for the result itself.
+void keep_lines_from_output();
+
 // Throws OutputError where standard output could not be written, to a full disk for example.
 void flush_output();
 

@@ -32,6 +32,15 @@ std::filesystem::path output_name(const Options& options, std::string_view comma
   return sequence_name(options.operands.front()) + std::string(behind);
 }
 
+bool writes_to_standard_output(const Options& options) {
+  const bool is_second = !options.output && options.operands.size() == 2;
+  const bool writes = (options.output && names_standard_output(*options.output)) ||
+                      (is_second && names_standard_output(options.operands[1]));
+  if (writes && options.json)
+    throw UsageError("--json answers on standard output, where the picture goes; use one");
+  return writes;
+}
+
 std::vector<std::string> input_files(const Options& options) {
   std::vector<std::string> inputs(options.operands.begin(),
                                   options.operands.begin() + !options.operands.empty());

@@ -20,6 +20,9 @@ namespace nutik::app {
 [[nodiscard]] std::filesystem::path output_name(const Options& options, std::string_view command,
                                                 std::string_view behind);
 
+// Whether standard output takes a picture, so that nothing else may go there. Throws UsageError where something must.
+[[nodiscard]] bool writes_to_standard_output(const Options& options);
+
 // The files that a command reads, each still of a sequence among them: no output may replace one. Its first operand is
 // one of them, where it has any.
 [[nodiscard]] std::vector<std::string> input_files(const Options& options);
