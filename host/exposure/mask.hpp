@@ -1,4 +1,4 @@
-// Masks: which gain function each pixel is exposed with.
+// Masks: which gain function each pixel is exposed with, and which pixels several functions share.
 #pragma once
 
 #include <algorithm>
@@ -7,39 +7,47 @@
 #include <vector>
 
 #include "capture/picture.hpp"
+#include "exposure/mixed_pixels.hpp"
 
 namespace nutik {
 
 inline constexpr std::uint32_t kMaskValues = 256;
 
-// One tag (mask value) per pixel, row by row.
+// One tag (mask value) per pixel, row by row: of a mixed pixel the one with the largest share, of equals the lowest.
 struct Mask {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::vector<std::uint8_t> tags;
+  MixedPixels mixed = {};  // none of a hard mask
 
   // A mask of one tag.
   static Mask uniform(std::uint32_t width, std::uint32_t height, std::uint8_t tag) {
-    return {width, height, std::vector<std::uint8_t>(std::size_t{width} * height, tag)};
+    return {width, height, std::vector<std::uint8_t>(std::size_t{width} * height, tag), {}};
   }
 
   // The codes of an 8-bit picture with one channel, taken literally.
   static Mask from_picture(const Picture& picture) {
     const auto codes = picture.values<std::uint8_t>();
-    return {picture.shape.width, picture.shape.height, {codes.begin(), codes.end()}};
+    return {picture.shape.width, picture.shape.height, {codes.begin(), codes.end()}, {}};
   }
 
-  // The same picture again.
+  // The picture of its tags.
   [[nodiscard]] Picture to_picture() const {
     Picture picture({width, height, 1}, ValueType::code8, 255);
     std::copy(tags.begin(), tags.end(), picture.values<std::uint8_t>().begin());
     return picture;
   }
 
-  // How many pixels have each tag.
+  [[nodiscard]] bool is_soft() const { return !mixed.empty(); }
+
+  // How many pixels have each tag, or a share of it.
   [[nodiscard]] std::array<std::uint64_t, kMaskValues> pixels_per_tag() const {
     std::array<std::uint64_t, kMaskValues> counts{};
     for (const std::uint8_t tag : tags) ++counts[tag];
+    for (std::size_t i = 0; i < mixed.pixels().size(); ++i) {
+      const std::uint8_t counted = tags[mixed.pixels()[i]];
+      for (const Share& share : mixed.shares(i)) counts[share.of] += share.of != counted;
+    }
     return counts;
   }
 

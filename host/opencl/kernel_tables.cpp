@@ -16,9 +16,6 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// What white is in the kernel's fixed light, at most: leaves room for a sum that is larger.
-constexpr int kFixedLightBits = 61;
-
 template <typename Values>
 Bytes bytes_of(const Values& values) {
   const auto bytes = std::as_bytes(std::span(values));
@@ -75,8 +72,7 @@ Bytes fixed_scales(const RenderPlan& plan) {
   const FixedScale scale = fixed_scale(plan);
   std::vector<FixedLightScale> scales;
   for (std::size_t f = 0; f < plan.functions.size(); ++f) {
-    const int left =
-        plan.functions[f].summary.exponent - scale.exponents[f] + kFixedLightBits - scale.light_bits;
+    const int left = plan.functions[f].summary.exponent - scale.exponents[f] + kCodeBits - scale.light_bits;
     scales.push_back({static_cast<std::uint32_t>(std::clamp(left, 0, 63)),
                       static_cast<std::uint32_t>(std::clamp(-left, 0, 63))});
   }
@@ -235,7 +231,7 @@ CodeKey CodeKey::of(const RenderPlan& plan, Precision precision, const OutputFor
   double white_light = white_light_of(plan.capture.transfer, plan.capture.white_code);
   if (precision == Precision::fixed) {
     const FixedScale scale = fixed_scale(plan);
-    white_light = std::scalbn(static_cast<double>(scale.white_light), kFixedLightBits - scale.light_bits);
+    white_light = std::scalbn(static_cast<double>(scale.white_light), kCodeBits - scale.light_bits);
   }
   return {making.transfer, output.white_code, white_light * making.white_light, precision};
 }

@@ -120,10 +120,11 @@ MemoryCapture long_capture(const CaptureFormat& like) {
 // Keeps the error that takes most of its bound.
 void judge_light(Verdict& verdict, const RenderPlan& plan, const ErrorBound& bound, const Picture& expected,
                  const Picture& light) {
+  const PixelErrors bounds(plan, bound);
   for (std::uint64_t i = 0; i < expected.shape.value_count(); ++i) {
     double error = std::fabs(light.values<double>()[i] - expected.values<double>()[i]);
     if (std::isnan(error)) error = std::numeric_limits<double>::infinity();
-    const double allowed = bound.functions[plan.function_of(i / expected.shape.channels)].light;
+    const double allowed = bounds.of(i / expected.shape.channels).light;
     if (error * verdict.allowed_error <= verdict.light_error * allowed && verdict.allowed_error > 0.0)
       continue;
     verdict.light_error = error;

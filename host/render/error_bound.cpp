@@ -33,6 +33,7 @@ struct Roundings {
   double of_sum;  // each term added to others, or block to those before, of the largest that the sum can be
   double of_weight;    // each weight: rounding it, or a difference of boundaries, the product, adding it
   double of_boundary;  // each boundary that a difference is made of
+  double of_share;     // each share of a light: making it a number, the product, adding it
   double light;        // codes to light, absolute
   double threshold;    // between codes, absolute
   double unnormal;     // numbers too small to be normal: each operation, in scaled gain
@@ -45,14 +46,14 @@ Roundings roundings_of(Precision precision, const Transfer& transfer) {
   switch (precision) {
     case Precision::single_: {
       const double light = transfer.toe() ? kCurveLight : has_table ? kRoundoff32 : 0.0;
-      return {kRoundoff32, 1, 2, 0, light, kRoundoff32, 0x1p-122, kRoundoff32};
+      return {kRoundoff32, 1, 2, 0, 3, light, kRoundoff32, 0x1p-122, kRoundoff32};
     }
     case Precision::compensated:
-      return {kPair, 3, 17, 4, has_table ? kPair : 0.0, kPair, 0x1p-122, kRoundoff32};
+      return {kPair, 3, 17, 4, 20, has_table ? kPair : 0.0, kPair, 0x1p-122, kRoundoff32};
     case Precision::double_:
     case Precision::fixed: break;
   }
-  return {kRoundoff64, 1, 2, 0, 0.0, kRoundoff64, 0.0, kRoundoff64};
+  return {kRoundoff64, 1, 2, 0, 3, 0.0, kRoundoff64, 0.0, kRoundoff64};
 }
 
 double floating_error(const FunctionCourse& course, Precision precision, const Roundings& roundings) {
@@ -84,9 +85,35 @@ double converted_error(const ColourMatrix& matrix, double light, double scale) {
   return largest_row * (light + kMatrixRoundings * kRoundoff64 * (scale + light));
 }
 
-double in_steps(const RenderPlan& plan, const GainSummary& gain, double light, double threshold,
+// In u₆₄ of a mixed pixel's S: the reference's products, their sum, the division.
+constexpr double kReferenceBlend = 3;
+
+// In units of the scale on which whole lights are blended: what each light and their sum are rounded down by.
+constexpr double kFixedBlendUnits = 2;
+
+// What blending the lights of so many functions rounds, beside units of whole numbers; lights by their shares come to
+// `magnitude`. The host blends light in double, where none is too small.
+double blend_error(const Roundings& roundings, const OutputFormat& output, std::size_t functions,
+                   double magnitude) {
+  const auto count = static_cast<double>(functions);
+  const double relative =
+      roundings.unit * (roundings.of_share + roundings.of_sum * (count - 1)) + kReferenceBlend * kRoundoff64;
+  const double growth = roundings.growth * (count + 8);
+  return relative * magnitude / (1 - growth) + (holds_codes(output.type) ? roundings.unnormal * count : 0.0) +
+         kSmallest;
+}
+
+// Of codes that kernels blend in whole numbers; light is blended by the host, in double.
+double fixed_blend_error(const RenderPlan& plan, const ErrorBound& bound) {
+  if (plan.map->mixed.empty() || bound.precision != Precision::fixed || !holds_codes(bound.output.type))
+    return 0.0;
+  const FixedScale scale = fixed_scale(plan);
+  return kFixedBlendUnits / std::scalbn(static_cast<double>(scale.white_light),
+                                        kCodeBits - scale.light_bits - scale.blend_shift);
+}
+
+double in_steps(const RenderPlan& plan, double scale, double light, double threshold,
                 const OutputFormat& output) {
-  const double scale = gain.error_scale();
   if (holds_codes(output.type)) {
     const CodeMaking making = CodeMaking::of(plan.capture, output);
     const double seen = making.conversion ? converted_error(*making.conversion, light, scale) : light;
@@ -96,6 +123,32 @@ double in_steps(const RenderPlan& plan, const GainSummary& gain, double light, d
   const double least = output.type == ValueType::light64 ? std::numeric_limits<double>::denorm_min()
                                                          : std::numeric_limits<float>::denorm_min();
   return scale > 0.0 ? light / std::max(scale * format_step(output.type), least) : 0.0;
+}
+
+double threshold_error(const Roundings& roundings) {
+  return roundings.threshold + kThresholdRoundings * kRoundoff64;
+}
+
+// Of any mixture of the plan's functions: no larger than the worst of them, and what blending that rounds.
+void add_blending(const RenderPlan& plan, const Roundings& roundings, ErrorBound& bound) {
+  double largest = 0.0, least_scale = kInfinite;
+  for (std::size_t f = 0; f < plan.functions.size(); ++f) {
+    const double scale = plan.functions[f].summary.error_scale();
+    largest = std::max(largest, scale + bound.functions[f].light);
+    if (scale > 0.0) least_scale = std::min(least_scale, scale / kWholeShare);  // of a mixture with zeros
+  }
+  const std::size_t functions = plan.map->mixed.most_functions();
+  const double light = bound.worst.light + blend_error(roundings, bound.output, functions, largest) +
+                       fixed_blend_error(plan, bound);
+  bound.worst.light = light;
+  if (holds_codes(bound.output.type)) {
+    bound.worst.steps = in_steps(plan, largest, light, threshold_error(roundings), bound.output);
+  } else if (largest > 0.0) {
+    // Relative to the pixel's own S, of which each function's error and every rounding are a share.
+    const double blend = blend_error(roundings, bound.output, functions, least_scale);
+    bound.worst.steps =
+        bound.worst.steps * (1 + blend / least_scale) + in_steps(plan, least_scale, blend, 0.0, bound.output);
+  }
 }
 
 }  // namespace
@@ -126,14 +179,32 @@ ErrorBound error_bound(const RenderPlan& plan, Precision precision, const Output
           kRoundoff64 * (kDoubleRoundings * gain.absolute_integral_ns / static_cast<double>(gain.support_ns) +
                          course.boundaries);
       error.light = std::scalbn(sums + tables, gain.exponent) + kSmallest;
-      error.steps =
-          in_steps(plan, gain, error.light, roundings.threshold + kThresholdRoundings * kRoundoff64, output);
+      error.steps = in_steps(plan, gain.error_scale(), error.light, threshold_error(roundings), output);
     }
     bound.functions.push_back(error);
     bound.worst.light = std::max(bound.worst.light, error.light);
     bound.worst.steps = std::max(bound.worst.steps, error.steps);
   }
+  if (!plan.map->mixed.empty()) add_blending(plan, roundings, bound);
   return bound;
+}
+
+PixelErrors::PixelErrors(const RenderPlan& plan, const ErrorBound& bound)
+    : plan_(plan), bound_(bound), fixed_blend_(fixed_blend_error(plan, bound)) {}
+
+PictureError PixelErrors::of(std::uint64_t pixel) const {
+  const std::span<const Share> shares = plan_.shares_of(pixel);
+  if (shares.empty()) return bound_.functions[plan_.function_of(pixel)];
+  const Roundings roundings = roundings_of(bound_.precision, plan_.capture.transfer);
+  double of_functions = 0.0;
+  for (const Share& share : shares)
+    of_functions += share.size * bound_.functions[share.of].light / kWholeShare;
+  const double scale = plan_.error_scale(pixel);
+  PictureError error;
+  error.light = of_functions + blend_error(roundings, bound_.output, shares.size(), scale + of_functions) +
+                fixed_blend_;
+  error.steps = in_steps(plan_, scale, error.light, threshold_error(roundings), bound_.output);
+  return error;
 }
 
 }  // namespace nutik

@@ -7,11 +7,14 @@
 //            cut, on every device that rounds as IEEE 754 says; infinite where nothing can be promised.
 //            Derived in docs/accuracy.md.
 //
+// A pixel that several functions share errs by its shares of what each of them may err by, and by what blending rounds.
+//
 // What the bound covers: weights and boundaries, their rounding to the kernel's tables, codes to light, products
 // and sums, sums to light, the thresholds between codes; and 30 u₆₄ S for the reference, so that it also holds
 // against a picture of the reference.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "render/output_format.hpp"
@@ -31,11 +34,26 @@ struct PictureError {
 struct ErrorBound {
   Precision precision = Precision::single_;
   std::vector<PictureError> functions;  // by planned function
-  PictureError worst;                   // the largest of each
+  PictureError worst;                   // of any pixel: no smaller than each
   OutputFormat output = {};             // that it holds for
 };
 
 [[nodiscard]] ErrorBound error_bound(const RenderPlan& plan, Precision precision, const OutputFormat& output);
+
+// The bound of each pixel.
+class PixelErrors {
+ public:
+  // Of a plan and its bound, which must live as long.
+  PixelErrors(const RenderPlan& plan, const ErrorBound& bound);
+
+  // Counted row by row.
+  [[nodiscard]] PictureError of(std::uint64_t pixel) const;
+
+ private:
+  const RenderPlan& plan_;
+  const ErrorBound& bound_;
+  double fixed_blend_ = 0.0;  // in light
+};
 
 // What a step of floating point is, in S = ∫|g|/D of the function: 2^-23 for light32, the most that floats lie
 // apart below S; for light64 2e-12, so that half a step is what the arithmetic in double promises.

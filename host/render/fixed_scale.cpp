@@ -31,6 +31,7 @@ FixedScale fixed_scale(const RenderPlan& plan) {
     scale.light_bits = (kSumBits - static_cast<int>(std::bit_width(most))) / 2;
     scale.white_light = std::uint64_t{1} << scale.light_bits;
   }
+  scale.blend_shift = kCodeBits - kBlendBits;
   for (const PlannedFunction& function : plan.functions) {
     const FunctionCourse& course = function.table->course();
     // Whole weights add up to 2^e Σ|w| + count at most: each is off by less than 1.
@@ -38,6 +39,10 @@ FixedScale fixed_scale(const RenderPlan& plan) {
         std::scalbn(1.0, kSumBits - scale.light_bits) - static_cast<double>(course.weight_count);
     const double magnitude = course.compensated_magnitude;
     scale.exponents.push_back(magnitude > 0.0 ? std::ilogb(room / (magnitude * (1 + 0x1p-40))) : 0);
+    // Rounded up, and once more for what whole weights add.
+    const double largest = std::scalbn(course.magnitude, function.summary.exponent);
+    const int bits = largest > 0.0 ? std::ilogb(largest) + 2 : 0;
+    scale.blend_shift = std::clamp(bits + kCodeBits - kBlendBits, scale.blend_shift, kCodeBits - 1);
   }
   return scale;
 }

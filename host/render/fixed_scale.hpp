@@ -21,9 +21,17 @@ struct FixedScale {
   int light_bits = 0;
   std::vector<int> exponents;  // by planned function
 
+  // Where lights are blended, 1 is white_light · 2^(kCodeBits − light_bits − blend_shift): no light of the plan leaves
+  // [-2^kBlendBits, 2^kBlendBits] there, so that shares of it add up within 63 bits.
+  int blend_shift = 0;
+
   // A sum of light · weight as light: sum · light_factor(f), in scaled gain (GainSummary::exponent).
   [[nodiscard]] double light_factor(std::size_t function) const;
 };
+
+// What light 1 is where codes are made of it, at most: 2^kCodeBits. Leaves room for a sum that is larger.
+inline constexpr int kCodeBits = 61;
+inline constexpr int kBlendBits = 46;
 
 [[nodiscard]] FixedScale fixed_scale(const RenderPlan& plan);
 

@@ -23,10 +23,6 @@ void check(const RenderPlan& plan, const Picture& expected, const Picture& pictu
   }
 }
 
-const PictureError& bound_of_value(const RenderPlan& plan, const ErrorBound& bound, std::uint64_t value) {
-  return bound.functions[plan.function_of(value / plan.capture.shape.channels)];
-}
-
 // Where light lies on the scale of codes 0 … white_code, before it is rounded to one.
 double place_of(const Transfer& transfer, double light, std::uint32_t white_code) {
   return transfer.fraction_of(std::clamp(light, 0.0, 1.0)) * white_code;
@@ -67,6 +63,7 @@ StoredErrors code_errors(const RenderPlan& plan, const ErrorBound& bound, const 
   const auto codes = picture.values<Code>();
   const Picture wanted = shown(plan, bound.output, expected);
   const auto light = wanted.values<double>();
+  const PixelErrors bounds(plan, bound);
   const Transfer transfer = CodeMaking::of(plan.capture, bound.output).transfer;
   for (std::uint64_t i = 0; i < errors.values; ++i) {
     const double place = place_of(transfer, light[i], picture.white_code);
@@ -74,7 +71,7 @@ StoredErrors code_errors(const RenderPlan& plan, const ErrorBound& bound, const 
     if (code == std::floor(place + 0.5)) continue;
     ++errors.differing;
     const double allowed =
-        bound_of_value(plan, bound, i).steps + kPlaceRoundings * kRoundoff64 * picture.white_code;
+        bounds.of(i / plan.capture.shape.channels).steps + kPlaceRoundings * kRoundoff64 * picture.white_code;
     if (code <= white && distance_to_code(place, code, white) <= allowed) ++errors.explained;
   }
   return errors;
@@ -86,12 +83,13 @@ StoredErrors real_errors(const RenderPlan& plan, const ErrorBound& bound, const 
   StoredErrors errors{picture.shape.value_count(), 0, 0};
   const auto reals = picture.values<Real>();
   const auto light = expected.values<double>();
+  const PixelErrors bounds(plan, bound);
   for (std::uint64_t i = 0; i < errors.values; ++i) {
     if (reals[i] == static_cast<Real>(light[i])) continue;
     ++errors.differing;
     // Rounding keeps the order, also beyond the largest number: what lies between is what some light within the
     // bound is stored as. Never where it is no number.
-    const double allowed = bound_of_value(plan, bound, i).light;
+    const double allowed = bounds.of(i / plan.capture.shape.channels).light;
     if (static_cast<Real>(light[i] - allowed) <= reals[i] &&
         reals[i] <= static_cast<Real>(light[i] + allowed)) {
       ++errors.explained;
@@ -107,6 +105,7 @@ LightErrors light_errors(const RenderPlan& plan, const ErrorBound& bound, const 
   check(plan, expected, light);
   const auto wanted = expected.values<double>();
   const auto found = light.values<double>();
+  const PixelErrors bounds(plan, bound);
   LightErrors errors;
   for (std::uint64_t i = 0; i < wanted.size(); ++i) {
     if (found[i] == wanted[i]) continue;
@@ -117,7 +116,8 @@ LightErrors light_errors(const RenderPlan& plan, const ErrorBound& bound, const 
       errors.worst_value = i;
     }
     errors.rms = std::hypot(errors.rms, error);  // squares of large light would overflow
-    errors.share_of_bound = std::max(errors.share_of_bound, error / bound_of_value(plan, bound, i).light);
+    errors.share_of_bound =
+        std::max(errors.share_of_bound, error / bounds.of(i / plan.capture.shape.channels).light);
   }
   errors.rms /= std::sqrt(static_cast<double>(std::max<std::size_t>(1, wanted.size())));
   const double share_of_white = worst_share_of_white(plan, bound.output, expected, light);

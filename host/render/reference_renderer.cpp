@@ -1,6 +1,7 @@
 #include "render/reference_renderer.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,14 +18,19 @@ namespace {
 class Reference {
  public:
   Reference(const RenderPlan& plan, const Timeline& timeline, const Rectangle& rectangle)
-      : plan_(plan),
-        timeline_(timeline),
-        rectangle_(rectangle),
-        grid_(plan.capture.shape),
-        walks_(std::size_t{rectangle.width} * rectangle.height * plan.capture.shape.channels) {
+      : plan_(plan), timeline_(timeline), rectangle_(rectangle), grid_(plan.capture.shape) {
     for (const PlannedFunction& planned : plan.functions) {
       gains_.emplace_back(planned.function.pieces(plan.duration_ns));
     }
+    std::uint64_t walked = std::uint64_t{rectangle.width} * rectangle.height;
+    if (!plan.map->mixed.empty()) {
+      first_walks_.push_back(0);
+      for (std::uint64_t pixel = 0; pixel < walked; ++pixel) {
+        first_walks_.push_back(first_walks_.back() + std::max<std::size_t>(1, shares_at(pixel).size()));
+      }
+      walked = first_walks_.back();
+    }
+    walks_.resize(walked * plan.capture.shape.channels);
   }
 
   void add_block(const PlannedBlock& planned, const BlockView& block, bool follows_the_one_before) {
@@ -42,8 +48,9 @@ class Reference {
         for_each_pixel(column, static_cast<std::uint32_t>(first_row + row),
                        [&](std::uint32_t x, std::uint32_t y, std::uint64_t pixel) {
                          block.read_history(grid_.tile_of(x, y), TileGrid::lane_of(x, y), history);
-                         const std::size_t function = function_at(x, y);
-                         walk_pixel(pixel, history, walked, gains_[function], first_pieces[function]);
+                         for_each_function(pixel, [&](std::uint64_t walk, std::size_t function) {
+                           walk_pixel(walk, history, walked, gains_[function], first_pieces[function]);
+                         });
                        });
       }
     });
@@ -51,15 +58,40 @@ class Reference {
 
   // Light of value i of the rectangle once all blocks were added.
   [[nodiscard]] double light(std::uint64_t i) const {
-    const auto pixel = static_cast<std::uint32_t>(i / plan_.capture.shape.channels);
-    const std::size_t function =
-        function_at(rectangle_.x + pixel % rectangle_.width, rectangle_.y + pixel / rectangle_.width);
-    return exposed_light(walks_[i].sum, gains_[function]);
+    const std::uint32_t channels = plan_.capture.shape.channels;
+    const std::uint64_t pixel = i / channels;
+    const auto light_of = [&](std::uint64_t walk, std::size_t function) {
+      return exposed_light(walks_[walk * channels + i % channels].sum, gains_[function]);
+    };
+    const std::span<const Share> shares = shares_at(pixel);
+    const std::uint64_t walk = first_walk(pixel);
+    if (shares.empty()) return light_of(walk, plan_.function_of(in_picture(pixel)));
+    return mixed_light(shares,
+                       [&](std::size_t i_share) { return light_of(walk + i_share, shares[i_share].of); });
   }
 
  private:
-  [[nodiscard]] std::size_t function_at(std::uint32_t x, std::uint32_t y) const {
-    return plan_.function_of(std::uint64_t{y} * plan_.capture.shape.width + x);
+  // A pixel of the rectangle, in the picture.
+  [[nodiscard]] std::uint64_t in_picture(std::uint64_t pixel) const {
+    return (rectangle_.y + pixel / rectangle_.width) * plan_.capture.shape.width + rectangle_.x +
+           pixel % rectangle_.width;
+  }
+
+  [[nodiscard]] std::span<const Share> shares_at(std::uint64_t pixel) const {
+    return plan_.shares_of(in_picture(pixel));
+  }
+
+  [[nodiscard]] std::uint64_t first_walk(std::uint64_t pixel) const {
+    return first_walks_.empty() ? pixel : first_walks_[pixel];
+  }
+
+  // Calls visit(walk, function) for each function that exposes a pixel of the rectangle.
+  template <typename Visit>
+  void for_each_function(std::uint64_t pixel, Visit visit) const {
+    std::uint64_t walk = first_walk(pixel);
+    const std::span<const Share> shares = shares_at(pixel);
+    if (shares.empty()) visit(walk, plan_.function_of(in_picture(pixel)));
+    for (const Share& share : shares) visit(walk++, share.of);
   }
 
   // Calls visit(x, y, pixel of the rectangle) for the pixels that a tile shares with the rectangle.
@@ -76,7 +108,7 @@ class Reference {
     }
   }
 
-  void walk_pixel(std::uint64_t pixel, const std::vector<ChangeRecord>& history, const WalkedBlock& block,
+  void walk_pixel(std::uint64_t walk, const std::vector<ChangeRecord>& history, const WalkedBlock& block,
                   const GainWalk& gain, std::size_t first_piece) {
     const std::uint32_t channels = plan_.capture.shape.channels;
     for (std::uint32_t channel = 0; channel < channels; ++channel) {
@@ -84,7 +116,7 @@ class Reference {
       const auto light_of = [&](std::size_t r) {
         return light_of_code(plan_.capture, history[r].codes[channel]);
       };
-      walk_block(walks_[pixel * channels + channel], gain, first_piece, block, history.size(), sample_of,
+      walk_block(walks_[walk * channels + channel], gain, first_piece, block, history.size(), sample_of,
                  light_of, [](const WalkStep&) {});
     }
   }
@@ -93,8 +125,10 @@ class Reference {
   const Timeline& timeline_;
   Rectangle rectangle_;
   TileGrid grid_;
-  std::vector<GainWalk> gains_;   // by planned function
-  std::vector<ValueWalk> walks_;  // by value of the rectangle
+  std::vector<GainWalk> gains_;  // by planned function
+  std::vector<std::uint64_t>
+      first_walks_;               // of each pixel of the rectangle, and one more; none of a hard mask
+  std::vector<ValueWalk> walks_;  // [walk][channel]: one for each function of each pixel
 };
 
 // A rectangle's light.
@@ -127,7 +161,8 @@ std::uint32_t rows_at_once(const RenderPlan& plan, const CaptureSource& source, 
   for (const PlannedBlock& planned : plan.blocks) {
     block_bytes = std::max(block_bytes, source.lent_bytes(planned.block));
   }
-  const std::uint64_t tile_row = std::uint64_t{shape.width} * shape.channels * kTileSide * kWalkBytes;
+  const std::uint64_t tile_row =
+      std::uint64_t{shape.width} * shape.channels * kTileSide * kWalkBytes * plan.map->mixed.most_functions();
   const MemoryNeeds needs{{"the picture", shape.value_count() * value_bytes(type)},
                           {"a block", block_bytes},
                           {"sums of a row of tiles", tile_row}};

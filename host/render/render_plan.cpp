@@ -10,6 +10,15 @@ std::uint64_t RenderPlan::row_count() const {
   return blocks.empty() ? 0 : blocks.back().table_row + blocks.back().row_count();
 }
 
+double RenderPlan::error_scale(std::uint64_t pixel) const {
+  const std::span<const Share> shares = shares_of(pixel);
+  if (shares.empty()) return functions[function_of(pixel)].summary.error_scale();
+  double scale = 0.0;
+  for (const Share& share : shares)
+    scale += share.size * functions[share.of].summary.error_scale() / kWholeShare;
+  return scale;
+}
+
 std::uint64_t RenderPlan::live_sample_count() const {
   std::vector<SampleRange> ranges;
   for (const PlannedFunction& function : functions) ranges.push_back(function.live);

@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ struct PlannedFunction {
   GainFunction function;
   GainSummary summary;
   SampleRange live;           // samples whose reach meets the live interval
-  std::uint64_t pixel_count;  // of the mask
+  std::uint64_t pixel_count;  // of the mask, that it has a share of
   std::shared_ptr<const GainTable> table;
 };
 
@@ -62,8 +63,12 @@ struct RenderPlan {
   std::vector<std::string> warnings;  // whole sentences
 
   [[nodiscard]] std::uint64_t function_count() const { return functions.size(); }
-  // Index into functions.
+  // Index into functions; of a mixed pixel the one with the largest share.
   [[nodiscard]] std::uint8_t function_of(std::uint64_t pixel) const { return map->region_of_pixel[pixel]; }
+  // The functions of a mixed pixel with their shares; none where it has one function alone.
+  [[nodiscard]] std::span<const Share> shares_of(std::uint64_t pixel) const { return map->mixed.of(pixel); }
+  // S = ∫|g| / D of a pixel's function; of a mixed pixel its shares of those of its functions.
+  [[nodiscard]] double error_scale(std::uint64_t pixel) const;
   // Of the tables of all functions for the planned blocks.
   [[nodiscard]] std::uint64_t row_count() const;
   // The samples that some function needs.

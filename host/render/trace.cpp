@@ -65,7 +65,8 @@ Trace trace(const RenderPlan& plan, CaptureSource& source, std::size_t function,
   return trace;
 }
 
-// The sum of many pixels' light, sample by sample: where it starts in a block, and by how much it changes.
+// The sum of many pixels' light, each by its weight, sample by sample: where it starts in a block, and by how much it
+// changes.
 class LightSum {
  public:
   explicit LightSum(const BlockExtent& extent)
@@ -76,7 +77,7 @@ class LightSum {
     is_edge_[sample] = true;
   }
 
-  [[nodiscard]] std::vector<LightRecord> mean(std::uint64_t count) const {
+  [[nodiscard]] std::vector<LightRecord> mean(double weight) const {
     std::vector<LightRecord> records;
     std::array<CompensatedSum, 3> sums;
     for (std::uint32_t sample = 0; sample < changes_.size(); ++sample) {
@@ -84,7 +85,7 @@ class LightSum {
       LightRecord record{sample, {}};
       for (std::uint32_t channel = 0; channel < 3; ++channel) {
         sums[channel].add(changes_[sample][channel].value());
-        record.light[channel] = sums[channel].value() / static_cast<double>(count);
+        record.light[channel] = sums[channel].value() / weight;
       }
       records.push_back(record);
     }
@@ -98,7 +99,8 @@ class LightSum {
 
 }  // namespace
 
-Trace trace_pixel(const RenderPlan& plan, CaptureSource& source, std::uint32_t x, std::uint32_t y) {
+std::vector<Trace> trace_pixel(const RenderPlan& plan, CaptureSource& source, std::uint32_t x,
+                               std::uint32_t y) {
   const Shape& shape = plan.capture.shape;
   if (x >= shape.width || y >= shape.height) {
     throw UsageError(format("there is no pixel {},{}: the picture has 0,0 … {},{}", x, y, shape.width - 1,
@@ -109,7 +111,7 @@ Trace trace_pixel(const RenderPlan& plan, CaptureSource& source, std::uint32_t x
   const std::uint64_t tile = grid.tile_of(x, y);
   const auto wants = [&](std::uint64_t first, std::uint64_t last) { return first <= tile && tile < last; };
   std::vector<ChangeRecord> history;
-  Trace result = trace(plan, source, plan.function_of(pixel), wants, [&](const BlockView& block) {
+  const auto read = [&](const BlockView& block) {
     block.read_history(tile, TileGrid::lane_of(x, y), history);
     std::vector<LightRecord> records;
     for (const ChangeRecord& change : history) {
@@ -120,9 +122,27 @@ Trace trace_pixel(const RenderPlan& plan, CaptureSource& source, std::uint32_t x
       records.push_back(record);
     }
     return records;
-  });
-  result.pixel_count = 1;
-  return result;
+  };
+  const Share whole{plan.function_of(pixel), kWholeShare};
+  const std::span<const Share> shares = plan.shares_of(pixel);
+  std::vector<Trace> traces;
+  for (const Share& share : shares.empty() ? std::span(&whole, 1) : shares) {
+    traces.push_back(trace(plan, source, share.of, wants, read));
+    traces.back().pixel_count = 1;
+    traces.back().share = share.size;
+  }
+  return traces;
+}
+
+std::array<double, 3> light_of(std::span<const Trace> traces) {
+  if (traces.size() == 1) return traces[0].light;
+  std::vector<Share> shares;
+  for (const Trace& trace : traces) shares.push_back({0, static_cast<std::uint16_t>(trace.share)});
+  std::array<double, 3> light{};
+  for (std::size_t channel = 0; channel < light.size(); ++channel) {
+    light[channel] = mixed_light(shares, [&](std::size_t i) { return traces[i].light[channel]; });
+  }
+  return light;
 }
 
 Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t tag) {
@@ -133,24 +153,34 @@ Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t t
   const TileGrid grid(shape);
   const std::vector<double> light_of =
       plan.capture.transfer.light_of_all_codes(plan.capture.white_code, plan.capture.code_bytes);
+  // What of a pixel the function exposes.
+  const auto weight_of = [&](std::uint64_t pixel) {
+    const std::span<const Share> shares = plan.shares_of(pixel);
+    if (shares.empty()) return plan.function_of(pixel) == function ? 1.0 : 0.0;
+    const auto found = std::ranges::find(shares, function, &Share::of);
+    return found == shares.end() ? 0.0 : static_cast<double>(found->size) / kWholeShare;
+  };
+  CompensatedSum weights;
+  for (std::uint64_t pixel = 0; pixel < shape.pixel_count(); ++pixel) weights.add(weight_of(pixel));
   std::vector<ChangeRecord> history;
   Trace result = trace(plan, source, function, {}, [&](const BlockView& block) {
     LightSum sum(block.extent());
     for (std::uint64_t pixel = 0; pixel < shape.pixel_count(); ++pixel) {
-      if (plan.function_of(pixel) != function) continue;
+      const double weight = weight_of(pixel);
+      if (weight == 0.0) continue;
       const auto x = static_cast<std::uint32_t>(pixel % shape.width);
       const auto y = static_cast<std::uint32_t>(pixel / shape.width);
       block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);
       for (std::uint32_t channel = 0; channel < shape.channels; ++channel) {
         double before = 0.0;
         for (const ChangeRecord& change : history) {
-          const double light = light_of[change.codes[channel]];
+          const double light = weight * light_of[change.codes[channel]];
           sum.add(change.sample, channel, light - before);
           before = light;
         }
       }
     }
-    return sum.mean(planned->pixel_count);
+    return sum.mean(weights.value());
   });
   result.pixel_count = planned->pixel_count;
   return result;

@@ -11,6 +11,7 @@
 
 #include "capture/picture.hpp"
 #include "capture/timeline.hpp"
+#include "exposure/mixed_pixels.hpp"
 #include "render/edge_walk.hpp"
 
 namespace nutik {
@@ -79,6 +80,14 @@ void walk_block(ValueWalk& walk, const GainWalk& gain, std::size_t piece, const 
 [[nodiscard]] inline double exposed_light(const CompensatedSum& sum, const GainWalk& gain) {
   if (gain.support_ns() == 0) return 0.0;
   return std::scalbn(sum.value() / static_cast<double>(gain.support_ns()), gain.exponent());
+}
+
+// The light of a mixed pixel: Σ share · light. light_of(i) is that of the i-th share's function.
+template <typename LightOf>
+[[nodiscard]] double mixed_light(std::span<const Share> shares, LightOf light_of) {
+  CompensatedSum sum;
+  for (std::size_t i = 0; i < shares.size(); ++i) sum.add(shares[i].size * light_of(i));
+  return sum.value() / kWholeShare;
 }
 
 }  // namespace nutik

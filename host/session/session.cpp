@@ -233,9 +233,9 @@ template <typename Follow>
 TracedExposure Session::Implementation::trace(const ExposureRequest& request, const Follow& follow) {
   RenderPlan planned = plan(request);
   check_reading(mask_needs(format_));
-  Trace trace = follow(planned, *reader_);
+  std::vector<Trace> traces = follow(planned, *reader_);
   std::vector<std::string> warnings = std::move(planned.warnings);
-  return {std::move(trace), ExposureFigures::of(std::move(planned), timeline(), reader_->block_count()),
+  return {std::move(traces), ExposureFigures::of(std::move(planned), timeline(), reader_->block_count()),
           std::move(warnings)};
 }
 
@@ -306,7 +306,7 @@ TracedExposure Session::trace(const ExposureRequest& request, const TracedPixel&
 
 TracedExposure Session::trace(const ExposureRequest& request, const TracedTag& tag) {
   return implementation_->trace(request, [&](const RenderPlan& plan, CaptureSource& source) {
-    return trace_region(plan, source, tag.tag);
+    return std::vector{trace_region(plan, source, tag.tag)};
   });
 }
 

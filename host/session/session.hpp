@@ -48,11 +48,13 @@ struct TracedTag {
 };
 
 struct TracedExposure {
-  Trace trace;
+  std::vector<Trace> traces;  // one for each function: of a mixed pixel there are several
   ExposureFigures figures;
   std::vector<std::string> warnings;
 
-  [[nodiscard]] const PlannedFunction& function() const { return figures.functions[trace.function]; }
+  [[nodiscard]] const PlannedFunction& function_of(const Trace& trace) const {
+    return figures.functions[trace.function];
+  }
 };
 
 struct ValidatedExposure {

@@ -136,17 +136,19 @@ void draw_legend(plot::Canvas& canvas, const plot::Box& box, const Trace& trace)
 
 }  // namespace
 
-std::string light_text(const Trace& trace) {
+std::string light_text(std::span<const Trace> traces) {
+  const std::array<double, 3> light = light_of(traces);
   std::string text;
-  for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
-    text += format("{}{:.6g}", channel == 0 ? "" : "  ", trace.light[channel]);
+  for (std::uint32_t channel = 0; channel < traces[0].channels; ++channel) {
+    text += format("{}{:.6g}", channel == 0 ? "" : "  ", light[channel]);
   }
   return text;
 }
 
-std::string traced_codes(const Trace& trace, const CaptureFormat& capture, const OutputFormat& output) {
-  Picture light({1, 1, trace.channels}, ValueType::light64, output.white_code);
-  std::copy_n(trace.light.begin(), trace.channels, light.values<double>().begin());
+std::string traced_codes(std::span<const Trace> traces, const CaptureFormat& capture,
+                         const OutputFormat& output) {
+  Picture light({1, 1, traces[0].channels}, ValueType::light64, output.white_code);
+  std::copy_n(light_of(traces).begin(), traces[0].channels, light.values<double>().begin());
   const CodeMaking making = CodeMaking::of(capture, output);
   to_shown_light(light, making);
   const CodeScale scale(making.transfer, output);
@@ -206,8 +208,17 @@ Picture trace_picture(const Trace& trace, const PlannedFunction& function, const
     product_graph.line(product[channel], {.colour = channel_colour(trace, channel), .width = 1.2});
   }
   product_graph.frame();
-  product_graph.note(format("∫ light × gain / D = {}", light_text(trace)));
+  product_graph.note(format("∫ light × gain / D = {}", light_text({&trace, 1})));
   return canvas.finished();
+}
+
+Picture stacked(std::span<const Picture> pictures) {
+  Picture all = pictures.front();
+  for (const Picture& picture : pictures.subspan(1)) {
+    all.bytes.insert(all.bytes.end(), picture.bytes.begin(), picture.bytes.end());
+    all.shape.height += picture.shape.height;
+  }
+  return all;
 }
 
 }  // namespace nutik

@@ -30,7 +30,7 @@ TEST(Reference, StaysWithinAFewUlpOfExactArithmetic) {
     for (const std::uint64_t value : test::values_to_compare(plan, 12, seed)) {
       const double rendered = picture.values<double>()[value];
       const double units =
-          test::error_in(exact.summary(value).scale(), rendered, exact.light(value)) / test::kRoundoff64;
+          test::error_in(exact.scale(value), rendered, exact.light(value)) / test::kRoundoff64;
       EXPECT_LE(units, test::kReferenceRoundings)
           << random.text() << ", value " << value << "; rerun: " << test::rerun(seed);
       worst = std::max(worst, units);

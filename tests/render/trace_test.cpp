@@ -11,6 +11,7 @@
 #include "support/bounds.hpp"
 #include "support/packed_capture.hpp"
 #include "support/random_case.hpp"
+#include "support/soft_mask.hpp"
 
 namespace nutik {
 namespace {
@@ -20,8 +21,9 @@ using test::RandomCase;
 TEST(Trace, EqualsTheReferenceToTheLastBit) {
   std::uint64_t compared = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const RandomCase random(seed);
+    RandomCase random(seed);
     SCOPED_TRACE(random.text());
+    if (seed % 2 == 1) test::soften(random.mask, random.functions, seed);
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
@@ -30,14 +32,16 @@ TEST(Trace, EqualsTheReferenceToTheLastBit) {
     for (int i = 0; i < 10; ++i) {
       const auto x = static_cast<std::uint32_t>(draw.whole(0, picture.shape.width - 1));
       const auto y = static_cast<std::uint32_t>(draw.whole(0, picture.shape.height - 1));
-      const Trace trace = trace_pixel(plan, capture, x, y);
-      EXPECT_EQ(trace_pixel(plan, packed, x, y).light, trace.light);
-      ASSERT_EQ(trace.channels, picture.shape.channels);
-      for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
+      const std::vector<Trace> traces = trace_pixel(plan, capture, x, y);
+      const std::array<double, 3> light = light_of(traces);
+      EXPECT_EQ(light_of(trace_pixel(plan, packed, x, y)), light);
+      const std::uint32_t channels = traces.front().channels;
+      ASSERT_EQ(channels, picture.shape.channels);
+      for (std::uint32_t channel = 0; channel < channels; ++channel) {
         const double reference =
-            picture.values<double>()[(std::uint64_t{y} * picture.shape.width + x) * trace.channels + channel];
-        EXPECT_EQ(std::bit_cast<std::uint64_t>(trace.light[channel]), std::bit_cast<std::uint64_t>(reference))
-            << "pixel " << x << "," << y << ": " << trace.light[channel] << " and " << reference;
+            picture.values<double>()[(std::uint64_t{y} * picture.shape.width + x) * channels + channel];
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(light[channel]), std::bit_cast<std::uint64_t>(reference))
+            << "pixel " << x << "," << y << ": " << light[channel] << " and " << reference;
         ++compared;
       }
     }
@@ -53,7 +57,7 @@ TEST(Trace, StepsFollowEachOtherAndAddUp) {
     PlanOptions all;
     all.live_all = true;
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, all);
-    const Trace trace = trace_pixel(plan, capture, 0, 0);
+    const Trace trace = trace_pixel(plan, capture, 0, 0).front();
     ASSERT_FALSE(trace.steps.empty());
     EXPECT_EQ(trace.steps.front().begin_ns, 0);
     EXPECT_EQ(trace.steps.back().end_ns, plan.duration_ns);
@@ -115,6 +119,22 @@ TEST(Trace, ARegionIsTheMeanOfItsPixels) {
     }
   }
   std::printf("worst difference: %.3g of S\n", worst);
+}
+
+// Two pixels, one of light 1 and one of 0.2, of which the function has a quarter and all.
+TEST(Trace, OfARegionCountsPixelsByTheirShares) {
+  const CaptureFormat format{{2, 1, 1}, 1, 5, Transfer::linear(), {}};
+  MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 1),
+                        test::Rasters{{std::byte{5}, std::byte{1}}}, 1);
+  Mask mask = Mask::uniform(2, 1, 9);
+  mask.tags[0] = 4;
+  mask.mixed.add(0, std::array<Share, 2>{{{4, 3 * 13'107 + 6'554 + 3'277}, {9, 16'383}}});
+  const FunctionSet functions{{4, GainFunction({{0, 1.0}})}, {9, GainFunction({{0, 1.0}})}};
+  const RenderPlan plan = make_plan(capture, functions, mask, {});
+  const Trace trace = trace_region(plan, capture, 9);
+  EXPECT_EQ(trace.pixel_count, 2u);
+  const double quarter = 16'383.0 / 65'535;
+  EXPECT_NEAR(trace.light[0], (quarter * 1.0 + 0.2) / (quarter + 1), 1e-15);
 }
 
 // As a damaged file may have them.

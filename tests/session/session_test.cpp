@@ -86,7 +86,7 @@ TEST_F(SessionOfClip, TracesAPixelToItsLight) {
   Session session(source_, reference());
   const ExposedPicture exposed = session.render(request_, {ValueType::light64, 0});
   const TracedExposure traced = session.trace(request_, TracedPixel{4, 5});
-  EXPECT_EQ(traced.trace.light[0], exposed.picture.values<double>()[5 * 16 + 4]);
+  EXPECT_EQ(traced.traces.at(0).light[0], exposed.picture.values<double>()[5 * 16 + 4]);
   EXPECT_EQ(traced.figures.live_samples, exposed.figures.live_samples);
 }
 

@@ -77,11 +77,12 @@ std::vector<double> shown(const CaptureFormat& capture, const OutputFormat& outp
 Difference share_of_bound(const RenderPlan& plan, const ErrorBound& bound, const OutputFormat& output,
                           const Picture& picture, const Picture& light) {
   Difference difference;
+  const PixelErrors bounds(plan, bound);
   const Transfer transfer = output.transfer.value_or(plan.capture.transfer);
   const std::vector<double> seen = shown(plan.capture, output, light.values<double>());
   for (std::uint64_t i = 0; i < picture.shape.value_count(); ++i) {
-    const std::size_t function = plan.function_of(i / picture.shape.channels);
-    double share = share_of(transfer, bound.functions[function], output, value_of(picture, i), seen[i]);
+    double share =
+        share_of(transfer, bounds.of(i / picture.shape.channels), output, value_of(picture, i), seen[i]);
     if (std::isnan(share)) share = INFINITY;
     if (share > difference.worst) difference = {share, i};
   }

@@ -35,8 +35,25 @@ ExactExposure::ExactExposure(const RenderPlan& plan, const Timeline& timeline, c
   }
 }
 
+template <typename Of>
+Exact ExactExposure::mixed(std::uint64_t i, Of of) const {
+  const std::uint64_t pixel = i / plan_.capture.shape.channels;
+  const std::span<const Share> shares = plan_.shares_of(pixel);
+  if (shares.empty()) return of(functions_[plan_.function_of(pixel)]);
+  Exact sum = 0;
+  for (const Share& share : shares) sum += Exact(share.size) / kWholeShare * of(functions_[share.of]);
+  return sum;
+}
+
 Exact ExactExposure::light(std::uint64_t i) const {
-  const Function& function = functions_[function_of(i)];
+  return mixed(i, [&](const Function& function) { return light(function, i); });
+}
+
+Exact ExactExposure::scale(std::uint64_t i) const {
+  return mixed(i, [](const Function& function) { return function.summary.scale(); });
+}
+
+Exact ExactExposure::light(const Function& function, std::uint64_t i) const {
   if (function.summary.support_ns == 0) return 0;
   Exact sum = 0;
   for (const auto& [k, weight_ns] : function.weights_ns) {

@@ -1,4 +1,5 @@
-// What a picture is, in exact rational arithmetic: Σ_k v_k ∫ g φ_k / D for the values asked for.
+// What a picture is, in exact rational arithmetic: Σ_k v_k ∫ g φ_k / D for the values asked for, and of mixed pixels the
+// shares of that.
 //
 //   in:      a plan (its functions and which pixel has which; none of its tables), the timeline, and the
 //            codes that each sample holds
@@ -22,19 +23,22 @@ class ExactExposure {
 
   // Of value i of the picture; 0 where D is 0.
   [[nodiscard]] Exact light(std::uint64_t i) const;
-  // Of value i's function.
-  [[nodiscard]] const ExactSummary& summary(std::uint64_t i) const {
-    return functions_[function_of(i)].summary;
+  [[nodiscard]] const ExactSummary& summary(std::size_t function) const {
+    return functions_[function].summary;
   }
-  [[nodiscard]] std::size_t function_of(std::uint64_t i) const {
-    return plan_.function_of(i / plan_.capture.shape.channels);
-  }
+  // S of value i's function, or its shares of them.
+  [[nodiscard]] Exact scale(std::uint64_t i) const;
 
  private:
   struct Function {
     ExactSummary summary;
     std::vector<std::pair<std::uint64_t, Exact>> weights_ns;  // by sample; those that are not 0
   };
+
+  [[nodiscard]] Exact light(const Function& function, std::uint64_t i) const;
+  // Σ share · of(function) over the functions of value i.
+  template <typename Of>
+  [[nodiscard]] Exact mixed(std::uint64_t i, Of of) const;
 
   const RenderPlan& plan_;
   std::vector<Function> functions_;

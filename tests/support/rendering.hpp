@@ -13,6 +13,7 @@
 
 #include "capture/error.hpp"
 #include "opencl/opencl_renderer.hpp"
+#include "render/error_bound.hpp"
 #include "render/render_plan.hpp"
 #include "support/bounds.hpp"
 
@@ -43,10 +44,9 @@ inline DeviceInfo device_allocating(std::uint64_t bytes) {
   return device;
 }
 
-// S of a value's function.
+// S of a value's pixel.
 inline double scale_of(const RenderPlan& plan, std::uint64_t value) {
-  const std::size_t function = plan.function_of(value / plan.capture.shape.channels);
-  return plan.functions[function].summary.error_scale();
+  return plan.error_scale(value / plan.capture.shape.channels);
 }
 
 struct Difference {
@@ -66,14 +66,14 @@ inline Difference difference_of(const RenderPlan& plan, const Picture& a, const 
   return difference;
 }
 
-// The same, in what error_bound() promises for each value's function: at most 1.
+// The same, in what error_bound() promises for each value's pixel: at most 1.
 inline Difference share_of_bound(const RenderPlan& plan, const ErrorBound& bound, const Picture& a,
                                  const Picture& b) {
   Difference difference;
+  const PixelErrors bounds(plan, bound);
   for (std::uint64_t i = 0; i < a.shape.value_count(); ++i) {
     const double light = std::fabs(a.values<double>()[i] - b.values<double>()[i]);
-    const std::size_t function = plan.function_of(i / plan.capture.shape.channels);
-    double share = light == 0.0 ? 0.0 : light / bound.functions[function].light;
+    double share = light == 0.0 ? 0.0 : light / bounds.of(i / plan.capture.shape.channels).light;
     if (std::isnan(share)) share = INFINITY;
     if (share > difference.worst) difference = {share, i};
   }

@@ -56,10 +56,34 @@ struct Traced {
 
 bool is_table_name(const std::filesystem::path& path) { return path.extension() == ".csv"; }
 
-// `clip.tik, pixel 3,4, M128`; a plain interval has no mask value.
-std::string heading(const std::string& name, const Traced& traced, const Trace& trace,
-                    const PlannedFunction& function, bool plain) {
-  return format("{}, {}, {}", name, traced.text(trace), plain ? "the exposure" : format("M{}", function.tag));
+// `the exposure`, `M128`, `M128 (79.99 %)`; a plain interval has no mask value.
+std::string function_name(const TracedExposure& exposure, const Trace& trace, bool plain) {
+  const std::string name = plain ? "the exposure" : format("M{}", exposure.function_of(trace).tag);
+  return exposure.traces.size() == 1 ? name : format("{} ({})", name, share_text(trace));
+}
+
+Picture picture_of(const TracedExposure& exposure, const std::string& title, bool plain) {
+  std::vector<Picture> pictures;
+  for (const Trace& trace : exposure.traces) {
+    if (trace.steps.empty()) continue;
+    pictures.push_back(trace_picture(trace, exposure.function_of(trace),
+                                     format("{}, {}", title, function_name(exposure, trace, plain))));
+  }
+  if (pictures.empty()) {
+    throw InputError(
+        format("{}, {}: the function is zero everywhere in the capture; there is nothing to draw", title,
+               function_name(exposure, exposure.traces.front(), plain)));
+  }
+  return stacked(pictures);
+}
+
+// What each function came to.
+std::string function_line(const TracedExposure& exposure, const Trace& trace, bool plain) {
+  const GainSummary& summary = exposure.function_of(trace).summary;
+  return format("{}: light {}; {} steps, D {}, ∫g {}", function_name(exposure, trace, plain),
+                light_text({&trace, 1}), trace.steps.size(),
+                integral_text(static_cast<double>(summary.support_ns)),
+                integral_text(std::scalbn(summary.integral_ns, summary.exponent)));
 }
 
 }  // namespace
@@ -85,35 +109,43 @@ int run_trace(const Options& options) {
   Session session = open_session(input, options, make_devices(options));
   const TracedExposure exposure = traced.follow(session, request);
   print_warnings(exposure.warnings);
-  const Trace& trace = exposure.trace;
-  const PlannedFunction& function = exposure.function();
-  const std::string title = heading(input, traced, trace, function, !options.functions);
+  const std::vector<Trace>& traces = exposure.traces;
+  const bool is_plain = !options.functions;
+  const std::string title = format("{}, {}", input, traced.text(traces.front()));
   if (output && is_table_name(*output)) {
-    write_text(*output, steps_csv(trace));
+    write_text(*output, steps_csv(exposure));
   } else if (output) {
-    if (trace.steps.empty()) {
-      throw InputError(
-          format("{}: the function is zero everywhere in the capture; there is nothing to draw", title));
-    }
-    write_picture(*output, trace_picture(trace, function, title));
+    write_picture(*output, picture_of(exposure, title, is_plain));
   }
 
   if (options.json) {
     Json json{{"capture", input}};
     if (traced.pixel) json.update({{"x", traced.pixel->first}, {"y", traced.pixel->second}});
-    json.update(trace_json(trace, function));
+    json.update(trace_json(exposure));
     print_json(json);
     return 0;
   }
-  if (!output) print_line(steps_text(trace, function, options.verbose));
+  const bool is_mixed = traces.size() > 1;
+  for (const Trace& trace : traces) {
+    if (output) break;
+    if (is_mixed) print_line(function_name(exposure, trace, is_plain));
+    print_line(steps_text(trace, exposure.function_of(trace), options.verbose));
+  }
   if (!options.quiet) {
-    const GainSummary& summary = function.summary;
-    print_line(format("{}{}: light {}, code {}; {} steps, D {}, ∫g {}", output ? output->string() + ": " : "",
-                      title, light_text(trace),
-                      traced_codes(trace, exposure.figures.capture,
-                                   output_format(output_request(options), session.format())),
-                      trace.steps.size(), integral_text(static_cast<double>(summary.support_ns)),
-                      integral_text(std::scalbn(summary.integral_ns, summary.exponent))));
+    const std::string place = (output ? output->string() + ": " : "") + title;
+    const std::string codes = traced_codes(traces, exposure.figures.capture,
+                                           output_format(output_request(options), session.format()));
+    if (is_mixed) {
+      print_line(
+          format("{}: light {}, code {}, of {} functions", place, light_text(traces), codes, traces.size()));
+      for (const Trace& trace : traces) print_line("  " + function_line(exposure, trace, is_plain));
+    } else {
+      const GainSummary& summary = exposure.function_of(traces[0]).summary;
+      print_line(format("{}, {}: light {}, code {}; {} steps, D {}, ∫g {}", place,
+                        function_name(exposure, traces[0], is_plain), light_text(traces), codes,
+                        traces[0].steps.size(), integral_text(static_cast<double>(summary.support_ns)),
+                        integral_text(std::scalbn(summary.integral_ns, summary.exponent))));
+    }
     print_source(session, options);
   }
   return 0;

@@ -31,6 +31,8 @@ std::string by_channel(const Trace& trace, Text text) {
   return all;
 }
 
+double share_of(const Trace& trace) { return static_cast<double>(trace.share) / kWholeShare; }
+
 bool is_zero(const TraceStep& step) { return step.begin_gain == 0.0 && step.end_gain == 0.0; }
 
 }  // namespace
@@ -95,27 +97,40 @@ std::string steps_text(const Trace& trace, const PlannedFunction& function, bool
   return table_text(rows, "rrllll");
 }
 
-std::string steps_csv(const Trace& trace) {
-  std::string text = "begin_ns,end_ns,begin_gain,end_gain";
-  for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
+std::string steps_csv(const TracedExposure& exposure) {
+  const bool is_mixed = exposure.traces.size() > 1;
+  const std::uint32_t channels = exposure.traces.front().channels;
+  std::string text = is_mixed ? "mask_value,share," : "";
+  text += "begin_ns,end_ns,begin_gain,end_gain";
+  for (std::uint32_t channel = 0; channel < channels; ++channel) {
     for (const char* column : {"begin_light", "end_light", "integral_ns", "sum_ns"}) {
-      text += format(",{}_{}", channel_name(trace.channels, channel), column);
+      text += format(",{}_{}", channel_name(channels, channel), column);
     }
   }
-  for (const TraceStep& step : trace.steps) {
-    text += format("\n{},{},{},{}", step.begin_ns, step.end_ns, step.begin_gain, step.end_gain);
-    for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
-      const TraceStep::Value& value = step.values[channel];
-      text += format(",{},{},{},{}", value.begin_light, value.end_light, value.integral_ns, value.sum_ns);
+  for (const Trace& trace : exposure.traces) {
+    const std::string function =
+        is_mixed ? format("{},{},", exposure.function_of(trace).tag, share_of(trace)) : std::string();
+    for (const TraceStep& step : trace.steps) {
+      text += format("\n{}{},{},{},{}", function, step.begin_ns, step.end_ns, step.begin_gain, step.end_gain);
+      for (std::uint32_t channel = 0; channel < channels; ++channel) {
+        const TraceStep::Value& value = step.values[channel];
+        text += format(",{},{},{},{}", value.begin_light, value.end_light, value.integral_ns, value.sum_ns);
+      }
     }
   }
   return text + "\n";
 }
 
-Json trace_json(const Trace& trace, const PlannedFunction& function) {
+namespace {
+
+Json light_json(const std::array<double, 3>& light, std::uint32_t channels) {
+  Json values = Json::array();
+  for (std::uint32_t channel = 0; channel < channels; ++channel) values.push_back(light[channel]);
+  return values;
+}
+
+Json function_json(const Trace& trace, const PlannedFunction& function) {
   const GainSummary& summary = function.summary;
-  Json light = Json::array();
-  for (std::uint32_t channel = 0; channel < trace.channels; ++channel) light.push_back(trace.light[channel]);
   Json steps = Json::array();
   for (const TraceStep& step : trace.steps) {
     Json values = Json::array();
@@ -137,8 +152,23 @@ Json trace_json(const Trace& trace, const PlannedFunction& function) {
               {"nonzero_ns", summary.support_ns},
               {"integral_ns", std::scalbn(summary.integral_ns, summary.exponent)},
               {"still_gain", summary.still_gain()},
-              {"light", light},
+              {"light", light_json(trace.light, trace.channels)},
               {"steps", steps}};
 }
+
+}  // namespace
+
+Json trace_json(const TracedExposure& exposure) {
+  const std::vector<Trace>& traces = exposure.traces;
+  if (traces.size() == 1) return function_json(traces[0], exposure.function_of(traces[0]));
+  Json json{{"light", light_json(light_of(traces), traces[0].channels)}, {"functions", Json::array()}};
+  for (const Trace& trace : traces) {
+    Json& function = json["functions"].emplace_back(function_json(trace, exposure.function_of(trace)));
+    function["share"] = share_of(trace);
+  }
+  return json;
+}
+
+std::string share_text(const Trace& trace) { return format("{:.4g} %", 100 * share_of(trace)); }
 
 }  // namespace nutik::app

@@ -16,9 +16,14 @@ namespace nutik::app {
 // into one row.
 [[nodiscard]] std::string steps_text(const Trace& trace, const PlannedFunction& function, bool all);
 
-// begin_ns,end_ns,begin_gain,end_gain, then for each channel its begin_light, end_light, integral_ns and sum_ns.
-[[nodiscard]] std::string steps_csv(const Trace& trace);
+// begin_ns,end_ns,begin_gain,end_gain, then for each channel its begin_light, end_light, integral_ns and sum_ns. Of a
+// pixel that functions share each row begins with mask_value,share.
+[[nodiscard]] std::string steps_csv(const TracedExposure& exposure);
 
-[[nodiscard]] Json trace_json(const Trace& trace, const PlannedFunction& function);
+// Of a pixel that functions share: its light, and under `functions` each of them.
+[[nodiscard]] Json trace_json(const TracedExposure& exposure);
+
+// `79.99 %`: what of a pixel's light a trace's function has.
+[[nodiscard]] std::string share_text(const Trace& trace);
 
 }  // namespace nutik::app
