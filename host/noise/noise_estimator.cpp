@@ -100,10 +100,34 @@ std::vector<MeasuredPoint> joined(std::vector<MeasuredPoint> points, std::uint32
   return few;
 }
 
+// Pixels of a channel that are kept of so many samples.
+std::uint64_t most_kept(const Shape& shape, std::uint64_t most_samples) {
+  const std::uint64_t windows = most_samples / kWindowSamples + 1;
+  return std::min<std::uint64_t>(kMostKept, windows * StillWindow::pixel_count(shape));
+}
+
 }  // namespace
 
-NoiseEstimator::NoiseEstimator(const CaptureFormat& capture)
-    : capture_(capture), channels_(capture.shape.channels) {}
+NoiseEstimator::NoiseEstimator(const CaptureFormat& capture, std::uint32_t threads)
+    : capture_(capture), threads_(threads), channels_(capture.shape.channels) {}
+
+MemoryNeeds NoiseEstimator::needs(const CaptureFormat& capture, std::uint64_t most_samples) {
+  const Shape& shape = capture.shape;
+  const std::uint64_t kept = most_kept(shape, most_samples);
+  // Kept are those of each channel; of one they are looked at in the end, beside their variances.
+  return {{"a picture", capture.sample_bytes()},
+          {"pictures that noise is measured on", StillWindow::window_bytes(shape)},
+          {"measuring the noise", StillWindow::measuring_bytes(shape)},
+          {"noise of pixels", kept * (shape.channels * sizeof(PixelNoise) + sizeof(float))}};
+}
+
+std::uint32_t NoiseEstimator::threads_in(std::uint64_t bytes, const CaptureFormat& capture,
+                                         std::uint64_t most_samples) {
+  const std::uint64_t rest = needs(capture, most_samples).rest_of(bytes);
+  return static_cast<std::uint32_t>(
+      1 +
+      std::min<std::uint64_t>(rest / StillWindow::measuring_bytes(capture.shape), capture.shape.channels));
+}
 
 void NoiseEstimator::Pixels::add(std::span<const PixelNoise> pixels) {
   for (const PixelNoise& pixel : pixels) {
@@ -119,13 +143,17 @@ void NoiseEstimator::Pixels::add(std::span<const PixelNoise> pixels) {
 void NoiseEstimator::add_clip(const std::string& name, const ReadSample& read_sample,
                               std::uint64_t most_samples) {
   std::vector<Pixels> pixels(channels_.size());
+  for (Pixels& channel : pixels) channel.kept.reserve(most_kept(capture_.shape, most_samples));
   std::vector<std::byte> raster(capture_.sample_bytes());
   StillWindow window(capture_);
   std::uint64_t samples = 0;
   const auto measure = [&] {
-    parallel_for(channels_.size(), [&](std::uint64_t channel) {
-      pixels[channel].add(window.measure(static_cast<std::uint32_t>(channel)));
-    });
+    parallel_for(
+        channels_.size(),
+        [&](std::uint64_t channel) {
+          pixels[channel].add(window.measure(static_cast<std::uint32_t>(channel)));
+        },
+        threads_);
   };
   while (samples < most_samples && read_sample(raster)) {
     ++samples;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/memory_needs.hpp"
 #include "capture/noise_model.hpp"
 #include "capture/picture.hpp"
 #include "noise/sensor_fit.hpp"
@@ -37,8 +38,16 @@ class NoiseEstimator {
 
   // Enough for any clip: its first minute or so.
   static constexpr std::uint64_t kMostSamples = 1024;
+  static constexpr std::uint32_t kAnyThreads = ~std::uint32_t{0};
 
-  explicit NoiseEstimator(const CaptureFormat& capture);
+  // Channels are measured side by side, at most so many at a time.
+  explicit NoiseEstimator(const CaptureFormat& capture, std::uint32_t threads = kAnyThreads);
+
+  // What a clip of at most so many samples takes while it is measured on, one channel at a time.
+  [[nodiscard]] static MemoryNeeds needs(const CaptureFormat& capture, std::uint64_t most_samples);
+  // On how many threads it may be measured in so much memory, which is what it needs at least.
+  [[nodiscard]] static std::uint32_t threads_in(std::uint64_t bytes, const CaptureFormat& capture,
+                                                std::uint64_t most_samples);
 
   // Reads up to `most_samples` of the clip `name`. Throws InputError where there are fewer than
   // kLeastWindowSamples.
@@ -67,6 +76,7 @@ class NoiseEstimator {
   void add_points(ChannelPoints& channel, std::vector<PixelNoise> pixels, double degrees) const;
 
   CaptureFormat capture_;
+  std::uint32_t threads_;
   std::vector<ChannelPoints> channels_;
   std::uint64_t sample_count_ = 0;
 };

@@ -13,12 +13,33 @@ constexpr double kFlickerOutlier = 2.5;                // standard deviations: w
 constexpr std::size_t kMostFlickerPixels = 32 * 1024;  // two numbers are found with fewer than all
 constexpr double kLeastFlickerPixels = 256;
 
+// Every so many pixels of a row, and every so many rows.
+std::uint32_t step_of(const Shape& shape) {
+  std::uint32_t step = 1;
+  while (shape.pixel_count() / step / step > kMostPixels) ++step;
+  return step;
+}
+
 }  // namespace
+
+std::uint64_t StillWindow::pixel_count(const Shape& shape) {
+  const std::uint64_t step = step_of(shape);
+  return ((shape.width + step - 1) / step) * ((shape.height + step - 1) / step);
+}
+
+std::uint64_t StillWindow::window_bytes(const Shape& shape) {
+  return pixel_count(shape) *
+         (sizeof(std::uint64_t) + kWindowSamples * shape.channels * sizeof(std::uint16_t));
+}
+
+std::uint64_t StillWindow::measuring_bytes(const Shape& shape) {
+  return pixel_count(shape) * (4 * sizeof(float) + sizeof(PixelNoise));
+}
 
 StillWindow::StillWindow(const CaptureFormat& capture) : format_(capture) {
   const Shape& shape = capture.shape;
-  std::uint32_t step = 1;
-  while (shape.pixel_count() / step / step > kMostPixels) ++step;
+  const std::uint32_t step = step_of(shape);
+  pixels_.reserve(pixel_count(shape));
   for (std::uint32_t y = 0; y < shape.height; y += step) {
     for (std::uint32_t x = 0; x < shape.width; x += step) {
       pixels_.push_back(std::uint64_t{y} * shape.width + x);

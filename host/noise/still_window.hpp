@@ -29,6 +29,12 @@ class StillWindow {
  public:
   explicit StillWindow(const CaptureFormat& capture);
 
+  // Pixels that are looked at.
+  [[nodiscard]] static std::uint64_t pixel_count(const Shape& shape);
+  // What a window takes, and what measuring takes besides for each channel that is measured at a time.
+  [[nodiscard]] static std::uint64_t window_bytes(const Shape& shape);
+  [[nodiscard]] static std::uint64_t measuring_bytes(const Shape& shape);
+
   // Adds a sample of CaptureFormat::sample_bytes(); the window must not be full.
   void add(std::span<const std::byte> raster);
 

@@ -1,7 +1,6 @@
 #include "session/clip_source.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "capture/format.hpp"
 #include "session/measured_noise.hpp"
@@ -23,15 +22,39 @@ void refuse_streams(const std::filesystem::path& path) {
              path.string()));
 }
 
-NoiseModel noise_model(ClipSource& source) {
+// On the clip itself, which is then opened again. Throws MemoryTooLittle with the least that does for encoding, too.
+CameraNoise own_noise(ClipSource& source, const ClipOptions& options, const MemoryBudget& memory) {
+  MemoryNeeds needs{{"pictures within the decoder", source.clip->info().decoder_bytes}};
+  const std::uint64_t within_decoder = needs.bytes();
+  needs.add(NoiseEstimator::needs(source.capture, kSamplesOfOwnNoise));
+  if (needs.bytes() > memory.bytes) {
+    ReadClip clip = source.read_clip();
+    clip.capture.noise.camera.emplace();
+    try {
+      static_cast<void>(memory_for_encoding(memory, clip));
+    } catch (const MemoryTooLittle& error) {
+      if (error.least_bytes() > needs.bytes()) throw;
+    }
+    needs.rest_of(memory.bytes);
+  }
+  const std::uint32_t threads =
+      NoiseEstimator::threads_in(memory.bytes - within_decoder, source.capture, kSamplesOfOwnNoise);
+  NoiseEstimator estimator(source.capture, threads);
+  estimator.add_clip(
+      source.request.path.string(), [&](std::span<std::byte> raster) { return source.clip->read(raster); },
+      kSamplesOfOwnNoise);
+  source.clip.reset();
+  source.clip = open_clip(source.request.path, options);
+  const NoiseEstimate estimate = estimator.estimate();
+  for (const std::string& note : noise_notes(estimate)) source.notes.emplace_back(note);
+  return estimate.noise;
+}
+
+NoiseModel noise_model(ClipSource& source, const ClipOptions& options, const MemoryBudget& memory) {
   const SourceRequest& request = source.request;
   NoiseModel model{request.tolerance, std::nullopt, request.sigmas};
   if (std::holds_alternative<NoiseOfClip>(request.noise)) {
-    std::vector<Note> known;  // the clip is this one
-    const NoiseEstimate estimate =
-        measure_noise(std::array{request.path.string()}, request.clip, kSamplesOfOwnNoise, known);
-    model.camera = estimate.noise;
-    for (const std::string& note : noise_notes(estimate)) source.notes.emplace_back(note);
+    model.camera = own_noise(source, options, memory);
   } else if (const auto* stated = std::get_if<StatedNoise>(&request.noise)) {
     model.camera = stated->noise;
     if (auto note = transfer_note(*stated, source.capture.transfer))
@@ -123,7 +146,7 @@ ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& me
   }
   source.capture = clip_format(*source.clip, request.clip);
   source.notes = source.clip->info().notes;
-  source.capture.noise = noise_model(source);
+  source.capture.noise = noise_model(source, options, memory);
   return source;
 }
 

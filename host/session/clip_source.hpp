@@ -47,7 +47,8 @@ struct ClipSource {
   [[nodiscard]] ReadClip read_clip() const;
 };
 
-// Throws InputError where the clip cannot be read, UsageError where the request does not fit it: ExposuresAreListed.
+// Throws InputError where the clip cannot be read, UsageError where the request does not fit it: ExposuresAreListed;
+// MemoryTooLittle where its own noise cannot be measured in the memory.
 [[nodiscard]] ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory);
 
 // When the pictures of a .tik or a clip were exposed, as far as that is known before one is decoded. Throws InputError

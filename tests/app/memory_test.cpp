@@ -72,11 +72,26 @@ void write_raw_video(const Scratch& scratch, const std::string& name, std::size_
   scratch.write(name, video);
 }
 
+// A still scene of all greys, with noise of a few codes.
+void write_still_video(const Scratch& scratch, const std::string& name, std::size_t pixels,
+                       std::size_t pictures) {
+  test::Random random(6);
+  std::vector<std::string> noisy(7, std::string(pixels, '\0'));  // one after the other, again and again
+  for (std::string& picture : noisy) {
+    for (std::size_t i = 0; i < pixels; ++i) {
+      picture[i] = static_cast<char>(30 + i % 180 + static_cast<std::size_t>(random.whole(0, 6)));
+    }
+  }
+  std::string video;
+  for (std::size_t k = 0; k < pictures; ++k) video += noisy[k % noisy.size()];
+  scratch.write(name, video);
+}
+
 // What the budget does not count: what the allocator keeps of freed pieces (2 MiB in the heap of each of some five
 // threads that work at a time), and that large buffers end with a page of 2 MiB.
 constexpr std::uint64_t kUncounted = 14 << 20;
 
-// Both of 1280 x 720 and of 16 x 16 pixels, as CLIP and CAPTURE.
+// Of 1280 x 720 and of 16 x 16 pixels, as CLIP, STILL and CAPTURE.
 struct Command {
   const char* what;
   std::vector<std::string> words;
@@ -84,6 +99,8 @@ struct Command {
 
 const Command kCommands[] = {
     {"encode", {"encode", "CLIP", "o.tik"}},
+    {"encode, noise of the clip", {"encode", "--noise", "auto", "STILL", "o.tik"}},
+    {"encode, noise of a file", {"encode", "--noise", "camera.noise", "STILL", "o.tik"}},
     {"expose", {"--start", "0s", "--exposure", "0.25s", "CAPTURE", "o.png"}},
     {"expose, double", {"--precision", "double", "--start", "0s", "--exposure", "0.25s", "CAPTURE", "o.png"}},
     {"expose, light", {"--start", "0s", "--exposure", "0.25s", "CAPTURE", "o.pfm"}},
@@ -111,7 +128,12 @@ class MemoryOfCommands : public testing::TestWithParam<Command> {
     write_raw_video(*scratch_, "tiny.gray", 16 * 16, 70);
     write_raw_video(*scratch_, "large.gray", 1280 * 720, 70);
     scratch_->write("list.txt", "--start 0s --exposure 10f b1.png\n--start 20f --exposure 10f b2.png\n");
+    scratch_->write("camera.noise",
+                    "nutik noise 0\nwhite 255\ntransfer srgb\nchannel grey\nread 0.002\nshot 0.0001\n"
+                    "curve sensor\npoint 10 1.5 100\npoint 20.5 2 50\n");
     for (const bool is_tiny : {true, false}) {
+      write_still_video(*scratch_, is_tiny ? "tiny-still.gray" : "large-still.gray",
+                        is_tiny ? 16 * 16 : 1280 * 720, 70);
       ASSERT_EQ(run(*scratch_, words_of({{}, {"encode", "CLIP", "CAPTURE"}}, is_tiny)).status, 0);
     }
   }
@@ -122,8 +144,9 @@ class MemoryOfCommands : public testing::TestWithParam<Command> {
     std::vector<std::string> words;
     bool reads_clip = false;
     for (const std::string& word : command.words) {
-      reads_clip |= word == "CLIP";
+      reads_clip |= word == "CLIP" || word == "STILL";
       words.push_back(word == "CLIP"      ? is_tiny ? "tiny.gray" : "large.gray"
+                      : word == "STILL"   ? is_tiny ? "tiny-still.gray" : "large-still.gray"
                       : word == "CAPTURE" ? is_tiny ? "tiny.tik" : "large.tik"
                                           : word);
     }
