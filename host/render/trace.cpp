@@ -161,9 +161,20 @@ Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t t
     return found == shares.end() ? 0.0 : static_cast<double>(found->size) / kWholeShare;
   };
   CompensatedSum weights;
-  for (std::uint64_t pixel = 0; pixel < shape.pixel_count(); ++pixel) weights.add(weight_of(pixel));
+  std::vector<bool> has_weight(grid.tile_count());
+  for (std::uint64_t pixel = 0; pixel < shape.pixel_count(); ++pixel) {
+    const double weight = weight_of(pixel);
+    weights.add(weight);
+    if (weight == 0.0) continue;
+    has_weight[grid.tile_of(static_cast<std::uint32_t>(pixel % shape.width),
+                            static_cast<std::uint32_t>(pixel / shape.width))] = true;
+  }
+  const auto wants = [&](std::uint64_t first, std::uint64_t last) {
+    while (first < last && !has_weight[first]) ++first;
+    return first < last;
+  };
   std::vector<ChangeRecord> history;
-  Trace result = trace(plan, source, function, {}, [&](const BlockView& block) {
+  Trace result = trace(plan, source, function, wants, [&](const BlockView& block) {
     LightSum sum(block.extent());
     for (std::uint64_t pixel = 0; pixel < shape.pixel_count(); ++pixel) {
       const double weight = weight_of(pixel);
