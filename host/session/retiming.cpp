@@ -26,19 +26,30 @@ Timeline timeline_of(const RetimeRequest& request, const Timeline& before) {
   return Timeline::irregular(std::move(starts), angle);
 }
 
+// Of a fact's line what is stated, without who said so and what else was said.
+std::string_view stated_by(std::string_view line) {
+  for (const std::string_view origin : {", from ", ", as stated", ", assumed"}) {
+    line = line.substr(0, line.find(origin));
+  }
+  return line;
+}
+
 // Those that still hold, and what was stated now.
 std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Header& before) {
   std::vector<std::string> facts = before.facts;
-  const auto state = [&](std::string_view kind, const std::string& text) {
-    std::erase_if(facts, [&](const std::string& fact) { return fact.find(kind) != std::string::npos; });
-    facts.push_back(Fact{text, Origin::stated, Setting::frame_rate}.line());
+  const auto state = [&](Setting setting, std::string_view kind, const std::string& text) {
+    std::erase_if(facts,
+                  [&](const std::string& fact) { return stated_by(fact).find(kind) != std::string::npos; });
+    facts.push_back(Fact{text, Origin::stated, setting}.line());
   };
-  if (request.rate) state("picture", rate_text(*request.rate, "picture"));
-  if (request.shutter_angle) state("shutter", format("shutter {} degrees", request.shutter_angle->text()));
-  if (request.transfer) state("transfer", "transfer " + request.transfer->text());
-  if (request.primaries) state("primaries", format("primaries {}", to_text(*request.primaries)));
+  if (request.rate) state(Setting::frame_rate, "picture", rate_text(*request.rate, "picture"));
+  if (request.shutter_angle)
+    state(Setting::shutter_angle, "shutter", format("shutter {} degrees", request.shutter_angle->text()));
+  if (request.transfer) state(Setting::transfer, "transfer", "transfer " + request.transfer->text());
+  if (request.primaries)
+    state(Setting::primaries, "primaries", format("primaries {}", to_text(*request.primaries)));
   if (request.pixel_aspect) {
-    state("pixels",
+    state(Setting::pixel_aspect, "pixels",
           format("pixels {}:{}", request.pixel_aspect->numerator, request.pixel_aspect->denominator));
   }
   return facts;

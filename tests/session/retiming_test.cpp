@@ -10,6 +10,7 @@
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
 #include "tik/reader.hpp"
+#include "tik/writer.hpp"
 
 namespace nutik {
 namespace {
@@ -76,6 +77,33 @@ TEST(Retiming, GivesIrregularStartsAnotherAngle) {
                 static_cast<double>(period) / 4, 1);
   }
   EXPECT_EQ(after.header().facts, std::vector<std::string>{"shutter 90 degrees, as stated"});
+}
+
+// What one fact says beside another stays with it.
+TEST(Retiming, ReplacesTheFactThatItCorrects) {
+  const test::RandomCase random(3);
+  const Scratch scratch;
+  const tik::Reader plain(test::write_tik(random, {tik::CodecId::lz4, 0}, scratch));
+  tik::Header header = plain.header();
+  header.facts = {"240 pictures a second, from the file", "shutter 360 degrees, assumed",
+                  "primaries bt709, from the file; the file names no transfer",
+                  "transfer srgb, assumed; pictures are often so"};
+  auto writer = tik::Writer::from_raster(scratch / "told.tik", header, plain.first_sample());
+  for (std::uint64_t block = 0; block < plain.block_count(); ++block) {
+    const auto [stored, payload] = plain.stored(block);
+    std::span<const Exposure> exposures;
+    if (!plain.timeline().is_constant()) {
+      exposures = plain.timeline().table().subspan(stored.first_sample, stored.sample_count);
+    }
+    writer.append(stored, payload, exposures);
+  }
+  writer.finish(plain.timeline());
+  static_cast<void>(
+      retime({scratch / "told.tik", scratch / "told.tik", Rational{960, 1}, {}, Transfer::linear(), {}, {}}));
+  EXPECT_EQ(tik::Reader(scratch / "told.tik").header().facts,
+            (std::vector<std::string>{"shutter 360 degrees, assumed",
+                                      "primaries bt709, from the file; the file names no transfer",
+                                      "960 pictures a second, as stated", "transfer linear, as stated"}));
 }
 
 TEST(Retiming, RefusesWhatItCannotDo) {

@@ -7,6 +7,7 @@
 #include "session/format.hpp"
 #include "session/retiming.hpp"
 #include "session/size_text.hpp"
+#include "session/time_text.hpp"
 
 namespace nutik::app {
 
@@ -34,9 +35,9 @@ int run_retime(const Options& options) {
                       {"pixel_aspect", aspect_text(capture.pixel_aspect)},
                       {"file_bytes", file_bytes}});
   answer.line =
-      format("{}: {}, {}, {} a second, shutter {} degrees, transfer {}, primaries {}, pixels {}",
+      format("{}: {}, {}, {}, shutter {} degrees, transfer {}, primaries {}, pixels {}",
              request.output.string(), shape_text(capture.shape), counted(timeline.sample_count(), "sample"),
-             timeline.rate().text(), timeline.shutter_angle().text(), capture.transfer.text(),
+             rate_text(timeline.rate(), "picture"), timeline.shutter_angle().text(), capture.transfer.text(),
              to_text(capture.primaries), aspect_text(capture.pixel_aspect));
   return tell(options, request.output, answer, true);
 }
