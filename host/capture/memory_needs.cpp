@@ -11,7 +11,7 @@ namespace {
 double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) * 1e-6; }
 
 std::string text_of(std::uint64_t allowed, const MemoryNeeds& least) {
-  std::string text = format("{:.4g} MB of memory are too little; at least {:.4g} MB are needed",
+  std::string text = format("{:.4g} MB of memory is too little; at least {:.4g} MB is needed",
                             megabytes(allowed), megabytes(least.bytes()));
   std::vector<MemoryPart> parts = least.parts();
   std::ranges::stable_sort(parts, std::greater(), &MemoryPart::bytes);

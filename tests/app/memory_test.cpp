@@ -171,7 +171,7 @@ TEST_P(MemoryOfCommands, KeepsToIt) {
   ASSERT_EQ(baseline.status, 0) << baseline.err;
   const Measured refused = run(*scratch_, words_of(command, false, "1MB"));
   EXPECT_NE(refused.status, 0);
-  EXPECT_NE(refused.err.find("1 MB of memory are too little; at least "), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("1 MB of memory is too little; at least "), std::string::npos) << refused.err;
   const std::regex least_text("allow more: --memory ([0-9]+)MB");
   std::smatch found;
   ASSERT_TRUE(std::regex_search(refused.err, found, least_text)) << refused.err;
@@ -208,7 +208,7 @@ TEST(Memory, SaysWhatIsTooLittle) {
   const auto small = run({"--memory", "1MB"});
   EXPECT_EQ(small.status, 2);
   EXPECT_NE(
-      small.err.find("1 MB of memory are too little; at least 10.23 MB are needed: packing them 8.39 MB, "),
+      small.err.find("1 MB of memory is too little; at least 10.23 MB is needed: packing them 8.39 MB, "),
       std::string::npos)
       << small.err;
   EXPECT_NE(small.err.find("; allow more: --memory 11MB"), std::string::npos) << small.err;
