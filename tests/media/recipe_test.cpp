@@ -121,7 +121,7 @@ TEST(PictureText, IsOurOwnOnly) {
   EXPECT_FALSE(read_picture_text(scratch.write("c.pfm", "Pf\n1 1\n-1.0\n1234")));
   EXPECT_NE(test::message_of<InputError>([&] {
               static_cast<void>(read_picture_text(scratch.write("a.txt", "notes of mine")));
-            }).find("is no PNG, TIFF, PGM or PPM: it can carry no recipe"),
+            }).find("is no PNG, TIFF, JPEG, OpenEXR, PGM or PPM: it can carry no recipe"),
             std::string::npos);
   EXPECT_NE(test::message_of<InputError>([&] {
               static_cast<void>(read_picture_text(scratch.write("cut.png", "\x89PNG\r\n\x1a\n")));
