@@ -150,8 +150,8 @@ bool is_png(std::span<const std::byte> file) {
   return file.size() >= 8 && png_sig_cmp(reinterpret_cast<png_const_bytep>(file.data()), 0, 8) == 0;
 }
 
-Picture read_grey_png(std::span<const std::byte> file, const std::string& name,
-                      const std::function<void(std::uint32_t, std::uint32_t)>& check_size) {
+Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
+                       const std::function<void(std::uint32_t, std::uint32_t)>& check_size) {
   std::string error_name = name;
   ReadStructure read(error_name);
   ByteReader reader{file};
@@ -159,11 +159,12 @@ Picture read_grey_png(std::span<const std::byte> file, const std::string& name,
   png_read_info(read.png, read.info);
   const int colour = png_get_color_type(read.png, read.info);
   const int bits = png_get_bit_depth(read.png, read.info);
-  if (colour != PNG_COLOR_TYPE_GRAY || bits != 8) {
+  if ((colour != PNG_COLOR_TYPE_GRAY && colour != PNG_COLOR_TYPE_RGB) || bits != 8) {
     throw InputError(
         format("{} is a PNG of {} bits, {}; it must be 8 bits, grey", name, bits, colour_name(colour)));
   }
-  const Shape shape{png_get_image_width(read.png, read.info), png_get_image_height(read.png, read.info), 1};
+  const Shape shape{png_get_image_width(read.png, read.info), png_get_image_height(read.png, read.info),
+                    colour == PNG_COLOR_TYPE_GRAY ? 1u : 3u};
   if (check_size) check_size(shape.width, shape.height);
   if (shape.pixel_count() > file.size() * kMostExpansion) {
     throw InputError(
@@ -175,7 +176,8 @@ Picture read_grey_png(std::span<const std::byte> file, const std::string& name,
   Picture picture(shape, ValueType::code8, 255);
   std::vector<png_bytep> rows(picture.shape.height);
   for (std::uint32_t y = 0; y < picture.shape.height; ++y) {
-    rows[y] = reinterpret_cast<png_bytep>(picture.bytes.data()) + std::size_t{y} * picture.shape.width;
+    rows[y] = reinterpret_cast<png_bytep>(picture.bytes.data()) +
+              std::size_t{y} * picture.shape.width * picture.shape.channels;
   }
   for (int pass = 0; pass < passes; ++pass) {
     for (const png_bytep row : rows) {

@@ -14,11 +14,12 @@ namespace nutik {
 
 [[nodiscard]] bool is_png(std::span<const std::byte> file);
 
-// Reads a grey picture of 8 bits, code for code. Throws InputError naming `name`, the depth or colour
+// Reads a picture of 8 bits, grey or colour, code for code. Throws InputError naming `name`, the depth or colour
 // type found and the one wanted, where it is anything else.
 // `check_size` is told width and height first; it may be empty, and may throw.
-[[nodiscard]] Picture read_grey_png(std::span<const std::byte> file, const std::string& name,
-                                    const std::function<void(std::uint32_t, std::uint32_t)>& check_size = {});
+[[nodiscard]] Picture read_8_bit_png(
+    std::span<const std::byte> file, const std::string& name,
+    const std::function<void(std::uint32_t, std::uint32_t)>& check_size = {});
 
 // The text under a keyword (Latin-1); nothing where there is none. Throws InputError where the file is damaged.
 [[nodiscard]] std::optional<std::string> read_png_text(std::span<const std::byte> file, const char* keyword,

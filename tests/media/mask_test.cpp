@@ -36,6 +36,21 @@ TEST(Mask, ReadsGreyPng) {
   for (std::size_t i = 0; i < 35; ++i) EXPECT_EQ(mask.values<std::uint8_t>()[i], i * 7);
 }
 
+// What painting programs make of a mask.
+TEST(Mask, ReadsColourWhoseChannelsAgree) {
+  const Scratch scratch;
+  cv::Mat picture(5, 7, CV_8UC3);
+  for (int i = 0; i < 35; ++i)
+    picture.at<cv::Vec3b>(i / 7, i % 7) = cv::Vec3b::all(static_cast<std::uint8_t>(i * 7));
+  cv::imwrite((scratch / "mask.png").string(), picture);
+  cv::imwrite((scratch / "mask.ppm").string(), picture);
+  for (const char* name : {"mask.png", "mask.ppm"}) {
+    const Picture mask = read_mask(scratch / name);
+    EXPECT_EQ(mask.shape, (Shape{7, 5, 1})) << name;
+    for (std::size_t i = 0; i < 35; ++i) EXPECT_EQ(mask.values<std::uint8_t>()[i], i * 7) << name;
+  }
+}
+
 std::string message_of(const std::filesystem::path& path) {
   try {
     static_cast<void>(read_mask(path));
@@ -48,17 +63,24 @@ std::string message_of(const std::filesystem::path& path) {
 TEST(Mask, SaysWhatIsWrong) {
   const Scratch scratch;
   cv::imwrite((scratch / "deep.png").string(), cv::Mat(2, 2, CV_16UC1, cv::Scalar(9)));
-  cv::imwrite((scratch / "colour.png").string(), cv::Mat(2, 2, CV_8UC3, cv::Scalar(9)));
+  cv::Mat colour(3, 4, CV_8UC3, cv::Scalar::all(9));
+  colour.at<cv::Vec3b>(1, 2) = {9, 8, 9};
+  cv::imwrite((scratch / "colour.png").string(), colour);
+  cv::imwrite((scratch / "clear.png").string(), cv::Mat(2, 2, CV_8UC4, cv::Scalar::all(9)));
   cv::imwrite((scratch / "mask.jpg").string(), cv::Mat(2, 2, CV_8UC1, cv::Scalar(9)));
   const auto expect = [](const std::string& message, const char* part) {
     EXPECT_NE(message.find(part), std::string::npos) << message;
   };
   expect(message_of(scratch / "deep.png"), "is a PNG of 16 bits, grey; it must be 8 bits, grey");
-  expect(message_of(scratch / "colour.png"), "is a PNG of 8 bits, RGB; it must be 8 bits, grey");
+  expect(message_of(scratch / "colour.png"),
+         "is a colour picture, and its pixel 2,1 is no grey: red 9, green 8, blue 9. A mask has one value "
+         "for each");
+  expect(message_of(scratch / "clear.png"),
+         "is a PNG of 8 bits, RGB with transparency; it must be 8 bits, grey");
   expect(message_of(scratch / "mask.jpg"), "neither a PGM nor a PNG");
   expect(message_of(scratch / "absent.pgm"), "cannot be read: No such file");
   expect(message_of(scratch.write("rgb.ppm", "P3 1 1 255 1 2 3")),
-         "is a picture of 3 channels; a mask has 1");
+         "is a colour picture, and its pixel 0,0 is no grey: red 1, green 2, blue 3");
   expect(message_of(scratch.write("deep.pgm", "P2 1 1 65535 300")),
          "is a picture of 16 bits (maximum 65535)");
   expect(message_of(scratch.write("cut.pgm", "P5 100 100 255\nabc")),
