@@ -9,7 +9,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 program_packages=(
   g++ cmake ninja-build pkg-config
   ocl-icd-opencl-dev opencl-headers opencl-clhpp-headers pocl-opencl-icd
-  libopencv-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
+  libopencv-dev libavfilter-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
   libexif-dev libpng-dev libjpeg-dev libtiff-dev libopenexr-dev liblcms2-dev libzstd-dev liblz4-dev libxxhash-dev libcairo2-dev fonts-dejavu-core
   libfmt-dev nlohmann-json3-dev
 )

@@ -1,16 +1,19 @@
 #include "media/clip.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <system_error>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/clip_part.hpp"
 #include "media/module.hpp"
 #include "media/photron_clip.hpp"
 #include "media/photron_header.hpp"
 #include "media/still_sequence.hpp"
 #include "media/stills_table.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik {
 
@@ -42,6 +45,41 @@ class DescribedClip final : public Clip {
   ClipInfo info_;
 };
 
+// A clip whose first picture that cannot be read is its end.
+class EndingAtDamage final : public Clip {
+ public:
+  EndingAtDamage(std::unique_ptr<Clip> clip, const std::filesystem::path& path)
+      : clip_(std::move(clip)), name_(path.string()) {}
+
+  [[nodiscard]] const ClipInfo& info() const override { return clip_->info(); }
+
+  bool read(std::span<std::byte> raster) override {
+    if (has_ended_) return false;
+    try {
+      if (!clip_->read(raster)) return false;
+      ++samples_read_;
+      return true;
+    } catch (const InputError& error) {
+      if (samples_read_ == 0) throw;
+      reason_ = format("{} is taken as far as it goes, {} of {} pictures: {}", name_, samples_read_,
+                       clip_->info().sample_count, error.what());
+      has_ended_ = true;
+      return false;
+    }
+  }
+
+  [[nodiscard]] std::optional<std::string> ended_early() const override {
+    return has_ended_ ? std::optional(reason_) : std::nullopt;
+  }
+
+ private:
+  std::unique_ptr<Clip> clip_;
+  std::string name_;
+  std::uint64_t samples_read_ = 0;
+  std::string reason_;
+  std::atomic<bool> has_ended_ = false;  // asked for while another thread reads; `reason_` stays from then on
+};
+
 // Pictures that tell no times themselves have those of the camera's header beside them.
 void add_photron_header(ClipInfo& info, const std::filesystem::path& pictures) {
   if (info.timing.is_known()) return;
@@ -71,9 +109,8 @@ std::unique_ptr<Clip> open_raw(const std::filesystem::path& path, const ClipOpti
   return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
 }
 
-}  // namespace
-
-std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options) {
+// All of it, as its files have it.
+std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOptions& options) {
   if (!options.raw) {
     if (is_stills_table(path)) return open_table(path, options);
     if (const auto stills = list_stills(path)) return open_stills(path, *stills, options);
@@ -84,6 +121,15 @@ std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOpt
   }
   if (options.raw) return open_raw(path, options);
   return is_photron_clip(path) ? open_photron_clip(path, options) : video_module().open(path, options);
+}
+
+}  // namespace
+
+std::unique_ptr<Clip> open_clip(const std::filesystem::path& name, const ClipOptions& options) {
+  const std::filesystem::path& path = is_standard_input(name.string()) ? standard_input_file() : name;
+  std::unique_ptr<Clip> clip = open_whole(path, options);
+  if (options.ends_at_damage) clip = std::make_unique<EndingAtDamage>(std::move(clip), path);
+  return take_part(std::move(clip), path, options);
 }
 
 void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const Transfer& usual) {
@@ -97,6 +143,13 @@ void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const Tra
                         options.transfer ? Origin::stated : Origin::assumed, Setting::transfer});
   if (options.pixel_aspect) capture.pixel_aspect = *options.pixel_aspect;
   if (options.primaries) capture.primaries = *options.primaries;
+}
+
+Interlaced parse_deinterlacing(std::string_view text) {
+  if (text == "frames") return Interlaced::frames;
+  if (text == "fields") return Interlaced::fields;
+  if (text == "no") return Interlaced::ignored;
+  throw UsageError(format("deinterlacing '{}' is not known; choose frames, fields or no", text));
 }
 
 std::string_view to_text(YuvMatrix matrix) {

@@ -60,6 +60,31 @@ struct RawVideo {
   friend bool operator==(const RawVideo&, const RawVideo&) = default;
 };
 
+// Where a part of a clip begins or ends: at the first picture whose exposure starts no earlier.
+struct ClipMoment {
+  std::int64_t value = 0;   // nanoseconds after the start of the first picture
+  bool is_picture = false;  // the number of a picture, from 0
+  friend bool operator==(const ClipMoment&, const ClipMoment&) = default;
+};
+
+// Fewer pixels (media/clip_part.hpp): one for each square of `divisor`, or so many.
+struct ClipScale {
+  std::uint32_t divisor = 0;  // 0: as many as stated
+  std::uint32_t width = 0, height = 0;
+  friend bool operator==(const ClipScale&, const ClipScale&) = default;
+};
+
+// `640x360+100+50`: width, height, and how far right and down of the top left corner. Throws UsageError.
+[[nodiscard]] Rectangle parse_crop(std::string_view text);
+// `1/2`, or `640x360`. Throws UsageError.
+[[nodiscard]] ClipScale parse_scale(std::string_view text);
+
+// What becomes of interlaced video: it is refused; a picture is made of each frame, or of each field; or frames are
+// taken as they are, where a file only says that they were interlaced.
+enum class Interlaced { refused, frames, fields, ignored };
+// `frames`, `fields` or `no`. Throws UsageError.
+[[nodiscard]] Interlaced parse_deinterlacing(std::string_view text);
+
 // What is stated about a clip; it goes before what the files say.
 struct ClipOptions {
   std::optional<Rational> rate;
@@ -70,6 +95,13 @@ struct ClipOptions {
   std::optional<CodeRange> range = std::nullopt;
   std::optional<Primaries> primaries = std::nullopt;
   std::optional<Rational> pixel_aspect = std::nullopt;
+  // The part that is taken: pictures that start from the one moment on and before the other, and of these a rectangle
+  // as they are shown, with fewer pixels.
+  std::optional<ClipMoment> from = std::nullopt, to = std::nullopt;
+  std::optional<Rectangle> crop = std::nullopt;
+  std::optional<ClipScale> scale = std::nullopt;
+  Interlaced interlaced = Interlaced::refused;
+  bool ends_at_damage = false;  // instead of being an error
   // What its decoder may hold: it works on no more pictures at a time than fit, one at least. None: on one for each
   // core.
   std::optional<std::uint64_t> decoder_bytes = std::nullopt;
@@ -86,9 +118,12 @@ class Clip {
   // Reads the next sample into `raster`, of info().format.sample_bytes(). Returns false at the end.
   // Throws InputError where a sample is damaged or of another size than the first.
   virtual bool read(std::span<std::byte> raster) = 0;
+
+  // After it has ended, why that came before its files' end: ClipOptions::ends_at_damage.
+  [[nodiscard]] virtual std::optional<std::string> ended_early() const { return std::nullopt; }
 };
 
-// Opens a video, a sequence of stills (media/still_sequence.hpp), a table of stills (media/stills_table.hpp), or a
+// Opens a video (`-` is one from standard input), a sequence of stills (media/still_sequence.hpp), a table of stills (media/stills_table.hpp), or a
 // Photron camera's pictures (media/photron_clip.hpp). Their times do not count where a rate is stated. Throws InputError where there is
 // none, or none that can be read.
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options);

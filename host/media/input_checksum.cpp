@@ -12,6 +12,7 @@
 #include "media/photron_clip.hpp"
 #include "media/still_sequence.hpp"
 #include "media/stills_table.hpp"
+#include "system/input_bytes.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
@@ -54,7 +55,8 @@ std::uint64_t size_of(const fs::path& file) {
 
 }  // namespace
 
-std::string input_checksum(const fs::path& path) {
+std::string input_checksum(const fs::path& name) {
+  const fs::path& path = is_standard_input(name.string()) ? standard_input_file() : name;
   std::vector<fs::path> files = list_stills(path).value_or(std::vector<fs::path>{path});
   if (is_stills_table(path)) files.insert(files.begin(), path);  // the times of its stills
   if (is_photron_clip(path)) files = photron_files(path);
@@ -92,6 +94,7 @@ std::string bytes_checksum(std::span<const std::byte> bytes) {
 }
 
 std::string input_name(const fs::path& path) {
+  if (is_standard_input(path.string())) return "standard-input";
   std::error_code error;
   if (fs::exists(path, error)) {
     const fs::path whole = fs::absolute(path, error).lexically_normal();

@@ -142,7 +142,7 @@ class PhotronClip final : public Clip {
         layout_(layout_of(header_)),
         file_(name_),
         count_(header_.pictures.count) {
-    check_size();
+    check_size(options.ends_at_damage);
     info_.format.shape = layout_.shape;
     info_.format.code_bytes = layout_.code_bytes();
     info_.format.white_code = options.white_code.value_or((1u << layout_.depth) - 1);
@@ -159,6 +159,9 @@ class PhotronClip final : public Clip {
 
   bool read(std::span<std::byte> raster) override {
     if (next_ == count_) return false;
+    if ((next_ + 1) * layout_.picture_bytes() > file_.bytes().size()) {
+      throw InputError(cut_off_text(), {Setting::end_at_damage});
+    }
     const auto picture = file_.bytes().subspan(next_ * layout_.picture_bytes(), layout_.picture_bytes());
     if (layout_.is_packed()) {
       unpack(picture, layout_.bits,
@@ -174,20 +177,28 @@ class PhotronClip final : public Clip {
   }
 
  private:
-  void check_size() {
+  [[nodiscard]] std::string described() const {
+    return format("{} x {} pixels of {} bits", layout_.shape.width, layout_.shape.height,
+                  layout_.bits * layout_.shape.channels);
+  }
+
+  [[nodiscard]] std::string cut_off_text() const {
+    return format("{} was cut off: {} names {} pictures ({}), and it has {} whole ones", name_.string(),
+                  header_.file.filename().string(), count_, described(),
+                  file_.bytes().size() / layout_.picture_bytes());
+  }
+
+  void check_size(bool ends_at_damage) {
     const std::uint64_t bytes = file_.bytes().size(), one = layout_.picture_bytes();
     if (count_ == 0 && bytes % one == 0) count_ = bytes / one;
     if (count_ * one == bytes && count_ > 0) return;
-    const std::string described = format("{} x {} pixels of {} bits", layout_.shape.width,
-                                         layout_.shape.height, layout_.bits * layout_.shape.channels);
     if (bytes < count_ * one && count_ > 0) {
-      throw InputError(format("{} was cut off: {} names {} pictures ({}), and it has {} whole ones",
-                              name_.string(), header_.file.filename().string(), count_, described,
-                              bytes / one));
+      if (ends_at_damage && bytes >= one) return;
+      throw InputError(cut_off_text(), {Setting::end_at_damage});
     }
     throw InputError(
         format("{} has {} bytes, and {} names {} pictures, {} bytes each ({}): it is of another recording",
-               name_.string(), bytes, header_.file.filename().string(), count_, one, described));
+               name_.string(), bytes, header_.file.filename().string(), count_, one, described()));
   }
 
   void add_notes() {

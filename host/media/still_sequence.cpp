@@ -14,6 +14,7 @@
 #include "media/extension.hpp"
 #include "media/numbered_name.hpp"
 #include "media/stills_table.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik {
 namespace {
@@ -243,6 +244,7 @@ std::optional<std::string> missing_still_note(const fs::path& folder, std::span<
 }
 
 std::string sequence_name(const fs::path& path) {
+  if (is_standard_input(path.string())) return "standard-input";
   std::error_code error;
   // `frames/` and `.` name a folder, too.
   fs::path whole = fs::absolute(path, error).lexically_normal();

@@ -18,7 +18,9 @@ void refuse_streams(const std::filesystem::path& path) {
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status) || !std::filesystem::is_other(status)) return;
   throw InputError(
-      format("{} is no regular file: a clip is read more than once; save the stream to a file first",
+      format("{} is no regular file: a clip is read more than once; name standard input as -, or save the "
+             "stream to a file "
+             "first",
              path.string()));
 }
 
@@ -59,6 +61,13 @@ NoiseModel noise_model(ClipSource& source, const ClipOptions& options, const Mem
     model.camera = stated->noise;
     if (auto note = transfer_note(*stated, source.capture.transfer))
       source.notes.emplace_back(std::move(*note));
+    if (request.clip.scale) {
+      source.notes.emplace_back(format("{} is the noise of single pixels, and a mean of several has less: "
+                                       "changes below it are taken for "
+                                       "noise; measure it on the scaled clip",
+                                       stated->name),
+                                std::vector{Setting::scale, Setting::automatic_noise});
+    }
   }
   return model;
 }

@@ -90,6 +90,7 @@ Encoded Encoding::run(const ReportedProgress& progress, const std::stop_token& s
 
 // Pictures that a decoder leaves out shift all behind them to earlier times.
 std::vector<std::string> Encoding::warnings(std::uint64_t samples) const {
+  if (auto reason = source_.clip->ended_early()) return {std::move(*reason)};
   const std::uint64_t announced = source_.announced_samples();
   if (announced == 0 || announced == samples) return {};
   return {

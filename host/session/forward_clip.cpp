@@ -31,7 +31,9 @@ ExposedPicture expose_once(ClipSource& source, std::uint64_t sample_count, const
   ReadAhead samples(*source.clip, shares.read_ahead_bytes, is_end ? ReadAhead::kAll : last);
   StreamingCapture stream(source.capture, timeline, needed, shares.stream_samples, source.request.tiles,
                           [&](std::uint64_t most) { return samples.next(most); });
-  return expose(stream, functions, mask, options, shares.bytes);
+  ExposedPicture exposed = expose(stream, functions, mask, options, shares.bytes);
+  if (auto reason = source.clip->ended_early()) exposed.warnings.push_back(std::move(*reason));
+  return exposed;
 }
 
 }  // namespace

@@ -1,6 +1,17 @@
 #include "session/source_request.hpp"
 
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
 namespace nutik {
+
+ClipMoment clip_moment(const StatedTime& time, std::string_view what) {
+  if (!time.counts_samples()) return {time.nanoseconds(), false};
+  if (time.number.denominator != 1) {
+    throw UsageError(format("{} {} is not a whole number of pictures", what, time.text()));
+  }
+  return {time.number.numerator, true};
+}
 
 bool SourceRequest::describes_clip() const {
   SourceRequest plain;

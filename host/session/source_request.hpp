@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "capture/noise_model.hpp"
 #include "capture/timeline.hpp"
 #include "imev/tile_cost.hpp"
 #include "media/clip.hpp"
+#include "session/stated_time.hpp"
 
 namespace nutik {
 
@@ -27,6 +29,9 @@ struct StatedNoise {
   CameraNoise noise;
   friend bool operator==(const StatedNoise&, const StatedNoise&) = default;
 };
+
+// A moment of a clip, as it was stated. Throws UsageError naming `what` where pictures are not counted in whole ones.
+[[nodiscard]] ClipMoment clip_moment(const StatedTime& time, std::string_view what);
 
 struct SourceRequest {
   std::filesystem::path path;  // a .tik, a video, a sequence of stills or a table of them

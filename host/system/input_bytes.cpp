@@ -1,5 +1,10 @@
 #include "system/input_bytes.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -7,6 +12,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 namespace {
@@ -25,7 +31,49 @@ std::string read_to_end(std::FILE* stream) {
   return bytes;
 }
 
+// Takes the place of standard input.
+void keep_standard_input() {
+  struct stat input {};
+  if (isatty(STDIN_FILENO) == 1) {
+    throw InputError(format("{} is a terminal; send a clip there: ffmpeg … -f yuv4mpegpipe - | …", kTitle));
+  }
+  if (fstat(STDIN_FILENO, &input) == 0 && S_ISREG(input.st_mode)) return;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  const auto fail = [&](int reason) {
+    if (file >= 0) close(file);
+    throw OutputError(format("{} cannot be kept in {}: {}", kTitle, folder.string(), std::strerror(reason)));
+  };
+  if (file < 0) fail(errno);
+  std::array<char, 1 << 16> part;
+  std::uint64_t bytes = 0;
+  for (;;) {
+    check_interruption();
+    const ssize_t count = read(STDIN_FILENO, part.data(), part.size());
+    if (count == 0) break;
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw InputError(format("{} cannot be read: {}", kTitle, std::strerror(errno)));
+    for (ssize_t at = 0; at < count;) {
+      const ssize_t written = write(file, part.data() + at, static_cast<std::size_t>(count - at));
+      if (written < 0 && errno != EINTR) fail(errno);
+      at += std::max<ssize_t>(written, 0);
+    }
+    bytes += static_cast<std::uint64_t>(count);
+  }
+  if (bytes == 0) throw InputError(format("{} is empty", kTitle));
+  if (dup2(file, STDIN_FILENO) < 0) fail(errno);
+  close(file);
+}
+
 }  // namespace
+
+const std::filesystem::path& standard_input_file() {
+  static const std::filesystem::path file = [] {
+    keep_standard_input();
+    return std::filesystem::path("/dev/stdin");
+  }();
+  return file;
+}
 
 std::string input_title(const std::string& name) { return is_standard_input(name) ? kTitle : name; }
 

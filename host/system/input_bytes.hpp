@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,11 @@ namespace nutik {
 
 // What messages call it: `standard input`, or the file's name.
 [[nodiscard]] std::string input_title(const std::string& name);
+
+// A file that holds what standard input gives, for whoever reads it more than once: /dev/stdin. What is no file there is
+// read to its end when this is first called, into one without a name in TMPDIR, else /tmp. Throws InputError where it
+// is a terminal, empty, or cannot be read, OutputError where there is no space. Any thread may ask.
+[[nodiscard]] const std::filesystem::path& standard_input_file();
 
 // Its bytes. Standard input is read to its end once; whoever asks again gets the same.
 class InputBytes {

@@ -52,6 +52,44 @@ TEST_F(DamagedVideo, OfFfv1IsNeverExposedSilently) {
   EXPECT_GT(refused, 20);
 }
 
+// As far as it goes: the pictures before the damage, and why there are no more.
+TEST_F(DamagedVideo, IsTakenAsFarAsItGoesWhereThatIsAsked) {
+  NEEDS_FFMPEG();
+  make_clip("-c:v ffv1 -level 3 -slices 4 -slicecrc 1", "whole.mkv");
+  const std::string whole = test::read_file(scratch_ / "whole.mkv");
+  const auto pictures = read_all(*open_test_clip(scratch_ / "whole.mkv"));
+  std::string damaged = whole;
+  damaged[whole.size() * 2 / 3] = static_cast<char>(damaged[whole.size() * 2 / 3] ^ 8);
+  const auto path = scratch_.write("damaged.mkv", damaged);
+  try {
+    read_all(*open_test_clip(path));
+    FAIL() << "it was read";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.settings(), std::vector{Setting::end_at_damage}) << error.what();
+  }
+  ClipOptions options;
+  options.ends_at_damage = true;
+  const auto clip = open_test_clip(path, options);
+  const auto read = read_all(*clip);
+  // Some pictures before the damaged one, at 2/3 of the file, may be lost with it: decoders are ahead.
+  EXPECT_GE(read.size(), 10u);
+  EXPECT_LE(read.size(), 20u);
+  for (std::size_t k = 0; k < read.size(); ++k) EXPECT_TRUE(read[k] == pictures[k]) << k;
+  ASSERT_TRUE(clip->ended_early());
+  EXPECT_NE(clip->ended_early()->find("damaged.mkv is taken as far as it goes, " +
+                                      std::to_string(read.size()) + " of 30 pictures: "),
+            std::string::npos)
+      << *clip->ended_early();
+  const auto undamaged = open_test_clip(scratch_ / "whole.mkv", options);
+  EXPECT_TRUE(read_all(*undamaged) == pictures);
+  EXPECT_FALSE(undamaged->ended_early());
+  // The first picture has to be there.
+  damaged = whole;
+  for (std::size_t at = 2000; at < damaged.size(); at += 500)
+    damaged[at] = static_cast<char>(damaged[at] ^ 8);
+  EXPECT_THROW(read_all(*open_test_clip(scratch_.write("all.mkv", damaged), options)), InputError);
+}
+
 TEST_F(DamagedVideo, ThatWasCutOffSaysSo) {
   NEEDS_FFMPEG();
   for (const auto& [codec, name] :

@@ -170,6 +170,22 @@ TEST(PhotronClip, SaysWhatItsHeaderDoesNotFit) {
   expect_refusal("picture 0 has the value 257, and ball.cih says that 8 bits count", {kGrey, "Mono", 16, 8});
 }
 
+TEST(PhotronClip, IsTakenAsFarAsItGoes) {
+  const Scratch scratch;
+  const auto stills = test::random_stills(kGrey, 65'535, 3, 1);
+  const std::string whole = words(stills, 0);
+  scratch.write("ball.mraw", whole.substr(0, whole.size() - 1));
+  scratch.write("ball.cih", Header{}.text());
+  ClipOptions options;
+  options.ends_at_damage = true;
+  const auto clip = open_test_clip(scratch / "ball.mraw", options);
+  const auto rasters = read_all(*clip);
+  ASSERT_EQ(rasters.size(), 2u);
+  EXPECT_EQ(test::difference(rasters[1], stills[1]), "");
+  ASSERT_TRUE(clip->ended_early());
+  EXPECT_NE(clip->ended_early()->find("is taken as far as it goes, 2 of 3 pictures: "), std::string::npos);
+}
+
 TEST(PhotronClip, OfAColourSensorIsRefusedWhereItIsAMosaic) {
   const Scratch scratch;
   scratch.write("ball.mraw", std::string(8 * 5 * 2 * 3, '\1'));

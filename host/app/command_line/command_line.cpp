@@ -119,7 +119,12 @@ bool reads_standard_input(const Options& options) {
     }
     first = &option;
   }
-  return first != nullptr;
+  const bool is_clip = !options.operands.empty() && is_standard_input(options.operands.front());
+  if (is_clip && first != nullptr) {
+    throw UsageError(format("the clip - and {} - would both read standard input; name a file for one",
+                            first->display_name()));
+  }
+  return is_clip || first != nullptr;
 }
 
 }  // namespace nutik::app

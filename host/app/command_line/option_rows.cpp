@@ -69,6 +69,22 @@ constexpr Option kRows[] = {
      "how much wider than high a pixel is shown, as in 32:27 (default: what the file says, else 1:1)"},
     {0, "raw", "WxH:FORMAT", decoding, kDecodesClips | bit(Id::shutter), &Options::raw,
      "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le"},
+    {0, "from", "TIME", decoding, kDecodesClips & ~bit(Id::video), &Options::clip_from,
+     "take pictures of the clip that start here or later, which is then time 0: 1.5s, 32f (default: the "
+     "first)"},
+    {0, "to", "TIME", decoding, kDecodesClips & ~bit(Id::video), &Options::clip_to,
+     "take pictures that start earlier: 2s, 48f (default: all)"},
+    {0, "crop", "WxH+X+Y", decoding, kDecodesClips, &Options::crop,
+     "take a rectangle of the clip's pictures: its size, and the place of its top left pixel"},
+    {0, "scale", "SCALE", decoding, kDecodesClips, &Options::scale,
+     "make pictures smaller, each pixel the mean of the light it covers: 1/2, 1/3, …, or 640x360"},
+    {0, "deinterlace", "HOW", decoding, kDecodesClips, &Options::deinterlace,
+     "of interlaced video: frames (a picture from each frame), fields (one from each field, twice as many), "
+     "or no "
+     "(it only says that it is) (default: it is refused)",
+     "frames fields no"},
+    {0, "as-far-as-it-goes", "", decoding, kDecodesClips, &Options::as_far_as_it_goes,
+     "take a damaged clip's pictures up to the first that cannot be read, with a warning"},
     {0, "tolerance", "CODES", encoding, kEncodesClips, &Options::tolerance,
      "differences up to this many codes are no change; 0 keeps every one (default: 0)"},
     {0, "noise", "FILE|auto", encoding, kReadsClips, &Options::noise,

@@ -147,7 +147,8 @@ int run_again(const Options& options) {
   const std::optional<Recipe> recipe = read_recipe(picture);
   if (!recipe) {
     throw InputError(
-        format("{} carries no recipe: nutik-cl keeps one in PNG, TIFF, PGM and PPM pictures, unless it was "
+        format("{} carries no recipe: nutik-cl keeps one in PNG, TIFF, JPEG, OpenEXR, PGM and PPM pictures, "
+               "unless it was "
                "told --no-recipe or another program wrote the picture since",
                picture.string()));
   }
@@ -165,7 +166,7 @@ int run_again(const Options& options) {
   }
   if (recipe->mask) command += " -m " + operand(files.find(*recipe->mask, "mask", input_checksum));
   for (const auto& [name, value] : recipe->options)
-    command += " " + shell_word("--" + name) + " " + shell_word(value);
+    command += " " + shell_word("--" + name) + (value.empty() ? "" : " " + shell_word(value));
   command += recipe->renderer == "opencl" ? " --precision " + shell_word(recipe->precision)
                                           : " --renderer " + shell_word(recipe->renderer);
   command += " " + operand(files.find(recipe->capture, "capture", capture_checksum));

@@ -45,7 +45,8 @@ int run_encode(const Options& options) {
   answer.line = format("{}: {}, {}, {}, {} of {} raw, {:.2f} s", output.string(), shape_text(shape),
                        counted(timeline.sample_count(), "sample"), timing_text(encoded.facts),
                        bytes_text(encoded.file_bytes), bytes_text(raw_bytes), seconds);
-  answer.details.push_back(fact_lines(encoded.facts).back());
+  answer.details = fact_lines(encoded.facts);
+  answer.details.erase(answer.details.begin());  // of times, which the line above has
   answer.notes = note_lines(encoded.notes, timeline, source);
   return tell(options, output, answer);
 }

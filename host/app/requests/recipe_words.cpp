@@ -12,7 +12,7 @@ namespace {
 
 // Files have a place of their own in a recipe, with their text or checksum.
 bool is_stated(const Option& option, std::string_view value) {
-  return option.is_of(CommandId::expose) && option.makes_picture() &&
+  return option.is_of(CommandId::expose) && option.makes_picture() && option.is_flag() == value.empty() &&
          (!option.reads_file() || option.knows(value));
 }
 
@@ -46,7 +46,8 @@ std::optional<RecipeSources> recipe_sources(const Options& options,
         Recipe::Input{known_name(*options.mask, ".pgm"), bytes_checksum(InputBytes(*options.mask).bytes())};
   }
   for (const Option& option : app::options()) {
-    const std::string* value = option.stated(options);
+    static const std::string kFlag;
+    const std::string* value = option.is_flag() && option.is_in(options) ? &kFlag : option.stated(options);
     if (value != nullptr && is_stated(option, *value)) recipe.options.emplace(option.long_name, *value);
   }
   recipe.renderer = options.renderer.value_or("opencl");

@@ -77,6 +77,13 @@ SourceRequest clip_request(const Options& options, const std::string& name) {
   if (options.range) request.clip.range = parse_code_range(*options.range);
   if (options.primaries) request.clip.primaries = parse_primaries(*options.primaries);
   if (options.pixel_aspect) request.clip.pixel_aspect = parse_pixel_aspect(*options.pixel_aspect);
+  if (options.clip_from)
+    request.clip.from = clip_moment(StatedTime::parse(*options.clip_from, "--from"), "--from");
+  if (options.clip_to) request.clip.to = clip_moment(StatedTime::parse(*options.clip_to, "--to"), "--to");
+  if (options.deinterlace) request.clip.interlaced = parse_deinterlacing(*options.deinterlace);
+  request.clip.ends_at_damage = options.as_far_as_it_goes;
+  if (options.crop) request.clip.crop = parse_crop(*options.crop);
+  if (options.scale) request.clip.scale = parse_scale(*options.scale);
   read_noise(request, options);
   if (options.tiles) request.tiles = parse_tile_policy(*options.tiles);
   if (options.block_samples) {

@@ -11,15 +11,26 @@ namespace {
 constexpr double kLowestPlaybackRate = 1.0;
 constexpr double kHighestPlaybackRate = 60.0;
 
-bool is_timing(const Fact& fact) {
-  return fact.setting == Setting::frame_rate || fact.setting == Setting::shutter_angle;
+enum class About { times, part, colour };
+
+About subject_of(const Fact& fact) {
+  switch (fact.setting) {
+    case Setting::frame_rate:
+    case Setting::shutter_angle: return About::times;
+    case Setting::from:
+    case Setting::to:
+    case Setting::crop:
+    case Setting::deinterlace:
+    case Setting::scale: return About::part;
+    default: return About::colour;
+  }
 }
 
-// Each fact with who said it, those of times or the others.
-std::string facts_text(std::span<const Fact> facts, bool of_times) {
+// Each fact with who said it, those of one subject.
+std::string facts_text(std::span<const Fact> facts, About subject) {
   std::string text;
   for (const Fact& fact : facts) {
-    if (is_timing(fact) != of_times) continue;
+    if (subject_of(fact) != subject) continue;
     const std::string who = fact.origin == Origin::file     ? format(" (from {}", fact.source)
                             : fact.origin == Origin::stated ? options_text({fact.setting})
                                                             : std::string(" (assumed");
@@ -31,15 +42,17 @@ std::string facts_text(std::span<const Fact> facts, bool of_times) {
 
 }  // namespace
 
-std::string timing_text(std::span<const Fact> facts) { return facts_text(facts, true); }
+std::string timing_text(std::span<const Fact> facts) { return facts_text(facts, About::times); }
 
 std::vector<std::string> fact_lines(std::span<const Fact> facts) {
   std::vector<std::string> lines{"source: " + timing_text(facts)};
+  if (const std::string part = facts_text(facts, About::part); !part.empty())
+    lines.push_back("part: " + part);
   std::vector<Setting> assumed;
   for (const Fact& fact : facts) {
-    if (!is_timing(fact) && fact.origin == Origin::assumed) assumed.push_back(fact.setting);
+    if (subject_of(fact) == About::colour && fact.origin == Origin::assumed) assumed.push_back(fact.setting);
   }
-  if (const std::string colours = facts_text(facts, false); !colours.empty()) {
+  if (const std::string colours = facts_text(facts, About::colour); !colours.empty()) {
     const std::string others = options_text(assumed);
     lines.push_back(
         format("colour: {}{}", colours, others.empty() ? "" : "; what is assumed can be stated" + others));

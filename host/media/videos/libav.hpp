@@ -6,6 +6,9 @@
 #pragma GCC diagnostic ignored "-Wpedantic"
 extern "C" {
 #include <libavcodec/avcodec.h>
+#include <libavfilter/avfilter.h>
+#include <libavfilter/buffersink.h>
+#include <libavfilter/buffersrc.h>
 #include <libavformat/avformat.h>
 #include <libavutil/display.h>
 #include <libavutil/imgutils.h>
@@ -38,6 +41,9 @@ struct FreePacket {
 struct FreeFrame {
   void operator()(AVFrame* frame) const { av_frame_free(&frame); }
 };
+struct FreeGraph {
+  void operator()(AVFilterGraph* graph) const { avfilter_graph_free(&graph); }
+};
 struct FreeScaler {
   void operator()(SwsContext* context) const { sws_freeContext(context); }
 };
@@ -46,6 +52,7 @@ using FormatPointer = std::unique_ptr<AVFormatContext, FreeFormat>;
 using CodecPointer = std::unique_ptr<AVCodecContext, FreeCodec>;
 using PacketPointer = std::unique_ptr<AVPacket, FreePacket>;
 using FramePointer = std::unique_ptr<AVFrame, FreeFrame>;
+using GraphPointer = std::unique_ptr<AVFilterGraph, FreeGraph>;
 using ScalerPointer = std::unique_ptr<SwsContext, FreeScaler>;
 
 inline std::string error_text(int code) {

@@ -4,6 +4,7 @@
 
 #include "media/videos/clip_colour.hpp"
 #include "media/videos/damage_log.hpp"
+#include "media/videos/deinterlacer.hpp"
 #include "media/videos/libav.hpp"
 #include "media/videos/pixels.hpp"
 #include "media/videos/videos.hpp"
@@ -45,12 +46,24 @@ class LibavClip final : public Clip {
     const auto pictures = static_cast<std::uint64_t>(codec_->thread_count) + kept_pictures();
     info_.decoder_bytes = pictures * decoded_bytes();
     describe(capture, info_.facts, probe, options);
+    settle_fields(options.interlaced);
   }
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
 
   bool read(std::span<std::byte> raster) override {
-    if (!decode_next()) return false;
+    if (!next_picture()) return false;
+    check_whole();
+    converter_.convert(*frame_, raster, name_);
+    ++frames_read_;
+    return true;
+  }
+
+ private:
+  [[nodiscard]] const AVStream& stream() const { return *opened_.format->streams[opened_.stream]; }
+
+  // Throws where the picture is of another size, or damaged.
+  void check_whole() const {
     if (frame_->width != static_cast<int>(coded_.width) ||
         frame_->height != static_cast<int>(coded_.height)) {
       throw InputError(format("{}: picture {} has {} x {} pixels, the ones before it {} x {}", name_,
@@ -61,19 +74,34 @@ class LibavClip final : public Clip {
     const auto said = damage_->said();
     if (is_flagged || said) {
       // Decoders are some pictures ahead of who reads them.
-      throw InputError(format(
-          "{}: picture {}{} is damaged{}; cut the clip before it, or encode it anew with what is left of it: "
-          "ffmpeg -i {} -c:v ffv1 mended.mkv",
-          name_, frames_read_, is_flagged ? "" : " or one soon after it",
-          said ? format(" (FFmpeg says: {})", *said) : std::string(), name_));
+      throw InputError(format("{}: picture {}{} is damaged{}; cut the clip before it, or encode it anew with "
+                              "what is left of it: "
+                              "ffmpeg -i {} -c:v ffv1 mended.mkv",
+                              name_, frames_read_, is_flagged ? "" : " or one soon after it",
+                              said ? format(" (FFmpeg says: {})", *said) : std::string(), name_),
+                       {Setting::end_at_damage});
     }
-    converter_.convert(*frame_, raster, name_);
-    ++frames_read_;
-    return true;
   }
 
- private:
-  [[nodiscard]] const AVStream& stream() const { return *opened_.format->streams[opened_.stream]; }
+  void settle_fields(Interlaced wish) {
+    fields_ = field_order(stream().codecpar->field_order);
+    interlaced_ = wish;
+    if (wish == Interlaced::refused && fields_) refuse_fields("it", *fields_);
+    if (wish != Interlaced::frames && wish != Interlaced::fields) return;
+    if (wish == Interlaced::fields) info_ = of_fields(std::move(info_));
+    info_.facts.push_back(
+        {format("a picture from each {}, {}", wish == Interlaced::fields ? "field" : "frame",
+                fields_ ? to_text(*fields_) : "in the order that each frame tells"),
+         Origin::stated, Setting::deinterlace});
+  }
+
+  [[noreturn]] void refuse_fields(const std::string& what, FieldOrder order) const {
+    throw InputError(format("{}: {} is interlaced, {}: its odd and even lines were taken at two moments, and "
+                            "would come out as "
+                            "combs. Say what becomes of them",
+                            name_, what, to_text(order)),
+                     {Setting::deinterlace});
+  }
 
   // Of a decoded picture.
   [[nodiscard]] std::uint64_t decoded_bytes() const {
@@ -112,6 +140,34 @@ class LibavClip final : public Clip {
     info_.format.white_code = white;
   }
 
+  // The next picture, which was made of fields where that was asked for.
+  bool next_picture() {
+    if (interlaced_ == Interlaced::refused || interlaced_ == Interlaced::ignored) {
+      if (!decode_next()) return false;
+      if (interlaced_ == Interlaced::refused && frame_->interlaced_frame != 0) {
+        refuse_fields(format("picture {}", frames_read_), order_of(*frame_));
+      }
+      return true;
+    }
+    while (!deinterlacer_ || !deinterlacer_->take(*frame_)) {
+      if (has_ended_) return false;
+      has_ended_ = !decode_next();
+      if (has_ended_ && !deinterlacer_) return false;
+      if (has_ended_) {
+        deinterlacer_->end();
+        continue;
+      }
+      check_whole();
+      if (!deinterlacer_) deinterlacer_.emplace(*frame_, interlaced_ == Interlaced::fields, name_);
+      if (fields_ && frame_->interlaced_frame == 0) {
+        frame_->interlaced_frame = 1;
+        frame_->top_field_first = *fields_ == FieldOrder::top_first ? 1 : 0;
+      }
+      deinterlacer_->add(*frame_);
+    }
+    return true;
+  }
+
   bool decode_next() {
     for (;;) {
       const int code = avcodec_receive_frame(codec_.get(), frame_.get());
@@ -140,7 +196,8 @@ class LibavClip final : public Clip {
   }
 
   [[noreturn]] void fail(int code) const {
-    throw InputError(format("{}: picture {} cannot be decoded: {}", name_, frames_read_, error_text(code)));
+    throw InputError(format("{}: picture {} cannot be decoded: {}", name_, frames_read_, error_text(code)),
+                     {Setting::end_at_damage});
   }
 
   std::string name_;
@@ -153,6 +210,10 @@ class LibavClip final : public Clip {
   PacketPointer packet_;
   FramePointer frame_;
   std::uint64_t frames_read_ = 0;
+  Interlaced interlaced_ = Interlaced::refused;
+  std::optional<FieldOrder> fields_;  // as the container says of all frames
+  std::optional<Deinterlacer> deinterlacer_;
+  bool has_ended_ = false;  // the decoder
 };
 
 }  // namespace

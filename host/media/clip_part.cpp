@@ -1,0 +1,277 @@
+#include "media/clip_part.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/light_means.hpp"
+
+namespace nutik {
+namespace {
+
+// A clip without an announced end may go on for so long.
+constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 40;
+
+// A whole number at the start of a text, which is cut off; false where there is none.
+bool take_number(std::string_view& text, std::uint32_t& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc()) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return true;
+}
+
+bool take_letter(std::string_view& text, char letter) {
+  if (!text.starts_with(letter)) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+// Where the pictures of a clip begin.
+class Starts {
+ public:
+  Starts(const std::string& name, const ClipInfo& info, const ClipOptions& options)
+      : timeline_(timeline_of(name, info, options, Timeline::kFullShutter,
+                              std::max<std::uint64_t>(info.sample_count, 1))),
+        count_(info.sample_count == 0 ? kMostSamples : info.sample_count) {}
+
+  [[nodiscard]] std::int64_t of(std::uint64_t sample) const {
+    if (!timeline_.is_constant()) return timeline_.start_ns(sample);
+    const Rational rate = timeline_.rate();
+    return round_half_up(static_cast<int128>(sample) * rate.denominator * kSecondNs, rate.numerator);
+  }
+
+  // The first that begins at or after that time; as many as there are where none does.
+  [[nodiscard]] std::uint64_t first_from(std::int64_t time_ns) const {
+    std::uint64_t first = 0, end = count_;
+    while (first < end) {
+      const std::uint64_t middle = first + (end - first) / 2;
+      if (of(middle) < time_ns) {
+        first = middle + 1;
+      } else {
+        end = middle;
+      }
+    }
+    return first;
+  }
+
+ private:
+  Timeline timeline_;
+  std::uint64_t count_;
+};
+
+std::uint64_t sample_of(const ClipMoment& moment, const std::string& name, const ClipInfo& info,
+                        const ClipOptions& options) {
+  if (moment.value < 0) {
+    throw UsageError(format("{}: a part of a clip begins at its start or later", name),
+                     {Setting::from, Setting::to});
+  }
+  return moment.is_picture ? static_cast<std::uint64_t>(moment.value)
+                           : Starts(name, info, options).first_from(moment.value);
+}
+
+template <typename Value>
+void keep(std::vector<Value>& values, std::uint64_t first, std::uint64_t end) {
+  if (values.empty()) return;
+  values.resize(std::min<std::uint64_t>(values.size(), end));
+  values.erase(values.begin(),
+               values.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(first, values.size())));
+}
+
+class ClipPart final : public Clip {
+ public:
+  ClipPart(std::unique_ptr<Clip> clip, const std::filesystem::path& path, const ClipOptions& options)
+      : name_(path.string()), clip_(std::move(clip)), info_(clip_->info()), whole_(info_.format) {
+    choose_samples(options);
+    crop_ = options.crop.value_or(Rectangle::whole(whole_.shape));
+    if (options.crop) crop(*options.crop);
+    if (options.scale) scale(*options.scale);
+    if (crop_ != Rectangle::whole(whole_.shape) || means_) raster_.resize(whole_.sample_bytes());
+  }
+
+  [[nodiscard]] const ClipInfo& info() const override { return info_; }
+
+  bool read(std::span<std::byte> raster) override {
+    if (next_ < first_) skip();
+    if (next_ >= end_) return false;
+    const bool is_whole = raster_.empty();
+    if (!clip_->read(is_whole ? raster : std::span(raster_))) return false;
+    ++next_;
+    if (is_whole) return true;
+    if (means_) {
+      try {
+        means_->take(raster_, raster);
+      } catch (const CodeAboveWhite& error) {
+        throw InputError(format("{}: picture {} has the code {}, and white is {}", name_, next_ - 1,
+                                error.code, whole_.white_code),
+                         {Setting::white_code});
+      }
+      return true;
+    }
+    const std::size_t pixel = std::size_t{whole_.shape.channels} * whole_.code_bytes;
+    const std::size_t row = crop_.width * pixel;
+    for (std::uint32_t y = 0; y < crop_.height; ++y) {
+      const std::size_t from = (std::size_t{crop_.y + y} * whole_.shape.width + crop_.x) * pixel;
+      std::memcpy(raster.data() + y * row, raster_.data() + from, row);
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::optional<std::string> ended_early() const override { return clip_->ended_early(); }
+
+ private:
+  // Pictures before the part are decoded, for the others may refer to them.
+  void skip() {
+    std::vector<std::byte> raster(whole_.sample_bytes());
+    for (; next_ < first_; ++next_) {
+      if (clip_->read(raster)) continue;
+      next_ = end_ = first_;
+      return;
+    }
+  }
+
+  void choose_samples(const ClipOptions& options) {
+    if (!options.from && !options.to) return;
+    const ClipInfo& info = clip_->info();
+    const std::uint64_t count = info.sample_count;
+    if (options.from) first_ = sample_of(*options.from, name_, info, options);
+    if (options.to) end_ = sample_of(*options.to, name_, info, options);
+    const std::string pictures =
+        count == 0 ? "" : format(", which has {} pictures (0f … {}f)", count, count - 1);
+    if (count > 0 && first_ >= count) {
+      throw UsageError(format("no picture begins there in {}{}", name_, pictures), {Setting::from});
+    }
+    if (first_ >= end_) {
+      throw UsageError(format("no picture begins between the two in {}{}", name_, pictures),
+                       {Setting::from, Setting::to});
+    }
+    if (count > 0 && options.to && options.to->is_picture && end_ > count) {
+      throw UsageError(format("picture {} is not in {}{}", end_, name_, pictures), {Setting::to});
+    }
+    if (count > 0) end_ = std::min(end_, count);
+    keep(info_.timing.starts_ns, first_, end_);
+    keep(info_.timing.exposures, first_, end_);
+    if (count > 0) info_.sample_count = end_ - first_;
+    std::string text =
+        format("pictures {} … {}", first_, end_ == kMostSamples ? "" : std::to_string(end_ - 1));
+    if (count > 0) text += format(" of {}", count);
+    if (first_ > 0 && (options.rate || info.timing.is_known())) {
+      text += format(", whose time 0 is {:.6g} s after the clip's",
+                     static_cast<double>(Starts(name_, info, options).of(first_)) / kSecondNs);
+    }
+    info_.facts.push_back({std::move(text), Origin::stated, options.from ? Setting::from : Setting::to});
+  }
+
+  void crop(const Rectangle& wanted) {
+    const Shape& shape = whole_.shape;
+    if (!wanted.lies_in(shape)) {
+      throw UsageError(
+          format("{} x {} pixels from {},{} on do not lie in the pictures of {}, which have {} x {}",
+                 wanted.width, wanted.height, wanted.x, wanted.y, name_, shape.width, shape.height),
+          {Setting::crop});
+    }
+    info_.format.shape.width = wanted.width;
+    info_.format.shape.height = wanted.height;
+    info_.facts.push_back({format("{} x {} from {},{} of {} x {}", wanted.width, wanted.height, wanted.x,
+                                  wanted.y, shape.width, shape.height),
+                           Origin::stated, Setting::crop});
+  }
+
+  void scale(const ClipScale& wanted) {
+    Shape scaled = whole_.shape;
+    if (wanted.divisor > 0) {
+      scaled.width = crop_.width / wanted.divisor;
+      scaled.height = crop_.height / wanted.divisor;
+      crop_.width = scaled.width * wanted.divisor;
+      crop_.height = scaled.height * wanted.divisor;
+    } else {
+      scaled.width = wanted.width;
+      scaled.height = wanted.height;
+    }
+    const Shape& shape = info_.format.shape;
+    if (scaled.width == 0 || scaled.height == 0 || scaled.width > shape.width ||
+        scaled.height > shape.height) {
+      throw UsageError(
+          format("{} x {} pixels cannot be made of {} x {}: pictures are made smaller, not larger, and "
+                 "have a pixel at least",
+                 scaled.width, scaled.height, shape.width, shape.height),
+          {Setting::scale});
+    }
+    // What a pixel covers is so much wider, or less wide, than one of the clip.
+    const Rational covered =
+        Rational::of(std::int64_t{crop_.width} * scaled.height, std::int64_t{crop_.height} * scaled.width);
+    info_.format.pixel_aspect = product(info_.format.pixel_aspect, covered);
+    info_.facts.push_back(
+        {format("{} x {} as means of light", scaled.width, scaled.height), Origin::stated, Setting::scale});
+    info_.format.shape = scaled;
+    means_.emplace(whole_, crop_, scaled);
+  }
+
+  // Close to that of two fractions that are too long for the header of a capture.
+  [[nodiscard]] static Rational product(const Rational& a, const Rational& b) {
+    const Rational left = Rational::of(a.numerator, b.denominator),
+                   right = Rational::of(b.numerator, a.denominator);
+    constexpr std::int64_t kMost = INT32_MAX;
+    if (left.numerator <= kMost / right.numerator && left.denominator <= kMost / right.denominator) {
+      return Rational::of(left.numerator * right.numerator, left.denominator * right.denominator);
+    }
+    constexpr std::int64_t kParts = 1'000'000;
+    return Rational::of(std::llround(a.value() * b.value() * kParts), kParts);
+  }
+
+  std::string name_;
+  std::unique_ptr<Clip> clip_;
+  ClipInfo info_;
+  CaptureFormat whole_;  // of the clip's pictures
+  Rectangle crop_;
+  std::uint64_t first_ = 0, end_ = kMostSamples, next_ = 0;  // of the clip's pictures
+  std::vector<std::byte> raster_;                            // one of them, unless it is taken as it is
+  std::optional<LightMeans> means_;
+};
+
+}  // namespace
+
+Rectangle parse_crop(std::string_view text) {
+  Rectangle crop;
+  std::string_view rest = text;
+  if (take_number(rest, crop.width) && take_letter(rest, 'x') && take_number(rest, crop.height) &&
+      take_letter(rest, '+') && take_number(rest, crop.x) && take_letter(rest, '+') &&
+      take_number(rest, crop.y) && rest.empty() && crop.width > 0 && crop.height > 0) {
+    return crop;
+  }
+  throw UsageError(
+      format("crop '{}' is no rectangle; write its size and how far it lies from the left and from the top: "
+             "640x360+100+50",
+             text));
+}
+
+ClipScale parse_scale(std::string_view text) {
+  ClipScale scale;
+  std::string_view rest = text;
+  std::uint32_t first = 0, second = 0;
+  if (take_number(rest, first) && first > 0) {
+    if (first == 1 && take_letter(rest, '/') && take_number(rest, second) && rest.empty() && second > 0) {
+      scale.divisor = second;
+      return scale;
+    }
+    if (take_letter(rest, 'x') && take_number(rest, second) && rest.empty() && second > 0) {
+      scale.width = first;
+      scale.height = second;
+      return scale;
+    }
+  }
+  throw UsageError(format("scale '{}' is not known; write 1/2, 1/3, … or a size: 640x360", text));
+}
+
+std::unique_ptr<Clip> take_part(std::unique_ptr<Clip> clip, const std::filesystem::path& path,
+                                const ClipOptions& options) {
+  if (!options.from && !options.to && !options.crop && !options.scale) return clip;
+  return std::make_unique<ClipPart>(std::move(clip), path, options);
+}
+
+}  // namespace nutik

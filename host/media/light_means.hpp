@@ -1,0 +1,51 @@
+// Pictures of fewer pixels, each a mean of light.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "capture/picture.hpp"
+
+namespace nutik {
+
+// A code that stands for no light.
+struct CodeAboveWhite : std::runtime_error {
+  explicit CodeAboveWhite(std::uint32_t above) : std::runtime_error("a code is above white"), code(above) {}
+  std::uint32_t code;
+};
+
+class LightMeans {
+ public:
+  // Of a rectangle of rasters of this format; `scaled` has no side that is longer than its.
+  LightMeans(const CaptureFormat& format, const Rectangle& area, const Shape& scaled);
+
+  // `scaled` has codes of the same kind. Throws CodeAboveWhite.
+  void take(std::span<const std::byte> raster, std::span<std::byte> scaled);
+
+ private:
+  // What a new pixel covers along a side: pixels from `first` on, each by its share of the length.
+  struct Span {
+    std::uint32_t first;
+    std::vector<double> shares;
+  };
+  static std::vector<Span> spans(std::uint32_t length, std::uint32_t parts);
+
+  template <typename Code>
+  void take_codes(const Code* raster, Code* scaled);
+  [[nodiscard]] std::uint32_t code_of(double light) const;
+
+  Shape shape_;
+  Rectangle area_;
+  Shape scaled_;
+  std::uint32_t code_bytes_;
+  std::vector<Span> columns_, rows_;
+  std::vector<double> light_;              // of each code
+  std::vector<double> thresholds_;         // the least light of each
+  std::vector<std::uint32_t> first_code_;  // at the start of each of many equal steps of light
+  std::vector<double> sums_;               // of a row of new pixels
+};
+
+}  // namespace nutik

@@ -1,0 +1,180 @@
+// Clips of which a part is taken, that come through a pipe, or end too early, from the command line to the picture.
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "support/ffmpeg.hpp"
+#include "support/program_test.hpp"
+#include "support/stills.hpp"
+
+namespace nutik {
+namespace {
+
+class PartOfAClip : public test::ProgramTest {
+ protected:
+  static constexpr Shape kShape{40, 24, 3};
+  static constexpr int kStills = 6;
+
+  void SetUp() override {
+    std::filesystem::create_directory(scratch_ / "frames");
+    const auto stills = test::random_stills(kShape, 65'535, kStills, 3);
+    for (int k = 0; k < kStills; ++k) {
+      scratch_.write("frames/" + std::to_string(k) + ".ppm",
+                     test::netpbm_file(stills[static_cast<std::size_t>(k)], false));
+    }
+  }
+
+  void expose(const std::vector<std::string>& words, const std::string& picture) const {
+    std::vector<std::string> all{"expose", "--renderer", "reference", "-f", "100", "frames", "-o", picture};
+    all.insert(all.end(), words.begin(), words.end());
+    const auto result = run(all);
+    ASSERT_EQ(result.status, 0) << result.err;
+  }
+
+  [[nodiscard]] cv::Mat light(const std::string& picture) const {
+    return cv::imread((scratch_ / picture).string(), cv::IMREAD_UNCHANGED);
+  }
+};
+
+TEST_F(PartOfAClip, IsExposedAsThatPartOfTheWhole) {
+  expose({"--start", "2f", "--exposure", "3f"}, "whole.pfm");
+  expose({"--start", "1f", "--exposure", "3f", "--from", "1f", "--to", "5f", "--crop", "30x20+4+3"},
+         "part.pfm");
+  const cv::Mat whole = light("whole.pfm")(cv::Rect(4, 3, 30, 20)), part = light("part.pfm");
+  ASSERT_EQ(part.size(), whole.size());
+  EXPECT_EQ(cv::norm(whole, part, cv::NORM_INF), 0.0);
+}
+
+// Light adds up whichever comes first. A mean is off by half a code of 65535 at most, in every picture and so in what is
+// exposed; beside it stand the roundings of a float.
+TEST_F(PartOfAClip, IsAsBrightScaledBeforeAsAfter) {
+  const std::vector<std::string> exposure{"--start", "0s", "--exposure", "60ms"};
+  expose(exposure, "whole.pfm");
+  std::vector<std::string> scaled = exposure;
+  scaled.insert(scaled.end(), {"--scale", "1/4"});
+  expose(scaled, "scaled.pfm");
+  const cv::Mat whole = light("whole.pfm"), part = light("scaled.pfm");
+  ASSERT_EQ(part.size(), cv::Size(10, 6));
+  for (int y = 0; y < 6; ++y) {
+    for (int x = 0; x < 10; ++x) {
+      const cv::Scalar mean = cv::mean(whole(cv::Rect(4 * x, 4 * y, 4, 4)));
+      for (int channel = 0; channel < 3; ++channel) {
+        EXPECT_NEAR(part.at<cv::Vec3f>(y, x)[channel], mean[channel], 0.5 / 65'535 + 2e-7);
+      }
+    }
+  }
+}
+
+TEST_F(PartOfAClip, IsToldAndCheckedAndStatedInRecipes) {
+  const auto encoded = run({"encode", "-f", "100", "--from", "20ms", "--scale", "1/2", "frames", "part.tik"});
+  EXPECT_EQ(encoded.status, 0) << encoded.err;
+  EXPECT_NE(encoded.out.find("part: pictures 2 … 5 of 6, whose time 0 is 0.02 s after the clip's (--from), "
+                             "20 x 12 as means of light (--scale)"),
+            std::string::npos)
+      << encoded.out;
+  const auto info = run({"info", "part.tik"});
+  EXPECT_NE(info.out.find("pictures 2 … 5 of 6"), std::string::npos) << info.out;
+  const std::vector<std::string> validate{"validate", "--source", "frames", "--start", "0s",  "--exposure",
+                                          "10ms",     "--runs",   "1",      "--scale", "1/2", "part.tik"};
+  std::vector<std::string> same = validate, other = validate;
+  same.insert(same.end(), {"--from", "2f"});
+  other.insert(other.end(), {"--from", "1f"});
+  EXPECT_EQ(run(same).status, 0) << run(same).err;
+  EXPECT_NE(run(other).status, 0);
+  expose({"--start", "0f", "--exposure", "1f", "--from", "1f", "--crop", "8x8+0+0", "--as-far-as-it-goes"},
+         "p.png");
+  const auto again = run({"again", "p.png"});
+  EXPECT_NE(again.out.find("--as-far-as-it-goes --crop 8x8+0+0"), std::string::npos)
+      << again.out << again.err;
+  EXPECT_NE(again.out.find("--from 1f"), std::string::npos) << again.out;
+  expect_refused({"expose", "--from", "1f", "--exposure", "1f", "part.tik"}, 2, "--from describes a clip");
+  expect_refused({"encode", "-f", "100", "--from", "6f", "frames", "x.tik"}, 2,
+                 "which has 6 pictures (0f … 5f) (--from)");
+  expect_refused({"encode", "-f", "100", "--from", "1/3f", "frames", "x.tik"}, 2,
+                 "is not a whole number of pictures");
+}
+
+// Of a video --from and --to are where it starts and ends in the capture: frames, not what is read.
+TEST_F(PartOfAClip, OfAVideosSourceIsCropped) {
+  const auto made =
+      run({"video", "-f", "100", "--crop", "16x8+2+2", "--from", "1f", "--to", "5f", "--out-fps", "100",
+           "--out-angle", "360", "--renderer", "reference", "frames", "v-%02d.png"});
+  EXPECT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(light("v-00.png").size(), cv::Size(16, 8));
+}
+
+TEST_F(PartOfAClip, ComesThroughAPipe) {
+  NEEDS_FFMPEG();
+  const std::string program = NUTIK_TEST_PROGRAM, tail = " --renderer reference --no-recipe -o ";
+  test::make(scratch_, "-f lavfi -i testsrc2=size=64x48:rate=25 -frames:v 12 -pix_fmt yuv420p a.y4m");
+  // In a group, whose last command has no other input than the pipe's.
+  const auto shell = [&](const std::string& command) {
+    return test::run_shell("( " + command + " )", scratch_.folder());
+  };
+  std::filesystem::create_directory(scratch_ / "tmp");
+  const auto named = shell(program + " expose a.y4m --start 80ms --exposure 120ms" + tail + "named.png");
+  ASSERT_EQ(named.status, 0) << named.err;
+  const auto piped = shell("ffmpeg -v error -i a.y4m -f yuv4mpegpipe - | TMPDIR=tmp " + program +
+                           " expose - --start 80ms --exposure 120ms" + tail + "piped.png");
+  ASSERT_EQ(piped.status, 0) << piped.err;
+  const std::string wanted = test::read_file(scratch_ / "named.png");
+  EXPECT_TRUE(test::read_file(scratch_ / "piped.png") == wanted);
+  EXPECT_TRUE(std::filesystem::is_empty(scratch_ / "tmp"));
+  // A file is read where it lies; and what is read twice, as a series is.
+  EXPECT_EQ(shell(program + " expose - --start 80ms --exposure 120ms" + tail + "- < a.y4m > sent.png").status,
+            0);
+  EXPECT_TRUE(test::read_file(scratch_ / "sent.png") == wanted);
+  const auto series =
+      shell("cat a.y4m | " + program + " expose - --every 2f --exposure 2f" + tail + "s%d.png");
+  EXPECT_EQ(series.status, 0) << series.err;
+  const auto capture =
+      shell("cat a.y4m | " + program + " encode - && " + program + " info standard-input.tik");
+  EXPECT_EQ(capture.status, 0) << capture.err;
+  EXPECT_NE(capture.out.find("12 samples"), std::string::npos) << capture.out;
+
+  scratch_.write("f.fn", "M0 [0:1], [10000000:0]\n");
+  const auto twice = shell("cat f.fn | " + program + " expose -k - - -o x.png");
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_NE(twice.err.find("the clip - and -k - would both read standard input"), std::string::npos)
+      << twice.err;
+  const auto empty = shell(program + " expose --exposure 1f - -o x.png < /dev/null | cat");
+  EXPECT_NE(empty.err.find("standard input is empty"), std::string::npos) << empty.err;
+  const auto senseless = shell("echo nonsense | " + program + " expose --exposure 1f - -o x.png");
+  EXPECT_EQ(senseless.status, 3);
+  EXPECT_NE(senseless.err.find("/dev/stdin is no video"), std::string::npos) << senseless.err;
+}
+
+TEST_F(PartOfAClip, EndsAtItsDamageWhereThatIsAsked) {
+  NEEDS_FFMPEG();
+  test::make(scratch_,
+             "-f lavfi -i testsrc2=size=64x48:rate=25 -frames:v 30 -c:v ffv1 -level 3 -slicecrc 1 a.mkv");
+  std::string bytes = test::read_file(scratch_ / "a.mkv");
+  bytes[bytes.size() * 2 / 3] = static_cast<char>(bytes[bytes.size() * 2 / 3] ^ 8);
+  scratch_.write("a.mkv", bytes);
+  expect_refused({"encode", "a.mkv", "a.tik"}, 3, "(--as-far-as-it-goes)");
+  const auto encoded = run({"encode", "--as-far-as-it-goes", "a.mkv", "a.tik"});
+  EXPECT_EQ(encoded.status, 0) << encoded.err;
+  EXPECT_NE(encoded.err.find("warning: a.mkv is taken as far as it goes, "), std::string::npos)
+      << encoded.err;
+  EXPECT_NE(encoded.err.find(" of 30 pictures: "), std::string::npos) << encoded.err;
+  // Straight from the clip it is the same picture, with the same warning; one before the damage has none.
+  const std::vector<std::string> all{"--start",    "0s",        "--exposure", "5s",
+                                     "--renderer", "reference", "--no-recipe"};
+  const auto exposed = [&](std::vector<std::string> words, const std::string& output) {
+    words.insert(words.begin(), "expose");
+    words.insert(words.end(), {"-o", output});
+    return run(words);
+  };
+  std::vector<std::string> words{"--as-far-as-it-goes", "a.mkv"};
+  words.insert(words.end(), all.begin(), all.end());
+  const auto straight = exposed(words, "clip.png");
+  EXPECT_EQ(straight.status, 0) << straight.err;
+  EXPECT_NE(straight.err.find("is taken as far as it goes"), std::string::npos) << straight.err;
+  words = {"a.tik"};
+  words.insert(words.end(), all.begin(), all.end());
+  EXPECT_EQ(exposed(words, "capture.png").status, 0);
+  EXPECT_TRUE(test::read_file(scratch_ / "clip.png") == test::read_file(scratch_ / "capture.png"));
+}
+
+}  // namespace
+}  // namespace nutik

@@ -1,0 +1,135 @@
+// Interlaced video: refused with the way out, or deinterlaced as FFmpeg's own command does it.
+#include <gtest/gtest.h>
+
+#include "support/ffmpeg.hpp"
+#include "support/stills.hpp"
+
+namespace nutik {
+namespace {
+
+using test::open_test_clip;
+using test::read_all;
+using test::Scratch;
+
+constexpr Shape kShape{64, 48, 1};
+constexpr int kFrames = 8;
+
+// Of 50 pictures a second each frame has the odd lines of one and the even lines of the next. `first` is t or b.
+void make_interlaced(const Scratch& scratch, char first, const std::string& codec, const std::string& name) {
+  const std::string mode = first == 't' ? "interleave_top" : "interleave_bottom";
+  const std::string words = "-f lavfi -i testsrc2=size=64x48:rate=50 -frames:v " + std::to_string(kFrames) +
+                            " -vf format=gray,tinterlace=" + mode + ",setfield=" + first +
+                            "ff,format=gray,fps=25 " + codec + " " + name;
+  test::make(scratch, words);
+}
+
+class InterlacedVideo : public testing::Test {
+ protected:
+  [[nodiscard]] std::vector<std::vector<std::byte>> read(const std::string& name, Interlaced wish) const {
+    ClipOptions options;
+    options.interlaced = wish;
+    return read_all(*open_test_clip(scratch_ / name, options));
+  }
+  // What ffmpeg's command makes of it.
+  [[nodiscard]] std::string by_ffmpeg(const std::string& name, const std::string& filter) const {
+    test::make(scratch_, "-i " + name + " " + filter + " -f rawvideo -pix_fmt gray out.raw");
+    return test::read_file(scratch_ / "out.raw");
+  }
+  Scratch scratch_;
+};
+
+std::string joined(const std::vector<std::vector<std::byte>>& rasters) {
+  std::string bytes;
+  for (const auto& raster : rasters)
+    bytes.append(reinterpret_cast<const char*>(raster.data()), raster.size());
+  return bytes;
+}
+
+TEST_F(InterlacedVideo, IsRefusedWithTheWayOut) {
+  NEEDS_FFMPEG();
+  const std::vector<std::tuple<char, std::string, std::string, std::string>> clips{
+      {'t', "-c:v ffv1", "t.mkv", "t.mkv: it is interlaced, top field first"},
+      {'b', "-c:v ffv1", "b.mkv", "b.mkv: it is interlaced, bottom field first"},
+      {'t', "-f yuv4mpegpipe -pix_fmt gray", "t.y4m", "t.y4m: it is interlaced, top field first"},
+      {'t', "-c:v mpeg2video -flags +ilme+ildct -pix_fmt yuv420p -q:v 2", "t.mpg",
+       "is interlaced, top field first"},
+      {'b', "-c:v libx264 -flags +ilme+ildct -x264opts bff=1 -pix_fmt yuv420p", "b.mp4",
+       "is interlaced, bottom field first"}};
+  for (const auto& [first, codec, name, part] : clips) {
+    SCOPED_TRACE(name);
+    make_interlaced(scratch_, first, codec, name);
+    try {
+      read_all(*open_test_clip(scratch_ / name));
+      FAIL() << "it was read";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+      EXPECT_EQ(error.settings(), std::vector{Setting::deinterlace});
+    }
+  }
+}
+
+TEST_F(InterlacedVideo, IsTakenAsItIsWhereThatIsAsked) {
+  NEEDS_FFMPEG();
+  make_interlaced(scratch_, 't', "-c:v ffv1", "t.mkv");
+  EXPECT_EQ(joined(read("t.mkv", Interlaced::ignored)), by_ffmpeg("t.mkv", ""));
+}
+
+TEST_F(InterlacedVideo, BecomesWhatFfmpegMakesOfIt) {
+  NEEDS_FFMPEG();
+  for (const char first : {'t', 'b'}) {
+    SCOPED_TRACE(first);
+    make_interlaced(scratch_, first, "-c:v ffv1", "a.mkv");
+    const std::string frames = joined(read("a.mkv", Interlaced::frames)),
+                      fields = joined(read("a.mkv", Interlaced::fields));
+    EXPECT_EQ(frames.size(), kShape.pixel_count() * kFrames);
+    EXPECT_EQ(fields.size(), kShape.pixel_count() * kFrames * 2);
+    EXPECT_TRUE(frames == by_ffmpeg("a.mkv", "-vf bwdif=mode=send_frame"));
+    EXPECT_TRUE(fields == by_ffmpeg("a.mkv", "-vf bwdif=mode=send_field"));
+    // Frames as they are combs.
+    EXPECT_FALSE(frames == joined(read("a.mkv", Interlaced::ignored)));
+  }
+}
+
+TEST_F(InterlacedVideo, OfFieldsRunsTwiceAsFast) {
+  NEEDS_FFMPEG();
+  make_interlaced(scratch_, 't', "-c:v ffv1", "t.mkv");
+  for (const auto& [wish, rate, count] :
+       {std::tuple(Interlaced::frames, 25, kFrames), std::tuple(Interlaced::fields, 50, 2 * kFrames)}) {
+    ClipOptions options;
+    options.interlaced = wish;
+    const auto clip = open_test_clip(scratch_ / "t.mkv", options);
+    EXPECT_EQ(clip->info().sample_count, static_cast<std::uint64_t>(count));
+    EXPECT_EQ(timeline_of("", clip->info(), options, clip->info().sample_count).rate(), (Rational{rate, 1}));
+    EXPECT_NE(clip->info().facts.back().text.find("top field first"), std::string::npos);
+  }
+  // Where a file only says so, nothing is lost: nothing moves, and every picture is every other.
+  test::make(scratch_,
+             "-f lavfi -i color=c=0x808080:size=64x48:rate=25 -frames:v 3 -vf format=gray,setfield=tff "
+             "-c:v ffv1 still.mkv");
+  const auto still = read("still.mkv", Interlaced::fields);
+  ASSERT_EQ(still.size(), 6u);
+  for (const auto& raster : still) EXPECT_TRUE(raster == read("still.mkv", Interlaced::ignored)[0]);
+}
+
+TEST_F(InterlacedVideo, OfSixteenBitsAndColourIsDeinterlaced) {
+  NEEDS_FFMPEG();
+  for (const auto& [pixels, bytes] :
+       {std::pair("gray16le", 2u), std::pair("yuv422p10le", 6u), std::pair("gbrp", 3u)}) {
+    SCOPED_TRACE(pixels);
+    test::make(scratch_, std::string("-f lavfi -i testsrc2=size=64x48:rate=25 -frames:v 3 -vf format=") +
+                             pixels + ",setfield=tff -c:v ffv1 -level 3 a.mkv");
+    const auto rasters = read("a.mkv", Interlaced::frames);
+    ASSERT_EQ(rasters.size(), 3u);
+    EXPECT_EQ(rasters[0].size(), kShape.pixel_count() * bytes);
+  }
+}
+
+TEST(Deinterlacing, IsStatedInWords) {
+  EXPECT_EQ(parse_deinterlacing("frames"), Interlaced::frames);
+  EXPECT_EQ(parse_deinterlacing("fields"), Interlaced::fields);
+  EXPECT_EQ(parse_deinterlacing("no"), Interlaced::ignored);
+  EXPECT_THROW(static_cast<void>(parse_deinterlacing("yes")), UsageError);
+}
+
+}  // namespace
+}  // namespace nutik
