@@ -35,6 +35,7 @@ struct StillPixels {
   double variance = 0;
   double code = 0;
   std::uint64_t count = 0;
+  double beside = 0, below = 0;  // sums
 };
 
 // The mean variance of pixels that vary alike, without those that vary far more: from their median on, the
@@ -51,11 +52,14 @@ StillPixels still_pixels(std::span<const PixelNoise> group, double degrees) {
     const std::uint64_t before = still.count;
     const double limit = outlier * std::max(still.variance, kRoundingVariance);
     double sum = 0, codes = 0;
+    still.beside = still.below = 0;
     still.count = 0;
     for (const PixelNoise& pixel : group) {
       if (pixel.variance > limit) continue;
       sum += pixel.variance;
       codes += pixel.code;
+      still.beside += pixel.beside;
+      still.below += pixel.below;
       ++still.count;
     }
     if (still.count == 0) return still;
@@ -194,6 +198,9 @@ void NoiseEstimator::add_points(ChannelPoints& channel, std::vector<PixelNoise> 
     const StillPixels still = still_pixels(group, degrees);
     if (still.count == 0) return;
     channel.still_pixels += still.count;
+    channel.variance += static_cast<double>(still.count) * std::max(still.variance, kRoundingVariance);
+    channel.beside += still.beside;
+    channel.below += still.below;
     const double uncertainty = 1 / std::sqrt(2.0 * degrees * static_cast<double>(still.count));
     const double sd = std::sqrt(std::max(still.variance, kRoundingVariance));
     channel.points.push_back({{still.code, sd, still.count}, uncertainty});
@@ -242,7 +249,8 @@ NoiseEstimate NoiseEstimator::estimate() const {
     }
     estimate.noise.channels.push_back(std::move(noise));
     estimate.channels.push_back(
-        {fit.misfit, static_cast<double>(channel.still_pixels) / static_cast<double>(channel.pixels)});
+        {fit.misfit, static_cast<double>(channel.still_pixels) / static_cast<double>(channel.pixels),
+         std::max(channel.beside, channel.below) / channel.variance});
   }
   return estimate;
 }

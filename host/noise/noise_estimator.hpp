@@ -24,6 +24,9 @@ struct NoiseEstimate {
   struct Channel {
     double misfit = 0;       // of the sensor's curve: SensorFit::misfit
     double still_share = 0;  // of the pixels, over all windows: those that points were measured on
+    // Of what these stray by, the share that a pixel kNeighbourPixels beside or below strays by, too: of light on a
+    // sensor nearly nothing, of what moves, or of what a codec left, much.
+    double shared = 0;
   };
 
   CameraNoise noise;
@@ -71,6 +74,7 @@ class NoiseEstimator {
     std::vector<MeasuredPoint> points;
     std::uint64_t still_pixels = 0;
     std::uint64_t pixels = 0;
+    double variance = 0, beside = 0, below = 0;  // sums over still pixels
   };
 
   void add_points(ChannelPoints& channel, std::vector<PixelNoise> pixels, double degrees) const;

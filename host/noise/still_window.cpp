@@ -1,5 +1,6 @@
 #include "noise/still_window.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -45,6 +46,8 @@ StillWindow::StillWindow(const CaptureFormat& capture) : format_(capture) {
       pixels_.push_back(std::uint64_t{y} * shape.width + x);
     }
   }
+  columns_ = (shape.width + step - 1) / step;
+  neighbour_ = std::max<std::size_t>(1, kNeighbourPixels / step);
   codes_.resize(kWindowSamples * shape.channels * pixels_.size());
 }
 
@@ -101,22 +104,31 @@ std::vector<PixelNoise> StillWindow::measure(std::uint32_t channel) const {
   for (float& mean : means) mean /= static_cast<float>(samples_);
 
   // A second difference of independent noise has six times its variance.
-  std::vector<float> before(count), last(count), squares(count);
+  std::vector<float> before(count), last(count), bends(count);
+  std::vector<PixelNoise> noise(count);
+  const std::size_t down = neighbour_ * columns_;
   for (std::uint32_t k = 0; k < samples_; ++k) {
     const std::uint16_t* codes = plane(k, channel);
     const Flicker common = flicker(codes, means);
     const auto offset = static_cast<float>(common.offset), gain = static_cast<float>(common.gain);
     for (std::size_t i = 0; i < count; ++i) {
       const float rest = codes[i] - means[i] - offset - gain * means[i];
-      const float bend = rest - 2 * last[i] + before[i];
-      if (k >= 2) squares[i] += bend * bend;
+      bends[i] = rest - 2 * last[i] + before[i];
       before[i] = last[i];
       last[i] = rest;
     }
+    if (k < 2) continue;
+    for (std::size_t i = 0; i < count; ++i) {
+      noise[i].variance += bends[i] * bends[i];
+      if (i % columns_ + neighbour_ < columns_) noise[i].beside += bends[i] * bends[i + neighbour_];
+      if (i + down < count) noise[i].below += bends[i] * bends[i + down];
+    }
   }
   const auto scale = static_cast<float>(1 / (6.0 * (samples_ - 2)));
-  std::vector<PixelNoise> noise(count);
-  for (std::size_t i = 0; i < count; ++i) noise[i] = {means[i], squares[i] * scale};
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [code, variance, beside, below] = noise[i];
+    noise[i] = {means[i], variance * scale, beside * scale, below * scale};
+  }
   return noise;
 }
 

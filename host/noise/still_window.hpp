@@ -20,9 +20,16 @@ namespace nutik {
 inline constexpr std::uint32_t kWindowSamples = 16;
 inline constexpr std::uint32_t kLeastWindowSamples = 3;  // of a second difference
 
+// Noise of neighbours is a pixel's own; what lies further apart than what a camera makes of a mosaic reaches has
+// nothing in common, unless something moves.
+inline constexpr std::uint32_t kNeighbourPixels = 4;
+
 struct PixelNoise {
   float code = 0;      // mean
   float variance = 0;  // codes²
+  // Covariances with the pixel that lies kNeighbourPixels to the right, and below: 0 where there is none.
+  float beside = 0;
+  float below = 0;
 };
 
 class StillWindow {
@@ -64,6 +71,8 @@ class StillWindow {
   CaptureFormat format_;
   std::vector<std::uint64_t> pixels_;  // that are looked at, row-major
   std::vector<std::uint16_t> codes_;   // [sample][channel][pixel looked at]
+  std::size_t columns_ = 0;            // of these
+  std::size_t neighbour_ = 1;          // how many of them are kNeighbourPixels
   std::uint32_t samples_ = 0;
 };
 

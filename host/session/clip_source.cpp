@@ -48,6 +48,13 @@ CameraNoise own_noise(ClipSource& source, const ClipOptions& options, const Memo
   source.clip.reset();
   source.clip = open_clip(source.request.path, options);
   const NoiseEstimate estimate = estimator.estimate();
+  if (is_no_noise(estimate)) {
+    throw InputError(format(
+        "{}: no noise can be measured on it: pixels {} apart stray alike, as noise of a sensor does not. "
+        "Something moves in most of the picture, or a codec took its noise away. Take the noise of a still "
+        "scene, filmed with the same settings and not compressed, or a tolerance",
+        source.request.path.string(), kNeighbourPixels));
+  }
   for (const std::string& note : noise_notes(estimate)) source.notes.emplace_back(note);
   return estimate.noise;
 }

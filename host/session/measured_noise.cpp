@@ -12,6 +12,7 @@ namespace nutik {
 namespace {
 
 constexpr double kLittleStill = 0.5;  // of the pixels
+constexpr double kMuchShared = 0.25;  // of a variance
 
 std::string format_text(const CaptureFormat& format) {
   return nutik::format("{} x {} pixels, {} channel{}, {} bits, white code {}, transfer {}",
@@ -61,6 +62,11 @@ NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOption
   return estimator->estimate();
 }
 
+bool is_no_noise(const NoiseEstimate& estimate) {
+  return std::ranges::any_of(estimate.channels,
+                             [](const auto& channel) { return channel.shared > kMuchShared; });
+}
+
 std::vector<std::string> noise_notes(const NoiseEstimate& estimate) {
   std::vector<std::string> notes;
   double still = 1;
@@ -74,6 +80,13 @@ std::vector<std::string> noise_notes(const NoiseEstimate& estimate) {
         format("only {:.0f} % of the pixels are still: what moves slowly may count as noise; a still "
                "scene tells more",
                100 * still));
+  }
+  if (is_no_noise(estimate)) {
+    notes.push_back(
+        format("pixels {} apart stray alike, as noise of a sensor does not: something moves in most of the "
+               "picture, or "
+               "a codec took the noise away; what moves leaves rings where codes are held within it",
+               kNeighbourPixels));
   }
   if (!is_sensor) {
     notes.push_back(

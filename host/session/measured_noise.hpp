@@ -30,6 +30,10 @@ inline constexpr std::uint64_t kSamplesOfOwnNoise = 256;
 [[nodiscard]] NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOptions& options,
                                           std::uint64_t most_samples, std::vector<Note>& clip_notes);
 
+// Whether so much of what pixels stray by is common to those that lie apart that it is no noise: something moves in most
+// of the picture, or a codec took its noise away. Holding codes within it would leave rings round what moves.
+[[nodiscard]] bool is_no_noise(const NoiseEstimate& estimate);
+
 // What a person should know of an estimate: that little was still, or that no sensor's curve fits; empty where
 // it is as it should be.
 [[nodiscard]] std::vector<std::string> noise_notes(const NoiseEstimate& estimate);

@@ -19,12 +19,13 @@ class Noise : public testing::Test {
  protected:
   // Writes stills of a wedge, brighter or darker, into a folder.
   void film(const std::string& folder, double brightest, std::uint64_t seed, std::uint64_t count = 40,
-            std::uint32_t white = 255) {
+            std::uint32_t white = 255, const test::Light& light = {}) {
     test::NoisyCamera camera;
     camera.format.shape = {120, 64, 3};
     camera.format.white_code = white;
     camera.format.code_bytes = white > 255 ? 2 : 1;
-    const test::Rasters rasters = test::film(camera, count, seed, test::still_wedge(camera, 0.02, brightest));
+    const test::Rasters rasters =
+        test::film(camera, count, seed, light ? light : test::still_wedge(camera, 0.02, brightest));
     std::filesystem::create_directory(scratch_ / folder);
     for (std::size_t k = 0; k < rasters.size(); ++k) {
       Picture still(camera.format.shape, white > 255 ? ValueType::code16 : ValueType::code8, white);
@@ -131,6 +132,19 @@ TEST_F(Noise, SaysThatItsTransferIsAnother) {
                  "nutik noise 0\nwhite 255\ntransfer linear\nchannel red\ncurve points\npoint 9 2 1\n"
                  "channel green\ncurve points\npoint 9 2 1\nchannel blue\ncurve points\npoint 9 2 1\n");
   EXPECT_EQ(said("points.noise", "srgb"), "");
+}
+
+// A wave passes through the whole picture: every pixel strays alike, and no pixel for itself.
+TEST_F(Noise, IsNotMeasuredOnWhatMoves) {
+  film("pour", 0, 7, 20, 255, [](std::uint64_t value, std::uint64_t sample) {
+    const auto x = static_cast<double>(value / 3 % 120), y = static_cast<double>(value / 360);
+    return 0.4 + 0.1 * std::sin(0.2 * x + 0.1 * y + 2.1 * static_cast<double>(sample));
+  });
+  expect_refused({"encode", "-f", "100", "--noise", "auto", "pour", "a.tik"}, 3,
+                 "pour: no noise can be measured on it: pixels 4 apart stray alike");
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "a.tik"));
+  const auto measured = run({"noise", "pour", "-o", "pour.noise"});
+  EXPECT_NE(measured.err.find("note: pixels 4 apart stray alike"), std::string::npos) << measured.err;
 }
 
 TEST_F(Noise, SaysWhatCannotBe) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -128,6 +129,60 @@ TEST(NoiseEstimator, LeavesOutWhatMovesFlickersOrIsStuck) {
     EXPECT_GT(channel.still_share, 0.75);
     EXPECT_LT(channel.still_share, 0.97);
   }
+}
+
+// Waves of 16 to 40 pixels that pass through the whole picture, as in a liquid that is poured.
+double waves(double x, double y, double k) {
+  double sum = 0;
+  for (int j = 0; j < 7; ++j) {
+    const double length = 16 + 4 * j, angle = 0.9 * j;
+    const double along = (x * std::cos(angle) + y * std::sin(angle)) / length;
+    sum += std::sin(2 * std::numbers::pi * along + 1.7 * j + (0.7 + 0.3 * j) * k);
+  }
+  return sum;
+}
+
+// All pixels vary alike, so that nearly all of them count as still; but what they vary by is common to neighbours.
+TEST(NoiseEstimator, TellsWhatMovesFromNoise) {
+  const NoisyCamera camera = camera_of(1, 255, Transfer::srgb());
+  const std::uint64_t width = camera.format.shape.width;
+  const Light scene = [&](std::uint64_t value, std::uint64_t sample) {
+    return 0.4 + 0.03 * waves(static_cast<double>(value % width), static_cast<double>(value / width),
+                              static_cast<double>(sample));
+  };
+  const NoiseEstimate moving = estimate(camera, film(camera, 32, 3, scene));
+  EXPECT_GT(moving.channels[0].still_share, 0.9);
+  EXPECT_GT(moving.channels[0].shared, 0.5);
+}
+
+// Of n independent pairs a covariance strays by the variance / sqrt(n): here by less than 0.2 %, and shares of a scene
+// with a moving ball by a little more.
+TEST(NoiseEstimator, SharesNothingInNoise) {
+  for (const std::uint32_t channels : {1u, 3u}) {
+    const NoisyCamera camera = camera_of(channels, 255, Transfer::srgb());
+    const NoiseEstimate still = estimate(camera, film(camera, 32, 9, still_wedge(camera, 0.0, 1.0)));
+    for (const NoiseEstimate::Channel& channel : still.channels) EXPECT_LT(std::fabs(channel.shared), 0.02);
+  }
+}
+
+// What a camera interpolates of a mosaic is common to pixels up to two apart, and is noise all the same.
+TEST(NoiseEstimator, SharesNothingInInterpolatedNoise) {
+  const NoisyCamera camera = camera_of(1, 65'535, Transfer::linear());
+  const Shape& shape = camera.format.shape;
+  Rasters rasters = film(camera, 32, 11, still_wedge(camera, 0.1, 0.9));
+  for (auto& raster : rasters) {
+    auto* codes = reinterpret_cast<std::uint16_t*>(raster.data());
+    const std::vector<std::uint16_t> mosaic(codes, codes + shape.pixel_count());
+    for (std::uint32_t y = 1; y + 1 < shape.height; ++y) {
+      for (std::uint32_t x = 1; x + 1 < shape.width; ++x) {
+        if ((x + y) % 2 == 0) continue;  // measured
+        const std::size_t i = std::size_t{y} * shape.width + x;
+        codes[i] = static_cast<std::uint16_t>(
+            (mosaic[i - 1] + mosaic[i + 1] + mosaic[i - shape.width] + mosaic[i + shape.width] + 2) / 4);
+      }
+    }
+  }
+  EXPECT_LT(estimate(camera, rasters).channels[0].shared, 0.05);
 }
 
 TEST(NoiseEstimator, JoinsSeveralExposures) {
