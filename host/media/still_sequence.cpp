@@ -22,14 +22,15 @@ namespace {
 namespace fs = std::filesystem;
 
 // Extensions and the kind of file that they stand for.
-constexpr std::array<std::array<std::string_view, 2>, 8> kKinds{{{".png", "PNG"},
+constexpr std::array<std::array<std::string_view, 2>, 9> kKinds{{{".png", "PNG"},
                                                                  {".tif", "TIFF"},
                                                                  {".tiff", "TIFF"},
                                                                  {".pgm", "Netpbm"},
                                                                  {".ppm", "Netpbm"},
                                                                  {".pnm", "Netpbm"},
                                                                  {".jpg", "JPEG"},
-                                                                 {".jpeg", "JPEG"}}};
+                                                                 {".jpeg", "JPEG"},
+                                                                 {".dng", "DNG"}}};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -88,7 +89,7 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
   std::erase_if(files, [](const fs::path& file) { return kind_of(file).empty(); });
   if (files.empty()) {
     throw InputError(
-        format("{}: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg)", folder.string()));
+        format("{}: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg, .dng)", folder.string()));
   }
   // Two kinds are two sequences, or a sequence and something else: neither may be guessed at.
   for (const fs::path& file : files) {

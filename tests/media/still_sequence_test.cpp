@@ -120,7 +120,7 @@ TEST_F(StillSequence, LeavesOtherFilesToOthers) {
   EXPECT_EQ(listed("clip.mp4"), "no stills");
   EXPECT_EQ(listed("absent.mp4"), "no stills");
   EXPECT_EQ(listed("still.png"), "still.png");
-  expect_refused("empty", {"empty: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg)"});
+  expect_refused("empty", {"empty: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg, .dng)"});
 }
 
 TEST_F(StillSequence, NamesWhatIsMadeFromIt) {

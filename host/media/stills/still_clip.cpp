@@ -9,6 +9,7 @@
 #include "capture/format.hpp"
 #include "media/extension.hpp"
 #include "media/netpbm.hpp"
+#include "media/stills/raw_file.hpp"
 #include "media/stills/stills.hpp"
 #include "media/tiff_reader.hpp"
 #include "system/mapped_file.hpp"
@@ -159,6 +160,11 @@ class StillClip final : public Clip {
           "another, 4095 for 12 bits",
           std::vector{Setting::white_code});
     }
+    if (is_raw(pages_.front().file) && pages_.size() > 1) {
+      info_.notes.emplace_back(
+          format("black level, white balance and colours of all pictures are those that {} states",
+                 pages_.front().file.filename().string()));
+    }
     info_.timing = timing;
     info_.sample_count = pages_.size();
   }
@@ -176,9 +182,11 @@ class StillClip final : public Clip {
   }
 
  private:
+  static bool is_raw(const std::filesystem::path& file) { return has_extension(file, {".dng"}); }
   static bool is_tiff(const std::filesystem::path& file) { return has_extension(file, {".tif", ".tiff"}); }
 
   Still read_page(const Page& page) {
+    if (is_raw(page.file)) return still_of(raws_.develop(page.file), 65'535);
     if (has_extension(page.file, {".pgm", ".ppm", ".pnm"})) return read_netpbm_still(page.file);
     if (!is_tiff(page.file)) return read_with_opencv(page.file);
     if (page.number == 1) tiff_.emplace(page.file);
@@ -205,6 +213,7 @@ class StillClip final : public Clip {
   }
 
   std::vector<Page> pages_;
+  RawDeveloper raws_;
   std::optional<TiffReader> tiff_;  // of the page read last
   Still first_;
   std::optional<std::uint32_t> first_maximum_;
