@@ -1,6 +1,7 @@
 // Develops a picture: sums to codes, tiles to rows of pixels.
 //
-//   in:    sums [tile][channel][plane][64] of expose.cl
+//   in:    sums [tile][channel][plane][64] of expose.cl; with NUTIK_BLENDS a tile that functions share has sums for each
+//          of them, and what share of each pixel they have, of 65535
 //   out:   an interleaved raster of width × height pixels: codes, or the sums as they are, which the host turns
 //          into light
 //   items: as in expose.cl; NUTIK_LANES pixels at a time, at most a row of a tile. A tile's padding is not
@@ -13,6 +14,10 @@
 #endif
 #ifndef NUTIK_RASTER_BYTES
 #error "NUTIK_RASTER_BYTES is not set: bytes of a code in the picture, 1 or 2"
+#endif
+
+#ifndef NUTIK_BLENDS
+#error "NUTIK_BLENDS is not set: 1 where functions share pixels, else 0"
 #endif
 
 #define NUTIK_TILE_SIDE 8
@@ -55,25 +60,35 @@ NUTIK_INLINE uints codes_of(const Lights light, global const Threshold* restrict
   return guess + one_where_reached(thresholds, guess + 1, light);
 }
 
-NUTIK_INLINE void write_codes(const Pixels* pixels, global const Sum* restrict sums,
-                              global const LightScale* restrict scales,
-                              global const uchar* restrict function_of_lane,
+NUTIK_INLINE void write_codes(const Pixels* pixels, const Lights* lights,
                               global const Threshold* restrict thresholds, global const uint* restrict guesses,
                               const uint guess_count, global raster_code* restrict raster) {
-  const uints functions = NUTIK_TO_UINTS(
-      NUTIK_LOAD(function_of_lane + pixels->tile * NUTIK_TILE_PIXELS + pixels->lane));
   uint codes[NUTIK_CHANNELS][NUTIK_LANES];
 #pragma unroll
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
-    const Sums sum = load_sums(sums + sums_at(pixels->tile, NUTIK_CHANNELS, channel, pixels->lane));
-    const Lights light = developed(sum, scales, functions, thresholds[0]);
-    NUTIK_STORE(codes_of(light, thresholds, guesses, guess_count), codes[channel]);
+    NUTIK_STORE(codes_of(lights[channel], thresholds, guesses, guess_count), codes[channel]);
   }
   for (uint i = 0; i < pixels->count; ++i) {
 #pragma unroll
     for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
       raster[(pixels->raster + i) * NUTIK_CHANNELS + channel] = (raster_code)codes[channel][i];
     }
+  }
+}
+
+NUTIK_INLINE uints functions_of(global const uchar* restrict function_of_lane, const size_t tile, const uint lane) {
+  return NUTIK_TO_UINTS(NUTIK_LOAD(function_of_lane + tile * NUTIK_TILE_PIXELS + lane));
+}
+
+// Light of a tile's sums, by channel, between 0 and white.
+NUTIK_INLINE void develop_tile(const size_t tile, const uint lane, global const Sum* restrict sums,
+                               global const LightScale* restrict scales,
+                               global const uchar* restrict function_of_lane, const Threshold white, Lights* lights) {
+  const uints functions = functions_of(function_of_lane, tile, lane);
+#pragma unroll
+  for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
+    const Sums sum = load_sums(sums + sums_at(tile, NUTIK_CHANNELS, channel, lane));
+    lights[channel] = developed(sum, scales, functions, white);
   }
 }
 
@@ -101,6 +116,49 @@ kernel void develop_sums(global const Sum* restrict sums, const uint width, cons
   }
 }
 
+#if NUTIK_BLENDS
+// The same of the sums of the tiles `first` to `last`, each one function's: Σ share · light.
+NUTIK_INLINE void blend_tiles(const size_t first, const size_t last, const uint lane, global const Sum* restrict sums,
+                              global const LightScale* restrict blend_scales,
+                              global const uchar* restrict function_of_lane, global const ushort* restrict shares,
+                              const uint blend_shift, const Threshold white, Lights* lights) {
+#pragma unroll
+  for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
+    Sums blend = zero();
+    for (size_t tile = first; tile < last; ++tile) {
+      const Weights share = share_weights(NUTIK_TO_UINTS(NUTIK_LOAD(shares + tile * NUTIK_TILE_PIXELS + lane)));
+      const Sums sum = load_sums(sums + sums_at(tile, NUTIK_CHANNELS, channel, lane));
+      blend = add_product(share, unbounded(sum, blend_scales, functions_of(function_of_lane, tile, lane)), blend);
+    }
+    lights[channel] = blended(blend, blend_shift, white);
+  }
+}
+
+// first_tiles: of each tile of the band, and one more, where its sums begin.
+kernel void blend_codes(global const Sum* restrict sums, global const LightScale* restrict scales,
+                        global const LightScale* restrict blend_scales,
+                        global const uchar* restrict function_of_lane, global const uint* restrict first_tiles,
+                        global const ushort* restrict shares, const uint blend_shift, const uint width,
+                        const uint height, const ulong tile_count, global const Threshold* restrict thresholds,
+                        global const uint* restrict guesses, const uint guess_count,
+                        global raster_code* restrict raster) {
+  const Item item = item_of(get_global_id(0), tile_count);
+  for (size_t tile = item.first_tile; tile < item.last_tile; ++tile) {
+    const size_t first = first_tiles[tile], last = first_tiles[tile + 1];
+    for (uint lane = item.lane; lane < item.lane + NUTIK_ITEM_PIXELS; lane += NUTIK_LANES) {
+      const Pixels pixels = pixels_at(tile, lane, width, height);
+      Lights lights[NUTIK_CHANNELS];
+      if (last == first + 1) {
+        develop_tile(first, lane, sums, scales, function_of_lane, thresholds[0], lights);
+      } else {
+        blend_tiles(first, last, lane, sums, blend_scales, function_of_lane, shares, blend_shift, thresholds[0],
+                    lights);
+      }
+      write_codes(&pixels, lights, thresholds, guesses, guess_count, raster);
+    }
+  }
+}
+#else
 kernel void develop_codes(global const Sum* restrict sums, global const LightScale* restrict scales,
                           global const uchar* restrict function_of_lane, const uint width,
                           const uint height, const ulong tile_count,
@@ -110,7 +168,10 @@ kernel void develop_codes(global const Sum* restrict sums, global const LightSca
   for (size_t tile = item.first_tile; tile < item.last_tile; ++tile) {
     for (uint lane = item.lane; lane < item.lane + NUTIK_ITEM_PIXELS; lane += NUTIK_LANES) {
       const Pixels pixels = pixels_at(tile, lane, width, height);
-      write_codes(&pixels, sums, scales, function_of_lane, thresholds, guesses, guess_count, raster);
+      Lights lights[NUTIK_CHANNELS];
+      develop_tile(tile, lane, sums, scales, function_of_lane, thresholds[0], lights);
+      write_codes(&pixels, lights, thresholds, guesses, guess_count, raster);
     }
   }
 }
+#endif

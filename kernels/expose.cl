@@ -1,8 +1,8 @@
 // Exposes pixels: the integral of light times gain, from change records and boundary tables.
 //
-//   in:    a chunk of blocks (layout: host/imev/block.hpp), the packed tables; of a band of the picture, from its
-//          tile `first_tile` on, each pixel's function. Tiles are numbered within the band, `columns` to a row; in a
-//          block's directory `skipped_columns` more lie between rows
+//   in:    a chunk of blocks (layout: host/imev/block.hpp), the packed tables; of a band of the picture its tiles, each
+//          with its number in the picture, and each pixel's function. A tile whose pixels several functions share is
+//          there once for each of them
 //   out:   sums [tile][channel][plane][64]: Σ_k v_k w_k so far, in scaled gain; added to what is there,
 //          or stored where `first` is set
 //   items: see items.clh
@@ -26,11 +26,11 @@ NUTIK_INLINE void add_sums(global Sum* restrict sums, const size_t tile, const u
 kernel void expose(global const uchar* restrict chunk, global const BlockEntry* restrict blocks,
                    const uint block_count, global const SampleSpan* restrict spans,
                    global const Weight* restrict weights, global const Weight* restrict boundaries,
-                   const uint function_count, global const ushort* restrict function_of_tile,
+                   const uint function_count, global const uint* restrict tiles,
+                   global const ushort* restrict function_of_tile,
                    global const uchar* restrict function_of_lane,
                    global const Light* restrict transfer, global Sum* restrict sums,
-                   const ulong first_tile, const ulong tile_count, const uint columns,
-                   const uint skipped_columns, const uint first) {
+                   const ulong tile_count, const uint first) {
   const Item item = item_of(get_global_id(0), tile_count);
   const uint lane = item.lane;
 
@@ -41,7 +41,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
     const BlockEntry entry = blocks[b];
     const bool is_start = first && b == 0;
     global const uchar* payload = chunk + entry.payload_offset;
-    global const TileEntry* directory = (global const TileEntry*)payload + first_tile;
+    global const TileEntry* directory = (global const TileEntry*)payload;
     global const SampleSpan* block_spans = spans + entry.span_row * function_count;
     Block block;
     block.sample_count = entry.sample_count;
@@ -50,8 +50,6 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
     block.boundaries = boundaries + entry.table_row * function_count;
 
     for (size_t tile = item.first_tile; tile < item.last_tile; ++tile) {
-      // Whole rows need no division, which costs as much as a still tile's light.
-      const size_t in_picture = skipped_columns == 0 ? tile : tile + tile / columns * skipped_columns;
       Region region;
 #if NUTIK_ITEM_PIXELS == 1
       region.is_uniform = true;
@@ -69,7 +67,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
         block.first = block_spans[region.function].first;
         block.last = block_spans[region.function].last;
         if (block.first < block.last) {
-          expose_tile(payload, directory[in_picture], lane, &block, &region, transfer, sums_of_block);
+          expose_tile(payload, directory[tiles[tile]], lane, &block, &region, transfer, sums_of_block);
         } else if (!is_start) {
           continue;
         }
@@ -78,7 +76,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
         block.first = 0;
         block.last = entry.sample_count;
         region.functions = function_of_lane + tile * NUTIK_TILE_PIXELS + lane;
-        expose_tile(payload, directory[in_picture], lane, &block, &region, transfer, sums_of_block);
+        expose_tile(payload, directory[tiles[tile]], lane, &block, &region, transfer, sums_of_block);
       }
       add_sums(sums, tile, lane, sums_of_block, is_start);
     }

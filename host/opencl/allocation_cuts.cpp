@@ -1,6 +1,7 @@
 #include "opencl/allocation_cuts.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "capture/format.hpp"
 #include "opencl/kernel_layout.hpp"
@@ -13,13 +14,20 @@ std::uint64_t sums_bytes(std::uint64_t tile_count, std::uint32_t channels, Preci
 }
 
 std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle, Precision precision,
-                              const DeviceInfo& device, std::uint64_t most_bytes) {
+                              const DeviceInfo& device, std::uint64_t most_bytes,
+                              std::span<const MixedTile> mixed) {
   const TileGrid grid(shape);
   const std::uint32_t left = rectangle.x / kTileSide;
   const std::uint32_t top = rectangle.y / kTileSide;
   const std::uint32_t columns = (rectangle.x + rectangle.width - 1) / kTileSide + 1 - left;
   const std::uint32_t rows = (rectangle.y + rectangle.height - 1) / kTileSide + 1 - top;
-  const std::uint64_t row_bytes = sums_bytes(columns, shape.channels, precision);
+  std::vector<std::uint64_t> sum_tiles(rows, columns);  // by row of tiles
+  for (const MixedTile& tile : mixed) {
+    const std::uint32_t row = tile.tile / grid.columns(), column = tile.tile % grid.columns();
+    if (row < top || row >= top + rows || column < left || column >= left + columns) continue;
+    sum_tiles[row - top] += tile.regions.size() - 1;
+  }
+  const std::uint64_t row_bytes = sums_bytes(std::ranges::max(sum_tiles), shape.channels, precision);
   if (device.largest_allocation_bytes < row_bytes) {
     throw too_large(device, row_bytes,
                     format("a row of tiles of a picture {} pixels wide, in {} precision,",
@@ -45,7 +53,9 @@ std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle, Pr
                      grid.columns() - columns,
                      first_row,
                      first_column,
-                     {width, height, shape.channels}});
+                     {width, height, shape.channels},
+                     std::accumulate(sum_tiles.begin() + (row - top), sum_tiles.begin() + (row - top + count),
+                                     std::uint64_t{0})});
   }
   return bands;
 }

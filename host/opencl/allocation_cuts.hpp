@@ -1,6 +1,6 @@
 // How an exposure is cut so that no buffer is larger than the device allocates at a time.
 //
-//   in:      a picture's shape or a plan's tables, an arithmetic, the device
+//   in:      a picture's shape and what of it is mixed, or a plan's tables, an arithmetic, the device
 //   out:     bands: rows of tiles, whole or cut to what a rectangle needs, whose sums fit
 //            slices: planned blocks in a row, whose tables fit
 //   always:  one band and one slice where everything fits, which is usual
@@ -14,13 +14,14 @@
 //            └─────────┴──────────┴─────────┴─────────
 //
 // Payloads come in chunks (block_feed.hpp), which end where a slice does. Chunks hold all tiles of their blocks,
-// so a kernel finds a tile by its number in the picture (Band::first_tile, skipped_columns); everything else that it
+// so a kernel finds a tile by its number in the picture; everything else that it
 // reads and writes is the band's or the slice's own, and numbered from there. However it is cut, each pixel's sum is
 // made of the same blocks in the same order: the picture is the same to the last bit.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -40,6 +41,7 @@ struct Band {
   std::uint32_t first_row;        // of pixels, in the picture
   std::uint32_t first_column;     // likewise
   Shape shape;
+  std::uint64_t sum_tiles;  // whose sums it has: a mixed tile counts once for each of its functions
   friend bool operator==(const Band&, const Band&) = default;
 
   // Tile `tile` of the band, in the picture.
@@ -60,11 +62,12 @@ struct TableSlice {
 [[nodiscard]] std::uint64_t sums_bytes(std::uint64_t tile_count, std::uint32_t channels, Precision precision);
 
 // The bands of the tiles that a rectangle of a picture meets, from top to bottom, all but the last of the same
-// height. A band's sums take no less than its raster or its function of each pixel; they take at most `most_bytes`, or
-// are of one row of tiles. Throws DeviceError where not even one row fits.
+// height. A band's sums take no less than its raster, or its function or share of each pixel; they take at most
+// `most_bytes`, or are of one row of tiles. Throws DeviceError where not even one row fits.
 [[nodiscard]] std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle,
                                             Precision precision, const DeviceInfo& device,
-                                            std::uint64_t most_bytes = ~std::uint64_t{0});
+                                            std::uint64_t most_bytes = ~std::uint64_t{0},
+                                            std::span<const MixedTile> mixed = {});
 
 // The slices of a plan in time order; none of a plan without blocks. Weights and boundaries of a slice take at most
 // `most_bytes` each, or are of one block. Throws DeviceError where the table of a single block does not fit.

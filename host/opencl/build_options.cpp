@@ -32,13 +32,14 @@ std::string expose_options(const Work& work, const CaptureFormat& capture, const
       work.shape.item_tiles, work.shape.lanes);
 }
 
-std::string develop_options(const Work& work, const CaptureFormat& capture, const OutputFormat& output) {
+std::string develop_options(const Work& work, const CaptureFormat& capture, const OutputFormat& output,
+                            bool blends) {
   const std::size_t raster_bytes = holds_codes(output.type) ? value_bytes(output.type) : 1;
   return format(
       "{} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} -DNUTIK_LANES={} "
-      "-DNUTIK_RASTER_BYTES={}",
+      "-DNUTIK_RASTER_BYTES={} -DNUTIK_BLENDS={}",
       common_options(work, capture), work.shape.item_pixels, work.shape.item_tiles,
-      std::min(work.shape.lanes, kTileSide), raster_bytes);
+      std::min(work.shape.lanes, kTileSide), raster_bytes, blends ? 1 : 0);
 }
 
 }  // namespace nutik

@@ -21,7 +21,8 @@ struct Work {
 
 [[nodiscard]] std::string expose_options(const Work& work, const CaptureFormat& capture,
                                          const char* light_kind);
+// `blends`: where functions share pixels.
 [[nodiscard]] std::string develop_options(const Work& work, const CaptureFormat& capture,
-                                          const OutputFormat& output);
+                                          const OutputFormat& output, bool blends);
 
 }  // namespace nutik

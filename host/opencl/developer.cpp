@@ -12,10 +12,19 @@ using DevelopSumsKernel = cl::KernelFunctor<cl::Buffer, cl_uint, cl_uint, cl_ulo
 using DevelopCodesKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_ulong,
                                              cl::Buffer, cl::Buffer, cl_uint, cl::Buffer>;
 
+using BlendCodesKernel =
+    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint,
+                      cl_uint, cl_uint, cl_ulong, cl::Buffer, cl::Buffer, cl_uint, cl::Buffer>;
+
 // Of sums that are developed at a time where they become light. So many rows of tiles begin where devices let a part
 // of a buffer begin: at a multiple of 4096 bytes.
 constexpr std::uint64_t kPartBytes = 4 << 20;
 constexpr std::uint32_t kPartRows = 16;
+
+// The first of some rows of a band, counted in it.
+std::uint64_t first_tile_of(const Band& band, const Band& rows) {
+  return std::uint64_t{(rows.first_row - band.first_row) / kTileSide} * band.columns;
+}
 
 // Whether a value has the first code or the last.
 bool has_end_code(std::span<const std::byte> codes, ValueType type, std::uint32_t white_code) {
@@ -65,7 +74,6 @@ void Developer::counted_codes(const ExposedBand& exposed) {
 // at a time, it takes next to nothing.
 template <typename Visit>
 void Developer::for_each_part(const ExposedBand& exposed, ValueType type, Visit visit) {
-  DevelopSumsKernel kernel(program_, "develop_sums");
   const std::uint64_t row_bytes = sums_bytes(exposed.band.columns, shape_.channels, work_.precision);
   const auto all_rows = static_cast<std::uint32_t>(exposed.band.tile_count / exposed.band.columns);
   const auto rows_at_once =
@@ -76,30 +84,69 @@ void Developer::for_each_part(const ExposedBand& exposed, ValueType type, Visit 
     band.tile_count = std::uint64_t{rows} * band.columns;
     band.first_row += row * kTileSide;
     band.shape.height = std::min(rows * kTileSide, exposed.band.shape.height - row * kTileSide);
-    cl::Buffer sums = exposed.sums;
-    cl_buffer_region region{row * row_bytes, rows * row_bytes};
-    if (rows < all_rows) sums = sums.createSubBuffer(CL_MEM_READ_ONLY, CL_BUFFER_CREATE_TYPE_REGION, &region);
     const Rectangle part = part_in(band);
-    Bytes of_sums(std::uint64_t{part.width} * part.height * shape_.channels * sum_bytes(work_.precision));
-    develop_band(band, part, of_sums, [&](const cl::Buffer& raster) {
-      return kernel(items(queue_, work_.shape, band.tile_count), sums, band.shape.width, band.shape.height,
-                    band.tile_count, raster);
-    });
     Picture picture({part.width, part.height, shape_.channels}, type, output_.white_code);
-    store_light(plan_, part, work_.precision, of_sums, picture);
+    if (exposed.map.host->is_mixed()) {
+      blend_rows(exposed, band, part, picture);
+    } else {
+      develop_rows(exposed, band, part, picture);
+    }
     visit(part, picture);
   }
 }
 
+// The light of some rows of tiles of a band: sums become a raster on the device, and light here.
+void Developer::develop_rows(const ExposedBand& exposed, const Band& rows, const Rectangle& part,
+                             Picture& picture) {
+  DevelopSumsKernel kernel(program_, "develop_sums");
+  const std::uint64_t tile_bytes = sums_bytes(1, shape_.channels, work_.precision);
+  const std::uint64_t first_tile = first_tile_of(exposed.band, rows);
+  cl::Buffer sums = exposed.sums;
+  cl_buffer_region region{first_tile * tile_bytes, rows.tile_count * tile_bytes};
+  if (rows.tile_count < exposed.band.tile_count) {
+    sums = sums.createSubBuffer(CL_MEM_READ_ONLY, CL_BUFFER_CREATE_TYPE_REGION, &region);
+  }
+  Bytes of_sums(std::uint64_t{part.width} * part.height * shape_.channels * sum_bytes(work_.precision));
+  develop_band(rows, part, of_sums, [&](const cl::Buffer& raster) {
+    return kernel(items(queue_, work_.shape, rows.tile_count), sums, rows.shape.width, rows.shape.height,
+                  rows.tile_count, raster);
+  });
+  store_light(plan_, part, work_.precision, of_sums, picture);
+}
+
+// The same where tiles are mixed: what comes from the device are sums of tiles.
+void Developer::blend_rows(const ExposedBand& exposed, const Band& rows, const Rectangle& part,
+                           Picture& picture) {
+  const FunctionMap& map = *exposed.map.host;
+  const std::uint64_t first_tile = first_tile_of(exposed.band, rows);
+  const TilesOfBand tiles{first_tile, first_tile + rows.tile_count};
+  const std::uint64_t tile_bytes = sums_bytes(1, shape_.channels, work_.precision);
+  const std::uint64_t first = map.first_of[tiles.first], last = map.first_of[tiles.last];
+  Bytes sums((last - first) * tile_bytes);
+  queue_.enqueueReadBuffer(exposed.sums, CL_TRUE, first * tile_bytes, sums.size(), sums.data());
+  blend_light(plan_, map, tiles, work_.precision, sums, part, picture);
+}
+
 void Developer::codes(const ExposedBand& exposed, const DeviceCodes& tables) {
   const cl::Buffer scales = memory_.upload(light_scales(plan_, work_.precision));
-  DevelopCodesKernel kernel(program_, "develop_codes");
   const Band& band = exposed.band;
   const Rectangle part = part_in(band);
+  const cl::EnqueueArgs tiles = items(queue_, work_.shape, band.tile_count);
+  if (exposed.map.host->is_mixed()) {
+    BlendCodesKernel kernel(program_, "blend_codes");
+    const cl::Buffer where_blended = memory_.upload(blend_scales(plan_, work_.precision));
+    develop_band(band, part, rows_of(part), [&](const cl::Buffer& raster) {
+      return kernel(tiles, exposed.sums, scales, where_blended, exposed.map.of_lane, exposed.map.first_of,
+                    exposed.map.shares, blend_shift(plan_, work_.precision), band.shape.width,
+                    band.shape.height, band.tile_count, tables.thresholds, tables.guesses, tables.guess_count,
+                    raster);
+    });
+    return;
+  }
+  DevelopCodesKernel kernel(program_, "develop_codes");
   develop_band(band, part, rows_of(part), [&](const cl::Buffer& raster) {
-    return kernel(items(queue_, work_.shape, band.tile_count), exposed.sums, scales, exposed.function_of_lane,
-                  band.shape.width, band.shape.height, band.tile_count, tables.thresholds, tables.guesses,
-                  tables.guess_count, raster);
+    return kernel(tiles, exposed.sums, scales, exposed.map.of_lane, band.shape.width, band.shape.height,
+                  band.tile_count, tables.thresholds, tables.guesses, tables.guess_count, raster);
   });
 }
 

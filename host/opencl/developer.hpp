@@ -23,15 +23,13 @@ namespace nutik {
 // A band on the device.
 struct ExposedBand {
   Band band;
-  cl::Buffer function_of_lane;  // function_map.hpp: the band's part
-  cl::Buffer function_of_tile;
-  cl::Buffer sums;  // Σ_k v_k w_k of every pixel, tile-major; none until the band is exposed
-  std::shared_ptr<const std::vector<std::uint16_t>> host_function_of_tile;
+  DeviceMap map;
+  cl::Buffer sums;  // Σ_k v_k w_k of every pixel, tile by tile as in the map; none until the band is exposed
 };
 
 class Developer {
  public:
-  // `program` is kernels/develop.cl built for the picture. All that is given must live as long.
+  // `program` is kernels/develop.cl built for the picture: with blending if the plan's mask is soft. All that is given must live as long.
   Developer(const Work& work, const RenderPlan& plan, const OutputFormat& output, const Rectangle& rectangle,
             cl::Program program, cl::CommandQueue queue, KernelConstants& constants, DeviceMemory& memory)
       : work_(work),
@@ -59,6 +57,8 @@ class Developer {
   void codes(const ExposedBand& exposed, const DeviceCodes& tables);
   template <typename Visit>
   void for_each_part(const ExposedBand& exposed, ValueType type, Visit visit);
+  void develop_rows(const ExposedBand& exposed, const Band& rows, const Rectangle& part, Picture& picture);
+  void blend_rows(const ExposedBand& exposed, const Band& rows, const Rectangle& part, Picture& picture);
   [[nodiscard]] std::span<std::byte> rows_of(const Rectangle& part);
   [[nodiscard]] Rectangle part_in(const Band& band) const;
   template <typename Launch>

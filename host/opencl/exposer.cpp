@@ -9,9 +9,9 @@
 namespace nutik {
 namespace {
 
-using ExposeKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer,
-                                       cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong,
-                                       cl_ulong, cl_uint, cl_uint, cl_uint>;
+using ExposeKernel =
+    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint,
+                      cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong, cl_uint>;
 
 // Nothing is read from a capture any more when its exposure ends, however it does.
 class StoppedAtEnd {
@@ -60,7 +60,7 @@ void Exposer::expose(std::span<ExposedBand> bands, const RenderControl& control,
     const DeviceMemory::Scope sums_scope(memory_);
     for (ExposedBand& each : exposed) {
       each.sums = memory_.allocate(
-          sums_bytes(each.band.tile_count, plan_.capture.shape.channels, work_.precision), CL_MEM_READ_WRITE);
+          sums_bytes(each.band.sum_tiles, plan_.capture.shape.channels, work_.precision), CL_MEM_READ_WRITE);
     }
     sum_up(exposed, slices, control);
     throw_if_cancelled(control);
@@ -120,11 +120,10 @@ void Exposer::launch(const BlockFeed::Chunk& chunk, const SliceTables& tables,
     for (const ExposedBand& exposed : bands) {
       const Band& band = exposed.band;
       const cl::Event event =
-          kernel(items(device_.queue, work_.shape, band.tile_count), chunk.payload, entries,
+          kernel(items(device_.queue, work_.shape, band.sum_tiles), chunk.payload, entries,
                  static_cast<cl_uint>(part.size()), tables.spans, tables.weights, tables.boundaries,
-                 static_cast<cl_uint>(plan_.function_count()), exposed.function_of_tile,
-                 exposed.function_of_lane, light_, exposed.sums, band.first_tile, band.tile_count,
-                 band.columns, band.skipped_columns, is_first ? 1u : 0u);
+                 static_cast<cl_uint>(plan_.function_count()), exposed.map.tiles, exposed.map.of_tile,
+                 exposed.map.of_lane, light_, exposed.sums, band.sum_tiles, is_first ? 1u : 0u);
       event.wait();
       const std::optional<double> took_ms = milliseconds(event);
       statistics_.expose_ms += took_ms.value_or(0.0);

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "opencl/function_map.hpp"
 #include "opencl/light_source.hpp"
 #include "render/fixed_scale.hpp"
 
@@ -43,10 +42,23 @@ const DeviceMap& KernelConstants::map(const std::shared_ptr<const MaskMap>& map,
     return *kept;
   }
   FunctionMap functions = map_functions(*map, band);
-  const cl::Buffer of_lane = memory.upload(functions.of_lane), of_tile = memory.upload(functions.of_tile);
-  const DeviceMap& made =
-      maps_.keep({map, band, of_lane, of_tile,
-                  std::make_shared<const std::vector<std::uint16_t>>(std::move(functions.of_tile))});
+  DeviceMap on_device{map,
+                      band,
+                      memory.upload(functions.tiles),
+                      memory.upload(functions.of_lane),
+                      memory.upload(functions.of_tile),
+                      {},
+                      {},
+                      nullptr,
+                      functions.bytes()};
+  if (functions.is_mixed()) {
+    on_device.first_of = memory.upload(functions.first_of);
+    on_device.shares = memory.upload(functions.shares);
+  } else {
+    functions.of_lane = {};
+  }
+  on_device.host = std::make_shared<const FunctionMap>(std::move(functions));
+  const DeviceMap& made = maps_.keep(std::move(on_device));
   written_bytes += made.bytes();
   return made;
 }

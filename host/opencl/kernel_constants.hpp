@@ -10,6 +10,7 @@
 
 #include "opencl/allocation_cuts.hpp"
 #include "opencl/device_memory.hpp"
+#include "opencl/function_map.hpp"
 #include "opencl/kernel_tables.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/recent.hpp"
@@ -48,12 +49,13 @@ struct DeviceCodes {
 struct DeviceMap {
   std::shared_ptr<const MaskMap> map;
   Band band;
+  cl::Buffer tiles;
   cl::Buffer of_lane;
   cl::Buffer of_tile;
-  std::shared_ptr<const std::vector<std::uint16_t>> host_of_tile;
-  [[nodiscard]] std::uint64_t bytes() const {
-    return band.tile_count * (kTilePixels + sizeof(std::uint16_t));
-  }
+  cl::Buffer first_of, shares;              // where tiles are mixed, else none
+  std::shared_ptr<const FunctionMap> host;  // without of_lane where no tile is mixed
+  std::uint64_t device_bytes = 0;
+  [[nodiscard]] std::uint64_t bytes() const { return device_bytes; }
 };
 
 class KernelConstants {

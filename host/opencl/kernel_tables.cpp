@@ -68,11 +68,12 @@ Bytes floating_scales(const RenderPlan& plan) {
   });
 }
 
-Bytes fixed_scales(const RenderPlan& plan) {
-  const FixedScale scale = fixed_scale(plan);
+// Onto the scale of the thresholds, or so many bits below it.
+Bytes fixed_scales(const RenderPlan& plan, const FixedScale& scale, int bits_below) {
   std::vector<FixedLightScale> scales;
   for (std::size_t f = 0; f < plan.functions.size(); ++f) {
-    const int left = plan.functions[f].summary.exponent - scale.exponents[f] + kCodeBits - scale.light_bits;
+    const int left =
+        plan.functions[f].summary.exponent - scale.exponents[f] + kCodeBits - scale.light_bits - bits_below;
     scales.push_back({static_cast<std::uint32_t>(std::clamp(left, 0, 63)),
                       static_cast<std::uint32_t>(std::clamp(-left, 0, 63))});
   }
@@ -158,6 +159,12 @@ double sum_at(std::span<const std::byte> raster, Precision precision, std::uint6
   return 0.0;
 }
 
+// Of sums by tiles, whose planes lie one behind the other: value `at` of the first plane.
+double tile_sum(std::span<const std::byte> sums, Precision precision, std::uint64_t at) {
+  if (precision != Precision::compensated) return sum_at(sums, precision, at);
+  return sum_at(sums, Precision::single_, at) + sum_at(sums, Precision::single_, at + kTilePixels);
+}
+
 template <typename Value>
 void store_as(const RenderPlan& plan, const Rectangle& rectangle, Precision precision,
               std::span<const std::byte> raster, std::span<Value> values) {
@@ -172,6 +179,50 @@ void store_as(const RenderPlan& plan, const Rectangle& rectangle, Precision prec
       for (std::uint32_t channel = 0; channel < channels; ++channel, ++i) {
         values[i] = static_cast<Value>(sum_at(raster, precision, i) * light.factor * light.exponent.first *
                                        light.exponent.second);
+      }
+    }
+  });
+}
+
+template <typename Value>
+void blend_as(const RenderPlan& plan, const FunctionMap& map, const TilesOfBand& tiles, Precision precision,
+              std::span<const std::byte> sums, const Rectangle& part, std::span<Value> values) {
+  constexpr std::size_t kTilesAtOnce = 64;
+  const std::vector<Factors> factors = factors_of(plan, precision);
+  const std::uint32_t channels = plan.capture.shape.channels;
+  const std::uint32_t plane_values = (precision == Precision::compensated ? 2 : 1) * kTilePixels;
+  const TileGrid grid(plan.capture.shape);
+  const std::uint32_t first_sums = map.first_of[tiles.first];
+  // Of a channel of a pixel, from the sums of one function.
+  const auto light_of = [&](std::uint32_t tile, std::uint32_t lane, std::uint32_t channel) {
+    const Factors& light = factors[map.of_lane[std::size_t{tile} * kTilePixels + lane]];
+    const std::uint64_t at = (std::uint64_t{tile - first_sums} * channels + channel) * plane_values + lane;
+    return tile_sum(sums, precision, at) * light.factor * light.exponent.first * light.exponent.second;
+  };
+  const auto blended = [&](std::uint32_t first, std::uint32_t last, std::uint32_t lane,
+                           std::uint32_t channel) {
+    if (last == first + 1) return light_of(first, lane, channel);
+    double sum = 0.0;
+    for (std::uint32_t tile = first; tile < last; ++tile) {
+      const std::uint16_t share = map.shares[std::size_t{tile} * kTilePixels + lane];
+      if (share == kWholeShare) return light_of(tile, lane, channel);
+      if (share != 0) sum += share * light_of(tile, lane, channel);
+    }
+    return sum / kWholeShare;
+  };
+  parallel_for((tiles.last - tiles.first + kTilesAtOnce - 1) / kTilesAtOnce, [&](std::uint64_t run) {
+    const std::size_t from = tiles.first + run * kTilesAtOnce, to = std::min(tiles.last, from + kTilesAtOnce);
+    for (std::size_t tile = from; tile < to; ++tile) {
+      const std::uint32_t first = map.first_of[tile], last = map.first_of[tile + 1];
+      const std::uint32_t left = map.tiles[first] % grid.columns() * kTileSide;
+      const std::uint32_t top = map.tiles[first] / grid.columns() * kTileSide;
+      for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
+        const std::uint32_t x = left + lane % kTileSide - part.x, y = top + lane / kTileSide - part.y;
+        if (x >= part.width || y >= part.height) continue;  // unsigned: also what lies before it
+        Value* const pixel = &values[(std::uint64_t{y} * part.width + x) * channels];
+        for (std::uint32_t channel = 0; channel < channels; ++channel) {
+          pixel[channel] = static_cast<Value>(blended(first, last, lane, channel));
+        }
       }
     }
   });
@@ -223,7 +274,17 @@ Bytes light_scales(const RenderPlan& plan, Precision precision) {
     case Precision::double_: return floating_scales<double>(plan);
     case Precision::fixed: break;
   }
-  return fixed_scales(plan);
+  return fixed_scales(plan, fixed_scale(plan), 0);
+}
+
+Bytes blend_scales(const RenderPlan& plan, Precision precision) {
+  if (precision != Precision::fixed) return light_scales(plan, precision);
+  const FixedScale scale = fixed_scale(plan);
+  return fixed_scales(plan, scale, scale.blend_shift);
+}
+
+std::uint32_t blend_shift(const RenderPlan& plan, Precision precision) {
+  return precision == Precision::fixed ? static_cast<std::uint32_t>(fixed_scale(plan).blend_shift) : 0;
 }
 
 CodeKey CodeKey::of(const RenderPlan& plan, Precision precision, const OutputFormat& output) {
@@ -246,6 +307,16 @@ void store_light(const RenderPlan& plan, const Rectangle& rectangle, Precision p
     store_as(plan, rectangle, precision, raster, picture.values<float>());
   } else {
     store_as(plan, rectangle, precision, raster, picture.values<double>());
+  }
+}
+
+void blend_light(const RenderPlan& plan, const FunctionMap& map, const TilesOfBand& tiles,
+                 Precision precision, std::span<const std::byte> sums, const Rectangle& part,
+                 Picture& picture) {
+  if (picture.type == ValueType::light32) {
+    blend_as(plan, map, tiles, precision, sums, part, picture.values<float>());
+  } else {
+    blend_as(plan, map, tiles, precision, sums, part, picture.values<double>());
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "opencl/allocation_cuts.hpp"
+#include "opencl/function_map.hpp"
 #include "opencl/light_source.hpp"
 #include "render/fixed_scale.hpp"
 #include "render/output_format.hpp"
@@ -44,6 +45,10 @@ void pack_column(const GainTable& table, const RenderPlan& plan, const TableSlic
 // What brings sums onto the scale of the thresholds: LightScale [function].
 [[nodiscard]] Bytes light_scales(const RenderPlan& plan, Precision precision);
 
+// The same where lights are blended, and by how many bits to the left that scale is brought onto the thresholds'.
+[[nodiscard]] Bytes blend_scales(const RenderPlan& plan, Precision precision);
+[[nodiscard]] std::uint32_t blend_shift(const RenderPlan& plan, Precision precision);
+
 // Whether kernels make the codes of a picture. The host makes those that show light below 0, or that have other
 // primaries than the capture.
 [[nodiscard]] inline bool kernels_make_codes(const CaptureFormat& capture, const OutputFormat& output) {
@@ -73,5 +78,17 @@ struct CodeTables {
 // light32 or light64. Done by the host in double, so that it is the same for every device.
 void store_light(const RenderPlan& plan, const Rectangle& rectangle, Precision precision,
                  std::span<const std::byte> raster, Picture& picture);
+
+// Tiles [first, last) of a band.
+struct TilesOfBand {
+  std::size_t first;
+  std::size_t last;
+};
+
+// The light of what `part` of the picture has of these tiles, from their sums as expose.cl writes them: of a mixed pixel
+// by its shares. In double, as above.
+void blend_light(const RenderPlan& plan, const FunctionMap& map, const TilesOfBand& tiles,
+                 Precision precision, std::span<const std::byte> sums, const Rectangle& part,
+                 Picture& picture);
 
 }  // namespace nutik

@@ -17,9 +17,10 @@ const std::vector<std::uint16_t>& NeededTiles::functions() const {
   if (functions_.empty()) {
     functions_.assign(TileGrid(plan_.capture.shape).tile_count(), kUnread);
     for (const ExposedBand& exposed : bands_) {
-      const std::vector<std::uint16_t>& of_tile = *exposed.host_function_of_tile;
-      for (std::uint64_t tile = 0; tile < of_tile.size(); ++tile) {
-        functions_[exposed.band.tile_in_picture(tile)] = of_tile[tile];
+      const FunctionMap& map = *exposed.map.host;
+      for (std::uint64_t tile = 0; tile < map.tiles.size(); ++tile) {
+        std::uint16_t& function = functions_[map.tiles[tile]];
+        function = function == kUnread ? map.of_tile[tile] : kMixedFunctions;
       }
     }
   }

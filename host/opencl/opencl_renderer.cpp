@@ -211,7 +211,7 @@ class OpenClRenderer::Implementation {
       verdict = verdicts_.find(programs);
     }
     if (!verdict) {
-      verdict = self_test(plan.capture, precision, output,
+      verdict = self_test(plan.capture, precision, output, !plan.map->mixed.empty(),
                           [&](const RenderPlan& scene, CaptureSource& source, const OutputFormat& format) {
                             const Rectangle whole = Rectangle::whole(scene.capture.shape);
                             Rendered rendered;
@@ -254,7 +254,7 @@ class OpenClRenderer::Implementation {
     for (ExposedBand& each : bands) {
       const DeviceMemory::Scope scope(memory);
       const std::uint64_t bytes =
-          sums_bytes(each.band.tile_count, plan.capture.shape.channels, work.precision);
+          sums_bytes(each.band.sum_tiles, plan.capture.shape.channels, work.precision);
       each.sums = memory.allocate(bytes, CL_MEM_READ_WRITE);
       queue_.enqueueFillBuffer(each.sums, std::uint8_t{0}, 0, bytes);
       develop(each);
@@ -293,7 +293,7 @@ class OpenClRenderer::Implementation {
 
   [[nodiscard]] std::string options_of_developing(const Work& work, const RenderPlan& plan,
                                                   const OutputFormat& output) const {
-    return develop_options(work, plan.capture, output) + fault_of(work.precision);
+    return develop_options(work, plan.capture, output, !plan.map->mixed.empty()) + fault_of(work.precision);
   }
 
   cl::Program expose_program(const Work& work, const RenderPlan& plan, const DeviceLight& light) {
@@ -308,10 +308,10 @@ class OpenClRenderer::Implementation {
   std::vector<ExposedBand> bands_of(const Work& work, const Request& request, DeviceMemory& memory,
                                     RenderStatistics& statistics) {
     std::vector<ExposedBand> bands;
-    for (const Band& band :
-         cut_picture(request.plan.capture.shape, request.rectangle, work.precision, info_, kBandBytes)) {
+    for (const Band& band : cut_picture(request.plan.capture.shape, request.rectangle, work.precision, info_,
+                                        kBandBytes, request.plan.map->mixed_tiles)) {
       const DeviceMap& map = constants_->map(request.plan.map, band, memory, statistics.map_bytes_written);
-      bands.push_back({band, map.of_lane, map.of_tile, {}, map.host_of_tile});
+      bands.push_back({band, map, {}});
     }
     return bands;
   }

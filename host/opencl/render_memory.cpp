@@ -31,6 +31,16 @@ RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, co
     block_rows = std::max(block_rows, planned.row_count());
   }
   MemoryNeeds needs = picture_needs(picture, type, sum_bytes(precision));
+  if (const MaskMap& map = *plan.map; !map.mixed.empty()) {
+    // Sums of a tile for each of its functions but one, which counts above, on the device and where they are blended;
+    // functions and shares of pixels here and there.
+    constexpr std::uint64_t kMapBytes = 2 * (1 + sizeof(std::uint16_t)) * kTilePixels;
+    const std::uint64_t tiles = TileGrid(plan.capture.shape).tile_count();
+    std::uint64_t more_tiles = 0;
+    for (const MixedTile& tile : map.mixed_tiles) more_tiles += tile.regions.size() - 1;
+    const std::uint64_t tile_sums = std::uint64_t{picture.channels} * kTilePixels * sum_bytes(precision);
+    needs.add("shares of functions", more_tiles * 2 * tile_sums + (tiles + more_tiles) * kMapBytes);
+  }
   const std::uint64_t least_tables = block_rows * row_bytes(plan, precision);
   needs.add("gain tables of a block", least_tables);
   needs.add("a block", block_bytes);

@@ -75,14 +75,16 @@ class TilesOfAllKinds {
     return {format_, Timeline::constant({1000, 1}, {180, 1}, kSamples), rasters, 260};
   }
 
-  // One function a tile; in the second row of tiles all of them, pixel by pixel.
-  [[nodiscard]] Mask mask() const {
+  // One function a tile; in the second row of tiles all of them, pixel by pixel. A soft one mixes two or three of them in
+  // that row and in the last.
+  [[nodiscard]] Mask mask(bool is_soft) const {
     const Shape& shape = format_.shape;
     Mask mask = Mask::uniform(shape.width, shape.height, 0);
     for (std::uint32_t pixel = 0; pixel < shape.pixel_count(); ++pixel) {
       const std::uint32_t x = pixel % shape.width, y = pixel / shape.width;
       const bool is_mixed = y / kTileSide == 1;
       mask.tags[pixel] = static_cast<std::uint8_t>(is_mixed ? (x + y) % 4 : x / kTileSide % 3);
+      if (is_soft && y / kTileSide % 2 == 1 && mixed(pixel) % 3 > 0) mix(mask, pixel);
     }
     return mask;
   }
@@ -98,6 +100,18 @@ class TilesOfAllKinds {
   }
 
  private:
+  // Shares of the functions behind the first, of any size; the tag keeps the largest.
+  static void mix(Mask& mask, std::uint32_t pixel) {
+    const auto small = static_cast<std::uint16_t>(1 + mixed(pixel + 1) % 20'000);
+    const auto smaller = static_cast<std::uint16_t>(1 + mixed(pixel + 2) % 10'000);
+    const auto most = static_cast<std::uint16_t>(kWholeShare - small - smaller);
+    mask.mixed.add(
+        pixel, pixel % 2 == 0
+                   ? std::vector<Share>{{0, most}, {1, small}, {2, smaller}}
+                   : std::vector<Share>{{1, small}, {3, static_cast<std::uint16_t>(kWholeShare - small)}});
+    mask.tags[pixel] = pixel % 2 == 0 ? 0 : 3;
+  }
+
   static constexpr std::uint32_t kSamples = 300;
 
   CaptureFormat format_;
@@ -142,7 +156,7 @@ std::string fault_text(const Verdict& verdict) {
   return format("{} of {} codes are wrong", verdict.wrong_codes, verdict.codes);
 }
 
-Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFormat& output,
+Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFormat& output, bool is_soft,
                   const RenderScene& render) {
   Verdict verdict;
   ReferenceRenderer reference;
@@ -162,7 +176,7 @@ Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFo
   judge(endless, make_plan(endless, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(1, 1, 0), {}), false);
   const TilesOfAllKinds scene(like);
   MemoryCapture tiles = scene.capture();
-  judge(tiles, make_plan(tiles, TilesOfAllKinds::functions(), scene.mask(), {}),
+  judge(tiles, make_plan(tiles, TilesOfAllKinds::functions(), scene.mask(is_soft), {}),
         kernels_make_codes(like, output));
   return verdict;
 }

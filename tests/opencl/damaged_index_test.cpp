@@ -56,6 +56,7 @@ class OneTile {
 
     std::vector<BlockEntry> blocks{{0, 0, 0, sample_count_, 0}};
     std::vector<SampleSpan> spans{{0, static_cast<std::uint16_t>(sample_count_)}};
+    std::vector<std::uint32_t> tiles{0};
     std::vector<std::uint16_t> of_tile{0};
     std::vector<std::uint8_t> of_lane(kTilePixels, 0);
     std::vector<std::uint64_t> sums(kTilePixels, 0);
@@ -64,12 +65,11 @@ class OneTile {
     };
     const cl::Buffer result = buffer(sums);
     cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint,
-                      cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong, cl_ulong, cl_uint, cl_uint,
-                      cl_uint>
+                      cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong, cl_uint>
         kernel(program_, "expose");
     kernel(cl::EnqueueArgs(queue_, cl::NDRange(8)), buffer(payload), buffer(blocks), 1, buffer(spans),
-           buffer(weights), buffer(boundaries), 1, buffer(of_tile), buffer(of_lane), buffer(sums), result, 0,
-           1, 1, 0, 1);
+           buffer(weights), buffer(boundaries), 1, buffer(tiles), buffer(of_tile), buffer(of_lane),
+           buffer(sums), result, 1, 1);
     queue_.enqueueReadBuffer(result, CL_TRUE, 0, sums.size() * sizeof(std::uint64_t), sums.data());
     return sums;
   }

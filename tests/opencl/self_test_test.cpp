@@ -158,7 +158,7 @@ TEST_F(SelfTest, APictureOfLightDoesNotVouchForCodes) {
 TEST_F(SelfTest, SeesWrongCodes) {
   ReferenceRenderer reference;
   const auto with_codes = [&](std::uint8_t wrong) {
-    return self_test(plan_.capture, Precision::single_, kCodes,
+    return self_test(plan_.capture, Precision::single_, kCodes, false,
                      [&](const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
                        Picture picture = reference.render(plan, source, output).picture;
                        if (holds_codes(output.type)) picture.values<std::uint8_t>()[100] += wrong;
@@ -169,6 +169,24 @@ TEST_F(SelfTest, SeesWrongCodes) {
   const Verdict verdict = with_codes(3);
   EXPECT_FALSE(verdict.is_right);
   EXPECT_EQ(fault_text(verdict), "1 of 1247 codes are wrong");
+}
+
+// Kernels that blend are tested on a scene that needs them to, and have a verdict of their own.
+TEST_F(SelfTest, SeesWrongBlending) {
+  OpenClOptions blending = options();
+  blending.precision = Precision::single_;
+  EXPECT_TRUE(render(blending).passed_self_test);
+  Mask soft = Mask::uniform(24, 16, 0);
+  soft.mixed.add(7, std::array<Share, 2>{{{0, 60'000}, {1, 5'535}}});
+  const GainFunction gain = GainFunction::boxcar(0, 200'000'000);
+  plan_ = make_plan(capture_, {{0, gain}, {1, gain}}, soft, {});
+  EXPECT_TRUE(render(blending).passed_self_test);
+  EXPECT_EQ(cached(".txt").size(), 2u);
+  blending.cache_folder.clear();
+  blending.faults[Precision::single_] = "-DNUTIK_SHARE_UNIT=1.53e-5f";  // 1/65359
+  EXPECT_FALSE(render(blending).passed_self_test);
+  plan_ = plan(capture_);
+  EXPECT_TRUE(render(blending).passed_self_test) << "nothing is blended";
 }
 
 // What blocks are made of, summed over them.
@@ -202,7 +220,7 @@ TEST_F(SelfTest, ScenesHaveTilesOfEveryKind) {
         for (const PlannedBlock& planned : plan.blocks) contents.add(capture.view(planned.block));
         return reference.render(plan, source, output).picture;
       };
-      EXPECT_TRUE(self_test(like, Precision::double_, {ValueType::code16, 4095}, render).is_right);
+      EXPECT_TRUE(self_test(like, Precision::double_, {ValueType::code16, 4095}, false, render).is_right);
       EXPECT_GT(std::min({contents.still, contents.rows, contents.dense, contents.records}), 5u)
           << channels << " " << code_bytes;
       EXPECT_GT(contents.longest_block, 255u);

@@ -13,10 +13,12 @@ import tempfile
 
 TESTS = "Roundings.*:*ExactSums.*:*DamagedIndex.*"
 LIGHT_TESTS = "SinglePrecision.TurnsEveryCodeIntoItsLight"
+BLENDING_TESTS = "SoftMasks.*"
 
 # Name, what the source has, what it gets instead.
 SUM = "  return multiply_add(weights, lights, sums);"
 PAIR_SUM = "  return exact_sum(sum.high, sum.low + (a.low + b.low));"
+SHARE = "  return NUTIK_TO_REALS(shares) * (real)NUTIK_SHARE_UNIT;"
 MUTATIONS = (
     ("floats and doubles: each sum is rounded twice more", SUM,
      "  return multiply_add(weights, lights, sums) * (real)1.1 * (1 / (real)1.1);"),
@@ -47,6 +49,22 @@ MUTATIONS = (
      "    light = multiply_add(light, c, permute(NUTIK_LOAD(coefficients + j * NUTIK_PIECES), piece));",
      "    light = multiply_add(light, c, permute(NUTIK_LOAD(coefficients + j * NUTIK_PIECES), piece)) * 1.1f * "
      "(1 / 1.1f);"),
+    ("blending: doubles' shares are cast to float", SHARE,
+     "  return NUTIK_TO_REALS(NUTIK_CONVERT(float)(NUTIK_TO_REALS(shares) * (real)NUTIK_SHARE_UNIT));"),
+    ("blending: shares are a thousandth too small", SHARE,
+     "  return NUTIK_TO_REALS(shares) * (real)(NUTIK_SHARE_UNIT * 0.999f);"),
+    ("blending: light below 0 counts as none", "  return sums * first * second;",
+     "  return max(sums * first * second, (reals)(0));"),
+    ("blending: pairs forget the low part of light",
+     "  const Lights light = {sums.high * first * second, sums.low * first * second};",
+     "  const Lights light = {sums.high * first * second, (reals)(0)};"),
+    ("blending: pairs forget the low part of shares", "  return add_product(unit, whole, zero());",
+     "  Pairs share = add_product(unit, whole, zero()); share.low = (reals)(0); return share;"),
+    ("blending: whole lights lose 30 bits", "-most, most) << left >> right;", "-most, most) << left >> right >> 30 << 30;"),
+    ("blending: whole shares are of 65536", "  const Lights light = positive / (Lights)(65535);",
+     "  const Lights light = positive >> 16;"),
+    ("blending: one function is left out", "    for (size_t tile = first; tile < last; ++tile) {",
+     "    for (size_t tile = first; tile + 1 < last; ++tile) {"),
     ("an index of rows is not clamped", "  return min(index, sample_count);", "  return index;"),
     ("indices of records are not clamped", "  return min(index, (uints)(sample_count));", "  return index;"),
     ("compilers may fuse what is not written as fused", "#pragma OPENCL FP_CONTRACT OFF",
@@ -60,7 +78,8 @@ def failed_tests(build, folder, mutation):
     if mutation is not None:
         settings |= {"LD_PRELOAD": str(build / "tests/libmutate_kernels.so"), "NUTIK_MUTATE_FROM": mutation[1],
                      "NUTIK_MUTATE_TO": mutation[2]}
-    tests = LIGHT_TESTS if mutation is not None and mutation[0].startswith("light") else TESTS
+    part = mutation[0].split(":")[0] if mutation is not None else ""
+    tests = {"light": LIGHT_TESTS, "blending": BLENDING_TESTS}.get(part, TESTS)
     command = [str(build / "tests/opencl_tests"), f"--gtest_filter={tests}", "--gtest_brief=1"]
     done = subprocess.run(command, env=os.environ | settings, text=True, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, check=False)
