@@ -60,6 +60,10 @@ std::string input_checksum(const fs::path& name) {
   std::vector<fs::path> files = list_stills(path).value_or(std::vector<fs::path>{path});
   if (is_stills_table(path)) files.insert(files.begin(), path);  // the times of its stills
   if (is_photron_clip(path)) files = photron_files(path);
+  return files_checksum(files);
+}
+
+std::string files_checksum(std::span<const fs::path> files) {
   std::uint64_t total = 0;
   for (const fs::path& file : files) total += size_of(file);
   const bool whole = total <= kWholeChecksumBytes;

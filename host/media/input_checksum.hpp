@@ -23,6 +23,8 @@ inline constexpr std::uint64_t kWholeChecksumBytes = 256ull << 20;
 // stills (still_sequence.hpp); a table of stills is the first of its files. Throws InputError where a
 // file cannot be read.
 [[nodiscard]] std::string input_checksum(const std::filesystem::path& path);
+// The same of these files.
+[[nodiscard]] std::string files_checksum(std::span<const std::filesystem::path> files);
 
 // The same of the bytes of one file.
 [[nodiscard]] std::string bytes_checksum(std::span<const std::byte> bytes);

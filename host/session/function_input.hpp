@@ -1,6 +1,9 @@
 // Functions and masks as requests hold them, from what a person names: a file, or `-` for standard input.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,8 +24,17 @@ struct FunctionInput {
 // The same of an input. Throws InputError where it cannot be read, too.
 [[nodiscard]] FunctionInput read_function_input(const std::string& name);
 
-// Throws InputError that says what was found and what is needed (media/mask_reader.hpp).
+// The layers that a name with a number in it stands for, `layer-%d.png`: the files that are there, by mask value. None
+// of a name of one file.
+[[nodiscard]] std::map<std::uint8_t, std::filesystem::path> layer_files(const std::string& name);
+
+// A hard mask. Throws InputError that says what was found and what is needed (media/mask_reader.hpp).
 // Where it is for a `capture` whose size costs nothing to know, a .tik, another size is refused before it is read.
 [[nodiscard]] Mask read_mask_input(const std::string& name, const std::optional<std::string>& capture = {});
+// The same, or one that is made of layers (mask/layers.hpp), of which the tag `rest` gets what they leave.
+[[nodiscard]] Mask read_layered_mask_input(const std::string& name, std::uint8_t rest,
+                                           const std::optional<std::string>& capture = {});
+// A mask, hard or layered, is known by that of its files.
+[[nodiscard]] std::string mask_checksum(const std::string& name);
 
 }  // namespace nutik

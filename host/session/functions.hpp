@@ -1,4 +1,4 @@
-// Gain functions and masks: their files, and what is wrong with them.
+// Gain functions and masks, hard and soft: their files, and what is wrong with them.
 #pragma once
 
 #include "capture/source_text.hpp"
@@ -10,4 +10,6 @@
 #include "exposure/mask_check.hpp"
 #include "exposure/normalization.hpp"
 #include "exposure/shutter_shape.hpp"
+#include "mask/feather.hpp"
+#include "mask/layers.hpp"
 #include "render/render_plan.hpp"

@@ -150,7 +150,8 @@ void InputCheck::check_mask(bool unmapped_is_zero) {
       add({Severity::error, "unmapped_mask_values", name, mistake, {}, {}, {}, {Setting::unmapped}});
     }
   }
-  const MaskFlaws flaws = find_flaws(mask, is_mapped);
+  // Layers are no painted values.
+  const MaskFlaws flaws = mask.is_soft() ? MaskFlaws{} : find_flaws(mask, is_mapped);
   if (!flaws.blended.empty()) add(blended_finding(name, flaws.blended));
   for (auto first = flaws.specks.begin(); first != flaws.specks.end();) {
     const auto last = std::find_if(first, flaws.specks.end(),

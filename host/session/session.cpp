@@ -198,11 +198,14 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   RenderPlan plan = plans_.plan(source, functions, mask, options);
   std::call_once(warmed_up_, [&] { warm_up(source, plan, output); });
   if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());
-  Rendered rendered = within({{"reading the clip", stream_bytes}}, [&](std::uint64_t left) {
-    RenderControl limited = control;
-    limited.memory_bytes = left;
-    return devices_->renderer().render(plan, source, output, limited);
-  });
+  // In the mask and in its map.
+  const std::uint64_t mixed_bytes = 2 * mask.mixed.bytes();
+  Rendered rendered =
+      within({{"reading the clip", stream_bytes}, {"mixed pixels", mixed_bytes}}, [&](std::uint64_t left) {
+        RenderControl limited = control;
+        limited.memory_bytes = left;
+        return devices_->renderer().render(plan, source, output, limited);
+      });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
   if (plan.functions.size() == 1) rendered.picture.exposed_ns = plan.functions.front().summary.support_ns;
   const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;

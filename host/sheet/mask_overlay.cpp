@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "capture/format.hpp"
@@ -40,8 +41,8 @@ std::vector<Tag> tags_of(const Mask& mask) {
   return tags;
 }
 
-// The picture in its own colours where the tag is 0, else in grey with the tag's colour over it, which covers
-// all at the border of a region.
+// The picture in its own colours where the tag is 0, else in grey with the tag's colour over it, which covers all at the
+// border of a region. Where tags share a pixel it is a mixture of these.
 Picture tinted(const Mask& mask, const std::vector<Tag>& tags, const Picture& enlarged, std::uint32_t zoom) {
   std::array<plot::Colour, kMaskValues> colours{};
   for (const Tag& tag : tags) colours[tag.tag] = tag.colour;
@@ -57,17 +58,23 @@ Picture tinted(const Mask& mask, const std::vector<Tag>& tags, const Picture& en
     for (std::uint32_t x = 0; x < width; ++x) {
       const std::size_t pixel = std::size_t{y} * width + x;
       const std::uint8_t tag = tag_at(x, y);
+      const std::span<const Share> shares = mask.mixed.of(std::size_t{y / zoom} * mask.width + x / zoom);
       const bool is_border =
-          (x > 0 && tag_at(x - 1, y) != tag) || (x + 1 < width && tag_at(x + 1, y) != tag) ||
-          (y > 0 && tag_at(x, y - 1) != tag) || (y + 1 < height && tag_at(x, y + 1) != tag);
+          shares.empty() &&
+          ((x > 0 && tag_at(x - 1, y) != tag) || (x + 1 < width && tag_at(x + 1, y) != tag) ||
+           (y > 0 && tag_at(x, y - 1) != tag) || (y + 1 < height && tag_at(x, y + 1) != tag));
       const auto code = [&](std::uint32_t channel) {
         return static_cast<double>(source[pixel * channels + std::min(channel, channels - 1)]);
       };
       const double grey = kLuma[0] * code(0) + kLuma[1] * code(1) + kLuma[2] * code(2);
-      const std::array<double, 3> colour{colours[tag].red, colours[tag].green, colours[tag].blue};
-      for (std::uint32_t channel = 0; channel < 3; ++channel) {
+      const auto shown = [&](std::uint8_t of, std::uint32_t channel) {
+        const std::array<double, 3> colour{colours[of].red, colours[of].green, colours[of].blue};
         const double tint = is_border ? 1.0 : kTint;
-        const double value = tag == 0 ? code(channel) : (1.0 - tint) * grey + tint * 255 * colour[channel];
+        return of == 0 ? code(channel) : (1.0 - tint) * grey + tint * 255 * colour[channel];
+      };
+      for (std::uint32_t channel = 0; channel < 3; ++channel) {
+        double value = shares.empty() ? shown(tag, channel) : 0.0;
+        for (const Share& share : shares) value += shown(share.of, channel) * share.size / kWholeShare;
         codes[pixel * 3 + channel] = static_cast<std::uint8_t>(std::lround(value));
       }
     }

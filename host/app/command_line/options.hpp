@@ -28,7 +28,7 @@ struct Options {
   Value tolerance, codec, tiles, block_samples;
 
   // The exposure, and what is followed or counted: a pixel, or a tag of the mask.
-  Value mask, functions, start, exposure, unmapped, live, pixel, tag;
+  Value mask, feather, functions, start, exposure, unmapped, live, pixel, tag;
   Value shutter, shutter_error, normalize, gain, ev;
 
   // Many exposures: as a series, on a sheet, as a video's frames.

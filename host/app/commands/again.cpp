@@ -7,6 +7,7 @@
 #include "app/text/shell_text.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
+#include "session/function_input.hpp"
 #include "session/functions.hpp"
 #include "session/pictures.hpp"
 #include "system/mapped_file.hpp"
@@ -79,7 +80,7 @@ class RecipeFiles {
   }
 
   static bool is_there(const fs::path& path) {
-    if (fs::exists(path)) return true;
+    if (fs::exists(path) || !layer_files(path.string()).empty()) return true;
     try {
       return list_stills(path).has_value();  // a pattern
     } catch (const InputError&) {
@@ -164,7 +165,7 @@ int run_again(const Options& options) {
     const fs::path here = ".";  // so that a file of the name `auto` is not taken for that word
     command += " --noise " + operand(here / files.find(*recipe->noise, "noise values", folder));
   }
-  if (recipe->mask) command += " -m " + operand(files.find(*recipe->mask, "mask", input_checksum));
+  if (recipe->mask) command += " -m " + operand(files.find(*recipe->mask, "mask", mask_checksum));
   for (const auto& [name, value] : recipe->options)
     command += " " + shell_word("--" + name) + (value.empty() ? "" : " " + shell_word(value));
   command += recipe->renderer == "opencl" ? " --precision " + shell_word(recipe->precision)

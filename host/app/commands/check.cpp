@@ -9,6 +9,7 @@
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/function_input.hpp"
+#include "session/functions.hpp"
 #include "session/input_check.hpp"
 #include "system/input_bytes.hpp"
 
@@ -59,7 +60,15 @@ InputCheck checked_inputs(const Options& options) {
   }
   if (options.mask) {
     const std::string name = input_title(*options.mask);
-    attempt(check, name, "mask_file", [&] { check.add_mask(name, read_mask_input(*options.mask)); });
+    const auto& functions = check.functions();
+    const std::uint8_t first = functions && !functions->file.functions.empty()
+                                   ? functions->file.functions.begin()->first
+                                   : std::uint8_t{0};
+    attempt(check, name, "mask_file", [&] {
+      Mask mask = read_layered_mask_input(*options.mask, first);
+      if (options.feather) static_cast<void>(feathered(mask, Feather::parse(*options.feather)));
+      check.add_mask(name, std::move(mask));
+    });
   }
   if (!options.operands.empty()) {
     const std::string& name = options.operands.front();

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
@@ -7,6 +8,8 @@
 #include "app/requests/requests.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
+#include "session/function_input.hpp"
+#include "session/functions.hpp"
 #include "session/mask_making.hpp"
 #include "session/output_check.hpp"
 #include "session/pictures.hpp"
@@ -24,7 +27,41 @@ struct MaskJob {
   MaskRequest request;
   std::optional<std::string> capture;
   std::filesystem::path output;
+  std::optional<Feather> feather;      // of a soft one, which is written as layers
+  std::optional<NumberedName> layers;  // their names, in the output's folder
+
+  [[nodiscard]] std::filesystem::path layer(std::uint64_t tag) const {
+    return output.parent_path() / layers->with(tag);
+  }
 };
+
+// Layers take the place of a mask.
+void ask_for_layers(MaskJob& job, const Options& options, std::span<const std::string> inputs) {
+  job.feather = Feather::parse(*options.feather);
+  job.layers = NumberedName::parse(job.output.filename().string());
+  if (!job.layers) {
+    throw UsageError(
+        format("a soft mask is written as layers, one for each tag, so its name needs a number, as in {}",
+               (job.output.parent_path() / (job.output.stem().string() + "-%d.png")).string()));
+  }
+  for (std::uint32_t tag = 0; tag < kMaskValues; ++tag)
+    check_output(job.layer(tag), OutputKind::picture, inputs);
+}
+
+// Of the tags that have a share, in 16 bits. A layer of another mask would be read along with them.
+void write_layers(const MaskJob& job, const Mask& mask) {
+  const auto counts = mask.pixels_per_tag();
+  for (const auto& [tag, file] : layer_files(job.output.string())) {
+    if (counts[tag] > 0) continue;
+    throw OutputError(
+        format("{} is there, and M{} has no pixel in this mask: it would be taken for one of its layers. "
+               "Remove it, or choose another name",
+               file.string(), tag));
+  }
+  for (std::size_t tag = 0; tag < counts.size(); ++tag) {
+    if (counts[tag] > 0) write_picture(job.layer(tag), layer_of(mask, static_cast<std::uint8_t>(tag)));
+  }
+}
 
 bool is_mask_name(const std::filesystem::path& path) {
   const std::string extension = picture_extension(path);
@@ -66,7 +103,11 @@ MaskJob job_of(const Options& options) {
     throw UsageError(
         format("{}: masks are written as .pgm or .png, which keep every tag", job.output.string()));
   }
-  check_output(job.output, OutputKind::picture, inputs);
+  if (options.feather) {
+    ask_for_layers(job, options, inputs);
+  } else {
+    check_output(job.output, OutputKind::picture, inputs);
+  }
   if (options.preview) {
     inputs.push_back(job.output.string());
     check_output(*options.preview, OutputKind::picture, inputs);
@@ -117,8 +158,9 @@ std::string pixels_text(std::uint64_t pixels, const Mask& mask) {
                 100.0 * static_cast<double>(pixels) / static_cast<double>(mask.tags.size()));
 }
 
-Answer answer_of(const std::filesystem::path& output, const MadeMask& made) {
+Answer answer_of(const MaskJob& job, const MadeMask& made) {
   const auto& [mask, steps] = made;
+  const std::filesystem::path& output = job.output;
   const auto counts = mask.pixels_per_tag();
   const auto tag_count = kMaskValues - std::count(counts.begin(), counts.end(), 0u);
   Answer answer{{{"mask", output.string()}, {"width", mask.width}, {"height", mask.height}}};
@@ -141,10 +183,16 @@ Answer answer_of(const std::filesystem::path& output, const MadeMask& made) {
         format("  {:<18} {:<5}{}{}", step.name, tags, pixels_text(step.pixel_count, mask), by_codes));
   }
   answer.details.push_back("the mask");
+  if (job.feather) {
+    const std::uint64_t mixed = mask.mixed.pixels().size();
+    answer.json["mixed_pixel_count"] = mixed;
+    answer.details.push_back(format("  {:<18} {:<5}{}", "shared", "", pixels_text(mixed, mask)));
+  }
   answer.json["tags"] = Json::array();
   for (std::size_t tag = 0; tag < counts.size(); ++tag) {
     if (counts[tag] == 0) continue;
     answer.json["tags"].push_back({{"tag", tag}, {"pixel_count", counts[tag]}});
+    if (job.layers) answer.json["tags"].back()["layer"] = job.layer(tag).string();
     if (tag_count > kMostTagsListed) continue;
     answer.details.push_back(format("  {:<18} M{:<4}{}", "", tag, pixels_text(counts[tag], mask)));
   }
@@ -168,17 +216,21 @@ int run_mask(const Options& options) {
                                  {.besides = mask_making_needs, .renders = options.preview.has_value()}));
   }
 
-  const MadeMask made =
-      make_mask(job.request, session ? &session->capture() : nullptr, job.capture.value_or(""));
+  MadeMask made = make_mask(job.request, session ? &session->capture() : nullptr, job.capture.value_or(""));
   for (const StepReport& step : made.steps) {
     if (step.pixel_count == 0) print_warning(format("{} for M{} selects no pixel", step.name, step.tag));
   }
+  if (job.feather) made.mask = feathered(made.mask, *job.feather);
   if (options.preview) {
     const Picture below = backdrop(options, job.request, made.mask, session ? &*session : nullptr);
     write_picture(*options.preview, sheet::mask_overlay(made.mask, below));
   }
-  write_picture(job.output, made.mask.to_picture());
-  tell(options, job.output, answer_of(job.output, made));
+  if (job.layers) {
+    write_layers(job, made.mask);
+  } else {
+    write_picture(job.output, made.mask.to_picture());
+  }
+  tell(options, job.output, answer_of(job, made));
   if (session) print_source(*session, options);
   return 0;
 }

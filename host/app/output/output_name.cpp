@@ -3,6 +3,7 @@
 #include "app/command_line/option_table.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
+#include "session/function_input.hpp"
 #include "session/pictures.hpp"
 #include "system/input_bytes.hpp"
 
@@ -52,7 +53,9 @@ std::vector<std::string> input_files(const Options& options) {
   }
   for (const Option& option : app::options()) {
     const std::string* name = option.reads_file() ? option.stated(options) : nullptr;
-    if (name != nullptr && !is_standard_input(*name) && !option.knows(*name)) inputs.push_back(*name);
+    if (name == nullptr || is_standard_input(*name) || option.knows(*name)) continue;
+    inputs.push_back(*name);
+    for (const auto& [tag, layer] : layer_files(*name)) inputs.push_back(layer.string());
   }
   return inputs;
 }

@@ -10,6 +10,7 @@
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/function_input.hpp"
+#include "session/functions.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {
@@ -56,6 +57,19 @@ double parse_signed_number(std::string_view text, std::string_view option) {
   return *value;
 }
 
+// The mask for these functions, the first of which gets what layers leave.
+Mask exposure_mask(const Options& options, const FunctionSet& functions) {
+  const auto capture = options.operands.empty() ? std::nullopt : std::optional(options.operands.front());
+  Mask mask = read_layered_mask_input(*options.mask, functions.begin()->first, capture);
+  if (!options.feather) return mask;
+  if (!layer_files(*options.mask).empty()) {
+    throw UsageError(
+        format("{} is made of layers, which say themselves how they are blended; leave out --feather",
+               *options.mask));
+  }
+  return feathered(mask, Feather::parse(*options.feather));
+}
+
 // All but when it is exposed.
 ExposureRequest timeless_request(const Options& options) {
   ExposureRequest request;
@@ -63,6 +77,10 @@ ExposureRequest timeless_request(const Options& options) {
   request.live_all = parse_only(options.live, "--live", "all");
   if (options.transfer) request.transfer = Transfer::parse(*options.transfer);
   request.normalization = Normalization::parse(options.normalize.value_or("support"));
+  if (options.feather && !options.mask) {
+    throw UsageError(
+        "--feather blends functions along the edges of a mask; add -m mask.pgm and -k functions.fn");
+  }
   request.gain = brightening(options);
   if (!options.functions) {
     if (options.mask) throw UsageError("a mask goes with gain functions (-k), not with a plain interval");
@@ -83,8 +101,7 @@ ExposureRequest timeless_request(const Options& options) {
   }
   request.gains = functions;
   if (options.mask) {
-    const auto capture = options.operands.empty() ? std::nullopt : std::optional(options.operands.front());
-    request.mask = Shared(CountedMask(read_mask_input(*options.mask, capture)));
+    request.mask = Shared(CountedMask(exposure_mask(options, *functions)));
   }
   return request;
 }

@@ -4,6 +4,7 @@
 
 #include "app/command_line/option_table.hpp"
 #include "session/format.hpp"
+#include "session/function_input.hpp"
 #include "session/pictures.hpp"
 #include "system/input_bytes.hpp"
 
@@ -42,8 +43,7 @@ std::optional<RecipeSources> recipe_sources(const Options& options,
   if (options.functions) recipe.functions = whole_text(*options.functions, ".fn");
   if (options.noise && *options.noise != kAutomaticNoise) recipe.noise = whole_text(*options.noise, ".noise");
   if (options.mask) {
-    recipe.mask =
-        Recipe::Input{known_name(*options.mask, ".pgm"), bytes_checksum(InputBytes(*options.mask).bytes())};
+    recipe.mask = Recipe::Input{known_name(*options.mask, ".pgm"), mask_checksum(*options.mask)};
   }
   for (const Option& option : app::options()) {
     static const std::string kFlag;

@@ -1,0 +1,41 @@
+// Shares of a pixel as whole numbers that add up to kWholeShare.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "exposure/mask.hpp"
+
+namespace nutik {
+
+// What each tag shall have, in parts of what all have together: at least one that is not 0, by increasing tag. Each is
+// rounded down, and what is left goes to those that lost most, of equals to the lowest tag. None that is 0 remains.
+inline std::vector<Share> whole_shares(const std::vector<std::pair<std::uint8_t, double>>& wanted) {
+  double all = 0.0;
+  for (const auto& [tag, part] : wanted) all += part;
+  std::vector<Share> shares;
+  std::vector<std::pair<double, std::size_t>> lost;
+  std::uint32_t left = kWholeShare;
+  for (const auto& [tag, part] : wanted) {
+    const double share = part / all * kWholeShare;
+    const double whole = std::min(std::floor(share), static_cast<double>(left));
+    lost.emplace_back(whole - share, shares.size());  // the most negative first
+    shares.push_back({tag, static_cast<std::uint16_t>(whole)});
+    left -= shares.back().size;
+  }
+  std::ranges::sort(lost);
+  for (std::size_t i = 0; left > 0; i = (i + 1) % lost.size(), --left) ++shares[lost[i].second].size;
+  std::erase_if(shares, [](const Share& share) { return share.size == 0; });
+  return shares;
+}
+
+// Gives a mask's pixel what it has: one tag, or a mixture of them.
+inline void put_shares(Mask& mask, std::uint64_t pixel, const std::vector<Share>& shares) {
+  mask.tags[pixel] = std::ranges::max_element(shares, {}, &Share::size)->of;
+  if (shares.size() > 1) mask.mixed.add(pixel, shares);
+}
+
+}  // namespace nutik
