@@ -1,7 +1,7 @@
 // Develops a picture: sums to codes, tiles to rows of pixels.
 //
-//   in:    sums [tile][channel][plane][64] of expose.cl; with NUTIK_BLENDS a tile that functions share has sums for each
-//          of them, and what share of each pixel they have, of 65535
+//   in:    sums [tile][channel][plane][64] of expose.cl; with NUTIK_BLENDS a tile that functions share has sums for
+//          each of them, and what share of each pixel they have, of 65535
 //   out:   an interleaved raster of width × height pixels: codes, or the sums as they are, which the host turns
 //          into light
 //   items: as in expose.cl; NUTIK_LANES pixels at a time, at most a row of a tile. A tile's padding is not

@@ -29,7 +29,8 @@ struct ExposedBand {
 
 class Developer {
  public:
-  // `program` is kernels/develop.cl built for the picture: with blending if the plan's mask is soft. All that is given must live as long.
+  // `program` is kernels/develop.cl built for the picture: with blending if the plan's mask is soft. All that is given
+  // must live as long.
   Developer(const Work& work, const RenderPlan& plan, const OutputFormat& output, const Rectangle& rectangle,
             cl::Program program, cl::CommandQueue queue, KernelConstants& constants, DeviceMemory& memory)
       : work_(work),

@@ -9,7 +9,8 @@
 
 namespace nutik {
 
-// Tiles whose sums a band has, in the order of its own. A mixed one (MixedTile) is there once for each of its functions.
+// Tiles whose sums a band has, in the order of its own. A mixed one (MixedTile) is there once for each of its
+// functions.
 struct FunctionMap {
   std::vector<std::uint32_t> tiles;    // in the picture
   std::vector<std::uint8_t> of_lane;   // [tile][64]: indices of a plan's functions

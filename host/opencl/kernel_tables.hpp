@@ -85,8 +85,8 @@ struct TilesOfBand {
   std::size_t last;
 };
 
-// The light of what `part` of the picture has of these tiles, from their sums as expose.cl writes them: of a mixed pixel
-// by its shares. In double, as above.
+// The light of what `part` of the picture has of these tiles, from their sums as expose.cl writes them: of a mixed
+// pixel by its shares. In double, as above.
 void blend_light(const RenderPlan& plan, const FunctionMap& map, const TilesOfBand& tiles,
                  Precision precision, std::span<const std::byte> sums, const Rectangle& part,
                  Picture& picture);

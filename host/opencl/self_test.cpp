@@ -75,8 +75,8 @@ class TilesOfAllKinds {
     return {format_, Timeline::constant({1000, 1}, {180, 1}, kSamples), rasters, 260};
   }
 
-  // One function a tile; in the second row of tiles all of them, pixel by pixel. A soft one mixes two or three of them in
-  // that row and in the last.
+  // One function a tile; in the second row of tiles all of them, pixel by pixel. A soft one mixes two or three of them
+  // in that row and in the last.
   [[nodiscard]] Mask mask(bool is_soft) const {
     const Shape& shape = format_.shape;
     Mask mask = Mask::uniform(shape.width, shape.height, 0);

@@ -35,8 +35,8 @@ struct Verdict {
 
 using RenderScene = std::function<Picture(const RenderPlan&, CaptureSource&, const OutputFormat&)>;
 
-// `like` is the capture whose shape alone is not the scenes'. `output` is how the picture will be stored; functions share
-// pixels of it where `is_soft`.
+// `like` is the capture whose shape alone is not the scenes'. `output` is how the picture will be stored; functions
+// share pixels of it where `is_soft`.
 [[nodiscard]] Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFormat& output,
                                 bool is_soft, const RenderScene& render);
 

@@ -41,8 +41,8 @@ std::vector<Tag> tags_of(const Mask& mask) {
   return tags;
 }
 
-// The picture in its own colours where the tag is 0, else in grey with the tag's colour over it, which covers all at the
-// border of a region. Where tags share a pixel it is a mixture of these.
+// The picture in its own colours where the tag is 0, else in grey with the tag's colour over it, which covers all at
+// the border of a region. Where tags share a pixel it is a mixture of these.
 Picture tinted(const Mask& mask, const std::vector<Tag>& tags, const Picture& enlarged, std::uint32_t zoom) {
   std::array<plot::Colour, kMaskValues> colours{};
   for (const Tag& tag : tags) colours[tag.tag] = tag.colour;

@@ -11,6 +11,7 @@ import pictures
 import timeline as timelines
 from cases_small import MASK_VALUES, random_file, random_samples
 from expose import expose
+from soft_masks import expose_soft, feathered
 
 SHAPE, RATE, ANGLE = (150, 9, 17, 3), "240", "180"
 
@@ -37,6 +38,7 @@ def run(checks):
     stored_in_every_way(checks, folder, expose(samples, timeline, functions, mask, tolerance=3))
     another_transfer(checks, folder, expose(samples, timeline, functions, mask, "linear"))
     masks(checks, folder, samples, timeline, functions, mask)
+    soft_masks(checks, folder, samples, timeline, functions)
     irregular_times(checks, samples[:12])
 
 
@@ -81,6 +83,29 @@ def masks(checks, folder, samples, timeline, functions, mask):
     checks.expose_float("--unmapped zero", folder, [*arguments, "--unmapped", "zero"],
                         expose(samples, timeline, blank | some, mask))
     checks.refused("mask values without a function", folder, arguments, "mask values without")
+
+
+def soft_masks(checks, folder, samples, timeline, functions):
+    """A feathered mask; the same as layers; layers of 8 bits that leave a rest."""
+    mask = np.full(SHAPE[1:3], MASK_VALUES[0], np.uint8)
+    mask[:, 6:] = MASK_VALUES[1]
+    mask[5:, 3:12] = MASK_VALUES[2]
+    pictures.write_pgm(folder / "patches.pgm", mask)
+    source = ["-f", RATE, "-a", ANGLE, "-kgains.fn"]
+    expected = expose_soft(samples, timeline, functions, feathered(mask, 2))
+    checks.expose_float("a feather of 2 pixels", folder,
+                        [*source, "-mpatches.pgm", "--feather", "2px", "clip.mkv"], expected)
+    checks.run(folder, "mask", "-q", "--base", "patches.pgm", "--feather", "2px", "-o", "soft-%d.png")
+    checks.expose_float("the same as layers", folder, [*source, "-m", "soft-%d.png", "clip.mkv"], expected)
+
+    layer = np.linspace(0, 255, mask.size).astype(np.uint8).reshape(mask.shape)
+    pictures.write_pgm(folder / f"layer-{MASK_VALUES[1]}.pgm", layer)
+    shares = {MASK_VALUES[1]: layer.astype(np.int64) * 257}
+    first = min(functions)
+    shares[first] = shares.get(first, 0) + 65535 - layer.astype(np.int64) * 257
+    checks.expose_float("a layer of 8 bits, whose rest has the first function", folder,
+                        [*source, "-m", "layer-%d.pgm", "clip.mkv"],
+                        expose_soft(samples, timeline, functions, shares))
 
 
 def irregular_times(checks, samples):

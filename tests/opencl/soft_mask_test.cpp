@@ -212,10 +212,12 @@ bool rounds_down(const Share& share) {
 // edge between both. In single precision weights and shares are all rounded down.
 TEST(SoftMasks, KeepToTheirBoundWhereCodesAreClose) {
   const double just_above = 0.5 + 0x1p-25 * 0.99;  // what floats above a half round down
-  Mixtures mixtures{{just_above, just_above + 0x1p-12, just_above + 0x1p-9}, 32'768, 32'768, {}};
+  Mixtures mixtures{
+      {just_above, just_above + 0x1p-12, just_above + 0x1p-9, -just_above / 2}, 32'768, 32'768, {}};
   test::Random random(5);
   while (mixtures.pixels.size() < 60'000) {
-    std::vector<Share> shares = test::random_shares(random, {0, 1, 2});
+    std::vector<Share> shares =
+        test::random_shares(random, {0, 1, static_cast<std::uint8_t>(random.whole(2, 3))});
     if (std::ranges::all_of(shares, rounds_down)) mixtures.pixels.push_back(std::move(shares));
   }
   MemoryCapture capture = mixtures.capture();
@@ -233,6 +235,7 @@ TEST(SoftMasks, KeepToTheirBoundWhereCodesAreClose) {
         long double place = 0.0;
         for (const Share& share : mixtures.pixels[pixel])
           place += share.size * static_cast<long double>(mixtures.gains[share.of]);
+        place = std::max(place, 0.0L);
         const auto distance =
             static_cast<double>(std::fabs(codes.values<std::uint16_t>()[pixel] - place) - 0.5L);
         most = std::max(most, distance / errors.of(pixel).steps);
