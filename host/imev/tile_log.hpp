@@ -64,9 +64,9 @@ class TileLog {
     at.changes += static_cast<std::uint32_t>(std::popcount(changes));
   }
 
-  // Begins a block with a room for each tile: for a row at least, and as many as it had in the block before;
+  // Begins a block. Each tile has a room for as many rows as it had in the block before, and for one at least.
   void begin();
-  // for as many as a block may have samples, so that none has to move.
+  // The same with rooms for as many rows as a block may have samples: none has to move.
   void begin_full();
 
   // Closes it with so many samples: `into` is given the payload's memory, and its own is used for the next block.

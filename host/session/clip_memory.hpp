@@ -31,12 +31,12 @@ struct ReadClip {
   std::uint64_t announced_samples = 0;         // 0: they are not
 };
 
-// Where it is encoded. Besides, what will be held when the capture is rendered: a block of it must fit beside that.
+// For encoding. `rendering` is what a later render will need; blocks stay small enough to fit beside it.
 // Throws MemoryTooLittle, BlocksTooLong.
 [[nodiscard]] ClipMemory memory_for_encoding(const MemoryBudget& budget, const ReadClip& clip,
                                              const MemoryNeeds& rendering = {});
 
-// Where it is rendered while it is read: `rendering` is held at the same time.
+// For rendering while the clip is read: `rendering` is held at the same time.
 [[nodiscard]] ClipMemory memory_for_streaming(const MemoryBudget& budget, const ReadClip& clip,
                                               const MemoryNeeds& rendering);
 

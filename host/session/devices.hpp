@@ -39,8 +39,8 @@ class Devices {
 
   explicit Devices(const ComputingRequest& request, Announce announce = {});
 
-  // A device takes a while: it gets ready beside whatever the caller does next. Errors of that come up where the
-  // renderer is asked for.
+  // Starts the device in the background. renderer() and opencl() wait for it, and throw the errors of that.
+  // May be left out.
   void start();
 
   [[nodiscard]] const ComputingRequest& request() const { return request_; }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kPlainName = "the exposure";
 
-// What no pixel is exposed with may be what it likes.
+// Functions that no pixel uses are not checked.
 bool is_used(const ExposureRequest& request, std::uint8_t tag) {
   return !request.mask || (*request.mask)->uses(tag);
 }

@@ -33,8 +33,8 @@ struct MemoryBudget {
 // What is held of a capture, or beside it, by its format.
 using NeedsOfFormat = std::function<MemoryNeeds(const CaptureFormat& capture)>;
 
-// What is held of a capture of this format, whatever is rendered of it: the mask of a request, as it is used, and as it
-// was used before.
+// Memory for two copies of a mask: the one in use and the one before. Held of every capture of this format, whatever is
+// rendered of it.
 [[nodiscard]] MemoryNeeds mask_needs(const CaptureFormat& capture);
 
 // What rendering takes at the least, with tables of so many functions over a block of so many samples.

@@ -1,3 +1,4 @@
+// XXH3-64, the checksum of everything in a .tik (docs/tik-format.md).
 #pragma once
 
 #include <xxhash.h>

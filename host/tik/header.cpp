@@ -81,6 +81,13 @@ class HeaderParser {
     throw InputError(format("{}: the header is damaged: {}", name_, why));
   }
 
+  [[noreturn]] void fail_other_program() const {
+    throw InputError(
+        format("{} is a TIK file of another program, whose records have another layout; "
+               "encode its source clip again with nutik-cl",
+               name_));
+  }
+
   void check_kind() {
     if (!is_netpbm(text_)) {
       throw InputError(format("{} is no .tik file: it does not start with a Netpbm picture", name_));
@@ -90,21 +97,16 @@ class HeaderParser {
     const std::string_view line = text_.substr(at_, line_end - at_);
     if (!line.starts_with(kComment)) {
       const bool mentions = text_.substr(0, 512).find("TIK") != std::string_view::npos;
+      if (mentions) fail_other_program();
       throw InputError(
-          mentions ? format("{} is a TIK file of another program, whose records have another layout; "
-                            "encode its source clip again with nutik-cl",
-                            name_)
-                   : format("{} is a Netpbm picture, not a .tik file; to use it as a sample, encode it: "
-                            "nutik-cl {} -o capture.tik",
-                            name_, name_));
+          format("{} is a Netpbm picture, not a .tik file; to use it as a sample, encode it: "
+                 "nutik-cl {} -o capture.tik",
+                 name_, name_));
     }
     const std::string_view rest = line.substr(kComment.size());
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), version_);
     if (error != std::errc() || (end != rest.data() + rest.size() && *end != ' ')) {
-      throw InputError(
-          format("{} is a TIK file of another program, whose records have another layout; "
-                 "encode its source clip again with nutik-cl",
-                 name_));
+      fail_other_program();
     }
     if (version_ > kVersion) {
       throw InputError(format("{} is a .tik of version {}; this program reads versions up to {}", name_,
