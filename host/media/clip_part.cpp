@@ -92,15 +92,16 @@ class ClipPart final : public Clip {
     if (options.crop) crop(*options.crop);
     if (options.scale) scale(*options.scale);
     if (crop_ != Rectangle::whole(whole_.shape) || means_) raster_.resize(whole_.sample_bytes());
+    info_.decoder_bytes += raster_.size();
   }
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
 
   bool read(std::span<std::byte> raster) override {
-    if (next_ < first_) skip();
-    if (next_ >= end_) return false;
     const bool is_whole = raster_.empty();
-    if (!clip_->read(is_whole ? raster : std::span(raster_))) return false;
+    const std::span<std::byte> picture = is_whole ? raster : std::span(raster_);
+    if (next_ < first_) skip(picture);
+    if (next_ >= end_ || !clip_->read(picture)) return false;
     ++next_;
     if (is_whole) return true;
     if (means_) {
@@ -126,8 +127,7 @@ class ClipPart final : public Clip {
 
  private:
   // Pictures before the part are decoded, for the others may refer to them.
-  void skip() {
-    std::vector<std::byte> raster(whole_.sample_bytes());
+  void skip(std::span<std::byte> raster) {
     for (; next_ < first_; ++next_) {
       if (clip_->read(raster)) continue;
       next_ = end_ = first_;

@@ -24,6 +24,9 @@ enum class FieldOrder { top_first, bottom_first };
 
 class Deinterlacer {
  public:
+  // The one that is worked on, its neighbours in time, and what they become.
+  static constexpr std::uint64_t kHeldPictures = 4;
+
   // Of pictures like this one. Throws InputError naming the file where this FFmpeg lacks the filter.
   Deinterlacer(const AVFrame& like, bool of_each_field, const std::string& name);
 

@@ -88,6 +88,7 @@ class LibavClip final : public Clip {
     interlaced_ = wish;
     if (wish == Interlaced::refused && fields_) refuse_fields("it", *fields_);
     if (wish != Interlaced::frames && wish != Interlaced::fields) return;
+    info_.decoder_bytes += Deinterlacer::kHeldPictures * decoded_bytes();
     if (wish == Interlaced::fields) info_ = of_fields(std::move(info_));
     info_.facts.push_back(
         {format("a picture from each {}, {}", wish == Interlaced::fields ? "field" : "frame",
