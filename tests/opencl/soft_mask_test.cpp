@@ -244,7 +244,7 @@ TEST(SoftMasks, KeepToTheirBoundWhereCodesAreClose) {
                   most);
       EXPECT_LE(most, 1.0) << to_text(precision);
       if (precision == Precision::single_) {
-        EXPECT_GE(most, 0.2) << "the bound is looser than it need be";
+        EXPECT_GE(most, 0.05) << "the bound is looser than it need be";
       }
     }
   }
