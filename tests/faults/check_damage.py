@@ -7,7 +7,7 @@
     captures   .tik files of every kind with a bit flipped N times in every class of their bytes
 
 All samples are exposed by the reference. A damaged file is refused with status 3 and a sentence, or its picture is the
-right one, or a note or warning tells of it. Where a format keeps no checksum, a flipped bit may also be another picture:
+right one, or a note or warning tells of it. Where a format keeps no checksum, a flipped bit may be another picture too:
 these are counted and printed. Nothing else may happen: no signal, no other status, no other picture in silence.
 """
 
@@ -118,8 +118,8 @@ def write_videos(folder):
             ("mjpeg.avi", "-c:v mjpeg -q:v 2 -pix_fmt yuvj420p", None),
             ("raw.avi", "-c:v rawvideo -pix_fmt bgr24", None)):
         made = subprocess.run(["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s",
-                               f"{WIDTH}x{HEIGHT}", "-r", "100", "-i", "colour.rgb", "-threads", "1", "-fflags", "bitexact",
-                               *options.split(), name], cwd=folder, check=False, capture_output=True, text=True)
+                               f"{WIDTH}x{HEIGHT}", "-r", "100", "-i", "colour.rgb", "-threads", "1", "-fflags",
+                               "bitexact", *options.split(), name], cwd=folder, check=False, capture_output=True, text=True)
         if made.returncode != 0:
             print(f"SKIPPED: this ffmpeg does not make {name}: {made.stderr.strip().splitlines()[0]}")
             continue

@@ -130,7 +130,8 @@ class Copy:
         if not (folder / "shared").exists() and (ROOT.parent / "shared").exists():
             (folder / "shared").symlink_to(ROOT.parent / "shared")
         words = ["cmake", "-S", self.source, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                 "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DNUTIK_BUILD_BENCHMARKS=OFF", "-DPython3_EXECUTABLE=/usr/bin/python3"]
+                 "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DNUTIK_BUILD_BENCHMARKS=OFF",
+                 "-DPython3_EXECUTABLE=/usr/bin/python3"]
         if shutil.which("ccache"):
             words += ["-DCMAKE_C_COMPILER_LAUNCHER=ccache", "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"]
         subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
@@ -233,8 +234,8 @@ def run(arguments):
             known[mutation.key] = copy.outcome(mutation)
             with kept.open("a") as out:
                 out.write(json.dumps([mutation.key, known[mutation.key]]) + "\n")
-            print(f"{mutation.path}:{mutation.line} ({mutation.operator}): " +
-                  {None: "does not build", "": "UNNOTICED"}.get(known[mutation.key], str(known[mutation.key])), flush=True)
+            told = {None: "does not build", "": "UNNOTICED"}.get(known[mutation.key], known[mutation.key])
+            print(f"{mutation.path}:{mutation.line} ({mutation.operator}): {told}", flush=True)
         if known.get(mutation.key) is not None:
             results.append((mutation, known[mutation.key]))
     return 1 if print_table(results) else 0
