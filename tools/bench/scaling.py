@@ -100,6 +100,7 @@ def chart(path, rows):
         else:
             panel.set_xscale("log")
         panel.grid(color="#d4d4d4", linewidth=0.5)
+    axes[0].set_ylabel("milliseconds; megabytes")
     axes[0].legend(fontsize=9)
     figure.savefig(path, dpi=100)
 
