@@ -8,11 +8,15 @@ import sys
 from functools import partial
 from pathlib import Path
 
-from fnplot.errors import InputError, PlotterError, UsageError
-from fnplot.function_file import parse_functions
-from fnplot.mask import ranges_text, read_mask
-from fnplot.output import check_output, missing_matplotlib, put_out
-from fnplot.times import parse_time
+# Installed, the parts lie in share/nutik beside bin; in the source tree beside this file, where Python looks first.
+sys.path.append(str(Path(__file__).resolve().parent.parent / "share" / "nutik"))
+
+from fnplot.errors import InputError, PlotterError, UsageError  # noqa: E402
+from fnplot.function_file import parse_functions  # noqa: E402
+from fnplot.input import STANDARD_INPUT, read_input, title_of  # noqa: E402
+from fnplot.mask import ranges_text, read_mask  # noqa: E402
+from fnplot.output import check_output, missing_matplotlib, put_out  # noqa: E402
+from fnplot.times import parse_time  # noqa: E402
 
 LONGEST_TITLE = 50  # characters
 FILE_PAGE_HEIGHT, WINDOW_PAGE_HEIGHT = 11.5, 8.5  # inches
@@ -35,6 +39,7 @@ examples:
   FnPlotter.py ball.fn -o ball.pdf              write a document, 8 functions to a page
   FnPlotter.py ball.fn --mask ball.pgm          only the functions that the mask uses
   FnPlotter.py ball.fn --zoom 399ms..411ms      look at 12 ms of it
+  nutik-cl shutter hann --exposure 10ms | FnPlotter.py -
 
 exit status: 0 drawn, 2 wrong usage, 3 mistakes in a file or no such file, 5 the plot cannot be drawn
 or written (Matplotlib or nutik-cl is missing, there is no display, the folder does not exist)"""
@@ -48,7 +53,7 @@ def command_line():
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    parser.add_argument("file", metavar="FILE.fn", help="the function file")
+    parser.add_argument("file", metavar="FILE.fn", help="the function file; - is standard input")
     parser.add_argument("-o", "--output", metavar="FILE", help="write a .png, .svg or .pdf, open no window")
     parser.add_argument("--duration", metavar="TIME", help="the capture's duration: 3s, 250ms, 1/100s")
     capture_help = "a capture: draw its samples and how much changes, count what counts in it"
@@ -86,9 +91,10 @@ def parse_per_page(text):
 
 
 def find_program():
-    """nutik-cl where a user has it: installed, or built beside these tools."""
-    built = Path(__file__).resolve().parent.parent / "build" / "nutik-cl"
-    return shutil.which("nutik-cl") or (built if built.exists() else "nutik-cl")
+    """nutik-cl where a user has it: beside this file, in PATH, or built beside these tools."""
+    here = Path(__file__).resolve().parent
+    beside, built = here / "nutik-cl", here.parent / "build" / "nutik-cl"
+    return next((path for path in (beside, shutil.which("nutik-cl"), built) if path and Path(path).exists()), "nutik-cl")
 
 
 def warn(message):
@@ -97,14 +103,10 @@ def warn(message):
 
 def read_functions(name):
     """The functions of a file by mask value; prints its warnings, or all its mistakes as the error."""
-    try:
-        data = Path(name).read_bytes()
-    except OSError as error:
-        raise InputError(f"{name}: {error.strerror}") from None
-    file = parse_functions(data)
-    report = file.diagnostics.report(name)
+    file = parse_functions(read_input(name))
+    report = file.diagnostics.report(title_of(name))
     if file.has_errors:
-        raise InputError(f"{name} has mistakes:\n{report}")
+        raise InputError(f"{title_of(name)} has mistakes:\n{report}")
     if report:
         print(report, file=sys.stderr)
     return file.functions
@@ -128,9 +130,9 @@ def functions_in_use(functions, pixels, file_name, mask_name):
     return used
 
 
-def title_of(file_name):
+def heading_of(file_name):
     """The file's own name, shortened in its middle where it is too long for a page."""
-    name = os.fsencode(Path(file_name).name).decode("utf-8", errors="replace")
+    name = os.fsencode(Path(title_of(file_name)).name).decode("utf-8", errors="replace")
     half = LONGEST_TITLE // 2
     return name if len(name) <= LONGEST_TITLE else f"{name[:half]}…{name[-half:]}"
 
@@ -144,7 +146,7 @@ def page_drawings(functions, pixels, options):
     except ImportError as error:
         raise missing_matplotlib(error) from None
 
-    used = functions_in_use(functions, pixels, options.file, options.mask) if pixels else functions
+    used = functions_in_use(functions, pixels, title_of(options.file), options.mask) if pixels else functions
     share = {tag: count / sum(pixels.values()) for tag, count in pixels.items()} if pixels else {}
     capture = read_capture(options.capture, options.program or find_program()) if options.capture else None
     duration_ns = capture.duration_ns if capture else options.duration
@@ -155,7 +157,7 @@ def page_drawings(functions, pixels, options):
     page_height = FILE_PAGE_HEIGHT if options.output else WINDOW_PAGE_HEIGHT
     layout = pages.Layout.fitting(len(used), options.per_page, page_height)
     sheets = layout.paginate([graphs.Graph(tag, used[tag], share.get(tag)) for tag in sorted(used)])
-    name = title_of(options.file)
+    name = heading_of(options.file)
     drawings = []
     for number, sheet in enumerate(sheets, start=1):
         title = f"{name}, page {number} of {len(sheets)}" if len(sheets) > 1 else name
@@ -175,6 +177,8 @@ def plot(options):
     options.output = Path(options.output) if options.output else None
     if options.output:
         check_output(options.output, (options.file, options.mask, options.capture))
+    if STANDARD_INPUT in (options.mask, options.capture):
+        raise UsageError("only the function file is read from standard input; name a file")
     functions = read_functions(options.file)
     pixels = read_mask(options.mask) if options.mask else None
     put_out(page_drawings(functions, pixels, options), options.output)

@@ -6,9 +6,14 @@ import sys
 from functools import partial
 from pathlib import Path
 
-from fnplot.errors import PlotterError
-from fnplot.output import check_output, missing_matplotlib, put_out
-from noiseplot.noise_file import read_noise
+# Installed, the parts lie in share/nutik beside bin; in the source tree beside this file, where Python looks first.
+sys.path.append(str(Path(__file__).resolve().parent.parent / "share" / "nutik"))
+
+from fnplot.errors import PlotterError  # noqa: E402
+from fnplot.input import title_of  # noqa: E402
+from fnplot.output import check_output, put_out  # noqa: E402
+from noiseplot.noise_file import read_noise  # noqa: E402
+from noiseplot.page import draw  # noqa: E402
 
 DESCRIPTION = """\
 Draws a noise file, one graph for each channel: the standard deviation of a code over the code. Dots are
@@ -27,25 +32,17 @@ or written (Matplotlib is missing, there is no display, the folder does not exis
 def command_line():
     parser = argparse.ArgumentParser(prog="NoisePlotter.py", description=DESCRIPTION, epilog=EXAMPLES,
                                      formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
-    parser.add_argument("file", metavar="FILE.noise", help="the noise file")
+    parser.add_argument("file", metavar="FILE.noise", help="the noise file; - is standard input")
     parser.add_argument("-o", "--output", metavar="FILE", help="write a .png, .svg or .pdf, open no window")
     return parser
-
-
-def page_drawing(noise, title):
-    """What draws the page, called with the figure to draw on."""
-    try:
-        from noiseplot.page import draw
-    except ImportError as error:
-        raise missing_matplotlib(error) from None
-    return partial(draw, noise=noise, title=title)
 
 
 def plot(options):
     output = Path(options.output) if options.output else None
     if output:
         check_output(output, (options.file,))
-    put_out([page_drawing(read_noise(options.file), Path(options.file).name)], output)
+    title = Path(title_of(options.file)).name
+    put_out([partial(draw, noise=read_noise(options.file), title=title)], output)
 
 
 def main():

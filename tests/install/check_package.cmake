@@ -20,6 +20,10 @@ foreach(file share/bash-completion/completions/nutik-cl share/zsh/site-functions
     message(FATAL_ERROR "${file} was installed without its text:\n${text}")
   endif()
 endforeach()
+# Plotters find their parts; drawing needs Matplotlib, which their own tests look for.
+foreach(plotter FnPlotter.py NoisePlotter.py)
+  run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/installed/bin/${plotter} --help)
+endforeach()
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR}
     -DREADME=${README} -DCMAKE_PREFIX_PATH=${WORK}/installed -DCMAKE_CXX_COMPILER=${COMPILER}
     -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})

@@ -55,8 +55,36 @@ def check_drawing(checks):
     checks.holds("says why it cannot write", run.returncode == 5 and "absent" in run.stderr, run.stderr)
 
 
+def check_flat(checks):
+    """One point, and a curve that is flat at the largest value there is."""
+    from matplotlib.figure import Figure
+    from noiseplot.noise_file import read_noise
+    from noiseplot.page import draw
+
+    path = checks.work / "flat.noise"
+    flat = GREY.replace("0.002", "0").replace("0.0001", "0").replace("sensor", "points").replace("20.5 2", "20.5 1.5")
+    path.write_text(flat)
+    figure = Figure()
+    draw(figure, read_noise(path), "flat")
+    top = figure.axes[0].get_ylim()[1]
+    checks.holds("a flat curve lies well below the frame", top >= 1.1 * 1.5, f"1.5 in {top}")
+    run = checks.run(GREY[:GREY.index("point 20.5")], "-o", "one.svg")
+    text = (checks.work / "one.svg").read_text() if run.returncode == 0 else ""
+    checks.holds("one point is one point", "<!-- 1 point, measured -->" in text, run.stderr)
+
+
+def check_standard_input(checks):
+    run = subprocess.run([sys.executable, checks.plotter, "-", "-o", "piped.svg"], cwd=checks.work, input=GREY,
+                         capture_output=True, text=True)
+    piped = run.returncode == 0 and "<!-- standard input -->" in (checks.work / "piped.svg").read_text()
+    checks.holds("reads standard input", piped, run.stderr)
+    run = subprocess.run([sys.executable, checks.plotter, "-"], cwd=checks.work, input="nutik", capture_output=True,
+                         text=True)
+    checks.holds("names standard input", run.returncode == 3 and "standard input:1: a noise file" in run.stderr,
+                 run.stderr)
+
+
 def check_numbers(checks):
-    sys.path.insert(0, str(checks.plotter.parent))
     from noiseplot.noise_file import read_noise
 
     path = checks.work / "numbers.noise"
@@ -88,7 +116,10 @@ def main():
     arguments = parser.parse_args()
     arguments.work.mkdir(parents=True, exist_ok=True)
     checks = Checks(arguments.plotter.resolve(), arguments.work)
+    sys.path.insert(0, str(checks.plotter.parent))
     check_drawing(checks)
+    check_flat(checks)
+    check_standard_input(checks)
     check_numbers(checks)
     check_mistakes(checks)
     checks.end()

@@ -48,8 +48,11 @@ def page_names(output, count):
 
 def write_pages(drawings, output):
     """One file for each page, or one PDF of them all."""
-    from matplotlib.backends.backend_pdf import PdfPages
-    from matplotlib.figure import Figure
+    try:
+        from matplotlib.backends.backend_pdf import PdfPages
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise missing_matplotlib(error) from None
 
     def drawn(drawing):
         figure = Figure()
@@ -76,8 +79,11 @@ def write_pages(drawings, output):
 
 def show_pages(drawings):
     """One window for each page, until all are closed."""
-    import matplotlib
-    from matplotlib import pyplot
+    try:
+        import matplotlib
+        from matplotlib import pyplot
+    except ImportError as error:
+        raise missing_matplotlib(error) from None
 
     matplotlib.rcParams["figure.max_open_warning"] = 0
     for drawing in drawings:

@@ -8,9 +8,9 @@ always:  mistakes are reported as name:line: what is wrong; nutik-cl, which is s
 import math
 from bisect import bisect_left
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from fnplot.errors import InputError
+from fnplot.input import read_input, title_of
 
 FIRST_LINE = "nutik noise 0"
 CHANNELS = ("grey", "red", "green", "blue")
@@ -134,10 +134,10 @@ def _take_line_of_channel(noise, key, values, where):
 
 
 def read_noise(name):
+    data = read_input(name)
+    name = title_of(name)
     try:
-        text = Path(name).read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise InputError(f"{name}: {error.strerror}") from None
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise InputError(f"{name}: this is no text file") from None
     noise = Noise()

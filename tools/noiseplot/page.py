@@ -7,6 +7,7 @@ COLOURS = {"grey": "#303030", "red": "#c02020", "green": "#107030", "blue": "#10
 GRID_COLOUR = "#d8d8d8"
 WIDTH, GRAPH_HEIGHT, MARGIN = 8.5, 2.9, 0.9  # inches
 LINE_POINTS = 600
+HEADROOM = 1.15
 SMALLEST_DOT, LARGEST_DOT = 6.0, 60.0  # square points
 
 
@@ -30,8 +31,9 @@ def _draw_channel(axes, noise, channel):
         axes.plot(codes, sensor, color=colour, lw=0.9, ls="--", alpha=0.7, label=f"sensor, not used: {label}")
     if channel.points:
         x, y, _ = zip(*channel.points)
-        axes.scatter(x, y, s=_dot_sizes(channel.points), color=colour, alpha=0.55, lw=0, zorder=3,
-                     label=f"{len(channel.points)} points, measured")
+        points = "1 point" if len(x) == 1 else f"{len(x)} points"
+        axes.scatter(x, y, s=_dot_sizes(channel.points), color=colour, alpha=0.55, lw=0, zorder=3, clip_on=False,
+                     label=f"{points}, measured")
     axes.set_title(channel.name, loc="left", fontsize=10, weight="bold", color=colour)
     axes.set_ylabel("sd (codes)", fontsize=9)
     axes.grid(color=GRID_COLOUR, lw=0.6)
@@ -49,6 +51,7 @@ def draw(figure, noise, title):
     for axes, channel in zip(graphs, noise.channels):
         _draw_channel(axes, noise, channel)
     graphs[-1].set_xlim(0, noise.white)
-    graphs[-1].set_ylim(bottom=0)
+    # A flat curve would lie under the frame.
+    graphs[-1].set_ylim(0, HEADROOM * graphs[-1].dataLim.y1)
     graphs[-1].set_xlabel(f"code (white {noise.white}, {noise.transfer})", fontsize=9)
     figure.suptitle(title, fontsize=11, parse_math=False)

@@ -44,7 +44,7 @@ constexpr Command kCommands[] = {
      run_retime, kCaptures},
     {Id::noise, "noise", "CLIP... [-o CAMERA.noise]",
      "Measure a camera's noise on footage of a still scene: one clip, or several exposures of it. The file "
-     "is text; tools/NoisePlotter.py draws it, --noise encodes with it.",
+     "is text; NoisePlotter.py draws it, --noise encodes with it.",
      "nutik-cl noise still-scene.mp4 -o camera.noise\n"
      "nutik-cl noise --white 4095 dark/ middle/ bright/ -o deep.noise\n"
      "nutik-cl encode --noise camera.noise clip.mp4 clip.tik",

@@ -70,6 +70,17 @@ class Mistakes(unittest.TestCase):
         self.check([paths.corpus / "figure04.fn", "--mask", mask, "-o", mask], 2, "is the input")
         self.assertEqual(mask.read_bytes(), b"a mask")
 
+    @needs_matplotlib
+    def test_standard_input(self):
+        output = paths.work / "piped.svg"
+        result = run("-", "-o", output, stdin="M0 [0:1], [5:0]\n")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("<!-- standard input -->", output.read_text(encoding="utf-8"))
+        result = run("-", stdin="M0 [0:1],\n")
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("standard input:1:9: a comma", result.stderr)
+        self.check(["-", "--mask", "-"], 2, "only the function file is read from standard input")
+
     def test_missing_file(self):
         self.check([paths.work / "none.fn", "-o", paths.work / "none.png"], 3, "none.fn: No such file")
 
