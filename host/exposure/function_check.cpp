@@ -139,6 +139,17 @@ std::vector<FunctionFinding> check_function(const GainFunction& function, const 
   return findings;
 }
 
+Interval meant_interval(const GainFunction& function, const GainSummary& summary) {
+  const auto points = function.points();
+  Interval meant = summary.live;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    if (points[i + 1].time_ns != points[i].time_ns + 1) continue;
+    if (points[i].gain == 0.0 && points[i].time_ns == summary.live.begin_ns) ++meant.begin_ns;
+    if (points[i + 1].gain == 0.0 && points[i + 1].time_ns == summary.live.end_ns) --meant.end_ns;
+  }
+  return meant.empty() ? summary.live : meant;
+}
+
 std::optional<double> still_stops(const GainSummary& summary) {
   const double still_gain = summary.still_gain();
   return still_gain > 0.0 ? std::optional(std::log2(still_gain)) : std::nullopt;

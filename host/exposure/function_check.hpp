@@ -51,6 +51,10 @@ struct CheckedDomain {
                                                           const GainSummary& summary,
                                                           const CheckedDomain& domain);
 
+// The live interval without the steps of 1 ns at its ends, which stand for jumps: what a person means who counts the
+// samples that a function exposes. A function that is nothing but such steps keeps them.
+[[nodiscard]] Interval meant_interval(const GainFunction& function, const GainSummary& summary);
+
 // How many stops a still scene is brighter than in one sample: log2 of the still gain. None where that is
 // not positive.
 [[nodiscard]] std::optional<double> still_stops(const GainSummary& summary);

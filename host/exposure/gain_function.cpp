@@ -189,7 +189,8 @@ GainSummary summarize(const GainFunction& function, std::int64_t duration_ns) {
     if (is_zero || points[i].time_ns == points[i + 1].time_ns) continue;
     const bool steps_to_start = points[i].time_ns == -1 && points[i + 1].time_ns == 0;
     summary.reaches_before_capture |= points[i].time_ns < 0 && !steps_to_start;
-    summary.reaches_after_capture |= points[i + 1].time_ns > duration_ns;
+    const bool steps_from_end = points[i].time_ns == duration_ns && points[i + 1].time_ns == duration_ns + 1;
+    summary.reaches_after_capture |= points[i + 1].time_ns > duration_ns && !steps_from_end;
   }
   summary.exposes_from_the_start = function.first_gain() != 0.0 && points.front().time_ns > 0;
   summary.exposes_to_the_end = function.last_gain() != 0.0 && points.back().time_ns < duration_ns;

@@ -90,7 +90,7 @@ struct GainSummary {
   Interval live;
 
   // Parts between control points that are not zero and lie outside the domain, where they do not count; not the
-  // step of 1 ns up to the capture's start that stands for a jump there.
+  // steps of 1 ns up to the capture's start and from its end on, which stand for jumps there.
   bool reaches_before_capture = false;
   bool reaches_after_capture = false;
   bool exposes_from_the_start = false;  // held at a gain that is not zero from the capture's start on

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "exposure/function_check.hpp"
 #include "system/parallel.hpp"
 
 namespace nutik {
@@ -19,9 +20,17 @@ double RenderPlan::error_scale(std::uint64_t pixel) const {
   return scale;
 }
 
-std::uint64_t RenderPlan::live_sample_count() const {
+SampleRange exposed_samples(const PlannedFunction& planned, const Timeline& timeline) {
+  if (planned.live != live_samples(planned.summary, timeline, false))
+    return planned.live;  // all were asked for
+  const Interval meant = meant_interval(planned.function, planned.summary);
+  return timeline.samples_reaching(meant.begin_ns, meant.end_ns);
+}
+
+std::uint64_t RenderPlan::exposed_sample_count() const {
   std::vector<SampleRange> ranges;
-  for (const PlannedFunction& function : functions) ranges.push_back(function.live);
+  for (const PlannedFunction& function : functions)
+    ranges.push_back(exposed_samples(function, layout->timeline));
   std::ranges::sort(ranges, {}, &SampleRange::first);
   std::uint64_t samples = 0, counted_to = 0;
   for (const SampleRange& range : ranges) {

@@ -71,9 +71,13 @@ struct RenderPlan {
   [[nodiscard]] double error_scale(std::uint64_t pixel) const;
   // Of the tables of all functions for the planned blocks.
   [[nodiscard]] std::uint64_t row_count() const;
-  // The samples that some function needs.
-  [[nodiscard]] std::uint64_t live_sample_count() const;
+  // The samples that some function exposes.
+  [[nodiscard]] std::uint64_t exposed_sample_count() const;
 };
+
+// The samples that a function exposes for longer than by a step of 1 ns at an end of it (meant_interval()): of those
+// that it needs all but one or two.
+[[nodiscard]] SampleRange exposed_samples(const PlannedFunction& planned, const Timeline& timeline);
 
 // Measures the tables of all functions (GainTable::course), several at a time.
 void measure_tables(const RenderPlan& plan);

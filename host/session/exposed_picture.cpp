@@ -6,7 +6,7 @@ namespace nutik {
 
 ExposureFigures ExposureFigures::of(RenderPlan&& plan, const Timeline& timeline,
                                     std::optional<std::uint64_t> block_count) {
-  ExposureFigures figures{plan.capture, timeline, {}, plan.live_sample_count(), {}, plan.blocks.size(),
+  ExposureFigures figures{plan.capture, timeline, {}, plan.exposed_sample_count(), {}, plan.blocks.size(),
                           block_count,  0,        0};
   if (!plan.blocks.empty()) {
     figures.read = {plan.blocks.front().extent.range().first, plan.blocks.back().extent.range().last};

@@ -17,7 +17,7 @@ struct ExposureFigures {
   CaptureFormat capture;
   Timeline timeline;                       // of a clip that was read once, as it turned out to be
   std::vector<PlannedFunction> functions;  // that the mask uses, by increasing mask value; without tables
-  std::uint64_t live_samples = 0;          // that some function needs
+  std::uint64_t live_samples = 0;          // that some function exposes
   SampleRange read;                        // whole blocks
   std::uint64_t blocks_read = 0;
   std::optional<std::uint64_t>

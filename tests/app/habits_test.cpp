@@ -139,7 +139,7 @@ TEST_F(Habits, ExplainsThePlan) {
   const ProgramResult result = run({"-v", "-k", "one.fn", "clip.tik", "a.png"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_NE(
-      result.out.find("plan: 2 of 3 samples have a gain that differs from 0; read: 1 block (samples 0 … 2), "
+      result.out.find("plan: exposes 1 of 3 samples; read: 1 block (samples 0 … 2), "
                       "skipped: 0 blocks\n  M0: 2 pixels, live 0 s … 40"),
       std::string::npos)
       << result.out;

@@ -93,6 +93,11 @@ TEST(GainSummary, TellsWhatLiesOutsideTheCapture) {
   EXPECT_TRUE(summary("M0 [-10:0], [-5:1], [5:0]").reaches_before_capture);
   EXPECT_TRUE(summary("M0 [500:0], [900:1], [1100:1], [1101:0]").reaches_after_capture);
   EXPECT_FALSE(summary("M0 [500:0], [900:1], [1000:1]").reaches_after_capture);
+  // A jump at the capture's end or start, as a file has to write it.
+  EXPECT_FALSE(summary("M0 [500:0], [900:1], [1000:1], [1001:0]").reaches_after_capture);
+  EXPECT_TRUE(summary("M0 [500:0], [900:1], [1000:1], [1002:0]").reaches_after_capture);
+  EXPECT_TRUE(summary("M0 [500:0], [900:1], [1001:1], [1002:0]").reaches_after_capture);
+  EXPECT_FALSE(summary("M0 [-1:0], [0:1], [500:0]").reaches_before_capture);
   EXPECT_FALSE(summary("M0 [-10:0], [5:0], [6:1], [7:0], [2000:0]").reaches_before_capture);
   EXPECT_FALSE(summary("M0 [-10:0], [5:0], [6:1], [7:0], [2000:0]").reaches_after_capture);
   EXPECT_TRUE(summary("M0 [400:1],[410:1]").exposes_to_the_end);

@@ -40,6 +40,26 @@ TEST(RenderPlan, TouchesOnlyTheBlocksThatUsedFunctionsNeed) {
   EXPECT_EQ(make_plan(capture, functions, Mask::uniform(4, 2, 0), all).blocks.size(), 10u);
 }
 
+// Files write jumps as steps of 1 ns. Their half nanosecond of light is exposed, and counts as no sample.
+TEST(RenderPlan, CountsTheSamplesThatAFunctionMeans) {
+  const MemoryCapture capture = capture_of(100);  // 1 s
+  const auto samples = [&](const std::string& text, const PlanOptions& options = {}) {
+    const RenderPlan plan = make_plan(capture, functions_of(text), Mask::uniform(4, 2, 0), options);
+    EXPECT_EQ(exposed_samples(plan.functions[0], capture.timeline()).size(), plan.exposed_sample_count());
+    return std::pair(plan.functions[0].live.size(), plan.exposed_sample_count());
+  };
+  using Counts = std::pair<std::uint64_t, std::uint64_t>;
+  EXPECT_EQ(samples("M0 [499999999:0], [500000000:1], [510000000:1], [510000001:0]"), Counts(3, 1));
+  EXPECT_EQ(samples("M0 [989999999:0], [990000000:1], [1000000000:1], [1000000001:0]"), Counts(2, 1));
+  EXPECT_EQ(samples("M0 [-1:0], [0:-1], [10000000:-1], [10000001:0]"), Counts(2, 1));
+  // Ramps of 2 ns are meant, and what is nothing but steps.
+  EXPECT_EQ(samples("M0 [499999998:0], [500000000:1], [510000000:1], [510000002:0]"), Counts(3, 3));
+  EXPECT_EQ(samples("M0 [499999999:0], [500000000:1], [500000001:0]"), Counts(2, 2));
+  PlanOptions all;
+  all.live_all = true;
+  EXPECT_EQ(samples("M0 [499999999:0], [500000000:1], [510000000:1], [510000001:0]", all), Counts(100, 100));
+}
+
 TEST(RenderPlan, RefusesAMaskThatDoesNotFit) {
   const MemoryCapture capture = capture_of(10);
   const FunctionSet functions = functions_of("M0 [0:1]");
@@ -79,6 +99,7 @@ TEST(RenderPlan, WarnsOfWhatDoesNotCount) {
   only("M0 [400000000:1],[410000000:1]",
        "the first gain, 1, holds from the start of the capture, and the last gain, 1, holds to the end");
   EXPECT_TRUE(warnings("M0 [0:1], [10:1], [11:0], [5000000000:0]").empty());  // a held zero end
+  EXPECT_TRUE(warnings("M0 [0:1], [1000000000:1], [1000000001:0]").empty());  // a jump at the capture's end
 }
 
 // A function's parts outside the domain count in neither integral nor D.

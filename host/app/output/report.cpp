@@ -117,8 +117,7 @@ std::string plan_text(const ExposureFigures& figures) {
     text += "nothing is read: no gain within the capture differs from 0";
   } else {
     const auto [first, last] = figures.read;
-    text += format("{} of {} samples have a gain that differs from 0; ", figures.live_samples,
-                   figures.timeline.sample_count());
+    text += format("exposes {} of {} samples; ", figures.live_samples, figures.timeline.sample_count());
     text += format("read: {} (samples {} … {})", counted(figures.blocks_read, "block"), first, last - 1);
     if (figures.block_count) {
       text += format(", skipped: {}", counted(*figures.block_count - figures.blocks_read, "block"));
@@ -132,7 +131,7 @@ std::string plan_text(const ExposureFigures& figures) {
     return format(
         "\n  M{}: {}, {}, {}", function.tag, counted(function.pixel_count, "pixel"),
         live.empty() ? "never live" : format("live {} … {}", time(live.begin_ns), time(live.end_ns)),
-        counted(function.live.size(), "sample"));
+        counted(exposed_samples(function, figures.timeline).size(), "sample"));
   });
   text += joined(lines.texts, "");
   if (lines.left_out > 0) text += format("\n  and {} functions more", lines.left_out);
@@ -148,7 +147,7 @@ Json functions_json(const ExposureFigures& figures) {
                          {"live_start_ns", function.summary.live.begin_ns},
                          {"live_end_ns", function.summary.live.end_ns},
                          {"still_gain", function.summary.still_gain()},
-                         {"samples", function.live.size()}});
+                         {"samples", exposed_samples(function, figures.timeline).size()}});
   }
   return functions;
 }
