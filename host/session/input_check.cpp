@@ -73,6 +73,11 @@ void InputCheck::add_functions(const std::string& name, std::string_view text) {
   }
 }
 
+void InputCheck::set_weight(const Normalization& normalization, double gain) {
+  normalization_ = normalization;
+  gain_ = gain;
+}
+
 void InputCheck::finish(bool unmapped_is_zero) {
   domain_ = domain_of_inputs();
   if (functions_) check_functions();
@@ -107,9 +112,9 @@ FunctionFigures InputCheck::figures_of(std::uint8_t tag, const GainSummary& summ
     figures.pixels = capture_->format.shape.pixel_count();  // a single function needs no mask
   }
   if (capture_ && capture_->timeline) {
-    const Interval& live = summary.live;
+    const Interval meant = meant_interval(functions_->file.functions.at(tag).function, summary);
     figures.samples =
-        live.empty() ? 0 : capture_->timeline->samples_reaching(live.begin_ns, live.end_ns).size();
+        meant.empty() ? 0 : capture_->timeline->samples_reaching(meant.begin_ns, meant.end_ns).size();
   }
   return figures;
 }
@@ -117,7 +122,18 @@ FunctionFigures InputCheck::figures_of(std::uint8_t tag, const GainSummary& summ
 void InputCheck::check_functions() {
   std::vector<Finding> found;
   for (const auto& [tag, read] : functions_->file.functions) {
-    const GainSummary summary = summarize(read.function, domain_.duration_ns);
+    GainSummary summary = summarize(read.function, domain_.duration_ns);
+    try {
+      const GainFunction weighed =
+          normalization_.normalized(read.function, domain_.duration_ns, gain_, format("M{}", tag));
+      summary = summarize(weighed, domain_.duration_ns);
+    } catch (const InputError& error) {
+      Finding finding = function_finding("not_normalizable", tag, read.start_at, error.what());
+      finding.message = error.what();  // which starts with the mask value
+      finding.severity = Severity::error;
+      finding.settings = error.settings();
+      found.push_back(std::move(finding));
+    }
     for (const FunctionFinding& finding : check_function(read.function, summary, domain_)) {
       found.push_back(function_finding(std::string(to_text(finding.kind)), tag,
                                        finding.point ? read.time_at[*finding.point] : read.start_at,

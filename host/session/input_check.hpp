@@ -18,6 +18,7 @@
 #include "exposure/function_check.hpp"
 #include "exposure/function_file.hpp"
 #include "exposure/mask_check.hpp"
+#include "exposure/normalization.hpp"
 #include "render/render_plan.hpp"
 
 namespace nutik {
@@ -76,6 +77,9 @@ class InputCheck {
   }
   void add_capture(CheckedCapture capture) { capture_ = std::move(capture); }
 
+  // How functions will be exposed, which their figures are told for; as they are where nothing is said.
+  void set_weight(const Normalization& normalization, double gain);
+
   // What they have to do with each other, once all have been added. Mask values without a function are no mistake
   // where they are exposed to black.
   void finish(bool unmapped_is_zero);
@@ -98,6 +102,8 @@ class InputCheck {
   std::optional<CheckedFunctions> functions_;
   std::optional<CheckedMask> mask_;
   std::optional<CheckedCapture> capture_;
+  Normalization normalization_;
+  double gain_ = 1.0;
   CheckedDomain domain_;
   std::vector<FunctionFigures> figures_;
   std::vector<Finding> findings_;

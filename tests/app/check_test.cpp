@@ -40,6 +40,11 @@ class Check : public testing::Test {
                    "M255 [999999999:0], [1000000000:0.5], [1200000000:0.5], [1200000001:0]\n");
   }
 
+  [[nodiscard]] double still_gain(const std::vector<std::string>& inputs) const {
+    std::vector<std::string> words{"check", "--json"};
+    words.insert(words.end(), inputs.begin(), inputs.end());
+    return json::parse(run(words).out).at("functions").at(0).at("still_gain");
+  }
   void save_mask() const { cv::imwrite((scratch_ / "mask.pgm").string(), mask_); }
   ProgramResult run(const std::vector<std::string>& words) const {
     return test::run_program(words, scratch_.folder());
@@ -64,6 +69,33 @@ class Check : public testing::Test {
   Scratch scratch_;
   cv::Mat mask_;
 };
+
+// Figures are those of the exposure that is meant.
+TEST_F(Check, TellsTheFiguresOfNormalizedFunctions) {
+  scratch_.write("ramp.fn", "M0 [0:0], [1000000000:1], [1000000001:0]\n");
+  EXPECT_NEAR(still_gain({"-k", "ramp.fn", "clip.tik"}), 0.5, 1e-6);
+  EXPECT_NEAR(still_gain({"-k", "ramp.fn", "--normalize", "integral", "clip.tik"}), 1.0, 1e-6);
+  EXPECT_NEAR(still_gain({"-k", "ramp.fn", "--normalize", "seconds:1e-1", "--ev", "1", "clip.tik"}), 10.0,
+              1e-4);
+  EXPECT_EQ(kinds({"-k", "ramp.fn", "--normalize", "seconds:1e-1", "clip.tik"}, 0),
+            std::vector<std::string>{"still_gain_saturates"});
+  scratch_.write("cancels.fn", "M0 [0:1], [100000000:1], [100000001:-1], [200000000:-1], [200000001:0]\n");
+  const json found = findings({"-k", "cancels.fn", "--normalize", "integral", "clip.tik"}, 3);
+  EXPECT_EQ(found.at(0).at("kind"), "not_normalizable");
+  EXPECT_EQ(found.at(0).at("line"), 1);
+  EXPECT_EQ(found.at(0).at("message").get<std::string>().substr(0, 33), "M0: the positive and negative par");
+}
+
+// Steps of 1 ns stand for jumps: a picture that ends with the capture is one picture, and nothing is lost of it.
+TEST_F(Check, CountsNoStepAsASample) {
+  scratch_.write("last.fn", "M0 [2899999999:0], [2900000000:1], [3000000000:1], [3000000001:0]\n");
+  EXPECT_TRUE(findings({"-k", "last.fn", "clip.tik"}, 0).empty());
+  const json answer = json::parse(run({"check", "--json", "-k", "last.fn", "clip.tik"}).out);
+  EXPECT_EQ(answer.at("functions").at(0).at("samples"), 1);
+  const ProgramResult exposed = run({"-k", "last.fn", "clip.tik", "p.png"});
+  EXPECT_NE(exposed.out.find("1 of 30 samples"), std::string::npos) << exposed.out;
+  EXPECT_EQ(exposed.err, "");
+}
 
 TEST_F(Check, SaysWhatFunctionsComeTo) {
   const ProgramResult result = run({"check", "-m", "mask.pgm", "-k", "good.fn", "clip.tik"});

@@ -53,6 +53,7 @@ void read_capture(InputCheck& check, const std::string& name, const Options& opt
 
 InputCheck checked_inputs(const Options& options) {
   InputCheck check;
+  check.set_weight(Normalization::parse(options.normalize.value_or("support")), brightening(options));
   if (options.functions) {
     const std::string name = input_title(*options.functions);
     attempt(check, name, "function_file",
