@@ -10,6 +10,31 @@ namespace {
 
 constexpr std::int64_t kLargest = 999'999'999'999'999;  // 15 digits: products of two fit 128 bits
 
+// `e-3` behind a decimal: moves its point. Returns false where it is anything else, or more than 15 places away.
+bool read_exponent(std::string_view text, std::int64_t& digits, std::int64_t& scale) {
+  constexpr std::int64_t kMostPlaces = 15;
+  const bool is_negative = text.starts_with('-');
+  if (is_negative || text.starts_with('+')) text.remove_prefix(1);
+  std::int64_t places = 0;
+  for (const char c : text) {
+    if (c < '0' || c > '9' || places > kMostPlaces) return false;
+    places = places * 10 + (c - '0');
+  }
+  if (text.empty() || places > kMostPlaces) return false;
+  std::int64_t& grows = is_negative ? scale : digits;
+  std::int64_t& shrinks = is_negative ? digits : scale;
+  for (; places > 0; --places) {
+    if (shrinks % 10 == 0) {
+      shrinks /= 10;
+    } else if (grows > kLargest / 10) {
+      return false;
+    } else {
+      grows *= 10;
+    }
+  }
+  return true;
+}
+
 // Digits, with at most one point when `allow_point`. Returns false where the text is anything else.
 bool read_decimal(std::string_view text, bool allow_point, std::int64_t& digits, std::int64_t& scale) {
   digits = 0;
@@ -48,7 +73,9 @@ Rational Rational::parse(std::string_view text, std::string_view what) {
   if (negative) text.remove_prefix(1);
   std::int64_t top = 0, top_scale = 1, bottom = 1, bottom_scale = 1;
   const auto slash = text.find('/');
-  bool good = read_decimal(text.substr(0, slash), slash == std::string_view::npos, top, top_scale);
+  const auto exponent = slash == std::string_view::npos ? text.find_first_of("eE") : slash;
+  bool good = read_decimal(text.substr(0, exponent), slash == std::string_view::npos, top, top_scale);
+  if (good && exponent != slash) good = read_exponent(text.substr(exponent + 1), top, top_scale);
   if (good && slash != std::string_view::npos) {
     good = read_decimal(text.substr(slash + 1), false, bottom, bottom_scale) && bottom != 0;
   }

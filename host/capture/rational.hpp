@@ -20,7 +20,7 @@ struct Rational {
   // `numerator / denominator` in lowest terms. Throws UsageError where the denominator is 0.
   static Rational of(std::int64_t numerator, std::int64_t denominator);
 
-  // Reads `30000/1001`, `29.97` (exactly 2997/100) or `120`; a leading minus is allowed. Throws
+  // Reads `30000/1001`, `29.97` (exactly 2997/100), `120` or `1e-3`; a leading minus is allowed. Throws
   // UsageError naming `what` ("frame rate") where the text is none of these or needs more than 15 digits.
   static Rational parse(std::string_view text, std::string_view what);
 

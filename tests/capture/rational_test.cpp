@@ -13,11 +13,14 @@ TEST(Rational, ReadsWhatPeopleWriteExactly) {
   EXPECT_EQ(Rational::parse("30000/1001", "rate"), (Rational{30000, 1001}));
   EXPECT_EQ(Rational::parse(".5", "rate"), (Rational{1, 2}));
   EXPECT_EQ(Rational::parse("-0.25", "rate"), (Rational{-1, 4}));
+  EXPECT_EQ(Rational::parse("1e-3", "seconds"), (Rational{1, 1000}));
+  EXPECT_EQ(Rational::parse("-2.50E+4", "seconds"), (Rational{-25'000, 1}));
+  EXPECT_EQ(Rational::parse("12345e-14", "seconds"), (Rational{2469, 20'000'000'000'000}));
 }
 
 TEST(Rational, RefusesEverythingElseByName) {
-  for (const char* text :
-       {"", "fast", "1e3", "1/0", "1.5/2", "1/2/3", "--1", "1.2.3", ".", "-", "12345678901234567890"}) {
+  for (const char* text : {"", "fast", "1e", "e3", "1e1.5", "1e99", "1e-16", "999e13", "1e3/7", "1/7e3",
+                           "1/0", "1.5/2", "1/2/3", "--1", "1.2.3", ".", "-", "12345678901234567890"}) {
     try {
       static_cast<void>(Rational::parse(text, "frame rate"));
       FAIL() << "'" << text << "' was accepted";
