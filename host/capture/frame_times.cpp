@@ -45,6 +45,12 @@ ExactTime ExactTime::of_sample(const Timeline& timeline, std::uint64_t k) {
   return {static_cast<int128>(k) * rate.denominator * kSecondNs, rate.numerator};
 }
 
+std::int64_t rounded_sum(const ExactTime& a, const ExactTime& b) {
+  const Split of_a = split(a.numerator, a.denominator), of_b = split(b.numerator, b.denominator);
+  return static_cast<std::int64_t>(of_a.whole + of_b.whole) +
+         round_half_up(of_a.part * of_b.of + of_b.part * of_a.of, of_a.of * of_b.of);
+}
+
 FrameTimes::FrameTimes(ExactTime from, Rational rate, Rational speed, Rational angle)
     : from_(from), angle_(angle) {
   check_term(rate, "frame rate");

@@ -25,6 +25,9 @@ struct ExactTime {
   static ExactTime of_sample(const Timeline& timeline, std::uint64_t k);
 };
 
+// Rounded half up, once, from the exact sum.
+[[nodiscard]] std::int64_t rounded_sum(const ExactTime& a, const ExactTime& b);
+
 class FrameTimes {
  public:
   // `rate` in frames a second of playback, `speed` in seconds of the capture for each second of playback

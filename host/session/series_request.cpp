@@ -22,9 +22,9 @@ StatedTime start_of(const StatedTime& every, const StatedTime& first, std::uint6
         later < timeline.sample_count() ? timeline.start_ns(later) : timeline.duration_ns();
     return StatedTime::of_nanoseconds(first_ns + later_ns - timeline.start_ns(sample));
   }
-  const std::int64_t later_ns =
-      round_half_up(steps * every.number.numerator * every.unit_ns, every.number.denominator);
-  return StatedTime::of_nanoseconds(moment_ns(first, timeline) + later_ns);
+  const ExactTime start = exact_time(first, "start", timeline);
+  const ExactTime later{steps * every.number.numerator * every.unit_ns, every.number.denominator};
+  return StatedTime::of_nanoseconds(rounded_sum(start, later));
 }
 
 bool starts_within(const StatedTime& start, const Timeline& timeline) {

@@ -83,6 +83,14 @@ TEST_F(Series, MovesFunctionsAndKeepsTheMask) {
   EXPECT_EQ(alike, pixels);
 }
 
+// 1/300 s + 1001/90000 s = 14455555.56 ns; the two rounded first would be 14455555 ns.
+TEST_F(Series, RoundsEachStartOnce) {
+  const auto answer = run({"--start", "1/300s", "--exposure", "1ms", "--every", "1001/90000s", "--count", "3",
+                           "--json", "clip.tik", "r-%d.pfm"});
+  for (const char* start : {"3333333ns", "14455556ns", "25577778ns"})
+    EXPECT_NE(answer.out.find(start), std::string::npos) << start << " in " << answer.out;
+}
+
 TEST_F(Series, CountsInPicturesOfTheClip) {
   run({"--start", "3f", "--exposure", "1f", "--every", "10f", "clip.tik", "f-%d.pfm"});
   EXPECT_EQ(written("f"), 4);

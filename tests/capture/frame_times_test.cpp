@@ -86,6 +86,24 @@ TEST(FrameTimes, StayExactAtTheLimitsOfWhatCanBeWritten) {
   EXPECT_EQ(frames.end_ns(k), rounded_half_up(start + exact(angle) / 360 / exact(rate) * 1'000'000'000));
 }
 
+TEST(ExactTime, IsRoundedOnceWhenItIsAdded) {
+  // A third and a fraction that each round down, and up together.
+  EXPECT_EQ(rounded_sum({10, 3}, {10, 3}), 7);
+  EXPECT_EQ(rounded_sum({-1, 2}, {0, 1}), 0);
+  test::Random random(9);
+  for (int i = 0; i < 3000; ++i) {
+    const auto time = [&] {
+      return ExactTime{random.whole(-4'000'000'000'000'000'000, 4'000'000'000'000'000'000),
+                       random.whole(1, 1'000'000'000'000'000)};
+    };
+    const ExactTime a = time(), b = time();
+    const auto exactly = [](const ExactTime& t) {
+      return cpp_rational(static_cast<std::int64_t>(t.numerator), static_cast<std::int64_t>(t.denominator));
+    };
+    ASSERT_EQ(rounded_sum(a, b), rounded_half_up(exactly(a) + exactly(b))) << i;
+  }
+}
+
 TEST(FrameTimes, RefuseWhatMakesNoSense) {
   const auto expect_refused = [](Rational rate, Rational speed, Rational angle, const std::string& part) {
     try {
