@@ -75,7 +75,9 @@ std::vector<std::uint32_t> differences(const Picture& a, const Picture& b) {
 std::uint32_t usual_noise(std::vector<std::uint32_t> spans, std::uint32_t white_code) {
   const auto quarter = spans.begin() + static_cast<std::ptrdiff_t>(spans.size() / 4);
   std::nth_element(spans.begin(), quarter, spans.end());
-  return std::max(2 * *quarter, white_code / 16);
+  // Twice as much may be more than codes can differ by; what is left above it is halved then.
+  const std::uint32_t most = std::min(*quarter + (white_code - *quarter) / 2, white_code - 1);
+  return std::min(std::max(2 * *quarter, white_code / 16), most);
 }
 
 Region spanning_more(const Shape& shape, std::span<const std::uint32_t> spans, std::uint32_t codes) {

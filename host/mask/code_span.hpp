@@ -42,7 +42,8 @@ class CodeSpan {
 [[nodiscard]] std::vector<std::uint32_t> differences(const Picture& a, const Picture& b);
 
 // Up to which span a pixel is taken to be still: twice what a quarter of all pixels do not pass, for most
-// scenes are still in a quarter at least and what happens there is noise; and no less than 1/16 of white.
+// scenes are still in a quarter at least and what happens there is noise; and no less than 1/16 of white. Where that
+// comes near white, or above it, half way from the quarter's span to white: below white, which no span passes.
 [[nodiscard]] std::uint32_t usual_noise(std::vector<std::uint32_t> spans, std::uint32_t white_code);
 
 // The pixels whose span is more than `codes`.
