@@ -43,7 +43,7 @@ std::vector<Tag> tags_of(const Mask& mask) {
 
 // The picture in its own colours where the tag is 0, else in grey with the tag's colour over it, which covers all at
 // the border of a region. Where tags share a pixel it is a mixture of these.
-Picture tinted(const Mask& mask, const std::vector<Tag>& tags, const Picture& enlarged, std::uint32_t zoom) {
+Picture tinted(const Mask& mask, const std::vector<Tag>& tags, const Picture& enlarged) {
   std::array<plot::Colour, kMaskValues> colours{};
   for (const Tag& tag : tags) colours[tag.tag] = tag.colour;
   Picture result({enlarged.shape.width, enlarged.shape.height, 3}, ValueType::code8, 255);
@@ -51,14 +51,15 @@ Picture tinted(const Mask& mask, const std::vector<Tag>& tags, const Picture& en
   const auto source = enlarged.values<std::uint8_t>();
   const std::uint32_t width = result.shape.width, height = result.shape.height;
   const std::uint32_t channels = enlarged.shape.channels;
-  const auto tag_at = [&](std::uint32_t x, std::uint32_t y) {
-    return mask.tags[std::size_t{y / zoom} * mask.width + x / zoom];
+  const auto below = [&](std::uint64_t x, std::uint64_t y) {  // the mask's pixel
+    return y * mask.height / height * mask.width + x * mask.width / width;
   };
+  const auto tag_at = [&](std::uint32_t x, std::uint32_t y) { return mask.tags[below(x, y)]; };
   for (std::uint32_t y = 0; y < height; ++y) {
     for (std::uint32_t x = 0; x < width; ++x) {
       const std::size_t pixel = std::size_t{y} * width + x;
       const std::uint8_t tag = tag_at(x, y);
-      const std::span<const Share> shares = mask.mixed.of(std::size_t{y / zoom} * mask.width + x / zoom);
+      const std::span<const Share> shares = mask.mixed.of(below(x, y));
       const bool is_border =
           shares.empty() &&
           ((x > 0 && tag_at(x - 1, y) != tag) || (x + 1 < width && tag_at(x + 1, y) != tag) ||
@@ -83,7 +84,8 @@ Picture tinted(const Mask& mask, const std::vector<Tag>& tags, const Picture& en
 }
 
 // The tag's number at the pixel of its region that lies furthest from all others, if there is room.
-void number_region(plot::Canvas& canvas, const Mask& mask, const Tag& tag, std::uint32_t zoom) {
+void number_region(plot::Canvas& canvas, const Mask& mask, const Tag& tag, double width, double height) {
+  const double zoom_x = width / mask.width, zoom_y = height / mask.height;
   Region outside = Region::none(mask.width, mask.height);
   std::transform(mask.tags.begin(), mask.tags.end(), outside.inside.begin(),
                  [&](std::uint8_t other) { return static_cast<std::uint8_t>(other != tag.tag); });
@@ -95,12 +97,12 @@ void number_region(plot::Canvas& canvas, const Mask& mask, const Tag& tag, std::
   const std::string text = format("M{}", tag.tag);
   const plot::Box plate{0, 0, canvas.text_width(text, style) + 8, 18};
   if (distances[widest] != kFarAway &&
-      std::sqrt(static_cast<double>(distances[widest])) * zoom < plate.height)
+      std::sqrt(static_cast<double>(distances[widest])) * std::min(zoom_x, zoom_y) < plate.height)
     return;
-  const double x = std::clamp((static_cast<double>(widest % mask.width) + 0.5) * zoom, plate.width / 2,
-                              static_cast<double>(mask.width) * zoom - plate.width / 2);
-  const double y = std::clamp((static_cast<double>(widest / mask.width) + 0.5) * zoom, plate.height / 2,
-                              static_cast<double>(mask.height) * zoom - plate.height / 2);
+  const double x = std::clamp((static_cast<double>(widest % mask.width) + 0.5) * zoom_x, plate.width / 2,
+                              width - plate.width / 2);
+  const double y = std::clamp((static_cast<double>(widest / mask.width) + 0.5) * zoom_y, plate.height / 2,
+                              height - plate.height / 2);
   canvas.fill(plot::Box{x - plate.width / 2, y - plate.height / 2, plate.width, plate.height}, plot::kWhite);
   canvas.text({x, y}, text, style);
 }
@@ -121,8 +123,12 @@ std::vector<std::string> legend_of(const std::vector<Tag>& tags, std::uint64_t p
 }  // namespace
 
 Picture mask_overlay(const Mask& mask, const Picture& picture) {
-  const std::uint32_t zoom = std::max(1u, (kNarrowest + mask.width - 1) / mask.width);
-  const std::uint32_t width = mask.width * zoom, height = mask.height * zoom;
+  CaptureFormat format;
+  format.shape = picture.shape;
+  format.pixel_aspect = picture.pixel_aspect;
+  const Shape shown = format.shown_shape();
+  const std::uint32_t zoom = std::max(1u, (kNarrowest + shown.width - 1) / shown.width);
+  const std::uint32_t width = shown.width * zoom, height = shown.height * zoom;
   const std::vector<Tag> tags = tags_of(mask);
   const std::vector<std::string> legend = legend_of(tags, picture.shape.pixel_count());
 
@@ -138,9 +144,9 @@ Picture mask_overlay(const Mask& mask, const Picture& picture) {
 
   plot::Canvas canvas(width, height + legend_height);
   canvas.picture(plot::Box{0, 0, double(width), double(height)},
-                 tinted(mask, tags, thumbnail(picture, width, height), zoom));
+                 tinted(mask, tags, thumbnail(picture, width, height)));
   for (const Tag& tag : tags) {
-    if (tag.tag != 0) number_region(canvas, mask, tag, zoom);
+    if (tag.tag != 0) number_region(canvas, mask, tag, width, height);
   }
   for (std::size_t i = 0; i < legend.size(); ++i) {
     const double x = kMargin + static_cast<double>(i % columns) * column;

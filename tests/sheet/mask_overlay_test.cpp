@@ -53,5 +53,21 @@ TEST(MaskOverlay, EnlargesASmallPictureAndTakesAllTags) {
   EXPECT_EQ(at(plain, 3, 3), (Rgb{0, 57, 89}));
 }
 
+TEST(MaskOverlay, DrawsPixelsAsLongAsTheyAreShown) {
+  Mask mask = Mask::uniform(720, 480, 0);
+  paint(mask, rectangle(720, 480, {0, 0}, 360, 480), 9);
+  Picture picture = grey(720, 480, 77);
+  picture.pixel_aspect = {32, 27};
+  const Picture wide = mask_overlay(mask, picture);
+  EXPECT_EQ(wide.shape.width, 853u);  // 720 * 32 / 27
+  EXPECT_NE(at(wide, 420, 240), (Rgb{77, 77, 77}));
+  EXPECT_EQ(at(wide, 430, 240), (Rgb{77, 77, 77}));
+  picture.pixel_aspect = {1, 2};
+  const Picture high = mask_overlay(mask, picture);
+  EXPECT_EQ(high.shape.width, 720u);
+  EXPECT_GT(high.shape.height, 960u);
+  EXPECT_EQ(at(high, 400, 950), (Rgb{77, 77, 77}));
+}
+
 }  // namespace
 }  // namespace nutik::sheet
