@@ -114,7 +114,15 @@ ExpectedValues::ExpectedValues(const CaptureFormat& source)
                             camera.white_code, white_code_),
                      {Setting::automatic_noise});
   }
-  for (std::uint32_t channel = 0; channel < channels_; ++channel) sd_.push_back(camera.sd_of_codes(channel));
+  for (std::uint32_t channel = 0; channel < channels_; ++channel) {
+    sd_.push_back(camera.sd_of_codes(channel));
+    // Near black the noise changes much from one code to the next: the band is that of what is held, whose codes are
+    // finer.
+    std::vector<float>& held_sd = held_sd_.emplace_back(std::size_t{white_code_} * scale_ + 1);
+    for (std::size_t code = 0; code < held_sd.size(); ++code) {
+      held_sd[code] = static_cast<float>(camera.sd(channel, static_cast<double>(code) / scale_));
+    }
+  }
 }
 
 // One pixel of a tile at a time: its samples, cut into levels.
@@ -277,8 +285,7 @@ class ExpectedValues::Pixel {
     Level& level = levels_[number];
     std::array<double, 3> band{};
     for (std::uint32_t channel = 0; channel < model_.channels_; ++channel) {
-      const double code = static_cast<double>(level.held[channel]) / model_.scale_;
-      band[channel] = model_.sigmas_ * sd(channel, code) * model_.scale_;
+      band[channel] = model_.sigmas_ * model_.held_sd_[channel][level.held[channel]] * model_.scale_;
     }
     bool dropped = false;
     for (std::uint32_t k = level.span.begin; k < level.span.end; ++k) {

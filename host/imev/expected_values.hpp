@@ -66,8 +66,9 @@ class ExpectedValues {
   std::uint32_t scale_;
   double sigmas_;
   Transfer transfer_;
-  std::vector<double> light_;           // [code]
-  std::vector<std::vector<float>> sd_;  // [channel][code] in codes of the source
+  std::vector<double> light_;                // [code]
+  std::vector<std::vector<float>> sd_;       // [channel][code] in codes of the source
+  std::vector<std::vector<float>> held_sd_;  // [channel][code of held_format()] in codes of the source
 };
 
 }  // namespace nutik
