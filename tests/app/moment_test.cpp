@@ -141,6 +141,10 @@ TEST_F(Moment, ActivitySaysWhereItIsQuiet) {
       << text.out;
   EXPECT_NE(text.out.find("try: nutik-cl --start 13f --exposure 1f clip.tik quiet.png"), std::string::npos)
       << text.out;
+  std::filesystem::copy(scratch_ / "clip.tik", scratch_ / "my clip.tik");
+  const std::string spaced = run({"activity", "my clip.tik"}).out;
+  EXPECT_NE(spaced.find("try: nutik-cl --start 13f --exposure 1f 'my clip.tik' quiet.png"), std::string::npos)
+      << spaced;
   EXPECT_EQ(text.err, "");
   EXPECT_NE(run({"activity", "clip.tik"}).err.find("--by CODES counts larger changes only"),
             std::string::npos);
@@ -270,6 +274,7 @@ TEST_F(Moment, SweepRefusesWhatMakesNoSense) {
   refused({"--shift", "0..1f/1f", "--stretch", "1..2/1", "--columns", "3"}, "leave out --columns");
   refused({"--shift", "0..1f/1f", "--each", "same.png"}, "has no place for a number; write name%02d.png");
   refused({"--shift", "0..1f/1f", "--each", "x%d.gif"}, "pictures are written as .png");
+  refused({"--shift", "0..1f/1f", "--each", "x%d.pfm"}, "x0.pfm holds floating point only; write a .png");
   expect_refused({"sweep", "--shift", "0..1f/1f", "clip.tik"}, 2, "an exposure needs a plain interval");
   expect_refused({"sweep", "--shift", "0..1f/1f"}, 2, "an input is missing");
 }

@@ -7,6 +7,7 @@
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
+#include "app/text/shell_text.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/pictures.hpp"
@@ -109,7 +110,7 @@ void report_text(const std::string& name, const MeasuredActivity& measured) {
         "note: most pixels change at every sample, as noise does; --by CODES counts larger changes only");
   }
   print_line(format("try: nutik-cl --start {}f --exposure {}f {} quiet.png", quietest.samples.first,
-                    quietest.samples.size(), name));
+                    quietest.samples.size(), shell_word(name)));
 }
 
 // The stretch that --moment asks for, as options of another command. Where nothing changes all is quiet.

@@ -162,9 +162,8 @@ int run_sweep(const Options& options) {
   Session session = open_session(options, {.besides = sheet_needs(sheet.wishes)});
   const Timeline& timeline = session.timeline();
   const Shape& shape = session.format().shape;
-  for (const std::filesystem::path& single : singles) {
-    static_cast<void>(value_type_for(single, std::nullopt, ValueType::code8, shape.channels));
-  }
+  for (const std::filesystem::path& single : singles)
+    check_picture_output(single, shape.channels, job.inputs());
   const std::string what = counted(points.size(), "picture");
   sheet.heading = job.heading(format("{}, {}", label, what));
   sheet.mask = mask_of(request, shape);
