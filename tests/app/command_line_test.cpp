@@ -136,6 +136,9 @@ TEST_F(CommandLine, NamesTheOutputWhereNoneIsGiven) {
 }
 
 TEST_F(CommandLine, ShowsInfoForACaptureAlone) {
+  EXPECT_EQ(run({"--json", "clip.tik"}).out, run({"info", "--json", "clip.tik"}).out);
+  EXPECT_EQ(run({"--activity", "map.png", "clip.tik"}).status, 0);
+  EXPECT_TRUE(exists("map.png"));
   const ProgramResult result = run({"clip.tik"});
   EXPECT_EQ(result.status, 0);
   EXPECT_NE(result.out.find("16 x 16 colour, 8 bits, white code 255, transfer srgb"), std::string::npos);

@@ -49,7 +49,8 @@ const Command& shorthand(const Words& words) {
     throw UsageError(
         format("the output is missing: nutik-cl {} {}", shell_word(first), shell_word(stem + ".tik")));
   }
-  if (words.given.empty() || (words.given.size() == 1 && is_given("quiet"))) return command(CommandId::info);
+  const auto is_of_info = [](const Given& given) { return given.option->is_of(CommandId::info); };
+  if (std::ranges::all_of(words.given, is_of_info)) return command(CommandId::info);
   throw UsageError(
       format("what should be done with {}? To expose a picture: nutik-cl --start 0s "
              "--exposure 10ms {} picture.png",
