@@ -1,5 +1,6 @@
 #include "session/mask_making.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -81,11 +82,10 @@ class MaskMaker {
   MaskMaker(Mask base, CaptureSource* capture) : made_{std::move(base), {}}, capture_(capture) {}
 
   void add(const MaskStep& step) {
-    StepReport report{step.name.text, step.tag, step.last_tag(), 0, std::nullopt};
+    StepReport report{step.name.text, step.tag, step.last_tag(), 0, std::nullopt, {}};
     Region region = region_of(step, report);
     for (const RegionChange& change : step.changes) region = changed_by(change, region);
     report.pixel_count = region.pixel_count();
-    made_.steps.push_back(std::move(report));
     if (const auto* grid = std::get_if<select::Grid>(&step.selection)) {
       if (grid->columns > mask().width || grid->rows > mask().height) {
         throw InputError(format("{} {}x{} has more cells than pixels along a side: the mask is {} x {}",
@@ -95,12 +95,31 @@ class MaskMaker {
     } else {
       paint(made_.mask, region, step.tag);
     }
+    if (report.pixel_count > 0) report.covered_tags = tags_on_pixels(report);
+    made_.steps.push_back(std::move(report));
   }
 
-  [[nodiscard]] MadeMask finished() { return std::move(made_); }
+  [[nodiscard]] MadeMask finished() {
+    for (StepReport& step : made_.steps) {
+      const std::vector<std::uint8_t> left = tags_on_pixels(step);
+      std::erase_if(step.covered_tags,
+                    [&](std::uint8_t tag) { return std::ranges::binary_search(left, tag); });
+    }
+    return std::move(made_);
+  }
 
  private:
   [[nodiscard]] const Mask& mask() const { return made_.mask; }
+
+  // Those of a step that some pixel has now.
+  [[nodiscard]] std::vector<std::uint8_t> tags_on_pixels(const StepReport& step) const {
+    const auto counts = mask().pixels_per_tag();
+    std::vector<std::uint8_t> tags;
+    for (std::uint32_t tag = step.tag; tag <= step.last_tag; ++tag) {
+      if (counts[tag] > 0) tags.push_back(static_cast<std::uint8_t>(tag));
+    }
+    return tags;
+  }
 
   Region region_of(const MaskStep& step, StepReport& report) {
     const std::uint32_t width = mask().width, height = mask().height;
@@ -166,6 +185,10 @@ class MaskMaker {
 
   [[nodiscard]] Region changed(const std::vector<std::uint32_t>& spans, std::uint32_t white_code,
                                const MaskStep& step, StepReport& report) const {
+    if (step.by_codes && *step.by_codes >= white_code) {
+      throw UsageError(format("{}: no codes differ by more than {}, for white is {}; state fewer codes",
+                              step.name.text, *step.by_codes, white_code));
+    }
     report.by_codes = step.by_codes ? *step.by_codes : usual_noise(spans, white_code);
     return spanning_more({mask().width, mask().height, 1}, spans, *report.by_codes);
   }

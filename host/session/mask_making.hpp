@@ -17,10 +17,11 @@ namespace nutik {
 // What a step came to.
 struct StepReport {
   std::string name;
-  std::uint8_t tag = 0;                   // of a grid, the first
-  std::uint8_t last_tag = 0;              // of a grid; else the same
-  std::uint64_t pixel_count = 0;          // that it gave its tag
-  std::optional<std::uint32_t> by_codes;  // more than which a code had to change
+  std::uint8_t tag = 0;                    // of a grid, the first
+  std::uint8_t last_tag = 0;               // of a grid; else the same
+  std::uint64_t pixel_count = 0;           // that it gave its tag
+  std::optional<std::uint32_t> by_codes;   // more than which a code had to change
+  std::vector<std::uint8_t> covered_tags;  // its tags that later steps left on no pixel
 };
 
 // Neither capture nor picture nor anything else says how large the mask is.

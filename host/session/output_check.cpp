@@ -6,6 +6,7 @@
 
 #include "capture/format.hpp"
 #include "media/picture_writer.hpp"
+#include "media/recipe.hpp"
 #include "system/mapped_file.hpp"
 #include "tik/header.hpp"
 
@@ -25,6 +26,22 @@ bool is_picture_content(std::string_view bytes) {
          !is_tik_content(std::string(bytes));
 }
 
+// A grey PGM or PNG that does not carry how it was exposed.
+bool is_mask_content(const std::filesystem::path& file) {
+  constexpr std::size_t kPngColourType = 25;
+  const MappedFile mapped(file);
+  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
+  const bool is_pgm = bytes.starts_with("P2") || bytes.starts_with("P5");
+  const bool is_grey_png =
+      bytes.starts_with("\x89PNG") && bytes.size() > kPngColourType && bytes[kPngColourType] == 0;
+  if (!is_pgm && !is_grey_png) return false;
+  try {
+    return !read_recipe(file);
+  } catch (const InputError&) {  // damaged, and so no exposure that is missed
+    return true;
+  }
+}
+
 // Text with a comma in its first line.
 bool is_table_content(std::string_view bytes) {
   const std::string_view line = bytes.substr(0, bytes.find('\n'));
@@ -38,10 +55,13 @@ bool is_video_content(std::string_view bytes) {
   return is_matroska || is_mp4 || is_avi;
 }
 
-bool is_content_of(OutputKind kind, const std::string& bytes) {
+bool is_content_of(OutputKind kind, const std::filesystem::path& file) {
+  const std::string bytes = first_bytes(file);
+  if (bytes.empty()) return true;
   switch (kind) {
     case OutputKind::tik: return is_tik_content(bytes);
     case OutputKind::picture: return is_picture_content(bytes);
+    case OutputKind::mask: return is_mask_content(file);
     case OutputKind::table: return is_table_content(bytes);
     case OutputKind::video: return is_video_content(bytes);
     case OutputKind::noise: return bytes.starts_with("nutik noise");
@@ -53,6 +73,7 @@ const char* name_of(OutputKind kind) {
   switch (kind) {
     case OutputKind::tik: return ".tik file";
     case OutputKind::picture: return "picture";
+    case OutputKind::mask: return "mask";
     case OutputKind::table: return "table";
     case OutputKind::video: return "video";
     case OutputKind::noise: return "noise file";
@@ -70,7 +91,8 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 
 void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs) {
   const std::string name = output.string();
-  if (kind == OutputKind::picture && names_standard_output(output)) {
+  const bool is_picture = kind == OutputKind::picture || kind == OutputKind::mask;
+  if (is_picture && names_standard_output(output)) {
     if (isatty(STDOUT_FILENO) == 1) {
       throw UsageError(format(
           "{} is standard output, which is a terminal; send it on to a program or a file, or name a file",
@@ -89,7 +111,7 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   if (kind == OutputKind::noise && (output.extension() == ".tik" || is_picture_name(output))) {
     throw UsageError(format("{} is no name for a text: a camera's noise is written as .noise", name));
   }
-  if (kind == OutputKind::picture && !is_picture_name(output)) {
+  if (is_picture && !is_picture_name(output)) {
     throw UsageError(format("{}: pictures are written as {}", name, picture_extensions()));
   }
   if (kind == OutputKind::table && output.extension() != ".csv") {
@@ -100,8 +122,7 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   if (std::filesystem::is_directory(output, error)) {
     throw UsageError(format("{} is a folder; name a file in it", name));
   }
-  const std::string bytes = first_bytes(output);
-  if (!bytes.empty() && !is_content_of(kind, bytes)) {
+  if (!is_content_of(kind, output)) {
     throw UsageError(
         format("{} exists and is no {}; it is not replaced. Choose another name", name, name_of(kind)));
   }

@@ -73,7 +73,7 @@ def check_bash(program, work):
     offers("nutik-cl expose --nosuch 3 --nega", set())
     offers("nutik-cl mask --difference 0f mask.p", {"mask.pgm", "mask.png"})
     offers("nutik-cl shutter --gain 2 h", {"hann"})
-    offers("nutik-cl shutter hann c", {"clip.tik"})
+    offers("nutik-cl shutter hann c", {"clip.tik", "clip.mp4"})
     offers("nutik-cl completion ", {"bash", "zsh", "fish"})
     offers("nutik-cl info --", {"--help", "--activity", "--json", "--quiet"})
     offers("nutik-cl devices --json ", set())

@@ -188,6 +188,41 @@ TEST_F(MaskCommand, WarnsOfAPreviewBeyondTheCapture) {
             "and do not count\n");
 }
 
+// An exposure of the same name carries how it was made; a mask does not.
+TEST_F(MaskCommand, ReplacesMasksAndNoExposures) {
+  for (const std::string name : {"same.png", "same.pgm"}) {
+    ASSERT_EQ(run({"--start", "0s", "--exposure", "50ms", "clip.tik", name}).status, 0);
+    const std::string exposure = test::read_file(scratch_ / name);
+    expect_refused({"mask", "--moving", "clip.tik", name}, 2,
+                   name + " exists and is no mask; it is not replaced");
+    EXPECT_EQ(test::read_file(scratch_ / name), exposure);
+  }
+  ASSERT_EQ(run({"contact", "clip.tik", "colour.png"}).status, 0);
+  expect_refused({"mask", "--moving", "clip.tik", "colour.png"}, 2, "colour.png exists and is no mask");
+  for (const char* name : {"again.png", "again.pgm"}) {
+    EXPECT_EQ(run({"mask", "--moving", "clip.tik", name}).status, 0);
+    EXPECT_EQ(run({"mask", "--still", "clip.tik", name}).status, 0);
+  }
+}
+
+// A tag that was asked for and that no pixel has in the end.
+TEST_F(MaskCommand, WarnsOfTagsThatLaterStepsCover) {
+  const auto warned = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "mask");
+    words.insert(words.end(), {"clip.tik", "covered.pgm"});
+    return run(words).err;
+  };
+  EXPECT_EQ(warned({"--tag", "64", "--rectangle", "10,10,5,5", "--tag", "128", "--rectangle", "8,8,9,9"}),
+            "warning: --rectangle: later steps cover all of M64, which no pixel has in the end\n");
+  EXPECT_EQ(warned({"--tag", "64", "--rectangle", "10,10,5,5", "--tag", "128", "--rectangle", "10,10,5,4"}),
+            "");
+  EXPECT_EQ(
+      warned({"--tag", "64", "--rectangle", "1,1,5,5", "--tag", "7", "--fill", "--tag", "64", "--moving"}),
+      "");
+  EXPECT_EQ(warned({"--grid", "4x1", "--tag", "9", "--rectangle", "0,0,50,48"}),
+            "warning: --grid: later steps cover all of M0, M1, which no pixel has in the end\n");
+}
+
 TEST_F(MaskCommand, RefusesWhatMakesNoSense) {
   expect_refused({"mask", "clip.tik"}, 2, "what is the mask made of? Add a step: --moving");
   expect_refused({"mask", "--moving"}, 2, "the output is missing: nutik-cl mask --moving clip.tik mask.pgm");
@@ -208,6 +243,12 @@ TEST_F(MaskCommand, RefusesWhatMakesNoSense) {
   expect_refused({"mask", "--moving", "--grow", "-1", "clip.tik"}, 2, "--grow '-1' is no number of pixels");
   expect_refused({"mask", "--fill", "--by", "3", "clip.tik"}, 2,
                  "--by says how much codes must change; --fill");
+  expect_refused({"mask", "--moving", "--by", "255", "clip.tik"}, 2,
+                 "--moving: no codes differ by more than 255, for white is 255");
+  expect_refused({"mask", "--moving", "clip.tik", "m.pgm", "--preview", "p.pfm"}, 2,
+                 "p.pfm holds floating point only");
+  expect_refused({"mask", "--moving", "clip.tik", "m.pgm", "--preview", "p.pgm"}, 2,
+                 "p.pgm holds grey pictures only");
   expect_refused({"mask", "--moving", "--by", "0", "clip.tik"}, 2, "--by '0' is no whole number of 1");
   expect_refused({"mask", "--threshold", "0f", "9..1", "clip.tik"}, 2, "'9..1' is no range of codes");
   expect_refused({"mask", "--threshold", "0f", "40%..60", "clip.tik"}, 2, "is no range of codes");

@@ -106,11 +106,12 @@ MaskJob job_of(const Options& options) {
   if (options.feather) {
     ask_for_layers(job, options, inputs);
   } else {
-    check_output(job.output, OutputKind::picture, inputs);
+    check_output(job.output, OutputKind::mask, inputs);
   }
   if (options.preview) {
+    constexpr std::uint32_t kColour = 3;
     inputs.push_back(job.output.string());
-    check_output(*options.preview, OutputKind::picture, inputs);
+    check_picture_output(*options.preview, kColour, inputs);
   } else if (options.start || options.exposure) {
     throw UsageError("--start and --exposure say what --preview shows; add --preview picture.png");
   }
@@ -156,6 +157,15 @@ Picture backdrop(const Options& options, const MaskRequest& request, const Mask&
 std::string pixels_text(std::uint64_t pixels, const Mask& mask) {
   return format("{:>10} pixels {:6.2f} %", pixels,
                 100.0 * static_cast<double>(pixels) / static_cast<double>(mask.tags.size()));
+}
+
+// `M64, M65 and 30 more`
+std::string tags_text(const std::vector<std::uint8_t>& tags) {
+  constexpr std::size_t kMostShown = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(tags.size(), kMostShown); ++i)
+    text += format("{}M{}", i == 0 ? "" : ", ", tags[i]);
+  return text + (tags.size() > kMostShown ? format(" and {} more", tags.size() - kMostShown) : "");
 }
 
 Answer answer_of(const MaskJob& job, const MadeMask& made) {
@@ -219,6 +229,10 @@ int run_mask(const Options& options) {
   MadeMask made = make_mask(job.request, session ? &session->capture() : nullptr, job.capture.value_or(""));
   for (const StepReport& step : made.steps) {
     if (step.pixel_count == 0) print_warning(format("{} for M{} selects no pixel", step.name, step.tag));
+    if (!step.covered_tags.empty()) {
+      print_warning(format("{}: later steps cover all of {}, which no pixel has in the end", step.name,
+                           tags_text(step.covered_tags)));
+    }
   }
   if (job.feather) made.mask = feathered(made.mask, *job.feather);
   if (options.preview) {
