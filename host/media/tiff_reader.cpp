@@ -44,6 +44,7 @@ class PageReader {
     } else {
       page.picture = read_shown();
     }
+    page.resolution = resolution();
     return page;
   }
 
@@ -103,6 +104,15 @@ class PageReader {
                   : sample_format == SAMPLEFORMAT_IEEEFP ? "floating-point"
                                                          : "unsigned"));
     }
+  }
+
+  [[nodiscard]] std::optional<std::pair<double, double>> resolution() const {
+    float across = 0, down = 0;
+    if (TIFFGetField(file_, TIFFTAG_XRESOLUTION, &across) != 1 ||
+        TIFFGetField(file_, TIFFTAG_YRESOLUTION, &down) != 1 || !(across > 0 && down > 0)) {
+      return std::nullopt;
+    }
+    return std::pair(double{across}, double{down});
   }
 
   [[nodiscard]] std::optional<std::uint32_t> stated_maximum() const {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "capture/picture.hpp"
 
@@ -19,6 +20,9 @@ struct TiffPage {
   // MaxSampleValue. That tag may also be the largest value that happens to occur; so it counts only
   // where it is 2^n - 1, all that n bits can hold.
   std::optional<std::uint32_t> maximum;
+  // How many of its pixels are as long as one and the same length, along a row and along a column, of no unit; where it
+  // has a resolution.
+  std::optional<std::pair<double, double>> resolution;
 };
 
 class TiffReader {

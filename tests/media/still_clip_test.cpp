@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/error.hpp"
+#include "media/picture_writer.hpp"
 #include "support/clips.hpp"
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
@@ -308,6 +309,28 @@ TEST(StillClip, EndsAtASignal) {
   EXPECT_THROW(open_test_clip(path), Interrupted);
   clear_interruption();
   EXPECT_EQ(read_all(*open_test_clip(path)).size(), 1u);
+}
+
+// As our own pictures carry it, and as others write it.
+TEST(StillClip, TakesThePixelAspectFromTheFile) {
+  const Scratch scratch;
+  for (const std::string name : {"a.png", "a.tif"}) {
+    for (const auto& [aspect, text] :
+         {std::pair(Rational{32, 27}, "pixels 32:27"), {Rational{10, 11}, "pixels 10:11"}}) {
+      Picture picture = test::random_stills(kGrey, 255, 1, 3).front();
+      picture.pixel_aspect = aspect;
+      write_picture(scratch / name, picture);
+      const auto clip = open_test_clip(scratch / name);
+      EXPECT_EQ(clip->info().format.pixel_aspect, aspect) << name;
+      EXPECT_EQ(clip->info().facts.back().line(), std::string(text) + ", from the file");
+      ClipOptions stated;
+      stated.pixel_aspect = Rational{2, 1};
+      EXPECT_EQ(open_test_clip(scratch / name, stated)->info().format.pixel_aspect, (Rational{2, 1}));
+    }
+    Picture square = test::random_stills(kGrey, 255, 1, 3).front();
+    write_picture(scratch / name, square);
+    EXPECT_EQ(open_test_clip(scratch / name)->info().format.pixel_aspect, (Rational{1, 1}));
+  }
 }
 
 }  // namespace

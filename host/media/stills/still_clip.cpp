@@ -1,5 +1,6 @@
 // Sequences of stills: PNG and JPEG through OpenCV; Netpbm and TIFF through our own readers, which
 // keep the maximum, and read the pages of a TIFF in one go.
+#include <cmath>
 #include <cstring>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -33,10 +34,26 @@ struct Still {
   std::uint32_t code_bytes = 1;
   std::optional<std::uint32_t> maximum;  // that the file states
   std::vector<std::byte> codes;          // interleaved raster
+  std::optional<Rational> pixel_aspect = std::nullopt;
 };
 
 bool has_extension(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions) {
   return std::find(extensions.begin(), extensions.end(), extension_of(file)) != extensions.end();
+}
+
+// How much wider than high a pixel is of which so many are as long as one and the same length. Pictures state pixels an
+// inch, rounded as they like: what lies within a thousandth of a square is one. None that no pixel has.
+std::optional<Rational> aspect_of(double pixels_across, double pixels_down) {
+  constexpr double kMost = 64.0, kSquare = 1e-3;
+  constexpr std::int64_t kParts = 10'000;
+  const double aspect = pixels_down / pixels_across;
+  if (!(aspect >= 1 / kMost && aspect <= kMost)) return std::nullopt;
+  if (std::abs(aspect - 1.0) <= kSquare) return Rational{1, 1};
+  const bool are_whole = pixels_across == std::floor(pixels_across) &&
+                         pixels_down == std::floor(pixels_down) && std::max(pixels_across, pixels_down) < 1e9;
+  if (are_whole)
+    return Rational::of(static_cast<std::int64_t>(pixels_down), static_cast<std::int64_t>(pixels_across));
+  return Rational::of(std::llround(aspect * kParts), kParts);
 }
 
 Still still_of(Picture&& picture, std::optional<std::uint32_t> maximum) {
@@ -79,6 +96,24 @@ std::optional<Shape> stated_size(std::string_view bytes) {
         marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
     if (is_frame) return Shape{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2), 1};
     at += marker == 0xFF ? 1 : 2 + big_endian(bytes, at + 2, 2);
+  }
+  return std::nullopt;
+}
+
+// What a PNG's pHYs states. Its chunks: u32 length, four letters, so many bytes, a checksum.
+std::optional<Rational> png_pixel_aspect(const std::filesystem::path& file) {
+  constexpr std::size_t kSignature = 8, kFrame = 12, kLengthBytes = 4, kName = 4;
+  const MappedFile mapped(file);
+  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
+  if (!bytes.starts_with("\x89PNG")) return std::nullopt;
+  for (std::size_t at = kSignature; at + kFrame <= bytes.size();) {
+    const std::uint32_t length = big_endian(bytes, at, kLengthBytes);
+    const std::string_view name = bytes.substr(at + kLengthBytes, kName);
+    const std::size_t data = at + kLengthBytes + kName;
+    if (name == "IDAT" || data + length > bytes.size()) return std::nullopt;
+    if (name == "pHYs" && length >= 8)
+      return aspect_of(big_endian(bytes, data, 4), big_endian(bytes, data + 4, 4));
+    at += kFrame + length;
   }
   return std::nullopt;
 }
@@ -127,6 +162,7 @@ Still read_with_opencv(const std::filesystem::path& file) {
   still.code_bytes = picture.depth() == CV_8U ? 1 : 2;
   const auto* bytes = reinterpret_cast<const std::byte*>(picture.data);
   still.codes.assign(bytes, bytes + picture.total() * picture.elemSize());
+  still.pixel_aspect = png_pixel_aspect(file);
   return still;
 }
 
@@ -153,7 +189,13 @@ class StillClip final : public Clip {
     capture.white_code = options.white_code.value_or(first_.maximum.value_or(full));
     // Deep stills come from scientific cameras, whose codes are linear; shallow ones are made to be
     // seen.
+    capture.pixel_aspect = first_.pixel_aspect.value_or(Rational{1, 1});
     describe_stored_codes(info_, options, first_.code_bytes == 1 ? Transfer::srgb() : Transfer::linear());
+    if (capture.pixel_aspect != Rational{1, 1}) {
+      const auto& [wide, high] = capture.pixel_aspect;
+      info_.facts.push_back({format("pixels {}:{}", wide, high),
+                             options.pixel_aspect ? Origin::stated : Origin::file, Setting::pixel_aspect});
+    }
     if (capture.code_bytes == 2 && !first_.maximum && !options.white_code) {
       info_.notes.emplace_back(
           "the files do not say how many of their 16 bits are used: white is taken to be 65535; state "
@@ -192,7 +234,9 @@ class StillClip final : public Clip {
     if (page.number == 1) tiff_.emplace(page.file);
     std::optional<TiffPage> read = tiff_->next();
     if (!read) throw InputError(format("{} cannot be read: the file was cut off", page.name()));
-    return still_of(std::move(read->picture), read->maximum);
+    Still still = still_of(std::move(read->picture), read->maximum);
+    if (read->resolution) still.pixel_aspect = aspect_of(read->resolution->first, read->resolution->second);
+    return still;
   }
 
   void check_like_first(const Still& still, const Page& page) const {
