@@ -5,19 +5,19 @@
 namespace nutik {
 
 FrameQueue::FrameQueue(std::function<std::unique_ptr<VideoWriter>()> open, std::size_t most_waiting)
-    : pictures_(most_waiting),
+    : frames_(most_waiting),
       writing_(std::async(std::launch::async, [this, open = std::move(open)] { write(open); })) {}
 
-FrameQueue::~FrameQueue() { pictures_.close(); }
+FrameQueue::~FrameQueue() { frames_.close(); }
 
 void FrameQueue::write(const std::function<std::unique_ptr<VideoWriter>()>& open) {
-  const ClosedAtEnd closed(pictures_);
+  const ClosedAtEnd closed(frames_);
   writer_ = open();
-  while (const auto picture = pictures_.pop()) writer_->write(*picture);
+  while (const auto frame = frames_.pop()) writer_->write(frame->picture, frame->text);
 }
 
 void FrameQueue::finish() {
-  pictures_.close();
+  frames_.close();
   writing_.get();
   writer_->finish();
 }

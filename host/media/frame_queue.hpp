@@ -31,7 +31,9 @@ class FrameQueue {
   FrameQueue& operator=(const FrameQueue&) = delete;
 
   // Waits while frames wait already. Returns false where writing has failed; finish() then throws why.
-  bool push(Picture picture) { return pictures_.push(std::move(picture)); }
+  bool push(Picture picture, std::string text = {}) {
+    return frames_.push({std::move(picture), std::move(text)});
+  }
 
   // Writes what was pushed and ends the video. Throws OutputError.
   void finish();
@@ -40,9 +42,14 @@ class FrameQueue {
   [[nodiscard]] std::vector<std::string> notes() const { return writer_->notes(); }
 
  private:
+  struct Frame {
+    Picture picture;
+    std::string text;
+  };
+
   void write(const std::function<std::unique_ptr<VideoWriter>()>& open);
 
-  Channel<Picture> pictures_;
+  Channel<Frame> frames_;
   std::unique_ptr<VideoWriter> writer_;
   std::future<void> writing_;
 };

@@ -15,8 +15,8 @@ class StillWriter final : public VideoWriter {
         name_(NumberedName::parse(path.filename().string()).value()),
         wishes_(wishes) {}
 
-  void write(const Picture& picture) override {
-    write_picture(folder_ / name_.with(number_++), picture, {}, wishes_);
+  void write(const Picture& picture, const std::string& text) override {
+    write_picture(folder_ / name_.with(number_++), picture, text, wishes_);
   }
   void finish() override {}
 

@@ -31,8 +31,10 @@ class VideoWriter {
   // Without finish(), the file that was being written is removed.
   virtual ~VideoWriter() = default;
 
-  // The next frame, of the format that the writer was opened with. Throws OutputError.
-  virtual void write(const Picture& picture) = 0;
+  // The next frame, of the format that the writer was opened with. Where frames are files of their own they keep
+  // `text` as write_picture() does. Throws OutputError.
+  virtual void write(const Picture& picture, const std::string& text) = 0;
+  void write(const Picture& picture) { write(picture, {}); }
 
   // Ends the video after the frames so far, and gives the file its name. Throws OutputError.
   virtual void finish() = 0;

@@ -69,6 +69,6 @@ std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture,
                            *codec_);
 }
 
-std::string VideoOutput::kind() const { return codec_ == nullptr ? "stills" : std::string(codec_->name); }
+std::string VideoOutput::kind() const { return writes_stills() ? "stills" : std::string(codec_->name); }
 
 }  // namespace nutik

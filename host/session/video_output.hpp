@@ -32,6 +32,7 @@ class VideoOutput {
   // That the encoder keeps.
   [[nodiscard]] std::uint32_t encoder_frames() const { return codec_ == nullptr ? 1 : codec_->held_frames; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] bool writes_stills() const { return codec_ == nullptr; }
   // `h264`, or `stills`.
   [[nodiscard]] std::string kind() const;
 

@@ -172,6 +172,18 @@ TEST_F(Again, WritesFunctionsThatAreGoneOrChanged) {
   EXPECT_EQ(file("a-again/it's f.fn"), "notes of mine");
 }
 
+// A video's still is an exposure like another.
+TEST_F(Again, MakesAVideosStills) {
+  run({"video", "--out-fps", "30000/1001", "--from", "1/7s", "--speed", "0.3", "--shutter", "hann", "--ev",
+       "1", "--out-transfer", "linear", "clip.tik", "plain-%02d.png"});
+  for (const std::string name : {"plain-00.png", "plain-07.png"}) expect_same_bytes(name);
+  run({"video", "-k", "it's f.fn", "-m", "mask.pgm", "--depth", "16", "--to", "0.5s", "clip.tik",
+       "f-%d.tif"});
+  for (const std::string name : {"f-0.tif", "f-3.tif"}) expect_same_bytes(name);
+  run({"video", "--no-recipe", "--to", "0.2s", "clip.tik", "bare-%d.png"});
+  EXPECT_EQ(file("bare-0.png").find("nutik"), std::string::npos);
+}
+
 TEST_F(Again, SaysWhereThereIsNoRecipe) {
   run({"--exposure", "33ms", "clip.tik", "private.png", "--no-recipe"});
   EXPECT_EQ(file("private.png").find("nutik"), std::string::npos);
@@ -179,6 +191,10 @@ TEST_F(Again, SaysWhereThereIsNoRecipe) {
   auto result = test::run_program({"again", "private.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 3);
   EXPECT_NE(result.err.find("private.png carries no recipe"), std::string::npos) << result.err;
+  run({"contact", "clip.tik", "sheet.png"});
+  result = test::run_program({"again", "sheet.png"}, scratch_.folder());
+  EXPECT_EQ(result.status, 3);
+  EXPECT_NE(result.err.find("no sheets, charts, traces or masks"), std::string::npos) << result.err;
   result = test::run_program({"again", "private.png", "clip.tik"}, scratch_.folder());
   EXPECT_EQ(result.status, 2);
   EXPECT_NE(result.err.find("clip.tik is no folder"), std::string::npos) << result.err;

@@ -281,7 +281,7 @@ constexpr Option kRows[] = {
      "also write how often each pixel changes, as a grey picture: black never, white most often, between "
      "them sRGB"},
     {0, "json", "", answer, kAll & ~kOnlyPrints, &Options::json, "answer with one JSON object, for scripts"},
-    {0, "no-recipe", "", output, set_of(Id::expose, Id::batch, Id::sweep), &Options::no_recipe,
+    {0, "no-recipe", "", output, set_of(Id::expose, Id::batch, Id::sweep, Id::video), &Options::no_recipe,
      "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},
     {'q', "quiet", "", output, kAll, &Options::quiet, "no progress bar and no summary"},
     {'v', "verbose", "", output, (kExposes & ~bit(Id::mask)) | bit(Id::trace), &Options::verbose,

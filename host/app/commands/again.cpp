@@ -148,9 +148,11 @@ int run_again(const Options& options) {
   const std::optional<Recipe> recipe = read_recipe(picture);
   if (!recipe) {
     throw InputError(
-        format("{} carries no recipe: nutik-cl keeps one in PNG, TIFF, JPEG, OpenEXR, PGM and PPM pictures, "
-               "unless it was "
-               "told --no-recipe or another program wrote the picture since",
+        format("{} carries no recipe. Exposures do, of expose, batch, sweep --each and a video's stills, as "
+               "PNG, TIFF, "
+               "JPEG, OpenEXR, PGM or PPM: no sheets, charts, traces or masks. Those that were made with "
+               "--no-recipe, "
+               "or written by another program since, have lost it",
                picture.string()));
   }
   if (recipe->version != NUTIK_VERSION) {

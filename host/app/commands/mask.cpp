@@ -45,7 +45,7 @@ void ask_for_layers(MaskJob& job, const Options& options, std::span<const std::s
                (job.output.parent_path() / (job.output.stem().string() + "-%d.png")).string()));
   }
   for (std::uint32_t tag = 0; tag < kMaskValues; ++tag)
-    check_output(job.layer(tag), OutputKind::picture, inputs);
+    check_output(job.layer(tag), OutputKind::mask, inputs);
 }
 
 // Of the tags that have a share, in 16 bits. A layer of another mask would be read along with them.
