@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "capture/error.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"
@@ -34,6 +36,23 @@ void write_video(const std::filesystem::path& path, const std::vector<Picture>& 
 std::size_t file_count(const Scratch& scratch) {
   const std::filesystem::directory_iterator files(scratch.folder());
   return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+
+// From 720 lines on readers take another matrix than the writer's where a file names none.
+TEST(VideoWriter, NamesTheMatrixOfItsYuv) {
+  for (const auto& [name, codec] : {std::pair{"v.mov", "prores"},
+                                    {"v.mkv", "prores"},
+                                    {"v.mp4", "h264"},
+                                    {"v.mov", "mjpeg"},
+                                    {"v.avi", "mjpeg"}}) {
+    SCOPED_TRACE(std::string(name) + ", " + codec);
+    const Scratch scratch;
+    write_video(scratch / name, test::random_stills({32, 720, 3}, 255, 2, 5), {25, 1}, codec);
+    const auto facts = test::open_test_clip(scratch / name)->info().facts;
+    const auto matrix = std::ranges::find(facts, Setting::matrix, &Fact::setting);
+    ASSERT_NE(matrix, facts.end());
+    EXPECT_EQ(matrix->line(), "matrix bt601, from the file");
+  }
 }
 
 TEST(VideoWriter, Ffv1GivesEveryCodeBack) {

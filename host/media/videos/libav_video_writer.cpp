@@ -125,6 +125,11 @@ class LibavVideoWriter final : public VideoWriter {
                                  rows, height_, frames_written_));
       }
     }
+    // ProRes keeps in each frame what the encoder was told once.
+    frame->colorspace = encoder_->colorspace;
+    frame->color_range = encoder_->color_range;
+    frame->color_primaries = encoder_->color_primaries;
+    frame->color_trc = encoder_->color_trc;
     frame->pts = frames_written_++;
     encode(frame);
   }
