@@ -314,7 +314,7 @@ TEST(StillClip, EndsAtASignal) {
 // As our own pictures carry it, and as others write it.
 TEST(StillClip, TakesThePixelAspectFromTheFile) {
   const Scratch scratch;
-  for (const std::string name : {"a.png", "a.tif"}) {
+  for (const std::string name : {"a.png", "a.tif", "a.jpg"}) {
     for (const auto& [aspect, text] :
          {std::pair(Rational{32, 27}, "pixels 32:27"), {Rational{10, 11}, "pixels 10:11"}}) {
       Picture picture = test::random_stills(kGrey, 255, 1, 3).front();

@@ -101,21 +101,35 @@ std::optional<Shape> stated_size(std::string_view bytes) {
 }
 
 // What a PNG's pHYs states. Its chunks: u32 length, four letters, so many bytes, a checksum.
-std::optional<Rational> png_pixel_aspect(const std::filesystem::path& file) {
+std::optional<Rational> png_pixel_aspect(std::string_view bytes) {
   constexpr std::size_t kSignature = 8, kFrame = 12, kLengthBytes = 4, kName = 4;
-  const MappedFile mapped(file);
-  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
-  if (!bytes.starts_with("\x89PNG")) return std::nullopt;
   for (std::size_t at = kSignature; at + kFrame <= bytes.size();) {
     const std::uint32_t length = big_endian(bytes, at, kLengthBytes);
     const std::string_view name = bytes.substr(at + kLengthBytes, kName);
     const std::size_t data = at + kLengthBytes + kName;
     if (name == "IDAT" || data + length > bytes.size()) return std::nullopt;
-    if (name == "pHYs" && length >= 8)
+    if (name == "pHYs" && length >= 8) {
       return aspect_of(big_endian(bytes, data, 4), big_endian(bytes, data + 4, 4));
+    }
     at += kFrame + length;
   }
   return std::nullopt;
+}
+
+// What the header of a JPEG that is JFIF states, which is its first segment: FF E0, length, JFIF and a zero, two bytes of
+// version, the unit, and a density across and down.
+std::optional<Rational> jpeg_pixel_aspect(std::string_view bytes) {
+  constexpr std::string_view kApp0 = "\xFF\xD8\xFF\xE0";
+  constexpr std::size_t kName = 6, kAcross = 14, kDown = 16, kEnd = 18;
+  if (!bytes.starts_with(kApp0) || bytes.size() < kEnd || bytes.substr(kName, 4) != "JFIF")
+    return std::nullopt;
+  return aspect_of(big_endian(bytes, kAcross, 2), big_endian(bytes, kDown, 2));
+}
+
+std::optional<Rational> pixel_aspect_of(const std::filesystem::path& file) {
+  const MappedFile mapped(file);
+  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
+  return bytes.starts_with("\x89PNG") ? png_pixel_aspect(bytes) : jpeg_pixel_aspect(bytes);
 }
 
 // Before OpenCV allocates what a file says: Deflate makes 1032 bytes of one at most, which may be 8 pixels each, and a
@@ -162,7 +176,7 @@ Still read_with_opencv(const std::filesystem::path& file) {
   still.code_bytes = picture.depth() == CV_8U ? 1 : 2;
   const auto* bytes = reinterpret_cast<const std::byte*>(picture.data);
   still.codes.assign(bytes, bytes + picture.total() * picture.elemSize());
-  still.pixel_aspect = png_pixel_aspect(file);
+  still.pixel_aspect = pixel_aspect_of(file);
   return still;
 }
 
