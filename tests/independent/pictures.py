@@ -3,6 +3,7 @@
 Arrays are H x W x C, row 0 at the top, channels in the order red, green, blue (or one grey).
 """
 
+import json
 import subprocess
 
 import cv2
@@ -59,6 +60,71 @@ def write_pgm(path, mask):
         file.write(f"P5\n{width} {height}\n255\n".encode() + mask.tobytes())
 
 
+# What red and blue weigh in luma.
+LUMA_WEIGHTS = {"bt601": (0.299, 0.114), "bt709": (0.2126, 0.0722)}
+MATRIX_NAMES = {"bt709": "bt709", "smpte170m": "bt601", "bt470bg": "bt601"}
+LINES_OF_HIGH_DEFINITION = 720
+
+
+def rgb_of_yuv(y, u, v, matrix, is_full):
+    """8-bit RGB of planes of one size, as docs/model.md has it."""
+    red, blue = LUMA_WEIGHTS[matrix]
+    green = 1 - red - blue
+    luma, chroma = (1, 1) if is_full else (255 / 219, 255 / 224)
+    whole = lambda weight: int(np.floor(weight * 2**14 + 0.5))
+    light = (y.astype(np.int64) - (0 if is_full else 16)) * whole(luma)
+    u, v = u.astype(np.int64) - 128, v.astype(np.int64) - 128
+    sums = (light + v * whole(2 * (1 - red) * chroma),
+            light - u * whole(blue / green * 2 * (1 - blue) * chroma) - v * whole(red / green * 2 * (1 - red) * chroma),
+            light + u * whole(2 * (1 - blue) * chroma))
+    return np.stack([np.clip(total + 2**13 >> 14, 0, 255) for total in sums], axis=-1).astype(np.uint8)
+
+
+class YuvVideo:
+    """Decodes 4:2:0 of 8 bits with the ffmpeg command, and makes RGB of it here."""
+
+    def __init__(self, path, stream):
+        self._width, self._height = stream["width"], stream["height"]
+        usual = "bt709" if self._height >= LINES_OF_HIGH_DEFINITION else "bt601"
+        self._matrix = MATRIX_NAMES.get(stream.get("color_space"), usual)
+        self._is_full = stream["pix_fmt"] == "yuvj420p" or stream.get("color_range") == "pc"
+        self._decoder = subprocess.Popen(
+            ["ffmpeg", "-v", "error", "-i", path, "-vsync", "passthrough", "-f", "rawvideo", "-pix_fmt",
+             stream["pix_fmt"], "-"], stdout=subprocess.PIPE)
+
+    @staticmethod
+    def stream_of(path):
+        """What ffprobe says of a file's pictures, where they are of this kind; else None."""
+        wanted = "stream=width,height,pix_fmt,color_space,color_range"
+        said = subprocess.run(["ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries", wanted, "-of",
+                               "json", path], capture_output=True, check=True)
+        stream = json.loads(said.stdout)["streams"][0]
+        return stream if stream["pix_fmt"] in ("yuv420p", "yuvj420p") else None
+
+    def read(self):
+        """The next sample, or None."""
+        across, down = (self._width + 1) // 2, (self._height + 1) // 2
+        data = self._decoder.stdout.read(self._width * self._height + 2 * across * down)
+        if not data:
+            return None
+        codes = np.frombuffer(data, np.uint8)
+        y, chroma = codes[:self._width * self._height].reshape(self._height, self._width), codes[self._width * self._height:]
+        u, v = (plane.reshape(down, across).repeat(2, 0).repeat(2, 1)[:self._height, :self._width]
+                for plane in np.split(chroma, 2))
+        return rgb_of_yuv(y, u, v, self._matrix, self._is_full)
+
+
+class RgbVideo:
+    """Decodes pictures that hold RGB."""
+
+    def __init__(self, path):
+        self._video = cv2.VideoCapture(path)
+
+    def read(self):
+        read, codes = self._video.read()
+        return np.ascontiguousarray(codes[:, :, ::-1]) if read else None
+
+
 class Clip:
     """A video file's samples, decoded as far as they are asked for and kept.
 
@@ -68,7 +134,9 @@ class Clip:
 
     def __init__(self, path):
         self.path = str(path)
-        self._video = self._open()
+        self._opened = self._open()
+        stream = YuvVideo.stream_of(self.path)
+        self._video = YuvVideo(self.path, stream) if stream else RgbVideo(self.path)
         self._samples = []
         self._count = None
 
@@ -80,7 +148,7 @@ class Clip:
 
     def rate(self):
         """The rate that the file states, samples a second."""
-        return self._video.get(cv2.CAP_PROP_FPS)
+        return self._opened.get(cv2.CAP_PROP_FPS)
 
     def __len__(self):
         if self._count is None:
@@ -92,10 +160,10 @@ class Clip:
 
     def __getitem__(self, k):
         while len(self._samples) <= k:
-            read, codes = self._video.read()
-            if not read:
+            codes = self._video.read()
+            if codes is None:
                 raise IndexError(k)
-            self._samples.append(np.ascontiguousarray(codes[:, :, ::-1]))
+            self._samples.append(codes)
         return self._samples[k]
 
 

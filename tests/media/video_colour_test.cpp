@@ -211,9 +211,7 @@ TEST(VideoColour, OfEveryMatrixAndRangeIsThatOfZscale) {
                                    (bytes == 2 ? static_cast<unsigned char>(wanted[at + 1]) << 8 : 0);
               const double code =
                   test::code_at(clip->info().format, raster, (y * kSide + x) * 3 + channel) / white * most;
-              // libswscale's quick way, which OpenCV takes, cuts off luma and what both chromas add to green.
-              const bool is_quick = kind.bits == 8 && matrix != YuvMatrix::bt2020;
-              ASSERT_LE(std::fabs(code - expected), is_quick ? 3.0 : 2.0)
+              ASSERT_LE(std::fabs(code - expected), 2.0)
                   << kind.pixels << ", " << zscale << ", " << to_text(range) << ", channel " << channel;
             }
           }

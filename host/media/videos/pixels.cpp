@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "media/videos/eight_bit_yuv.hpp"
+
 namespace nutik::videos {
 namespace {
 
@@ -23,41 +25,6 @@ AVPixelFormat raster_format(const PixelKind& kind) {
 bool has_j_name(AVPixelFormat format) {
   const char* name = av_get_pix_fmt_name(format);
   return name != nullptr && std::string_view(name).starts_with("yuvj");
-}
-
-int swscale_number(YuvMatrix matrix) {
-  switch (matrix) {
-    case YuvMatrix::bt601: return SWS_CS_ITU601;
-    case YuvMatrix::bt709: return SWS_CS_ITU709;
-    case YuvMatrix::bt2020: return SWS_CS_BT2020;
-    case YuvMatrix::fcc: return SWS_CS_FCC;
-    case YuvMatrix::smpte240m: return SWS_CS_SMPTE240M;
-  }
-  return SWS_CS_DEFAULT;
-}
-
-// libswscale takes every YUV picture for BT.601 with limited range unless it is told otherwise.
-void set_colours(SwsContext* scaler, const YuvCoding& coding) {
-  constexpr int kOne = 1 << 16;  // contrast and saturation
-  sws_setColorspaceDetails(scaler, sws_getCoefficients(swscale_number(coding.matrix)),
-                           coding.range == CodeRange::full ? 1 : 0, sws_getCoefficients(SWS_CS_DEFAULT), 1, 0,
-                           kOne, kOne);
-}
-
-// What red and blue weigh in a matrix's luma.
-struct LumaWeights {
-  double red, blue;
-};
-
-LumaWeights luma_weights(YuvMatrix matrix) {
-  switch (matrix) {
-    case YuvMatrix::bt601: return {0.299, 0.114};
-    case YuvMatrix::bt709: return {0.2126, 0.0722};
-    case YuvMatrix::bt2020: return {0.2627, 0.0593};
-    case YuvMatrix::fcc: return {0.30, 0.11};
-    case YuvMatrix::smpte240m: return {0.212, 0.087};
-  }
-  return {};
 }
 
 AVPixelFormat planar_format(std::uint32_t bits) {
@@ -186,6 +153,17 @@ bool is_yuv(AVPixelFormat format) {
          format != AV_PIX_FMT_XYZ12LE && format != AV_PIX_FMT_XYZ12BE;
 }
 
+LumaWeights luma_weights(YuvMatrix matrix) {
+  switch (matrix) {
+    case YuvMatrix::bt601: return {0.299, 0.114};
+    case YuvMatrix::bt709: return {0.2126, 0.0722};
+    case YuvMatrix::bt2020: return {0.2627, 0.0593};
+    case YuvMatrix::fcc: return {0.30, 0.11};
+    case YuvMatrix::smpte240m: return {0.212, 0.087};
+  }
+  return {};
+}
+
 std::optional<YuvMatrix> named_matrix(AVColorSpace space) {
   switch (space) {
     case AVCOL_SPC_BT470BG:
@@ -228,17 +206,12 @@ Upright upright(const AVStream& stream) {
 void PixelConverter::scale(const AVFrame& frame, AVPixelFormat wanted, const std::string& name,
                            std::uint8_t* const* planes, const int* strides) {
   const auto from = static_cast<AVPixelFormat>(frame.format);
-  // Without the flags 8-bit pictures are what OpenCV makes of them, and converting costs less than decoding. By other
-  // matrices than those of most cameras they would be off by three codes.
-  const bool is_usual = coding_.matrix == YuvMatrix::bt601 || coding_.matrix == YuvMatrix::bt709;
-  const int flags =
-      SWS_BICUBIC | (kind_.is_everyday() && is_usual ? 0 : SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT);
+  constexpr int kFlags = SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT;
   scaler_.reset(sws_getCachedContext(scaler_.release(), frame.width, frame.height, from, frame.width,
-                                     frame.height, wanted, flags, nullptr, nullptr, nullptr));
+                                     frame.height, wanted, kFlags, nullptr, nullptr, nullptr));
   if (!scaler_) {
     throw InputError(format("{}: pixels of {} cannot be converted", name, av_get_pix_fmt_name(from)));
   }
-  if (is_yuv(from) && !is_yuv(wanted)) set_colours(scaler_.get(), coding_);
   sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, planes, strides);
 }
 
@@ -249,9 +222,20 @@ const AVFrame& PixelConverter::scaled(const AVFrame& frame, AVPixelFormat wanted
   return *scaled_;
 }
 
+const AVFrame& PixelConverter::byte_planes(const AVFrame& frame, const std::string& name) {
+  const auto format = static_cast<AVPixelFormat>(frame.format);
+  return has_byte_planes(format) ? frame : scaled(frame, with_byte_planes(format), name);
+}
+
 const AVFrame& PixelConverter::converted(const AVFrame& frame, const std::string& name) {
-  const bool deep_yuv = !kind_.is_grey && kind_.bits > 8 && is_yuv(static_cast<AVPixelFormat>(frame.format));
-  if (!deep_yuv) return scaled(frame, raster_format(kind_), name);
+  if (kind_.is_grey || !is_yuv(static_cast<AVPixelFormat>(frame.format))) {
+    return scaled(frame, raster_format(kind_), name);
+  }
+  if (kind_.is_everyday()) {
+    if (!rgb_) rgb_ = new_frame(AV_PIX_FMT_RGB24, frame.width, frame.height);
+    eight_bit_rgb(byte_planes(frame, name), coding_, rgb_->data[0], rgb_->linesize[0]);
+    return *rgb_;
+  }
   // libswscale only gives every pixel its U and V.
   const AVFrame& planes = scaled(frame, planar_format(kind_.bits), name);
   if (!rgb_) rgb_ = new_frame(AV_PIX_FMT_RGB48, frame.width, frame.height);
@@ -264,8 +248,12 @@ void PixelConverter::convert(const AVFrame& frame, std::span<std::byte> raster, 
   const std::size_t row_bytes = static_cast<std::size_t>(frame.width) * pixel_bytes;
   const AVPixelFormat wanted = raster_format(kind_);
   const bool stays = upright_.quarter_turns == 0 && !upright_.is_mirrored;
+  auto* row = reinterpret_cast<std::uint8_t*>(raster.data());
+  if (kind_.is_everyday() && is_yuv(static_cast<AVPixelFormat>(frame.format)) && stays) {
+    eight_bit_rgb(byte_planes(frame, name), coding_, row, static_cast<std::ptrdiff_t>(row_bytes));
+    return;
+  }
   if (wanted == AV_PIX_FMT_RGB24 && frame.format != wanted && stays && is_aligned(raster, row_bytes)) {
-    auto* row = reinterpret_cast<std::uint8_t*>(raster.data());
     const int stride = static_cast<int>(row_bytes);
     scale(frame, wanted, name, &row, &stride);
     return;

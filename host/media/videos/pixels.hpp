@@ -42,6 +42,11 @@ struct YuvCoding {
   YuvMatrix matrix = YuvMatrix::bt601;
   CodeRange range = CodeRange::limited;
 };
+// What red and blue weigh in a matrix's luma.
+struct LumaWeights {
+  double red, blue;
+};
+[[nodiscard]] LumaWeights luma_weights(YuvMatrix matrix);
 // Whether the pixels of a stream are YUV of three components.
 [[nodiscard]] bool is_yuv(AVPixelFormat format);
 // What a stream says of its YUV; none where it does not.
@@ -59,6 +64,8 @@ class PixelConverter {
   void convert(const AVFrame& frame, std::span<std::byte> raster, const std::string& name);
 
  private:
+  // An everyday picture of YUV with a plane for each component.
+  const AVFrame& byte_planes(const AVFrame& frame, const std::string& name);
   const AVFrame& converted(const AVFrame& frame, const std::string& name);
   void scale(const AVFrame& frame, AVPixelFormat wanted, const std::string& name, std::uint8_t* const* planes,
              const int* strides);
