@@ -169,7 +169,7 @@ TEST_F(CommandLine, RefusesWhatMakesNoSense) {
   expect_refused({"-f", "fast", "clip.avi", "x.tik"}, 2, "frame rate 'fast' is not a number");
   expect_refused({"-a", "400", "clip.avi", "x.tik"}, 2, "shutter angle 400 is outside 0 < angle <= 360");
   expect_refused({"--depth", "12", "-k", "one.fn", "clip.tik"}, 2,
-                 "depth '12' is not known; choose 8, 16 or float");
+                 "depth '12' is not known; choose 8, 16, half or float");
   expect_refused({"--renderer", "cuda", "-k", "one.fn", "clip.tik"}, 2, "choose opencl or reference");
   expect_refused({"--unmapped", "black", "-k", "one.fn", "clip.tik"}, 2,
                  "the only choice is --unmapped zero");
