@@ -227,4 +227,21 @@ MadeMask make_mask(const MaskRequest& request, CaptureSource* capture, const std
   return maker.finished();
 }
 
+std::vector<std::string> warnings_of(const MadeMask& made) {
+  constexpr std::size_t kMostShown = 8;
+  std::vector<std::string> warnings;
+  for (const StepReport& step : made.steps) {
+    if (step.pixel_count == 0) warnings.push_back(format("{} for M{} selects no pixel", step.name, step.tag));
+    if (step.covered_tags.empty()) continue;
+    std::string tags;
+    for (std::size_t i = 0; i < std::min(step.covered_tags.size(), kMostShown); ++i)
+      tags += format("{}M{}", i == 0 ? "" : ", ", step.covered_tags[i]);
+    if (step.covered_tags.size() > kMostShown)
+      tags += format(" and {} more", step.covered_tags.size() - kMostShown);
+    warnings.push_back(
+        format("{}: later steps cover all of {}, which no pixel has in the end", step.name, tags));
+  }
+  return warnings;
+}
+
 }  // namespace nutik

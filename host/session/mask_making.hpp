@@ -44,4 +44,7 @@ struct MadeMask {
 [[nodiscard]] MadeMask make_mask(const MaskRequest& request, CaptureSource* capture,
                                  const std::string& capture_name);
 
+// Of steps that select no pixel, and of tags that later steps cover.
+[[nodiscard]] std::vector<std::string> warnings_of(const MadeMask& made);
+
 }  // namespace nutik

@@ -19,8 +19,8 @@ struct WrongOutputName : UsageError {
 };
 
 // Throws UsageError where `output` names one of the inputs, has a name of another kind, would replace a file of
-// another kind (a mask replaces no exposure, which carries a recipe, nor a picture in colour), or is standard output and
-// that a terminal.
+// another kind (a mask replaces no exposure, which carries a recipe, nor a picture in colour), or is standard output
+// and that a terminal.
 void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs);
 // The same of a picture of 8-bit codes, where its file cannot hold so many channels, too.
 void check_picture_output(const std::filesystem::path& output, std::uint32_t channels,

@@ -4,6 +4,7 @@
 #include "media/input_checksum.hpp"
 #include "media/picture_text.hpp"
 #include "session/clip_source.hpp"
+#include "session/stated_time.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik {
@@ -11,6 +12,14 @@ namespace nutik {
 std::string capture_checksum(const std::string& path) {
   if (!is_tik(path)) return input_checksum(path);
   return format("xxh3-64-tik:{:016x}", tik::Reader(path).content_checksum());
+}
+
+OwnRecipe own_recipe(const Exposure& exposure, bool is_plain) {
+  OwnRecipe own{{{"start", StatedTime::of_nanoseconds(exposure.start_ns).text()}}, {}};
+  if (is_plain) {
+    own.options["exposure"] = StatedTime::of_nanoseconds(exposure.end_ns - exposure.start_ns).text();
+  }
+  return own;
 }
 
 PictureRecipe::PictureRecipe(std::optional<RecipeSources> sources) {

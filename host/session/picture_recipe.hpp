@@ -7,6 +7,7 @@
 #include <string>
 
 #include "capture/error.hpp"
+#include "capture/timeline.hpp"
 #include "media/recipe.hpp"
 
 namespace nutik {
@@ -23,6 +24,9 @@ struct OwnRecipe {
   std::map<std::string, std::optional<std::string>> options;  // by long names; none: left out
   std::optional<Recipe::Text> functions;
 };
+
+// Of the single picture that a frame of a video is: when it was exposed, of functions their time 0.
+[[nodiscard]] OwnRecipe own_recipe(const Exposure& exposure, bool is_plain);
 
 // The text is longer than a picture carries (kMostPictureTextBytes).
 struct RecipeTooLong : InputError {

@@ -64,8 +64,8 @@ constexpr YuvKind kYuvKinds[] = {{"yuv420p", 2, 2, planar<2, 2>},
                                  {"yuyv422", 2, 1, yuyv},
                                  {"uyvy422", 2, 1, uyvy}};
 
-// Every code of YUV, of every kind of pixels, against the matrix in real numbers. A pixel's chroma is that of the sample
-// which it shares.
+// Every code of YUV, of every kind of pixels, against the matrix in real numbers. A pixel's chroma is that of the
+// sample which it shares.
 TEST(ColourVideo, HasTheNearestCodesThatThereAre) {
   test::Random random(4);
   double worst = 0;

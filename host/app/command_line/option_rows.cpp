@@ -99,10 +99,12 @@ constexpr Option kRows[] = {
      "the gain functions, one for each mask value; a file with a single one needs no mask; - is standard "
      "input"},
     {'m', "mask", "FILE.pgm", exposure, kTakesFunctions | bit(Id::activity), &Options::mask,
-     "which function each pixel is exposed with: an 8-bit grey PGM or PNG; - is standard input; layer-%d.png: a "
+     "which function each pixel is exposed with: an 8-bit grey PGM or PNG; - is standard input; "
+     "layer-%d.png: a "
      "grey layer for each mask value, which says how much of a pixel it has"},
     {0, "feather", "PIXELS", exposure, kTakesFunctions, &Options::feather,
-     "blend the mask's functions along its edges, so far to either side: 6px; M255=6px for one mask value; several "
+     "blend the mask's functions along its edges, so far to either side: 6px; M255=6px for one mask value; "
+     "several "
      "with commas between: 2px,M255=6px"},
     {0, "start", "TIME", exposure, kTakesIntervals, &Options::start,
      "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip; with -k the "
@@ -189,7 +191,8 @@ constexpr Option kRows[] = {
     {0, "size", "WxH", subject, bit(Id::mask), &Options::size,
      "its size, where neither capture nor picture tells: 640x360"},
     {0, "feather", "PIXELS", subject, bit(Id::mask), &Options::feather,
-     "blend tags along their edges, so far to either side: 6px, M255=6px, 2px,M255=6px; the output is layers of 16 "
+     "blend tags along their edges, so far to either side: 6px, M255=6px, 2px,M255=6px; the output is layers "
+     "of 16 "
      "bits, one for each tag: layer-%d.png"},
     {0, "preview", "PICTURE.png", output, bit(Id::mask), &Options::preview,
      "also show the tags in colours over an exposure of the capture: of all of it, or of --start and "

@@ -10,7 +10,9 @@
 #include "session/format.hpp"
 #include "session/function_input.hpp"
 #include "session/functions.hpp"
+#include "session/mask_layers.hpp"
 #include "session/mask_making.hpp"
+#include "session/mask_preview.hpp"
 #include "session/output_check.hpp"
 #include "session/pictures.hpp"
 #include "session/sheets.hpp"
@@ -27,41 +29,9 @@ struct MaskJob {
   MaskRequest request;
   std::optional<std::string> capture;
   std::filesystem::path output;
-  std::optional<Feather> feather;      // of a soft one, which is written as layers
-  std::optional<NumberedName> layers;  // their names, in the output's folder
-
-  [[nodiscard]] std::filesystem::path layer(std::uint64_t tag) const {
-    return output.parent_path() / layers->with(tag);
-  }
+  std::optional<Feather> feather;    // of a soft one, which is written as layers
+  std::optional<MaskLayers> layers;  // that take the place of the output
 };
-
-// Layers take the place of a mask.
-void ask_for_layers(MaskJob& job, const Options& options, std::span<const std::string> inputs) {
-  job.feather = Feather::parse(*options.feather);
-  job.layers = NumberedName::parse(job.output.filename().string());
-  if (!job.layers) {
-    throw UsageError(
-        format("a soft mask is written as layers, one for each tag, so its name needs a number, as in {}",
-               (job.output.parent_path() / (job.output.stem().string() + "-%d.png")).string()));
-  }
-  for (std::uint32_t tag = 0; tag < kMaskValues; ++tag)
-    check_output(job.layer(tag), OutputKind::mask, inputs);
-}
-
-// Of the tags that have a share, in 16 bits. A layer of another mask would be read along with them.
-void write_layers(const MaskJob& job, const Mask& mask) {
-  const auto counts = mask.pixels_per_tag();
-  for (const auto& [tag, file] : layer_files(job.output.string())) {
-    if (counts[tag] > 0) continue;
-    throw OutputError(
-        format("{} is there, and M{} has no pixel in this mask: it would be taken for one of its layers. "
-               "Remove it, or choose another name",
-               file.string(), tag));
-  }
-  for (std::size_t tag = 0; tag < counts.size(); ++tag) {
-    if (counts[tag] > 0) write_picture(job.layer(tag), layer_of(mask, static_cast<std::uint8_t>(tag)));
-  }
-}
 
 bool is_mask_name(const std::filesystem::path& path) {
   const std::string extension = picture_extension(path);
@@ -104,7 +74,8 @@ MaskJob job_of(const Options& options) {
         format("{}: masks are written as .pgm or .png, which keep every tag", job.output.string()));
   }
   if (options.feather) {
-    ask_for_layers(job, options, inputs);
+    job.feather = Feather::parse(*options.feather);
+    job.layers.emplace(job.output).check(inputs);
   } else {
     check_output(job.output, OutputKind::mask, inputs);
   }
@@ -119,36 +90,18 @@ MaskJob job_of(const Options& options) {
   return job;
 }
 
-// What the mask is laid over: an exposure of the capture, all of it where none was asked for; else a picture
-// that the mask was made from, else plain grey.
+// What the mask is laid over.
 Picture backdrop(const Options& options, const MaskRequest& request, const Mask& mask, Session* session) {
   if (session == nullptr) {
     if (options.start || options.exposure) {
       throw UsageError("--start and --exposure need a capture: nutik-cl mask … clip.tik");
     }
-    for (const MaskStep& step : request.steps) {
-      for (const NamedPicture* picture : step.pictures()) return *picture->picture;
-    }
-    Picture grey({mask.width, mask.height, 1}, ValueType::code8, 255);
-    std::fill(grey.bytes.begin(), grey.bytes.end(), std::byte{200});
-    return grey;
+    return backdrop_of(request, mask);
   }
-  const Timeline& timeline = session->timeline();
-  Exposure interval{0, timeline.duration_ns()};
-  if (options.exposure) {
-    interval = plain_interval(StatedTime::parse(options.start.value_or("0s"), "start"),
-                              StatedTime::parse(*options.exposure, "exposure"), timeline);
-  } else if (options.start) {
-    const std::uint64_t sample = sample_at(StatedTime::parse(*options.start, "start"), "start", timeline);
-    interval = {timeline.start_ns(sample), timeline.end_ns(sample)};
-  }
-  const CaptureFormat& format = session->format();
-  FunctionSet functions;
-  functions.emplace(0, GainFunction::boxcar(interval.start_ns, interval.end_ns));
-  PlanOptions plan_options;
-  plan_options.function_name = "the preview's exposure";
-  ExposedPicture exposed = session->render(functions, Mask::uniform(mask.width, mask.height, 0), plan_options,
-                                           output_format({}, format));
+  BackdropTime time;
+  if (options.start) time.start = StatedTime::parse(*options.start, "start");
+  if (options.exposure) time.length = StatedTime::parse(*options.exposure, "exposure");
+  ExposedPicture exposed = backdrop_of(*session, time);
   print_warnings(exposure_warnings(exposed));
   return std::move(exposed.picture);
 }
@@ -157,15 +110,6 @@ Picture backdrop(const Options& options, const MaskRequest& request, const Mask&
 std::string pixels_text(std::uint64_t pixels, const Mask& mask) {
   return format("{:>10} pixels {:6.2f} %", pixels,
                 100.0 * static_cast<double>(pixels) / static_cast<double>(mask.tags.size()));
-}
-
-// `M64, M65 and 30 more`
-std::string tags_text(const std::vector<std::uint8_t>& tags) {
-  constexpr std::size_t kMostShown = 8;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(tags.size(), kMostShown); ++i)
-    text += format("{}M{}", i == 0 ? "" : ", ", tags[i]);
-  return text + (tags.size() > kMostShown ? format(" and {} more", tags.size() - kMostShown) : "");
 }
 
 Answer answer_of(const MaskJob& job, const MadeMask& made) {
@@ -202,7 +146,7 @@ Answer answer_of(const MaskJob& job, const MadeMask& made) {
   for (std::size_t tag = 0; tag < counts.size(); ++tag) {
     if (counts[tag] == 0) continue;
     answer.json["tags"].push_back({{"tag", tag}, {"pixel_count", counts[tag]}});
-    if (job.layers) answer.json["tags"].back()["layer"] = job.layer(tag).string();
+    if (job.layers) answer.json["tags"].back()["layer"] = job.layers->file(tag).string();
     if (tag_count > kMostTagsListed) continue;
     answer.details.push_back(format("  {:<18} M{:<4}{}", "", tag, pixels_text(counts[tag], mask)));
   }
@@ -227,20 +171,14 @@ int run_mask(const Options& options) {
   }
 
   MadeMask made = make_mask(job.request, session ? &session->capture() : nullptr, job.capture.value_or(""));
-  for (const StepReport& step : made.steps) {
-    if (step.pixel_count == 0) print_warning(format("{} for M{} selects no pixel", step.name, step.tag));
-    if (!step.covered_tags.empty()) {
-      print_warning(format("{}: later steps cover all of {}, which no pixel has in the end", step.name,
-                           tags_text(step.covered_tags)));
-    }
-  }
+  print_warnings(warnings_of(made));
   if (job.feather) made.mask = feathered(made.mask, *job.feather);
   if (options.preview) {
     const Picture below = backdrop(options, job.request, made.mask, session ? &*session : nullptr);
     write_picture(*options.preview, sheet::mask_overlay(made.mask, below));
   }
   if (job.layers) {
-    write_layers(job, made.mask);
+    job.layers->write(made.mask);
   } else {
     write_picture(job.output, made.mask.to_picture());
   }

@@ -36,15 +36,6 @@ int run_video(const Options& options) {
   output.check(frames.count, inputs);
 
   PictureRecipe recipe(output.writes_stills() ? recipe_sources(options) : std::nullopt);
-  // As the single picture that a still is.
-  const auto own = [&](const Exposure& exposed) {
-    OwnRecipe recipe_of_frame{{{"start", StatedTime::of_nanoseconds(exposed.start_ns).text()}}, {}};
-    if (request.exposure.is_plain()) {
-      recipe_of_frame.options["exposure"] =
-          StatedTime::of_nanoseconds(exposed.end_ns - exposed.start_ns).text();
-    }
-    return recipe_of_frame;
-  };
   capture.transfer = plan.transfer.value_or(capture.transfer);
   const TimeToEnd is_kept;  // the frames so far, whatever a frame takes
   FrameQueue queue([&] { return output.open(capture, frame_format); },
@@ -63,7 +54,9 @@ int run_video(const Options& options) {
         ExposedPicture exposed = session.render(functions, mask, plan, frame_format);
         tally.add(exposed);
         warnings.add(format("frame {}", exposed_frames), exposure_warnings(exposed));
-        if (!queue.push(std::move(exposed.picture), recipe.text(tally.precision(), own(exposure)))) break;
+        if (!queue.push(std::move(exposed.picture),
+                        recipe.text(tally.precision(), own_recipe(exposure, request.exposure.is_plain()))))
+          break;
       }
     } catch (const Interrupted& caught) {
       if (exposed_frames == 0) throw;

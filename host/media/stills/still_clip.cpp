@@ -116,8 +116,8 @@ std::optional<Rational> png_pixel_aspect(std::string_view bytes) {
   return std::nullopt;
 }
 
-// What the header of a JPEG that is JFIF states, which is its first segment: FF E0, length, JFIF and a zero, two bytes of
-// version, the unit, and a density across and down.
+// What the header of a JPEG that is JFIF states, which is its first segment: FF E0, length, JFIF and a zero, two bytes
+// of version, the unit, and a density across and down.
 std::optional<Rational> jpeg_pixel_aspect(std::string_view bytes) {
   constexpr std::string_view kApp0 = "\xFF\xD8\xFF\xE0";
   constexpr std::size_t kName = 6, kAcross = 14, kDown = 16, kEnd = 18;

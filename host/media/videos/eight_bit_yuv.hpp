@@ -1,8 +1,8 @@
 // 8-bit YUV as 8-bit RGB.
 //
 //   in:      a picture of YUV, the matrix and the range of its codes
-//   out:     for every pixel the nearest codes to what matrix and range make of its luma and of the chroma sample that it
-//            shares with its neighbours, within 0.53 of a code
+//   out:     for every pixel the nearest codes to what matrix and range make of its luma and of the chroma sample that
+//            it shares with its neighbours, within 0.53 of a code
 //   always:  whole numbers alone, so that every machine makes the same codes
 #pragma once
 
