@@ -47,6 +47,10 @@ TEST_F(Outputs, ReplaceNoStillOfTheClip) {
 // What a second program gets through a pipe is the file, byte for byte, and nothing else.
 TEST_F(Outputs, GoToStandardOutput) {
   const std::string program = NUTIK_TEST_PROGRAM;
+  // In a group, whose last command has no other input than the pipe's.
+  const auto shell = [&](const std::string& command) {
+    return test::run_shell("( " + command + " )", scratch_.folder());
+  };
   const std::string expose =
       " expose -f 100 --start 1f --exposure 2f frames --no-recipe --renderer reference";
   const std::vector<std::pair<std::string, std::string>> kinds{{"-", "a.png"},     {"png:-", "a.png"},
@@ -54,11 +58,10 @@ TEST_F(Outputs, GoToStandardOutput) {
                                                                {"exr:-", "a.exr"}, {"pfm:-", "a.pfm"}};
   for (const auto& [name, file] : kinds) {
     SCOPED_TRACE(name);
-    const auto piped =
-        test::run_shell(program + expose + " -o " + name + " | cat > piped", scratch_.folder());
+    const auto piped = shell(program + expose + " -o " + name + " | cat > piped");
     EXPECT_EQ(piped.status, 0);
     EXPECT_NE(piped.err.find(name + ": 160 x 120 grey, 2 of 4 samples"), std::string::npos) << piped.err;
-    const auto named = test::run_shell(program + expose + " -o " + file, scratch_.folder());
+    const auto named = shell(program + expose + " -o " + file);
     EXPECT_EQ(named.status, 0) << named.err;
     EXPECT_NE(named.out.find(file + ": 160 x 120 grey, 2 of 4 samples"), std::string::npos) << named.out;
     const std::string wanted = test::read_file(scratch_ / file);
@@ -66,11 +69,9 @@ TEST_F(Outputs, GoToStandardOutput) {
     EXPECT_TRUE(test::read_file(scratch_ / "piped") == wanted);
   }
   // The mask of a pipe, and the sheet.
-  const auto mask =
-      test::run_shell(program + " mask -f 100 frames --fill -o pgm:- | head -c 2", scratch_.folder());
+  const auto mask = shell(program + " mask -f 100 frames --fill -o pgm:- | head -c 2");
   EXPECT_EQ(mask.out, "P5") << mask.err;
-  const auto sheet =
-      test::run_shell(program + " contact -f 100 frames -o jpg:- | head -c 3", scratch_.folder());
+  const auto sheet = shell(program + " contact -f 100 frames -o jpg:- | head -c 3");
   EXPECT_EQ(sheet.out, "\xFF\xD8\xFF") << sheet.err;
 }
 
