@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 #include "system/interruption.hpp"
@@ -98,16 +99,23 @@ Region intersection(const Region& a, const Region& b) {
   return result;
 }
 
-Region largest_part(const Region& region) {
+std::vector<std::vector<std::size_t>> parts_of(const Region& region, std::size_t least_pixels) {
   Region rest = region;
-  std::vector<std::size_t> largest;
+  std::vector<std::vector<std::size_t>> parts;
   for (std::size_t pixel = 0; pixel < rest.inside.size(); ++pixel) {
     if (rest.inside[pixel] == 0) continue;
     std::vector<std::size_t> part = take_part(rest, pixel);
-    if (part.size() > largest.size()) largest = std::move(part);
+    if (part.size() >= least_pixels) parts.push_back(std::move(part));
   }
+  std::ranges::stable_sort(parts, std::greater(), &std::vector<std::size_t>::size);
+  return parts;
+}
+
+Region largest_part(const Region& region) {
   Region result = Region::none(region.width, region.height);
-  for (const std::size_t pixel : largest) result.inside[pixel] = 1;
+  const auto parts = parts_of(region, 1);
+  if (parts.empty()) return result;
+  for (const std::size_t pixel : parts.front()) result.inside[pixel] = 1;
   return result;
 }
 

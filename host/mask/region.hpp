@@ -57,6 +57,10 @@ struct Point {
 // by row.
 [[nodiscard]] Region largest_part(const Region& region);
 
+// The parts that hang together, also over corners, of so many pixels or more, as pixels counted row by row: the largest
+// first.
+[[nodiscard]] std::vector<std::vector<std::size_t>> parts_of(const Region& region, std::size_t least_pixels);
+
 // Gives the region's pixels a tag; the others keep theirs. Mask and region have one size.
 void paint(Mask& mask, const Region& region, std::uint8_t tag);
 

@@ -167,8 +167,8 @@ void NoiseEstimator::add_clip(const std::string& name, const ReadSample& read_sa
     window.clear();
   }
   if (samples < kLeastWindowSamples) {
-    throw InputError(format("{}: {} picture{} of a still scene; noise is measured on {} or more", name,
-                            samples, samples == 1 ? "" : "s", kLeastWindowSamples));
+    throw UnknownNoise(format("{}: {} picture{} of a still scene; noise is measured on {} or more", name,
+                              samples, samples == 1 ? "" : "s", kLeastWindowSamples));
   }
   // A rest that is shorter than a window would be less sure of itself than what is there already.
   if (samples < kWindowSamples) measure();
@@ -227,7 +227,7 @@ NoiseEstimate NoiseEstimator::estimate() const {
   estimate.noise.white_code = capture_.white_code;
   estimate.noise.transfer = capture_.transfer;
   for (const ChannelPoints& channel : channels_) {
-    if (channel.points.empty()) throw InputError("no pixel is still: noise is measured on a scene that is");
+    if (channel.points.empty()) throw UnknownNoise("no pixel is still: noise is measured on a scene that is");
     // Where codes are cut off at black or white, they stray less than the light does.
     std::vector<MeasuredPoint> points;
     std::ranges::copy_if(channel.points, std::back_inserter(points), [&](const MeasuredPoint& each) {
@@ -235,7 +235,7 @@ NoiseEstimate NoiseEstimator::estimate() const {
       return each.point.code >= reach && each.point.code + reach <= capture_.white_code;
     });
     if (points.empty()) {
-      throw InputError("all pixels are black or white, where noise is cut off: film a scene with greys");
+      throw UnknownNoise("all pixels are black or white, where noise is cut off: film a scene with greys");
     }
     points = joined(std::move(points), capture_.white_code);
     const SensorFit fit = fit_sensor(points, capture_.white_code, capture_.transfer);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/error.hpp"
 #include "capture/memory_needs.hpp"
 #include "capture/noise_model.hpp"
 #include "capture/picture.hpp"
@@ -34,6 +35,11 @@ struct NoiseEstimate {
   std::uint64_t sample_count = 0;  // that were looked at
 };
 
+// The footage does not tell how noisy its camera is.
+struct UnknownNoise : InputError {
+  using InputError::InputError;
+};
+
 class NoiseEstimator {
  public:
   // Writes the next sample as an interleaved raster and returns true, or returns false at the end.
@@ -52,12 +58,12 @@ class NoiseEstimator {
   [[nodiscard]] static std::uint32_t threads_in(std::uint64_t bytes, const CaptureFormat& capture,
                                                 std::uint64_t most_samples);
 
-  // Reads up to `most_samples` of the clip `name`. Throws InputError where there are fewer than
+  // Reads up to `most_samples` of the clip `name`. Throws UnknownNoise where there are fewer than
   // kLeastWindowSamples.
   void add_clip(const std::string& name, const ReadSample& read_sample,
                 std::uint64_t most_samples = kMostSamples);
 
-  // Throws InputError where no pixel is still or all are black or white. Numbers have six digits.
+  // Throws UnknownNoise where no pixel is still or all are black or white. Numbers have six digits.
   [[nodiscard]] NoiseEstimate estimate() const;
 
  private:

@@ -109,6 +109,31 @@ Picture encoded(const Picture& light, const CodeScale& scale, const OutputFormat
   return codes;
 }
 
+Picture stored(Picture light, const CaptureFormat& capture, const OutputFormat& output,
+               Saturation& saturation) {
+  if (output.type == ValueType::light64) return light;
+  if (holds_codes(output.type)) {
+    const CodeMaking making = CodeMaking::of(capture, output);
+    const CodeScale scale(making.transfer, output);
+    to_shown_light(light, making);
+    saturation += count_saturated(light, scale);
+    return encoded(light, scale, output);
+  }
+  Picture narrow(light.shape, output.type, output.white_code);
+  std::ranges::transform(light.values<double>(), narrow.values<float>().begin(),
+                         [](double value) { return static_cast<float>(value); });
+  return narrow;
+}
+
+void state_values(Picture& picture, const CaptureFormat& capture, const OutputFormat& output) {
+  picture.primaries = capture.primaries;
+  picture.pixel_aspect = capture.pixel_aspect;
+  if (!holds_codes(output.type)) return;
+  const CodeMaking making = CodeMaking::of(capture, output);
+  picture.transfer = making.transfer;
+  picture.primaries = making.primaries;
+}
+
 bool can_saturate(const RenderPlan& plan, const CodeMaking& making, const CodeScale& scale) {
   if (making.conversion) return true;  // colours lie outside other primaries
   return std::ranges::any_of(plan.functions, [&](const PlannedFunction& planned) {

@@ -47,6 +47,13 @@ void to_shown_light(Picture& light, const CodeMaking& making);
 // The codes of a picture of shown light (light64), in the format asked for.
 [[nodiscard]] Picture encoded(const Picture& light, const CodeScale& scale, const OutputFormat& output);
 
+// Light of a capture (light64) as values of the type asked for; what saturates is added.
+[[nodiscard]] Picture stored(Picture light, const CaptureFormat& capture, const OutputFormat& output,
+                             Saturation& saturation);
+
+// Has a picture of a capture say what its values mean, and how it is to be shown.
+void state_values(Picture& picture, const CaptureFormat& capture, const OutputFormat& output);
+
 // Whether some light of [0, 1] can saturate at all under the plan's functions: told from ∫g and ∫|g|.
 [[nodiscard]] bool can_saturate(const RenderPlan& plan, const CodeMaking& making, const CodeScale& scale);
 

@@ -170,21 +170,6 @@ std::uint32_t rows_at_once(const RenderPlan& plan, const CaptureSource& source, 
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, shape.height));
 }
 
-// Light of type light64 as a picture of another.
-Picture stored(Picture light, const OutputFormat& output, const CodeMaking& making, Saturation& saturation) {
-  if (output.type == ValueType::light64) return light;
-  if (holds_codes(output.type)) {
-    const CodeScale scale(making.transfer, output);
-    to_shown_light(light, making);
-    saturation += count_saturated(light, scale);
-    return encoded(light, scale, output);
-  }
-  Picture narrow(light.shape, output.type, output.white_code);
-  std::ranges::transform(light.values<double>(), narrow.values<float>().begin(),
-                         [](double value) { return static_cast<float>(value); });
-  return narrow;
-}
-
 }  // namespace
 
 // In strips, each of which goes through all blocks: one, unless memory is short.
@@ -203,8 +188,8 @@ Rendered ReferenceRenderer::render_part(const RenderPlan& plan, CaptureSource& s
   }
   for (std::uint32_t y = 0; y < shape.height; y += rows) {
     const Rectangle strip{rectangle.x, rectangle.y + y, rectangle.width, std::min(rows, shape.height - y)};
-    Picture part = stored(light_of(plan, source, strip, control, output.white_code), output,
-                          CodeMaking::of(plan.capture, output), rendered.saturation);
+    Picture part = stored(light_of(plan, source, strip, control, output.white_code), plan.capture, output,
+                          rendered.saturation);
     if (rows == shape.height) {
       picture = std::move(part);
     } else {

@@ -1,6 +1,7 @@
 #include "render/renderer.hpp"
 
 #include "capture/format.hpp"
+#include "render/code_scale.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
@@ -17,14 +18,7 @@ Rendered Renderer::render(const RenderPlan& plan, CaptureSource& source, const O
   throw_if_cancelled(control);
   Rendered rendered = render_part(plan, source, output, rectangle, control);
   check_mapped_files();  // blocks may lie where the system maps them, and be read by a device at any time
-  Picture& picture = rendered.picture;
-  picture.primaries = plan.capture.primaries;
-  picture.pixel_aspect = plan.capture.pixel_aspect;
-  if (holds_codes(output.type)) {
-    const CodeMaking making = CodeMaking::of(plan.capture, output);
-    picture.transfer = making.transfer;
-    picture.primaries = making.primaries;
-  }
+  state_values(rendered.picture, plan.capture, output);
   return rendered;
 }
 

@@ -23,7 +23,7 @@ MaskLayers::MaskLayers(const std::filesystem::path& name)
     : name_(name), folder_(name.parent_path()), numbered_(numbered(name)) {}
 
 void MaskLayers::check(std::span<const std::string> inputs) const {
-  for (std::uint32_t tag = 0; tag < kMaskValues; ++tag) check_output(file(tag), OutputKind::mask, inputs);
+  for (std::uint32_t tag = 0; tag < kMaskValues; ++tag) check_mask_output(file(tag), inputs);
 }
 
 void MaskLayers::write(const Mask& mask) const {

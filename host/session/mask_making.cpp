@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "capture/error.hpp"
@@ -79,7 +80,8 @@ MaskSize size_of(const MaskRequest& request, const CaptureSource* capture, const
 
 class MaskMaker {
  public:
-  MaskMaker(Mask base, CaptureSource* capture) : made_{std::move(base), {}}, capture_(capture) {}
+  MaskMaker(Mask base, CaptureSource* capture, const std::function<Picture()>& plate)
+      : made_{std::move(base), {}}, capture_(capture), make_plate_(plate) {}
 
   void add(const MaskStep& step) {
     StepReport report{step.name.text, step.tag, step.last_tag(), 0, std::nullopt, {}};
@@ -151,6 +153,12 @@ class MaskMaker {
               return changed(differences(*before, *after), before->white_code, step, report);
             },
             [&](const select::Motion& motion) { return moving(samples_of(motion, step), step, report); },
+            [&](const select::Subject& subject) {
+              if (!plate_) plate_ = make_plate_();
+              const std::uint64_t sample = sample_at(subject.at, step.name.text, capture_->timeline());
+              return changed(differences(picture_of_sample(*capture_, sample), *plate_), plate_->white_code,
+                             step, report);
+            },
             [&](const select::Stillness&) {
               return inverted(moving({0, capture_->timeline().sample_count()}, step, report));
             },
@@ -208,6 +216,8 @@ class MaskMaker {
 
   MadeMask made_;
   CaptureSource* capture_;
+  const std::function<Picture()>& make_plate_;
+  std::optional<Picture> plate_;
   // Of samples that a step has looked at: the capture is read once for steps with the same times.
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::vector<std::uint32_t>> spans_;
 };
@@ -220,9 +230,11 @@ MemoryNeeds mask_making_needs(const CaptureFormat& capture) {
           {"spans and regions of pixels", shape.pixel_count() * (2 * sizeof(std::uint32_t) + 4)}};
 }
 
-MadeMask make_mask(const MaskRequest& request, CaptureSource* capture, const std::string& capture_name) {
+MadeMask make_mask(const MaskRequest& request, CaptureSource* capture, const std::string& capture_name,
+                   const std::function<Picture()>& plate) {
   const MaskSize size = size_of(request, capture, capture_name);
-  MaskMaker maker(request.base ? *request.base->mask : Mask::uniform(size.width, size.height, 0), capture);
+  MaskMaker maker(request.base ? *request.base->mask : Mask::uniform(size.width, size.height, 0), capture,
+                  plate);
   for (const MaskStep& step : request.steps) maker.add(step);
   return maker.finished();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,10 +40,11 @@ struct MadeMask {
 [[nodiscard]] MemoryNeeds mask_making_needs(const CaptureFormat& capture);
 
 // Of the size that everything stated agrees on. `capture` is null where no step reads one; `capture_name` is for
-// messages. Throws NoMaskSize, UsageError where sizes differ or a time lies outside the capture, InputError
+// messages; `plate` makes the capture's plate in codes of the capture, and is asked once where a step needs it. Throws
+// NoMaskSize, UsageError where sizes differ or a time lies outside the capture, InputError
 // where a picture has another size than the mask, or the capture is damaged.
 [[nodiscard]] MadeMask make_mask(const MaskRequest& request, CaptureSource* capture,
-                                 const std::string& capture_name);
+                                 const std::string& capture_name, const std::function<Picture()>& plate = {});
 
 // Of steps that select no pixel, and of tags that later steps cover.
 [[nodiscard]] std::vector<std::string> warnings_of(const MadeMask& made);

@@ -16,7 +16,7 @@ std::vector<const PictureSource*> sources_of(const Selection& selection) {
 
 bool MaskStep::compares() const {
   return std::holds_alternative<select::Difference>(selection) ||
-         std::holds_alternative<select::Motion>(selection) ||
+         std::holds_alternative<select::Motion>(selection) || needs_plate() ||
          std::holds_alternative<select::Stillness>(selection);
 }
 

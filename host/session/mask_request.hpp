@@ -72,6 +72,10 @@ struct Motion {  // within all of the capture, or between two times
   std::optional<std::pair<StatedTime, StatedTime>> between;
   friend bool operator==(const Motion&, const Motion&) = default;
 };
+struct Subject {  // what differs from the capture's plate at a time
+  StatedTime at;
+  friend bool operator==(const Subject&, const Subject&) = default;
+};
 struct Stillness {
   friend bool operator==(const Stillness&, const Stillness&) = default;
 };
@@ -80,7 +84,7 @@ struct Stillness {
 
 using Selection =
     std::variant<select::Whole, select::Rectangle, select::Ellipse, select::Polygon, select::Grid,
-                 select::Threshold, select::Difference, select::Motion, select::Stillness>;
+                 select::Threshold, select::Difference, select::Motion, select::Subject, select::Stillness>;
 
 // A change to the region before it.
 struct RegionChange {
@@ -104,6 +108,7 @@ struct MaskStep {
   // The last of its tags: of a grid that of its last cell, else its only one.
   [[nodiscard]] std::uint8_t last_tag() const;
   [[nodiscard]] bool reads_capture() const;
+  [[nodiscard]] bool needs_plate() const { return std::holds_alternative<select::Subject>(selection); }
   // The pictures that it looks at, as far as they are none of the capture.
   [[nodiscard]] std::vector<const NamedPicture*> pictures() const;
 

@@ -128,6 +128,18 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   }
 }
 
+bool is_mask_name(const std::filesystem::path& path) {
+  const std::string extension = picture_extension(path);
+  return extension == ".pgm" || extension == ".png";
+}
+
+void check_mask_output(const std::filesystem::path& output, std::span<const std::string> inputs) {
+  if (!is_mask_name(output)) {
+    throw UsageError(format("{}: masks are written as .pgm or .png, which keep every tag", output.string()));
+  }
+  check_output(output, OutputKind::mask, inputs);
+}
+
 void check_picture_output(const std::filesystem::path& output, std::uint32_t channels,
                           std::span<const std::string> inputs) {
   check_output(output, OutputKind::picture, inputs);

@@ -22,6 +22,9 @@ struct WrongOutputName : UsageError {
 // another kind (a mask replaces no exposure, which carries a recipe, nor a picture in colour), or is standard output
 // and that a terminal.
 void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs);
+// The same of a mask, whose file keeps every tag.
+void check_mask_output(const std::filesystem::path& output, std::span<const std::string> inputs);
+[[nodiscard]] bool is_mask_name(const std::filesystem::path& path);
 // The same of a picture of 8-bit codes, where its file cannot hold so many channels, too.
 void check_picture_output(const std::filesystem::path& output, std::uint32_t channels,
                           std::span<const std::string> inputs);

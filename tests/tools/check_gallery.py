@@ -92,6 +92,8 @@ def check_empty_street(folder, report):
     report.hold(excess.max() <= 0, f"empty street: worst at x {column}, y {row}, {'RGB'[channel]}: "
                 f"{picture[row, column, channel]:.0f} against {empty[row, column, channel]:.1f}, "
                 f"may differ by {bound[row, column, channel]:.1f}")
+    rms = np.sqrt(np.mean((read(folder / "plate.png") - empty) ** 2))
+    report.hold(rms <= 1, f"empty street: the plate differs from the empty scene by {rms:.2f} codes, root mean square")
     people = [np.mean((np.abs(frame - empty) > bound).any(axis=-1)) for frame in frames.astype(float)]
     report.hold(min(people) > 0.01, f"empty street: in every picture of the clip people take {min(people):.1%} or more")
 

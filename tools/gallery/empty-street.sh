@@ -9,3 +9,6 @@ done > picture.fn
 nutik-cl -m regions.pgm -k picture.fn clip.tik picture.png
 head -n 8 picture.fn > first-four.fn
 FnPlotter.py first-four.fn --capture clip.tik -o plot.png
+
+# The same in one command, which asks each pixel for itself.
+nutik-cl plate clip.tik plate.png

@@ -106,6 +106,19 @@ constexpr Command kCommands[] = {
      "nutik-cl video --depth 16 clip.tik frame-%05d.png\n"
      "nutik-cl video -k trail.fn --out-fps 25 clip.tik trail.mp4",
      run_video, kPictures},
+    {Id::study, "study", "CAPTURE.tik|CLIP [PICTURE]",
+     "Make a motion study by itself: find what moves, choose moments of it, and expose them over its trail. Mask, "
+     "functions and commands are written beside the picture, to be changed by hand.",
+     "nutik-cl study clip.mp4\n"
+     "nutik-cl study --style strobe --moments 7 --spacing distance clip.tik strobe.png\n"
+     "nutik-cl study --moments 0.36s,0.75s,1.27s --trail ramp clip.tik study.png",
+     run_study, kPictures},
+    {Id::plate, "plate", "CAPTURE.tik|CLIP [PLATE.png]",
+     "Show the scene without what moves in it: of every pixel the light that it holds longest.",
+     "nutik-cl plate clip.tik\n"
+     "nutik-cl plate --uncertain unsure.pgm clip.mp4 empty.png\n"
+     "nutik-cl plate --depth float clip.tik -o empty.pfm",
+     run_plate, kPictures},
     {Id::shutter, "shutter", "SHAPE [CAPTURE.tik|CLIP]",
      "Write a shutter's shape as a gain function: a line for a function file. Shapes: box, trapezoid:R, "
      "triangle, gaussian, hann, strobe:N[,R], spline:0=G,…,1=G. Times that count pictures (32f) are those of "

@@ -29,6 +29,8 @@ enum class CommandId {
   shutter,
   again,
   validate,
+  plate,
+  study,
   completion,
   man
 };

@@ -8,8 +8,9 @@ using enum Scope;
 
 constexpr CommandSet kAll = ~CommandSet{0};
 // Those that read a clip, and so take what describes it.
-constexpr CommandSet kReadsClips = set_of(Id::encode, Id::expose, Id::batch, Id::check, Id::trace, Id::mask,
-                                          Id::contact, Id::activity, Id::sweep, Id::video, Id::validate);
+constexpr CommandSet kReadsClips =
+    set_of(Id::encode, Id::expose, Id::batch, Id::check, Id::trace, Id::mask, Id::contact, Id::activity,
+           Id::sweep, Id::video, Id::validate, Id::plate, Id::study);
 // Those that decode a clip, and so take what its codes are.
 constexpr CommandSet kDecodesClips = kReadsClips | bit(Id::noise);
 // Those of them that turn it into a capture, or expose it.
@@ -23,7 +24,8 @@ constexpr CommandSet kTakesIntervals =
 // Those that shape and weigh what they expose.
 constexpr CommandSet kShapesExposures = kTakesFunctions & ~bit(Id::check);
 // Those that expose pictures, and so take what says how that is computed.
-constexpr CommandSet kExposes = set_of(Id::expose, Id::batch, Id::mask, Id::contact, Id::sweep, Id::video);
+constexpr CommandSet kExposes =
+    set_of(Id::expose, Id::batch, Id::mask, Id::contact, Id::sweep, Id::video, Id::study);
 // Those whose pictures may hold light below 0.
 constexpr CommandSet kExposesFreely = set_of(Id::expose, Id::contact, Id::sweep, Id::video);
 // Those that lay pictures out on a sheet.
@@ -56,8 +58,7 @@ constexpr Option kRows[] = {
      "srgb bt709 linear gamma: hlg pq"},
     {0, "matrix", "NAME", decoding, kDecodesClips, &Options::matrix,
      "how a video's YUV becomes RGB: bt601, bt709 or bt2020 (default: what the file says; else bt709 from "
-     "720 "
-     "lines on, bt601 below)",
+     "720 lines on, bt601 below)",
      "bt601 bt709 bt2020"},
     {0, "range", "NAME", decoding, kDecodesClips, &Options::range,
      "which codes of YUV are black and white: limited or full (default: what the file says, else limited)",
@@ -80,8 +81,7 @@ constexpr Option kRows[] = {
      "make pictures smaller, each pixel the mean of the light it covers: 1/2, 1/3, …, or 640x360"},
     {0, "deinterlace", "HOW", decoding, kDecodesClips, &Options::deinterlace,
      "of interlaced video: frames (a picture from each frame), fields (one from each field, twice as many), "
-     "or no "
-     "(it only says that it is) (default: it is refused)",
+     "or no (it only says that it is) (default: it is refused)",
      "frames fields no"},
     {0, "as-far-as-it-goes", "", decoding, kDecodesClips, &Options::as_far_as_it_goes,
      "take a damaged clip's pictures up to the first that cannot be read, with a warning"},
@@ -100,12 +100,10 @@ constexpr Option kRows[] = {
      "input"},
     {'m', "mask", "FILE.pgm", exposure, kTakesFunctions | bit(Id::activity), &Options::mask,
      "which function each pixel is exposed with: an 8-bit grey PGM or PNG; - is standard input; "
-     "layer-%d.png: a "
-     "grey layer for each mask value, which says how much of a pixel it has"},
+     "layer-%d.png: a grey layer for each mask value, which says how much of a pixel it has"},
     {0, "feather", "PIXELS", exposure, kTakesFunctions, &Options::feather,
      "blend the mask's functions along its edges, so far to either side: 6px; M255=6px for one mask value; "
-     "several "
-     "with commas between: 2px,M255=6px"},
+     "several with commas between: 2px,M255=6px"},
     {0, "start", "TIME", exposure, kTakesIntervals, &Options::start,
      "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip; with -k the "
      "functions' time 0 (default: 0s)"},
@@ -120,8 +118,8 @@ constexpr Option kRows[] = {
     {0, "tag", "VALUE", subject, bit(Id::trace), &Options::tag,
      "follow the mean of all pixels that have this value in the mask"},
     {0, "shutter", "SHAPE", exposure, kShapesExposures, &Options::shutter,
-     "how far the shutter is open in the course of the plain interval: box, trapezoid:R, triangle, gaussian, "
-     "hann, strobe:N[,R] or spline:0=G,…,1=G (default: box)",
+     "how far the shutter is open in the course of the plain interval: box, trapezoid:R, triangle, "
+     "gaussian, hann, strobe:N[,R] or spline:0=G,…,1=G (default: box)",
      "box trapezoid: triangle gaussian hann strobe: spline:"},
     {0, "shutter-error", "E", exposure, kShapesExposures | bit(Id::shutter), &Options::shutter_error,
      "how far a smooth shape may be from its true gains, as a share of the largest (default: 0.001)"},
@@ -169,6 +167,7 @@ constexpr Option kRows[] = {
          "where a picture's brightness lies in a range: 100..255 in codes, 100 for that and brighter, "
          "40%..100% of white. PICTURE is a file, or a time of the capture (0.3s, 12f)"),
     step("difference", "PICTURE PICTURE", "where two pictures, or times of the capture, differ"),
+    step("subject", "TIME", "what is not in the plate (nutik-cl plate) at a time of the capture: 0.3s, 37f"),
     step("moving", "", "pixels that change within the capture by more than its noise"),
     step("still", "", "the others"),
     step("changed-between", "TIME TIME",
@@ -176,8 +175,9 @@ constexpr Option kRows[] = {
 
     heading("Changes to the region before them"),
     step("by", "CODES",
-         "the least that is no change: for --moving, --still, --changed-between and --difference, codes must "
-         "differ by more (default: twice what a quarter of all pixels stay within, at least 1/16 of white)"),
+         "the least that is no change: for --moving, --still, --changed-between, --difference and "
+         "--subject, codes must differ by more (default: twice what a quarter of all pixels stay within, at "
+         "least 1/16 of white)"),
     step("within", "X,Y,W,H", "only its part in a rectangle"),
     step("largest", "", "only its largest connected part"),
     step("grow", "PIXELS", "and all that is no further away than this"),
@@ -191,9 +191,8 @@ constexpr Option kRows[] = {
     {0, "size", "WxH", subject, bit(Id::mask), &Options::size,
      "its size, where neither capture nor picture tells: 640x360"},
     {0, "feather", "PIXELS", subject, bit(Id::mask), &Options::feather,
-     "blend tags along their edges, so far to either side: 6px, M255=6px, 2px,M255=6px; the output is layers "
-     "of 16 "
-     "bits, one for each tag: layer-%d.png"},
+     "blend tags along their edges, so far to either side: 6px, M255=6px, 2px,M255=6px; the output is "
+     "layers of 16 bits, one for each tag: layer-%d.png"},
     {0, "preview", "PICTURE.png", output, bit(Id::mask), &Options::preview,
      "also show the tags in colours over an exposure of the capture: of all of it, or of --start and "
      "--exposure"},
@@ -228,6 +227,27 @@ constexpr Option kRows[] = {
     {0, "map", "MAP.png", output, bit(Id::activity), &Options::map,
      "also write where it changes, as info --activity does: black never, white most often"},
 
+    heading("The study"),
+    {0, "style", "NAME", subject, bit(Id::study), &Options::style,
+     "trail (sharp moments over the whole way), strobe (moments alone), rear-curtain (the last moment, and "
+     "a trail that grows towards it) or frozen (one moment in a scene exposed for all of the time) "
+     "(default: trail)",
+     "trail strobe rear-curtain frozen"},
+    {0, "moments", "N|TIMES", subject, bit(Id::study), &Options::moments,
+     "how many moments, or which: 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen 1)"},
+    {0, "spacing", "time|distance", subject, bit(Id::study), &Options::spacing,
+     "moments are evenly apart in time, or along the way (default: time)", "time distance"},
+    {0, "trail", "SHAPE", subject, bit(Id::study), &Options::trail,
+     "even, fade (ends at nothing), ramp (begins at nothing) or none (default: what the style has)",
+     "even fade ramp none"},
+
+    heading("The plate"),
+    {0, "by", "CODES", subject, bit(Id::plate), &Options::by,
+     "codes that differ by no more, to either side, stand for the same light (default: three standard "
+     "deviations of the capture's noise, at least 1/32 of white)"},
+    {0, "uncertain", "MASK.pgm", output, bit(Id::plate), &Options::uncertain,
+     "also write as tag 255 the pixels that hold their light for less than half of the time"},
+
     heading("Computing"),
     {0, "renderer", "NAME", computing, kExposes, &Options::renderer,
      "opencl, or reference: plain double precision on the processor, slow (default: opencl)",
@@ -236,8 +256,8 @@ constexpr Option kRows[] = {
      "OpenCL device by number or part of its name; NUTIK_DEVICE does the same (default: the first GPU, else "
      "the first device)"},
     {0, "precision", "NAME", computing, kExposes, &Options::precision,
-     "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is sure "
-     "to be right to half a code, or to half a float's step (default: auto; see -v)",
+     "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is "
+     "sure to be right to half a code, or to half a float's step (default: auto; see -v)",
      "auto single compensated double fixed"},
     {0, "memory", "SIZE", computing, kReadsClips | kExposes, &Options::memory,
      "the most that may be held: 500MB, 2GB, 1GiB; libraries and drivers come on top (default: half of the "
@@ -254,23 +274,23 @@ constexpr Option kRows[] = {
      (kReadsClips & ~set_of(Id::batch, Id::check, Id::validate)) | set_of(Id::recover, Id::noise, Id::retime),
      &Options::output,
      "where to write; without it the last operand, or a name made from the inputs. A picture goes to "
-     "standard output "
-     "as -, a PNG, or as exr:-, tif:-, …"},
-    {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate), &Options::depth,
+     "standard output as -, a PNG, or as exr:-, tif:-, …"},
+    {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate, Id::plate, Id::study),
+     &Options::depth,
      "8, 16, float or half (.exr): light as it is, with negatives (default: the capture's own, 8 for .jpg, "
-     "float "
-     "for .exr and .pfm)",
+     "float for .exr and .pfm)",
      "8 16 half float"},
-    {0, "quality", "N", exposure, kExposesFreely, &Options::quality, "of a .jpg, 1 … 100 (default: 90)"},
+    {0, "quality", "N", exposure, kExposesFreely | set_of(Id::plate, Id::study), &Options::quality,
+     "of a .jpg, 1 … 100 (default: 90)"},
     {0, "negative", "HOW", exposure, kExposesFreely, &Options::negative,
      "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
      "darker), abs (as bright as light above it) (default: saturate)",
      "saturate offset abs"},
-    {0, "out-transfer", "NAME", exposure, set_of(Id::expose, Id::video, Id::sweep, Id::trace, Id::validate),
+    {0, "out-transfer", "NAME", exposure,
+     set_of(Id::expose, Id::video, Id::sweep, Id::trace, Id::validate, Id::plate, Id::study),
      &Options::out_transfer,
      "how the picture's codes stand for light: srgb, bt709, linear, gamma:G, or source: as in the capture, "
-     "with "
-     "its own white code (default: srgb, white being the largest code)",
+     "with its own white code (default: srgb, white being the largest code)",
      "srgb source linear bt709 gamma:"},
     {0, "codec", "NAME", encoding, bit(Id::encode), &Options::codec,
      "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",
@@ -284,7 +304,7 @@ constexpr Option kRows[] = {
      "also write how often each pixel changes, as a grey picture: black never, white most often, between "
      "them sRGB"},
     {0, "json", "", answer, kAll & ~kOnlyPrints, &Options::json, "answer with one JSON object, for scripts"},
-    {0, "no-recipe", "", output, set_of(Id::expose, Id::batch, Id::sweep, Id::video), &Options::no_recipe,
+    {0, "no-recipe", "", output, set_of(Id::expose, Id::batch, Id::sweep, Id::video, Id::study), &Options::no_recipe,
      "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},
     {'q', "quiet", "", output, kAll, &Options::quiet, "no progress bar and no summary"},
     {'v', "verbose", "", output, (kExposes & ~bit(Id::mask)) | bit(Id::trace), &Options::verbose,

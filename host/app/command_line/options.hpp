@@ -38,8 +38,11 @@ struct Options {
   // How it is computed, and how right that is.
   Value renderer, device, precision, memory, source, runs;
 
-  // Masks, and changes over time.
-  Value by, base, size, preview, csv, moment, map;
+  // A study.
+  Value style, moments, spacing, trail;
+
+  // Masks, plates, and changes over time.
+  Value by, base, size, preview, uncertain, csv, moment, map;
 
   // What is written.
   Value output, depth, quality, negative, out_transfer, activity;

@@ -4,6 +4,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
+#include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "session/error.hpp"
@@ -15,6 +16,7 @@
 #include "session/mask_preview.hpp"
 #include "session/output_check.hpp"
 #include "session/pictures.hpp"
+#include "session/plate_request.hpp"
 #include "session/sheets.hpp"
 #include "session/size_text.hpp"
 #include "session/stated_time.hpp"
@@ -32,11 +34,6 @@ struct MaskJob {
   std::optional<Feather> feather;    // of a soft one, which is written as layers
   std::optional<MaskLayers> layers;  // that take the place of the output
 };
-
-bool is_mask_name(const std::filesystem::path& path) {
-  const std::string extension = picture_extension(path);
-  return extension == ".pgm" || extension == ".png";
-}
 
 // Nothing large is read before all of it makes sense.
 MaskJob job_of(const Options& options) {
@@ -69,15 +66,11 @@ MaskJob job_of(const Options& options) {
     }
     for (const NamedPicture* picture : step.pictures()) inputs.push_back(picture->name.text);
   }
-  if (!is_mask_name(job.output)) {
-    throw UsageError(
-        format("{}: masks are written as .pgm or .png, which keep every tag", job.output.string()));
-  }
   if (options.feather) {
     job.feather = Feather::parse(*options.feather);
     job.layers.emplace(job.output).check(inputs);
   } else {
-    check_output(job.output, OutputKind::mask, inputs);
+    check_mask_output(job.output, inputs);
   }
   if (options.preview) {
     constexpr std::uint32_t kColour = 3;
@@ -167,10 +160,14 @@ int run_mask(const Options& options) {
   std::optional<Session> session;
   if (job.capture) {
     session.emplace(open_session(*job.capture, options, make_devices(options),
-                                 {.besides = mask_making_needs, .renders = options.preview.has_value()}));
+                                 {.besides = mask_needs_of(job.request), .renders = options.preview.has_value()}));
   }
 
-  MadeMask made = make_mask(job.request, session ? &session->capture() : nullptr, job.capture.value_or(""));
+  MadeMask made =
+      make_mask(job.request, session ? &session->capture() : nullptr, job.capture.value_or(""), [&] {
+        return make_code_plate(session->capture(), *job.capture, session->devices().request().memory,
+                               progress_bar("making the plate", options.quiet));
+      });
   print_warnings(warnings_of(made));
   if (job.feather) made.mask = feathered(made.mask, *job.feather);
   if (options.preview) {

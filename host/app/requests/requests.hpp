@@ -22,6 +22,7 @@
 #include "session/series_request.hpp"
 #include "session/sheets.hpp"
 #include "session/source_request.hpp"
+#include "session/study_request.hpp"
 #include "session/sweep_request.hpp"
 
 namespace nutik::app {
@@ -55,6 +56,9 @@ inline constexpr std::string_view kAutomaticNoise = "auto";
 [[nodiscard]] FramesRequest frames_request(const Options& options);
 // What --columns and --width ask for.
 [[nodiscard]] sheet::SheetWishes sheet_wishes(const Options& options);
+
+// Which moments of what moves are shown, and what between them.
+[[nodiscard]] StudyRequest study_request(const Options& options);
 
 // What a mask is made of:
 //

@@ -1,0 +1,64 @@
+#include "session/plate_request.hpp"
+
+#include "app/commands/commands.hpp"
+#include "app/commands/opened_session.hpp"
+#include "app/output/output_name.hpp"
+#include "app/output/progress.hpp"
+#include "app/output/report.hpp"
+#include "app/requests/requests.hpp"
+#include "app/text/number_text.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/output_check.hpp"
+#include "session/pictures.hpp"
+#include "session/size_text.hpp"
+
+namespace nutik::app {
+
+int run_plate(const Options& options) {
+  const Stopwatch stopwatch;
+  const std::filesystem::path output = output_name(options, "plate", "-plate.png");
+  std::vector<std::string> inputs = input_files(options);
+  check_output(output, OutputKind::picture, inputs);
+  if (options.uncertain) {
+    inputs.push_back(output.string());
+    check_mask_output(*options.uncertain, inputs);
+  }
+  PlateRequest request;
+  if (options.by) request.by_codes = parse_whole_number(*options.by, "--by", 0, 65'535);
+
+  Session session = open_session(options, {.besides = plate_making_needs, .renders = false});
+  const CaptureFormat& capture = session.format();
+  const MadePlate made =
+      make_plate(session.capture(), options.operands.front(), request,
+                 output_format(output_request(options), output, capture), session.devices().request().memory,
+                 progress_bar("reading", options.quiet));
+  if (!made.is_noise_known) {
+    print_warning(
+        "nothing in the capture is still for long enough to tell its noise: codes that differ by up to 1/32 "
+        "of "
+        "white were taken for the same light; --by CODES states another difference");
+  }
+  write_picture(output, made.picture, {}, file_wishes(output_request(options)));
+  if (options.uncertain) {
+    Mask mask = Mask::uniform(capture.shape.width, capture.shape.height, 0);
+    paint(mask, made.uncertain, 255);
+    write_picture(*options.uncertain, mask.to_picture());
+  }
+
+  const std::uint64_t uncertain = made.uncertain.pixel_count();
+  Answer answer{{{"picture", output.string()}}};
+  answer.json.update(shape_json(made.picture.shape));
+  answer.json.update({{"samples", session.timeline().sample_count()},
+                      {"uncertain_pixels", uncertain},
+                      {"seconds", stopwatch.seconds()}});
+  answer.line =
+      format("{}: {}, {} samples, {:.3g} % of the pixels uncertain, {:.2f} s", output.string(),
+             shape_text(made.picture.shape), session.timeline().sample_count(),
+             100.0 * static_cast<double>(uncertain) / static_cast<double>(capture.shape.pixel_count()),
+             stopwatch.seconds());
+  answer.notes = source_lines(session);
+  return tell(options, output, answer);
+}
+
+}  // namespace nutik::app

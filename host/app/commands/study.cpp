@@ -1,0 +1,155 @@
+#include "session/study_request.hpp"
+
+#include "app/command_line/option_table.hpp"
+#include "app/commands/commands.hpp"
+#include "app/commands/opened_session.hpp"
+#include "app/output/output_name.hpp"
+#include "app/output/progress.hpp"
+#include "app/output/report.hpp"
+#include "app/requests/requests.hpp"
+#include "app/text/number_text.hpp"
+#include "app/text/shell_text.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+#include "session/functions.hpp"
+#include "session/mask_making.hpp"
+#include "session/pictures.hpp"
+#include "session/plate_request.hpp"
+#include "session/size_text.hpp"
+#include "session/time_text.hpp"
+#include "system/output_file.hpp"
+
+namespace nutik::app {
+namespace {
+
+// How far the subject's border is blended with what lies around it.
+constexpr const char* kFeather = "2px";
+
+// The files of a study: its picture, and beside it what that was made with.
+struct StudyFiles {
+  explicit StudyFiles(const std::filesystem::path& output)
+      : picture(output), mask(beside(".pgm")), functions(beside(".fn")), commands(beside(".txt")) {}
+
+  [[nodiscard]] std::filesystem::path beside(const char* extension) const {
+    std::filesystem::path path = picture;
+    path.replace_extension(extension);
+    if (path == picture) path.replace_filename(picture.stem().string() + "-mask" + extension);
+    return path;
+  }
+
+  std::filesystem::path picture, mask, functions, commands;
+};
+
+std::string functions_text(const FunctionSet& functions) {
+  std::string text;
+  for (const auto& [tag, function] : functions) text += function_text(tag, function) + "\n";
+  return text;
+}
+
+// What was stated of the clip and, of an exposure, of the picture: as words of another command.
+std::string stated_words(const Options& options, bool of_exposure) {
+  std::string words;
+  for (const Option& option : app::options()) {
+    const bool counts = option.describes_clip() ||
+                        (of_exposure && (option.makes_picture() || option.scope == Scope::computing));
+    const std::string* const value = counts ? option.stated(options) : nullptr;
+    if (value != nullptr) words += format(" {} {}", option.name(), shell_word(*value));
+  }
+  return words;
+}
+
+// The exposure by hand.
+Options exposing(const Options& options, const StudyFiles& files) {
+  Options by_hand = options;
+  by_hand.mask = files.mask.string();
+  by_hand.functions = files.functions.string();
+  by_hand.feather = kFeather;
+  by_hand.normalize = "integral";
+  return by_hand;
+}
+
+// What makes the same by hand.
+std::string commands_text(const Options& options, const StudyFiles& files, const Study& study) {
+  std::string regions;
+  for (std::size_t i = 0; i < study.moments.size(); ++i) {
+    const MaskStep& step = study.mask.steps[i];
+    const select::Rectangle& box = step.changes.front().rectangle;
+    regions += format(" \\\n  --tag {} --subject {}f --within {},{},{},{} --largest --smooth 1 --grow 3",
+                      step.tag, study.moments[i], box.corner.x, box.corner.y, box.width, box.height);
+  }
+  const auto name = [](const std::filesystem::path& path) { return shell_word(path.string()); };
+  const std::string capture = shell_word(options.operands.front());
+  std::string text = "# What is the subject at each moment? What is not in the plate then.\n";
+  text += format("nutik-cl mask{}{} \\\n  {} {}\n", stated_words(options, false), regions, capture,
+                 name(files.mask));
+  text += format("# {} has the gain functions: M0 of everything between the moments, M1 and so on of each.\n",
+                 files.functions.filename().string());
+  text += format("nutik-cl{} \\\n  {} {}\n", stated_words(exposing(options, files), true), capture,
+                 name(files.picture));
+  return text;
+}
+
+MemoryNeeds study_needs(const CaptureFormat& capture) {
+  MemoryNeeds needs = mask_making_needs(capture);
+  needs.add(plate_making_needs(capture));
+  return needs;
+}
+
+}  // namespace
+
+int run_study(const Options& options) {
+  ExposureTally tally;
+  const StudyRequest request = study_request(options);
+  const StudyFiles files(output_name(options, "study", "-study.png"));
+  std::vector<std::string> inputs = input_files(options);
+  check_output(files.picture, OutputKind::picture, inputs);
+  inputs.push_back(files.picture.string());
+  check_mask_output(files.mask, inputs);
+
+  Session session = open_session(options, {.besides = study_needs});
+  const std::string& capture_name = options.operands.front();
+  Study study = plan_study(session.capture(), capture_name, request, session.devices().request().memory,
+                           progress_bar("looking for the subject", options.quiet));
+  const MadeMask made =
+      make_mask(study.mask, &session.capture(), capture_name, [&] { return std::move(study.plate); });
+  ExposureRequest exposure;
+  exposure.gains = Shared(FunctionSet(study.functions));
+  exposure.mask = Shared(CountedMask(feathered(made.mask, Feather::parse(kFeather))));
+  exposure.normalization = Normalization::parse("integral");
+  const ExposedPicture exposed =
+      session.render(exposure, output_format(output_request(options), files.picture, session.format()));
+  tally.add(exposed);
+  print_warnings(exposure_warnings(exposed));
+
+  write_picture(files.mask, made.mask.to_picture());
+  write_text(files.functions, functions_text(study.functions));
+  write_text(files.commands, commands_text(options, files, study));
+  PictureRecipe recipe(recipe_sources(exposing(options, files)));
+  write_picture(files.picture, exposed.picture, recipe.text(tally.precision()),
+                file_wishes(output_request(options)));
+
+  const Timeline& timeline = session.timeline();
+  Answer answer{{{"picture", files.picture.string()},
+                 {"mask", files.mask.string()},
+                 {"functions", files.functions.string()},
+                 {"commands", files.commands.string()},
+                 {"moments", Json::array()},
+                 {"trail_strength", study.trail_strength}}};
+  std::string moments;
+  for (const std::uint64_t sample : study.moments) {
+    answer.json["moments"].push_back({{"sample", sample}, {"start_ns", timeline.start_ns(sample)}});
+    moments +=
+        format("{} {} ({}f)", moments.empty() ? "" : ",", duration_text(timeline.start_ns(sample)), sample);
+  }
+  answer.line =
+      format("{}: {}, the subject at{}", files.picture.string(), shape_text(exposed.picture.shape), moments);
+  answer.details.push_back(
+      format("  {}, {}: the mask and the functions, to be changed by hand; {}: the commands",
+             files.mask.string(), files.functions.string(), files.commands.string()));
+  tally.end(answer, session, options.verbose);
+  answer.notes = source_lines(session);
+  for (const std::string& note : study.notes) answer.notes.push_back("note: " + note);
+  return tell(options, files.picture, answer);
+}
+
+}  // namespace nutik::app

@@ -1,0 +1,77 @@
+#include <array>
+#include <utility>
+
+#include "app/requests/requests.hpp"
+#include "app/text/number_text.hpp"
+#include "session/error.hpp"
+#include "session/format.hpp"
+
+namespace nutik::app {
+namespace {
+
+constexpr std::uint32_t kMostMoments = 50;
+
+// The value that a name stands for; `usual` where nothing was said.
+template <typename Value, std::size_t count>
+Value named(const std::optional<std::string>& word, std::string_view option,
+            const std::array<std::pair<std::string_view, Value>, count>& values, Value usual) {
+  if (!word) return usual;
+  std::string known;
+  for (const auto& [name, value] : values) {
+    if (*word == name) return value;
+    known += (known.empty() ? "" : ", ") + std::string(name);
+  }
+  throw UsageError(format("{} '{}' is unknown; there are {}", option, *word, known));
+}
+
+constexpr std::array kStyles{
+    std::pair<std::string_view, StudyStyle>("trail", StudyStyle::trail),
+    std::pair<std::string_view, StudyStyle>("strobe", StudyStyle::strobe),
+    std::pair<std::string_view, StudyStyle>("rear-curtain", StudyStyle::rear_curtain),
+    std::pair<std::string_view, StudyStyle>("frozen", StudyStyle::frozen),
+};
+constexpr std::array kSpacings{
+    std::pair<std::string_view, MomentSpacing>("time", MomentSpacing::time),
+    std::pair<std::string_view, MomentSpacing>("distance", MomentSpacing::distance),
+};
+constexpr std::array kTrails{
+    std::pair<std::string_view, std::optional<TrailShape>>("even", TrailShape::even),
+    std::pair<std::string_view, std::optional<TrailShape>>("fade", TrailShape::fade),
+    std::pair<std::string_view, std::optional<TrailShape>>("ramp", TrailShape::ramp),
+    std::pair<std::string_view, std::optional<TrailShape>>("none", TrailShape::none),
+};
+
+std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(const std::string& text) {
+  if (text.find_first_not_of("0123456789") == std::string::npos) {
+    return parse_whole_number(text, "--moments", 1, kMostMoments);
+  }
+  std::vector<StatedTime> times;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    times.push_back(StatedTime::parse(text.substr(begin, end - begin), "--moments"));
+    begin = end + 1;
+  }
+  if (times.size() > kMostMoments) {
+    throw UsageError(format("--moments names {} times; a study has {} at most", times.size(), kMostMoments));
+  }
+  return times;
+}
+
+}  // namespace
+
+StudyRequest study_request(const Options& options) {
+  StudyRequest request;
+  request.style = named(options.style, "--style", kStyles, request.style);
+  request.spacing = named(options.spacing, "--spacing", kSpacings, request.spacing);
+  request.trail = named(options.trail, "--trail", kTrails, request.trail);
+  if (options.moments) request.moments = parse_moments(*options.moments);
+  const bool shows_one = request.style == StudyStyle::rear_curtain || request.style == StudyStyle::frozen;
+  const auto* times = std::get_if<std::vector<StatedTime>>(&request.moments);
+  if (shows_one && options.moments && (times == nullptr || times->size() != 1)) {
+    throw UsageError(
+        format("--style {} shows a single moment; leave --moments out, or name one time", *options.style));
+  }
+  return request;
+}
+
+}  // namespace nutik::app

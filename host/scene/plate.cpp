@@ -1,0 +1,192 @@
+#include "scene/plate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "system/parallel.hpp"
+
+namespace nutik {
+namespace {
+
+// The codes of a pixel from a sample on, and for how long.
+struct HeldCodes {
+  std::array<std::uint16_t, 3> codes{};
+  std::uint64_t duration_ns = 0;
+};
+
+// Finds the light that pixels hold longest, one pixel after another.
+class LongestHeld {
+ public:
+  LongestHeld(const CodeBand& band, std::uint32_t channels)
+      : band_(band), channels_(channels), durations_(band.bin_count()) {}
+
+  // Leaves of `held`, which is not empty, what counts as one light. Returns for how long that is held.
+  std::uint64_t keep_longest(std::vector<HeldCodes>& held) {
+    constexpr std::uint32_t kOrder[] = {1, 0, 2};  // green tells most
+    std::uint64_t duration = 0;
+    for (std::uint32_t i = 0; i < channels_; ++i) {
+      duration = keep_longest(held, channels_ == 1 ? 0 : kOrder[i]);
+    }
+    return duration;
+  }
+
+ private:
+  // The same by one channel: moves a window over the bins that are held.
+  std::uint64_t keep_longest(std::vector<HeldCodes>& held, std::uint32_t channel) {
+    const auto bin_of = [&](const HeldCodes& each) { return band_.bin(channel, each.codes[channel]); };
+    std::uint32_t low = ~0u, high = 0;
+    std::uint64_t whole = 0;
+    for (const HeldCodes& each : held) {
+      const std::uint32_t bin = bin_of(each);
+      low = std::min(low, bin);
+      high = std::max(high, bin);
+      whole += each.duration_ns;
+    }
+    const std::uint32_t window = band_.window();
+    if (high - low < window) return whole;
+    for (const HeldCodes& each : held) durations_[bin_of(each)] += each.duration_ns;
+    std::uint64_t within = 0, longest = 0;
+    std::uint32_t best = low;  // where the window of that begins
+    for (std::uint32_t bin = low; bin <= high; ++bin) {
+      within += durations_[bin];
+      if (bin >= low + window) within -= durations_[bin - window];
+      if (within > longest) {
+        longest = within;
+        best = bin + 1 >= low + window ? bin + 1 - window : low;
+      }
+    }
+    std::fill(durations_.begin() + low, durations_.begin() + high + 1, 0);
+    std::erase_if(held, [&](const HeldCodes& each) {
+      const std::uint32_t bin = bin_of(each);
+      return bin < best || bin >= best + window;
+    });
+    return longest;
+  }
+
+  const CodeBand& band_;
+  std::uint32_t channels_;
+  std::vector<std::uint64_t> durations_;  // by bin; 0 between calls
+};
+
+// Makes a plate strip by strip, a strip being rows of tiles.
+class PlateMaker {
+ public:
+  PlateMaker(CaptureSource& capture, const CodeBand& band)
+      : capture_(capture),
+        band_(band),
+        grid_(capture.format().shape),
+        light_of_code_(capture.format().transfer.light_of_all_codes(capture.format().white_code,
+                                                                    capture.format().code_bytes)),
+        rooms_(capture.block_count()) {
+    const CaptureFormat& format = capture.format();
+    const Timeline& timeline = capture.timeline();
+    for (std::uint64_t k = 0; k < timeline.sample_count(); ++k) starts_ns_.push_back(timeline.start_ns(k));
+    starts_ns_.push_back(timeline.duration_ns());
+    plate_.light = Picture(format.shape, ValueType::light64, format.white_code);
+    plate_.uncertain = Region::none(format.shape.width, format.shape.height);
+  }
+
+  void make(std::uint32_t first_row, std::uint32_t last_row) {
+    const std::uint64_t first = std::uint64_t{first_row} * grid_.columns();
+    const std::uint64_t last = std::uint64_t{last_row} * grid_.columns();
+    std::vector<BlockLease> leases;
+    std::vector<BlockView> blocks;
+    for (std::uint64_t block = 0; block < capture_.block_count(); ++block) {
+      PageBuffer& room = rooms_[block];
+      leases.push_back(capture_.acquire(
+          block, {[&](std::uint64_t bytes) {
+                    room.reserve(bytes);
+                    return room.first(bytes);
+                  },
+                  [&](std::uint64_t from, std::uint64_t to) { return from < last && to > first; }}));
+      blocks.emplace_back(capture_.format(), leases.back().extent(), leases.back().payload());
+    }
+    parallel_for(last_row - first_row,
+                 [&](std::uint64_t row) { make_row(blocks, first_row + static_cast<std::uint32_t>(row)); });
+    leases.clear();
+    for (PageBuffer& room : rooms_) room = {};  // other groups come to lie in it
+  }
+
+  [[nodiscard]] Plate finished() && { return std::move(plate_); }
+
+ private:
+  void make_row(const std::vector<BlockView>& blocks, std::uint32_t tile_row) {
+    const Shape& shape = capture_.format().shape;
+    LongestHeld longest(band_, shape.channels);
+    std::vector<ChangeRecord> history;
+    std::vector<HeldCodes> held;
+    const std::uint32_t bottom = std::min(shape.height, (tile_row + 1) * kTileSide);
+    for (std::uint32_t x = 0; x < shape.width; ++x) {
+      for (std::uint32_t y = tile_row * kTileSide; y < bottom; ++y) {
+        held.clear();
+        for (const BlockView& block : blocks) {
+          block.read_history(grid_.tile_of(x, y), TileGrid::lane_of(x, y), history);
+          add(block.extent(), history, held);
+        }
+        const std::uint64_t duration = longest.keep_longest(held);
+        set(std::uint64_t{y} * shape.width + x, held, duration);
+      }
+    }
+  }
+
+  void add(const BlockExtent& extent, const std::vector<ChangeRecord>& history,
+           std::vector<HeldCodes>& held) const {
+    for (std::size_t r = 0; r < history.size(); ++r) {
+      const std::uint32_t until = r + 1 < history.size() ? history[r + 1].sample : extent.sample_count;
+      const std::int64_t begin_ns = starts_ns_[extent.first_sample + history[r].sample];
+      const std::int64_t end_ns = starts_ns_[extent.first_sample + until];
+      held.push_back({history[r].codes, static_cast<std::uint64_t>(end_ns - begin_ns)});
+    }
+  }
+
+  // The mean of what was held as one light.
+  void set(std::uint64_t pixel, const std::vector<HeldCodes>& held, std::uint64_t duration_ns) {
+    const std::uint32_t channels = plate_.light.shape.channels;
+    const auto light = plate_.light.values<double>().subspan(pixel * channels, channels);
+    for (std::uint32_t channel = 0; channel < channels; ++channel) {
+      double sum = 0;
+      for (const HeldCodes& each : held) {
+        sum += light_of_code_[each.codes[channel]] * static_cast<double>(each.duration_ns);
+      }
+      light[channel] = sum / static_cast<double>(duration_ns);
+    }
+    plate_.uncertain.inside[pixel] = 2 * duration_ns < static_cast<std::uint64_t>(starts_ns_.back());
+  }
+
+  CaptureSource& capture_;
+  const CodeBand& band_;
+  TileGrid grid_;
+  std::vector<std::int64_t> starts_ns_;  // of all samples, and the capture's end
+  std::vector<double> light_of_code_;
+  std::vector<PageBuffer> rooms_;  // for blocks that are unpacked
+  Plate plate_;
+};
+
+}  // namespace
+
+MemoryNeeds plate_needs(const CaptureFormat& capture) {
+  return {{"the plate", capture.shape.pixel_count() * (capture.shape.channels * sizeof(double) + 1)}};
+}
+
+Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t memory_bytes,
+                 const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+  const std::uint32_t rows = TileGrid(capture.format().shape).rows();
+  std::uint64_t unpacked_bytes = 0;
+  for (std::uint64_t block = 0; block < capture.block_count(); ++block) {
+    unpacked_bytes += capture.lent_bytes(block);
+  }
+  const std::uint64_t row_bytes = unpacked_bytes / rows + 1;
+  MemoryNeeds needs = plate_needs(capture.format());
+  needs.add("a row of tiles at all samples", row_bytes);
+  const auto at_once =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(1 + needs.rest_of(memory_bytes) / row_bytes, rows));
+  PlateMaker maker(capture, band);
+  for (std::uint32_t row = 0; row < rows; row += at_once) {
+    if (progress) progress(row, rows);
+    maker.make(row, std::min(row + at_once, rows));
+  }
+  return std::move(maker).finished();
+}
+
+}  // namespace nutik

@@ -1,0 +1,54 @@
+// The subject: what differs from the plate and goes furthest, and where it goes.
+//
+//   in:      a capture and its plate, as codes of the capture
+//   out:     where the subject is at the samples at which it was found
+//   units:   pixels from the top left corner. Pictures are looked at in cells of several pixels, so that large ones take
+//            no longer
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "capture/picture.hpp"
+#include "imev/capture_source.hpp"
+#include "mask/region.hpp"
+
+namespace nutik {
+
+struct SubjectPlace {
+  std::uint64_t sample = 0;
+  Point centre;                    // of gravity
+  Rectangle box;                   // that holds it, with a border
+  bool is_cut_off = false;         // by the picture's border
+  std::vector<std::size_t> cells;  // that it covers, increasing
+};
+
+struct SubjectTrack {
+  std::uint32_t cell_side = 1;           // in pixels
+  std::uint32_t cell_columns = 0;        // in a row
+  std::vector<SubjectPlace> places;      // in time order; none of samples at which it was not found
+  std::vector<std::uint64_t> looked_at;  // samples, increasing: all, or so many evenly over the capture
+  SampleRange empty;        // the longest stretch of them at which nothing at all differs from the plate
+  double moving_share = 0;  // of the picture, that differs from the plate on average
+
+  // For how much of the time from the first place to the last a cell that is covered at all is covered, on average.
+  [[nodiscard]] double covered_share() const;
+};
+
+// A pixel is not the plate's where a channel differs from it by more than `by_codes`. What hangs together at a sample is
+// taken for the same as what lay nearest where that went at the samples before; of all that was followed so, the subject
+// is what goes furthest for its size. `progress(done, all)` may be empty. Throws InputError where the capture is
+// damaged.
+[[nodiscard]] SubjectTrack track_subject(
+    CaptureSource& capture, const Picture& plate, std::uint32_t by_codes,
+    const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});
+
+enum class MomentSpacing { time, distance };
+
+// Up to `count` of the track's places, evenly in time or along its way, 8 pixels apart or more; whole ones, as far as there
+// are any. In time order.
+[[nodiscard]] std::vector<SubjectPlace> choose_moments(const SubjectTrack& track, std::uint32_t count,
+                                                       MomentSpacing spacing);
+
+}  // namespace nutik

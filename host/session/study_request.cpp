@@ -1,0 +1,218 @@
+#include "session/study_request.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/function_text.hpp"
+#include "scene/code_band.hpp"
+#include "session/plate_request.hpp"
+
+namespace nutik {
+namespace {
+
+// Of a subject that covers a place of its way for a share of the time, the trail shows so much there.
+constexpr double kTrailOpacity = 0.5;
+constexpr double kMostStrength = 8;  // more shows the noise of the empty scene
+constexpr double kMostMoving = 0.2;  // of the picture, on average
+constexpr std::uint64_t kLeastEmptySamples = 4;
+constexpr double kSmoothRadius = 1,
+                 kGrowRadius = 3;  // pixels: without specks, with the subject's soft border
+
+bool shows_one(StudyStyle style) { return style == StudyStyle::rear_curtain || style == StudyStyle::frozen; }
+
+TrailShape usual_trail(StudyStyle style) {
+  switch (style) {
+    case StudyStyle::trail: return TrailShape::even;
+    case StudyStyle::rear_curtain: return TrailShape::ramp;
+    case StudyStyle::strobe: return TrailShape::none;
+    case StudyStyle::frozen: return TrailShape::even;
+  }
+  return TrailShape::none;
+}
+
+std::vector<std::uint64_t> stated_moments(const std::vector<StatedTime>& times, const Timeline& timeline) {
+  std::vector<std::uint64_t> samples;
+  for (const StatedTime& time : times) {
+    samples.push_back(sample_at(time, "the moment", timeline));
+    if (samples.size() > 1 && samples.back() <= samples[samples.size() - 2]) {
+      throw UsageError(format(
+          "the moment {} is not after the one before it; state moments in the order of time", time.text()));
+    }
+  }
+  return samples;
+}
+
+// Gains of pieces of a function, each of its own interval. In time order.
+class Pieces {
+ public:
+  void add(Interval interval, double begin_gain, double end_gain) {
+    points_.push_back({interval.begin_ns, 0.0});
+    points_.push_back({interval.begin_ns, begin_gain});
+    points_.push_back({interval.end_ns, end_gain});
+    points_.push_back({interval.end_ns, 0.0});
+  }
+  [[nodiscard]] GainFunction function() const { return with_steps(GainFunction(points_)); }
+
+ private:
+  std::vector<ControlPoint> points_;
+};
+
+class StudyPlanner {
+ public:
+  StudyPlanner(const StudyRequest& request, const Timeline& timeline, SubjectTrack track)
+      : request_(request), timeline_(timeline), track_(std::move(track)) {
+    shape_ = request.trail.value_or(usual_trail(request.style));
+  }
+
+  void choose(Study& study) const {
+    if (const auto* times = std::get_if<std::vector<StatedTime>>(&request_.moments)) {
+      study.moments = stated_moments(*times, timeline_);
+      return;
+    }
+    const std::uint32_t wanted = shows_one(request_.style) ? 1 : std::get<std::uint32_t>(request_.moments);
+    if (request_.style == StudyStyle::rear_curtain) {
+      study.moments = {last_whole_place().sample};
+      return;
+    }
+    for (const SubjectPlace& place : choose_moments(track_, wanted, request_.spacing)) {
+      study.moments.push_back(place.sample);
+    }
+    if (study.moments.size() < wanted) {
+      study.notes.push_back(
+          format("{} of {} moments are shown: at others the subject would overlap with itself",
+                 study.moments.size(), wanted));
+    }
+  }
+
+  void add_regions(Study& study) const {
+    for (std::size_t i = 0; i < study.moments.size(); ++i) {
+      MaskStep step;
+      step.name = {"--subject"};
+      step.tag = static_cast<std::uint8_t>(i + 1);
+      step.selection = select::Subject{StatedTime::of_pictures(static_cast<std::int64_t>(study.moments[i]))};
+      step.changes = {{RegionChange::Kind::within, 0.0, box_at(study.moments[i])},
+                      {RegionChange::Kind::largest, 0.0, {}},
+                      {RegionChange::Kind::smooth, kSmoothRadius, {}},
+                      {RegionChange::Kind::grow, kGrowRadius, {}}};
+      study.mask.steps.push_back(std::move(step));
+    }
+  }
+
+  void add_functions(Study& study) const {
+    for (std::size_t i = 0; i < study.moments.size(); ++i) {
+      Pieces moment;
+      moment.add(interval_of({study.moments[i], study.moments[i] + 1}), 1, 1);
+      study.functions.emplace(static_cast<std::uint8_t>(i + 1), moment.function());
+    }
+    study.empty = track_.empty;
+    if (study.empty.size() < kLeastEmptySamples) study.empty = {};
+    study.functions.emplace(std::uint8_t{0}, shape_ == TrailShape::none ? background(study) : trail(study));
+  }
+
+ private:
+  // Where the subject is at a sample: where it was found last before, if it was not looked for there.
+  [[nodiscard]] select::Rectangle box_at(std::uint64_t sample) const {
+    const auto after = std::ranges::upper_bound(track_.places, sample, {}, &SubjectPlace::sample);
+    const Rectangle& box = (after == track_.places.begin() ? after : after - 1)->box;
+    return {{double(box.x), double(box.y)}, double(box.width), double(box.height)};
+  }
+
+  [[nodiscard]] const SubjectPlace& last_whole_place() const {
+    const auto whole = std::find_if(track_.places.rbegin(), track_.places.rend(),
+                                    [](const SubjectPlace& place) { return !place.is_cut_off; });
+    return whole == track_.places.rend() ? track_.places.back() : *whole;
+  }
+
+  [[nodiscard]] Interval interval_of(SampleRange samples) const {
+    return {timeline_.start_ns(samples.first), timeline_.end_ns(samples.last - 1)};
+  }
+
+  // The scene between the moments: when nothing is there; else the moments together, in each of which most of it is
+  // seen.
+  [[nodiscard]] GainFunction background(const Study& study) const {
+    Pieces pieces;
+    if (!study.empty.empty()) {
+      pieces.add(interval_of(study.empty), 1, 1);
+    } else {
+      for (const std::uint64_t sample : study.moments) pieces.add(interval_of({sample, sample + 1}), 1, 1);
+    }
+    return pieces.function();
+  }
+
+  // The subject's whole way. Where nothing is there for a while, that is taken away again, so that the way may be as
+  // much stronger.
+  [[nodiscard]] GainFunction trail(Study& study) const {
+    const std::uint64_t last =
+        request_.style == StudyStyle::rear_curtain ? study.moments.back() : track_.places.back().sample;
+    const Interval way = interval_of({track_.places.front().sample, last + 1});
+    const double begin = shape_ == TrailShape::ramp ? 0.0 : 1.0, end = shape_ == TrailShape::fade ? 0.0 : 1.0;
+    Pieces before, pieces;
+    if (study.empty.empty() || request_.style == StudyStyle::frozen) {
+      pieces.add(way, begin, end);
+      return pieces.function();
+    }
+    const double wanted = kTrailOpacity / track_.covered_share();
+    study.trail_strength = std::round(10 * std::clamp(wanted, 1.0, kMostStrength)) / 10;
+    const Interval without = interval_of(study.empty);
+    const double way_ns = static_cast<double>(way.end_ns - way.begin_ns) * (begin + end) / 2;
+    const double taken =
+        -(1 - 1 / study.trail_strength) * way_ns / static_cast<double>(without.end_ns - without.begin_ns);
+    const double rounded = std::round(1000 * taken) / 1000;
+    const bool is_before = without.begin_ns < way.begin_ns;
+    if (is_before) pieces.add(without, rounded, rounded);
+    pieces.add(way, begin, end);
+    if (!is_before) pieces.add(without, rounded, rounded);
+    return pieces.function();
+  }
+
+  const StudyRequest& request_;
+  const Timeline& timeline_;
+  SubjectTrack track_;
+  TrailShape shape_;
+};
+
+}  // namespace
+
+Study plan_study(CaptureSource& capture, const std::string& capture_name, const StudyRequest& request,
+                 const MemoryBudget& memory, const ReportedProgress& progress) {
+  const CaptureFormat& format = capture.format();
+  OutputFormat codes;
+  codes.type = code_type(format);
+  codes.white_code = format.white_code;
+  MadePlate plate = make_plate(capture, capture_name, {}, codes, memory, progress);
+  const double moving =
+      static_cast<double>(plate.uncertain.pixel_count()) / static_cast<double>(format.shape.pixel_count());
+  if (moving > kMostMoving) {
+    throw InputError(
+        nutik::format("{}: {:.0f} % of the pixels hold no light for half of the time: everything moves, as "
+                      "it does where nobody held "
+                      "the camera still. A study needs a scene that rests and something that moves in it",
+                      capture_name, 100 * moving));
+  }
+  const auto by_codes = static_cast<std::uint32_t>(std::ceil(2 * CodeBand::kLeastShare * format.white_code));
+  SubjectTrack track = track_subject(capture, plate.picture, by_codes, progress);
+  if (track.moving_share > kMostMoving) {
+    throw InputError(
+        nutik::format("{}: {:.0f} % of the picture differ from the scene at rest on average: everything "
+                      "moves, as it does where the "
+                      "camera did. A study needs a scene that rests, and something that moves in it",
+                      capture_name, 100 * track.moving_share));
+  }
+  if (track.places.empty()) {
+    throw InputError(nutik::format(
+        "{}: nothing moves: no part of it differs from the rest of the time by more than {} codes",
+        capture_name, by_codes));
+  }
+  Study study;
+  study.plate = std::move(plate.picture);
+  const StudyPlanner planner(request, capture.timeline(), std::move(track));
+  planner.choose(study);
+  planner.add_regions(study);
+  planner.add_functions(study);
+  return study;
+}
+
+}  // namespace nutik

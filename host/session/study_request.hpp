@@ -1,0 +1,57 @@
+// A motion study: which moments of a subject a picture shows, and what between them; found in the capture.
+//
+//   in:      a style, how many moments or which
+//   out:     what a mask, gain functions and an exposure are asked for: requests as a person would state them, so that
+//            each can be changed by hand
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "imev/capture_source.hpp"
+#include "render/render_plan.hpp"
+#include "scene/subject.hpp"
+#include "session/mask_request.hpp"
+#include "session/memory_budget.hpp"
+#include "session/reported_progress.hpp"
+#include "session/stated_time.hpp"
+
+namespace nutik {
+
+enum class StudyStyle {
+  trail,         // sharp moments over the trail of the whole way
+  strobe,        // sharp moments, and nothing between them
+  rear_curtain,  // the last moment, and a trail that grows towards it
+  frozen         // one moment in a scene that is exposed for all of the time
+};
+enum class TrailShape { even, fade, ramp, none };
+
+struct StudyRequest {
+  StudyStyle style = StudyStyle::trail;
+  std::variant<std::uint32_t, std::vector<StatedTime>> moments = std::uint32_t{5};
+  MomentSpacing spacing = MomentSpacing::time;
+  std::optional<TrailShape> trail;  // none: what the style has
+
+  friend bool operator==(const StudyRequest&, const StudyRequest&) = default;
+};
+
+struct Study {
+  std::vector<std::uint64_t> moments;  // samples: of tags 1, 2, …; what is left has tag 0
+  MaskRequest mask;
+  FunctionSet functions;      // as a function file has them, to be normalized by their integrals
+  double trail_strength = 1;  // how many times as strong the trail is as in a plain exposure
+  SampleRange empty;          // at which nothing is there: taken away again from where the trail is stronger
+  Picture plate;              // in codes of the capture
+  std::vector<std::string> notes;
+};
+
+// Looks at all of the capture. Throws UsageError where moments are stated that do not go together; InputError where
+// nothing moves or everything does, with what was found; MemoryTooLittle.
+[[nodiscard]] Study plan_study(CaptureSource& capture, const std::string& capture_name,
+                               const StudyRequest& request, const MemoryBudget& memory,
+                               const ReportedProgress& progress = {});
+
+}  // namespace nutik

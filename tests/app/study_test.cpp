@@ -1,0 +1,98 @@
+// Motion studies as a user makes them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "support/moving_square_test.hpp"
+
+namespace nutik {
+namespace {
+
+using test::MovingSquare;
+
+class Study : public test::MovingSquareTest {
+ protected:
+  [[nodiscard]] cv::Mat picture(std::string_view name) const {
+    return cv::imread((scratch_ / name).string(), cv::IMREAD_UNCHANGED);
+  }
+};
+
+TEST_F(Study, ShowsTheSubjectAsItWasAtEachMoment) {
+  // Without the end, where it rests for so long that the plate shows it.
+  const auto result =
+      run({"study", "-f", "100", "--to", "12f", "frames", "--moments", "2", "--json", "-o", "clip-study.png"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  ASSERT_EQ(json["moments"].size(), 2u);
+  const cv::Mat study = picture("clip-study.png"), mask = picture("clip-study.pgm");
+  ASSERT_EQ(study.size(), mask.size());
+  std::uint8_t tag = 0;
+  for (const auto& moment : json["moments"]) {
+    ++tag;
+    const int sample = moment["sample"].get<int>(), left = MovingSquare::left(sample);
+    // Of the subject all but where it is blended with what lies around it.
+    for (int y = MovingSquare::kTop + 1; y < MovingSquare::kTop + MovingSquare::kSide - 1; ++y) {
+      for (int x = left + 1; x < left + MovingSquare::kSide - 1; ++x) {
+        ASSERT_EQ(mask.at<std::uint8_t>(y, x), tag) << sample << ": " << x << ", " << y;
+        const int own =
+            scene_.pictures[static_cast<std::size_t>(sample)][static_cast<std::size_t>(y * study.cols + x)];
+        ASSERT_LE(std::abs(study.at<std::uint8_t>(y, x) - own), 1) << sample << ": " << x << ", " << y;
+      }
+    }
+  }
+  // Where it never was, the ground.
+  for (int x = 0; x < study.cols; ++x)
+    ASSERT_LE(std::abs(study.at<std::uint8_t>(2, x) - MovingSquare::kGround), 2 * MovingSquare::kNoise) << x;
+}
+
+TEST_F(Study, WritesTheCommandsThatMakeTheSame) {
+  for (const char* style : {"trail", "strobe", "rear-curtain", "frozen"}) {
+    ASSERT_EQ(run({"study", "clip.tik", "--style", style, "--depth", "16", "-o", "study.png"}).status, 0)
+        << style;
+    const std::string picture = test::read_file(scratch_ / "study.png"),
+                      mask = test::read_file(scratch_ / "study.pgm");
+    std::filesystem::remove(scratch_ / "study.png");
+    std::filesystem::remove(scratch_ / "study.pgm");
+    const std::string folder = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path().string();
+    const std::string command =
+        "cd '" + scratch_.folder().string() + "' && PATH='" + folder + "':$PATH sh -e study.txt";
+    ASSERT_EQ(std::system((command + " > log 2>&1").c_str()), 0) << test::read_file(scratch_ / "log");
+    EXPECT_TRUE(test::read_file(scratch_ / "study.pgm") == mask) << style;
+    EXPECT_TRUE(test::read_file(scratch_ / "study.png") == picture) << style;
+  }
+}
+
+TEST_F(Study, TakesTheMomentsThatAreNamed) {
+  const auto named = run({"study", "clip.tik", "--moments", "2f,0.08s", "--json"});
+  ASSERT_EQ(named.status, 0) << named.err;
+  const auto json = nlohmann::json::parse(named.out);
+  EXPECT_EQ(json["moments"][0]["sample"], 2);
+  EXPECT_EQ(json["moments"][1]["sample"], 8);
+  const auto backwards = run({"study", "clip.tik", "--moments", "8f,2f"});
+  EXPECT_EQ(backwards.status, 2);
+  EXPECT_NE(backwards.err.find("state moments in the order of time"), std::string::npos) << backwards.err;
+  const auto several = run({"study", "clip.tik", "--style", "frozen", "--moments", "3"});
+  EXPECT_EQ(several.status, 2);
+  EXPECT_NE(several.err.find("shows a single moment"), std::string::npos) << several.err;
+}
+
+TEST_F(Study, SaysWhyThereIsNone) {
+  const auto still = run({"study", "-f", "100", "still", "-o", "study.png"});
+  EXPECT_EQ(still.status, 3) << "no such folder";
+  std::filesystem::create_directory(scratch_ / "rest");
+  for (int k = 13; k < 20; ++k) {  // it rests from then on
+    const std::string name = std::to_string(k) + ".pgm";
+    std::filesystem::copy_file(scratch_ / "frames" / name, scratch_ / "rest" / name);
+  }
+  const auto rest = run({"study", "-f", "100", "rest", "-o", "study.png"});
+  EXPECT_EQ(rest.status, 3);
+  EXPECT_NE(rest.err.find("nothing moves"), std::string::npos) << rest.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "study.png"));
+}
+
+}  // namespace
+}  // namespace nutik
