@@ -1,5 +1,6 @@
 #include "imev/source_comparison.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -25,12 +26,12 @@ SourceComparison::SourceComparison(const CaptureFormat& source)
     : source_(source), scale_(held_scale(source)), held_(held_format(source).sample_bytes()) {
   for (std::uint32_t channel = 0; channel < source.shape.channels; ++channel) {
     const NoiseModel& noise = source.noise;
-    std::vector<float> band(std::size_t{source.white_code} + 1, static_cast<float>(noise.tolerance));
-    if (noise.camera) {
-      band = noise.camera->sd_of_codes(channel);
-      for (float& each : band) each *= static_cast<float>(noise.sigmas);
+    std::vector<double>& band =
+        bands_.emplace_back(std::size_t{source.white_code} * scale_ + 1, double(noise.tolerance));
+    if (!noise.camera) continue;
+    for (std::size_t code = 0; code < band.size(); ++code) {
+      band[code] = noise.sigmas * noise.camera->sd(channel, static_cast<double>(code) / scale_);
     }
-    bands_.push_back(std::move(band));
   }
 }
 
@@ -41,12 +42,13 @@ void SourceComparison::add(const BlockView& block, std::uint32_t sample, std::sp
   block.read_sample(sample, held_);
   const std::uint32_t held_bytes = held_format(source_).code_bytes;
   for (std::uint64_t value = 0; value < source_.shape.value_count(); ++value) {
-    const double held = static_cast<double>(code_at(held_, value, held_bytes)) / scale_;
+    const std::uint32_t held_code = code_at(held_, value, held_bytes);
+    const double held = static_cast<double>(held_code) / scale_;
     const double error = std::abs(held - code_at(raster, value, source_.code_bytes));
     squares_ += error * error;
-    const auto nearest = static_cast<std::size_t>(std::lround(held));
-    const double band = bands_[value % source_.shape.channels][nearest];
-    if (error > band * (1 + kBandRounding)) ++values_beyond_;
+    const std::vector<double>& band = bands_[value % source_.shape.channels];
+    if (error > band[std::min<std::size_t>(held_code, band.size() - 1)] * (1 + kBandRounding))
+      ++values_beyond_;
     if (error > worst_.error) {
       worst_ = {error, block.extent().first_sample + sample, value / source_.shape.channels};
     }

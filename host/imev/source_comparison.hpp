@@ -36,8 +36,7 @@ class SourceComparison {
  private:
   CaptureFormat source_;
   std::uint32_t scale_;
-  std::vector<std::vector<float>>
-      bands_;  // [channel][source code nearest to what is held], in codes of the source
+  std::vector<std::vector<double>> bands_;  // [channel][held code], in codes of the source
   std::vector<std::byte> held_;
   Worst worst_;
   double squares_ = 0;

@@ -50,9 +50,10 @@ Frames frames_of(const FramesRequest& request, const Timeline& timeline) {
   return frames;
 }
 
-NeedsOfFormat video_needs(std::uint32_t encoder_frames) {
-  return [encoder_frames](const CaptureFormat& capture) {
-    const std::uint64_t bytes = capture.shape.value_count() * value_bytes(code_type(capture));
+NeedsOfFormat video_needs(std::uint32_t encoder_frames,
+                          const std::function<ValueType(const CaptureFormat&)>& type_of) {
+  return [encoder_frames, type_of](const CaptureFormat& capture) {
+    const std::uint64_t bytes = capture.shape.value_count() * value_bytes(type_of(capture));
     const std::uint64_t encoded = capture.shape.pixel_count() * 3 / 2;
     return MemoryNeeds{{"frames that wait", (waiting_pictures(bytes) + 3) * bytes},
                        {"frames within the encoder", encoder_frames * encoded}};

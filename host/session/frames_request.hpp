@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -39,6 +40,7 @@ struct Frames {
 
 // What a video takes while it is written beside what renders it: frames that wait, one that is converted and becomes
 // what its encoder takes, and so many that the encoder keeps.
-[[nodiscard]] NeedsOfFormat video_needs(std::uint32_t encoder_frames);
+[[nodiscard]] NeedsOfFormat video_needs(std::uint32_t encoder_frames,
+                                        const std::function<ValueType(const CaptureFormat&)>& type_of);
 
 }  // namespace nutik

@@ -11,6 +11,7 @@
 #include "capture/memory_needs.hpp"
 #include "capture/picture.hpp"
 #include "media/picture_writer.hpp"
+#include "session/memory_budget.hpp"
 #include "system/channel.hpp"
 
 namespace nutik {
@@ -26,10 +27,12 @@ class PictureQueue {
   PictureQueue(const PictureQueue&) = delete;
   PictureQueue& operator=(const PictureQueue&) = delete;
 
-  // What the pictures take that wait and are written, codes of a capture's depth.
-  [[nodiscard]] static MemoryNeeds needs(const CaptureFormat& capture) {
-    return {{"pictures that are written",
-             (kWaiting + 1) * capture.shape.value_count() * value_bytes(code_type(capture))}};
+  // What the pictures take that wait and are written, values of a type that follows from the capture's format.
+  [[nodiscard]] static NeedsOfFormat needs(const std::function<ValueType(const CaptureFormat&)>& type_of) {
+    return [type_of](const CaptureFormat& capture) {
+      return MemoryNeeds{{"pictures that are written",
+                          (kWaiting + 1) * capture.shape.value_count() * value_bytes(type_of(capture))}};
+    };
   }
 
   // Waits while too many pictures wait already. `number` tells the caller which one failed; `text` goes into

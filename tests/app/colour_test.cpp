@@ -162,7 +162,7 @@ TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
   succeed({"-q", "clip.mkv", "clip.tik"});
   const auto told = run({"retime", "clip.tik", "-f", "960", "-a", "180", "--transfer", "linear"});
   EXPECT_EQ(told.status, 0) << told.err;
-  EXPECT_NE(told.out.find("960 a second, shutter 180 degrees, transfer linear"), std::string::npos)
+  EXPECT_NE(told.out.find("960 pictures a second, shutter 180 degrees, transfer linear"), std::string::npos)
       << told.out;
   succeed({"-q", "-f", "960", "-a", "180", "--transfer", "linear", "clip.mkv", "anew.tik"});
   for (const char* name : {"clip", "anew"}) {

@@ -40,7 +40,8 @@ class Interruption : public testing::Test {
     ASSERT_EQ(made.status, 0) << made.err;
   }
   static std::vector<std::string> long_video(const std::string& output) {
-    return {"video", "--renderer", "reference", "--out-fps", "1000", "--speed", "0.02", "c.tik", output};
+    return {"video",   "--renderer", "reference",   "--out-fps", "1000",
+            "--speed", "0.02",       "--no-recipe", "c.tik",     output};
   }
 
   Scratch scratch_;

@@ -49,6 +49,10 @@ class Incremental : public testing::TestWithParam<Precision> {
     return rendered.statistics;
   }
 
+  // A function's number for each pixel, the tags, and the list of tiles that are exposed.
+  static constexpr std::uint64_t kTiles = std::uint64_t{kWidth / kTileSide} * (kHeight / kTileSide);
+  static constexpr std::uint64_t kMapBytes = std::uint64_t{kWidth} * kHeight + 64 * 2 + 4 * kTiles;
+
   std::optional<MemoryCapture> capture_;
   Mask mask_;
   FunctionSet functions_;
@@ -63,7 +67,7 @@ class Incremental : public testing::TestWithParam<Precision> {
 TEST_P(Incremental, AMovedPointWritesOneColumn) {
   const RenderStatistics first = render();
   EXPECT_EQ(first.table_bytes_written, 64 * column_bytes_);
-  EXPECT_EQ(first.map_bytes_written, std::uint64_t{kWidth} * kHeight + 64 * 2);
+  EXPECT_EQ(first.map_bytes_written, kMapBytes);
   EXPECT_EQ(cache_.statistics().tables_made, 64u);
   const RenderStatistics again = render();
   EXPECT_EQ(again.table_bytes_written, 0u);
@@ -85,7 +89,7 @@ TEST_P(Incremental, AnotherMaskWritesNoTable) {
   std::ranges::reverse(mask_.tags);
   const RenderStatistics painted = render();
   EXPECT_EQ(painted.table_bytes_written, 0u);
-  EXPECT_EQ(painted.map_bytes_written, std::uint64_t{kWidth} * kHeight + 64 * 2);
+  EXPECT_EQ(painted.map_bytes_written, kMapBytes);
   std::ranges::reverse(mask_.tags);
   EXPECT_EQ(render().map_bytes_written, 0u);
   // One that leaves a function out puts the others elsewhere: written again, but not made again.

@@ -152,12 +152,15 @@ class Batch {
     return PictureRecipe(recipe_sources(line, capture_checksum_)).text(tally_.precision());
   }
 
+  // Any line may ask for floating point.
+  static ValueType widest(const CaptureFormat&) { return ValueType::light32; }
+
   // Lines mostly expose one capture, or one after another: the last one stays open.
   Session& session_of(const std::string& name) {
     if (!session_ || session_->source().path != name) {
       session_.reset();
       capture_checksum_.reset();
-      session_.emplace(open_session(name, options_, devices_, {.besides = PictureQueue::needs}));
+      session_.emplace(open_session(name, options_, devices_, {.besides = PictureQueue::needs(widest)}));
       print_source(*session_, options_);
     }
     return *session_;

@@ -1,6 +1,8 @@
 // A series of exposures of one capture: `expose` with --every.
+#include <atomic>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
@@ -14,7 +16,6 @@
 #include "session/picture_queue.hpp"
 #include "session/pictures.hpp"
 #include "session/size_text.hpp"
-#include "system/channel.hpp"
 
 namespace nutik::app {
 namespace {
@@ -52,20 +53,26 @@ int run_series(const Options& options) {
   const std::vector<std::string> inputs = input_files(options);
   check_output(names[0], OutputKind::picture, inputs);  // before a clip is read
   PictureRecipe recipe(recipe_sources(options));
-  Session session = open_session(options, {.besides = PictureQueue::needs});
+  const OutputRequest wishes = output_request(options);
+  Session session = open_session(options, {.besides = PictureQueue::needs([&](const CaptureFormat& capture) {
+                                             return output_format(wishes, names[0], capture).type;
+                                           })});
   const std::vector<StatedTime> starts = starts_of(series, request, session.timeline());
   for (std::uint64_t k = 1; k < starts.size(); ++k) check_output(names[k], OutputKind::picture, inputs);
-  const OutputRequest wishes = output_request(options);
   const OutputFormat output = output_format(wishes, names[0], session.format());
 
   ExposureTally tally;
-  Channel<std::string> failures(starts.size());  // of pictures that could not be written
-  PictureQueue pictures([&](std::size_t, const Error& error) { failures.push(message_text(error)); });
+  std::atomic<bool> has_failed = false;  // a picture could not be written: the others would not, either
+  std::string failure;
+  PictureQueue pictures([&](std::size_t, const Error& error) {
+    if (!has_failed) failure = message_text(error);
+    has_failed = true;
+  });
   std::optional<ExposureFigures> first;
   {
     WarningsAtEnd warnings;
     Progress progress("exposing", starts.size(), options.quiet);
-    for (std::uint64_t k = 0; k < starts.size(); ++k) {
+    for (std::uint64_t k = 0; k < starts.size() && !has_failed; ++k) {
       progress.show(k);
       request.start = starts[k];
       ExposedPicture exposed = session.render(request, output);
@@ -77,8 +84,7 @@ int run_series(const Options& options) {
     }
     pictures.finish();
   }
-  failures.close();
-  if (const auto failure = failures.pop()) throw OutputError(*failure);
+  if (has_failed) throw OutputError(failure);
 
   Answer answer{{{"pictures", Json::array()}}};
   for (std::uint64_t k = 0; k < starts.size(); ++k) {

@@ -26,7 +26,10 @@ int run_video(const Options& options) {
   const std::vector<std::string> inputs = input_files(options);
   output.check(0, inputs);  // a container's name, before the clip is read
 
-  Session session = open_session(options, {.besides = video_needs(output.encoder_frames())});
+  Session session = open_session(
+      options, {.besides = video_needs(output.encoder_frames(), [&](const CaptureFormat& format) {
+                  return output.frame_format(format).type;
+                })});
   CaptureFormat capture = session.format();
   const Frames frames = frames_of(request, session.timeline());
   if (!frames.warning.empty()) print_warning(frames.warning);
