@@ -21,8 +21,9 @@ std::vector<MixedTile> mixed_tiles_of(const MaskMap& map) {
   }
   std::vector<MixedTile> tiles;
   for (auto& [tile, regions] : found) {
-    grid.for_each_lane(tile,
-                       [&](std::uint32_t, std::uint64_t pixel) { regions.set(map.region_of_pixel[pixel]); });
+    grid.for_each_lane(tile, [&, &held = regions](std::uint32_t, std::uint64_t pixel) {
+      held.set(map.region_of_pixel[pixel]);
+    });
     MixedTile& mixed = tiles.emplace_back(MixedTile{static_cast<std::uint32_t>(tile), {}});
     for (std::size_t region = 0; region < map.regions.size(); ++region) {
       if (regions[region]) mixed.regions.push_back(static_cast<std::uint8_t>(region));
