@@ -77,6 +77,7 @@ void demand(bool holds, std::string_view what) {
 using namespace nutik::fuzz;
 
 extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
+  if (kTarget.prepare != nullptr) kTarget.prepare();
   if (__sanitizer_install_malloc_and_free_hooks(count_allocation, count_release) == 0) {
     std::fprintf(stderr, "the allocator takes no hooks\n");
     std::exit(1);

@@ -26,6 +26,7 @@ struct MemoryCeiling {
 struct Target {
   MemoryCeiling ceiling;
   void (*read)(Bytes input);
+  void (*prepare)() = nullptr;  // once, before anything is counted: loads the libraries that reading needs
 };
 
 // The one that this program is made of.
