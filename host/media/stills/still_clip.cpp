@@ -137,8 +137,12 @@ std::optional<Rational> pixel_aspect_of(const std::filesystem::path& file) {
 void check_stated_size(const std::filesystem::path& file) {
   constexpr std::uint64_t kMostPixelsAByte = 1032 * 8, kSmallPixels = 16 << 20;
   const MappedFile mapped(file);
-  const auto size =
-      stated_size({reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size()});
+  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
+  const auto size = stated_size(bytes);
+  // Its decoder looks for the next segment behind what is none, and may find another size there.
+  if (!size && bytes.starts_with("\xFF\xD8")) {
+    throw InputError(format("{} cannot be read: it is damaged or no picture", file.string()));
+  }
   if (!size || size->pixel_count() <= std::max(kSmallPixels, mapped.bytes().size() * kMostPixelsAByte))
     return;
   throw InputError(
