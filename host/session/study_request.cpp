@@ -49,8 +49,14 @@ std::vector<std::uint64_t> stated_moments(const std::vector<StatedTime>& times, 
 class Pieces {
  public:
   void add(Interval interval, double begin_gain, double end_gain) {
-    points_.push_back({interval.begin_ns, 0.0});
-    points_.push_back({interval.begin_ns, begin_gain});
+    if (!points_.empty() && points_.back().time_ns == interval.begin_ns) {
+      points_.pop_back();  // it goes on from the piece before it
+      if (points_.back().gain == begin_gain) points_.pop_back();
+    } else {
+      points_.push_back({interval.begin_ns, 0.0});
+    }
+    if (points_.empty() || points_.back().gain != begin_gain)
+      points_.push_back({interval.begin_ns, begin_gain});
     points_.push_back({interval.end_ns, end_gain});
     points_.push_back({interval.end_ns, 0.0});
   }
@@ -147,16 +153,17 @@ class StudyPlanner {
   [[nodiscard]] GainFunction trail(Study& study) const {
     const std::uint64_t last =
         request_.style == StudyStyle::rear_curtain ? study.moments.back() : track_.places.back().sample;
-    const Interval way = interval_of({track_.places.front().sample, last + 1});
+    const Interval way = interval_of({std::min(track_.places.front().sample, last), last + 1});
     const double begin = shape_ == TrailShape::ramp ? 0.0 : 1.0, end = shape_ == TrailShape::fade ? 0.0 : 1.0;
-    Pieces before, pieces;
-    if (study.empty.empty() || request_.style == StudyStyle::frozen) {
+    Pieces pieces;
+    const Interval without = study.empty.empty() ? way : interval_of(study.empty);
+    const bool is_apart = without.end_ns <= way.begin_ns || without.begin_ns >= way.end_ns;
+    if (!is_apart || request_.style == StudyStyle::frozen) {
       pieces.add(way, begin, end);
       return pieces.function();
     }
     const double wanted = kTrailOpacity / track_.covered_share();
     study.trail_strength = std::round(10 * std::clamp(wanted, 1.0, kMostStrength)) / 10;
-    const Interval without = interval_of(study.empty);
     const double way_ns = static_cast<double>(way.end_ns - way.begin_ns) * (begin + end) / 2;
     const double taken =
         -(1 - 1 / study.trail_strength) * way_ns / static_cast<double>(without.end_ns - without.begin_ns);

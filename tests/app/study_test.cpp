@@ -23,8 +23,8 @@ class Study : public test::MovingSquareTest {
 
 TEST_F(Study, ShowsTheSubjectAsItWasAtEachMoment) {
   // Without the end, where it rests for so long that the plate shows it.
-  const auto result =
-      run({"study", "-f", "100", "--to", "12f", "frames", "--moments", "2", "--json", "-o", "clip-study.png"});
+  const auto result = run(
+      {"study", "-f", "100", "--to", "12f", "frames", "--moments", "2", "--json", "-o", "clip-study.png"});
   ASSERT_EQ(result.status, 0) << result.err;
   const auto json = nlohmann::json::parse(result.out);
   ASSERT_EQ(json["moments"].size(), 2u);
@@ -78,6 +78,36 @@ TEST_F(Study, TakesTheMomentsThatAreNamed) {
   const auto several = run({"study", "clip.tik", "--style", "frozen", "--moments", "3"});
   EXPECT_EQ(several.status, 2);
   EXPECT_NE(several.err.find("shows a single moment"), std::string::npos) << several.err;
+}
+
+TEST_F(Study, ReplacesNoTextThatIsNotAStudys) {
+  scratch_.write("notes.txt", "call home");
+  const auto result = run({"study", "clip.tik", "-o", "notes.png"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("notes.txt exists and is of no study"), std::string::npos) << result.err;
+  EXPECT_EQ(test::read_file(scratch_ / "notes.txt"), "call home");
+}
+
+TEST_F(Study, TakesMomentsThatFollowEachOther) {
+  for (const char* style : {"trail", "strobe"}) {
+    EXPECT_EQ(run({"study", "clip.tik", "--style", style, "--moments", "2f,3f,9f", "-o", "s.png"}).status, 0);
+  }
+}
+
+// A square that comes after six empty pictures; and one that is gone for six pictures in the middle.
+TEST_F(Study, TakesTheEmptySceneAwayWhereItLiesApart) {
+  for (const int empty_from : {0, 6}) {
+    std::filesystem::create_directory(scratch_ / "g");
+    for (int k = 0; k < 18; ++k) {
+      cv::Mat frame(48, 96, CV_8UC1, cv::Scalar::all(60));
+      if (k < empty_from || k >= empty_from + 6) frame(cv::Rect(4 + 4 * k, 20, 8, 8)) = 200;
+      cv::imwrite((scratch_ / ("g/" + std::to_string(100 + k) + ".pgm")).string(), frame);
+    }
+    const auto result = run({"study", "-f", "100", "g", "--moments", "3", "--json", "-o", "g.png"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const double strength = nlohmann::json::parse(result.out)["trail_strength"];
+    EXPECT_EQ(strength > 1, empty_from == 0) << strength;
+  }
 }
 
 TEST_F(Study, SaysWhyThereIsNone) {

@@ -1,5 +1,7 @@
 #include "session/study_request.hpp"
 
+#include <algorithm>
+
 #include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
@@ -24,6 +26,9 @@ namespace {
 
 // How far the subject's border is blended with what lies around it.
 constexpr const char* kFeather = "2px";
+
+constexpr std::string_view kAboutRegions =
+    "# What is the subject at each moment? What is not in the plate then.";
 
 // The files of a study: its picture, and beside it what that was made with.
 struct StudyFiles {
@@ -79,7 +84,7 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
   }
   const auto name = [](const std::filesystem::path& path) { return shell_word(path.string()); };
   const std::string capture = shell_word(options.operands.front());
-  std::string text = "# What is the subject at each moment? What is not in the plate then.\n";
+  std::string text = std::string(kAboutRegions) + "\n";
   text += format("nutik-cl mask{}{} \\\n  {} {}\n", stated_words(options, false), regions, capture,
                  name(files.mask));
   text += format("# {} has the gain functions: M0 of everything between the moments, M1 and so on of each.\n",
@@ -87,6 +92,19 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
   text += format("nutik-cl{} \\\n  {} {}\n", stated_words(exposing(options, files), true), capture,
                  name(files.picture));
   return text;
+}
+
+bool is_alike(std::string_view bytes, std::string_view begins) {
+  return bytes.substr(0, begins.size()) == begins.substr(0, bytes.size());
+}
+
+// What is written as text replaces an earlier study's, and nothing else.
+void check_text(const std::filesystem::path& file, std::string_view begins,
+                std::span<const std::string> inputs) {
+  const bool is_input = std::ranges::find(inputs, file.string()) != inputs.end();
+  if (!is_input && (!std::filesystem::exists(file) || is_alike(first_bytes(file), begins))) return;
+  throw UsageError(format("{} {}; it is not replaced. Choose another name for the picture", file.string(),
+                          is_input ? "is also an input" : "exists and is of no study"));
 }
 
 MemoryNeeds study_needs(const CaptureFormat& capture) {
@@ -105,6 +123,8 @@ int run_study(const Options& options) {
   check_output(files.picture, OutputKind::picture, inputs);
   inputs.push_back(files.picture.string());
   check_mask_output(files.mask, inputs);
+  check_text(files.functions, "M0 ", inputs);
+  check_text(files.commands, kAboutRegions, inputs);
 
   Session session = open_session(options, {.besides = study_needs});
   const std::string& capture_name = options.operands.front();
