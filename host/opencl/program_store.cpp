@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::string_view kMagic = "nutik-cl program 1\n";
 
+// How often a driver is asked to build a kernel before it is taken at its word.
+constexpr int kAttempts = 4;
+
 void append_number(std::string& to, std::uint64_t number) {
   to.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
@@ -80,6 +83,29 @@ bool ProgramStore::load(const std::string& name, const std::string& key, const s
   }
 }
 
+cl::Program ProgramStore::build(const std::string& name, const std::string& source,
+                                const std::string& options) const {
+  // PoCL's own cache is shared by all programs of a user; where several build at once, one may find a file of it
+  // unfinished, and fails (pocl/pocl#1480). It succeeds a moment later.
+  for (int attempts_left = kAttempts - 1;; --attempts_left) {
+    cl::Program program;
+    try {
+      program = cl::Program(context_, source);
+      program.build({device_}, options.c_str());
+      return program;
+    } catch (const cl::Error& error) {
+      if (attempts_left > 0 && error.err() == CL_BUILD_PROGRAM_FAILURE) continue;
+      std::string log;
+      if (program() != nullptr) log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_);
+      if (!log.empty() && log.back() != '\n') log += '\n';
+      throw DeviceError(format("{}\n  options: {}\n  device: {}\n{}use another device or the reference",
+                               describe(error, format("kernels/{}.cl does not build", name)), options,
+                               device_.getInfo<CL_DEVICE_NAME>(), log),
+                        {Setting::renderer});
+    }
+  }
+}
+
 cl::Program ProgramStore::get(const std::string& name, const std::string& source,
                               const std::string& options) {
   const std::string key = format("{}\n{}\n{}{}", name, options, device_key_, source);
@@ -89,18 +115,7 @@ cl::Program ProgramStore::get(const std::string& name, const std::string& source
   const bool was_built = !load(name, key, options, program);
   if (was_built) {
     if (announce_) announce_(name);
-    try {
-      program = cl::Program(context_, source);
-      program.build({device_}, options.c_str());
-    } catch (const cl::Error& error) {
-      std::string log;
-      if (program() != nullptr) log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_);
-      if (!log.empty() && log.back() != '\n') log += '\n';
-      throw DeviceError(format("{}\n  options: {}\n  device: {}\n{}use another device or the reference",
-                               describe(error, format("kernels/{}.cl does not build", name)), options,
-                               device_.getInfo<CL_DEVICE_NAME>(), log),
-                        {Setting::renderer});
-    }
+    program = build(name, source, options);
   }
   entries_.emplace(key, Entry{program, name, options, was_built, !was_built});
   return program;

@@ -46,6 +46,8 @@ class ProgramStore {
   [[nodiscard]] std::filesystem::path file_for(const std::string& name, const std::string& key) const;
   bool load(const std::string& name, const std::string& key, const std::string& options,
             cl::Program& program) const;
+  [[nodiscard]] cl::Program build(const std::string& name, const std::string& source,
+                                  const std::string& options) const;
 
   cl::Context context_;
   cl::Device device_;
