@@ -16,6 +16,7 @@ enum class Setting {
   block_samples,
   columns,
   crop,
+  deflicker,
   deinterlace,
   depth,
   end_at_damage,  // a clip is taken up to where it is damaged

@@ -102,6 +102,7 @@ struct ClipOptions {
   std::optional<ClipScale> scale = std::nullopt;
   Interlaced interlaced = Interlaced::refused;
   bool ends_at_damage = false;  // instead of being an error
+  bool deflickered = false;     // media/deflicker.hpp
   // What its decoder may hold: it works on no more pictures at a time than fit, one at least. None: on one for each
   // core.
   std::optional<std::uint64_t> decoder_bytes = std::nullopt;
@@ -121,6 +122,9 @@ class Clip {
 
   // After it has ended, why that came before its files' end: ClipOptions::ends_at_damage.
   [[nodiscard]] virtual std::optional<std::string> ended_early() const { return std::nullopt; }
+
+  // After it has ended, what was done to its pictures that only they told.
+  [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
 };
 
 // Opens a video (`-` is one from standard input), a sequence of stills (media/still_sequence.hpp), a table of stills (media/stills_table.hpp), or a

@@ -260,15 +260,34 @@ SubjectTrack track_subject(CaptureSource& capture, const Picture& plate, std::ui
   return track;
 }
 
+namespace {
+
+// Those that are no mere piece of the subject, of which the rest looks like what is behind it.
+std::vector<const SubjectPlace*> large_places(const SubjectTrack& track) {
+  constexpr std::size_t kLeastShare = 4;  // of its usual size
+  std::vector<std::size_t> sizes;
+  for (const SubjectPlace& place : track.places) sizes.push_back(place.cells.size());
+  if (sizes.empty()) return {};
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::ranges::nth_element(sizes, middle);
+  std::vector<const SubjectPlace*> large;
+  for (const SubjectPlace& place : track.places) {
+    if (kLeastShare * place.cells.size() >= *middle) large.push_back(&place);
+  }
+  return large;
+}
+
+}  // namespace
+
 std::vector<SubjectPlace> choose_moments(const SubjectTrack& track, std::uint32_t count,
                                          MomentSpacing spacing) {
-  std::vector<const SubjectPlace*> candidates;
-  for (const SubjectPlace& place : track.places) {
-    if (!place.is_cut_off) candidates.push_back(&place);
-  }
-  if (candidates.size() < count) {
-    candidates.clear();
-    for (const SubjectPlace& place : track.places) candidates.push_back(&place);
+  std::vector<const SubjectPlace*> candidates = large_places(track);
+  const auto cut_off =
+      std::ranges::stable_partition(candidates, [](const SubjectPlace* place) { return !place->is_cut_off; });
+  if (candidates.size() - cut_off.size() >= count) {
+    candidates.erase(cut_off.begin(), cut_off.end());
+  } else {
+    std::ranges::sort(candidates, {}, &SubjectPlace::sample);
   }
   if (candidates.empty()) return {};
   // How far each candidate is along the way, or in time.

@@ -46,8 +46,8 @@ struct SubjectTrack {
 
 enum class MomentSpacing { time, distance };
 
-// Up to `count` of the track's places, evenly in time or along its way, 8 pixels apart or more; whole ones, as far as there
-// are any. In time order.
+// Up to `count` of the track's places, evenly in time or along its way, 8 pixels apart or more; no small
+// pieces of the subject, and whole ones as far as there are any. In time order.
 [[nodiscard]] std::vector<SubjectPlace> choose_moments(const SubjectTrack& track, std::uint32_t count,
                                                        MomentSpacing spacing);
 

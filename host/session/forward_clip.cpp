@@ -33,6 +33,7 @@ ExposedPicture expose_once(ClipSource& source, std::uint64_t sample_count, const
                           [&](std::uint64_t most) { return samples.next(most); });
   ExposedPicture exposed = expose(stream, functions, mask, options, shares.bytes);
   if (auto reason = source.clip->ended_early()) exposed.warnings.push_back(std::move(*reason));
+  for (std::string& remark : source.clip->remarks()) exposed.warnings.push_back(std::move(remark));
   return exposed;
 }
 

@@ -18,8 +18,8 @@ constexpr double kTrailOpacity = 0.5;
 constexpr double kMostStrength = 8;  // more shows the noise of the empty scene
 constexpr double kMostMoving = 0.2;  // of the picture, on average
 constexpr std::uint64_t kLeastEmptySamples = 4;
-constexpr double kSmoothRadius = 1,
-                 kGrowRadius = 3;  // pixels: without specks, with the subject's soft border
+// In pixels: without specks, without holes, and with the subject's soft border.
+constexpr double kSmoothRadius = 1, kGrowRadius = 9, kShrinkRadius = 6;
 
 bool shows_one(StudyStyle style) { return style == StudyStyle::rear_curtain || style == StudyStyle::frozen; }
 
@@ -102,7 +102,8 @@ class StudyPlanner {
       step.changes = {{RegionChange::Kind::within, 0.0, box_at(study.moments[i])},
                       {RegionChange::Kind::largest, 0.0, {}},
                       {RegionChange::Kind::smooth, kSmoothRadius, {}},
-                      {RegionChange::Kind::grow, kGrowRadius, {}}};
+                      {RegionChange::Kind::grow, kGrowRadius, {}},
+                      {RegionChange::Kind::shrink, kShrinkRadius, {}}};
       study.mask.steps.push_back(std::move(step));
     }
   }

@@ -113,6 +113,34 @@ TEST_F(Study, TakesTheEmptySceneAwayWhereItLiesApart) {
   }
 }
 
+// The same clip by a camera that changed its exposure from picture to picture.
+TEST_F(Study, UndoesWhatTheCameraDidToItsExposure) {
+  std::filesystem::create_directory(scratch_ / "steady");
+  std::filesystem::create_directory(scratch_ / "dim");
+  for (int k = 0; k < 18; ++k) {
+    cv::Mat frame(48, 96, CV_8UC1);
+    for (int y = 0; y < 48; ++y) {
+      for (int x = 0; x < 96; ++x) frame.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(20 + 2 * x);
+    }
+    frame(cv::Rect(4 + 4 * k, 20, 8, 8)) = 5;
+    const std::string name = std::to_string(100 + k) + ".png";
+    cv::imwrite((scratch_ / "steady" / name).string(), frame);
+    frame = frame * (k % 3 == 0 ? 1.0 : k % 3 == 1 ? 0.7 : 0.85);
+    cv::imwrite((scratch_ / "dim" / name).string(), frame);
+  }
+  for (const char* clip : {"steady", "dim"}) {
+    const auto result =
+        run({"study", "-f", "100", clip, "--moments", "3", "-o", (std::string(clip) + ".png").c_str()});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err.find("the exposure of 12 of 18 pictures was corrected") != std::string::npos,
+              clip == std::string("dim"))
+        << result.err;
+  }
+  const cv::Mat steady = cv::imread((scratch_ / "steady.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat dim = cv::imread((scratch_ / "dim.png").string(), cv::IMREAD_UNCHANGED);
+  EXPECT_LE(cv::norm(steady, dim, cv::NORM_INF), 2.0);
+}
+
 TEST_F(Study, SaysWhyThereIsNone) {
   const auto still = run({"study", "-f", "100", "still", "-o", "study.png"});
   EXPECT_EQ(still.status, 3) << "no such folder";

@@ -25,6 +25,7 @@ struct Options {
   Value fps, shutter_angle, white, transfer, matrix, range, primaries, pixel_aspect, raw, noise, sigmas;
   Value clip_from, clip_to, crop, scale, deinterlace;
   bool as_far_as_it_goes = false;
+  bool deflicker = false;
   Value tolerance, codec, tiles, block_samples;
 
   // The exposure, and what is followed or counted: a pixel, or a tag of the mask.

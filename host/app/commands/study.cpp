@@ -1,3 +1,4 @@
+#include "session/clip_source.hpp"
 #include "session/study_request.hpp"
 
 #include <algorithm>
@@ -57,8 +58,9 @@ std::string stated_words(const Options& options, bool of_exposure) {
   for (const Option& option : app::options()) {
     const bool counts = option.describes_clip() ||
                         (of_exposure && (option.makes_picture() || option.scope == Scope::computing));
-    const std::string* const value = counts ? option.stated(options) : nullptr;
-    if (value != nullptr) words += format(" {} {}", option.name(), shell_word(*value));
+    if (!counts || !option.is_in(options)) continue;
+    words += " " + option.name();
+    if (const std::string* const value = option.stated(options)) words += " " + shell_word(*value);
   }
   return words;
 }
@@ -78,9 +80,8 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
   std::string regions;
   for (std::size_t i = 0; i < study.moments.size(); ++i) {
     const MaskStep& step = study.mask.steps[i];
-    const select::Rectangle& box = step.changes.front().rectangle;
-    regions += format(" \\\n  --tag {} --subject {}f --within {},{},{},{} --largest --smooth 1 --grow 3",
-                      step.tag, study.moments[i], box.corner.x, box.corner.y, box.width, box.height);
+    regions += format(" \\\n  --tag {} --subject {}f", step.tag, study.moments[i]);
+    for (const RegionChange& change : step.changes) regions += " " + change_words(change);
   }
   const auto name = [](const std::filesystem::path& path) { return shell_word(path.string()); };
   const std::string capture = shell_word(options.operands.front());
@@ -115,7 +116,10 @@ MemoryNeeds study_needs(const CaptureFormat& capture) {
 
 }  // namespace
 
-int run_study(const Options& options) {
+int run_study(const Options& stated) {
+  Options options = stated;
+  // A camera that corrected its exposure changed the whole scene, and nothing of it would rest.
+  options.deflicker |= !is_tik(options.operands.front());
   ExposureTally tally;
   const StudyRequest request = study_request(options);
   const StudyFiles files(output_name(options, "study", "-study.png"));

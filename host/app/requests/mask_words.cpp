@@ -1,9 +1,11 @@
 #include "app/requests/requests.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "app/text/number_text.hpp"
 #include "session/error.hpp"
@@ -141,17 +143,32 @@ double radius_of(const Said& said) {
   return *radius;
 }
 
+constexpr std::pair<std::string_view, RegionChange::Kind> kChanges[] = {
+    {"largest", RegionChange::Kind::largest}, {"invert", RegionChange::Kind::invert},
+    {"within", RegionChange::Kind::within},   {"grow", RegionChange::Kind::grow},
+    {"shrink", RegionChange::Kind::shrink},   {"smooth", RegionChange::Kind::smooth}};
+
 // Of a step that changes a region; none of another.
 std::optional<RegionChange> change_of(const Said& said) {
-  using Kind = RegionChange::Kind;
-  if (said.option == "largest") return RegionChange{Kind::largest, 0.0, {}};
-  if (said.option == "invert") return RegionChange{Kind::invert, 0.0, {}};
-  if (said.option == "within") return RegionChange{Kind::within, 0.0, rectangle_of(said)};
-  if (said.option == "grow") return RegionChange{Kind::grow, radius_of(said), {}};
-  if (said.option == "shrink") return RegionChange{Kind::shrink, radius_of(said), {}};
-  if (said.option == "smooth") return RegionChange{Kind::smooth, radius_of(said), {}};
+  for (const auto& [name, kind] : kChanges) {
+    if (said.option != name) continue;
+    if (kind == RegionChange::Kind::within) return RegionChange{kind, 0.0, rectangle_of(said)};
+    return RegionChange{kind, said.words.empty() ? 0.0 : radius_of(said), {}};
+  }
   return std::nullopt;
 }
+
+}  // namespace
+
+std::string change_words(const RegionChange& change) {
+  const auto* known = std::ranges::find(kChanges, change.kind, [](const auto& each) { return each.second; });
+  const auto& [corner, width, height] = change.rectangle;
+  if (change.kind == RegionChange::Kind::within)
+    return format("--within {},{},{},{}", corner.x, corner.y, width, height);
+  return format("--{}{}", known->first, change.radius > 0 ? format(" {}", change.radius) : "");
+}
+
+namespace {
 
 // All steps, in order.
 std::vector<MaskStep> steps_of(const Options& options) {

@@ -67,6 +67,8 @@ inline constexpr std::string_view kAutomaticNoise = "auto";
 // selects what moves, keeps its largest part, grows that by 4 pixels and gives it tag 128; then an ellipse gets
 // tag 255, over what it covers. Pictures have their names and nothing else, and there is no base, until read_inputs().
 [[nodiscard]] MaskRequest mask_request(const Options& options);
+// As mask_request() reads it.
+[[nodiscard]] std::string change_words(const RegionChange& change);
 void read_inputs(MaskRequest& request, const Options& options);
 
 // What the recipes of a command's pictures have in common; none with --no-recipe. A capture that is exposed many times

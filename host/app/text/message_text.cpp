@@ -26,6 +26,7 @@ std::string_view option_of(Setting setting) {
     case Setting::block_samples: return "--block-samples";
     case Setting::columns: return "--columns";
     case Setting::crop: return "--crop";
+    case Setting::deflicker: return "--deflicker";
     case Setting::deinterlace: return "--deinterlace";
     case Setting::depth: return "--depth";
     case Setting::end_at_damage: return "--as-far-as-it-goes";

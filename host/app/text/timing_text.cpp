@@ -20,6 +20,7 @@ About subject_of(const Fact& fact) {
     case Setting::from:
     case Setting::to:
     case Setting::crop:
+    case Setting::deflicker:
     case Setting::deinterlace:
     case Setting::scale: return About::part;
     default: return About::colour;

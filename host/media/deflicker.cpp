@@ -1,0 +1,271 @@
+#include "media/deflicker.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "capture/format.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::uint32_t kBlockSide = 4;           // pixels; means of them have little noise
+constexpr std::uint32_t kMostBlocksToASide = 48;  // spread over the picture
+constexpr double kCode8 = 1.0 / 255;
+// A correction that would be this much another is left as it is, so that still pixels keep their codes.
+constexpr double kLeastChange = 0.75 * kCode8;
+
+// Tukey's: nothing from 4.685 standard deviations on, as usual.
+double trust(double error, double deviation) {
+  const double share = error / (4.685 * deviation);
+  return std::abs(share) >= 1 ? 0.0 : (1 - share * share) * (1 - share * share);
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Means of blocks that are spread over a picture, as shares of white; channel by channel.
+class Blocks {
+ public:
+  explicit Blocks(const CaptureFormat& format)
+      : format_(format), columns_(places(format.shape.width)), rows_(places(format.shape.height)) {}
+
+  [[nodiscard]] std::vector<std::vector<double>> means(std::span<const std::byte> raster) const {
+    return format_.code_bytes == 1 ? means(reinterpret_cast<const std::uint8_t*>(raster.data()))
+                                   : means(reinterpret_cast<const std::uint16_t*>(raster.data()));
+  }
+
+ private:
+  static std::vector<std::uint32_t> places(std::uint32_t length) {
+    const std::uint32_t blocks = std::max(length / kBlockSide, 1u);
+    const std::uint32_t count = std::min(blocks, kMostBlocksToASide);
+    std::vector<std::uint32_t> starts;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      starts.push_back(static_cast<std::uint32_t>(i * blocks / count) * kBlockSide);
+    }
+    return starts;
+  }
+
+  template <typename Code>
+  [[nodiscard]] std::vector<std::vector<double>> means(const Code* codes) const {
+    const auto [width, height, channels] = format_.shape;
+    std::vector<std::vector<double>> means(channels);
+    for (const std::uint32_t top : rows_) {
+      const std::uint32_t bottom = std::min(top + kBlockSide, height);
+      for (const std::uint32_t left : columns_) {
+        const std::uint32_t right = std::min(left + kBlockSide, width);
+        std::array<std::uint64_t, 3> sums{};
+        for (std::uint32_t y = top; y < bottom; ++y) {
+          const Code* code = codes + (std::size_t{y} * width + left) * channels;
+          for (std::uint32_t x = left; x < right; ++x) {
+            for (std::uint32_t channel = 0; channel < channels; ++channel) sums[channel] += *code++;
+          }
+        }
+        const double whole = static_cast<double>(format_.white_code) * (bottom - top) * (right - left);
+        for (std::uint32_t channel = 0; channel < channels; ++channel) {
+          means[channel].push_back(static_cast<double>(sums[channel]) / whole);
+        }
+      }
+    }
+    return means;
+  }
+
+  CaptureFormat format_;
+  std::vector<std::uint32_t> columns_, rows_;
+};
+
+class DeflickeredClip final : public Clip {
+ public:
+  explicit DeflickeredClip(std::unique_ptr<Clip> clip)
+      : clip_(std::move(clip)), info_(clip_->info()), blocks_(info_.format) {
+    info_.facts.push_back({"exposed as its first picture", Origin::stated, Setting::deflicker});
+    const CaptureFormat& format = info_.format;
+    shifts_.resize(format.shape.channels);
+    tables_.resize(format.shape.channels);
+    for (auto& table : tables_) table.resize(std::size_t{1} << (8 * format.code_bytes));
+    info_.decoder_bytes += tables_.size() * tables_.front().size() * sizeof tables_.front().front();
+  }
+
+  [[nodiscard]] const ClipInfo& info() const override { return info_; }
+
+  bool read(std::span<std::byte> raster) override {
+    if (!clip_->read(raster)) return false;
+    std::vector<std::vector<double>> means = blocks_.means(raster);
+    if (pictures_++ == 0) {
+      first_ = std::move(means);
+      return true;
+    }
+    if (!follow(means)) ++untold_;
+    if (!is_shifted_) return true;
+    ++corrected_;
+    if (info_.format.code_bytes == 1) {
+      correct(reinterpret_cast<std::uint8_t*>(raster.data()));
+    } else {
+      correct(reinterpret_cast<std::uint16_t*>(raster.data()));
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::optional<std::string> ended_early() const override { return clip_->ended_early(); }
+
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    std::vector<std::string> remarks;
+    if (corrected_ > 0) {
+      remarks.push_back(format("the exposure of {} of {} pictures was corrected, by up to {:.0f} of {} codes",
+                               corrected_.load(), pictures_.load(), most_ * info_.format.white_code,
+                               info_.format.white_code));
+    }
+    if (untold_ > 0) {
+      remarks.push_back(
+          format("{} of {} pictures show too little of what the first one shows to tell how they "
+                 "were exposed: they were corrected as the one before each",
+                 untold_.load(), pictures_.load()));
+    }
+    return remarks;
+  }
+
+ private:
+  // False where it cannot be told.
+  bool follow(const std::vector<std::vector<double>>& means) {
+    std::vector<CodeShift> shifts;
+    double change = 0;
+    for (std::size_t channel = 0; channel < means.size(); ++channel) {
+      const auto shift = CodeShift::between(means[channel], first_[channel]);
+      if (!shift) return false;
+      change = std::max(change, shift->distance_to(shifts_[channel]));
+      shifts.push_back(*shift);
+    }
+    if (change < kLeastChange) return true;
+    shifts_ = std::move(shifts);
+    is_shifted_ = false;
+    double most = 0;
+    for (std::size_t channel = 0; channel < tables_.size(); ++channel) {
+      most = std::max(most, shifts_[channel].distance_to({}));
+      fill(tables_[channel], shifts_[channel]);
+    }
+    is_shifted_ = most >= kLeastChange;
+    if (most > most_) most_ = most;
+    return true;
+  }
+
+  void fill(std::vector<std::uint16_t>& table, const CodeShift& shift) const {
+    const double white = info_.format.white_code;
+    std::uint16_t least = 0;
+    for (std::size_t code = 0; code < table.size(); ++code) {
+      const auto share = static_cast<double>(code) / white;
+      const double shifted = std::round((share + shift.at(share)) * white);
+      // What is above white stays there: it is refused later, with its place.
+      least = std::max(least, code > info_.format.white_code
+                                  ? static_cast<std::uint16_t>(code)
+                                  : static_cast<std::uint16_t>(std::clamp(shifted, 0.0, white)));
+      table[code] = least;
+    }
+  }
+
+  template <typename Code>
+  void correct(Code* codes) const {
+    const std::uint32_t channels = info_.format.shape.channels;
+    const Code* const end = codes + info_.format.shape.value_count();
+    while (codes != end) {
+      for (std::uint32_t channel = 0; channel < channels; ++channel, ++codes) {
+        *codes = static_cast<Code>(tables_[channel][*codes]);
+      }
+    }
+  }
+
+  std::unique_ptr<Clip> clip_;
+  ClipInfo info_;
+  Blocks blocks_;
+  std::vector<std::vector<double>> first_;          // the first picture's means
+  std::vector<CodeShift> shifts_;                   // by channel, as `tables_`
+  std::vector<std::vector<std::uint16_t>> tables_;  // what each code becomes
+  bool is_shifted_ = false;
+  // Asked for while another thread reads.
+  std::atomic<std::uint64_t> pictures_ = 0, corrected_ = 0, untold_ = 0;
+  std::atomic<double> most_ = 0;
+};
+
+}  // namespace
+
+// From one factor for all codes to shifts that differ more and more along them, each from what is left over by the one
+// before: where codes are rare, what is known of others goes on.
+std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::span<const double> wanted) {
+  constexpr int kTimesEach = 4;
+  // Codes of one place stray, by shadows too. Followed more closely, that would be taken for a bent curve.
+  constexpr double kLeastReach = 4;
+  CodeShift shift;
+  std::vector<double> left(codes.size()), sizes(codes.size());
+  for (std::size_t i = 0; i < codes.size(); ++i) left[i] = wanted[i] / std::max(codes[i], kCode8);
+  const double ratio = median(left);
+  for (std::size_t knot = 0; knot < kKnots; ++knot) {
+    shift.shifts_[knot] = (ratio - 1) * static_cast<double>(knot) / (kKnots - 1);
+  }
+  double deviation = 0;
+  for (double reach = kKnots - 1; reach >= kLeastReach; reach /= 2) {
+    for (int time = 0; time < kTimesEach; ++time) {
+      for (std::size_t i = 0; i < codes.size(); ++i) {
+        left[i] = wanted[i] - codes[i] - shift.at(codes[i]);
+        sizes[i] = std::abs(left[i]);
+      }
+      deviation = std::max(1.4826 * median(sizes), kCode8);
+      // Sorted to fractions of a knot first: weights and weighted sums.
+      constexpr std::size_t kParts = 4;
+      std::array<double, kParts*(kKnots - 1) + 1> weights{}, sums{};
+      for (std::size_t i = 0; i < codes.size(); ++i) {
+        const double weight = trust(left[i], deviation);
+        const auto part =
+            static_cast<std::size_t>(std::lround(std::min(codes[i], 1.0) * (weights.size() - 1)));
+        weights[part] += weight;
+        sums[part] += weight * left[i];
+      }
+      // So many pairs count as much as what is known already.
+      const double known = static_cast<double>(codes.size()) / 500;
+      for (std::size_t knot = 0; knot < kKnots; ++knot) {
+        double weight = known, sum = 0;
+        for (std::size_t part = 0; part < weights.size(); ++part) {
+          const double away =
+              std::abs(static_cast<double>(part) / kParts - static_cast<double>(knot)) / (reach + 1);
+          const double near = std::max(1 - away, 0.0);
+          weight += near * weights[part];
+          sum += near * sums[part];
+        }
+        shift.shifts_[knot] += sum / weight;
+      }
+    }
+  }
+  const auto trusted = std::ranges::count_if(left, [&](double each) { return trust(each, deviation) > 0; });
+  constexpr double kMostDeviation = 12 * kCode8;
+  if (deviation > kMostDeviation || 2 * static_cast<std::size_t>(trusted) < codes.size()) return std::nullopt;
+  // A camera neither swallows differences nor makes them several times as large.
+  for (std::size_t knot = 1; knot < kKnots; ++knot) {
+    const double slope = 1 + (shift.shifts_[knot] - shift.shifts_[knot - 1]) * (kKnots - 1);
+    if (slope < 1.0 / 3 || slope > 3) return std::nullopt;
+  }
+  return shift;
+}
+
+double CodeShift::at(double code) const {
+  const double place = std::clamp(code, 0.0, 1.0) * (kKnots - 1);
+  const auto knot = std::min(static_cast<std::size_t>(place), kKnots - 2);
+  const double share = place - static_cast<double>(knot);
+  return (1 - share) * shifts_[knot] + share * shifts_[knot + 1];
+}
+
+double CodeShift::distance_to(const CodeShift& other) const {
+  double distance = 0;
+  for (std::size_t knot = 0; knot < kKnots; ++knot) {
+    distance = std::max(distance, std::abs(shifts_[knot] - other.shifts_[knot]));
+  }
+  return distance;
+}
+
+std::unique_ptr<Clip> deflicker(std::unique_ptr<Clip> clip) {
+  return std::make_unique<DeflickeredClip>(std::move(clip));
+}
+
+}  // namespace nutik

@@ -1,0 +1,39 @@
+// A clip whose camera corrected its exposure or its white balance while it filmed, as if it had not.
+//
+//   in:      a clip
+//   out:     the same pictures, with codes as the same things have in the first one
+//   always:  within a channel equal codes of a picture stay equal, and greater ones do not become smaller
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "media/clip.hpp"
+
+namespace nutik {
+
+// How far codes of one picture lie from those of another for the same things: by codes, linear between knots.
+class CodeShift {
+ public:
+  // Between pairs of codes of the same places, of which less than half may show other things. None where more do.
+  // Codes are shares of white.
+  static std::optional<CodeShift> between(std::span<const double> codes, std::span<const double> wanted);
+
+  [[nodiscard]] double at(double code) const;
+  // The greatest difference of two.
+  [[nodiscard]] double distance_to(const CodeShift& other) const;
+
+ private:
+  static constexpr std::size_t kKnots = 17;
+
+  std::array<double, kKnots> shifts_{};
+};
+
+// Its remarks say how many pictures were corrected, and how far.
+[[nodiscard]] std::unique_ptr<Clip> deflicker(std::unique_ptr<Clip> clip);
+
+}  // namespace nutik

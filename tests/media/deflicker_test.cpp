@@ -1,0 +1,148 @@
+// Clips whose camera changed its exposure: against the same scene as its first picture shows it.
+#include "media/deflicker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support/clips.hpp"
+#include "support/messages.hpp"
+#include "support/scratch.hpp"
+#include "support/stills.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Scratch;
+
+constexpr Shape kShape{160, 96, 3};
+constexpr std::uint32_t kSamples = 8;
+
+// What a camera makes of light: brighter and dimmer by up to a half, each colour by its own, through a curve that
+// bends more where there is more light.
+double code_of(double light, std::uint32_t sample, std::uint32_t channel) {
+  const double gain = 1 + 0.5 * std::sin(0.9 * sample + 0.15 * channel * sample);
+  const double exposed = gain * light;
+  return std::pow(1.25 * exposed / (1 + 0.25 * exposed), 1 / 2.2);
+}
+
+// A scene of all brightnesses, with fine detail; a dark subject, a fifth of the picture, crosses it.
+double light_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
+  const double slope = static_cast<double>(x) / kShape.width;
+  const double detail = std::sin(0.8 * x + channel) * std::cos(0.7 * y);
+  return 0.02 + 0.55 * slope * slope + 0.02 * detail * slope;
+}
+
+bool is_subject(std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
+  const std::uint32_t left = 10 + 12 * sample;
+  return x >= left && x < left + 40 && y < 77;
+}
+
+Picture picture_at(std::uint32_t sample, std::uint32_t exposed_as, std::uint32_t white) {
+  Picture picture(kShape, white > 255 ? ValueType::code16 : ValueType::code8, white);
+  std::size_t index = 0;
+  for (std::uint32_t y = 0; y < kShape.height; ++y) {
+    for (std::uint32_t x = 0; x < kShape.width; ++x) {
+      for (std::uint32_t channel = 0; channel < kShape.channels; ++channel, ++index) {
+        const double light = is_subject(x, y, sample) ? 0.004 : light_at(x, y, channel);
+        const auto code = static_cast<std::uint16_t>(
+            std::lround(white * std::min(code_of(light, exposed_as, channel), 1.0)));
+        if (white > 255) {
+          picture.values<std::uint16_t>()[index] = code;
+        } else {
+          picture.values<std::uint8_t>()[index] = static_cast<std::uint8_t>(code);
+        }
+      }
+    }
+  }
+  return picture;
+}
+
+std::vector<std::vector<std::byte>> read_deflickered(const std::vector<Picture>& pictures,
+                                                     std::vector<std::string>& remarks) {
+  const Scratch scratch;
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    scratch.write("f" + std::to_string(k) + ".ppm", test::netpbm_file(pictures[k], false));
+  }
+  ClipOptions options;
+  options.rate = Rational{100, 1};
+  options.deflickered = true;
+  const auto clip = test::open_test_clip(scratch.folder(), options);
+  auto rasters = test::read_all(*clip);
+  remarks = clip->remarks();
+  return rasters;
+}
+
+double code_at(const std::vector<std::byte>& raster, std::uint32_t white, std::size_t index) {
+  return white > 255 ? static_cast<double>(reinterpret_cast<const std::uint16_t*>(raster.data())[index])
+                     : static_cast<double>(std::to_integer<std::uint8_t>(raster[index]));
+}
+
+TEST(Deflicker, GivesTheSceneTheCodesOfTheFirstPicture) {
+  for (const std::uint32_t white : {255u, 4095u}) {
+    std::vector<Picture> pictures;
+    for (std::uint32_t k = 0; k < kSamples; ++k) pictures.push_back(picture_at(k, k, white));
+    std::vector<std::string> remarks;
+    const auto rasters = read_deflickered(pictures, remarks);
+    ASSERT_EQ(rasters.size(), kSamples);
+    EXPECT_EQ(rasters[0], pictures[0].bytes);
+    for (std::uint32_t k = 1; k < kSamples; ++k) {
+      const Picture wanted = picture_at(k, 0, white);
+      double squares = 0, before = 0;
+      std::uint64_t count = 0;
+      for (std::size_t i = 0; i < kShape.value_count(); ++i) {
+        const auto x = static_cast<std::uint32_t>(i / 3 % kShape.width);
+        const auto y = static_cast<std::uint32_t>(i / 3 / kShape.width);
+        const double saturated = code_at(pictures[k].bytes, white, i);
+        if (is_subject(x, y, k) || saturated == white) continue;
+        squares +=
+            std::pow((code_at(rasters[k], white, i) - code_at(wanted.bytes, white, i)) * 255 / white, 2);
+        before += std::pow((saturated - code_at(wanted.bytes, white, i)) * 255 / white, 2);
+        ++count;
+      }
+      EXPECT_LE(std::sqrt(squares / static_cast<double>(count)), 1.0)
+          << "picture " << k << ", white " << white;
+      EXPECT_GE(std::sqrt(before / static_cast<double>(count)), 5.0) << "picture " << k << " did not flicker";
+    }
+    ASSERT_EQ(remarks.size(), 1u);
+    EXPECT_TRUE(remarks[0].starts_with("the exposure of 7 of 8 pictures was corrected, by up to "))
+        << remarks[0];
+  }
+}
+
+TEST(Deflicker, LeavesASteadyClipAsItIs) {
+  std::vector<Picture> pictures;
+  for (std::uint32_t k = 0; k < kSamples; ++k) pictures.push_back(picture_at(k, 0, 255));
+  std::vector<std::string> remarks;
+  const auto rasters = read_deflickered(pictures, remarks);
+  for (std::uint32_t k = 0; k < kSamples; ++k) EXPECT_EQ(rasters[k], pictures[k].bytes) << k;
+  EXPECT_TRUE(remarks.empty());
+}
+
+TEST(Deflicker, SaysOfWhichPicturesTheExposureCannotBeTold) {
+  std::vector<Picture> pictures = {picture_at(0, 0, 255), picture_at(1, 1, 255),
+                                   test::random_stills(kShape, 255, 1, 7)[0], picture_at(3, 1, 255)};
+  std::vector<std::string> remarks;
+  const auto rasters = read_deflickered(pictures, remarks);
+  ASSERT_EQ(remarks.size(), 2u);
+  EXPECT_TRUE(remarks[1].starts_with("1 of 4 pictures show too little of what the first one shows"))
+      << remarks[1];
+  EXPECT_EQ(rasters.size(), 4u);
+}
+
+TEST(Deflicker, KeepsTheOrderOfCodes) {
+  // Every pair of codes twice as far apart, and a tenth of them something else.
+  std::vector<double> codes, wanted;
+  for (int i = 0; i < 1000; ++i) {
+    codes.push_back(0.1 + 0.3 * i / 1000);
+    wanted.push_back(i % 10 == 0 ? 0.9 : 2 * codes.back());
+  }
+  const auto shift = CodeShift::between(codes, wanted);
+  ASSERT_TRUE(shift);
+  for (double code = 0.12; code < 0.38; code += 0.01)
+    EXPECT_NEAR(code + shift->at(code), 2 * code, 0.5 / 255);
+}
+
+}  // namespace
+}  // namespace nutik
