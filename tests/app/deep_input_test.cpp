@@ -202,7 +202,7 @@ TEST_F(DeepInput, ReadsTheRecordedFiles) {
        "512 x 512 grey, 16 bits, white code 65535, transfer linear");
   info({(media / "cine_781.cine").string()}, "256 x 256 grey, 16 bits, white code 4095, transfer linear");
   info({(media / "data_small_cine.cine").string()},
-       "256 x 32 grey, 16 bits, white code 1023, transfer linear");
+       "256 x 32 grey, 16 bits, white code 4095, transfer linear");
   info({"-f", "24", "--raw", "480x270:yuv420p10le", (media / "sparks_ref_480x270.yuv42010le.yuv").string()},
        "480 x 270 colour, 16 bits, white code 65535, transfer srgb");
 }

@@ -5,16 +5,23 @@ Samples are N x H x W x C arrays of codes as the file holds them.
 """
 
 import json
+import re
 import struct
 import subprocess
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 
 
+# The table that a format prescribes is no computation to be compared: what it is made from is asserted in
+# tests/media/phantom_clip_test.cpp.
+PHANTOM_TABLE = Path(__file__).parents[2] / "host" / "media" / "videos" / "phantom_packing.cpp"
+
+
 def read_cine(path):
-    """A .cine with one grey value a pixel, 16-bit words or packed into 10 bits: samples, bits of a
-    code and the camera's times (ns from the first picture's, rounded; Fractions before that)."""
+    """A .cine with one grey value a pixel, 16-bit words or packed into 10 bits, which stand for light of 12: samples,
+    bits of a code and the camera's times (ns from the first picture's, rounded; Fractions before that)."""
     data = open(path, "rb").read()
     count, _, setup, offsets = struct.unpack_from("<4I", data, 20)
     bitmap = struct.unpack_from("<I", data, 24)[0]
@@ -26,11 +33,16 @@ def read_cine(path):
         start = offset + struct.unpack_from("<I", data, offset)[0]
         size = width * height
         if packed:
-            codes = _unpacked(np.frombuffer(data, np.uint8, size * 10 // 8, start), 10)
+            codes = _phantom_table()[_unpacked(np.frombuffer(data, np.uint8, size * 10 // 8, start), 10)]
         else:
             codes = np.frombuffer(data, "<u2", size, start)
         samples.append(codes.reshape(height, width, 1))
-    return np.array(samples).astype(np.uint16), bits, _cine_times(data, setup, count)
+    return np.array(samples).astype(np.uint16), 12 if packed else bits, _cine_times(data, setup, count)
+
+
+def _phantom_table():
+    numbers = re.search(r"kPhantomLight = \{(.*?)\}", PHANTOM_TABLE.read_text(), re.DOTALL).group(1)
+    return np.array([int(number) for number in re.findall(r"\d+", numbers)], np.uint16)
 
 
 def _cine_times(data, setup, count):

@@ -218,7 +218,7 @@ TEST(ClipTimes, GivesTheCodesThatCineFilesHold) {
   }
 
   const auto packed = open_test_clip(media / "data_small_cine.cine");
-  EXPECT_EQ(packed->info().format.white_code, 1023u);
+  EXPECT_EQ(packed->info().format.white_code, 4095u);
   EXPECT_EQ(packed->info().timing.rate, (Rational{100, 1})) << "its last picture is stamped 292 days late";
   EXPECT_EQ(packed->info().notes.size(), 2u);
 }

@@ -3,7 +3,8 @@
 //      0  "CI"          file header of 44 bytes
 //     20  u32           pictures in the file
 //     24  u32           offset of the bitmap header; 16 bytes into it: u32 compression
-//     28  u32           offset of the setup; 140 bytes into it: "ST", then u16 length; 772 bytes: u32 exposure in us
+//     28  u32           offset of the setup; 140 bytes into it: "ST", then u16 length; 772: u32 exposure in us;
+//                5732: u32 code of black
 //     32  u32           offset of the pictures' offsets, behind the tagged blocks
 //
 // Tagged blocks follow the setup: u32 size (of all of it), u16 type, u16 reserved, data.
@@ -24,7 +25,7 @@ namespace {
 constexpr std::uint64_t kFileHeaderBytes = 44;
 constexpr std::uint64_t kTagHeaderBytes = 8;
 constexpr std::uint16_t kTimes = 1002, kExposures = 1003;
-constexpr std::uint32_t kPacked10 = 256;
+constexpr std::uint32_t kPacked12 = 1024;
 
 // A number at an offset; 0 beyond the end.
 template <typename T>
@@ -50,8 +51,8 @@ std::optional<CineHeader> read_cine_header(const std::filesystem::path& path) {
   const std::uint64_t setup = number<std::uint32_t>(file, 28);
   const std::uint64_t tags_end = std::min<std::uint64_t>(number<std::uint32_t>(file, 32), file.size());
   CineHeader header;
-  header.is_packed =
-      number<std::uint32_t>(file, std::uint64_t{number<std::uint32_t>(file, 24)} + 16) == kPacked10;
+  header.is_packed_12 =
+      number<std::uint32_t>(file, std::uint64_t{number<std::uint32_t>(file, 24)} + 16) == kPacked12;
   if (setup + 144 > file.size() || std::memcmp(file.data() + setup + 140, "ST", 2) != 0) return header;
   std::uint64_t tag = setup + number<std::uint16_t>(file, setup + 142);
   constexpr std::uint64_t kShutter = 772;
@@ -60,6 +61,8 @@ std::optional<CineHeader> read_cine_header(const std::filesystem::path& path) {
       shutter_us > 0 && tag >= setup + kShutter + 4) {
     header.exposed_ns = shutter_us * kNsInUs;
   }
+  constexpr std::uint64_t kBlack = 5732;
+  if (tag >= setup + kBlack + 4) header.black_code = number<std::uint32_t>(file, setup + kBlack);
   while (tag + kTagHeaderBytes <= tags_end) {
     const std::uint64_t size = number<std::uint32_t>(file, tag), data = tag + kTagHeaderBytes;
     const auto type = number<std::uint16_t>(file, tag + 4);

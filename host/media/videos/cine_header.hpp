@@ -12,7 +12,8 @@ namespace nutik::videos {
 struct CineHeader {
   std::vector<std::int64_t> starts_ns;     // of each picture, by the camera's clock; the first is 0
   std::optional<std::int64_t> exposed_ns;  // of each picture, where all were exposed alike
-  bool is_packed = false;                  // 10 bits a pixel, which the camera compands
+  bool is_packed_12 = false;               // two pixels in three bytes
+  std::uint32_t black_code = 0;            // the code of a picture without light
 };
 
 // Empty where the file is no .cine. Lists are empty where the file holds none, or not one for each

@@ -6,6 +6,7 @@
 #include "media/videos/damage_log.hpp"
 #include "media/videos/deinterlacer.hpp"
 #include "media/videos/libav.hpp"
+#include "media/videos/phantom_packing.hpp"
 #include "media/videos/pixels.hpp"
 #include "media/videos/videos.hpp"
 
@@ -28,8 +29,10 @@ class LibavClip final : public Clip {
     codec_->thread_count = threads(options);
     codec_->err_recognition = AV_EF_CRCCHECK;
     damage_->listen_to(*codec_);
-    if (avcodec_parameters_to_context(codec_.get(), parameters) < 0 ||
-        avcodec_open2(codec_.get(), decoder, nullptr) < 0) {
+    int code = avcodec_parameters_to_context(codec_.get(), parameters);
+    // Some files give the depth of what the table makes of them.
+    if (is_phantom_packed(*parameters)) codec_->bits_per_coded_sample = kPhantomPackedBits;
+    if (code < 0 || avcodec_open2(codec_.get(), decoder, nullptr) < 0) {
       throw InputError(format("{}: its decoder cannot be started", name_));
     }
     const PixelKind& pixels = probe.pixels;
@@ -54,6 +57,7 @@ class LibavClip final : public Clip {
   bool read(std::span<std::byte> raster) override {
     if (!next_picture()) return false;
     check_whole();
+    if (is_phantom_packed(*stream().codecpar)) expand_phantom_codes(*frame_);
     converter_.convert(*frame_, raster, name_);
     ++frames_read_;
     return true;

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "media/videos/eight_bit_yuv.hpp"
+#include "media/videos/phantom_packing.hpp"
 
 namespace nutik::videos {
 namespace {
@@ -137,7 +138,7 @@ PixelKind pixel_kind(const AVCodecParameters& codec, const std::string& name) {
   if (is_mosaic) kind.bits = av_get_bits_per_pixel(pixels) > 8 ? 16 : 8;
   // FFmpeg's decoder of plain pictures moves codes of 9 to 15 bits up to fill 16 (Phantom cameras'
   // files).
-  const int stored = codec.bits_per_coded_sample;
+  const int stored = is_phantom_packed(codec) ? static_cast<int>(kPhantomBits) : codec.bits_per_coded_sample;
   if (codec.codec_id == AV_CODEC_ID_RAWVIDEO && kind.is_grey && kind.bits == 16 && stored > 8 &&
       stored < 16) {
     kind.bits = static_cast<std::uint32_t>(stored);

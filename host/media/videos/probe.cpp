@@ -5,6 +5,7 @@
 #include "media/videos/capture_rate.hpp"
 #include "media/videos/cine_header.hpp"
 #include "media/videos/libav.hpp"
+#include "media/videos/phantom_packing.hpp"
 #include "media/videos/picture_times.hpp"
 
 namespace nutik::videos {
@@ -93,11 +94,11 @@ void add_cine_header(const CineHeader& header, const OpenedVideo& opened, const 
     }
   }
   result.timing.exposed_ns = header.exposed_ns;
-  if (header.is_packed) {
+  if (header.black_code > 0) {
     result.notes.emplace_back(
-        "the codes are packed into 10 bits, for which Phantom cameras compress their range by a "
-        "curve of their own: light is then not proportional to the codes; state what comes near it",
-        std::vector{Setting::transfer});
+        format("the camera's black is code {} of {}, and stays so: what is dark comes out a little lighter "
+               "than it was",
+               header.black_code, result.pixels.white_code()));
   }
 }
 
@@ -146,6 +147,13 @@ std::uint64_t count_raw_pictures(const std::filesystem::path& path, const RawVid
 }  // namespace
 
 Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& raw) {
+  const auto cine = raw ? std::nullopt : read_cine_header(path);
+  if (cine && cine->is_packed_12) {
+    throw InputError(
+        format("{} holds Phantom's codes of 12 bits, packed two in three bytes, which are not read: save the "
+               "recording with 10 bits packed, or with 16 bits a pixel",
+               path.string()));
+  }
   const OpenedVideo opened = open_video(path, raw);
   AVStream& stream = *opened.format->streams[opened.stream];
   const AVCodecParameters& codec = *stream.codecpar;
@@ -155,7 +163,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.pixels = pixel_kind(codec, path.string());
   result.pixel_format = static_cast<AVPixelFormat>(codec.format);
   result.upright = upright(stream);
-  result.transfer = transfer_of(codec.color_trc);
+  result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of(codec.color_trc);
   result.transfer_name = transfer_name(codec.color_trc);
   result.matrix = named_matrix(codec.color_space);
   result.range = named_range(codec);
@@ -200,7 +208,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
     result.notes.emplace_back(std::move(*note));
   }
   result.timing = timing_of(*opened.format, stream, packets, path.string());
-  if (const auto header = read_cine_header(path)) add_cine_header(*header, opened, path.string(), result);
+  if (cine) add_cine_header(*cine, opened, path.string(), result);
   if (const auto filmed = capture_rate(*opened.format, path)) {
     apply_capture_rate(*filmed, result.timing, result.notes);
   } else if (has_slow_parts(path)) {

@@ -1,0 +1,167 @@
+// Phantom cameras' packed files: codes of 10 bits become 12 bits that are proportional to light, by the format's table,
+// which is held to the curve it is made from.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include "support/ffmpeg.hpp"
+
+namespace nutik {
+namespace {
+
+using test::expect_clip_refused;
+using test::open_test_clip;
+using test::read_all;
+using test::Scratch;
+
+constexpr std::uint32_t kPacked10 = 256, kPacked12 = 1024;
+
+void put(std::string& bytes, std::size_t at, std::uint64_t value, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) bytes[at + i] = static_cast<char>(value >> (8 * i) & 255);
+}
+
+// Codes as digits behind one another, as the format's description draws them, and those as bytes.
+std::string packed(const std::vector<std::uint16_t>& codes) {
+  std::string digits, bytes;
+  for (const std::uint16_t code : codes) {
+    for (int bit = 9; bit >= 0; --bit) digits += (code >> bit & 1) != 0 ? '1' : '0';
+  }
+  for (std::size_t at = 0; at < digits.size(); at += 8) {
+    bytes += static_cast<char>(std::stoi(digits.substr(at, 8), nullptr, 2));
+  }
+  return bytes;
+}
+
+struct Recording {
+  std::uint32_t compression = kPacked10;
+  std::uint32_t depth = 10;
+  std::uint32_t black = 0;
+  std::uint32_t mosaic = 0;  // 4: red and green first
+};
+
+// A file of grey pictures of 32 pixels in each row, their codes packed into 10 bits; 1000 a second, exposed for 250 µs.
+std::string phantom_file(const std::vector<std::vector<std::uint16_t>>& pictures, const Recording& of) {
+  constexpr std::size_t kHeader = 44, kBitmap = 40, kSetup = 5740, kWidth = 32;
+  const std::size_t height = pictures.front().size() / kWidth, offsets = kHeader + kBitmap + kSetup;
+  std::string bytes(offsets + 8 * pictures.size(), '\0');
+  bytes.replace(0, 2, "CI");
+  put(bytes, 2, kHeader, 2);
+  put(bytes, 4, of.mosaic != 0 ? 2 : 0, 2);
+  put(bytes, 6, 1, 2);
+  put(bytes, 20, pictures.size(), 4);
+  put(bytes, 24, kHeader, 4);
+  put(bytes, 28, kHeader + kBitmap, 4);
+  put(bytes, 32, offsets, 4);
+  put(bytes, kHeader, kBitmap, 4);
+  put(bytes, kHeader + 4, kWidth, 4);
+  put(bytes, kHeader + 8, height, 4);
+  put(bytes, kHeader + 12, 1, 2);
+  put(bytes, kHeader + 14, 16, 2);  // of what is packed, as cameras write it
+  put(bytes, kHeader + 16, of.compression, 4);
+  const std::size_t setup = kHeader + kBitmap;
+  bytes.replace(setup + 140, 2, "ST");
+  put(bytes, setup + 142, kSetup, 2);
+  put(bytes, setup + 768, 1000, 4);
+  put(bytes, setup + 772, 250, 4);
+  put(bytes, setup + 808, of.mosaic, 4);
+  put(bytes, setup + 896, of.depth, 4);
+  put(bytes, setup + 5732, of.black, 4);
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    put(bytes, offsets + 8 * k, bytes.size(), 8);
+    const std::string picture = packed(pictures[k]);
+    std::string sizes(8, '\0');
+    put(sizes, 0, 8, 4);
+    put(sizes, 4, picture.size(), 4);
+    bytes += sizes + picture;
+  }
+  return bytes;
+}
+
+std::vector<std::uint16_t> all_codes() {
+  std::vector<std::uint16_t> codes(1024);
+  std::iota(codes.begin(), codes.end(), std::uint16_t{0});
+  return codes;
+}
+
+std::vector<std::uint16_t> values_of(const std::vector<std::byte>& raster) {
+  std::vector<std::uint16_t> values(raster.size() / 2);
+  std::memcpy(values.data(), raster.data(), raster.size());
+  return values;
+}
+
+class PhantomClip : public testing::Test {
+ protected:
+  std::unique_ptr<Clip> open(const std::vector<std::vector<std::uint16_t>>& pictures, const Recording& of) {
+    return open_test_clip(scratch_.write("clip.cine", phantom_file(pictures, of)));
+  }
+
+  Scratch scratch_;
+};
+
+// ITU-R BT.709's curve backwards, from black to white.
+double bt709_light(double code) {
+  const double share = (code - 63.5) / 955.0;
+  return 63.7 + 4039.4 * (share < 0.081 ? share / 4.5 : std::pow((share + 0.099) / 1.099, 1 / 0.45));
+}
+
+TEST_F(PhantomClip, CodesOf10BitsStandForLightOf12) {
+  const auto codes = all_codes();
+  std::vector<std::uint16_t> backwards(codes.rbegin(), codes.rend());
+  const auto clip = open({codes, backwards}, {});
+  EXPECT_EQ(clip->info().format.shape, (Shape{32, 32, 1}));
+  EXPECT_EQ(clip->info().format.white_code, 4095u);
+  EXPECT_EQ(clip->info().format.transfer, Transfer::linear());
+  EXPECT_EQ(clip->info().timing.rate, (Rational{1000, 1}));
+  EXPECT_EQ(clip->info().timing.exposed_ns, 250'000);
+  const auto rasters = read_all(*clip);
+  ASSERT_EQ(rasters.size(), 2u);
+  const auto light = values_of(rasters[0]);
+  EXPECT_EQ(light[0], 2);
+  EXPECT_EQ(light[64], 64) << "black";
+  EXPECT_EQ(light[512], 998);
+  EXPECT_EQ(light[1014], 4064) << "white";
+  double worst = 0;
+  for (std::size_t code = 1; code <= 1014; ++code) {
+    worst = std::max(worst, std::abs(light[code] - bt709_light(static_cast<double>(code))));
+    EXPECT_GE(light[code], light[code - 1]) << code;
+  }
+  EXPECT_LT(worst, 1.0);
+  RecordProperty("worst", std::to_string(worst));
+  for (std::size_t code = 1015; code < 1024; ++code) EXPECT_EQ(light[code], 4095) << code;
+  const auto last = values_of(rasters[1]);
+  EXPECT_TRUE(std::equal(light.rbegin(), light.rend(), last.begin()));
+}
+
+// Some programs write the depth of what the table makes of the codes.
+TEST_F(PhantomClip, TheDepthInTheFileChangesNothing) {
+  const auto expected = read_all(*open({all_codes()}, {}));
+  EXPECT_EQ(read_all(*open({all_codes()}, {.depth = 12})), expected);
+}
+
+// Each site of the mosaic has its light before colours are made of its neighbours'.
+TEST_F(PhantomClip, AMosaicIsDevelopedInLight) {
+  const auto clip = open({std::vector<std::uint16_t>(1024, 512)}, {.mosaic = 4});
+  EXPECT_EQ(clip->info().format.shape.channels, 3u);
+  const auto rasters = read_all(*clip);
+  ASSERT_EQ(rasters.size(), 1u);
+  for (const std::uint16_t code : values_of(rasters[0])) {
+    ASSERT_NEAR(code / 65'535.0, 998 / 4095.0, 2 / 65'535.0);
+  }
+}
+
+TEST_F(PhantomClip, TheCamerasBlackIsNamed) {
+  const auto clip = open({all_codes()}, {.black = 64});
+  ASSERT_EQ(clip->info().notes.size(), 1u);
+  EXPECT_NE(clip->info().notes[0].text.find("black is code 64 of 4095"), std::string::npos)
+      << clip->info().notes[0].text;
+}
+
+TEST_F(PhantomClip, CodesOf12PackedBitsAreRefused) {
+  expect_clip_refused(scratch_.write("clip.cine", phantom_file({all_codes()}, {.compression = kPacked12})),
+                      {}, "12 bits, packed two in three bytes, which are not read");
+}
+
+}  // namespace
+}  // namespace nutik
