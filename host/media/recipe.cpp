@@ -79,6 +79,14 @@ Recipe::Input input_of(const Json& json, const std::string& picture) {
   return input;
 }
 
+RecipeOf recipe_of(const Json& json, const std::string& picture) {
+  const std::string name = json.value("command", std::string(to_text(RecipeOf::expose)));
+  for (const RecipeOf of : {RecipeOf::expose, RecipeOf::contact, RecipeOf::sweep}) {
+    if (name == to_text(of)) return of;
+  }
+  throw InputError(format("{}: its recipe is one of {}, which leaves none", picture, nutik::quoted(name)));
+}
+
 Recipe::Text text_of(const Json& json, const std::string& picture) {
   const bool is_text = json.contains("text");
   const std::string kept = json.at(is_text ? "text" : "bytes");
@@ -89,14 +97,25 @@ Recipe::Text text_of(const Json& json, const std::string& picture) {
 
 }  // namespace
 
+std::string_view to_text(RecipeOf of) {
+  switch (of) {
+    case RecipeOf::expose: return "expose";
+    case RecipeOf::contact: return "contact";
+    case RecipeOf::sweep: return "sweep";
+  }
+  return {};
+}
+
 std::string Recipe::text() const {
   Json json;
   json["nutik-cl"] = version;
+  if (of != RecipeOf::expose) json["command"] = to_text(of);
   json["capture"] = input_json(capture);
   if (functions) json["functions"] = text_json(*functions);
   if (noise) json["noise"] = text_json(*noise);
   if (mask) json["mask"] = input_json(*mask);
-  json["options"] = options;
+  json["options"] = Json::object();
+  for (const auto& [name, value] : options) json["options"][name] = value;
   json["renderer"] = renderer;
   json["precision"] = precision;
   constexpr int kOneLine = -1;
@@ -109,11 +128,12 @@ Recipe Recipe::parse(std::string_view text, const std::string& name) {
     const Json json = Json::parse(text);
     Recipe recipe;
     recipe.version = json.at("nutik-cl");
+    recipe.of = recipe_of(json, name);
     recipe.capture = input_of(json.at("capture"), name);
     if (json.contains("functions")) recipe.functions = text_of(json.at("functions"), name);
     if (json.contains("noise")) recipe.noise = text_of(json.at("noise"), name);
     if (json.contains("mask")) recipe.mask = input_of(json.at("mask"), name);
-    recipe.options = json.at("options").get<std::map<std::string, std::string>>();
+    for (const auto& [option, value] : json.at("options").items()) recipe.options.emplace_back(option, value);
     recipe.renderer = json.at("renderer");
     recipe.precision = json.at("precision");
     return recipe;

@@ -7,12 +7,17 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace nutik {
+
+// What a recipe makes, by the name of the command.
+enum class RecipeOf { expose, contact, sweep };
+[[nodiscard]] std::string_view to_text(RecipeOf of);
 
 struct Recipe {
   // A file by its name, without its folder, and what its content is known by.
@@ -27,17 +32,21 @@ struct Recipe {
   };
 
   std::string version;  // of the program
+  RecipeOf of = RecipeOf::expose;
   Input capture;
   std::optional<Text> functions;
   std::optional<Text> noise;
   std::optional<Input> mask;
-  std::map<std::string, std::string> options;  // long names without dashes
+  // Long names without dashes, and values. Of an exposure by name; of a sheet as they were stated, which says what its
+  // rows and columns are.
+  std::vector<std::pair<std::string, std::string>> options;
   std::string renderer;
   std::string precision;
 
   [[nodiscard]] std::string text() const;
 
-  // Reads a text that text() wrote. Throws InputError naming `name` where it is none, or the name of functions
+  // Reads a text that text() wrote. Throws InputError naming `name` where it is none, makes what no recipe does, or the
+  // name of functions
   // or noise is not that of a file alone, or that of capture or mask has more than one plain folder.
   static Recipe parse(std::string_view text, const std::string& name);
 };

@@ -1,5 +1,7 @@
 #include "session/picture_recipe.hpp"
 
+#include <algorithm>
+
 #include "capture/format.hpp"
 #include "media/input_checksum.hpp"
 #include "media/picture_text.hpp"
@@ -39,9 +41,10 @@ std::string PictureRecipe::text(const std::string& precision, const OwnRecipe& o
   recipe.precision = precision;
   if (own.functions) recipe.functions = own.functions;
   for (const auto& [name, value] : own.options) {
-    recipe.options.erase(name);
-    if (value) recipe.options.emplace(name, *value);
+    std::erase_if(recipe.options, [&name = name](const auto& option) { return option.first == name; });
+    if (value) recipe.options.emplace_back(name, *value);
   }
+  if (!own.options.empty()) std::ranges::sort(recipe.options);
   std::string text = recipe.text();
   if (text.size() >= kMostPictureTextBytes) {
     throw RecipeTooLong(format("the recipe has {} bytes and a picture carries {} MiB at most", text.size(),

@@ -29,11 +29,11 @@ class Again : public testing::Test {
   [[nodiscard]] std::string file(const std::string& name) const { return test::read_file(scratch_ / name); }
 
   // Runs the command that again prints, which names the program as it was run.
-  void expect_same_bytes(const std::string& picture) const {
+  void expect_same_bytes(const std::string& picture, const std::string& made_by = "expose") const {
     const std::string before = file(picture);
     ASSERT_FALSE(before.empty());
     const std::string command = run({"again", picture}).out;
-    ASSERT_NE(command.find(" expose "), std::string::npos) << command;
+    ASSERT_NE(command.find(" " + made_by + " "), std::string::npos) << command;
     std::filesystem::remove(scratch_ / picture);
     scratch_.write("again.sh", command);
     const auto made = test::run_shell("sh again.sh", scratch_.folder());
@@ -122,6 +122,52 @@ TEST_F(Again, MakesOnePictureOfASweep) {
   EXPECT_EQ(test::run_program({"again", "no-1.png"}, scratch_.folder()).status, 3);
 }
 
+// A sheet is made anew by the command that made it, with all that lies on it and how it lies.
+TEST_F(Again, MakesSheets) {
+  run({"contact", "--start", "0.1s", "--every", "1/7s", "--exposure", "2f", "--columns", "2", "--width",
+       "300", "--negative", "abs", "--transfer", "gamma:2", "clip.tik", "contact.png"});
+  run({"contact", "-f", "40", "-a", "90", "--tolerance", "2", "frames", "-o", "whole clip.tif"});
+  run({"sweep", "-k", "it's f.fn", "-m", "mask.pgm", "--shift", "-1f..3f/2f", "--scale-gain", "0.5..1/0.25",
+       "--width", "500", "--precision", "fixed", "clip.tik", "sweep.jpg"});
+  run({"sweep", "--exposure", "0.1s", "--shutter", "hann", "--stretch", "0.5..2/0.5", "--columns", "1",
+       "--out-transfer", "linear", "--renderer", "reference", "--each", "one-%d.png", "clip.tik", "one.png"});
+  expect_same_bytes("contact.png", "contact");
+  expect_same_bytes("whole clip.tif", "contact");
+  expect_same_bytes("sweep.jpg", "sweep");
+  expect_same_bytes("one.png", "sweep");
+  expect_same_bytes("one-2.png");
+
+  run({"contact", "--no-recipe", "clip.tik", "silent.png"});
+  const auto none = test::run_program({"again", "silent.png"}, scratch_.folder());
+  EXPECT_EQ(none.status, 3);
+  EXPECT_NE(none.err.find("silent.png carries no recipe. Exposures, sheets and a video's stills do"),
+            std::string::npos)
+      << none.err;
+}
+
+// Whatever a stranger's sheet says, what is printed makes a sheet or a picture.
+TEST_F(Again, RefusesCommandsThatLeaveNoRecipes) {
+  run({"contact", "clip.tik", "a.ppm"});
+  std::string sheet = file("a.ppm");
+  const auto replace = [&](const std::string& what, const std::string& by) {
+    const auto at = sheet.find(what);
+    ASSERT_NE(at, std::string::npos) << what;
+    sheet.replace(at, what.size(), by);
+    scratch_.write("a.ppm", sheet);
+  };
+  const auto refused = [&](const std::string& why) {
+    const auto result = test::run_program({"again", "a.ppm"}, scratch_.folder());
+    EXPECT_EQ(result.status, 3);
+    EXPECT_EQ(result.out, "");
+    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+  };
+  replace("\"contact\"", "\"recover\"");
+  refused("its recipe is one of 'recover', which leaves none");
+  replace("\"recover\"", "\"contact\"");
+  replace("\"options\":{", "\"options\":{\"shift\":\"1f..2f/1f\"");
+  refused("its recipe states '--shift 1f..2f/1f', which no recipe of nutik-cl");
+}
+
 TEST_F(Again, LooksForTheFilesItNeeds) {
   run({"-k", "it's f.fn", "-m", "mask.pgm", "clip.tik", "a.png"});
   const std::string picture = file("a.png");
@@ -191,10 +237,10 @@ TEST_F(Again, SaysWhereThereIsNoRecipe) {
   auto result = test::run_program({"again", "private.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 3);
   EXPECT_NE(result.err.find("private.png carries no recipe"), std::string::npos) << result.err;
-  run({"contact", "clip.tik", "sheet.png"});
-  result = test::run_program({"again", "sheet.png"}, scratch_.folder());
+  run({"activity", "clip.tik", "chart.png"});
+  result = test::run_program({"again", "chart.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 3);
-  EXPECT_NE(result.err.find("no sheets, charts, traces or masks"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("not charts, traces, masks"), std::string::npos) << result.err;
   result = test::run_program({"again", "private.png", "clip.tik"}, scratch_.folder());
   EXPECT_EQ(result.status, 2);
   EXPECT_NE(result.err.find("clip.tik is no folder"), std::string::npos) << result.err;

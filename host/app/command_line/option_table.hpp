@@ -65,8 +65,9 @@ struct Option {
   [[nodiscard]] bool describes_clip() const {
     return scope == Scope::decoding || scope == Scope::timing || scope == Scope::encoding;
   }
-  // Whether another value makes another picture, so that a recipe states it.
+  // Whether another value makes another picture, or another sheet of pictures.
   [[nodiscard]] bool makes_picture() const { return describes_clip() || scope == Scope::exposure; }
+  [[nodiscard]] bool makes_sheet() const { return makes_picture() || scope == Scope::series; }
   // Whether lines of a batch share it: they share the capture, the device and the answer.
   [[nodiscard]] bool is_shared_by_batch() const {
     return describes_clip() || scope == Scope::computing || scope == Scope::answer;

@@ -125,7 +125,7 @@ std::vector<fs::path> folders_to_search(const Options& options) {
 // What is printed may be run by a shell: of a stranger's picture it names options that recipes have, and no others.
 void check_options(const Recipe& recipe, const std::string& picture) {
   for (const auto& [name, value] : recipe.options) {
-    if (is_recipe_option(name, value)) continue;
+    if (is_recipe_option(name, value, recipe.of)) continue;
     throw InputError(
         format("{}: its recipe states {}, which no recipe of nutik-cl {} does; another version made "
                "it, or it is not to be trusted",
@@ -147,13 +147,10 @@ int run_again(const Options& options) {
   RecipeFiles files(folders_to_search(options));
   const std::optional<Recipe> recipe = read_recipe(picture);
   if (!recipe) {
-    throw InputError(
-        format("{} carries no recipe. Exposures do, of expose, batch, sweep --each and a video's stills, as "
-               "PNG, TIFF, "
-               "JPEG, OpenEXR, PGM or PPM: no sheets, charts, traces or masks. Those that were made with "
-               "--no-recipe, "
-               "or written by another program since, have lost it",
-               picture.string()));
+    throw InputError(format(
+        "{} carries no recipe. Exposures, sheets and a video's stills do, but not charts, traces, masks "
+        "and .pfm files; --no-recipe leaves it out, and programs that write a picture anew lose it",
+        picture.string()));
   }
   if (recipe->version != NUTIK_VERSION) {
     print_note(format("note: the picture was made by nutik-cl {}, this is {}", shown(recipe->version),
@@ -161,7 +158,7 @@ int run_again(const Options& options) {
   }
   check_options(*recipe, picture.string());
   const fs::path folder = picture.stem().string() + "-again";
-  std::string command = shell_word(options.program) + " expose";
+  std::string command = format("{} {}", shell_word(options.program), to_text(recipe->of));
   if (recipe->functions) command += " -k " + operand(files.find(*recipe->functions, "functions", folder));
   if (recipe->noise) {
     const fs::path here = ".";  // so that a file of the name `auto` is not taken for that word

@@ -30,13 +30,13 @@ class SheetJob {
       std::function<void(std::size_t number, const ExposedPicture& exposed, SharedWarnings& warnings)>;
 
   // `behind` ends the name of a sheet that nobody named: clip-contact.png.
-  SheetJob(const Options& options, std::string_view command, const std::string& behind)
+  SheetJob(const Options& options, RecipeOf of, const std::string& behind)
       : options_(options),
-        output_(output_name(options, command, behind)),
+        of_(of),
+        output_(output_name(options, to_text(of), behind)),
         inputs_(input_files(options)),
         codes_(output_request(options)) {
-    constexpr std::uint32_t kColour = 3;
-    check_picture_output(output_, kColour, inputs_);
+    check_picture_output(output_, /*channels=*/3, inputs_);
     check_quality(codes_, output_);
   }
 
@@ -53,6 +53,7 @@ class SheetJob {
           Json exposures, const Each& each = {}) {
     request.codes = codes_;
     if (options_.transfer) request.plan.transfer = Transfer::parse(*options_.transfer);
+    PictureRecipe recipe(recipe_sources(options_, {}, of_));
     const Sheet sheet = [&] {
       WarningsAtEnd warnings;
       return make_sheet(session, request, progress_bar("exposing", options_.quiet),
@@ -62,8 +63,10 @@ class SheetJob {
                           if (each) each(i, exposed, warnings);
                         });
     }();
-    write_picture(output_, sheet.picture, {}, file_wishes(codes_));
-    const auto& [columns, rows] = std::pair(sheet.layout.columns, sheet.layout.rows);
+    // With `auto` each of its pictures has an arithmetic of its own.
+    write_picture(output_, sheet.picture, recipe.text(options_.precision.value_or("auto")),
+                  file_wishes(codes_));
+    const auto columns = sheet.layout.columns, rows = sheet.layout.rows;
     Answer answer{{{"sheet", output_.string()}, {"columns", columns}, {"rows", rows}}};
     answer.json[key] = std::move(exposures);
     answer.line = format("{}: {}, {}, {}", output_.string(), counted_as, counted(columns, "column"),
@@ -75,6 +78,7 @@ class SheetJob {
 
  private:
   const Options& options_;
+  RecipeOf of_;
   std::filesystem::path output_;
   std::vector<std::string> inputs_;
   OutputRequest codes_;
@@ -108,13 +112,9 @@ std::vector<std::filesystem::path> single_names(const Options& options, std::siz
 // `shift_ns`, `gain_factor`, and its value at a point.
 std::pair<std::string, Json> varied_json(const SweepRange& range, std::uint64_t point) {
   const Rational value = range.value(point);
-  switch (range.parameter) {
-    case SweepParameter::shift:
-      return {range.counts_pictures ? "shift_samples" : "shift_ns", value.numerator};
-    case SweepParameter::gain: return {"gain_factor", value.value()};
-    case SweepParameter::stretch: break;
-  }
-  return {"stretch_factor", value.value()};
+  if (range.parameter == SweepParameter::shift)
+    return {range.counts_pictures ? "shift_samples" : "shift_ns", value.numerator};
+  return {range.parameter == SweepParameter::gain ? "gain_factor" : "stretch_factor", value.value()};
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ int run_contact(const Options& options) {
   const ContactRequest contact = contact_request(options);
   SheetRequest request;
   request.wishes = sheet_wishes(options);
-  SheetJob job(options, "contact", "-contact.png");
+  SheetJob job(options, RecipeOf::contact, "-contact.png");
   Session session = open_session(options, {.besides = sheet_needs(request.wishes)});
   const Timeline& timeline = session.timeline();
   const std::vector<Exposure> exposures = exposures_of(contact, timeline);
@@ -155,7 +155,7 @@ int run_sweep(const Options& options) {
   if (options.operands.empty()) throw UsageError("an input is missing; see nutik-cl sweep --help");
   const ExposureRequest request = exposure_request(options);
   const std::string label = exposure_label(options);
-  SheetJob job(options, "sweep", "-" + label + "-sweep.png");
+  SheetJob job(options, RecipeOf::sweep, "-" + label + "-sweep.png");
   const std::vector<std::filesystem::path> singles =
       single_names(options, points.size(), job.inputs(), job.output());
 
@@ -183,14 +183,12 @@ int run_sweep(const Options& options) {
   PictureRecipe recipe(singles.empty() ? std::nullopt : recipe_sources(options));  // of single pictures
   const auto write_single = [&](std::size_t i, const ExposedPicture& exposed, SharedWarnings& warnings) {
     if (singles.empty()) return;
-    std::string text;
-    if (!options.no_recipe) {
-      const auto own =
-          own_exposure(sheet.exposures[i].functions, request, timeline, singles[i].stem().string() + ".fn");
-      if (own) text = recipe.text(job.tally().precision(), own_recipe(*own));
-      if (!own) warnings.add(singles[i].string(), std::array{std::string(kNoRecipe)});
-    }
-    write_picture(singles[i], exposed.picture, text, file_wishes(job.wishes()));
+    const auto own =
+        own_exposure(sheet.exposures[i].functions, request, timeline, singles[i].stem().string() + ".fn");
+    if (!own && !options.no_recipe) warnings.add(singles[i].string(), std::array{std::string(kNoRecipe)});
+    write_picture(singles[i], exposed.picture,
+                  own ? recipe.text(job.tally().precision(), own_recipe(*own)) : "",
+                  file_wishes(job.wishes()));
   };
   return job.run(session, sheet, what, "pictures", std::move(json), write_single);
 }

@@ -12,8 +12,9 @@ namespace nutik::app {
 namespace {
 
 // Files have a place of their own in a recipe, with their text or checksum.
-bool is_stated(const Option& option, std::string_view value) {
-  return option.is_of(CommandId::expose) && option.makes_picture() && option.is_flag() == value.empty() &&
+bool is_stated(const Option& option, std::string_view value, RecipeOf of) {
+  return option.is_of(find_command(to_text(of))->id) && option.is_flag() == value.empty() &&
+         (of == RecipeOf::expose ? option.makes_picture() : option.makes_sheet()) &&
          (!option.reads_file() || option.knows(value));
 }
 
@@ -28,18 +29,19 @@ Recipe::Text whole_text(const std::string& name, const char* extension) {
 
 }  // namespace
 
-bool is_recipe_option(std::string_view long_name, std::string_view value) {
+bool is_recipe_option(std::string_view long_name, std::string_view value, RecipeOf of) {
   return std::ranges::any_of(app::options(), [&](const Option& option) {
-    return option.long_name == long_name && is_stated(option, value);
+    return option.long_name == long_name && is_stated(option, value, of);
   });
 }
 
 std::optional<RecipeSources> recipe_sources(const Options& options,
-                                            std::optional<std::string> capture_checksum) {
+                                            std::optional<std::string> capture_checksum, RecipeOf of) {
   if (options.no_recipe) return std::nullopt;
   RecipeSources sources{{}, options.operands.front(), std::move(capture_checksum)};
   Recipe& recipe = sources.made;
   recipe.version = NUTIK_VERSION;
+  recipe.of = of;
   if (options.functions) recipe.functions = whole_text(*options.functions, ".fn");
   if (options.noise && *options.noise != kAutomaticNoise) recipe.noise = whole_text(*options.noise, ".noise");
   if (options.mask) {
@@ -48,8 +50,13 @@ std::optional<RecipeSources> recipe_sources(const Options& options,
   for (const Option& option : app::options()) {
     static const std::string kFlag;
     const std::string* value = option.is_flag() && option.is_in(options) ? &kFlag : option.stated(options);
-    if (value != nullptr && is_stated(option, *value)) recipe.options.emplace(option.long_name, *value);
+    if (value != nullptr && is_stated(option, *value, of))
+      recipe.options.emplace_back(option.long_name, *value);
   }
+  std::ranges::sort(recipe.options, {}, [&](const auto& option) {
+    const auto said = std::ranges::find(options.said, option.first, &Said::option);
+    return std::pair(of == RecipeOf::expose ? 0 : said - options.said.begin(), option.first);
+  });
   recipe.renderer = options.renderer.value_or("opencl");
   return sources;
 }

@@ -74,11 +74,12 @@ void read_inputs(MaskRequest& request, const Options& options);
 // What the recipes of a command's pictures have in common; none with --no-recipe. A capture that is exposed many times
 // may be known by its checksum already.
 [[nodiscard]] std::optional<RecipeSources> recipe_sources(const Options& options,
-                                                          std::optional<std::string> capture_checksum = {});
+                                                          std::optional<std::string> capture_checksum = {},
+                                                          RecipeOf of = RecipeOf::expose);
 // What the recipe of a sweep's picture states in place of the sweep's options.
 [[nodiscard]] OwnRecipe own_recipe(const OwnExposure& exposure);
-// Whether a recipe may state this option of `expose` with this value: it makes the picture, and stands in no
-// other place of the recipe.
-[[nodiscard]] bool is_recipe_option(std::string_view long_name, std::string_view value);
+// Whether such a recipe may state this option with this value: it makes the picture, and stands in no other place of
+// the recipe.
+[[nodiscard]] bool is_recipe_option(std::string_view long_name, std::string_view value, RecipeOf of);
 
 }  // namespace nutik::app
