@@ -12,6 +12,7 @@
 #include "media/module.hpp"
 #include "media/photron_clip.hpp"
 #include "media/photron_header.hpp"
+#include "media/settled_fact.hpp"
 #include "media/still_sequence.hpp"
 #include "media/stills_table.hpp"
 #include "system/input_bytes.hpp"
@@ -134,17 +135,21 @@ std::unique_ptr<Clip> open_clip(const std::filesystem::path& name, const ClipOpt
   return options.deflickered ? deflicker(std::move(clip)) : std::move(clip);
 }
 
-void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const Transfer& usual) {
+void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const StoredCodes& codes) {
   if (options.matrix || options.range) {
     throw UsageError("its pictures are RGB or grey as they are: leave matrix and range out",
                      {Setting::matrix, Setting::range});
   }
   CaptureFormat& capture = info.format;
-  capture.transfer = options.transfer.value_or(usual);
-  info.facts.push_back({"transfer " + capture.transfer.text(),
-                        options.transfer ? Origin::stated : Origin::assumed, Setting::transfer});
-  if (options.pixel_aspect) capture.pixel_aspect = *options.pixel_aspect;
-  if (options.primaries) capture.primaries = *options.primaries;
+  capture.transfer = settle(info.facts, options.transfer, {}, codes.transfer, Setting::transfer,
+                            [](const Transfer& transfer) { return "transfer " + transfer.text(); });
+  if (capture.shape.channels > 1) {
+    capture.primaries =
+        settle(info.facts, options.primaries, codes.primaries, Primaries::bt709, Setting::primaries,
+               [](Primaries primaries) { return format("primaries {}", to_text(primaries)); });
+  }
+  capture.pixel_aspect = settle(info.facts, options.pixel_aspect, codes.pixel_aspect, Rational{1, 1},
+                                Setting::pixel_aspect, pixel_aspect_text);
 }
 
 Interlaced parse_deinterlacing(std::string_view text) {

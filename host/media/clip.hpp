@@ -132,9 +132,16 @@ class Clip {
 // none, or none that can be read.
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options);
 
-// Of codes that are read as they are stored, of a format whose white code is known: what they stand for, as stated or
-// `usual`. Throws UsageError where what is stated is said of YUV.
-void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const Transfer& usual);
+// What files say of codes that are read as they are stored, and what transfer function is usual for such.
+struct StoredCodes {
+  Transfer transfer;
+  std::optional<Primaries> primaries = std::nullopt;
+  std::optional<Rational> pixel_aspect = std::nullopt;
+};
+
+// Describes such codes, of a format whose shape and white code are known, as stated, as the files say, or as usual.
+// Throws UsageError where what is stated is said of YUV.
+void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const StoredCodes& codes);
 
 // The timeline of the clip `name` with `sample_count` samples. Throws InputError where nothing
 // tells how fast it was taken, or its times are not in order.

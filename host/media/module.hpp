@@ -38,7 +38,7 @@ struct StillModule {
   // Stills, one sample each; a TIFF may hold several, but not where `timing` has times for them.
   std::unique_ptr<Clip> (*open)(std::span<const std::filesystem::path> files, const ClipTiming& timing,
                                 const ClipOptions& options);
-  // When a still was taken and for how long, as far as its EXIF data tell (JPEG): DateTimeOriginal with
+  // When a still was taken and for how long, as far as its EXIF data tell (JPEG, DNG): DateTimeOriginal with
   // SubSecTimeOriginal, and ExposureTime. Nothing for a file without them.
   StillTimes (*read_exif_times)(const std::filesystem::path& file);
   // Light as OpenEXR has it (media/picture_writer.hpp), and the text that such a file carries.

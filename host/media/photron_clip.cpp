@@ -147,7 +147,7 @@ class PhotronClip final : public Clip {
     info_.format.code_bytes = layout_.code_bytes();
     info_.format.white_code = options.white_code.value_or((1u << layout_.depth) - 1);
     // A sensor's values, of whatever depth.
-    describe_stored_codes(info_, options, Transfer::linear());
+    describe_stored_codes(info_, options, {Transfer::linear()});
     info_.timing.rate = header_.rate;
     info_.timing.exposed_ns = header_.exposed_ns;
     info_.timing.rate_from = header_.file.filename().string();

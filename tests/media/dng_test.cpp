@@ -1,6 +1,7 @@
 // DNG sequences: light as the tags of the first picture tell it, computed here from the format's definition.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -45,31 +46,54 @@ Matrix inverse(const Matrix& m) {
 constexpr Matrix kXyzOfRgb{
     {{0.412453, 0.357580, 0.180423}, {0.212671, 0.715160, 0.072169}, {0.019334, 0.119193, 0.950227}}};
 
+std::string shorts(std::initializer_list<int> values) {
+  std::string data;
+  for (const int value : values) data += {static_cast<char>(value & 255), static_cast<char>(value >> 8)};
+  return data;
+}
+
+std::string longs(std::initializer_list<std::int64_t> values) {
+  std::string data;
+  for (const std::int64_t value : values)
+    for (int byte = 0; byte < 4; ++byte) data += static_cast<char>(value >> (8 * byte) & 255);
+  return data;
+}
+
+struct Tag {
+  std::uint16_t tag, type;
+  std::uint32_t count;
+  std::string data;
+};
+
+// A TIFF's directory that lies `at` a place in the file, and behind it what does not fit into it.
+std::string directory(const std::vector<Tag>& tags, std::size_t at) {
+  std::string head = shorts({static_cast<int>(tags.size())}), behind;
+  const std::size_t end = at + 2 + 12 * tags.size() + 4;
+  for (const Tag& tag : tags) {
+    head += shorts({tag.tag, tag.type}) + longs({tag.count});
+    std::string data = tag.data;
+    if (data.size() > 4) {
+      head += longs({static_cast<std::int64_t>(end + behind.size())});
+      behind += data;
+    } else {
+      data.resize(4);
+      head += data;
+    }
+  }
+  return head + longs({0}) + behind;
+}
+
 struct Dng {
   std::uint16_t width = 64, height = 48;
   Vector field{3000, 9000, 5000};  // of the sensor, everywhere alike
   double black = 512, white = 16'383;
   Vector neutral{0.5, 1, 0.8};
   Matrix camera_of_rgb{{{0.8, 0.15, 0.05}, {0.2, 0.7, 0.1}, {0.05, 0.25, 0.7}}};
+  std::array<std::int64_t, 2> exposure{}, rate{};  // fractions; 0/0: not stated
+  std::string fraction;                            // of the second in which it was taken, or empty
 
-  // Little-endian TIFF: the tags, what does not fit into them, then the mosaic R G / G B.
+  // Little-endian TIFF: the tags, what does not fit into them, those of EXIF likewise, then the mosaic R G / G B.
   [[nodiscard]] std::string file() const {
-    struct Tag {
-      std::uint16_t tag, type;
-      std::uint32_t count;
-      std::string data;
-    };
-    const auto shorts = [](std::initializer_list<int> values) {
-      std::string data;
-      for (const int value : values) data += {static_cast<char>(value & 255), static_cast<char>(value >> 8)};
-      return data;
-    };
-    const auto longs = [](std::initializer_list<std::int64_t> values) {
-      std::string data;
-      for (const std::int64_t value : values)
-        for (int byte = 0; byte < 4; ++byte) data += static_cast<char>(value >> (8 * byte) & 255);
-      return data;
-    };
     constexpr std::int64_t kParts = 1'000'000;
     const auto fractions = [&](auto begin, auto end) {
       std::string data;
@@ -89,7 +113,7 @@ struct Dng {
                           {262, 3, 1, shorts({32'803})},
                           {271, 2, 8, model},
                           {272, 2, 8, model},
-                          {273, 4, 1, {}},
+                          {273, 4, 1, longs({0})},
                           {274, 3, 1, shorts({1})},
                           {277, 3, 1, shorts({1})},
                           {278, 3, 1, shorts({height})},
@@ -105,23 +129,23 @@ struct Dng {
                           {50'721, 10, 9, fractions(matrix.begin(), matrix.end())},
                           {50'728, 5, 3, fractions(neutral.begin(), neutral.end())},
                           {50'778, 3, 1, shorts({21})}};
-    std::string head("II*\0\10\0\0\0", 8), behind;
-    const std::size_t directory_end = 8 + 2 + 12 * tags.size() + 4;
-    std::size_t held = 0;
-    for (const Tag& tag : tags) held += tag.data.size() > 4 ? tag.data.size() : 0;
-    head += shorts({static_cast<int>(tags.size())});
-    for (Tag& tag : tags) {
-      if (tag.tag == 273) tag.data = longs({static_cast<std::int64_t>(directory_end + held)});
-      head += shorts({tag.tag, tag.type}) + longs({tag.count});
-      if (tag.data.size() > 4) {
-        head += longs({static_cast<std::int64_t>(directory_end + behind.size())});
-        behind += tag.data;
-      } else {
-        tag.data.resize(4);
-        head += tag.data;
-      }
+    std::vector<Tag> exif;
+    if (exposure[1] != 0) exif.push_back({33'434, 5, 1, longs({exposure[0], exposure[1]})});
+    if (!fraction.empty()) {
+      exif.push_back({36'867, 2, 20, std::string("2026:11:21 13:22:27\0", 20)});
+      exif.push_back({37'521, 2, static_cast<std::uint32_t>(fraction.size() + 1), fraction + '\0'});
     }
-    head += longs({0}) + behind;
+    tags.push_back({34'665, 4, 1, longs({0})});
+    if (rate[1] != 0) tags.push_back({51'044, 10, 1, longs({rate[0], rate[1]})});
+    std::ranges::sort(tags, {}, &Tag::tag);
+    constexpr std::size_t kHead = 8;
+    const std::size_t exif_at = kHead + directory(tags, kHead).size();
+    const std::string exif_directory = directory(exif, exif_at);
+    for (Tag& tag : tags) {
+      if (tag.tag == 34'665) tag.data = longs({static_cast<std::int64_t>(exif_at)});
+      if (tag.tag == 273) tag.data = longs({static_cast<std::int64_t>(exif_at + exif_directory.size())});
+    }
+    std::string head = std::string("II*\0\10\0\0\0", kHead) + directory(tags, kHead) + exif_directory;
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x)
         head += shorts({static_cast<int>(field[static_cast<std::size_t>(x % 2 + y % 2)])});
@@ -199,6 +223,64 @@ TEST(Dng, OfASequenceIsDevelopedByTheFirst) {
   first.field = {1000, 1200, 900};
   scratch.write("f2.dng", first.file());
   expect_light(read_all(*open_test_clip(scratch / "f%d.dng")).at(1), first, first.light());
+}
+
+TEST(Dng, TellsItsRateAndExposure) {
+  const Scratch scratch;
+  const auto write = [&](const std::string& name, const Dng& dng) { scratch.write(name, dng.file()); };
+  Dng dng;
+  dng.exposure = {1, 48};
+  write("f1.dng", dng);
+  write("f2.dng", dng);
+  auto clip = open_test_clip(scratch / "f%d.dng");
+  EXPECT_FALSE(clip->info().timing.is_known());
+  ClipOptions stated;
+  stated.rate = Rational{24, 1};
+  EXPECT_EQ(timeline_of("", clip->info(), stated, 2).end_ns(0), 20'833'333) << "1/48 s of 1/24 s";
+
+  dng.rate = {24'000, 1001};
+  write("f1.dng", dng);
+  clip = open_test_clip(scratch / "f%d.dng");
+  EXPECT_EQ(clip->info().timing.rate, (Rational{24'000, 1001}));
+  EXPECT_EQ(clip->info().timing.rate_from, "f1.dng");
+  EXPECT_EQ(clip->info().timing.exposed_ns, 20'833'333);
+
+  // Each is another: none is that of all.
+  dng.exposure = {1, 50};
+  write("f2.dng", dng);
+  clip = open_test_clip(scratch / "f%d.dng");
+  EXPECT_EQ(clip->info().timing.exposed_ns, std::nullopt);
+  ASSERT_EQ(clip->info().notes.size(), 2u);
+  EXPECT_EQ(
+      clip->info().notes[1].text,
+      "exposures are not used, which differ: f1.dng was exposed for 20833333 ns, f2.dng for 20000000 ns; "
+      "a table of stills takes each picture's own");
+  EXPECT_EQ(clip->info().notes[1].settings, std::vector{Setting::shutter_angle});
+
+  // What no camera means is not taken.
+  dng.rate = {-24, 1};
+  dng.exposure = {0, 50};
+  write("f1.dng", dng);
+  write("f2.dng", dng);
+  clip = open_test_clip(scratch / "f%d.dng");
+  EXPECT_EQ(clip->info().timing.rate, std::nullopt);
+  EXPECT_EQ(clip->info().timing.exposed_ns, std::nullopt);
+}
+
+TEST(Dng, GivesATableItsTimes) {
+  const Scratch scratch;
+  Dng dng;
+  dng.exposure = {1, 100};
+  dng.fraction = "25";
+  scratch.write("f1.dng", dng.file());
+  dng.exposure = {1, 50};
+  dng.fraction = "750";
+  scratch.write("f2.dng", dng.file());
+  const auto clip = open_test_clip(scratch.write("list.csv", "f1.dng\nf2.dng\n"));
+  const Timeline timeline = timeline_of("", clip->info(), {}, 2);
+  EXPECT_EQ(timeline.end_ns(0), 10'000'000);
+  EXPECT_EQ(timeline.start_ns(1), 500'000'000);
+  EXPECT_EQ(timeline.end_ns(1), 520'000'000);
 }
 
 TEST(Dng, ThatIsDamagedIsRefused) {

@@ -51,7 +51,7 @@ std::vector<std::string> fact_lines(std::span<const Fact> facts) {
     lines.push_back("part: " + part);
   std::vector<Setting> assumed;
   for (const Fact& fact : facts) {
-    if (subject_of(fact) == About::colour && fact.origin == Origin::assumed) assumed.push_back(fact.setting);
+    if (fact.origin == Origin::assumed) assumed.push_back(fact.setting);
   }
   if (const std::string colours = facts_text(facts, About::colour); !colours.empty()) {
     const std::string others = options_text(assumed);

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "capture/rational.hpp"
+#include "media/extension.hpp"
+#include "media/stills/raw_file.hpp"
 #include "media/stills/stills.hpp"
 
 namespace nutik::stills {
@@ -60,6 +62,12 @@ std::int64_t fraction_ns(const std::string& digits) {
 }  // namespace
 
 StillTimes read_exif_times(const std::filesystem::path& file) {
+  if (extension_of(file) == ".dng") {
+    const RawTags tags = read_raw_tags(file);
+    StillTimes times{date_ns(tags.date), tags.exposure_ns};
+    if (times.start_ns) *times.start_ns += fraction_ns(tags.fraction);
+    return times;
+  }
   const std::unique_ptr<ExifData, FreeExif> data(exif_data_new_from_file(file.c_str()));
   StillTimes times;
   if (!data) return times;

@@ -7,6 +7,7 @@
 #pragma GCC diagnostic pop
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <string>
 
@@ -14,6 +15,63 @@
 #include "capture/format.hpp"
 
 namespace nutik::stills {
+namespace {
+
+constexpr int kExposureTime = 33434, kDateTimeOriginal = 36867, kSubSecTimeOriginal = 37521,
+              kFrameRate = 51044;
+constexpr int kRational = 5, kSignedRational = 10;
+
+void check(int code, const std::filesystem::path& file) {
+  if (code == LIBRAW_SUCCESS) return;
+  throw InputError(format("{} cannot be read: LibRaw says: {}", file.string(), libraw_strerror(code)));
+}
+
+// A number of four bytes; 0 where the file ends before.
+std::int32_t read_word(LibRaw_abstract_datastream& stream, unsigned order) {
+  constexpr unsigned kLittleEndian = 0x4949;
+  std::array<unsigned char, 4> bytes{};
+  if (stream.read(bytes.data(), 1, bytes.size()) != static_cast<int>(bytes.size())) return 0;
+  if (order == kLittleEndian) std::ranges::reverse(bytes);
+  std::uint32_t word = 0;
+  for (const unsigned char byte : bytes) word = word << 8 | byte;
+  return static_cast<std::int32_t>(word);
+}
+
+// LibRaw hands every tag on, the stream at its value. The upper bits of `tag` tell directories from makers' own notes.
+void take_tag(void* tags, int tag, int type, int count, unsigned order, void* stream_data, INT64) {
+  constexpr int kMostText = 64;
+  constexpr int kNumber = 0xFFFF, kNotes = 0xF0000;
+  if ((tag & kNotes) != 0) return;
+  auto& found = *static_cast<RawTags*>(tags);
+  auto& stream = *static_cast<LibRaw_abstract_datastream*>(stream_data);
+  tag &= kNumber;
+  const bool is_fraction = count == 1 && (type == kRational || type == kSignedRational);
+  if ((tag == kExposureTime || tag == kFrameRate) && is_fraction) {
+    const std::int64_t numerator = read_word(stream, order), denominator = read_word(stream, order);
+    if (numerator <= 0 || denominator <= 0) return;
+    if (tag == kFrameRate) found.rate = Rational::of(numerator, denominator);
+    if (tag == kExposureTime) {
+      found.exposure_ns =
+          std::max<std::int64_t>(round_half_up(int128{numerator} * kSecondNs, denominator), 1);
+    }
+  }
+  if ((tag == kDateTimeOriginal || tag == kSubSecTimeOriginal) && count > 0 && count <= kMostText) {
+    std::string text(static_cast<std::size_t>(count), '\0');
+    if (stream.read(text.data(), 1, text.size()) != count) return;
+    text.resize(text.find('\0') == std::string::npos ? text.size() : text.find('\0'));
+    (tag == kDateTimeOriginal ? found.date : found.fraction) = text;
+  }
+}
+
+}  // namespace
+
+RawTags read_raw_tags(const std::filesystem::path& file) {
+  const auto raw = std::make_unique<LibRaw>();  // too large for a thread's stack
+  RawTags tags;
+  raw->set_exifparser_handler(&take_tag, &tags);
+  check(raw->open_file(file.c_str()), file);
+  return tags;
+}
 
 // What LibRaw develops by.
 struct RawDeveloper::Levels {
@@ -45,11 +103,6 @@ RawDeveloper::~RawDeveloper() = default;
 
 Picture RawDeveloper::develop(const std::filesystem::path& file) {
   const auto raw = std::make_unique<LibRaw>();  // too large for a thread's stack
-  const auto check = [&](int code) {
-    if (code != LIBRAW_SUCCESS) {
-      throw InputError(format("{} cannot be read: LibRaw says: {}", file.string(), libraw_strerror(code)));
-    }
-  };
   libraw_output_params_t& wishes = raw->imgdata.params;
   wishes.output_bps = 16;
   wishes.output_color = 1;  // BT.709's primaries
@@ -61,8 +114,8 @@ Picture RawDeveloper::develop(const std::filesystem::path& file) {
   bool is_damaged = false;
   raw->set_dataerror_handler([](void* data, const char*, auto) { *static_cast<bool*>(data) = true; },
                              &is_damaged);
-  check(raw->open_file(file.c_str()));
-  check(raw->unpack());
+  check(raw->open_file(file.c_str()), file);
+  check(raw->unpack(), file);
   if (is_damaged) throw InputError(format("{} cannot be read: it is damaged or was cut off", file.string()));
   if (first_) {
     first_->put(raw->imgdata.color);
@@ -70,11 +123,11 @@ Picture RawDeveloper::develop(const std::filesystem::path& file) {
   } else {
     first_ = std::make_unique<Levels>(raw->imgdata.color);
   }
-  check(raw->dcraw_process());
+  check(raw->dcraw_process(), file);
   int code = LIBRAW_SUCCESS;
   const std::unique_ptr<libraw_processed_image_t, decltype(&LibRaw::dcraw_clear_mem)> image(
       raw->dcraw_make_mem_image(&code), &LibRaw::dcraw_clear_mem);
-  check(code);
+  check(code, file);
   const bool is_read = image && image->type == LIBRAW_IMAGE_BITMAP && image->bits == 16 &&
                        (image->colors == 1 || image->colors == 3);
   if (!is_read)

@@ -1,12 +1,26 @@
 // Pictures of a camera's sensor (DNG), developed by LibRaw to linear light in BT.709's primaries, 16 bits a channel.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "capture/picture.hpp"
+#include "capture/rational.hpp"
 
 namespace nutik::stills {
+
+// When a picture was taken, as far as its tags tell.
+struct RawTags {
+  std::optional<std::int64_t> exposure_ns;  // longer than nothing
+  std::optional<Rational> rate;             // pictures a second, of CinemaDNG; above 0
+  std::string date, fraction;               // DateTimeOriginal and SubSecTimeOriginal, or empty
+};
+
+// Throws InputError where the file is no picture of a sensor.
+[[nodiscard]] RawTags read_raw_tags(const std::filesystem::path& file);
 
 // Develops all pictures of a sequence as its first: by its black and white level, white balance and colour matrix, for
 // with each picture's own a sequence would flicker. Nothing is brightened.

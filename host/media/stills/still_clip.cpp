@@ -205,28 +205,27 @@ class StillClip final : public Clip {
     capture.code_bytes = first_.code_bytes;
     const std::uint32_t full = first_.code_bytes == 1 ? 255 : 65'535;
     capture.white_code = options.white_code.value_or(first_.maximum.value_or(full));
+    const bool is_developed = is_raw(pages_.front().file);
     // Deep stills come from scientific cameras, whose codes are linear; shallow ones are made to be
     // seen.
-    capture.pixel_aspect = first_.pixel_aspect.value_or(Rational{1, 1});
-    describe_stored_codes(info_, options, first_.code_bytes == 1 ? Transfer::srgb() : Transfer::linear());
-    if (capture.pixel_aspect != Rational{1, 1}) {
-      const auto& [wide, high] = capture.pixel_aspect;
-      info_.facts.push_back({format("pixels {}:{}", wide, high),
-                             options.pixel_aspect ? Origin::stated : Origin::file, Setting::pixel_aspect});
-    }
+    describe_stored_codes(
+        info_, options,
+        {first_.code_bytes == 1 ? Transfer::srgb() : Transfer::linear(),
+         is_developed ? std::optional(Primaries::bt709) : std::nullopt, first_.pixel_aspect});
     if (capture.code_bytes == 2 && !first_.maximum && !options.white_code) {
       info_.notes.emplace_back(
           "the files do not say how many of their 16 bits are used: white is taken to be 65535; state "
           "another, 4095 for 12 bits",
           std::vector{Setting::white_code});
     }
-    if (is_raw(pages_.front().file) && pages_.size() > 1) {
+    if (is_developed && pages_.size() > 1) {
       info_.notes.emplace_back(
           format("black level, white balance and colours of all pictures are those that {} states",
                  pages_.front().file.filename().string()));
     }
     info_.timing = timing;
     info_.sample_count = pages_.size();
+    if (is_developed && !timing.is_known()) add_raw_times();
   }
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
@@ -244,6 +243,28 @@ class StillClip final : public Clip {
  private:
   static bool is_raw(const std::filesystem::path& file) { return has_extension(file, {".dng"}); }
   static bool is_tiff(const std::filesystem::path& file) { return has_extension(file, {".tif", ".tiff"}); }
+
+  // The rate that the first picture states, and the exposure, where it was the same for all.
+  void add_raw_times() {
+    const std::filesystem::path& file = pages_.front().file;
+    const RawTags first = read_raw_tags(file);
+    info_.timing.rate = first.rate;
+    info_.timing.rate_from = file.filename().string();
+    if (!first.exposure_ns) return;
+    for (const Page& page : pages_) {
+      const RawTags tags = read_raw_tags(page.file);
+      if (tags.exposure_ns == first.exposure_ns) continue;
+      info_.notes.emplace_back(
+          format(
+              "exposures are not used, which differ: {} was exposed for {} ns, {} for {}; a table of stills "
+              "takes each picture's own",
+              file.filename().string(), *first.exposure_ns, page.file.filename().string(),
+              tags.exposure_ns ? format("{} ns", *tags.exposure_ns) : "a time that it does not tell"),
+          std::vector{Setting::shutter_angle});
+      return;
+    }
+    info_.timing.exposed_ns = first.exposure_ns;
+  }
 
   Still read_page(const Page& page) {
     if (is_raw(page.file)) return still_of(raws_.develop(page.file), 65'535);

@@ -1,27 +1,14 @@
 #include "media/videos/clip_colour.hpp"
 
+#include "media/settled_fact.hpp"
+
 namespace nutik::videos {
 namespace {
 
 constexpr std::uint32_t kLinesOfHighDefinition = 720;
 
-// A fact of what was stated, else what the file says, else what is taken.
-template <typename Value, typename Text>
-Value settle(std::vector<Fact>& facts, const std::optional<Value>& stated, const std::optional<Value>& named,
-             const Value& usual, Setting setting, Text text) {
-  const Origin origin = stated ? Origin::stated : named ? Origin::file : Origin::assumed;
-  const Value value = stated ? *stated : named ? *named : usual;
-  facts.push_back({text(value), origin, setting});
-  return value;
-}
-
 YuvMatrix usual_matrix(const Probe& probe) {
   return probe.shape.height >= kLinesOfHighDefinition ? YuvMatrix::bt709 : YuvMatrix::bt601;
-}
-
-std::string aspect_text(const Rational& aspect) {
-  if (aspect == Rational{1, 1}) return "square pixels";
-  return format("pixels {}:{}", aspect.numerator, aspect.denominator);
 }
 
 }  // namespace
@@ -59,7 +46,7 @@ void describe(CaptureFormat& capture, std::vector<Fact>& facts, const Probe& pro
         Setting::primaries, [](Primaries primaries) { return format("primaries {}", to_text(primaries)); });
   }
   capture.pixel_aspect = settle(facts, options.pixel_aspect, probe.pixel_aspect, Rational{1, 1},
-                                Setting::pixel_aspect, aspect_text);
+                                Setting::pixel_aspect, pixel_aspect_text);
 }
 
 }  // namespace nutik::videos
