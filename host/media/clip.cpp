@@ -16,6 +16,7 @@
 #include "media/still_sequence.hpp"
 #include "media/stills_table.hpp"
 #include "system/input_bytes.hpp"
+#include "system/mapped_file.hpp"
 
 namespace nutik {
 
@@ -111,6 +112,16 @@ std::unique_ptr<Clip> open_raw(const std::filesystem::path& path, const ClipOpti
   return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
 }
 
+// Event cameras write no pictures: lines of text first, each behind `% ` (Prophesee) or starting with `#!AER-DAT`.
+void refuse_events(const std::filesystem::path& path) {
+  const std::string start = first_bytes(path);
+  if (!start.starts_with("% ") && !start.starts_with("#!AER-DAT")) return;
+  throw InputError(
+      format("{} is the recording of an event camera, which holds changes of single pixels and no "
+             "pictures: such are not read. Make a video of it with its camera's program",
+             path.string()));
+}
+
 // All of it, as its files have it.
 std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOptions& options) {
   if (!options.raw) {
@@ -122,6 +133,7 @@ std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOp
     throw InputError(format("{} cannot be read: no such file", path.string()));
   }
   if (options.raw) return open_raw(path, options);
+  refuse_events(path);
   return is_photron_clip(path) ? open_photron_clip(path, options) : video_module().open(path, options);
 }
 

@@ -1,0 +1,170 @@
+// Nothing is assumed in silence: of every recorded clip the program says what it read, what it took, and with which
+// option another can be stated.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "support/program_test.hpp"
+
+namespace nutik {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Facts : public test::ProgramTest {
+ protected:
+  // The first pictures of a clip: what the summary says, then what the capture keeps of it.
+  struct Told {
+    std::string summary;
+    std::map<std::string, std::string> facts;  // by what they are of, each with who said it
+  };
+
+  Told told(const fs::path& clip, const std::vector<std::string>& options) const {
+    std::vector<std::string> words{"encode", "--to", "3f", clip.string(), "part.tik"};
+    words.insert(words.end(), options.begin(), options.end());
+    const auto encoded = run(words);
+    EXPECT_EQ(encoded.status, 0) << clip << encoded.err;
+    const auto info = run({"info", "part.tik"});
+    EXPECT_EQ(info.status, 0) << clip << info.err;
+    Told result{encoded.out + encoded.err, {}};
+    std::istringstream lines(info.out);
+    constexpr std::string_view kStart = "  taken for   ";
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with(kStart)) {
+        const std::string fact = line.substr(kStart.size());
+        result.facts[subject_of(fact)] = fact;
+      }
+    }
+    return result;
+  }
+
+  // `rate`, `pixel aspect`, …, as the options call it.
+  static std::string subject_of(const std::string& fact) {
+    const std::vector<std::pair<std::string, std::string>> kWords{
+        {"pictures a second", "fps"}, {"shutter ", "shutter-angle"}, {"transfer ", "transfer"},
+        {"matrix ", "matrix"},        {" range", "range"},           {"primaries ", "primaries"},
+        {"pixels", "pixel-aspect"},   {"pictures 0", "to"}};
+    for (const auto& [word, subject] : kWords) {
+      if (fact.find(word) != std::string::npos) return subject;
+    }
+    return fact;
+  }
+
+  // Each fact says where it comes from, and the summary names the options of those that were assumed, and of no others.
+  static void expect_origins(const Told& told, const fs::path& clip) {
+    std::set<std::string> assumed, named;
+    for (const auto& [subject, fact] : told.facts) {
+      const std::string said = fact.substr(std::min(fact.find(", "), fact.size()));
+      EXPECT_TRUE(said.starts_with(", from ") || said == ", as stated" || said.starts_with(", assumed"))
+          << clip << ": " << fact;
+      if (said.starts_with(", assumed")) assumed.insert(subject);
+    }
+    const std::string start = "what is assumed can be stated (";
+    const auto at = told.summary.find(start);
+    if (at != std::string::npos) {
+      std::istringstream list(
+          told.summary.substr(at + start.size(), told.summary.find(')', at) - at - start.size()));
+      for (std::string option; list >> option;) {
+        if (option.back() == ',') option.pop_back();
+        named.insert(option.substr(2));
+      }
+    }
+    EXPECT_EQ(named, assumed) << clip << "\n" << told.summary;
+  }
+};
+
+const fs::path kMedia = NUTIK_TEST_MEDIA;
+
+struct Recording {
+  std::string name;
+  std::vector<std::string> options;
+  std::set<std::string>
+      facts;         // beside rate, shutter, transfer function, shape of pixels, and the part that is taken
+  std::string said;  // what else the summary must name
+};
+
+// Every file of the folder: a new one is to be added here.
+const std::vector<Recording>& recordings() {
+  static const std::set<std::string> kVideo{"matrix", "range", "primaries"};
+  static const std::vector<Recording> kAll{
+      {"BallTossOut.mp4", {}, kVideo, "slow-motion files state their playback rate"},
+      {"bicycle-wheel.mp4", {}, kVideo, "transfer srgb (assumed: the file names bt709)"},
+      {"bikes.mp4", {}, kVideo, "25 pictures a second (from the file)"},
+      {"bottle-detection.mp4", {}, kVideo, "square pixels (from the file)"},
+      {"bulk-water.mov", {}, kVideo, "full range (from the file)"},
+      {"diabolo-cm-trajectory.mp4", {}, kVideo, "matrix bt709 (assumed)"},
+      {"one-by-one-person-detection.mp4", {}, kVideo, "transfer srgb (assumed: the file names smpte170m)"},
+      {"realshort.mp4", {}, kVideo, "matrix bt601 (assumed)"},
+      {"ball_12bit.mraw", {}, {}, "shutter 216 degrees (from ball_12bit.cihx: 20000 ns)"},
+      {"ball_12bit.cihx", {}, {}, "30000 pictures a second (from ball_12bit.cihx)"},
+      {"ball_12bit_png",
+       {"-f", "30000"},
+       {},
+       "white is taken to be 65535; state another, 4095 for 12 bits (--white)"},
+      {"cine_781.cine", {}, {}, "transfer linear (assumed)"},
+      {"data_small_cine.cine", {}, {}, "transfer linear (from the file)"},
+      {"stuck.tif", {"-f", "20"}, {}, "white is taken to be 65535"},
+      {"sparks_ref_480x270.yuv42010le.yuv",
+       {"-f", "24", "--raw", "480x270:yuv420p10le"},
+       kVideo,
+       "24 pictures a second (--fps)"}};
+  return kAll;
+}
+
+TEST_F(Facts, OfEveryRecordingHaveTheirOrigin) {
+  if (!fs::exists(kMedia / "README.md")) GTEST_SKIP() << "no clips in " << kMedia;
+  std::set<std::string> files{"README.md", "evt2.raw"};
+  for (const auto& [name, options, more, said] : recordings()) {
+    files.insert(name);
+    const Told told = this->told(kMedia / name, options);
+    expect_origins(told, name);
+    std::set<std::string> subjects, expected{"fps", "shutter-angle", "transfer", "pixel-aspect", "to"};
+    for (const auto& [subject, fact] : told.facts) subjects.insert(subject);
+    expected.insert(more.begin(), more.end());
+    EXPECT_EQ(subjects, expected) << name;
+    EXPECT_NE(told.summary.find(said), std::string::npos) << name << ": no '" << said << "' in\n"
+                                                          << told.summary;
+  }
+  for (const auto& entry : fs::directory_iterator(kMedia)) {
+    EXPECT_TRUE(files.contains(entry.path().filename().string())) << entry.path() << " is not tried here";
+  }
+}
+
+// What the containers name is read, and what they do not is said to be assumed.
+TEST_F(Facts, OfVideosAreWhatFfprobeFinds) {
+  if (!fs::exists(kMedia / "README.md")) GTEST_SKIP() << "no clips in " << kMedia;
+  if (test::run_shell("ffprobe -version", scratch_.folder()).status != 0)
+    GTEST_SKIP() << "ffprobe is missing";
+  const std::map<std::string, std::string> fields{{"matrix", "color_space"},
+                                                  {"range", "color_range"},
+                                                  {"primaries", "color_primaries"},
+                                                  {"pixel-aspect", "sample_aspect_ratio"}};
+  for (const Recording& recording : recordings()) {
+    if (!recording.name.ends_with(".mp4") && !recording.name.ends_with(".mov")) continue;
+    const Told told = this->told(kMedia / recording.name, {});
+    const auto probed = test::run_shell(
+        "ffprobe -v error -select_streams v:0 -show_streams " + (kMedia / recording.name).string(),
+        scratch_.folder());
+    for (const auto& [subject, field] : fields) {
+      const auto at = probed.out.find("\n" + field + "=");
+      ASSERT_NE(at, std::string::npos) << field;
+      const auto begin = at + field.size() + 2;
+      const std::string value = probed.out.substr(begin, probed.out.find('\n', begin) - begin);
+      const bool is_named = value != "unknown" && value != "N/A";
+      const std::string& fact = told.facts.at(subject);
+      EXPECT_EQ(fact.find(", from the file") != std::string::npos, is_named)
+          << recording.name << ": " << fact << ", and ffprobe has " << field << "=" << value;
+    }
+  }
+}
+
+TEST_F(Facts, OfAnEventCameraAreThatItHasNoPictures) {
+  if (!fs::exists(kMedia / "evt2.raw")) GTEST_SKIP() << "no clips in " << kMedia;
+  expect_refused({"encode", (kMedia / "evt2.raw").string(), "x.tik"}, 3,
+                 "is the recording of an event camera");
+}
+
+}  // namespace
+}  // namespace nutik
