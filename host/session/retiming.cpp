@@ -1,5 +1,7 @@
 #include "session/retiming.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -7,6 +9,8 @@
 
 #include "capture/error.hpp"
 #include "capture/fact.hpp"
+#include "media/clip.hpp"
+#include "media/settled_fact.hpp"
 #include "session/time_text.hpp"
 #include "system/interruption.hpp"
 #include "tik/reader.hpp"
@@ -15,8 +19,41 @@
 namespace nutik {
 namespace {
 
-Timeline timeline_of(const RetimeRequest& request, const Timeline& before) {
+// What a fact's line states, without who said so and what else was said.
+std::string_view stated_by(std::string_view line) {
+  for (const std::string_view origin : {", from ", ", as stated", ", assumed"}) {
+    line = line.substr(0, line.find(origin));
+  }
+  return line;
+}
+
+// Which setting changes what a line states; none for the part of a clip, and for what codes no longer depend on.
+std::optional<Setting> setting_of(std::string_view line) {
+  const std::string_view text = stated_by(line);
+  if (text.find("pictures a second") != text.npos || text.starts_with("a picture every "))
+    return Setting::frame_rate;
+  if (text.starts_with("shutter ")) return Setting::shutter_angle;
+  if (text.starts_with("transfer ")) return Setting::transfer;
+  if (text.starts_with("primaries ")) return Setting::primaries;
+  if (text.starts_with("pixels ") || text == pixel_aspect_text({1, 1})) return Setting::pixel_aspect;
+  return std::nullopt;
+}
+
+// Whether a camera wrote down for how long its shutter was open: so long it was at any rate.
+bool is_timed_shutter(std::string_view line) {
+  return setting_of(line) == Setting::shutter_angle && line.find(", from ") != line.npos &&
+         line.ends_with(" ns");
+}
+
+Timeline timeline_of(const RetimeRequest& request, const tik::Header& header, const Timeline& before) {
   if (!request.rate && !request.shutter_angle) return before;
+  if (request.rate && !request.shutter_angle && std::ranges::any_of(header.facts, is_timed_shutter)) {
+    ClipInfo timed;
+    timed.timing.exposed_ns = before.end_ns(0) - before.start_ns(0);
+    ClipOptions stated;
+    stated.rate = request.rate;
+    return timeline_of(request.capture.string(), timed, stated, before.sample_count());
+  }
   const Rational angle = request.shutter_angle.value_or(before.shutter_angle());
   if (request.rate || before.is_constant()) {
     return Timeline::constant(request.rate.value_or(before.rate()), angle, before.sample_count());
@@ -26,32 +63,28 @@ Timeline timeline_of(const RetimeRequest& request, const Timeline& before) {
   return Timeline::irregular(std::move(starts), angle);
 }
 
-// Of a fact's line what is stated, without who said so and what else was said.
-std::string_view stated_by(std::string_view line) {
-  for (const std::string_view origin : {", from ", ", as stated", ", assumed"}) {
-    line = line.substr(0, line.find(origin));
-  }
-  return line;
-}
-
-// Those that still hold, and what was stated now.
-std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Header& before) {
+// Those that still hold, and what was stated now in the places of what it corrects.
+std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Header& before,
+                                  const Timeline& timeline) {
   std::vector<std::string> facts = before.facts;
-  const auto state = [&](Setting setting, std::string_view kind, const std::string& text) {
-    std::erase_if(facts,
-                  [&](const std::string& fact) { return stated_by(fact).find(kind) != std::string::npos; });
-    facts.push_back(Fact{text, Origin::stated, setting}.line());
+  const auto state = [&](Setting setting, const std::string& text) {
+    const std::string line = Fact{text, Origin::stated, setting}.line();
+    const auto corrected = std::ranges::find(facts, std::optional(setting), setting_of);
+    if (corrected == facts.end()) {
+      facts.push_back(line);
+    } else {
+      *corrected = line;
+    }
   };
-  if (request.rate) state(Setting::frame_rate, "picture", rate_text(*request.rate, "picture"));
-  if (request.shutter_angle)
-    state(Setting::shutter_angle, "shutter", format("shutter {} degrees", request.shutter_angle->text()));
-  if (request.transfer) state(Setting::transfer, "transfer", "transfer " + request.transfer->text());
-  if (request.primaries)
-    state(Setting::primaries, "primaries", format("primaries {}", to_text(*request.primaries)));
-  if (request.pixel_aspect) {
-    state(Setting::pixel_aspect, "pixels",
-          format("pixels {}:{}", request.pixel_aspect->numerator, request.pixel_aspect->denominator));
+  const std::string shutter = format("shutter {} degrees", timeline.shutter_angle().text());
+  for (std::string& fact : facts) {
+    if (is_timed_shutter(fact)) fact.replace(0, stated_by(fact).size(), shutter);
   }
+  if (request.rate) state(Setting::frame_rate, rate_text(*request.rate, "picture"));
+  if (request.shutter_angle) state(Setting::shutter_angle, shutter);
+  if (request.transfer) state(Setting::transfer, "transfer " + request.transfer->text());
+  if (request.primaries) state(Setting::primaries, format("primaries {}", to_text(*request.primaries)));
+  if (request.pixel_aspect) state(Setting::pixel_aspect, pixel_aspect_text(*request.pixel_aspect));
   return facts;
 }
 
@@ -74,13 +107,13 @@ Retimed retime(const RetimeRequest& request) {
                request.capture.string(), capture.transfer.text()),
         {Setting::transfer});
   }
-  const Timeline timeline = timeline_of(request, reader.timeline());
+  const Timeline timeline = timeline_of(request, header, reader.timeline());
   header.rate = timeline.is_constant() ? std::optional(timeline.rate()) : std::nullopt;
   header.shutter_angle = timeline.shutter_angle();
   capture.transfer = request.transfer.value_or(capture.transfer);
   capture.primaries = request.primaries.value_or(capture.primaries);
   capture.pixel_aspect = request.pixel_aspect.value_or(capture.pixel_aspect);
-  header.facts = facts_of(request, reader.header());
+  header.facts = facts_of(request, reader.header(), timeline);
 
   auto writer = tik::Writer::from_raster(request.output, header, reader.first_sample());
   for (std::uint64_t block = 0; block < reader.block_count(); ++block) {

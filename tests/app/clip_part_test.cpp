@@ -131,6 +131,9 @@ TEST_F(PartOfAClip, ComesThroughAPipe) {
       shell("cat a.y4m | " + program + " encode - && " + program + " info standard-input.tik");
   EXPECT_EQ(capture.status, 0) << capture.err;
   EXPECT_NE(capture.out.find("12 samples"), std::string::npos) << capture.out;
+  const auto short_form = shell("cat a.y4m | " + program + " - short.tik");
+  EXPECT_EQ(short_form.status, 0) << short_form.err;
+  EXPECT_TRUE(test::read_file(scratch_ / "short.tik") == test::read_file(scratch_ / "standard-input.tik"));
 
   scratch_.write("f.fn", "M0 [0:1], [10000000:0]\n");
   const auto twice = shell("cat f.fn | " + program + " expose -k - - -o x.png");

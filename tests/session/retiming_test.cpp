@@ -79,15 +79,11 @@ TEST(Retiming, GivesIrregularStartsAnotherAngle) {
   EXPECT_EQ(after.header().facts, std::vector<std::string>{"shutter 90 degrees, as stated"});
 }
 
-// What one fact says beside another stays with it.
-TEST(Retiming, ReplacesTheFactThatItCorrects) {
-  const test::RandomCase random(3);
-  const Scratch scratch;
-  const tik::Reader plain(test::write_tik(random, {tik::CodecId::lz4, 0}, scratch));
+// A copy of a capture that tells these facts.
+std::filesystem::path telling(const Scratch& scratch, const tik::Reader& plain,
+                              std::vector<std::string> facts) {
   tik::Header header = plain.header();
-  header.facts = {"240 pictures a second, from the file", "shutter 360 degrees, assumed",
-                  "primaries bt709, from the file; the file names no transfer",
-                  "transfer srgb, assumed; pictures are often so"};
+  header.facts = std::move(facts);
   auto writer = tik::Writer::from_raster(scratch / "told.tik", header, plain.first_sample());
   for (std::uint64_t block = 0; block < plain.block_count(); ++block) {
     const auto [stored, payload] = plain.stored(block);
@@ -98,12 +94,53 @@ TEST(Retiming, ReplacesTheFactThatItCorrects) {
     writer.append(stored, payload, exposures);
   }
   writer.finish(plain.timeline());
-  static_cast<void>(
-      retime({scratch / "told.tik", scratch / "told.tik", Rational{960, 1}, {}, Transfer::linear(), {}, {}}));
-  EXPECT_EQ(tik::Reader(scratch / "told.tik").header().facts,
-            (std::vector<std::string>{"shutter 360 degrees, assumed",
+  return scratch / "told.tik";
+}
+
+// In its place; what one fact says beside another stays with it.
+TEST(Retiming, ReplacesTheFactThatItCorrects) {
+  const test::RandomCase random(3);
+  const Scratch scratch;
+  const tik::Reader plain(test::write_tik(random, {tik::CodecId::lz4, 0}, scratch));
+  const auto told =
+      telling(scratch, plain,
+              {"240 pictures a second, from the file", "shutter 360 degrees, assumed",
+               "primaries bt709, from the file; the file names no transfer",
+               "transfer srgb, assumed; pictures are often so", "pictures 6 … 14 of 30, as stated",
+               "a picture from each field, top field first, as stated", "square pixels, assumed",
+               "80 x 45 as means of light, as stated"});
+  static_cast<void>(retime({told, told, Rational{960, 1}, {}, Transfer::linear(), {}, Rational{4, 3}}));
+  EXPECT_EQ(tik::Reader(told).header().facts,
+            (std::vector<std::string>{"960 pictures a second, as stated", "shutter 360 degrees, assumed",
                                       "primaries bt709, from the file; the file names no transfer",
-                                      "960 pictures a second, as stated", "transfer linear, as stated"}));
+                                      "transfer linear, as stated", "pictures 6 … 14 of 30, as stated",
+                                      "a picture from each field, top field first, as stated",
+                                      "pixels 4:3, as stated", "80 x 45 as means of light, as stated"}));
+}
+
+// As encoding the clip again with that rate would have it.
+TEST(Retiming, KeepsTheTimeThatACameraWroteDown) {
+  test::RandomCase random(1);
+  for (std::uint64_t seed = 2; !random.timeline.is_constant(); ++seed) random = test::RandomCase(seed);
+  const Scratch scratch;
+  const tik::Reader plain(test::write_tik(random, {tik::CodecId::lz4, 0}, scratch));
+  const Timeline& before = plain.timeline();
+  const std::int64_t exposed_ns = before.end_ns(0) - before.start_ns(0);
+  const std::string from = ", from a.cih: " + std::to_string(exposed_ns) + " ns";
+  const Rational half = Rational::of(before.rate().numerator, 2 * before.rate().denominator);
+  for (const bool is_timed : {true, false}) {
+    const auto told =
+        telling(scratch, plain,
+                {"shutter " + before.shutter_angle().text() + " degrees" + (is_timed ? from : ", assumed")});
+    static_cast<void>(retime({told, told, half, {}, {}, {}, {}}));
+    const tik::Reader after(told);
+    EXPECT_NEAR(static_cast<double>(after.timeline().end_ns(0)),
+                static_cast<double>(is_timed ? exposed_ns : 2 * exposed_ns),
+                1.0 + 1e-6 * static_cast<double>(exposed_ns));
+    ASSERT_EQ(after.header().facts.size(), 2u);
+    EXPECT_EQ(after.header().facts[0], "shutter " + after.timeline().shutter_angle().text() + " degrees" +
+                                           (is_timed ? from : ", assumed"));
+  }
 }
 
 TEST(Retiming, RefusesWhatItCannotDo) {

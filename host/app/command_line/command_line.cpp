@@ -18,7 +18,7 @@ namespace {
 // A first word that names no file and looks like no file's name was meant as a command.
 void fail_misspelt_command(const std::string& word) {
   std::error_code error;
-  const bool is_word = word.find_first_of("./*?%[") == std::string::npos;
+  const bool is_word = word.find_first_of("./*?%[") == std::string::npos && word != "-";
   if (!is_word || std::filesystem::exists(word, error)) return;
   std::vector<std::string> known;
   for (const Command& command : commands()) known.push_back(std::string(command.name));
@@ -45,7 +45,7 @@ const Command& shorthand(const Words& words) {
   };
   if (words.operands.size() > 1 || is_given("output")) return command(CommandId::encode);
   if (!first.ends_with(".tik")) {
-    const std::string stem = std::filesystem::path(first).stem().string();
+    const std::string stem = first == "-" ? "clip" : std::filesystem::path(first).stem().string();
     throw UsageError(
         format("the output is missing: nutik-cl {} {}", shell_word(first), shell_word(stem + ".tik")));
   }

@@ -101,11 +101,11 @@ class LibavClip final : public Clip {
   }
 
   [[noreturn]] void refuse_fields(const std::string& what, FieldOrder order) const {
-    throw InputError(format("{}: {} is interlaced, {}: its odd and even lines were taken at two moments, and "
-                            "would come out as "
-                            "combs. Say what becomes of them",
-                            name_, what, to_text(order)),
-                     {Setting::deinterlace});
+    throw InputError(
+        format("{}: {} is interlaced, {}: its odd and even lines were taken at two moments, and "
+               "would come out as combs. Say what pictures are made of: frames, fields, or neither, no",
+               name_, what, to_text(order)),
+        {Setting::deinterlace});
   }
 
   // Of a decoded picture.
