@@ -12,7 +12,7 @@ program_packages=(
   libopencv-dev libavfilter-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
   libexif-dev libpng-dev libjpeg-dev libtiff-dev libopenexr-dev libraw-dev liblcms2-dev
   libzstd-dev liblz4-dev libxxhash-dev libcairo2-dev fonts-dejavu-core
-  libfmt-dev nlohmann-json3-dev
+  libeigen3-dev libfmt-dev nlohmann-json3-dev
 )
 # The scene generator and the plotter.
 script_packages=(python3 python3-numpy python3-opencv python3-matplotlib)

@@ -1,5 +1,6 @@
 #include "exposure/function_file.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "capture/format.hpp"
 #include "capture/source_text.hpp"
 #include "exposure/function_numbers.hpp"
+#include "exposure/function_template.hpp"
 #include "system/interruption.hpp"
 
 namespace nutik {
@@ -38,7 +40,11 @@ struct Abandon {};
 
 class Parser {
  public:
-  explicit Parser(std::string_view bytes) : text_(bytes) {}
+  // Names in place of numbers are mistakes, unless there is a template to keep them in.
+  explicit Parser(std::string_view bytes, FunctionTemplate* names = nullptr) : text_(bytes), names_(names) {}
+
+  // The text that places are in.
+  [[nodiscard]] std::string_view text() const { return text_.view(); }
 
   FunctionFile parse() {
     if (const auto zero = text_.view().find('\0'); zero != std::string_view::npos) {
@@ -111,7 +117,10 @@ class Parser {
     if (is_braced_) ++at_;  // the closing brace
     brace_.reset();
     expect_line_end();
-    if (!std::exchange(is_broken_, false)) {
+    if (std::exchange(is_broken_, false)) return;
+    if (names_ != nullptr) {
+      names_->functions.emplace(tag, std::move(template_points_));
+    } else {
       file_.functions.emplace(tag, FileFunction{GainFunction(std::move(points)), text_.place_of(start), start,
                                                 std::move(time_at_)});
     }
@@ -121,6 +130,7 @@ class Parser {
   std::vector<ControlPoint> parse_points() {
     std::vector<ControlPoint> points;
     time_at_.clear();
+    template_points_.clear();
     skip_space();
     if (at_list_end()) fail_without_points();
     for (;;) {
@@ -148,7 +158,9 @@ class Parser {
     skip_blanks();
     const std::size_t time_at = at_;
     if (!is_word(peek())) fail_without_number("time", "whole nanoseconds");
-    const std::int64_t time_ns = number_or_fail(read_time(take_word()), time_at);
+    const Named named_time = take_name(&FunctionTemplate::Place::time);
+    const std::int64_t time_ns =
+        named_time.name ? named_time.added_ns : number_or_fail(read_time(take_word()), time_at);
     skip_blanks();
     if (peek() != ':') {
       const std::size_t rest = peek() == ',' ? behind_blanks(at_ + 1) : at_;
@@ -160,16 +172,57 @@ class Parser {
     skip_blanks();
     const std::size_t gain_at = at_;
     if (!is_word(peek())) fail_without_number("gain", "a number");
-    const std::string_view gain_word = take_word();
-    const double gain = number_or_fail(read_gain(gain_word), gain_at);
+    const Named named_gain = take_name(&FunctionTemplate::Place::gain);
+    const std::string_view gain_word = named_gain.name ? std::string_view() : take_word();
+    const double gain = named_gain.name ? 0.0 : number_or_fail(read_gain(gain_word), gain_at);
     skip_blanks();
     if (peek() == '\n') fail(bracket, "a bracket that is not closed on its line; ']' ends a control point");
     if (peek() != ']') fail_at_other("where ']' should end the control point", split_gain_way_out(gain_word));
     ++at_;
-    if (!points.empty() && time_ns <= points.back().time_ns)
+    // Named times are in order or not when they are known; of one name that is known here.
+    const bool is_comparable =
+        template_points_.empty() || template_points_.back().time_name == named_time.name;
+    if (!points.empty() && is_comparable && time_ns <= points.back().time_ns)
       note_disorder(time_at, points.back().time_ns, time_ns);
+    if (names_ != nullptr) template_points_.push_back({time_ns, gain, named_time.name, named_gain.name});
     points.push_back({time_ns, gain});
     time_at_.push_back(time_at);
+  }
+
+  struct Named {
+    std::optional<std::size_t> name;
+    std::int64_t added_ns = 0;
+  };
+
+  // A name in the place of a number, `rest`, of a time also `when+10000000`; none where a number stands, or names are
+  // not to be kept.
+  Named take_name(std::optional<std::size_t> FunctionTemplate::Place::*kind) {
+    if (names_ == nullptr || !is_letter(peek())) return {};
+    const std::size_t at = at_;
+    const std::string_view word = take_word();
+    const bool is_time = kind == &FunctionTemplate::Place::time;
+    const std::string_view name = word.substr(0, word.find_first_of("+-"));
+    const auto is_part = [](char c) { return is_digit(c) || c == '_' || ((c & 0x80) == 0 && is_letter(c)); };
+    if (!std::ranges::all_of(name, is_part) || name == "inf" || name == "nan" || (!is_time && name != word)) {
+      fail(at,
+           format(
+               "{} is neither a number nor a name; a name has letters, digits and _, and a time's may go on "
+               "with +NANOSECONDS",
+               quoted(word)));
+    }
+    Named named;
+    if (name != word) named.added_ns = number_or_fail(read_time(word.substr(name.size())), at);
+    std::vector<std::string>& known = is_time ? names_->times : names_->gains;
+    if (std::ranges::count(is_time ? names_->gains : names_->times, name) > 0) {
+      note(at, format("{} stands for a gain and for a time; give one of them another name", quoted(name)));
+    }
+    const auto found = std::ranges::find(known, name);
+    named.name = static_cast<std::size_t>(found - known.begin());
+    if (found == known.end()) known.emplace_back(name);
+    FunctionTemplate::Place place{at, at_, {}, {}, named.added_ns};
+    place.*kind = named.name;
+    names_->places.push_back(place);
+    return named;
   }
 
   void note_disorder(std::size_t at, std::int64_t before_ns, std::int64_t time_ns) {
@@ -327,6 +380,7 @@ class Parser {
   }
 
   SourceText text_;
+  FunctionTemplate* names_;
   std::size_t at_ = 0;
   FunctionFile file_;
   std::map<std::uint8_t, std::size_t> first_lines_;  // by mask value, also of functions with errors
@@ -336,10 +390,19 @@ class Parser {
   bool is_braced_ = false;
   bool is_broken_ = false;  // it has an error that was noted
   std::vector<std::size_t> time_at_;
+  std::vector<TemplatePoint> template_points_;  // where names are kept
 };
 
 }  // namespace
 
 FunctionFile parse_functions(std::string_view bytes) { return Parser(bytes).parse(); }
+
+FunctionTemplate parse_template(std::string_view bytes) {
+  FunctionTemplate names;
+  Parser parser(bytes, &names);
+  names.diagnostics = parser.parse().diagnostics;
+  names.text = parser.text();
+  return names;
+}
 
 }  // namespace nutik

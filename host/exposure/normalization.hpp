@@ -39,12 +39,12 @@ class Normalization {
   [[nodiscard]] GainFunction normalized(const GainFunction& function, std::int64_t duration_ns, double gain,
                                         const std::string& name) const;
 
+  // D / X of such a function, whose D is not 0. Throws as above.
+  [[nodiscard]] double divided_by(const GainSummary& summary, const std::string& name) const;
+
   friend bool operator==(const Normalization&, const Normalization&) = default;
 
  private:
-  // D / X. D is not 0.
-  [[nodiscard]] double divided_by(const GainSummary& summary, const std::string& name) const;
-
   Divisor divisor_ = Divisor::support;
   Rational seconds_{1, 1};
 };

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "capture/format.hpp"
+#include "exposure/function_file.hpp"
 #include "media/picture_writer.hpp"
 #include "media/recipe.hpp"
 #include "system/mapped_file.hpp"
@@ -48,6 +49,13 @@ bool is_table_content(std::string_view bytes) {
   return line.find(',') != std::string_view::npos && line.find('\0') == std::string_view::npos;
 }
 
+bool is_functions_content(const std::filesystem::path& file) {
+  const MappedFile mapped(file);
+  const FunctionFile functions =
+      parse_functions({reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size()});
+  return !functions.functions.empty() || !functions.broken.empty();
+}
+
 bool is_video_content(std::string_view bytes) {
   const bool is_matroska = bytes.starts_with("\x1A\x45\xDF\xA3");
   const bool is_mp4 = bytes.size() >= 8 && bytes.substr(4, 4) == "ftyp";
@@ -65,6 +73,7 @@ bool is_content_of(OutputKind kind, const std::filesystem::path& file) {
     case OutputKind::table: return is_table_content(bytes);
     case OutputKind::video: return is_video_content(bytes);
     case OutputKind::noise: return bytes.starts_with("nutik noise");
+    case OutputKind::functions: return is_functions_content(file);
   }
   return false;
 }
@@ -77,6 +86,7 @@ const char* name_of(OutputKind kind) {
     case OutputKind::table: return "table";
     case OutputKind::video: return "video";
     case OutputKind::noise: return "noise file";
+    case OutputKind::functions: return "function file";
   }
   return "";
 }
@@ -110,6 +120,9 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   }
   if (kind == OutputKind::noise && (output.extension() == ".tik" || is_picture_name(output))) {
     throw UsageError(format("{} is no name for a text: a camera's noise is written as .noise", name));
+  }
+  if (kind == OutputKind::functions && output.extension() != ".fn") {
+    throw UsageError(format("{}: gain functions are written as .fn", name));
   }
   if (is_picture && !is_picture_name(output)) {
     throw UsageError(format("{}: pictures are written as {}", name, picture_extensions()));

@@ -10,7 +10,7 @@
 
 namespace nutik {
 
-enum class OutputKind { tik, picture, mask, table, video, noise };
+enum class OutputKind { tik, picture, mask, table, video, noise, functions };
 
 // The name is one of another kind.
 struct WrongOutputName : UsageError {

@@ -31,6 +31,7 @@ enum class CommandId {
   validate,
   plate,
   study,
+  solve,
   completion,
   man
 };

@@ -10,22 +10,22 @@ constexpr CommandSet kAll = ~CommandSet{0};
 // Those that read a clip, and so take what describes it.
 constexpr CommandSet kReadsClips =
     set_of(Id::encode, Id::expose, Id::batch, Id::check, Id::trace, Id::mask, Id::contact, Id::activity,
-           Id::sweep, Id::video, Id::validate, Id::plate, Id::study);
+           Id::sweep, Id::video, Id::validate, Id::plate, Id::study, Id::solve);
 // Those that decode a clip, and so take what its codes are.
 constexpr CommandSet kDecodesClips = kReadsClips | bit(Id::noise);
 // Those of them that turn it into a capture, or expose it.
 constexpr CommandSet kEncodesClips = kReadsClips & ~bit(Id::check);
 // Those that take gain functions.
 constexpr CommandSet kTakesFunctions =
-    set_of(Id::expose, Id::check, Id::trace, Id::sweep, Id::video, Id::validate);
+    set_of(Id::expose, Id::check, Id::trace, Id::sweep, Id::video, Id::validate, Id::solve);
 // Those that take a plain interval.
 constexpr CommandSet kTakesIntervals =
     set_of(Id::expose, Id::trace, Id::mask, Id::contact, Id::sweep, Id::validate, Id::shutter);
 // Those that shape and weigh what they expose.
-constexpr CommandSet kShapesExposures = kTakesFunctions & ~bit(Id::check);
+constexpr CommandSet kShapesExposures = kTakesFunctions & ~set_of(Id::check, Id::solve);
 // Those that expose pictures, and so take what says how that is computed.
 constexpr CommandSet kExposes =
-    set_of(Id::expose, Id::batch, Id::mask, Id::contact, Id::sweep, Id::video, Id::study);
+    set_of(Id::expose, Id::batch, Id::mask, Id::contact, Id::sweep, Id::video, Id::study, Id::solve);
 // Those whose pictures may hold light below 0.
 constexpr CommandSet kExposesFreely = set_of(Id::expose, Id::contact, Id::sweep, Id::video);
 // Those that lay pictures out on a sheet.
@@ -244,6 +244,17 @@ constexpr Option kRows[] = {
      "even, fade (ends at nothing), ramp (begins at nothing) or none (default: what the style has)",
      "even fade ramp none"},
 
+    heading("What is solved for"),
+    {0, "wish", "WISH", subject, bit(Id::solve), {},
+     "what the picture should have, as often as there are wishes: 'M0 = plate', 'R1 gone', 'M64 like 0.8s', "
+     "'500,120,80,60 <= 0.5'. A region (all, M64, R1, X,Y,WIDTH,HEIGHT, M64 within X,Y,WIDTH,HEIGHT), then gone, or =, <=, "
+     ">=, like and light: a number, plate, a time, a region, also 1.5 times it: 1.5 * plate"},
+    {0, "free", "NAME=FROM..TO", subject, bit(Id::solve), {},
+     "bounds of a gain, rest=-100..0 (default: none), or when a time may be, when=0.6s..0.8s, in steps "
+     "when=60f..80f/1f (default: any)"},
+    {0, "regions", "MASK.pgm", subject, bit(Id::solve), &Options::regions,
+     "a second mask, whose values are the regions R0 … R255 of wishes"},
+
     heading("The plate"),
     {0, "by", "CODES", subject, bit(Id::plate), &Options::by,
      "codes that differ by no more, to either side, stand for the same light (default: three standard "
@@ -310,7 +321,7 @@ constexpr Option kRows[] = {
     {0, "no-recipe", "", output, kExposes & ~bit(Id::mask), &Options::no_recipe,
      "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},
     {'q', "quiet", "", output, kAll, &Options::quiet, "no progress bar and no summary"},
-    {'v', "verbose", "", output, (kExposes & ~bit(Id::mask)) | bit(Id::trace), &Options::verbose,
+    {'v', "verbose", "", output, (kExposes & ~set_of(Id::mask, Id::solve)) | bit(Id::trace), &Options::verbose,
      "say more: what is read and what is skipped, in which precision and why, how fast and with how much "
      "memory; every step of a trace"},
 };

@@ -39,8 +39,8 @@ struct Options {
   // How it is computed, and how right that is.
   Value renderer, device, precision, memory, source, runs;
 
-  // A study.
-  Value style, moments, spacing, trail;
+  // A study; what is solved for.
+  Value style, moments, spacing, trail, regions;
 
   // Masks, plates, and changes over time.
   Value by, base, size, preview, uncertain, csv, moment, map;

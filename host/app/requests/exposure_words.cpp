@@ -70,8 +70,8 @@ Mask exposure_mask(const Options& options, const FunctionSet& functions) {
   return feathered(mask, Feather::parse(*options.feather));
 }
 
-// All but when it is exposed.
-ExposureRequest timeless_request(const Options& options) {
+// All but when it is exposed. Functions are read unless they are known.
+ExposureRequest timeless_request(const Options& options, const std::optional<Shared<FunctionSet>>& known = {}) {
   ExposureRequest request;
   request.unmapped_is_zero = parse_only(options.unmapped, "--unmapped", "zero");
   request.live_all = parse_only(options.live, "--live", "all");
@@ -94,7 +94,7 @@ ExposureRequest timeless_request(const Options& options) {
   refuse(options.exposure, "--exposure");
   refuse(options.shutter, "--shutter");
   refuse(options.shutter_error, "--shutter-error");
-  const Shared<FunctionSet> functions = read_functions_of(*options.functions);
+  const Shared<FunctionSet> functions = known ? *known : read_functions_of(*options.functions);
   if (!options.mask && functions->size() > 1) {
     throw UsageError(format("{} holds {} functions; a mask says where each applies: -m mask.pgm",
                             input_title(*options.functions), functions->size()));
@@ -131,6 +131,10 @@ Shutter parse_shutter(const std::string& shape, const std::optional<std::string>
     }
   }
   return {ShutterShape::parse(shape), error};
+}
+
+ExposureRequest exposure_request(const Options& options, const Shared<FunctionSet>& functions) {
+  return timeless_request(options, functions);
 }
 
 ExposureRequest exposure_request(const Options& options) {

@@ -21,6 +21,7 @@
 #include "session/picture_recipe.hpp"
 #include "session/series_request.hpp"
 #include "session/sheets.hpp"
+#include "session/solve_request.hpp"
 #include "session/source_request.hpp"
 #include "session/study_request.hpp"
 #include "session/sweep_request.hpp"
@@ -41,6 +42,8 @@ inline constexpr std::string_view kAutomaticNoise = "auto";
 [[nodiscard]] std::shared_ptr<Devices> make_devices(const Options& options);
 
 [[nodiscard]] ExposureRequest exposure_request(const Options& options);
+// With functions that -k only names.
+[[nodiscard]] ExposureRequest exposure_request(const Options& options, const Shared<FunctionSet>& functions);
 // For naming the picture: `FnFile`, `0.4s-10ms`.
 [[nodiscard]] std::string exposure_label(const Options& options);
 // The shutter of that name, and what --gain and --ev multiply light with.
@@ -59,6 +62,9 @@ inline constexpr std::string_view kAutomaticNoise = "auto";
 
 // Which moments of what moves are shown, and what between them.
 [[nodiscard]] StudyRequest study_request(const Options& options);
+
+// What gains and times are to be found for.
+[[nodiscard]] SolveRequest solve_request(const Options& options);
 
 // What a mask is made of:
 //

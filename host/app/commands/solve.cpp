@@ -1,0 +1,150 @@
+#include "session/solve_request.hpp"
+
+#include "app/command_line/option_table.hpp"
+#include "app/commands/commands.hpp"
+#include "app/commands/opened_session.hpp"
+#include "app/output/output_name.hpp"
+#include "app/output/progress.hpp"
+#include "app/output/report.hpp"
+#include "app/requests/requests.hpp"
+#include "app/text/shell_text.hpp"
+#include "app/text/text_table.hpp"
+#include "session/format.hpp"
+#include "session/output_check.hpp"
+#include "session/size_text.hpp"
+#include "session/time_text.hpp"
+#include "system/output_file.hpp"
+
+namespace nutik::app {
+namespace {
+
+// By channel, or of brightness alone.
+std::vector<double> numbers_of(const SolvedWish& wish, const ChannelLight& light) {
+  return {light.begin(), light.begin() + static_cast<std::ptrdiff_t>(wish.missed.size())};
+}
+
+std::string numbers_text(const std::vector<double>& numbers, std::string_view specification) {
+  std::string text;
+  for (const double number : numbers) {
+    text += (text.empty() ? "" : " ") +
+            (specification == "light" ? format("{:.6f}", number) : format("{:.2g}", number));
+  }
+  return text;
+}
+
+// `rest = -25.0113, when = 612.5 ms`
+std::string found_text(const FunctionTemplate& functions, const NamedNumbers& numbers) {
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < functions.gains.size(); ++i)
+    found.push_back(format("{} = {:.9g}", functions.gains[i], numbers.gains[i]));
+  for (std::size_t i = 0; i < functions.times.size(); ++i)
+    found.push_back(format("{} = {}", functions.times[i], duration_text(numbers.times_ns[i])));
+  return joined(found);
+}
+
+std::string wishes_table(const SolvedExposure& solved) {
+  std::vector<std::vector<std::string>> rows{{"wish", "wanted", "reached", "missed by", "cost"}};
+  for (const SolvedWish& wish : solved.wishes) {
+    rows.push_back({wish.text, numbers_text(numbers_of(wish, wish.light.wanted), "light"),
+                    numbers_text(numbers_of(wish, wish.light.reached), "light"),
+                    wish.is_kept() ? "-" : numbers_text(wish.missed, "missed"),
+                    wish.is_kept() ? "-" : format("{:.2g}", wish.cost)});
+  }
+  return table_text(rows, "lllll");
+}
+
+Json json_of(const std::filesystem::path& output, const SolveRequest& request, const SolvedExposure& solved) {
+  Json json{{"functions", output.string()}, {"gains", Json::object()}, {"times_ns", Json::object()}};
+  for (std::size_t i = 0; i < request.functions.gains.size(); ++i)
+    json["gains"][request.functions.gains[i]] = solved.numbers.gains[i];
+  for (std::size_t i = 0; i < request.functions.times.size(); ++i)
+    json["times_ns"][request.functions.times[i]] = solved.numbers.times_ns[i];
+  json["wishes"] = Json::array();
+  for (const SolvedWish& wish : solved.wishes) {
+    json["wishes"].push_back({{"wish", wish.text},
+                              {"wanted", numbers_of(wish, wish.light.wanted)},
+                              {"reached", numbers_of(wish, wish.light.reached)},
+                              {"missed", wish.missed},
+                              {"cost", wish.cost},
+                              {"kept", wish.is_kept()}});
+  }
+  json["untold"] = Json::array();
+  for (const std::size_t gain : solved.untold) json["untold"].push_back(request.functions.gains[gain]);
+  json.update({{"kept", solved.is_kept()},
+               {"cost", solved.cost()},
+               {"open_gains", solved.open_count},
+               {"tried_exposures", solved.tried},
+               {"saturated_below_pixels", solved.saturation.below},
+               {"saturated_above_pixels", solved.saturation.above}});
+  return json;
+}
+
+// The command that exposes with what was found.
+std::string next_command(const Options& options, const std::filesystem::path& output) {
+  std::string words;
+  for (const Option& option : app::options()) {
+    if (!option.is_of(CommandId::expose) || !option.makes_picture() || option.long_name == "functions")
+      continue;
+    const std::string* const value = option.stated(options);
+    if (value != nullptr) words += format(" {} {}", option.display_name(), shell_word(*value));
+    if (value == nullptr && option.is_flag() && option.is_in(options)) words += " " + option.display_name();
+  }
+  return format("nutik-cl{} -k {} {} picture.png", words, shell_word(output.string()),
+                shell_word(options.operands.front()));
+}
+
+// What a person should know of it.
+std::vector<std::string> notes_of(const SolveRequest& request, const SolvedExposure& solved) {
+  std::vector<std::string> notes;
+  for (const std::size_t gain : solved.untold) {
+    notes.push_back(format("note: no wish depends on {}; it stays where it began, at {:.9g}",
+                           request.functions.gains[gain], solved.numbers.gains[gain]));
+  }
+  if (solved.open_count > 0) {
+    notes.push_back(format(
+        "note: the wishes are kept in more than one way: gains could still change together, in {}. What is "
+        "nearest to where they began was taken; another wish, or bounds, would tell",
+        counted(solved.open_count, "way")));
+  }
+  return notes;
+}
+
+}  // namespace
+
+int run_solve(const Options& options) {
+  const Stopwatch stopwatch;
+  const std::filesystem::path output =
+      stated_output(options, "solve").value_or(exposure_label(options) + "-solved.fn");
+  check_output(output, OutputKind::functions, input_files(options));
+  const SolveRequest request = solve_request(options);
+
+  Session session = open_session(options, {.besides = solve_needs(request)});
+  const SolvedExposure solved =
+      solve(session, options.operands.front(), request, progress_bar("reading", options.quiet),
+            progress_bar("looking for times", options.quiet));
+  std::vector<std::string> warnings = solved.warnings;
+  if (!solved.is_kept()) {
+    warnings.push_back(
+        format("not all wishes could be kept: the numbers are those with the least cost of all, {:.2g}",
+               solved.cost()));
+  }
+  print_warnings(warnings);
+  write_text(output, solved.text);
+
+  Answer answer{json_of(output, request, solved)};
+  answer.json["seconds"] = stopwatch.seconds();
+  answer.line =
+      format("{}: {}; {} tried, {:.2f} s", output.string(), found_text(request.functions, solved.numbers),
+             counted(solved.tried, "exposure"), stopwatch.seconds());
+  answer.details.push_back(wishes_table(solved));
+  if (solved.saturation.below + solved.saturation.above > 0) {
+    answer.details.push_back(format("the picture: {} saturated below 0 and {} above 1",
+                                    counted(solved.saturation.below, "pixel"), solved.saturation.above));
+  }
+  answer.details.push_back("try: " + next_command(options, output));
+  answer.notes = source_lines(session);
+  for (std::string& note : notes_of(request, solved)) answer.notes.push_back(std::move(note));
+  return tell(options, output, answer);
+}
+
+}  // namespace nutik::app

@@ -1,0 +1,320 @@
+#include "solve/gain_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/compensated_sum.hpp"
+#include "system/interruption.hpp"
+
+namespace nutik {
+namespace {
+
+using Kind = LightWish::Kind;
+
+constexpr int kMostSteps = 60;
+// A step that changes no gain by more than this share of it is none.
+constexpr double kLeastStep = 1e-15;
+// Nor is one that lessens the cost by a smaller share.
+constexpr double kLeastGain = 1e-12;
+// How far gains are changed to see what that changes, as a share: exact but for rounding where light is a straight
+// function of them.
+constexpr double kProbe = 1e-4;
+// In place of a gain that is 0 on its way, whose time counts as if it were not.
+constexpr double kNearlyZero = 1e-30;
+
+bool is_inequality(Kind kind) { return kind == Kind::at_most || kind == Kind::at_least; }
+bool compares_channels(Kind kind) { return kind == Kind::like || kind == Kind::gone; }
+
+// The middle of the bounds; where one is missing 1, or -1, or what is nearest to that.
+double begin_within(const Bounds& bounds) {
+  if (std::isfinite(bounds.low) && std::isfinite(bounds.high))
+    return bounds.low + (bounds.high - bounds.low) / 2;
+  return bounds.high <= 0.0 ? std::min(-1.0, bounds.high) : std::clamp(1.0, bounds.low, bounds.high);
+}
+
+std::vector<ControlPoint> with_gains(const std::vector<TemplatePoint>& points, const auto& gain_of) {
+  std::vector<ControlPoint> control;
+  for (const TemplatePoint& point : points)
+    control.push_back({point.time_ns, point.gain_name ? gain_of(*point.gain_name) : point.gain});
+  return control;
+}
+
+}  // namespace
+
+GainSearch::GainSearch(WishedExposure exposure) : exposure_(std::move(exposure)) {
+  for (const LightWish& wish : exposure_.wishes)
+    row_kinds_.insert(row_kinds_.end(), compares_channels(wish.kind) ? exposure_.channels : 1, wish.kind);
+}
+
+std::optional<GainSearch::Parts> GainSearch::parts_of(const std::vector<TemplatePoint>& function,
+                                                      std::uint8_t tag,
+                                                      const std::vector<std::int64_t>& times_ns) const {
+  const auto timed = FunctionTemplate::points(function, times_ns);
+  if (!timed) return std::nullopt;
+  Parts parts;
+  parts.points = function;
+  parts.is_timeless = true;
+  for (std::size_t i = 0; i < function.size(); ++i) {
+    parts.is_timeless &= !function[i].time_name;
+    parts.points[i].time_ns = (*timed)[i].time_ns;
+  }
+  for (std::size_t part = 0; part <= exposure_.bounds.size(); ++part) {
+    std::vector<ControlPoint> points = *timed;
+    for (std::size_t i = 0; part > 0 && i < points.size(); ++i)
+      points[i].gain = function[i].gain_name == part - 1 ? 1.0 : 0.0;
+    const std::vector<GainPiece> pieces = GainFunction(std::move(points)).pieces(exposure_.duration_ns);
+    CompensatedSum still;
+    for (const GainPiece& piece : pieces)
+      still.add(static_cast<double>(piece.end_ns - piece.begin_ns) * (piece.begin_gain + piece.end_gain) / 2);
+    parts.still_ns.push_back(still.value());
+    for (std::size_t region = 0; region < exposure_.regions.size(); ++region) {
+      const auto& courses = exposure_.regions[region].courses;
+      if (const auto course = courses.find(tag); course != courses.end())
+        parts.light_ns[region].push_back(course->second.integral_ns(pieces));
+    }
+  }
+  return parts;
+}
+
+double GainSearch::scale_of(std::uint8_t tag, const std::vector<double>& gains) const {
+  const auto gain_of = [&](std::size_t name) {
+    return gains[name] == 0.0 && !is_zero_[name] ? kNearlyZero : gains[name];
+  };
+  const GainSummary summary =
+      summarize(GainFunction(with_gains(parts_.at(tag).points, gain_of)), exposure_.duration_ns);
+  if (summary.support_ns == 0) return 0.0;
+  const std::string name = format("M{}", tag);
+  return exposure_.gain * exposure_.normalization.divided_by(summary, name) /
+         static_cast<double>(summary.support_ns);
+}
+
+std::vector<ChannelLight> GainSearch::region_light(const std::vector<double>& gains) const {
+  std::vector<std::array<CompensatedSum, 3>> sums(exposure_.regions.size());
+  for (const auto& [tag, parts] : parts_) {
+    const double scale = scale_of(tag, gains);
+    for (const auto& [region, light_ns] : parts.light_ns) {
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        sums[region][channel].add(scale * light_ns[0][channel]);
+        for (std::size_t i = 0; i < gains.size(); ++i)
+          sums[region][channel].add(scale * gains[i] * light_ns[i + 1][channel]);
+      }
+    }
+  }
+  std::vector<ChannelLight> light;
+  for (const auto& sum : sums) light.push_back({sum[0].value(), sum[1].value(), sum[2].value()});
+  return light;
+}
+
+std::vector<WishedLight> GainSearch::wished(const std::vector<ChannelLight>& region_light,
+                                            const std::vector<double>& gains) const {
+  const auto brightness = [&](const ChannelLight& light) {
+    return light[0] * exposure_.luminance[0] + light[1] * exposure_.luminance[1] +
+           light[2] * exposure_.luminance[2];
+  };
+  std::vector<WishedLight> wished;
+  for (const LightWish& wish : exposure_.wishes) {
+    ChannelLight wanted{};
+    if (wish.kind == Kind::gone) {
+      for (const auto& [tag, still] : wish.still) {
+        const Parts& parts = parts_.at(tag);
+        double through = parts.still_ns[0];
+        for (std::size_t i = 0; i < gains.size(); ++i) through += gains[i] * parts.still_ns[i + 1];
+        const double scale = scale_of(tag, gains);
+        for (std::size_t channel = 0; channel < 3; ++channel)
+          wanted[channel] += scale * through * still[channel];
+      }
+    } else if (const auto* light = std::get_if<ChannelLight>(&wish.target)) {
+      wanted = *light;
+    } else if (const auto* region = std::get_if<std::size_t>(&wish.target)) {
+      wanted = region_light[*region];
+    }
+    ChannelLight reached = region_light[wish.region];
+    if (!compares_channels(wish.kind)) {
+      const auto* number = std::get_if<double>(&wish.target);
+      wanted = {number != nullptr ? *number : brightness(wanted)};
+      reached = {brightness(reached)};
+    }
+    for (double& each : wanted) each *= wish.factor;
+    wished.push_back({wanted, reached});
+  }
+  return wished;
+}
+
+std::vector<WishedLight> GainSearch::wished(const std::vector<ChannelLight>& region_light) const {
+  return wished(region_light, gains_);
+}
+
+std::vector<double> GainSearch::missed(const LightWish& wish, const WishedLight& light) const {
+  std::vector<double> missed;
+  for (std::size_t channel = 0; channel < (compares_channels(wish.kind) ? exposure_.channels : 1);
+       ++channel) {
+    const double difference = light.reached[channel] - light.wanted[channel];
+    if (wish.kind == Kind::at_most) {
+      missed.push_back(std::max(difference, 0.0));
+    } else {
+      missed.push_back(wish.kind == Kind::at_least ? std::min(difference, 0.0) : difference);
+    }
+  }
+  return missed;
+}
+
+std::vector<double> GainSearch::differences(const std::vector<double>& gains) const {
+  std::vector<double> differences;
+  const std::vector<WishedLight> wished = this->wished(region_light(gains), gains);
+  for (std::size_t i = 0; i < wished.size(); ++i) {
+    const LightWish& wish = exposure_.wishes[i];
+    for (std::size_t channel = 0; channel < (compares_channels(wish.kind) ? exposure_.channels : 1);
+         ++channel)
+      differences.push_back(std::sqrt(wish.weight) *
+                            (wished[i].reached[channel] - wished[i].wanted[channel]));
+  }
+  return differences;
+}
+
+double GainSearch::cost_of(const std::vector<double>& differences) const {
+  CompensatedSum cost;
+  for (std::size_t row = 0; row < differences.size(); ++row) {
+    const bool is_kept = (row_kinds_[row] == Kind::at_most && differences[row] < 0) ||
+                         (row_kinds_[row] == Kind::at_least && differences[row] > 0);
+    if (!is_kept) cost.add(differences[row] * differences[row]);
+  }
+  return cost.value();
+}
+
+std::vector<LeastSquaresRow> GainSearch::changes(const std::vector<double>& gains) const {
+  const std::vector<double> here = differences(gains);
+  std::vector<LeastSquaresRow> rows(here.size());
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    const double by = kProbe * std::max(1.0, std::fabs(gains[i]));
+    std::vector<double> more = gains, less = gains;
+    more[i] += by;
+    less[i] -= by;
+    const std::vector<double> above = differences(more), below = differences(less);
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      const double change = (above[row] - below[row]) / (more[i] - less[i]);
+      // What rounding leaves of no change.
+      const double noise = 1e-15 * (std::fabs(above[row]) + std::fabs(below[row])) / by;
+      rows[row].factors.push_back(std::fabs(change) <= noise ? 0.0 : change);
+    }
+  }
+  for (std::size_t row = 0; row < rows.size(); ++row) rows[row].wanted = here[row];
+  return rows;
+}
+
+// The gains that would be best if light were a straight function of them as it is here. What a wish of "at most" and
+// "at least" leaves is one more number that may be anything from 0 on.
+std::vector<double> GainSearch::stepped() const {
+  std::vector<LeastSquaresRow> rows = changes(gains_);
+  std::vector<Bounds> bounds = bounds_;
+  std::vector<double> begin = gains_;
+  std::vector<std::size_t> rests(rows.size(), 0);
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (!is_inequality(row_kinds_[row])) continue;
+    rests[row] = bounds.size();
+    const double rest = row_kinds_[row] == Kind::at_most ? -rows[row].wanted : rows[row].wanted;
+    bounds.push_back({0.0, std::numeric_limits<double>::infinity()});
+    begin.push_back(std::max(rest, 0.0));
+  }
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    LeastSquaresRow& each = rows[row];
+    double wanted = -each.wanted;
+    for (std::size_t i = 0; i < gains_.size(); ++i) wanted += each.factors[i] * gains_[i];
+    each.wanted = wanted;
+    each.factors.resize(bounds.size(), 0.0);
+    if (rests[row] > 0) each.factors[rests[row]] = row_kinds_[row] == Kind::at_most ? 1.0 : -1.0;
+  }
+  std::vector<double> found = least_squares(rows, bounds, std::move(begin));
+  found.resize(gains_.size());
+  return found;
+}
+
+void GainSearch::descend() {
+  if (gains_.empty()) return;
+  double cost = cost_of(differences(gains_));
+  for (int step = 0; step < kMostSteps && cost > 0.0; ++step) {
+    check_interruption();
+    const std::vector<double> towards = stepped();
+    bool is_better = false, is_far = false;
+    for (double share = 1.0; share > 1e-6 && !is_better; share /= 2) {
+      std::vector<double> next = gains_;
+      for (std::size_t i = 0; i < next.size(); ++i) {
+        next[i] = share == 1.0 ? towards[i] : next[i] + share * (towards[i] - next[i]);
+        is_far |= std::fabs(next[i] - gains_[i]) > kLeastStep * std::fabs(next[i]);
+      }
+      if (!is_far) break;
+      double reached = cost;
+      try {
+        reached = cost_of(differences(next));
+      } catch (const InputError&) {  // a function whose parts cancel there: not so far
+        continue;
+      }
+      if (reached >= cost) continue;
+      is_better = reached < cost * (1 - kLeastGain);
+      cost = reached;
+      gains_ = std::move(next);
+      if (!is_better) return;
+    }
+    if (!is_better) return;
+  }
+}
+
+std::optional<FoundGains> GainSearch::find(const std::vector<std::int64_t>& times_ns) {
+  for (const auto& [tag, function] : exposure_.functions) {
+    const auto known = parts_.find(tag);
+    if (known != parts_.end() && known->second.is_timeless) continue;
+    auto parts = parts_of(function, tag, times_ns);
+    if (!parts) return std::nullopt;
+    parts_.insert_or_assign(tag, std::move(*parts));
+  }
+  bounds_ = exposure_.bounds;
+  is_zero_.assign(bounds_.size(), false);
+  gains_.clear();
+  for (const Bounds& bounds : bounds_) gains_.push_back(begin_within(bounds));
+  for (std::size_t turn = 0; turn <= bounds_.size(); ++turn) {
+    descend();
+    // A gain of 0 counts in no support: with that the others are found again.
+    bool has_new = false;
+    for (std::size_t i = 0; i < gains_.size(); ++i) {
+      if (gains_[i] != 0.0 || is_zero_[i]) continue;
+      is_zero_[i] = has_new = true;
+      bounds_[i] = {0.0, 0.0};
+    }
+    if (!has_new) break;
+  }
+  return FoundGains{gains_, cost_of(differences(gains_))};
+}
+
+std::vector<std::size_t> GainSearch::untold() const {
+  const std::vector<LeastSquaresRow> rows = changes(gains_);
+  std::vector<std::size_t> untold;
+  for (std::size_t i = 0; i < gains_.size(); ++i) {
+    if (std::ranges::all_of(rows, [&](const LeastSquaresRow& row) { return row.factors[i] == 0.0; }))
+      untold.push_back(i);
+  }
+  return untold;
+}
+
+std::size_t GainSearch::open_count() const {
+  const std::vector<std::size_t> untold = this->untold();
+  std::vector<std::size_t> told;  // within their bounds
+  for (std::size_t i = 0; i < gains_.size(); ++i) {
+    if (gains_[i] > bounds_[i].low && gains_[i] < bounds_[i].high && std::ranges::count(untold, i) == 0)
+      told.push_back(i);
+  }
+  std::vector<LeastSquaresRow> rows;
+  const std::vector<LeastSquaresRow> all = changes(gains_);
+  for (std::size_t row = 0; row < all.size(); ++row) {
+    const bool is_kept = (row_kinds_[row] == Kind::at_most && all[row].wanted < -1e-9) ||
+                         (row_kinds_[row] == Kind::at_least && all[row].wanted > 1e-9);
+    if (is_kept) continue;  // with something left
+    LeastSquaresRow kept;
+    for (const std::size_t i : told) kept.factors.push_back(all[row].factors[i]);
+    rows.push_back(std::move(kept));
+  }
+  return told.size() - (rows.empty() ? 0 : rank_of(rows));
+}
+
+}  // namespace nutik

@@ -1,0 +1,118 @@
+// The gains that come nearest to wishes about light, of gain functions whose times are known.
+//
+//   in:      functions with names in place of gains, courses of light of regions, wishes
+//   out:     the gains with the least Σ weight · (what is missed)², within bounds; what no wish tells stays where it
+//            began
+//   always:  light is a straight function of the gains where the divisor does not depend on them: then this is one
+//            bounded least squares. Another divisor (∫g) is followed step by step (Gauss and Newton)
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "exposure/function_template.hpp"
+#include "exposure/normalization.hpp"
+#include "solve/bounded_least_squares.hpp"
+#include "solve/region_light.hpp"
+
+namespace nutik {
+
+struct LightWish {
+  enum class Kind {
+    equal,     // brightness
+    at_most,   // brightness
+    at_least,  // brightness
+    like,      // every channel
+    gone  // every channel: what moves adds nothing. As like, of the still light exposed with the same functions
+  };
+  // A number, of brightness; light that rests; the light that another region is exposed to.
+  using Target = std::variant<double, ChannelLight, std::size_t>;
+
+  std::size_t region = 0;
+  Kind kind = Kind::equal;
+  double factor = 1.0;  // of the target
+  Target target = 1.0;
+  // Of `gone`: the still light, by the mask value of the function that exposes it.
+  std::map<std::uint8_t, ChannelLight> still = {};
+  double weight = 1.0;
+};
+
+struct WishedExposure {
+  std::int64_t duration_ns = 0;
+  std::map<std::uint8_t, std::vector<TemplatePoint>> functions;  // that regions are exposed with
+  Normalization normalization;
+  double gain = 1.0;  // that light is multiplied with
+  std::vector<RegionLight> regions;
+  std::vector<LightWish> wishes;
+  std::vector<Bounds> bounds;  // of gains
+  ChannelLight luminance{};    // how much of brightness each channel is; adds up to 1
+  std::uint32_t channels = 1;
+};
+
+struct FoundGains {
+  std::vector<double> gains;
+  double cost = 0.0;  // Σ weight · missed²
+};
+
+// What is wanted of a wish's region and what it has; of wishes about brightness in the first alone.
+struct WishedLight {
+  ChannelLight wanted{}, reached{};
+};
+
+class GainSearch {
+ public:
+  explicit GainSearch(WishedExposure exposure);
+
+  // None where times are out of order in a function. Throws InputError where a function cannot be normalized.
+  [[nodiscard]] std::optional<FoundGains> find(const std::vector<std::int64_t>& times_ns);
+
+  // Of the gains that find() found last: those that no wish depends on, and how many of the others the wishes leave
+  // open, being fewer than they.
+  [[nodiscard]] std::vector<std::size_t> untold() const;
+  [[nodiscard]] std::size_t open_count() const;
+
+  // What each wish asks for and gets with them, where regions have such light.
+  [[nodiscard]] std::vector<WishedLight> wished(const std::vector<ChannelLight>& region_light) const;
+  // The light of regions by the reckoning that find() goes by.
+  [[nodiscard]] std::vector<ChannelLight> region_light() const { return region_light(gains_); }
+
+  [[nodiscard]] const WishedExposure& exposure() const { return exposure_; }
+  // What is missed of a wish, by channel or as brightness, signed; 0 where it is kept.
+  [[nodiscard]] std::vector<double> missed(const LightWish& wish, const WishedLight& light) const;
+
+ private:
+  // Integrals of a function's parts: of what is known of it, then of each named gain as if it were 1.
+  struct Parts {
+    std::vector<TemplatePoint> points;  // with their times
+    bool is_timeless = false;           // none of them is named
+    std::vector<double> still_ns;
+    std::map<std::size_t, std::vector<ChannelLight>> light_ns;  // by region
+  };
+
+  [[nodiscard]] std::optional<Parts> parts_of(const std::vector<TemplatePoint>& function, std::uint8_t tag,
+                                              const std::vector<std::int64_t>& times_ns) const;
+  // What a function's integrals are multiplied with: gain / X.
+  [[nodiscard]] double scale_of(std::uint8_t tag, const std::vector<double>& gains) const;
+  [[nodiscard]] std::vector<ChannelLight> region_light(const std::vector<double>& gains) const;
+  [[nodiscard]] std::vector<WishedLight> wished(const std::vector<ChannelLight>& region_light,
+                                                const std::vector<double>& gains) const;
+  // What is missed of all wishes, those that are kept included, row by row, times the roots of their weights.
+  [[nodiscard]] std::vector<double> differences(const std::vector<double>& gains) const;
+  [[nodiscard]] double cost_of(const std::vector<double>& differences) const;
+  // How differences change with the gains.
+  [[nodiscard]] std::vector<LeastSquaresRow> changes(const std::vector<double>& gains) const;
+  void descend();
+  [[nodiscard]] std::vector<double> stepped() const;
+
+  WishedExposure exposure_;
+  std::vector<LightWish::Kind> row_kinds_;  // of differences
+  std::map<std::uint8_t, Parts> parts_;
+  std::vector<Bounds> bounds_;
+  std::vector<bool> is_zero_;  // gains that came to 0, and so count in no support
+  std::vector<double> gains_;
+};
+
+}  // namespace nutik

@@ -1,0 +1,242 @@
+#include "solve/region_light.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "exposure/compensated_sum.hpp"
+#include "imev/each_block.hpp"
+#include "system/interruption.hpp"
+
+namespace nutik {
+namespace {
+
+using ChannelSums = std::array<CompensatedSum, 3>;
+
+// Light of a region that one function exposes, as it is summed up.
+struct Course {
+  std::size_t region = 0;
+  std::uint8_t tag = 0;
+  std::vector<ChannelSums> changes;  // at each sample of the block
+  std::vector<ChannelLight> light;   // of all samples so far
+  ChannelSums plate;
+};
+
+// All regions' courses, and the weights that pixels have in them.
+class Courses {
+ public:
+  Courses(const Mask& mask, const Mask* marks, const std::vector<LightRegion>& regions)
+      : mask_(mask),
+        pixels_(mask, marks),
+        regions_(regions),
+        weights_(regions.size()),
+        counts_(regions.size()) {
+    course_of_.assign(regions.size(), {});
+    for (auto& courses : course_of_) courses.fill(kNone);
+    for (std::uint64_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
+      if (pixel % mask.width == 0) check_interruption();
+      for (std::size_t region = 0; region < regions.size(); ++region) {
+        const double weight = pixels_.weight(regions[region], pixel);
+        if (weight == 0.0) continue;
+        weights_[region].add(weight);
+        ++counts_[region];
+        for_each_share(pixel, [&](std::uint8_t tag, double) { course(region, tag); });
+      }
+    }
+  }
+
+  // Calls visit(course, weight), weights of a region adding up to 1.
+  template <typename Visit>
+  void for_each(std::uint64_t pixel, Visit visit) {
+    for (std::size_t region = 0; region < regions_.size(); ++region) {
+      const double weight = pixels_.weight(regions_[region], pixel);
+      if (weight == 0.0) continue;
+      for_each_share(pixel, [&](std::uint8_t tag, double share) {
+        visit(list[course_of_[region][tag]], weight * share / weights_[region].value());
+      });
+    }
+  }
+
+  [[nodiscard]] std::uint64_t pixel_count(std::size_t region) const { return counts_[region]; }
+
+  // Whether any pixel of each tile is in a region.
+  [[nodiscard]] std::vector<bool> wanted_tiles(const TileGrid& grid) const {
+    std::vector<bool> wanted(grid.tile_count());
+    for (std::uint64_t pixel = 0; pixel < mask_.tags.size(); ++pixel) {
+      const bool is_in = std::ranges::any_of(
+          regions_, [&](const LightRegion& region) { return pixels_.weight(region, pixel) != 0.0; });
+      if (!is_in) continue;
+      wanted[grid.tile_of(static_cast<std::uint32_t>(pixel % mask_.width),
+                          static_cast<std::uint32_t>(pixel / mask_.width))] = true;
+    }
+    return wanted;
+  }
+
+  std::vector<Course> list;
+
+ private:
+  static constexpr std::size_t kNone = ~std::size_t{0};
+
+  template <typename Visit>
+  void for_each_share(std::uint64_t pixel, Visit visit) const {
+    const auto shares = mask_.mixed.of(pixel);
+    if (shares.empty()) visit(mask_.tags[pixel], 1.0);
+    for (const Share& share : shares) visit(share.of, static_cast<double>(share.size) / kWholeShare);
+  }
+
+  void course(std::size_t region, std::uint8_t tag) {
+    std::size_t& at = course_of_[region][tag];
+    if (at != kNone) return;
+    at = list.size();
+    list.push_back({region, tag, {}, {}, {}});
+  }
+
+  const Mask& mask_;
+  RegionPixels pixels_;
+  const std::vector<LightRegion>& regions_;
+  std::vector<CompensatedSum> weights_;  // of each region's pixels
+  std::vector<std::uint64_t> counts_;
+  std::vector<std::array<std::size_t, kMaskValues>> course_of_;  // by region and tag
+};
+
+}  // namespace
+
+double RegionPixels::weight(const LightRegion& region, std::uint64_t pixel) const {
+  if (region.within) {
+    const Rectangle& within = *region.within;
+    const std::uint64_t x = pixel % mask_.width, y = pixel / mask_.width;
+    if (x - within.x >= within.width || y - within.y >= within.height)
+      return 0.0;  // also left of it, and above
+  }
+  if (region.mark && marks_->tags[pixel] != *region.mark) return 0.0;
+  if (!region.tag) return 1.0;
+  const auto shares = mask_.mixed.of(pixel);
+  if (shares.empty()) return mask_.tags[pixel] == *region.tag ? 1.0 : 0.0;
+  const auto found = std::ranges::find(shares, *region.tag, &Share::of);
+  return found == shares.end() ? 0.0 : static_cast<double>(found->size) / kWholeShare;
+}
+
+ChannelLight mean_light(const Picture& light, const RegionPixels& pixels, const LightRegion& region) {
+  const auto values = light.values<double>();
+  const std::uint32_t channels = light.shape.channels;
+  ChannelSums sums;
+  CompensatedSum weights;
+  for (std::uint64_t pixel = 0; pixel < light.shape.pixel_count(); ++pixel) {
+    const double weight = pixels.weight(region, pixel);
+    if (weight == 0.0) continue;
+    weights.add(weight);
+    for (std::uint32_t channel = 0; channel < channels; ++channel)
+      sums[channel].add(weight * values[pixel * channels + channel]);
+  }
+  ChannelLight mean{};
+  for (std::uint32_t channel = 0; channel < channels; ++channel)
+    mean[channel] = sums[channel].value() / weights.value();
+  return mean;
+}
+
+std::vector<RegionLight> measure_regions(CaptureSource& capture, const Transfer& transfer, const Mask& mask,
+                                         const Mask* marks, const std::vector<LightRegion>& regions,
+                                         const Picture* plate, SampleRange samples,
+                                         const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+  const CaptureFormat& format = capture.format();
+  const Timeline& timeline = capture.timeline();
+  const std::uint32_t channels = format.shape.channels;
+  const TileGrid grid(format.shape);
+  const std::vector<double> light_of = transfer.light_of_all_codes(format.white_code, format.code_bytes);
+  Courses courses(mask, marks, regions);
+  const std::vector<bool> is_wanted = courses.wanted_tiles(grid);
+  const auto wants = [&](std::uint64_t first, std::uint64_t last) {
+    while (first < last && !is_wanted[first]) ++first;
+    return first < last;
+  };
+
+  std::vector<CompensatedSum> white_ns(regions.size());
+  std::vector<ChangeRecord> history;
+  BlockCursor cursor(capture);
+  std::optional<std::uint64_t> first_sample;
+  std::uint64_t last_sample = 0;
+  const auto add_pixel = [&](const BlockView& block, const std::vector<std::int64_t>& starts_ns,
+                             std::uint64_t pixel) {
+    courses.for_each(pixel, [&](Course& course, double weight) {
+      ChannelLight before{};
+      for (std::size_t r = 0; r < history.size(); ++r) {
+        const ChangeRecord& record = history[r];
+        bool is_white = false;
+        for (std::uint32_t channel = 0; channel < channels; ++channel) {
+          const double light = weight * light_of[record.codes[channel]];
+          course.changes[record.sample][channel].add(light - before[channel]);
+          before[channel] = light;
+          is_white |= record.codes[channel] == format.white_code;
+        }
+        if (!is_white) continue;
+        const std::uint32_t until =
+            r + 1 < history.size() ? history[r + 1].sample : block.extent().sample_count;
+        white_ns[course.region].add(weight *
+                                    static_cast<double>(starts_ns[until] - starts_ns[record.sample]));
+      }
+    });
+  };
+  for (std::uint64_t number = 0; number < capture.block_count(); ++number) {
+    const SampleRange held = capture.block_extent(number).range();
+    if (held.last <= samples.first || held.first >= samples.last) continue;
+    if (progress) progress(number, capture.block_count());
+    const BlockView block = cursor.at(number, wants);
+    if (!first_sample) first_sample = held.first;
+    last_sample = held.last;
+    std::vector<std::int64_t> starts_ns;
+    for (std::uint64_t k = held.first; k < held.last; ++k) starts_ns.push_back(timeline.start_ns(k));
+    starts_ns.push_back(timeline.reach_end_ns(held.last - 1));
+    for (Course& course : courses.list) course.changes.assign(block.extent().sample_count, {});
+    for (std::uint64_t tile = 0; tile < grid.tile_count(); ++tile) {
+      if (!is_wanted[tile]) continue;
+      check_interruption();
+      const auto left = static_cast<std::uint32_t>(tile % grid.columns()) * kTileSide;
+      const auto top = static_cast<std::uint32_t>(tile / grid.columns()) * kTileSide;
+      for (std::uint32_t y = top; y < std::min(top + kTileSide, format.shape.height); ++y) {
+        for (std::uint32_t x = left; x < std::min(left + kTileSide, format.shape.width); ++x) {
+          const std::uint64_t pixel = std::uint64_t{y} * format.shape.width + x;
+          block.read_history(tile, TileGrid::lane_of(x, y), history);
+          add_pixel(block, starts_ns, pixel);
+        }
+      }
+    }
+    for (Course& course : courses.list) {
+      ChannelSums sums;  // a block begins with all of its light
+      for (const ChannelSums& change : course.changes) {
+        ChannelLight light{};
+        for (std::uint32_t channel = 0; channel < channels; ++channel) {
+          sums[channel].add(change[channel].value());
+          light[channel] = sums[channel].value();
+        }
+        course.light.push_back(light);
+      }
+    }
+  }
+
+  std::vector<RegionLight> measured(regions.size());
+  const auto read_ns =
+      static_cast<double>(timeline.reach_end_ns(last_sample - 1) - timeline.start_ns(*first_sample));
+  for (std::size_t region = 0; region < regions.size(); ++region) {
+    measured[region].pixel_count = courses.pixel_count(region);
+    measured[region].white_share = white_ns[region].value() / read_ns;
+  }
+  if (plate != nullptr) {
+    const auto values = plate->values<double>();
+    for (std::uint64_t pixel = 0; pixel < format.shape.pixel_count(); ++pixel) {
+      courses.for_each(pixel, [&](Course& course, double weight) {
+        for (std::uint32_t channel = 0; channel < channels; ++channel)
+          course.plate[channel].add(weight * values[pixel * channels + channel]);
+      });
+    }
+  }
+  for (Course& course : courses.list) {
+    RegionLight& region = measured[course.region];
+    region.courses.emplace(course.tag, LightCourse(timeline, *first_sample, std::move(course.light)));
+    if (plate != nullptr) {
+      region.plate[course.tag] = {course.plate[0].value(), course.plate[1].value(), course.plate[2].value()};
+    }
+  }
+  return measured;
+}
+
+}  // namespace nutik

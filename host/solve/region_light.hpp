@@ -1,0 +1,63 @@
+// The mean light of regions over time, from one look at a capture.
+//
+//   in:      a capture, the mask that it is exposed with, regions of the picture
+//   out:     for each region and each function that exposes any of it a course of light, so that the region's light in a
+//            picture is Σ_m ∫ g_m · course_m / X_m
+//   always:  each block is read once, however many regions there are
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "capture/picture.hpp"
+#include "capture/transfer.hpp"
+#include "exposure/mask.hpp"
+#include "imev/capture_source.hpp"
+#include "solve/light_course.hpp"
+
+namespace nutik {
+
+// Which pixels, all conditions together; without any all of them.
+struct LightRegion {
+  std::optional<std::uint8_t> tag;   // of the exposure's mask: each pixel by the share that it has
+  std::optional<std::uint8_t> mark;  // of a second mask
+  std::optional<Rectangle> within;
+  friend bool operator==(const LightRegion&, const LightRegion&) = default;
+};
+
+struct RegionLight {
+  std::map<std::uint8_t, LightCourse> courses;  // by the mask value of the function that exposes them
+  std::map<std::uint8_t, ChannelLight>
+      plate;                      // the same of the scene without what moves; empty where none was given
+  std::uint64_t pixel_count = 0;  // 0: no pixel is in the region
+  double white_share = 0;         // of its light, over time, that is held at the white code
+};
+
+// The weights of a region's pixels, one after another.
+class RegionPixels {
+ public:
+  // Masks outlive it. `marks` may be null where no region has a mark.
+  RegionPixels(const Mask& mask, const Mask* marks) : mask_(mask), marks_(marks) {}
+  // 0 where it is not in the region, at most 1.
+  [[nodiscard]] double weight(const LightRegion& region, std::uint64_t pixel) const;
+
+ private:
+  const Mask& mask_;
+  const Mask* marks_;
+};
+
+// The mean light of a region in a picture of light64, by channel.
+[[nodiscard]] ChannelLight mean_light(const Picture& light, const RegionPixels& pixels,
+                                      const LightRegion& region);
+
+// Of `samples`, which must not be none. `plate`, light64 of the same shape, may be null. Throws InputError for a damaged
+// block; progress counts blocks.
+[[nodiscard]] std::vector<RegionLight> measure_regions(
+    CaptureSource& capture, const Transfer& transfer, const Mask& mask, const Mask* marks,
+    const std::vector<LightRegion>& regions, const Picture* plate, SampleRange samples,
+    const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});
+
+}  // namespace nutik
