@@ -20,6 +20,8 @@ namespace {
 
 // Of a region's light at the white code more is warned of.
 constexpr double kMostWhite = 0.01;
+// What the exposure comes to lies no further from what was reckoned, unless it is computed in single.
+constexpr double kMostApart = 1e-6;
 
 class Solver {
  public:
@@ -72,6 +74,13 @@ class Solver {
     const bool is_light_restated =
         request_.exposure.transfer && !(*request_.exposure.transfer == session_.format().transfer);
     for (const StatedWish& wish : request_.wishes) {
+      const auto fail = [&](const char* why) {
+        throw UsageError(format("the wish {}: {}", nutik::quoted(wish.text), why));
+      };
+      if (wish.has_tag() && !request_.exposure.mask)
+        fail("M and a number is a value of the mask, and there is none");
+      if (wish.has_mark() && !request_.marks)
+        fail("R and a number is a value of a second mask, and there is none");
       check(wish.region, wish);
       if (const auto* other = std::get_if<LightRegion>(&wish.target)) check(*other, wish);
       if (wish.needs_plate() && is_light_restated) {
@@ -88,10 +97,6 @@ class Solver {
     const auto fail = [&](const std::string& why) {
       throw UsageError(format("the wish {}: {}", nutik::quoted(wish.text), why));
     };
-    if (region.tag && !request_.exposure.mask)
-      fail("a mask value stands for a region, and no mask was stated");
-    if (region.mark && !request_.marks)
-      fail("R and a number is a value of a second mask, and none was stated");
     if (region.within && !region.within->lies_in(shape)) {
       const Rectangle& at = *region.within;
       fail(format("the rectangle {},{},{},{} does not lie in the picture, which has {} x {} pixels", at.x,
@@ -251,7 +256,7 @@ class Solver {
         apart = std::max(apart, std::fabs(reckoned[i][channel] - region_light[i][channel]));
     }
     solved.warnings = std::move(exposed.warnings);
-    if (apart > SolveRequest::kKept) {
+    if (apart > kMostApart) {
       solved.warnings.push_back(
           format("the exposure is {:.2g} of white from what the numbers were found with, which is computed "
                  "in double",
@@ -318,7 +323,14 @@ TemplateInput read_template_input(const std::string& name) {
 bool SolveRequest::needs_plate() const { return std::ranges::any_of(wishes, &StatedWish::needs_plate); }
 
 bool SolvedWish::is_kept() const {
-  return std::ranges::all_of(missed, [](double each) { return std::fabs(each) <= SolveRequest::kKept; });
+  constexpr double kHalfCode = 0.5 / 255;
+  const Transfer screen = Transfer::srgb();
+  for (std::size_t i = 0; i < missed.size(); ++i) {
+    const double wanted = light.wanted[i];
+    if (std::fabs(screen.fraction_of(wanted + missed[i]) - screen.fraction_of(wanted)) > kHalfCode)
+      return false;
+  }
+  return true;
 }
 
 bool SolvedExposure::is_kept() const { return std::ranges::all_of(wishes, &SolvedWish::is_kept); }

@@ -31,9 +31,6 @@ struct TemplateInput {
 [[nodiscard]] TemplateInput read_template_input(const std::string& name);
 
 struct SolveRequest {
-  // Of wishes that are kept nothing is missed but this much light.
-  static constexpr double kKept = 1e-6;
-
   FunctionTemplate functions;
   ExposureRequest exposure;         // whose functions are those of the template, whatever it says
   std::vector<StatedFreedom> free;  // gains without one have no bounds
@@ -49,6 +46,7 @@ struct SolvedWish {
   std::vector<double> missed;  // by channel, or of brightness alone
   double cost = 0.0;           // weight · Σ missed²
 
+  // Whether what is missed is no more than half a code of 8 bits, as screens show it.
   [[nodiscard]] bool is_kept() const;
 };
 

@@ -194,6 +194,11 @@ class WishParser {
 
 }  // namespace
 
+bool StatedWish::has_tag() const {
+  const auto* other = std::get_if<LightRegion>(&target);
+  return region.tag || (other != nullptr && other->tag);
+}
+
 bool StatedWish::has_mark() const {
   const auto* other = std::get_if<LightRegion>(&target);
   return region.mark || (other != nullptr && other->mark);
@@ -248,7 +253,8 @@ StatedFreedom StatedFreedom::parse(std::string_view text, const FunctionTemplate
        {std::pair(&from, &bounds.low), std::pair(static_cast<const std::string*>(&to), &bounds.high)}) {
     if (word->empty()) continue;  // none on this side
     const auto number = number_of(*word);
-    if (!number) fail(format("{} is no gain; bounds are numbers, or nothing: -100..0, 0..", nutik::quoted(*word)));
+    if (!number)
+      fail(format("{} is no gain; bounds are numbers, or nothing: -100..0, 0..", nutik::quoted(*word)));
     *bound = *number;
   }
   if (!(bounds.low <= bounds.high)) fail("FROM must not be above TO");

@@ -38,6 +38,8 @@ struct StatedWish {
   double weight = 1.0;
 
   [[nodiscard]] bool needs_plate() const { return std::holds_alternative<Plate>(target); }
+  // Whether a region is one of the exposure's mask, or of a second mask.
+  [[nodiscard]] bool has_tag() const;
   [[nodiscard]] bool has_mark() const;
 
   // Throws UsageError naming the word that makes no sense.

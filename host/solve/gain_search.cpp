@@ -22,6 +22,8 @@ constexpr double kLeastGain = 1e-12;
 // How far gains are changed to see what that changes, as a share: exact but for rounding where light is a straight
 // function of them.
 constexpr double kProbe = 1e-4;
+// A gain this much smaller than the largest is what rounding left of 0.
+constexpr double kNoGain = 1e-12;
 // In place of a gain that is 0 on its way, whose time counts as if it were not.
 constexpr double kNearlyZero = 1e-30;
 
@@ -275,10 +277,14 @@ std::optional<FoundGains> GainSearch::find(const std::vector<std::int64_t>& time
   for (const Bounds& bounds : bounds_) gains_.push_back(begin_within(bounds));
   for (std::size_t turn = 0; turn <= bounds_.size(); ++turn) {
     descend();
-    // A gain of 0 counts in no support: with that the others are found again.
+    // A gain of 0, or what rounding leaves of it, counts in no support: with that the others are found again.
     bool has_new = false;
+    double largest = 0.0;
+    for (const double gain : gains_) largest = std::max(largest, std::fabs(gain));
     for (std::size_t i = 0; i < gains_.size(); ++i) {
-      if (gains_[i] != 0.0 || is_zero_[i]) continue;
+      const bool may_be_zero = bounds_[i].low <= 0.0 && bounds_[i].high >= 0.0;
+      if (!may_be_zero || std::fabs(gains_[i]) > kNoGain * largest || is_zero_[i]) continue;
+      gains_[i] = 0.0;
       is_zero_[i] = has_new = true;
       bounds_[i] = {0.0, 0.0};
     }

@@ -1,5 +1,7 @@
 #include "session/solve_request.hpp"
 
+#include <algorithm>
+
 #include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
@@ -42,13 +44,18 @@ std::string found_text(const FunctionTemplate& functions, const NamedNumbers& nu
   return joined(found);
 }
 
+// Nothing that the light's digits here would show.
+bool misses_nothing(const SolvedWish& wish) {
+  return std::ranges::all_of(wish.missed, [](double missed) { return missed > -5e-7 && missed < 5e-7; });
+}
+
 std::string wishes_table(const SolvedExposure& solved) {
   std::vector<std::vector<std::string>> rows{{"wish", "wanted", "reached", "missed by", "cost"}};
   for (const SolvedWish& wish : solved.wishes) {
     rows.push_back({wish.text, numbers_text(numbers_of(wish, wish.light.wanted), "light"),
                     numbers_text(numbers_of(wish, wish.light.reached), "light"),
-                    wish.is_kept() ? "-" : numbers_text(wish.missed, "missed"),
-                    wish.is_kept() ? "-" : format("{:.2g}", wish.cost)});
+                    misses_nothing(wish) ? "-" : numbers_text(wish.missed, "missed"),
+                    misses_nothing(wish) ? "-" : format("{:.2g}", wish.cost)});
   }
   return table_text(rows, "lllll");
 }

@@ -20,6 +20,13 @@ SolveRequest solve_request(const Options& options) {
   if (request.wishes.empty()) {
     throw UsageError("what is wished? Add --wish 'M0 = plate', or --wish '300,150,60,60 gone' for example");
   }
+  for (const StatedWish& wish : request.wishes) {
+    const auto fail = [&](std::string_view letter, std::string_view what) {
+      throw UsageError(format("--wish '{}': {} and a number is a value of {}", wish.text, letter, what));
+    };
+    if (wish.has_tag() && !options.mask) fail("M", "the mask; add -m mask.pgm");
+    if (wish.has_mark() && !options.regions) fail("R", "a second mask; add --regions mask.pgm");
+  }
   TemplateInput input = read_template_input(*options.functions);
   if (!input.warnings.empty()) print_note(input.warnings);
   request.functions = std::move(input.functions);

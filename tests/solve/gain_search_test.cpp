@@ -1,0 +1,369 @@
+// Wishes that are known to be possible, for they are the light of exposures by the reference.
+#include "solve/gain_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "render/reference_renderer.hpp"
+#include "solve/time_search.hpp"
+#include "support/random_case.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Random;
+using test::RandomCase;
+using Kind = LightWish::Kind;
+
+// A capture whose blocks are counted as they are lent.
+class CountingCapture final : public CaptureSource {
+ public:
+  explicit CountingCapture(MemoryCapture capture)
+      : capture_(std::move(capture)), lent(capture_.block_count()) {}
+
+  [[nodiscard]] const CaptureFormat& format() const override { return capture_.format(); }
+  [[nodiscard]] const Timeline& timeline() const override { return capture_.timeline(); }
+  [[nodiscard]] std::uint64_t block_count() const override { return capture_.block_count(); }
+  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
+    return capture_.block_extent(block);
+  }
+
+ private:
+  BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override {
+    ++lent[block];
+    return capture_.acquire(block, terms);
+  }
+
+  MemoryCapture capture_;
+
+ public:
+  std::vector<int> lent;  // how often each block was
+};
+
+Picture exposed(CaptureSource& capture, const FunctionSet& functions, const Mask& mask) {
+  PlanOptions options;
+  options.unmapped_is_zero = true;
+  const RenderPlan plan = make_plan(capture, functions, mask, options);
+  OutputFormat light;
+  light.type = ValueType::light64;
+  return ReferenceRenderer().render(plan, capture, light).picture;
+}
+
+SampleRange all_of(const CaptureSource& capture) { return {0, capture.timeline().sample_count()}; }
+
+// The whole picture, a part of it, and each of the mask's values.
+std::vector<LightRegion> regions_of_case(const RandomCase& random) {
+  std::vector<LightRegion> regions(2);
+  regions[1].within =
+      Rectangle{0, 0, (random.capture.shape.width + 1) / 2, (random.capture.shape.height + 1) / 2};
+  for (const MaskRegion& region : regions_of(random.mask)) {
+    LightRegion& added = regions.emplace_back();
+    added.tag = region.tag;
+  }
+  return regions;
+}
+
+// A problem whose functions are those of a case, with a name in place of every gain but 0, one for each that differs.
+struct Constructed {
+  WishedExposure wished;
+  std::vector<double> gains;
+};
+
+Constructed with_names(const RandomCase& random, std::vector<RegionLight> regions) {
+  Constructed constructed;
+  WishedExposure& wished = constructed.wished;
+  wished.duration_ns = random.timeline.duration_ns();
+  wished.channels = random.capture.shape.channels;
+  wished.luminance = wished.channels == 1 ? ChannelLight{1.0} : ChannelLight{0.25, 0.5, 0.25};
+  for (const auto& [tag, function] : random.functions) {
+    for (const RegionLight& region : regions) {
+      if (!region.courses.contains(tag) || wished.functions.contains(tag)) continue;
+      for (const ControlPoint& point : function.points()) {
+        TemplatePoint named{point.time_ns, 0.0, std::nullopt, std::nullopt};
+        if (point.gain != 0.0) {
+          named.gain_name = constructed.gains.size();
+          constructed.gains.push_back(point.gain);
+        }
+        wished.functions[tag].push_back(named);
+      }
+    }
+  }
+  wished.bounds.resize(constructed.gains.size());
+  wished.regions = std::move(regions);
+  return constructed;
+}
+
+TEST(RegionLight, ComesToTheLightOfAnExposure) {
+  double worst = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const RandomCase random(seed);
+    MemoryCapture capture = random.encode();
+    const std::vector<LightRegion> regions = regions_of_case(random);
+    const Picture picture = exposed(capture, random.functions, random.mask);
+    const std::vector<RegionLight> measured = measure_regions(capture, random.capture.transfer, random.mask,
+                                                              nullptr, regions, nullptr, all_of(capture));
+    const RegionPixels pixels(random.mask, nullptr);
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      const ChannelLight wanted = mean_light(picture, pixels, regions[i]);
+      ChannelLight light{};
+      double scale = 0;
+      for (const auto& [tag, course] : measured[i].courses) {
+        const auto function = random.functions.find(tag);
+        if (function == random.functions.end()) continue;
+        const GainSummary summary = summarize(function->second, random.timeline.duration_ns());
+        if (summary.support_ns == 0) continue;
+        const auto pieces = function->second.pieces(random.timeline.duration_ns());
+        const ChannelLight integral = course.integral_ns(pieces);
+        for (std::size_t channel = 0; channel < 3; ++channel)
+          light[channel] += integral[channel] / static_cast<double>(summary.support_ns);
+        scale = std::max(scale, summary.error_scale());
+      }
+      for (std::uint32_t channel = 0; channel < random.capture.shape.channels; ++channel) {
+        const double error = std::fabs(light[channel] - wanted[channel]);
+        ASSERT_LE(error, 1e-12 * std::max(scale, 1e-300)) << seed << ": region " << i;
+        if (scale > 0) worst = std::max(worst, error / scale);
+      }
+    }
+  }
+  std::cout << "worst: " << worst << " S\n";
+}
+
+TEST(RegionLight, TakesOneLookAtEachBlock) {
+  const RandomCase random(7);
+  CountingCapture capture(random.encode());
+  static_cast<void>(measure_regions(capture, random.capture.transfer, random.mask, nullptr,
+                                    regions_of_case(random), nullptr, all_of(capture)));
+  for (const int lent : capture.lent) EXPECT_EQ(lent, 1);
+}
+
+TEST(GainSearch, ReachesConstructedWishes) {
+  double worst = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const RandomCase random(seed);
+    CountingCapture capture(random.encode());
+    const std::vector<LightRegion> regions = regions_of_case(random);
+    const Picture picture = exposed(capture, random.functions, random.mask);
+    std::ranges::fill(capture.lent, 0);
+    Constructed constructed =
+        with_names(random, measure_regions(capture, random.capture.transfer, random.mask, nullptr, regions,
+                                           nullptr, all_of(capture)));
+    const RegionPixels pixels(random.mask, nullptr);
+    double largest = 0;
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      LightWish wish;
+      wish.region = i;
+      wish.kind = Kind::like;
+      wish.target = mean_light(picture, pixels, regions[i]);
+      for (const double each : std::get<ChannelLight>(wish.target))
+        largest = std::max(largest, std::fabs(each));
+      constructed.wished.wishes.push_back(wish);
+    }
+    GainSearch search(constructed.wished);
+    const auto found = search.find({});
+    ASSERT_TRUE(found) << seed;
+    for (const int lent : capture.lent) ASSERT_EQ(lent, 1) << "no candidate takes another look";
+
+    // By an exposure with what was found.
+    FunctionSet functions = random.functions;
+    for (const auto& [tag, points] : constructed.wished.functions) {
+      std::vector<ControlPoint> control;
+      for (const TemplatePoint& point : points)
+        control.push_back({point.time_ns, point.gain_name ? found->gains[*point.gain_name] : 0.0});
+      functions.insert_or_assign(tag, GainFunction(control));
+    }
+    const Picture reached = exposed(capture, functions, random.mask);
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      const ChannelLight light = mean_light(reached, pixels, regions[i]);
+      const auto& wanted = std::get<ChannelLight>(constructed.wished.wishes[i].target);
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        const double error = std::fabs(light[channel] - wanted[channel]);
+        ASSERT_LE(error, 1e-6 * std::max(1.0, largest)) << seed << ": region " << i;
+        worst = std::max(worst, error / std::max(1.0, largest));
+      }
+    }
+  }
+  std::cout << "worst: " << worst << "\n";
+}
+
+// Light of one grey pixel, in shares of white, 10 ms a sample.
+class OnePixel {
+ public:
+  explicit OnePixel(const std::vector<double>& light)
+      : timeline_(Timeline::constant({100, 1}, Timeline::kFullShutter, light.size())) {
+    std::vector<ChannelLight> course;
+    for (const double each : light) course.push_back({each, 0.0, 0.0});
+    wished.regions.resize(1);
+    wished.regions[0].courses.emplace(std::uint8_t{0}, LightCourse(timeline_, 0, std::move(course)));
+    wished.duration_ns = timeline_.duration_ns();
+    wished.luminance = {1.0, 0.0, 0.0};
+  }
+
+  void set(const char* functions) {
+    FunctionTemplate read = parse_template(functions);
+    ASSERT_FALSE(read.has_errors()) << read.diagnostics.report("");
+    wished.functions = read.functions;
+    wished.bounds.resize(read.gains.size());
+  }
+  void wish(Kind kind, double light, double weight = 1.0) {
+    LightWish wish;
+    wish.kind = kind;
+    wish.target = light;
+    wish.weight = weight;
+    wished.wishes.push_back(wish);
+  }
+
+  WishedExposure wished;
+
+ private:
+  Timeline timeline_;
+};
+
+// 20 ms of gain a, then 20 ms of gain b.
+constexpr const char* kTwoBoxes = "M0 [0:a], [19999999:a], [20000000:b], [40000000:b], [40000001:0]";
+
+TEST(GainSearch, StaysWithinBounds) {
+  OnePixel pixel({0.2, 0.2, 0.6, 0.6, 0.5});
+  pixel.set(kTwoBoxes);
+  pixel.wished.bounds = {{0.0, 1.0}, {-2.0, 0.5}};
+  pixel.wish(Kind::equal, 0.9);
+  GainSearch search(pixel.wished);
+  const auto found = search.find({});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->gains, (std::vector<double>{1.0, 0.5})) << "as bright as bounds allow";
+  EXPECT_NEAR(found->cost, std::pow(0.9 - (0.2 * 1.0 + 0.6 * 0.5) / 2, 2), 1e-8);
+}
+
+TEST(GainSearch, LeavesAloneWhatIsWithinAWish) {
+  OnePixel pixel({0.2, 0.2, 0.6, 0.6, 0.5});
+  pixel.set(kTwoBoxes);
+  pixel.wish(Kind::at_most, 0.7);
+  pixel.wish(Kind::at_least, 0.1);
+  GainSearch search(pixel.wished);
+  EXPECT_EQ(search.find({})->gains, (std::vector<double>{1.0, 1.0}));
+  EXPECT_EQ(search.find({})->cost, 0.0);
+
+  pixel.wished.wishes.clear();
+  pixel.wish(Kind::at_most, 0.3);
+  GainSearch darker(pixel.wished);
+  static_cast<void>(darker.find({}));
+  EXPECT_NEAR(darker.region_light()[0][0], 0.3, 1e-12) << "no darker than it must be";
+}
+
+TEST(GainSearch, WeighsWishesThatContradict) {
+  OnePixel pixel({0.2, 0.2, 0.6, 0.6, 0.5});
+  pixel.set("M0 [0:a], [40000000:a], [40000001:0]");
+  pixel.wish(Kind::equal, 0.2, 3.0);
+  pixel.wish(Kind::equal, 0.6, 1.0);
+  GainSearch search(pixel.wished);
+  EXPECT_NEAR(search.find({})->cost, 3 * 0.1 * 0.1 + 0.3 * 0.3, 1e-12);
+  EXPECT_NEAR(search.region_light()[0][0], 0.3, 1e-12);
+}
+
+TEST(GainSearch, TellsWhatNoWishTells) {
+  OnePixel pixel({0.2, 0.2, 0.6, 0.6, 0.5});
+  pixel.set(
+      "M0 [0:a], [19999999:a], [20000000:b], [40000000:b], [40000001:0], [60000000:0], [90000000:c], "
+      "[100000000:0]");
+  pixel.wish(Kind::equal, 0.3);
+  GainSearch search(pixel.wished);
+  const auto found = search.find({});
+  EXPECT_EQ(search.untold(), std::vector<std::size_t>{2}) << "c lies behind the capture";
+  EXPECT_EQ(found->gains[2], 1.0);
+  EXPECT_EQ(search.open_count(), 1u) << "one wish for a and b";
+}
+
+TEST(GainSearch, FollowsADivisorThatDependsOnGains) {
+  for (const char* divisor : {"integral", "absolute", "seconds:0.02"}) {
+    OnePixel pixel({0.2, 0.2, 0.6, 0.6, 0.5});
+    pixel.set("M0 [0:1], [19999999:1], [20000000:b], [40000000:b], [40000001:0]");
+    pixel.wished.normalization = Normalization::parse(divisor);
+    pixel.wish(Kind::equal, 0.25);
+    GainSearch search(pixel.wished);
+    const auto found = search.find({});
+    ASSERT_TRUE(found);
+    EXPECT_LE(found->cost, 1e-20) << divisor;
+    EXPECT_NEAR(search.region_light()[0][0], 0.25, 1e-10) << divisor;
+    const double by_hand = std::string(divisor) == "seconds:0.02" ? 0.05 / 0.6 : 0.05 / 0.35;
+    EXPECT_NEAR(found->gains[0], by_hand, 1e-6) << divisor;
+  }
+}
+
+TEST(GainSearch, CountsNoTimeOfAGainThatCameToNothing) {
+  OnePixel pixel({0.2, 0.2, 0.6, 0.6, 0.5});
+  pixel.set(kTwoBoxes);
+  pixel.wished.bounds = {{}, {0.0, 1.0}};
+  LightWish gone;
+  gone.kind = Kind::gone;
+  gone.still[0] = {0.2, 0.0, 0.0};
+  pixel.wished.wishes.push_back(gone);
+  pixel.wish(Kind::equal, 0.2);
+  GainSearch search(pixel.wished);
+  const auto found = search.find({});
+  EXPECT_EQ(found->gains[1], 0.0) << "what is bright moves";
+  // 20 ms are exposed, not 40, for which a would have to be 2; but for half a nanosecond of its step.
+  EXPECT_NEAR(found->gains[0], 1.0, 1e-7);
+}
+
+TEST(TimeSearch, FindsAConstructedMoment) {
+  // A ramp of light: a moment is told by its brightness.
+  std::vector<double> light;
+  for (int k = 0; k < 100; ++k) light.push_back(k < 60 ? 0.01 * k : 0.6 - 0.002 * (k - 60));
+  OnePixel pixel(light);
+  pixel.set("M0 [when-1:0], [when:1], [when+10000000:1], [when+10000001:0]");
+  // From 123.4567 ms on for 10 ms: 6.5433 ms of sample 12, the rest of sample 13.
+  const double wanted = (0.12 * 6.5433 + 0.13 * 3.4567) / 10;
+  pixel.wish(Kind::equal, wanted);
+  GainSearch search(pixel.wished);
+  CandidateTimes every;
+  every.step_ns = 10'000'000;
+  for (std::int64_t k = 1; k <= 55; ++k) every.times_ns.push_back(k * every.step_ns);
+  const auto found = find_times(search, {every});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(search.region_light()[0][0], wanted, 1e-8);
+  // The steps at both ends count as 2 ns of support, which is 2e-7 of it: as much light as 25 ns of the ramp.
+  EXPECT_NEAR(static_cast<double>(found->times_ns[0]), 123'456'700, 25);
+
+  CandidateTimes stated = every;
+  stated.step_ns = 0;
+  const auto nearest = find_times(search, {stated});
+  ASSERT_TRUE(nearest);
+  EXPECT_EQ(nearest->times_ns[0], 120'000'000) << "candidates alone";
+  EXPECT_EQ(nearest->tried, 55u);
+}
+
+TEST(TimeSearch, FindsTwoMomentsAndTheirGains) {
+  std::vector<double> light;
+  for (int k = 0; k < 100; ++k) light.push_back(0.5 + 0.4 * std::sin(0.07 * k) * std::exp(-0.01 * k));
+  OnePixel pixel(light);
+  pixel.set(
+      "M0 [a-1:0], [a:g], [a+20000000:g], [a+20000001:0], [b-1:0], [b:h], [b+20000000:h], [b+20000001:0]");
+  pixel.wished.bounds = {{0.0, 3.0}, {0.0, 3.0}};
+  pixel.wish(Kind::at_least, 0.9);
+  GainSearch search(pixel.wished);
+  CandidateTimes early, late;
+  early.step_ns = late.step_ns = 20'000'000;
+  for (std::int64_t k = 1; k < 20; ++k) {
+    early.times_ns.push_back(k * early.step_ns);
+    late.times_ns.push_back(k * late.step_ns + 300'000'000);
+  }
+  const auto found = find_times(search, {early, late});
+  ASSERT_TRUE(found);
+  EXPECT_LE(found->found.cost, 1e-20);
+  EXPECT_LT(found->times_ns[0] + 20'000'001, found->times_ns[1]);
+}
+
+TEST(TimeSearch, HasNoneWhereNoTimesAreInOrder) {
+  OnePixel pixel({0.2, 0.2, 0.6});
+  pixel.set("M0 [0:0], [when:1], [100:1], [101:0]");
+  pixel.wish(Kind::equal, 0.5);
+  GainSearch search(pixel.wished);
+  CandidateTimes late;
+  late.times_ns = {100, 200};
+  EXPECT_FALSE(find_times(search, {late}));
+}
+
+}  // namespace
+}  // namespace nutik
