@@ -1,8 +1,10 @@
 // Signals: what was begun is ended in good order, or leaves nothing but its temporary file.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <fstream>
+#include <thread>
 
 #include "support/clips.hpp"
 #include "support/program.hpp"
@@ -63,6 +65,20 @@ TEST_F(Interruption, EndsAVideoAfterTheFramesSoFar) {
             std::string::npos)
       << log;
   EXPECT_NE(log.find("nutik-cl: interrupted"), std::string::npos) << log;
+}
+
+TEST_F(Interruption, EndsALongSearchForTimes) {
+  make_capture();
+  scratch_.write("moved.fn",
+                 "M0 [a:0], [a+1:g], [a+1000:g], [a+1001:0], [b:0], [b+1:1], [b+1000:1], [b+1001:0]");
+  Running running({"solve", "-k", "moved.fn", "--free", "a=0s..0.9s/1ms", "--free", "b=1s..1.9s/1ms",
+                   "--wish", "all = 0.5", "c.tik"},
+                  scratch_.folder());
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(running.end_with(SIGTERM), 128 + SIGTERM) << test::read_file(scratch_ / "log");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
+  EXPECT_FALSE(fs::exists(scratch_ / "moved-solved.fn"));
 }
 
 TEST_F(Interruption, LeavesOnlyTheTemporaryFileOfAVideoThatIsKilled) {

@@ -37,12 +37,22 @@ std::size_t line_width() {
   return std::clamp(width, kNarrowest, kWidest);
 }
 
+// Words between blanks; what a shell takes for one word because it is quoted is one.
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::string& part : parts_of(text, ' ')) {
+    const bool is_open = !words.empty() && std::ranges::count(words.back(), '\'') % 2 == 1;
+    is_open ? void(words.back() += " " + part) : words.push_back(std::move(part));
+  }
+  return words;
+}
+
 // `text` in lines that fit, all but the first after `indent` blanks. A line that goes on ends with `at_break`.
 std::string wrapped(std::string_view text, std::size_t indent, std::string_view at_break = {}) {
   static const std::size_t width = line_width();
   std::string result;
   std::size_t column = indent;
-  for (const std::string& word : parts_of(text, ' ')) {
+  for (const std::string& word : at_break.empty() ? parts_of(text, ' ') : words_of(text)) {
     if (column > indent && column + 1 + columns(word) + at_break.size() > width) {
       result += format("{}\n{:{}}", at_break, "", indent);
       column = indent;
