@@ -7,6 +7,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/source_text.hpp"
+#include "imev/each_block.hpp"
 #include "render/code_scale.hpp"
 #include "session/candidate_times.hpp"
 #include "session/function_input.hpp"
@@ -61,6 +62,16 @@ class Solver {
   void check() const {
     const Shape& shape = session_.format().shape;
     if (request_.wishes.empty()) throw UsageError("nothing is wished for");
+    // Of all that follows, so that nothing is begun that cannot be ended.
+    tik::Reader& capture = session_.capture();
+    std::uint32_t block_samples = 0;
+    for (std::uint64_t block = 0; block < capture.block_count(); ++block)
+      block_samples = std::max(block_samples, capture.block_extent(block).sample_count);
+    MemoryNeeds needs = rendering_needs(session_.format(), ValueType::light64,
+                                        request_.functions.functions.size(), block_samples);
+    needs.add(solve_needs(request_)(session_.format()));
+    needs.add("a block", largest_block(capture));
+    needs.rest_of(session_.devices().request().memory.bytes);
     // Masks and functions that do not fit.
     static_cast<void>(make_plan(session_.capture(), tags_of(request_.functions), mask_,
                                 plan_options_of(request_.exposure)));
@@ -350,7 +361,8 @@ FunctionSet tags_of(const FunctionTemplate& functions) {
 NeedsOfFormat solve_needs(const SolveRequest& request) {
   const bool needs_plate = request.needs_plate();
   return [needs_plate](const CaptureFormat& capture) {
-    MemoryNeeds needs{{"masks of regions", 2 * capture.shape.pixel_count()}};
+    MemoryNeeds needs{{"masks of regions", 2 * capture.shape.pixel_count()},
+                      {"codes of the picture", capture.shape.value_count()}};
     if (needs_plate) needs.add(plate_making_needs(capture));
     return needs;
   };

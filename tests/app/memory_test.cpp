@@ -118,6 +118,8 @@ const Command kCommands[] = {
     {"mask", {"mask", "--moving", "CAPTURE", "o.pgm"}},
     {"activity", {"activity", "CAPTURE", "o.png"}},
     {"check", {"check", "CAPTURE"}},
+    {"solve", {"solve", "-k", "named.fn", "--wish", "all = 0.3", "CAPTURE", "o.fn"}},
+    {"solve, plate", {"solve", "-k", "named.fn", "--wish", "0,0,16,16 gone", "CAPTURE", "o.fn"}},
 };
 
 class MemoryOfCommands : public testing::TestWithParam<Command> {
@@ -128,6 +130,7 @@ class MemoryOfCommands : public testing::TestWithParam<Command> {
     write_raw_video(*scratch_, "tiny.gray", 16 * 16, 70);
     write_raw_video(*scratch_, "large.gray", 1280 * 720, 70);
     scratch_->write("list.txt", "--start 0s --exposure 10f b1.png\n--start 20f --exposure 10f b2.png\n");
+    scratch_->write("named.fn", "M0 [0:a], [100000000:a], [100000001:0]");
     scratch_->write("camera.noise",
                     "nutik noise 0\nwhite 255\ntransfer srgb\nchannel grey\nread 0.002\nshot 0.0001\n"
                     "curve sensor\npoint 10 1.5 100\npoint 20.5 2 50\n");

@@ -36,9 +36,9 @@ constexpr CommandSet kOnlyPrints = set_of(Id::shutter, Id::again, Id::completion
 // What the rows behind it stand under.
 constexpr Option heading(std::string_view title) { return {.heading = title}; }
 
-// A step of a mask, in the order of the command line.
-constexpr Option step(std::string_view name, std::string_view value, std::string_view help) {
-  return {0, name, value, subject, bit(Id::mask), {}, help};
+// A step of a mask, or of another command's: as often as is liked, in the order of the command line.
+constexpr Option step(std::string_view name, std::string_view value, std::string_view help, Id of = Id::mask) {
+  return {0, name, value, subject, bit(of), {}, help};
 }
 
 constexpr Option kRows[] = {
@@ -245,13 +245,15 @@ constexpr Option kRows[] = {
      "even fade ramp none"},
 
     heading("What is solved for"),
-    {0, "wish", "WISH", subject, bit(Id::solve), {},
-     "what the picture should have, as often as there are wishes: 'M0 = plate', 'R1 gone', 'M64 like 0.8s', "
-     "'500,120,80,60 <= 0.5'. A region (all, M64, R1, X,Y,WIDTH,HEIGHT, M64 within X,Y,WIDTH,HEIGHT), then gone, or =, <=, "
-     ">=, like and light: a number, plate, a time, a region, also 1.5 times it: 1.5 * plate"},
-    {0, "free", "NAME=FROM..TO", subject, bit(Id::solve), {},
-     "bounds of a gain, rest=-100..0 (default: none), or when a time may be, when=0.6s..0.8s, in steps "
-     "when=60f..80f/1f (default: any)"},
+    step("wish", "WISH",
+         "what the picture should have, as often as there are wishes: 'M0 = plate', 'R1 gone', 'M64 like 0.8s', "
+         "'500,120,80,60 <= 0.5'. A region (all, M64, R1, X,Y,WIDTH,HEIGHT, M64 within X,Y,WIDTH,HEIGHT), then "
+         "gone, or =, <=, >=, like and light: a number, plate, a time, a region, also 1.5 times it: 1.5 * plate",
+         Id::solve),
+    step("free", "NAME=FROM..TO",
+         "bounds of a gain, rest=-100..0 (default: none), or when a time may be, when=0.6s..0.8s, in steps "
+         "when=60f..80f/1f (default: any)",
+         Id::solve),
     {0, "regions", "MASK.pgm", subject, bit(Id::solve), &Options::regions,
      "a second mask, whose values are the regions R0 … R255 of wishes"},
 
@@ -321,7 +323,8 @@ constexpr Option kRows[] = {
     {0, "no-recipe", "", output, kExposes & ~bit(Id::mask), &Options::no_recipe,
      "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},
     {'q', "quiet", "", output, kAll, &Options::quiet, "no progress bar and no summary"},
-    {'v', "verbose", "", output, (kExposes & ~set_of(Id::mask, Id::solve)) | bit(Id::trace), &Options::verbose,
+    {'v', "verbose", "", output, (kExposes & ~set_of(Id::mask, Id::solve)) | bit(Id::trace),
+     &Options::verbose,
      "say more: what is read and what is skipped, in which precision and why, how fast and with how much "
      "memory; every step of a trace"},
 };
