@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 // Compiled for several instruction sets, of which one is chosen when the program starts: with 16 bytes at a time
-// converting a picture takes as long as decoding it. Sanitizers are not ready when that choice is made.
+// converting a picture takes twice as long. Sanitizers are not ready when that choice is made.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
-#define NUTIK_SIMD_CLONES __attribute__((target_clones("avx2", "ssse3", "default"), optimize("O3")))
+#define NUTIK_SIMD_CLONES \
+  __attribute__((target_clones("arch=x86-64-v4", "avx2", "ssse3", "default"), optimize("O3")))
 #else
 #define NUTIK_SIMD_CLONES
 #endif
@@ -16,12 +18,21 @@
 namespace nutik::videos {
 namespace {
 
-constexpr int kFraction = 14;  // bits of a code behind its point, while it is made
+// A code is made in 64ths, less half of its range: so it fits 16 bits whatever luma and chroma come to (at most 279 and
+// 292 codes either way), of which processors add and multiply twice as many at once as of 32.
+//
+// How far it may be off: half a code by its own rounding, half a 64th each by luma's part and chroma's, 239 * 2^-15 by
+// luma's weight and 2 * 128 * 2^-17 by chroma's: 0.525 of a code.
+constexpr int kFraction = 6;         // bits of a code behind its point, while it is made
+constexpr int kLumaFraction = 14;    // those of luma's weight
+constexpr int kChromaFraction = 16;  // those of chroma's weights, and of what is added up of them
+constexpr int kHalfRange = 128 << kFraction;
 
-// What a step of luma or chroma adds to a code.
+// What a step of luma or chroma adds to a code, and what does not depend on them.
 struct Weights {
-  std::int32_t luma, red_of_v, green_of_u, green_of_v, blue_of_u;
-  std::int32_t black;  // luma's code
+  std::uint16_t luma;
+  std::int32_t red_of_v, green_of_u, green_of_v, blue_of_u;
+  std::int32_t red, green, blue;
 };
 
 Weights weights_of(const YuvCoding& coding) {
@@ -30,67 +41,124 @@ Weights weights_of(const YuvCoding& coding) {
   const double luma = is_full ? 1.0 : 255.0 / 219.0, chroma = is_full ? 1.0 : 255.0 / 224.0;
   const double green = 1.0 - red - blue;
   const double red_of_v = 2.0 * (1.0 - red) * chroma, blue_of_u = 2.0 * (1.0 - blue) * chroma;
-  const auto whole = [](double weight) {
-    return static_cast<std::int32_t>(std::lround(std::ldexp(weight, kFraction)));
+  const auto whole = [](double weight, int fraction) {
+    return static_cast<std::int32_t>(std::lround(std::ldexp(weight, fraction)));
   };
-  return {whole(luma),      whole(red_of_v), whole(blue / green * blue_of_u), whole(red / green * red_of_v),
-          whole(blue_of_u), is_full ? 0 : 16};
+  const auto of_chroma = [&](double weight) { return whole(weight, kChromaFraction); };
+  Weights weights{static_cast<std::uint16_t>(whole(luma, kLumaFraction)),
+                  of_chroma(red_of_v),
+                  of_chroma(blue / green * blue_of_u),
+                  of_chroma(red / green * red_of_v),
+                  of_chroma(blue_of_u),
+                  0,
+                  0,
+                  0};
+  // Half a code, and half a 64th for each of the two parts: all of them are cut off below.
+  constexpr std::int32_t kCode = 1 << kChromaFraction, k64th = kCode >> kFraction;
+  const std::int32_t black = is_full ? 0 : 16 * weights.luma << (kChromaFraction - kLumaFraction);
+  const std::int32_t constant = kCode / 2 - 128 * kCode + 2 * (k64th / 2) - black;
+  weights.red = constant - 128 * weights.red_of_v;
+  weights.green = constant + 128 * (weights.green_of_u + weights.green_of_v);
+  weights.blue = constant - 128 * weights.blue_of_u;
+  return weights;
 }
 
-inline __attribute__((always_inline)) std::uint8_t code_of(std::int32_t value) {
-  return static_cast<std::uint8_t>(std::clamp(value >> kFraction, 0, 255));
-}
+// A row of pixels' codes, as long as there are whole chroma samples to it.
+struct CodeRow {
+  std::vector<std::int16_t> chroma_parts[3];
+  std::vector<std::uint8_t> codes[3];
 
-// A row of pixels, of which 2^kShift share their chroma. The compiler makes vectors of it as long as no pointer may be
-// another's.
+  explicit CodeRow(std::size_t width) {
+    for (auto& parts : chroma_parts) parts.resize(width);
+    for (auto& channel : codes) channel.resize(width);
+  }
+};
+
+// What `count` samples of chroma add to the codes of 2^kShift pixels each. The compiler makes vectors of these loops as
+// long as no pointer may be another's.
 template <int kShift>
-inline __attribute__((always_inline)) void convert_row(const std::uint8_t* __restrict luma,
-                                                       const std::uint8_t* __restrict u,
-                                                       const std::uint8_t* __restrict v, std::size_t width,
-                                                       Weights w, std::uint8_t* __restrict red,
-                                                       std::uint8_t* __restrict green,
-                                                       std::uint8_t* __restrict blue) {
-  constexpr std::int32_t kHalf = 1 << (kFraction - 1);
+inline __attribute__((always_inline)) void add_chroma(const std::uint8_t* __restrict u,
+                                                      const std::uint8_t* __restrict v, std::size_t count,
+                                                      Weights w, std::int16_t* __restrict red,
+                                                      std::int16_t* __restrict green,
+                                                      std::int16_t* __restrict blue) {
   constexpr std::size_t kTogether = std::size_t{1} << kShift;
-  const std::size_t whole = width / kTogether;
-  for (std::size_t group = 0; group < whole; ++group) {
-    const std::int32_t from_u = u[group] - 128, from_v = v[group] - 128;
-    const std::int32_t to_red = from_v * w.red_of_v + kHalf;
-    const std::int32_t to_green = kHalf - from_u * w.green_of_u - from_v * w.green_of_v;
-    const std::int32_t to_blue = from_u * w.blue_of_u + kHalf;
+  constexpr int kCut = kChromaFraction - kFraction;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int32_t from_u = u[i], from_v = v[i];
+    const auto to_red = static_cast<std::int16_t>((w.red + from_v * w.red_of_v) >> kCut);
+    const auto to_green =
+        static_cast<std::int16_t>((w.green - from_u * w.green_of_u - from_v * w.green_of_v) >> kCut);
+    const auto to_blue = static_cast<std::int16_t>((w.blue + from_u * w.blue_of_u) >> kCut);
 #pragma GCC unroll 4
-    for (std::size_t i = 0; i < kTogether; ++i) {
-      const std::int32_t light = (luma[kTogether * group + i] - w.black) * w.luma;
-      red[kTogether * group + i] = code_of(light + to_red);
-      green[kTogether * group + i] = code_of(light + to_green);
-      blue[kTogether * group + i] = code_of(light + to_blue);
+    for (std::size_t k = 0; k < kTogether; ++k) {
+      red[kTogether * i + k] = to_red;
+      green[kTogether * i + k] = to_green;
+      blue[kTogether * i + k] = to_blue;
     }
   }
-  for (std::size_t x = whole * kTogether; x < width; ++x) {
-    const std::int32_t from_u = u[whole] - 128, from_v = v[whole] - 128;
-    const std::int32_t light = (luma[x] - w.black) * w.luma + kHalf;
-    red[x] = code_of(light + from_v * w.red_of_v);
-    green[x] = code_of(light - from_u * w.green_of_u - from_v * w.green_of_v);
-    blue[x] = code_of(light + from_u * w.blue_of_u);
+}
+
+#define NUTIK_ADD_CHROMA(name, shift)                                                             \
+  NUTIK_SIMD_CLONES void name(const std::uint8_t* __restrict u, const std::uint8_t* __restrict v, \
+                              std::size_t count, const Weights& w, std::int16_t* __restrict red,  \
+                              std::int16_t* __restrict green, std::int16_t* __restrict blue) {    \
+    add_chroma<shift>(u, v, count, w, red, green, blue);                                          \
+  }
+NUTIK_ADD_CHROMA(add_chroma_1, 0)
+NUTIK_ADD_CHROMA(add_chroma_2, 1)
+NUTIK_ADD_CHROMA(add_chroma_4, 2)
+#undef NUTIK_ADD_CHROMA
+
+// A channel's code from luma's part and chroma's. Their sum, as 16 bits have it, is right.
+inline __attribute__((always_inline)) std::uint8_t code_of(std::uint16_t luma_part,
+                                                           std::int16_t chroma_part) {
+  const auto sum = static_cast<std::int16_t>(luma_part + chroma_part);
+  const std::int16_t limited =
+      std::min<std::int16_t>(std::max<std::int16_t>(sum, -kHalfRange), kHalfRange - 1);
+  return static_cast<std::uint8_t>((limited >> kFraction) + 128);
+}
+
+NUTIK_SIMD_CLONES void add_luma(const std::uint8_t* __restrict luma, std::size_t width, std::uint16_t weight,
+                                const std::int16_t* __restrict red_part,
+                                const std::int16_t* __restrict green_part,
+                                const std::int16_t* __restrict blue_part, std::uint8_t* __restrict red,
+                                std::uint8_t* __restrict green, std::uint8_t* __restrict blue) {
+  for (std::size_t x = 0; x < width; ++x) {
+    // The upper half of a product of 16 bits, which is one instruction.
+    static_assert(8 + kLumaFraction - 16 == kFraction);
+    const auto high = static_cast<std::uint16_t>(luma[x] << 8);
+    const auto part = static_cast<std::uint16_t>(std::uint32_t{high} * weight >> 16);
+    red[x] = code_of(part, red_part[x]);
+    green[x] = code_of(part, green_part[x]);
+    blue[x] = code_of(part, blue_part[x]);
   }
 }
 
-#define NUTIK_CONVERT_ROW(name, shift)                                                               \
-  NUTIK_SIMD_CLONES void name(const std::uint8_t* __restrict luma, const std::uint8_t* __restrict u, \
-                              const std::uint8_t* __restrict v, std::size_t width, const Weights& w, \
-                              std::uint8_t* __restrict red, std::uint8_t* __restrict green,          \
-                              std::uint8_t* __restrict blue) {                                       \
-    convert_row<shift>(luma, u, v, width, w, red, green, blue);                                      \
-  }
-NUTIK_CONVERT_ROW(convert_row_1, 0)
-NUTIK_CONVERT_ROW(convert_row_2, 1)
-NUTIK_CONVERT_ROW(convert_row_4, 2)
-#undef NUTIK_CONVERT_ROW
-
+// Three planes as pixels of three bytes: 16 pixels at a time are picked, each of three vectors first from red and
+// green, then with blue between them. -1 is a place for blue.
 NUTIK_SIMD_CLONES void interleave(const std::uint8_t* __restrict red, const std::uint8_t* __restrict green,
                                   const std::uint8_t* __restrict blue, std::size_t width,
                                   std::uint8_t* __restrict rgb) {
-  for (std::size_t x = 0; x < width; ++x) {
+  using Bytes = std::uint8_t __attribute__((vector_size(16)));
+  std::size_t x = 0;
+  for (; x + 16 <= width; x += 16) {
+    Bytes r, g, b;
+    std::memcpy(&r, red + x, 16);
+    std::memcpy(&g, green + x, 16);
+    std::memcpy(&b, blue + x, 16);
+    Bytes first = __builtin_shufflevector(r, g, 0, 16, -1, 1, 17, -1, 2, 18, -1, 3, 19, -1, 4, 20, -1, 5);
+    Bytes middle = __builtin_shufflevector(r, g, 21, -1, 6, 22, -1, 7, 23, -1, 8, 24, -1, 9, 25, -1, 10, 26);
+    Bytes last =
+        __builtin_shufflevector(r, g, -1, 11, 27, -1, 12, 28, -1, 13, 29, -1, 14, 30, -1, 15, 31, -1);
+    first = __builtin_shufflevector(first, b, 0, 1, 16, 3, 4, 17, 6, 7, 18, 9, 10, 19, 12, 13, 20, 15);
+    middle = __builtin_shufflevector(middle, b, 0, 21, 2, 3, 22, 5, 6, 23, 8, 9, 24, 11, 12, 25, 14, 15);
+    last = __builtin_shufflevector(last, b, 26, 1, 2, 27, 4, 5, 28, 7, 8, 29, 10, 11, 30, 13, 14, 31);
+    std::memcpy(rgb + 3 * x, &first, 16);
+    std::memcpy(rgb + 3 * x + 16, &middle, 16);
+    std::memcpy(rgb + 3 * x + 32, &last, 16);
+  }
+  for (; x < width; ++x) {
     rgb[3 * x] = red[x];
     rgb[3 * x + 1] = green[x];
     rgb[3 * x + 2] = blue[x];
@@ -118,20 +186,25 @@ AVPixelFormat with_byte_planes(AVPixelFormat format) {
 
 void eight_bit_rgb(const AVFrame& frame, const YuvCoding& coding, std::uint8_t* rgb, std::ptrdiff_t stride) {
   const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(static_cast<AVPixelFormat>(frame.format));
-  const auto convert = pixels.log2_chroma_w == 0   ? convert_row_1
-                       : pixels.log2_chroma_w == 1 ? convert_row_2
-                                                   : convert_row_4;
+  const int across = pixels.log2_chroma_w, down = pixels.log2_chroma_h;
+  const auto add_chroma = across == 0 ? add_chroma_1 : across == 1 ? add_chroma_2 : add_chroma_4;
   const Weights weights = weights_of(coding);
   const auto width = static_cast<std::size_t>(frame.width);
-  std::vector<std::uint8_t> codes(3 * width);
-  std::uint8_t *const red = codes.data(), *const green = red + width, *const blue = green + width;
+  const std::size_t chroma_width = ((width - 1) >> across) + 1;
+  CodeRow row(chroma_width << across);
+  auto& [red_part, green_part, blue_part] = row.chroma_parts;
+  auto& [red, green, blue] = row.codes;
+  const auto line = [&](int plane, int y) {
+    return frame.data[plane] + static_cast<std::ptrdiff_t>(y) * frame.linesize[plane];
+  };
   for (int y = 0; y < frame.height; ++y) {
-    const auto row = [&](int plane) {
-      const int at = plane == 0 ? y : y >> pixels.log2_chroma_h;
-      return frame.data[plane] + static_cast<std::ptrdiff_t>(at) * frame.linesize[plane];
-    };
-    convert(row(0), row(1), row(2), width, weights, red, green, blue);
-    interleave(red, green, blue, width, rgb + y * stride);
+    if (y % (1 << down) == 0) {
+      add_chroma(line(1, y >> down), line(2, y >> down), chroma_width, weights, red_part.data(),
+                 green_part.data(), blue_part.data());
+    }
+    add_luma(line(0, y), width, weights.luma, red_part.data(), green_part.data(), blue_part.data(),
+             red.data(), green.data(), blue.data());
+    interleave(red.data(), green.data(), blue.data(), width, rgb + y * stride);
   }
 }
 
