@@ -3,15 +3,6 @@
 #include <algorithm>
 
 namespace nutik {
-namespace {
-
-constexpr std::size_t kSteps = std::size_t{1} << 16;
-
-std::size_t step_of(double light) {
-  return static_cast<std::size_t>(std::clamp(light, 0.0, 1.0) * static_cast<double>(kSteps - 1));
-}
-
-}  // namespace
 
 std::vector<LightMeans::Span> LightMeans::spans(std::uint32_t length, std::uint32_t parts) {
   std::vector<Span> spans;
@@ -35,24 +26,8 @@ LightMeans::LightMeans(const CaptureFormat& format, const Rectangle& area, const
       code_bytes_(format.code_bytes),
       columns_(spans(area.width, scaled.width)),
       rows_(spans(area.height, scaled.height)),
-      sums_(std::size_t{scaled.width} * scaled.channels) {
-  light_ = format.transfer.light_of_codes(format.white_code);
-  thresholds_ = format.transfer.code_thresholds(format.white_code);
-  std::uint32_t code = 0;
-  for (std::size_t step = 0; step <= kSteps; ++step) {
-    const double light = static_cast<double>(step) / static_cast<double>(kSteps - 1);
-    while (code < format.white_code && thresholds_[code + 1] <= light) ++code;
-    first_code_.push_back(code);
-  }
-}
-
-// The last one that begins no later.
-std::uint32_t LightMeans::code_of(double light) const {
-  const std::size_t step = step_of(light);
-  const auto begin = thresholds_.begin() + 1;
-  const auto after = std::upper_bound(begin + first_code_[step], begin + first_code_[step + 1], light);
-  return static_cast<std::uint32_t>(after - begin);
-}
+      codes_(format.transfer, format.white_code),
+      sums_(std::size_t{scaled.width} * scaled.channels) {}
 
 template <typename Code>
 void LightMeans::take_codes(const Code* raster, Code* scaled) {
@@ -68,15 +43,14 @@ void LightMeans::take_codes(const Code* raster, Code* scaled) {
           double sum = 0;
           const Code* value = row + std::size_t{column.first} * channels + channel;
           for (const double share : column.shares) {
-            if (*value >= light_.size()) throw CodeAboveWhite(*value);
-            sum += share * light_[*value];
+            sum += share * codes_.light_of(*value);
             value += channels;
           }
           sums_[x * channels + channel] += span.shares[r] * sum;
         }
       }
     }
-    for (const double light : sums_) *scaled++ = static_cast<Code>(code_of(light));
+    for (const double light : sums_) *scaled++ = static_cast<Code>(codes_.code_of(light));
   }
 }
 

@@ -4,18 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
+#include "capture/light_codes.hpp"
 #include "capture/picture.hpp"
 
 namespace nutik {
-
-// A code that stands for no light.
-struct CodeAboveWhite : std::runtime_error {
-  explicit CodeAboveWhite(std::uint32_t above) : std::runtime_error("a code is above white"), code(above) {}
-  std::uint32_t code;
-};
 
 class LightMeans {
  public:
@@ -35,17 +29,14 @@ class LightMeans {
 
   template <typename Code>
   void take_codes(const Code* raster, Code* scaled);
-  [[nodiscard]] std::uint32_t code_of(double light) const;
 
   Shape shape_;
   Rectangle area_;
   Shape scaled_;
   std::uint32_t code_bytes_;
   std::vector<Span> columns_, rows_;
-  std::vector<double> light_;              // of each code
-  std::vector<double> thresholds_;         // the least light of each
-  std::vector<std::uint32_t> first_code_;  // at the start of each of many equal steps of light
-  std::vector<double> sums_;               // of a row of new pixels
+  LightCodes codes_;
+  std::vector<double> sums_;  // of a row of new pixels
 };
 
 }  // namespace nutik

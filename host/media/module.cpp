@@ -79,5 +79,6 @@ const Module& module() {
 
 const VideoModule& video_module() { return module<VideoModule>(); }
 const StillModule& still_module() { return module<StillModule>(); }
+const MotionModule& motion_module() { return module<MotionModule>(); }
 
 }  // namespace nutik

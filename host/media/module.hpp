@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "align/registrar.hpp"
 #include "media/clip.hpp"
 #include "media/stills_table.hpp"
 #include "media/video_writer.hpp"
@@ -46,10 +47,23 @@ struct StillModule {
   std::optional<std::string> (*read_exr_text)(const std::filesystem::path& file, const char* keyword);
 };
 
+// What nutik-motion.so gives the program.
+struct MotionModule {
+  static constexpr const char* kFile = "nutik-motion.so";
+  static constexpr const char* kSymbol = "nutik_motion_module";
+  static constexpr const char* kWithout = "no camera's motion can be found";
+
+  void (*use_shared_state)(SharedState& of_program);  // first
+  // Of other pictures to `reference`, a raster of that format. Throws TooLittleTexture.
+  std::unique_ptr<Registrar> (*open)(const CaptureFormat& format, CameraMotion motion,
+                                     std::span<const std::byte> reference);
+};
+
 // These look for their module in the folder that NUTIK_MODULES names, beside the program or library that this code
 // is part of, in the installed place seen from there, and where the loader looks. They throw InputError naming all
 // of these.
 [[nodiscard]] const VideoModule& video_module();
 [[nodiscard]] const StillModule& still_module();
+[[nodiscard]] const MotionModule& motion_module();
 
 }  // namespace nutik

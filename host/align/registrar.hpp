@@ -1,0 +1,58 @@
+// Finding how a camera moved between two pictures.
+//
+//   in:      a picture that others are registered to, the kind of motion
+//   out:     for each other picture the warp from the first one's places to its own, and how well that holds
+//   always:  what moves on its own does not count, as long as more of the scene rests; neither does light that becomes
+//            brighter or darker as a whole. The same pictures give the same warps
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+
+#include "align/warp.hpp"
+#include "capture/memory_needs.hpp"
+#include "capture/picture.hpp"
+
+namespace nutik {
+
+enum class CameraMotion {
+  translation,  // along the picture's sides
+  rigid,        // and turning about the axis of sight
+  homography    // whatever a camera on the spot does, and whatever it does before a plane
+};
+[[nodiscard]] std::string_view to_text(CameraMotion motion);
+// Nothing where it is none of these.
+[[nodiscard]] std::optional<CameraMotion> camera_motion_of(std::string_view text);
+
+struct Registered {
+  Warp warp;
+  double agreeing =
+      0;  // share of the textured places, seen in both, that lie within a pixel of where it says
+  double residual_pixels = 0;  // half of the textured places are no further from there than this
+  friend bool operator==(const Registered&, const Registered&) = default;
+};
+
+// A picture that others cannot be registered to.
+struct TooLittleTexture : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class Registrar {
+ public:
+  virtual ~Registrar() = default;
+
+  // Of a raster of the same format, which is expected to lie about where `guess` says. The best that was found, be it
+  // good or not: is_sure().
+  [[nodiscard]] virtual Registered find(std::span<const std::byte> raster, const Warp& guess) = 0;
+};
+
+// Whether most of the texture follows it.
+[[nodiscard]] inline bool is_sure(const Registered& found) { return found.agreeing >= 0.5; }
+
+// What a registrar of pictures of this format holds.
+[[nodiscard]] MemoryNeeds registrar_needs(const CaptureFormat& format);
+
+}  // namespace nutik

@@ -1,0 +1,68 @@
+#include "media/motion/grey_pyramid.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
+
+namespace nutik::motion {
+namespace {
+
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 21;  // of the finest level: 1080p as it is
+constexpr int kLeastSide = 24;
+// So that a cubic between pixels goes through what it is fitted to, and noise counts less.
+constexpr double kBlurPixels = 1.0;
+constexpr int kFeatureSide = 960;
+
+template <typename Code>
+cv::Mat grey_of(const CaptureFormat& format, const Code* codes) {
+  const auto [width, height, channels] = format.shape;
+  const auto scale = static_cast<float>(kGreyWhite / format.white_code);
+  cv::Mat grey(static_cast<int>(height), static_cast<int>(width), CV_32F);
+  for (int y = 0; y < grey.rows; ++y) {
+    auto* const row = grey.ptr<float>(y);
+    for (int x = 0; x < grey.cols; ++x, codes += channels) {
+      row[x] = scale * (channels == 1 ? static_cast<float>(codes[0])
+                                      : static_cast<float>(kLuma[0]) * static_cast<float>(codes[0]) +
+                                            static_cast<float>(kLuma[1]) * static_cast<float>(codes[1]) +
+                                            static_cast<float>(kLuma[2]) * static_cast<float>(codes[2]));
+    }
+  }
+  return grey;
+}
+
+}  // namespace
+
+GreyPyramid::GreyPyramid(const CaptureFormat& format, std::span<const std::byte> raster) {
+  cv::Mat grey = format.code_bytes == 1
+                     ? grey_of(format, reinterpret_cast<const std::uint8_t*>(raster.data()))
+                     : grey_of(format, reinterpret_cast<const std::uint16_t*>(raster.data()));
+  const auto halve = [&] {
+    cv::Mat half;
+    cv::pyrDown(grey, half);
+    grey = half;
+  };
+  for (; grey.total() > kMostPixels; ++finest) halve();
+  for (;;) {
+    cv::Mat blurred;
+    cv::GaussianBlur(grey, blurred, {}, kBlurPixels);
+    levels.push_back(blurred);
+    if (std::min(grey.cols, grey.rows) < 2 * kLeastSide) return;
+    halve();
+  }
+}
+
+double GreyPyramid::feature_scale() const {
+  std::size_t level = 0;
+  while (level + 1 < levels.size() && std::max(levels[level].cols, levels[level].rows) > kFeatureSide)
+    ++level;
+  return std::ldexp(1.0, finest + static_cast<int>(level));
+}
+
+cv::Mat GreyPyramid::of_features() const {
+  const auto level = static_cast<std::size_t>(std::ilogb(feature_scale()) - finest);
+  cv::Mat bytes;
+  levels[level].convertTo(bytes, CV_8U);
+  return bytes;
+}
+
+}  // namespace nutik::motion

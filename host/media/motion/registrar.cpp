@@ -1,0 +1,327 @@
+// A robust fit of all texture at once, coarse to fine: Gauss and Newton's steps on a pyramid, where what does not agree
+// with the motion of most loses its weight (Tukey's biweight). The gradients are the reference's, so that they are taken
+// once (Baker and Matthews, "Lucas-Kanade 20 Years On", the inverse compositional algorithm). Where the fit fails from
+// the place that was guessed, matched features tell another.
+#include "media/motion/registrar.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/motion/feature_start.hpp"
+#include "media/motion/grey_pyramid.hpp"
+
+namespace nutik::motion {
+namespace {
+
+constexpr std::uint32_t kCells = 32;  // along the longer side: the texture is taken from all over the picture
+constexpr std::size_t kMostPoints = 20000;  // of a level
+constexpr std::size_t kLeastPoints = 60;
+constexpr double kLeastGradient = kGreyWhite / 256;  // a pixel
+constexpr double kWeakGradient = 0.05;               // of the strongest: mostly noise
+constexpr float kMargin = 4;
+constexpr double kLeastSeen = 0.2;      // of the points
+constexpr double kLeastAcross = 0.01;   // of the texture's strength along its main direction
+constexpr std::size_t kFineLevels = 2;  // that a start from close by needs
+constexpr double kTukey = 4.685;        // 95 % as efficient as least squares where all errors are normal
+constexpr double kLeastSigma = 0.3;     // codes
+constexpr int kFirstSteps = 3;          // of a level, in which nothing is excluded yet
+constexpr int kMostSteps = 25;
+constexpr double kSettledPixels = 0.001;
+
+struct Point {
+  float x, y;  // of the level
+  float grey;
+  float gradient_x, gradient_y;
+};
+
+struct Level {
+  int number = 0;  // its pixels are 2^number of the picture's
+  cv::Size size;
+  std::vector<Point> points;
+  [[nodiscard]] double scale() const { return std::ldexp(1.0, number); }
+};
+
+double gradient_of(const Point& point) { return std::hypot(point.gradient_x, point.gradient_y); }
+
+// The strongest of each cell.
+std::vector<Point> textured_points(const cv::Mat& grey) {
+  const int side = std::max(8, std::max(grey.cols, grey.rows) / static_cast<int>(kCells));
+  const int columns = (grey.cols - 1) / side + 1, rows = (grey.rows - 1) / side + 1;
+  std::vector<std::vector<Point>> cells(static_cast<std::size_t>(columns * rows));
+  for (int y = static_cast<int>(kMargin); y < grey.rows - static_cast<int>(kMargin); ++y) {
+    const auto *above = grey.ptr<float>(y - 1), *row = grey.ptr<float>(y), *below = grey.ptr<float>(y + 1);
+    for (int x = static_cast<int>(kMargin); x < grey.cols - static_cast<int>(kMargin); ++x) {
+      const Point point{static_cast<float>(x), static_cast<float>(y), row[x], (row[x + 1] - row[x - 1]) / 2,
+                        (below[x] - above[x]) / 2};
+      if (gradient_of(point) < kLeastGradient) continue;
+      cells[static_cast<std::size_t>(y / side * columns + x / side)].push_back(point);
+    }
+  }
+  const std::size_t most = std::max<std::size_t>(1, kMostPoints / cells.size());
+  std::vector<Point> points;
+  for (std::vector<Point>& cell : cells) {
+    if (cell.size() > most) {
+      std::ranges::nth_element(cell, cell.begin() + static_cast<std::ptrdiff_t>(most), std::greater(),
+                               gradient_of);
+      cell.resize(most);
+    }
+    points.insert(points.end(), cell.begin(), cell.end());
+  }
+  if (points.empty()) return points;
+  const double weak = kWeakGradient * gradient_of(*std::ranges::max_element(points, {}, gradient_of));
+  std::erase_if(points, [&](const Point& point) { return gradient_of(point) < weak; });
+  return points;
+}
+
+// Catmull and Rom's cubic; the place lies two pixels from the border or further.
+float cubic_at(const cv::Mat& grey, double x, double y) {
+  const int left = static_cast<int>(x), top = static_cast<int>(y);
+  const auto u = static_cast<float>(x - left), v = static_cast<float>(y - top);
+  const auto between = [](float a, float b, float c, float d, float t) {
+    return b + 0.5f * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
+  };
+  float rows[4];
+  for (int j = 0; j < 4; ++j) {
+    const float* const row = grey.ptr<float>(top + j - 1) + left - 1;
+    rows[j] = between(row[0], row[1], row[2], row[3], u);
+  }
+  return between(rows[0], rows[1], rows[2], rows[3], v);
+}
+
+// What is fitted: the motion's numbers, in a frame that reaches to about 1 at the picture's corners; brightness last.
+class Frame {
+ public:
+  Frame(const Shape& shape, CameraMotion motion)
+      : x_((shape.width - 1) / 2.0),
+        y_((shape.height - 1) / 2.0),
+        radius_(std::max(1.0, std::hypot(x_, y_))),
+        motion_(motion) {}
+
+  [[nodiscard]] int count() const {
+    return motion_ == CameraMotion::translation ? 2 : motion_ == CameraMotion::rigid ? 3 : 8;
+  }
+  [[nodiscard]] double radius() const { return radius_; }
+
+  // How the grey at a place, in pixels of the picture, changes with each; the gradient is per `radius`.
+  void slopes(double x, double y, double gx, double gy, double* slope) const {
+    const double u = (x - x_) / radius_, v = (y - y_) / radius_;
+    slope[0] = gx;
+    slope[1] = gy;
+    if (motion_ == CameraMotion::rigid) slope[2] = gy * u - gx * v;
+    if (motion_ != CameraMotion::homography) return;
+    const double out = gx * u + gy * v;
+    slope[2] = gx * u;
+    slope[3] = gx * v;
+    slope[4] = gy * u;
+    slope[5] = gy * v;
+    slope[6] = out * u;
+    slope[7] = out * v;
+  }
+
+  // The warp of these numbers, near the identity.
+  [[nodiscard]] Warp warp(const double* p) const {
+    Warp small;
+    if (motion_ == CameraMotion::translation) {
+      small.m = {1, 0, p[0], 0, 1, p[1], 0, 0, 1};
+    } else if (motion_ == CameraMotion::rigid) {
+      const double c = std::cos(p[2]), s = std::sin(p[2]);
+      small.m = {c, -s, p[0], s, c, p[1], 0, 0, 1};
+    } else {
+      small.m = {1 + p[2], p[3], p[0], p[4], 1 + p[5], p[1], -p[6], -p[7], 1};
+    }
+    const Warp into{{1 / radius_, 0, -x_ / radius_, 0, 1 / radius_, -y_ / radius_, 0, 0, 1}};
+    const Warp back{{radius_, 0, x_, 0, radius_, y_, 0, 0, 1}};
+    return chained(chained(into, small), back);
+  }
+
+ private:
+  double x_, y_, radius_;
+  CameraMotion motion_;
+};
+
+// Brightness of a picture by the reference's: gain * grey + offset.
+struct Fit {
+  Warp warp;
+  double gain = 1, offset = 0;
+};
+
+struct Sampled {
+  const Point* point;
+  double x, y;  // of the picture
+  double grey;  // of the picture that is registered, where the warp says
+};
+
+class RobustRegistrar final : public Registrar {
+ public:
+  RobustRegistrar(const CaptureFormat& format, CameraMotion motion, std::span<const std::byte> reference)
+      : format_(format), frame_(format.shape, motion), coarse_(format.shape, coarse_motion(motion)) {
+    const GreyPyramid pyramid(format, reference);
+    for (std::size_t i = 0; i < pyramid.levels.size(); ++i) {
+      const cv::Mat& grey = pyramid.levels[i];
+      Level level{pyramid.finest + static_cast<int>(i), grey.size(), textured_points(grey)};
+      if (i > 0 && level.points.size() < kLeastPoints) break;
+      if (i == 0) check_texture(level.points);
+      levels_.push_back(std::move(level));
+    }
+    reference_ = pyramid.of_features();
+  }
+
+  Registered find(std::span<const std::byte> raster, const Warp& guess) override {
+    const GreyPyramid pyramid(format_, raster);
+    Registered best = fit(pyramid, guess, levels_.size());
+    const auto try_from = [&](const Warp& start) {
+      const Registered other = fit(pyramid, start, kFineLevels);
+      if (other.agreeing > best.agreeing) best = other;
+    };
+    if (!is_sure(best)) try_from(guess);
+    if (is_sure(best)) return best;
+    if (!features_) features_.emplace(reference_, pyramid.feature_scale());
+    if (const auto start = features_->find(pyramid.of_features())) try_from(*start);
+    return best;
+  }
+
+ private:
+  // Away from the finest levels there is too little to tell a homography from.
+  static CameraMotion coarse_motion(CameraMotion motion) {
+    return motion == CameraMotion::homography ? CameraMotion::rigid : motion;
+  }
+
+  static void check_texture(const std::vector<Point>& points) {
+    if (points.size() < kLeastPoints) {
+      throw TooLittleTexture(
+          format("it has {} pixels whose surroundings can be recognized, and {} are needed", points.size(),
+                 kLeastPoints));
+    }
+    double xx = 0, xy = 0, yy = 0;
+    for (const Point& point : points) {
+      xx += point.gradient_x * point.gradient_x;
+      xy += point.gradient_x * point.gradient_y;
+      yy += point.gradient_y * point.gradient_y;
+    }
+    const double middle = (xx + yy) / 2, spread = std::hypot((xx - yy) / 2, xy);
+    if (middle - spread < kLeastAcross * (middle + spread)) {
+      throw TooLittleTexture(
+          "all its edges run in one direction, along which nothing tells where a picture lies");
+    }
+  }
+
+  [[nodiscard]] Registered fit(const GreyPyramid& pyramid, const Warp& guess, std::size_t levels) const {
+    Fit fit{guess, 1, 0};
+    for (std::size_t i = std::min(levels, levels_.size()); i-- > 0;) {
+      const bool is_fine =
+          i == 0 || (i == 1 && levels_[i].size.height >= 100 && levels_[i].size.width >= 100);
+      if (!settle(levels_[i], pyramid.levels[i], is_fine ? frame_ : coarse_, fit)) return {guess, 0, 0};
+    }
+    return judged(levels_.front(), pyramid.levels.front(), fit);
+  }
+
+  // The points that the picture shows, too. Empty where these are few.
+  [[nodiscard]] static std::vector<Sampled> sampled(const Level& level, const cv::Mat& grey,
+                                                    const Warp& warp) {
+    std::vector<Sampled> seen;
+    seen.reserve(level.points.size());
+    const double scale = level.scale();
+    for (const Point& point : level.points) {
+      const double x = scale * point.x, y = scale * point.y;
+      const Place there = warp.at(x, y);
+      const double px = there.x / scale, py = there.y / scale;
+      if (!(px >= 2 && py >= 2 && px < grey.cols - 3 && py < grey.rows - 3)) continue;
+      seen.push_back({&point, x, y, double{cubic_at(grey, px, py)}});
+    }
+    if (static_cast<double>(seen.size()) < kLeastSeen * static_cast<double>(level.points.size()))
+      seen.clear();
+    return seen;
+  }
+
+  [[nodiscard]] static double residual(const Sampled& sample, const Fit& fit) {
+    return sample.grey - fit.gain * sample.point->grey - fit.offset;
+  }
+
+  [[nodiscard]] static double median(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+  }
+
+  // False where the picture shows too little of the reference, or the fit leads nowhere.
+  static bool settle(const Level& level, const cv::Mat& grey, const Frame& frame, Fit& fit) {
+    const int motion = frame.count(), count = motion + 2;
+    const double per_radius = frame.radius() / level.scale();
+    std::vector<double> sizes;
+    for (int step = 0; step < kMostSteps; ++step) {
+      const std::vector<Sampled> seen = sampled(level, grey, fit.warp);
+      if (seen.empty()) return false;
+      sizes.clear();
+      for (const Sampled& sample : seen) sizes.push_back(std::abs(residual(sample, fit)));
+      const double limit = kTukey * std::max(kLeastSigma, 1.4826 * median(sizes));
+      cv::Mat squares = cv::Mat::zeros(count, count, CV_64F), right = cv::Mat::zeros(count, 1, CV_64F);
+      double column[10];
+      for (const Sampled& sample : seen) {
+        const double share = residual(sample, fit) / limit;
+        double weight = 1 / (1 + 9 * share * share);  // Cauchy's, which excludes nothing
+        if (step >= kFirstSteps) {
+          if (std::abs(share) >= 1) continue;
+          weight = (1 - share * share) * (1 - share * share);
+        }
+        const Point& point = *sample.point;
+        frame.slopes(sample.x, sample.y, per_radius * point.gradient_x, per_radius * point.gradient_y,
+                     column);
+        column[motion] = point.grey / kGreyWhite;
+        column[motion + 1] = 1;
+        for (int i = 0; i < count; ++i) {
+          auto* const row = squares.ptr<double>(i);
+          for (int k = 0; k <= i; ++k) row[k] += weight * column[i] * column[k];
+          right.at<double>(i) += weight * column[i] * sample.grey;
+        }
+      }
+      cv::completeSymm(squares, true);
+      cv::Mat solved;
+      if (!cv::solve(squares, right, solved, cv::DECOMP_CHOLESKY)) return false;
+      auto* const numbers = solved.ptr<double>();
+      fit.gain = numbers[motion] / kGreyWhite;
+      fit.offset = numbers[motion + 1];
+      if (!(fit.gain > 0.2 && fit.gain < 5)) return false;
+      for (int i = 0; i < motion; ++i) numbers[i] /= fit.gain;
+      const double moved = cv::norm(solved.rowRange(0, motion)) * frame.radius();
+      if (!(moved < frame.radius())) return false;
+      fit.warp = chained(inverse(frame.warp(numbers)), fit.warp);
+      if (moved < kSettledPixels && step > kFirstSteps) break;
+    }
+    return true;
+  }
+
+  [[nodiscard]] static Registered judged(const Level& level, const cv::Mat& grey, const Fit& fit) {
+    const std::vector<Sampled> seen = sampled(level, grey, fit.warp);
+    if (seen.empty()) return {fit.warp, 0, 0};
+    std::vector<double> away;
+    std::size_t agreeing = 0;
+    for (const Sampled& sample : seen) {
+      away.push_back(std::abs(residual(sample, fit)) / (fit.gain * gradient_of(*sample.point)));
+      agreeing += away.back() <= 1 ? 1 : 0;
+    }
+    const double share = static_cast<double>(agreeing) / static_cast<double>(seen.size());
+    return {fit.warp, share, level.scale() * median(away)};
+  }
+
+  CaptureFormat format_;
+  Frame frame_, coarse_;
+  std::vector<Level> levels_;  // the finest first
+  cv::Mat reference_;          // for features, which are looked for when they are first needed
+  std::optional<FeatureStart> features_;
+};
+
+}  // namespace
+
+std::unique_ptr<Registrar> open_registrar(const CaptureFormat& format, CameraMotion motion,
+                                          std::span<const std::byte> reference) {
+  return std::make_unique<RobustRegistrar>(format, motion, reference);
+}
+
+}  // namespace nutik::motion

@@ -1,0 +1,112 @@
+#include "align/light_warp.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+namespace nutik {
+namespace {
+
+constexpr std::uint32_t kWidth = 61, kHeight = 47;
+
+CaptureFormat format_of(std::uint32_t channels, std::uint32_t code_bytes, Transfer transfer) {
+  CaptureFormat format;
+  format.shape = {kWidth, kHeight, channels};
+  format.code_bytes = code_bytes;
+  format.white_code = code_bytes == 1 ? 255 : 65'535;
+  format.transfer = transfer;
+  return format;
+}
+
+// Light that changes slowly: waves of 16 pixels and more.
+double light_at(double x, double y, std::uint32_t channel) {
+  return 0.5 + 0.2 * std::sin(0.39 * x + channel) + 0.2 * std::cos(0.3 * y - 0.2 * x);
+}
+
+template <typename Code>
+std::vector<std::byte> drawn(const CaptureFormat& format, const Warp& from_places) {
+  std::vector<std::byte> raster(format.sample_bytes());
+  for (std::size_t i = 0; i < format.shape.value_count(); ++i) {
+    const std::size_t pixel = i / format.shape.channels;
+    const Place place = from_places.at(double(pixel % kWidth), double(pixel / kWidth));
+    const double light = light_at(place.x, place.y, static_cast<std::uint32_t>(i % format.shape.channels));
+    const auto code = static_cast<Code>(std::lround(format.transfer.fraction_of(light) * format.white_code));
+    std::memcpy(raster.data() + i * sizeof code, &code, sizeof code);
+  }
+  return raster;
+}
+
+TEST(LightWarp, MovesCodesByWholePixelsAsTheyAre) {
+  const CaptureFormat format = format_of(3, 1, Transfer::srgb());
+  std::vector<std::byte> raster(format.sample_bytes());
+  for (std::size_t i = 0; i < raster.size(); ++i) raster[i] = static_cast<std::byte>(i * 7919 % 256);
+  const Rectangle area{5, 4, 40, 30};
+  LightWarp warp(format, area);
+  std::vector<std::byte> warped(std::size_t{40} * 30 * 3);
+  warp.take(raster, Warp{{1, 0, 3, 0, 1, -2, 0, 0, 1}}, warped);
+  for (std::size_t i = 0; i < warped.size(); ++i) {
+    const std::size_t x = 5 + 3 + i / 3 % 40, y = 4 - 2 + i / 3 / 40;
+    ASSERT_EQ(warped[i], raster[(y * kWidth + x) * 3 + i % 3]) << "value " << i;
+  }
+}
+
+// Of a wave of 16 pixels the cubic keeps 0.99 between pixels; a code of sRGB is up to 2.3 steps of light, and two of
+// them were rounded.
+TEST(LightWarp, ShowsLightWhereItLies) {
+  const Warp turned{{std::cos(0.05), -std::sin(0.05), 3.3, std::sin(0.05), std::cos(0.05), -2.6, 0, 0, 1}};
+  for (const auto& format : {format_of(1, 1, Transfer::srgb()), format_of(3, 2, Transfer::linear()),
+                             format_of(3, 1, Transfer::gamma(2.2))}) {
+    const auto draw = format.code_bytes == 1 ? drawn<std::uint8_t> : drawn<std::uint16_t>;
+    const auto seen = draw(format, inverse(turned)), should = draw(format, Warp());
+    LightWarp warp(format, Rectangle::whole(format.shape));
+    std::vector<std::byte> is = should;  // what is not seen stays
+    warp.take(seen, turned, is);
+    for (std::size_t i = 0; i < format.shape.value_count(); ++i) {
+      const auto light = [&](const std::vector<std::byte>& raster) {
+        std::uint16_t code = 0;
+        std::memcpy(&code, raster.data() + i * format.code_bytes, format.code_bytes);
+        return format.transfer.light_of(code / double(format.white_code));
+      };
+      ASSERT_NEAR(light(is), light(should), 0.005 + 2.5 / std::min(format.white_code, 255u)) << "value " << i;
+    }
+  }
+}
+
+TEST(LightWarp, LeavesWhatThePictureDoesNotShow) {
+  const CaptureFormat format = format_of(1, 1, Transfer::linear());
+  const std::vector<std::byte> raster(format.sample_bytes(), std::byte{200});
+  std::vector<std::byte> warped(format.sample_bytes(), std::byte{7});
+  LightWarp warp(format, Rectangle::whole(format.shape));
+  warp.take(raster, Warp{{1, 0, 2.5, 0, 1, 0, 0, 0, 1}}, warped);
+  for (std::size_t i = 0; i < warped.size(); ++i) {
+    const bool is_seen = i % kWidth <= kWidth - 1 - 3;  // 2.5 to the right of it lies within the picture
+    ASSERT_EQ(warped[i], std::byte(is_seen ? 200 : 7)) << "value " << i;
+  }
+}
+
+TEST(LightWarp, MakesNoHaloesRoundEdges) {
+  const CaptureFormat format = format_of(1, 1, Transfer::srgb());
+  std::vector<std::byte> raster(format.sample_bytes());
+  for (std::size_t i = 0; i < raster.size(); ++i) raster[i] = std::byte(i % kWidth < 30 ? 20 : 240);
+  std::vector<std::byte> warped = raster;
+  LightWarp warp(format, Rectangle::whole(format.shape));
+  warp.take(raster, Warp{{1, 0, 0.4, 0, 1, 0.3, 0, 0, 1}}, warped);
+  for (const std::byte code : warped) {
+    ASSERT_GE(code, std::byte{20});
+    ASSERT_LE(code, std::byte{240});
+  }
+}
+
+TEST(LightWarp, SaysThatACodeIsAboveWhite) {
+  CaptureFormat format = format_of(1, 1, Transfer::linear());
+  format.white_code = 100;
+  const std::vector<std::byte> raster(format.sample_bytes(), std::byte{101});
+  std::vector<std::byte> warped = raster;
+  LightWarp warp(format, Rectangle::whole(format.shape));
+  EXPECT_THROW(warp.take(raster, Warp(), warped), CodeAboveWhite);
+}
+
+}  // namespace
+}  // namespace nutik
