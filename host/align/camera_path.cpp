@@ -38,12 +38,18 @@ std::optional<CameraMotion> camera_motion_of(std::string_view text) {
   return found == kMotions.end() ? std::nullopt : std::optional(found->first);
 }
 
-MemoryNeeds registrar_needs(const CaptureFormat& format) {
+MemoryNeeds registrar_needs(const CaptureFormat& format, Reach reach) {
   constexpr std::uint64_t kPyramidBytes = 12;  // a pixel: as it is, blurred, and all smaller ones
-  constexpr std::uint64_t kTextureBytes = 40;  // a pixel of the finest level, while places are chosen
+  constexpr std::uint64_t kTextureBytes = 4 << 20;
+  constexpr std::uint64_t kFeatureBytes =
+      240;  // a pixel of what features are looked for in: twice its size, in
+            // eleven layers of floats, and all smaller ones
+  constexpr std::uint64_t kMostFeaturePixels = 480 * 480;
   const std::uint64_t pixels = format.shape.pixel_count();
-  return {{"a picture that is registered", kPyramidBytes * pixels},
-          {"its texture", kTextureBytes * std::min(pixels, std::uint64_t{1} << 21)}};
+  MemoryNeeds needs{{"a picture that is registered", kPyramidBytes * pixels}, {"its texture", kTextureBytes}};
+  if (reach == Reach::anywhere)
+    needs.add("its features", kFeatureBytes * std::min(pixels, kMostFeaturePixels));
+  return needs;
 }
 
 CameraPath::Step CameraPath::step(std::uint64_t picture) const {

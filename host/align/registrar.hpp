@@ -40,19 +40,26 @@ struct TooLittleTexture : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// How far from where it is expected a picture may lie.
+enum class Reach {
+  near,     // a few percent of its size
+  anywhere  // as long as it shows much of the same
+};
+
 class Registrar {
  public:
   virtual ~Registrar() = default;
 
   // Of a raster of the same format, which is expected to lie about where `guess` says. The best that was found, be it
   // good or not: is_sure().
-  [[nodiscard]] virtual Registered find(std::span<const std::byte> raster, const Warp& guess) = 0;
+  [[nodiscard]] virtual Registered find(std::span<const std::byte> raster, const Warp& guess,
+                                        Reach reach = Reach::anywhere) = 0;
 };
 
 // Whether most of the texture follows it.
 [[nodiscard]] inline bool is_sure(const Registered& found) { return found.agreeing >= 0.5; }
 
 // What a registrar of pictures of this format holds.
-[[nodiscard]] MemoryNeeds registrar_needs(const CaptureFormat& format);
+[[nodiscard]] MemoryNeeds registrar_needs(const CaptureFormat& format, Reach reach);
 
 }  // namespace nutik

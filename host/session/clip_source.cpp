@@ -25,7 +25,7 @@ void refuse_streams(const std::filesystem::path& path) {
 }
 
 // On the clip itself, which is then opened again. Throws MemoryTooLittle with the least that does for encoding, too.
-CameraNoise own_noise(ClipSource& source, const ClipOptions& options, const MemoryBudget& memory) {
+CameraNoise own_noise(ClipSource& source, const OpenClip& open, const MemoryBudget& memory) {
   MemoryNeeds needs{{"pictures within the decoder", source.clip->info().decoder_bytes}};
   const std::uint64_t within_decoder = needs.bytes();
   needs.add(NoiseEstimator::needs(source.capture, kSamplesOfOwnNoise));
@@ -46,7 +46,7 @@ CameraNoise own_noise(ClipSource& source, const ClipOptions& options, const Memo
       source.request.path.string(), [&](std::span<std::byte> raster) { return source.clip->read(raster); },
       kSamplesOfOwnNoise);
   source.clip.reset();
-  source.clip = open_clip(source.request.path, options);
+  source.clip = open();
   const NoiseEstimate estimate = estimator.estimate();
   if (is_no_noise(estimate)) {
     throw InputError(format(
@@ -59,24 +59,60 @@ CameraNoise own_noise(ClipSource& source, const ClipOptions& options, const Memo
   return estimate.noise;
 }
 
-NoiseModel noise_model(ClipSource& source, const ClipOptions& options, const MemoryBudget& memory) {
+NoiseModel noise_model(ClipSource& source, const OpenClip& open, const MemoryBudget& memory) {
   const SourceRequest& request = source.request;
   NoiseModel model{request.tolerance, std::nullopt, request.sigmas};
   if (std::holds_alternative<NoiseOfClip>(request.noise)) {
-    model.camera = own_noise(source, options, memory);
+    model.camera = own_noise(source, open, memory);
   } else if (const auto* stated = std::get_if<StatedNoise>(&request.noise)) {
     model.camera = stated->noise;
     if (auto note = transfer_note(*stated, source.capture.transfer))
       source.notes.emplace_back(std::move(*note));
-    if (request.clip.scale) {
+    if (request.clip.scale || request.align) {
+      std::vector settings{Setting::automatic_noise};
+      if (request.clip.scale) settings.insert(settings.begin(), Setting::scale);
       source.notes.emplace_back(format("{} is the noise of single pixels, and a mean of several has less: "
                                        "changes below it are taken for "
-                                       "noise; measure it on the scaled clip",
+                                       "noise; measure it on the clip itself",
                                        stated->name),
-                                std::vector{Setting::scale, Setting::automatic_noise});
+                                std::move(settings));
     }
   }
   return model;
+}
+
+// The picture that others are moved onto.
+std::uint64_t reference_of(const AlignRequest& align, const ClipSource& source) {
+  if (align.path) return (*align.path)->reference;
+  if (!align.reference) return 0;
+  const std::uint64_t announced = source.announced_samples();
+  if (announced > 0)
+    return sample_at(*align.reference, "the picture to align to", source.timeline(announced));
+  const ClipMoment moment = clip_moment(*align.reference, "the picture to align to");
+  if (moment.is_picture && moment.value >= 0) return static_cast<std::uint64_t>(moment.value);
+  throw UsageError(
+      format("{} does not say how many pictures it has: name the one to align to by its number, 12f",
+             source.request.path.string()));
+}
+
+// From here on the source's clip is one whose camera stands still, however often `open` opens it.
+void align(ClipSource& source, OpenClip& open, const MemoryBudget& memory, const ReportedProgress& progress,
+           const std::stop_token& stop) {
+  AlignRequest& request = *source.request.align;
+  const ClipToAlign clip{source.request.path.string(),      source.capture,
+                         reference_of(request, source),     source.announced_samples(),
+                         source.clip->info().decoder_bytes, open};
+  source.clip.reset();
+  if (!request.path) {
+    request.path.emplace(find_camera_path(clip, request.motion, memory, progress, stop));
+  }
+  source.camera = request.path;
+  open = [clip, path = *request.path, unseen = request.unseen] { return open_aligned(clip, path, unseen); };
+  source.clip = open();
+  source.capture.shape = source.clip->info().format.shape;
+  const CameraPath& path = **source.camera;
+  source.notes.emplace_back(
+      alignment_text(path, shown_area(clip.name, path, request.unseen), request.unseen));
 }
 
 }  // namespace
@@ -150,25 +186,30 @@ ReadClip ClipSource::read_clip() const {
   return {capture, clip->info().decoder_bytes, request.block_samples, announced_samples()};
 }
 
-ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory) {
+ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory,
+                            const ReportedProgress& progress, const std::stop_token& stop) {
   ClipSource source;
   source.request = request;
   refuse_streams(request.path);
   ClipOptions options = request.clip;
   options.decoder_bytes = memory.bytes / 8;
-  source.clip = open_clip(request.path, options);
+  OpenClip open = [path = request.path, options] { return open_clip(path, options); };
+  source.clip = open();
   if (request.shutter_angle && !request.clip.rate && !source.clip->info().timing.exposures.empty()) {
     throw ExposuresAreListed(request.path.string());
   }
   source.capture = clip_format(*source.clip, request.clip);
   source.notes = source.clip->info().notes;
-  source.capture.noise = noise_model(source, options, memory);
+  if (request.align) align(source, open, memory, progress, stop);
+  source.capture.noise = noise_model(source, open, memory);
   return source;
 }
 
 Timeline known_timeline(const SourceRequest& request, const MemoryBudget& memory) {
   if (is_tik(request.path)) return tik::Reader(request.path).timeline();
-  const ClipSource source = open_clip_source(request, memory);
+  SourceRequest timed = request;
+  timed.align.reset();  // its times are those of the clip
+  const ClipSource source = open_clip_source(timed, memory);
   const std::uint64_t count = source.announced_samples();
   if (count == 0) {
     throw InputError(format("{} does not say how many pictures it has; encode it first and name the capture",

@@ -2,7 +2,8 @@
 //
 //   in:      a request, what may be held in memory
 //   out:     the clip, the format of its samples with the noise model
-//   always:  nothing of the clip has been read but what its noise was measured on
+//   always:  nothing of the clip has been read but what its noise was measured on, and all of it where its camera's
+//            path had to be found
 #pragma once
 
 #include <cstdint>
@@ -14,6 +15,7 @@
 
 #include "capture/error.hpp"
 #include "media/clip.hpp"
+#include "session/alignment.hpp"
 #include "session/clip_memory.hpp"
 #include "session/source_request.hpp"
 
@@ -35,6 +37,7 @@ struct ClipSource {
   std::unique_ptr<Clip> clip;
   CaptureFormat capture;    // of its samples; what is held of them has held_format()
   std::vector<Note> notes;  // on the clip and its noise: what a person should know
+  std::optional<Shared<CameraPath>> camera = std::nullopt;  // whose pictures are moved along it
 
   // What the capture is taken for, its times included, each with who said it.
   [[nodiscard]] std::vector<Fact> facts(const Timeline& timeline) const;
@@ -48,8 +51,11 @@ struct ClipSource {
 };
 
 // Throws InputError where the clip cannot be read, UsageError where the request does not fit it: ExposuresAreListed;
-// MemoryTooLittle where its own noise cannot be measured in the memory.
-[[nodiscard]] ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory);
+// MemoryTooLittle where its own noise cannot be measured in the memory; what find_camera_path() throws. `progress` counts
+// pictures while that reads the clip; the source's own request knows the path then.
+[[nodiscard]] ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory,
+                                          const ReportedProgress& progress = {},
+                                          const std::stop_token& stop = {});
 
 // When the pictures of a .tik or a clip were exposed, as far as that is known before one is decoded. Throws InputError
 // where nothing tells how many there are or how fast they were taken, and what open_clip_source() throws.

@@ -72,6 +72,7 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMe
   header.rate = stated_rate ? stated_rate : source_.clip->info().timing.rate;
   header.shutter_angle = times_.shutter_angle();
   for (const Fact& fact : source_.facts(times_)) header.facts.push_back(fact.line());
+  if (source_.camera) header.alignment = kept_alignment(**source_.camera, source_.request.align->unseen);
   writer_.emplace(request.output, header, request.codec, to_held_codes(source_.capture, first_.front()),
                   memory.threads, request.lasting);
   for (std::size_t i = 0; i < kPayloads; ++i) spare_payloads_.push(PageBuffer());
@@ -86,7 +87,8 @@ Encoded Encoding::run(const ReportedProgress& progress, const std::stop_token& s
   std::vector<Fact> facts = source_.facts(timeline);
   for (std::string& remark : source_.clip->remarks()) source_.notes.emplace_back(std::move(remark));
   return {source_.capture,  std::move(timeline),      writer_->bytes_written(),
-          std::move(facts), std::move(source_.notes), warnings(samples)};
+          std::move(facts), std::move(source_.notes), warnings(samples),
+          source_.camera};
 }
 
 // Pictures that a decoder leaves out shift all behind them to earlier times.
@@ -149,9 +151,10 @@ Encoded encode(ClipSource source, const EncodeRequest& request, const ClipMemory
 
 Encoded encode(const SourceRequest& source, const EncodeRequest& request, const MemoryBudget& memory,
                const ReportedProgress& progress, std::stop_token stop) {
-  ClipSource clip = open_clip_source(source, memory);
+  const TwofoldProgress twofold(source, progress);
+  ClipSource clip = open_clip_source(source, memory, twofold.finding, stop);
   const ClipMemory shares = memory_for_encoding(memory, clip.read_clip());
-  return encode(std::move(clip), request, shares, progress, std::move(stop));
+  return encode(std::move(clip), request, shares, twofold.reading, std::move(stop));
 }
 
 }  // namespace nutik

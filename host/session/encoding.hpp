@@ -29,6 +29,7 @@ struct Encoded {
   std::vector<Fact> facts;            // what it was taken for
   std::vector<Note> notes;            // on the clip
   std::vector<std::string> warnings;  // what is doubtful about the capture, whole sentences
+  std::optional<Shared<CameraPath>> camera = std::nullopt;  // of pictures that were aligned
 };
 
 // Reads all of the clip; `progress` counts samples. Throws InputError where there is no sample or where the clip's

@@ -1,5 +1,7 @@
 #include "session/mask_request.hpp"
 
+#include <algorithm>
+
 namespace nutik {
 namespace {
 
@@ -36,6 +38,13 @@ std::vector<const NamedPicture*> MaskStep::pictures() const {
     if (const auto* picture = std::get_if<NamedPicture>(source)) pictures.push_back(picture);
   }
   return pictures;
+}
+
+bool MaskRequest::tells_by_rest() const {
+  return std::ranges::any_of(steps, [](const MaskStep& step) {
+    return step.needs_plate() || std::holds_alternative<select::Motion>(step.selection) ||
+           std::holds_alternative<select::Stillness>(step.selection);
+  });
 }
 
 }  // namespace nutik

@@ -139,6 +139,9 @@ struct MaskRequest {
   std::optional<NamedSize> size;  // where neither base nor capture nor a picture says it, or beside them
   std::vector<MaskStep> steps;
 
+  // Whether a step tells what moves from what rests in the capture, which a camera that moves confuses.
+  [[nodiscard]] bool tells_by_rest() const;
+
   friend bool operator==(const MaskRequest&, const MaskRequest&) = default;
 };
 

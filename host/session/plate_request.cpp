@@ -10,6 +10,7 @@
 #include "noise/noise_estimator.hpp"
 #include "render/code_scale.hpp"
 #include "scene/plate.hpp"
+#include "session/camera_check.hpp"
 #include "session/mask_making.hpp"
 
 namespace nutik {
@@ -84,8 +85,9 @@ Picture make_code_plate(CaptureSource& capture, const std::string& capture_name,
 
 NeedsOfFormat mask_needs_of(const MaskRequest& request) {
   const bool needs_plate = std::ranges::any_of(request.steps, &MaskStep::needs_plate);
-  return [needs_plate](const CaptureFormat& capture) {
+  return [needs_plate, looks_at_camera = request.tells_by_rest()](const CaptureFormat& capture) {
     MemoryNeeds needs = mask_making_needs(capture);
+    if (looks_at_camera) needs.add(camera_check_needs(capture));
     if (needs_plate) needs.add(plate_making_needs(capture));
     return needs;
   };

@@ -93,12 +93,13 @@ class PrivateFolder {
 ScratchCapture encode_to_scratch(const SourceRequest& source, const MemoryBudget& memory,
                                  const NeedsOfFormat& rendering, const ReportedProgress& progress,
                                  std::stop_token stop) {
-  ClipSource clip = open_clip_source(source, memory);  // before a folder is made for it
+  const TwofoldProgress twofold(source, progress);
+  ClipSource clip = open_clip_source(source, memory, twofold.finding, stop);  // before a folder is made for it
   const ClipMemory shares = memory_for_encoding(memory, clip.read_clip(), rendering(clip.capture));
   const PrivateFolder folder;
   // Quick to unpack: it is read many times and kept for no longer than that.
   const EncodeRequest request{folder.path() / "capture.tik", {tik::CodecId::lz4, 0}, OutputFile::Lasting::no};
-  Encoded encoded = encode(std::move(clip), request, shares, progress, std::move(stop));
+  Encoded encoded = encode(std::move(clip), request, shares, twofold.reading, std::move(stop));
   return {std::make_unique<tik::Reader>(request.output), std::move(encoded)};
 }
 

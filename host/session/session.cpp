@@ -124,7 +124,7 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
     notes_ = std::move(scratch.encoded.notes);
     warnings_ = std::move(scratch.encoded.warnings);
   } else {
-    clip_ = open_clip_source(source, memory());
+    clip_ = open_clip_source(source, memory(), terms.progress, terms.stop);
     announced_ = clip_->timeline(clip_->announced_samples());
     facts_ = clip_->facts(*announced_);
     notes_ = clip_->notes;

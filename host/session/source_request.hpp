@@ -9,10 +9,12 @@
 #include <string_view>
 #include <variant>
 
+#include "align/camera_path.hpp"
 #include "capture/noise_model.hpp"
 #include "capture/timeline.hpp"
 #include "imev/tile_cost.hpp"
 #include "media/clip.hpp"
+#include "session/shared.hpp"
 #include "session/stated_time.hpp"
 
 namespace nutik {
@@ -33,11 +35,25 @@ struct StatedNoise {
 // A moment of a clip, as it was stated. Throws UsageError naming `what` where pictures are not counted in whole ones.
 [[nodiscard]] ClipMoment clip_moment(const StatedTime& time, std::string_view what);
 
+// What becomes of places that not every aligned picture saw: they are cut away, or hold what was seen there before.
+enum class Unseen { cropped, held };
+
+// Moving each picture onto one of them, so that the camera stands still.
+struct AlignRequest {
+  CameraMotion motion = CameraMotion::rigid;
+  std::optional<StatedTime> reference;     // none: the first picture
+  std::optional<Shared<CameraPath>> path;  // one that is known already; it says motion and reference itself
+  Unseen unseen = Unseen::cropped;
+  friend bool operator==(const AlignRequest&, const AlignRequest&) = default;
+};
+
 struct SourceRequest {
   std::filesystem::path path;  // a .tik, a video, a sequence of stills or a table of them
   ClipOptions clip;
   std::optional<Rational>
       shutter_angle;  // degrees; none: as listed in the files, else Timeline::kFullShutter
+
+  std::optional<AlignRequest> align;
 
   // What counts as no change.
   std::uint32_t tolerance = 0;  // codes

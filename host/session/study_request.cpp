@@ -194,7 +194,7 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
   const double moving =
       static_cast<double>(plate.uncertain.pixel_count()) / static_cast<double>(format.shape.pixel_count());
   if (moving > kMostMoving) {
-    throw InputError(
+    throw EverythingMoves(
         nutik::format("{}: {:.0f} % of the pixels hold no light for half of the time: everything moves, as "
                       "it does where nobody held "
                       "the camera still. A study needs a scene that rests and something that moves in it",
@@ -203,7 +203,7 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
   const auto by_codes = static_cast<std::uint32_t>(std::ceil(2 * CodeBand::kLeastShare * format.white_code));
   SubjectTrack track = track_subject(capture, plate.picture, by_codes, progress);
   if (track.moving_share > kMostMoving) {
-    throw InputError(
+    throw EverythingMoves(
         nutik::format("{}: {:.0f} % of the picture differ from the scene at rest on average: everything "
                       "moves, as it does where the "
                       "camera did. A study needs a scene that rests, and something that moves in it",

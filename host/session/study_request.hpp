@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "capture/error.hpp"
 #include "imev/capture_source.hpp"
 #include "render/render_plan.hpp"
 #include "scene/subject.hpp"
@@ -36,6 +37,11 @@ struct StudyRequest {
   std::optional<TrailShape> trail;  // none: what the style has
 
   friend bool operator==(const StudyRequest&, const StudyRequest&) = default;
+};
+
+// There is no scene that rests.
+struct EverythingMoves : InputError {
+  using InputError::InputError;
 };
 
 struct Study {

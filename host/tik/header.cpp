@@ -25,8 +25,8 @@ constexpr std::string_view kNoise = "noise";
 constexpr std::size_t kLongestHeader = 65'536;
 
 // Tags of fields. Those that are not written yet have a name, so that nobody takes it for something else.
-constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = "fact";
-constexpr std::array<std::string_view, 3> kKnownFields{kPixelAspect, kPrimaries, kFacts};
+constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = "fact", kAligned = "algn";
+constexpr std::array<std::string_view, 4> kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned};
 
 bool is_netpbm(std::string_view text) {
   return text.size() > 2 && text[0] == 'P' && text[1] >= '1' && text[1] <= '7' &&
@@ -184,6 +184,39 @@ class HeaderParser {
   std::string noise_;  // the text of its noise file
 };
 
+constexpr std::string_view kHeld = "held", kCut = "cut";
+
+// `rigid 0 cut 12.5 0.4 0.1`
+std::string text_of(const Alignment& alignment) {
+  return format("{} {} {} {} {} {}", alignment.motion, alignment.reference,
+                alignment.holds_unseen ? kHeld : kCut, alignment.moved_pixels, alignment.turned_degrees,
+                alignment.residual_pixels);
+}
+
+Alignment parse_alignment(std::string_view text) {
+  const auto word = [&] {
+    const std::size_t end = text.find(' ');
+    const std::string_view first = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    return first;
+  };
+  const auto number = [&](auto& value) {
+    const std::string_view digits = word();
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc() || end != digits.data() + digits.size()) {
+      throw UsageError("what it says of its alignment is damaged");
+    }
+  };
+  Alignment alignment;
+  alignment.motion = printable(word());
+  number(alignment.reference);
+  alignment.holds_unseen = word() == kHeld;
+  number(alignment.moved_pixels);
+  number(alignment.turned_degrees);
+  number(alignment.residual_pixels);
+  return alignment;
+}
+
 // Throws UsageError where a value is none.
 void take_fields(std::span<const Field> fields, Header& header) {
   CaptureFormat& capture = header.capture;
@@ -195,6 +228,8 @@ void take_fields(std::span<const Field> fields, Header& header) {
       capture.pixel_aspect = Rational::of(aspect[0], aspect[1]);
     } else if (field.tag == kPrimaries) {
       capture.primaries = parse_primaries(field.data);
+    } else if (field.tag == kAligned) {
+      header.alignment = parse_alignment(field.data);
     } else if (field.tag == kFacts) {
       for (std::size_t at = 0; at < field.data.size();) {
         const std::size_t end = std::min(field.data.find('\n', at), field.data.size());
@@ -252,6 +287,7 @@ std::vector<Field> Header::fields() const {
   std::string lines;
   for (const std::string& fact : facts) lines += fact + "\n";
   if (!lines.empty()) fields.push_back({std::string(kFacts), false, lines});
+  if (alignment) fields.push_back({std::string(kAligned), false, text_of(*alignment)});
   return fields;
 }
 

@@ -25,6 +25,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,6 +38,17 @@
 
 namespace nutik::tik {
 
+// That each picture was moved onto one of them, so that the camera stands still.
+struct Alignment {
+  std::string motion;           // translation, rigid or homography
+  std::uint64_t reference = 0;  // the sample that the others were moved onto
+  bool holds_unseen = false;    // places that a picture did not see hold what was seen there before
+  double moved_pixels = 0;      // by how far at most, in the picture's middle
+  double turned_degrees = 0;
+  double residual_pixels = 0;  // half of the texture lies within this of where it should
+  friend bool operator==(const Alignment&, const Alignment&) = default;
+};
+
 struct Header {
   std::uint32_t version = kVersion;
   CaptureFormat capture;  // of what is held
@@ -46,6 +58,7 @@ struct Header {
   std::string codec;  // a word for people; each block says what it really uses
   // Who said what of the capture: `matrix bt601, assumed`. Lines for people.
   std::vector<std::string> facts;
+  std::optional<Alignment> alignment = std::nullopt;
 
   // The header as text, up to and including the line end before the raster.
   [[nodiscard]] std::string text() const;

@@ -97,6 +97,26 @@ constexpr Option kRows[] = {
     {0, "sigmas", "K", encoding, kReadsClips, &Options::sigmas,
      "with --noise: standard deviations from what is held within which a sample is no change (default: 3)"},
 
+    heading("A camera that moved"),
+    {0, "align", "MOTION", encoding, kEncodesClips, &Options::align,
+     "move each picture onto the first one, so that the camera stands still: by translation, rigid (turning, "
+     "too) or homography (whatever a camera on the spot does); the clip is read twice",
+     "translation rigid homography"},
+    {0, "align-to", "TIME", encoding, kEncodesClips, &Options::align_to,
+     "with --align: onto the picture at this time: 0.5s, 60f (default: the first)"},
+    {0, "align-along", "FILE.csv", encoding, bit(Id::encode), &Options::align_along,
+     "move pictures along a path that --camera-path wrote, be it changed by hand"},
+    {0, "unseen", "HOW", encoding, kEncodesClips, &Options::unseen,
+     "what becomes of places that not every aligned picture saw: crop cuts them away, hold shows what was "
+     "seen there before (default: crop)",
+     "crop hold"},
+    {0, "camera-path", "PATH.csv", output, bit(Id::encode), &Options::camera_path,
+     "also write how the camera moved, a line for each picture"},
+    {0, "camera-plot", "PLOT.png", output, bit(Id::encode), &Options::camera_plot,
+     "also draw that"},
+    {0, "coverage", "MAP.png", output, bit(Id::encode), &Options::coverage,
+     "also write how many of the aligned pictures saw each place, as a grey picture: white all of them"},
+
     heading("The exposure"),
     {'k', "functions", "FILE.fn", exposure, kTakesFunctions, &Options::functions,
      "the gain functions, one for each mask value; a file with a single one needs no mask; - is standard "

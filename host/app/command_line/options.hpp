@@ -27,6 +27,7 @@ struct Options {
   bool as_far_as_it_goes = false;
   bool deflicker = false;
   Value tolerance, codec, tiles, block_samples;
+  Value align, align_to, align_along, unseen, camera_path, camera_plot, coverage;
 
   // The exposure, and what is followed or counted: a pixel, or a tag of the mask.
   Value mask, feather, functions, start, exposure, unmapped, live, pixel, tag;

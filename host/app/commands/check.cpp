@@ -4,6 +4,7 @@
 #include "app/text/check_text.hpp"
 #include "app/text/findings.hpp"
 #include "app/text/message_text.hpp"
+#include "session/camera_check.hpp"
 #include "session/capture.hpp"
 #include "session/clip_source.hpp"
 #include "session/error.hpp"
@@ -43,11 +44,17 @@ void read_capture(InputCheck& check, const std::string& name, const Options& opt
   }
   tik::Reader reader(name);
   check.add_capture({name, reader.format(), reader.timeline()});
-  const MemoryNeeds needs{{"a block", largest_block(reader)}};
+  MemoryNeeds needs = camera_check_needs(reader.format());
+  needs.add("a block", largest_block(reader));
   needs.rest_of(memory_budget(options).bytes);
   BlockCursor blocks(reader);
   for (std::uint64_t block = 0; block < reader.block_count(); ++block) {
     attempt(check, name, "capture_block", [&] { static_cast<void>(blocks.at(block)); });
+  }
+  if (count_of(check.findings(), Finding::Severity::error) > 0) return;
+  if (const auto moved = moved_camera(reader)) {
+    check.add({Finding::Severity::warning, "camera_moved", name,
+               moved->text() + "; encode the clip again with --align rigid"});
   }
 }
 

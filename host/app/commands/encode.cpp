@@ -1,4 +1,5 @@
 #include "app/commands/commands.hpp"
+#include "app/commands/camera_files.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
@@ -25,6 +26,7 @@ int run_encode(const Options& options) {
                input, shell_word(input)));
   }
   check_output(output, OutputKind::tik, input_files(options));
+  const CameraFiles camera_files(options, output, input_files(options));
 
   const Encoded encoded =
       encode(source, {output, codec}, memory_budget(options), progress_bar("encoding", options.quiet));
@@ -48,6 +50,7 @@ int run_encode(const Options& options) {
   answer.details = fact_lines(encoded.facts);
   answer.details.erase(answer.details.begin());  // of times, which the line above has
   answer.notes = note_lines(encoded.notes, timeline, source);
+  if (encoded.camera) camera_files.write(**encoded.camera, timeline, input, answer);
   return tell(options, output, answer);
 }
 

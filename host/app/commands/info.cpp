@@ -6,6 +6,7 @@
 #include "app/text/message_text.hpp"
 #include "app/text/shell_text.hpp"
 #include "session/activity.hpp"
+#include "session/alignment.hpp"
 #include "session/capture.hpp"
 #include "session/capture_figures.hpp"
 #include "session/error.hpp"
@@ -23,6 +24,16 @@ std::uint64_t write_activity(tik::Reader& reader, const std::string& path) {
   const std::vector<std::uint64_t> changes = measure_activity(reader, {}).activity.changes();
   write_picture(path, sheet::activity_map(reader.format().shape, changes));
   return *std::ranges::max_element(changes);
+}
+
+Json alignment_json(const std::optional<tik::Alignment>& aligned) {
+  if (!aligned) return nullptr;
+  return {{"motion", aligned->motion},
+          {"reference_sample", aligned->reference},
+          {"holds_unseen", aligned->holds_unseen},
+          {"moved_pixels", aligned->moved_pixels},
+          {"turned_degrees", aligned->turned_degrees},
+          {"residual_pixels", aligned->residual_pixels}};
 }
 
 // What is a change.
@@ -70,6 +81,7 @@ int run_info(const Options& options) {
                  {"primaries", to_text(capture.primaries)},
                  {"pixel_aspect", aspect_text(capture.pixel_aspect)},
                  {"facts", reader.header().facts},
+                 {"alignment", alignment_json(reader.header().alignment)},
                  {"tolerance_codes", capture.noise.tolerance},
                  {"has_camera_noise", capture.noise.camera.has_value()},
                  {"samples", timeline.sample_count()},
@@ -108,6 +120,8 @@ int run_info(const Options& options) {
                     rate_text(timeline.rate(), "sample"),
                     timeline.is_constant() ? "" : " on average (irregular)",
                     timeline.shutter_angle().text()));
+  if (const auto& aligned = reader.header().alignment)
+    print_line("  aligned     " + alignment_text(*aligned));
   for (const std::string& fact : reader.header().facts) print_line("  taken for   " + fact);
   print_line(
       format("  changes     {:.2f} records a pixel, at {:.2f} % of samples, {}",

@@ -179,7 +179,9 @@ int run_mask(const Options& options) {
   } else {
     write_picture(job.output, made.mask.to_picture());
   }
-  tell(options, job.output, answer_of(job, made));
+  Answer answer = answer_of(job, made);
+  if (job.request.tells_by_rest()) answer.notes = camera_notes(moved_camera(session->capture()));
+  tell(options, job.output, answer);
   if (session) print_source(*session, options);
   return 0;
 }

@@ -8,6 +8,7 @@
 #include "app/output/progress.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/timing_text.hpp"
+#include "session/format.hpp"
 
 namespace nutik::app {
 
@@ -31,6 +32,11 @@ std::vector<std::string> source_lines(const Session& session) {
   std::ranges::move(note_lines(session.notes(), session.timeline(), session.source()),
                     std::back_inserter(lines));
   return lines;
+}
+
+std::vector<std::string> camera_notes(const std::optional<MovedCamera>& moved) {
+  if (!moved) return {};
+  return {format("note: {}; --align rigid moves the clip's pictures back when it is read or encoded", moved->text())};
 }
 
 void print_source(const Session& session, const Options& options) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/command_line/options.hpp"
+#include "session/camera_check.hpp"
 #include "session/session.hpp"
 
 namespace nutik::app {
@@ -20,6 +21,8 @@ namespace nutik::app {
 
 // On a clip, what it was taken for, and what else to know: whole lines. Empty for a .tik.
 [[nodiscard]] std::vector<std::string> source_lines(const Session& session);
+// That the camera of a capture moved and nobody aligned it, as a note.
+[[nodiscard]] std::vector<std::string> camera_notes(const std::optional<MovedCamera>& moved);
 // Prints them as notes, unless --quiet.
 void print_source(const Session& session, const Options& options);
 

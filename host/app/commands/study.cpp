@@ -2,6 +2,7 @@
 #include "session/study_request.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
@@ -12,6 +13,7 @@
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/shell_text.hpp"
+#include "session/camera_check.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/functions.hpp"
@@ -27,6 +29,9 @@ namespace {
 
 // How far the subject's border is blended with what lies around it.
 constexpr const char* kFeather = "2px";
+
+// What regions are grown by, and the soft edge of them: less hides in these.
+constexpr double kMostCameraPixels = 4;
 
 constexpr std::string_view kAboutRegions =
     "# What is the subject at each moment? What is not in the plate then.";
@@ -111,6 +116,7 @@ void check_text(const std::filesystem::path& file, std::string_view begins,
 MemoryNeeds study_needs(const CaptureFormat& capture) {
   MemoryNeeds needs = mask_making_needs(capture);
   needs.add(plate_making_needs(capture));
+  needs.add(camera_check_needs(capture));
   return needs;
 }
 
@@ -132,6 +138,13 @@ int run_study(const Options& stated) {
 
   Session session = open_session(options, {.besides = study_needs});
   const std::string& capture_name = options.operands.front();
+  const auto moved = moved_camera(session.capture());
+  if (moved && moved->pixels > kMostCameraPixels) {
+    throw InputError(
+        format("{}: {}. A study needs a camera that stands still: --align rigid moves a clip's "
+               "pictures back",
+               capture_name, moved->text()));
+  }
   Study study = plan_study(session.capture(), capture_name, request, session.devices().request().memory,
                            progress_bar("looking for the subject", options.quiet));
   const MadeMask made =
@@ -172,6 +185,7 @@ int run_study(const Options& stated) {
              files.mask.string(), files.functions.string(), files.commands.string()));
   tally.end(answer, session, options.verbose);
   answer.notes = source_lines(session);
+  std::ranges::move(camera_notes(moved), std::back_inserter(answer.notes));
   for (const std::string& note : study.notes) answer.notes.push_back("note: " + note);
   return tell(options, files.picture, answer);
 }

@@ -35,6 +35,8 @@ inline constexpr std::string_view kAutomaticNoise = "auto";
 [[nodiscard]] SourceRequest source_request(const Options& options, const std::string& name);
 // The same of a clip, whatever its name.
 [[nodiscard]] SourceRequest clip_request(const Options& options, const std::string& name);
+// How its pictures are moved so that the camera stands still; nothing where that is not asked for.
+[[nodiscard]] std::optional<AlignRequest> align_request(const Options& options);
 
 // What was stated, as 500MB, 2GB or 1GiB; else half of the machine's memory.
 [[nodiscard]] MemoryBudget memory_budget(const Options& options);

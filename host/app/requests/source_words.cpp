@@ -85,6 +85,7 @@ SourceRequest clip_request(const Options& options, const std::string& name) {
   request.clip.deflickered = options.deflicker;
   if (options.crop) request.clip.crop = parse_crop(*options.crop);
   if (options.scale) request.clip.scale = parse_scale(*options.scale);
+  request.align = align_request(options);
   read_noise(request, options);
   if (options.tiles) request.tiles = parse_tile_policy(*options.tiles);
   if (options.block_samples) {

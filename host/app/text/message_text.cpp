@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/command_line/suggestion.hpp"
+#include "session/alignment.hpp"
 #include "session/clip_source.hpp"
 #include "session/contact_request.hpp"
 #include "session/devices.hpp"
@@ -16,6 +17,7 @@
 #include "session/picture_input.hpp"
 #include "session/picture_recipe.hpp"
 #include "session/series_request.hpp"
+#include "session/study_request.hpp"
 
 namespace nutik::app {
 namespace {
@@ -102,6 +104,15 @@ std::string message_text(const std::exception& error) {
   }
   if (dynamic_cast<const ExposuresAreListed*>(&error) != nullptr) {
     return message + "; leave --shutter-angle out, or the exposure_ns column empty";
+  }
+  if (const auto* aligning = dynamic_cast<const CannotAlign*>(&error)) {
+    return message +
+           (aligning->way_out == CannotAlign::WayOut::hold
+                ? "; take a part of the clip (--from, --to), or keep the picture's size (--unseen hold)"
+                : "; take a part of the clip (--from, --to), or align to another picture (--align-to)");
+  }
+  if (dynamic_cast<const EverythingMoves*>(&error) != nullptr) {
+    return message + ". A camera that moved stands still with --align rigid";
   }
   if (dynamic_cast<const SeriesTooLong*>(&error) != nullptr) return message + "; say how many with --count";
   if (const auto* series = dynamic_cast<const SeriesBehindEnd*>(&error)) {

@@ -11,7 +11,7 @@ constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 21;  // of the finest 
 constexpr int kLeastSide = 24;
 // So that a cubic between pixels goes through what it is fitted to, and noise counts less.
 constexpr double kBlurPixels = 1.0;
-constexpr int kFeatureSide = 960;
+constexpr int kFeatureSide = 480;
 
 template <typename Code>
 cv::Mat grey_of(const CaptureFormat& format, const Code* codes) {

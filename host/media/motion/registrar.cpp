@@ -28,7 +28,7 @@ constexpr double kWeakGradient = 0.05;               // of the strongest: mostly
 constexpr float kMargin = 4;
 constexpr double kLeastSeen = 0.2;      // of the points
 constexpr double kLeastAcross = 0.01;   // of the texture's strength along its main direction
-constexpr std::size_t kFineLevels = 2;  // that a start from close by needs
+constexpr std::size_t kFineLevels = 3;  // that a start from close by needs
 constexpr double kTukey = 4.685;        // 95 % as efficient as least squares where all errors are normal
 constexpr double kLeastSigma = 0.3;     // codes
 constexpr int kFirstSteps = 3;          // of a level, in which nothing is excluded yet
@@ -55,23 +55,27 @@ std::vector<Point> textured_points(const cv::Mat& grey) {
   const int side = std::max(8, std::max(grey.cols, grey.rows) / static_cast<int>(kCells));
   const int columns = (grey.cols - 1) / side + 1, rows = (grey.rows - 1) / side + 1;
   std::vector<std::vector<Point>> cells(static_cast<std::size_t>(columns * rows));
+  const std::size_t most = std::max<std::size_t>(1, kMostPoints / cells.size());
+  const auto keep_strongest = [most](std::vector<Point>& cell) {
+    if (cell.size() <= most) return;
+    std::ranges::nth_element(cell, cell.begin() + static_cast<std::ptrdiff_t>(most), std::greater(),
+                             gradient_of);
+    cell.resize(most);
+  };
   for (int y = static_cast<int>(kMargin); y < grey.rows - static_cast<int>(kMargin); ++y) {
     const auto *above = grey.ptr<float>(y - 1), *row = grey.ptr<float>(y), *below = grey.ptr<float>(y + 1);
     for (int x = static_cast<int>(kMargin); x < grey.cols - static_cast<int>(kMargin); ++x) {
       const Point point{static_cast<float>(x), static_cast<float>(y), row[x], (row[x + 1] - row[x - 1]) / 2,
                         (below[x] - above[x]) / 2};
       if (gradient_of(point) < kLeastGradient) continue;
-      cells[static_cast<std::size_t>(y / side * columns + x / side)].push_back(point);
+      std::vector<Point>& cell = cells[static_cast<std::size_t>(y / side * columns + x / side)];
+      cell.push_back(point);
+      if (cell.size() >= 4 * most) keep_strongest(cell);
     }
   }
-  const std::size_t most = std::max<std::size_t>(1, kMostPoints / cells.size());
   std::vector<Point> points;
   for (std::vector<Point>& cell : cells) {
-    if (cell.size() > most) {
-      std::ranges::nth_element(cell, cell.begin() + static_cast<std::ptrdiff_t>(most), std::greater(),
-                               gradient_of);
-      cell.resize(most);
-    }
+    keep_strongest(cell);
     points.insert(points.end(), cell.begin(), cell.end());
   }
   if (points.empty()) return points;
@@ -173,7 +177,7 @@ class RobustRegistrar final : public Registrar {
     reference_ = pyramid.of_features();
   }
 
-  Registered find(std::span<const std::byte> raster, const Warp& guess) override {
+  Registered find(std::span<const std::byte> raster, const Warp& guess, Reach reach) override {
     const GreyPyramid pyramid(format_, raster);
     Registered best = fit(pyramid, guess, levels_.size());
     const auto try_from = [&](const Warp& start) {
@@ -181,7 +185,7 @@ class RobustRegistrar final : public Registrar {
       if (other.agreeing > best.agreeing) best = other;
     };
     if (!is_sure(best)) try_from(guess);
-    if (is_sure(best)) return best;
+    if (is_sure(best) || reach == Reach::near) return best;
     if (!features_) features_.emplace(reference_, pyramid.feature_scale());
     if (const auto start = features_->find(pyramid.of_features())) try_from(*start);
     return best;

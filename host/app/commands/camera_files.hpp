@@ -1,0 +1,28 @@
+// What is written of a camera's path beside a capture.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/command_line/options.hpp"
+#include "app/output/report.hpp"
+#include "session/camera_record.hpp"
+
+namespace nutik::app {
+
+class CameraFiles {
+ public:
+  // Throws UsageError where one of them may not be written.
+  CameraFiles(const Options& options, const std::filesystem::path& capture, std::vector<std::string> inputs);
+
+  // Writes what was asked for, and adds the path to an answer.
+  void write(const CameraPath& path, const Timeline& timeline, const std::string& heading,
+             Answer& answer) const;
+
+ private:
+  std::optional<std::string> table_, plot_, coverage_;
+};
+
+}  // namespace nutik::app

@@ -1,0 +1,259 @@
+// Clips whose camera moved, as a user aligns them. The scene is drawn where the camera looks, each value from a formula.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "support/program_test.hpp"
+
+namespace nutik {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kWidth = 160, kHeight = 120, kPictures = 12;
+
+// Where the scene lies in a picture.
+struct Shift {
+  double x = 0, y = 0;
+};
+
+Shift hand(int picture) { return {3.5 * std::sin(0.6 * picture), 2.25 * std::sin(0.9 * picture)}; }
+
+double texture(double x, double y) {
+  double sum = 0;
+  for (int wave = 0; wave < 24; ++wave) {
+    const double turn = 2.4 * wave, pulse = 0.12 + 0.027 * wave;
+    sum += std::sin(pulse * (x * std::cos(turn) + y * std::sin(turn)) + wave);
+  }
+  return sum;
+}
+
+// Before the scene a square of 20 pixels goes from left to right, 6 pixels a picture.
+cv::Mat drawn(const Shift& shift, int picture, bool has_subject) {
+  cv::Mat drawn(kHeight, kWidth, CV_8U);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double u = x - shift.x, v = y - shift.y, from_subject = u - 20 - 6 * picture;
+      const bool is_subject = has_subject && std::abs(from_subject) < 10 && std::abs(v - 60) < 10;
+      drawn.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(
+          std::lround(is_subject ? 230 + 5 * std::sin(from_subject) : 110 + 11 * texture(u, v)));
+    }
+  }
+  return drawn;
+}
+
+class Aligning : public test::ProgramTest {
+ protected:
+  void SetUp() override { write("frames", hand); }
+
+  void write(const std::string& folder, const std::function<Shift(int)>& shift,
+             bool has_subject = true) const {
+    std::filesystem::create_directory(scratch_ / folder);
+    for (int picture = 0; picture < kPictures; ++picture) {
+      const std::string name = folder + (picture < 10 ? "/0" : "/") + std::to_string(picture) + ".pgm";
+      cv::imwrite((scratch_ / name).string(), drawn(shift(picture), picture, has_subject));
+    }
+  }
+
+  [[nodiscard]] std::string bytes(const std::string& name) const { return test::read_file(scratch_ / name); }
+
+  [[nodiscard]] json answered(std::vector<std::string> words) const {
+    words.emplace_back("--json");
+    const auto result = run(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return json::parse(result.out);
+  }
+
+  // What the capture shows at a picture, as the codes it holds.
+  [[nodiscard]] cv::Mat shown(const std::string& capture, int picture) const {
+    const auto result = run({"--start", std::to_string(picture) + "f", "--exposure", "1f", "--out-transfer",
+                             "source", capture, "-o", "shown.pgm"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return cv::imread((scratch_ / "shown.pgm").string(), cv::IMREAD_UNCHANGED);
+  }
+};
+
+const std::vector<std::string> kEncode{"encode", "-f", "100"};
+
+std::vector<std::string> encoding(std::vector<std::string> words) {
+  words.insert(words.begin(), kEncode.begin(), kEncode.end());
+  return words;
+}
+
+TEST_F(Aligning, HoldsStillThingsStillAndCropsToWhatEveryPictureSaw) {
+  const json encoded = answered(encoding({"--align", "translation", "frames", "a.tik"}));
+  double left = 0, right = 0, up = 0, down = 0;
+  for (int picture = 0; picture < kPictures; ++picture) {
+    left = std::max(left, -hand(picture).x);
+    right = std::max(right, hand(picture).x);
+    up = std::max(up, -hand(picture).y);
+    down = std::max(down, hand(picture).y);
+  }
+  // Where the scene is moved to the left, its left border is not seen.
+  const int x = static_cast<int>(std::ceil(left)), y = static_cast<int>(std::ceil(up));
+  EXPECT_EQ(encoded["width"], kWidth - x - std::ceil(right));
+  EXPECT_EQ(encoded["height"], kHeight - y - std::ceil(down));
+  EXPECT_EQ(encoded["camera"]["motion"], "translation");
+  const int furthest = encoded["camera"]["furthest_picture"];
+  EXPECT_NEAR(encoded["camera"]["furthest_pixels"][0], hand(furthest).x, 0.05);
+  EXPECT_NEAR(encoded["camera"]["furthest_pixels"][1], hand(furthest).y, 0.05);
+
+  const cv::Mat first = drawn({}, 0, false);
+  for (const int picture : {3, 7, 11}) {
+    const cv::Mat is = shown("a.tik", picture);
+    ASSERT_EQ(is.cols, encoded["width"]);
+    double squares = 0;
+    int count = 0;
+    for (int v = 0; v < is.rows; ++v) {
+      if (std::abs(v + y - 60) < 14) continue;  // the subject's rows
+      for (int u = 0; u < is.cols; ++u, ++count) {
+        squares += std::pow(is.at<std::uint8_t>(v, u) - first.at<std::uint8_t>(v + y, u + x), 2);
+      }
+    }
+    // Unaligned they differ by ten times as much; what is left is the cubic's, on waves of nine pixels and more.
+    EXPECT_LT(std::sqrt(squares / count), 3.0) << "picture " << picture;
+  }
+}
+
+TEST_F(Aligning, WritesThePathThatMakesTheSameAgain) {
+  const json encoded = answered(encoding(
+      {"--align", "rigid", "--camera-path", "path.csv", "--camera-plot", "plot.png", "frames", "a.tik"}));
+  EXPECT_EQ(encoded["camera"]["path"], "path.csv");
+  const cv::Mat plot = cv::imread((scratch_ / "plot.png").string());
+  EXPECT_EQ(plot.cols, 1200);
+  ASSERT_EQ(run(encoding({"--align", "rigid", "frames", "b.tik"})).status, 0);
+  ASSERT_EQ(run(encoding({"--align-along", "path.csv", "frames", "c.tik"})).status, 0);
+  EXPECT_EQ(bytes("a.tik"), bytes("b.tik"));
+  EXPECT_EQ(bytes("a.tik"), bytes("c.tik"));
+}
+
+TEST_F(Aligning, KeepsThePictureAndSaysWhatWasSeenWhenAskedTo) {
+  const json encoded = answered(encoding({"--align", "translation", "--align-to", "60ms", "--unseen", "hold",
+                                          "--coverage", "seen.png", "frames", "a.tik"}));
+  EXPECT_EQ(encoded["width"], kWidth);
+  EXPECT_EQ(encoded["camera"]["reference"], 6);
+  const cv::Mat seen = cv::imread((scratch_ / "seen.png").string(), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(seen.size(), cv::Size(kWidth, kHeight));
+  EXPECT_EQ(seen.at<std::uint8_t>(kHeight / 2, kWidth / 2), 255);
+  EXPECT_LT(seen.at<std::uint8_t>(0, 0), 255);
+  // Every place was seen by the picture that others are moved onto, and shows that until it is seen again.
+  const cv::Mat reference = drawn(hand(6), 6, true), is = shown("a.tik", 6);
+  EXPECT_EQ(cv::norm(reference, is, cv::NORM_INF), 0);
+  EXPECT_GE(shown("a.tik", 0).at<std::uint8_t>(0, 0), 30);
+}
+
+TEST_F(Aligning, IsToldByInfo) {
+  ASSERT_EQ(run(encoding({"--align", "rigid", "frames", "a.tik"})).status, 0);
+  ASSERT_EQ(run(encoding({"frames", "plain.tik"})).status, 0);
+  const json aligned = answered({"info", "a.tik"});
+  EXPECT_EQ(aligned["alignment"]["motion"], "rigid");
+  EXPECT_EQ(aligned["alignment"]["reference_sample"], 0);
+  EXPECT_FALSE(aligned["alignment"]["holds_unseen"]);
+  EXPECT_NEAR(aligned["alignment"]["moved_pixels"], 4.1, 0.3);
+  EXPECT_NE(run({"info", "a.tik"}).out.find("  aligned     to sample 0 (rigid)"), std::string::npos);
+  EXPECT_TRUE(answered({"info", "plain.tik"})["alignment"].is_null());
+  // It stays when the capture is written again.
+  ASSERT_EQ(run({"retime", "-f", "50", "a.tik", "b.tik"}).status, 0);
+  EXPECT_EQ(answered({"info", "b.tik"})["alignment"], aligned["alignment"]);
+}
+
+TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
+  ASSERT_EQ(run(encoding({"frames", "plain.tik"})).status, 0);
+  ASSERT_EQ(run(encoding({"--align", "rigid", "frames", "a.tik"})).status, 0);
+  write("still", [](int) { return Shift(); });
+  ASSERT_EQ(run(encoding({"still", "still.tik"})).status, 0);
+  const std::string told = "the camera moved: at sample";
+  const auto says = [&](const std::vector<std::string>& words) {
+    const auto result = run(words);
+    return (result.out + result.err).find(told) != std::string::npos;
+  };
+  EXPECT_EQ(answered({"check", "plain.tik"})["findings"][0]["kind"], "camera_moved");
+  for (const char* capture : {"a.tik", "still.tik"}) {
+    EXPECT_FALSE(says({"check", capture})) << capture;
+    EXPECT_FALSE(says({"mask", "--moving", capture, "-o", "m.pgm"})) << capture;
+    EXPECT_FALSE(says({"study", capture, "-o", "s.png"})) << capture;
+  }
+  EXPECT_TRUE(says({"mask", "--moving", "plain.tik", "-o", "m.pgm"}));
+  EXPECT_FALSE(says({"mask", "--rectangle", "1,1,9,9", "plain.tik", "-o", "m.pgm"}))
+      << "the camera does not matter";
+  write("far", [](int picture) { return Shift{2 * hand(picture).x, 2 * hand(picture).y}; });
+  expect_refused({"study", "-f", "100", "far", "-o", "s2.png"}, 3,
+                 "A study needs a camera that stands still: --align rigid");
+  EXPECT_EQ(run({"study", "-f", "100", "--align", "rigid", "far", "-o", "s2.png"}).status, 0);
+}
+
+TEST_F(Aligning, IsPartOfARecipe) {
+  ASSERT_EQ(
+      run({"-f", "100", "--align", "rigid", "--start", "0f", "--exposure", "12f", "frames", "-o", "mean.png"})
+          .status,
+      0);
+  ASSERT_EQ(run({"-f", "100", "--start", "0f", "--exposure", "12f", "frames", "-o", "blurred.png"}).status,
+            0);
+  const cv::Mat mean = cv::imread((scratch_ / "mean.png").string()),
+                blurred = cv::imread((scratch_ / "blurred.png").string());
+  EXPECT_LT(mean.cols, blurred.cols);
+  const auto again = run({"again", "mean.png", "again.png"});
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(bytes("mean.png"), bytes("again.png"));
+}
+
+TEST_F(Aligning, SaysWhatDoesNotGoTogether) {
+  expect_refused(encoding({"--align", "affine", "frames", "a.tik"}), 2, "affine");
+  expect_refused(encoding({"--unseen", "hold", "frames", "a.tik"}), 2,
+                 "--unseen is said of pictures that are aligned: add --align rigid");
+  expect_refused(encoding({"--coverage", "c.png", "frames", "a.tik"}), 2, "--coverage is said of pictures");
+  expect_refused(encoding({"--align", "rigid", "--align-to", "99f", "frames", "a.tik"}), 2,
+                 "picture 99 is outside the capture, which has 12");
+  expect_refused(encoding({"--align", "rigid", "--camera-path", "path.txt", "frames", "a.tik"}), 2,
+                 "tables are written as .csv");
+  ASSERT_EQ(run(encoding({"frames", "plain.tik"})).status, 0);
+  expect_refused({"--align", "rigid", "--start", "0s", "--exposure", "1f", "plain.tik", "-o", "p.png"}, 2,
+                 "plain.tik was encoded already");
+  ASSERT_EQ(run(encoding({"--align", "rigid", "--camera-path", "path.csv", "frames", "a.tik"})).status, 0);
+  expect_refused(encoding({"--align", "rigid", "--align-along", "path.csv", "frames", "b.tik"}), 2,
+                 "leave --align out");
+  expect_refused(encoding({"--align-along", "path.csv", "--crop", "80x60+0+0", "frames", "b.tik"}), 3,
+                 "the camera's path is that of pictures of 160 x 120");
+  expect_refused(encoding({"--align-along", "path.csv", "--to", "3f", "frames", "b.tik"}), 3,
+                 "the camera's path");
+}
+
+TEST_F(Aligning, SaysWhichPictureCannotBeAlignedAndWhy) {
+  write("cut", [](int picture) { return picture < 5 ? hand(picture) : Shift{3000, 5000}; });
+  expect_refused(encoding({"--align", "rigid", "cut", "a.tik"}), 3,
+                 "picture 5 cannot be aligned to picture 0: of what is seen in both ");
+  EXPECT_EQ(run(encoding({"--align", "rigid", "--to", "5f", "cut", "a.tik"})).status, 0);
+  std::filesystem::create_directory(scratch_ / "blank");
+  for (const char* name : {"blank/0.pgm", "blank/1.pgm"}) {
+    cv::imwrite((scratch_ / name).string(), cv::Mat(kHeight, kWidth, CV_8U, 90));
+  }
+  expect_refused(
+      encoding({"--align", "rigid", "blank", "b.tik"}), 3,
+      "no picture can be aligned to picture 0: it has 0 pixels whose surroundings can be recognized");
+  // A path by hand that leaves nothing.
+  std::ofstream(scratch_ / "far.csv")
+      << "# nutik camera path,translation,0,160,120\n"
+         "picture,x,y,degrees,residual_pixels,agreeing,m0,m1,m2,m3,m4,m5,m6,m7,m8\n"
+         "0,0,0,0,0,1,1,0,0,0,1,0,0,0,1\n1,0,0,0,0,1,1,0,200,0,1,0,0,0,1\n";
+  expect_refused(
+      encoding({"--align-along", "far.csv", "--to", "2f", "frames", "c.tik"}), 3,
+      "no place was seen by all of its 2 pictures: in picture 1 the camera looks 200 pixels to the side");
+  expect_refused(encoding({"--align-along", "far.csv", "--to", "2f", "frames", "c.tik"}), 3, "--unseen hold");
+}
+
+TEST_F(Aligning, SaysWhatMemoryItTakes) {
+  const auto refused = run(encoding({"--memory", "1MB", "--align", "rigid", "frames", "a.tik"}));
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("a picture that is registered"), std::string::npos) << refused.err;
+}
+
+}  // namespace
+}  // namespace nutik
