@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <numeric>
 #include <stdexcept>
@@ -71,17 +72,19 @@ void check_block_samples(const CaptureFormat& capture, std::uint32_t samples, Ti
       {Setting::block_samples});
 }
 
-// Calls visit(first tile, count, rasters, row_values) for strips of neighbouring tiles, at most kStripTiles each:
-// where the first lies in every sample, and how many values a row of it is from the next. Tiles at the right and
-// bottom edge are padded first.
+using StripRasters = std::array<const std::byte*, kStepSamples>;
+
+// Calls visit(first tile, count, row_values) for strips of neighbouring tiles, at most kStripTiles each: how many values
+// a row of a tile is from the next. `rasters` is then where the first tile lies in every sample: it is not handed over,
+// for processors wait where pointers are copied, two at a time, right after they were written one by one. Tiles at the
+// right and bottom edge are padded first.
 template <typename Visit>
 void for_each_strip(const CaptureFormat& source, const TileGrid& grid,
-                    std::span<const std::span<const std::byte>> samples, Visit visit) {
+                    std::span<const std::span<const std::byte>> samples, StripRasters& rasters, Visit visit) {
   const Shape& shape = source.shape;
   const std::size_t value_bytes = std::size_t{shape.channels} * source.code_bytes;
   const std::uint64_t whole_columns = shape.width / kTileSide;
   alignas(64) std::array<std::array<std::byte, kTilePixels * 3 * 2>, kStepSamples> padded;
-  std::array<const std::byte*, kStepSamples> rasters{};
   for (std::uint64_t row = 0; row < grid.rows(); ++row) {
     const std::uint64_t first = row * grid.columns();
     const std::uint64_t whole = (row + 1) * kTileSide <= shape.height ? whole_columns : 0;
@@ -89,7 +92,7 @@ void for_each_strip(const CaptureFormat& source, const TileGrid& grid,
       const std::uint64_t pixel = row * kTileSide * shape.width + column * kTileSide;
       for (std::size_t k = 0; k < samples.size(); ++k) rasters[k] = samples[k].data() + pixel * value_bytes;
       visit(first + column, static_cast<std::uint32_t>(std::min<std::uint64_t>(kStripTiles, whole - column)),
-            rasters, std::size_t{shape.width} * shape.channels);
+            std::size_t{shape.width} * shape.channels);
     }
     for (std::uint64_t tile = first + whole; tile < first + grid.columns(); ++tile) {
       for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -99,7 +102,7 @@ void for_each_strip(const CaptureFormat& source, const TileGrid& grid,
         });
         rasters[k] = padded[k].data();
       }
-      visit(tile, 1u, rasters, std::size_t{kTileSide} * shape.channels);
+      visit(tile, 1u, std::size_t{kTileSide} * shape.channels);
     }
   }
 }
@@ -218,7 +221,7 @@ class BlockBuilder::Comparing final : public Implementation {
         row_bytes_(BlockGeometry(source, limits.samples).row_bytes()),
         step_(step_function(source)),
         held_(source.noise.tolerance == 0 ? 0 : grid_.tile_count() * row_bytes_),
-        log_(source, limits.samples, busy_samples(source, limits), policy, limits.memory_bytes) {}
+        log_(source, limits.samples, policy, limits.memory_bytes) {}
 
  private:
   // One at a time where tiles that all moved to larger rooms might come to more than twice the limit.
@@ -235,34 +238,48 @@ class BlockBuilder::Comparing final : public Implementation {
     step.sample_count = static_cast<std::uint32_t>(samples.size());
     step.tolerance = is_first ? 0 : source_.noise.tolerance;
     step.writes_all = starts || policy_ == TilePolicy::dense;
-    const auto visit = [&](std::uint64_t first, std::uint32_t tiles, const auto& rasters,
-                           std::size_t row_values) {
-      step.rasters = rasters;
+    const BlockCourse course{samples_ + step.sample_count, expected_samples(samples_ + step.sample_count)};
+    std::array<std::byte*, kStripTiles> from;
+    const auto visit = [&](std::uint64_t first, std::uint32_t tiles, std::size_t row_values) {
       step.row_values = row_values;
       step.tile_count = tiles;
       for (std::uint32_t i = 0; i < tiles; ++i) {
+        log_.fetch_list(first + i);
         const bool has_room = log_.has_room(first + i, step.sample_count);
-        step.next[i] = has_room ? log_.next_row(first + i) : spare_rows_[i].data();
+        step.next[i] = from[i] = has_room ? log_.next_row(first + i) : spare_rows_[i].data();
         step.held[i] = starts ? held_before(first + i, step.next[i]) : log_.last_row(first + i);
       }
-      const auto from = step.next;
       step_(step);
       for (std::uint32_t i = 0; i < tiles; ++i) {
         const auto written = static_cast<std::size_t>(step.next[i] - from[i]);
+        if (written == 0) continue;
         if (!starts) changed_bytes_ += written;
-        if (written == 0 || from[i] != spare_rows_[i].data()) continue;
-        log_.make_room(first + i, static_cast<std::uint32_t>(written / row_bytes_),
-                       samples_ + step.sample_count);
-        std::memcpy(log_.next_row(first + i), from[i], written);
-      }
-      for (std::uint32_t k = 0; k < step.sample_count; ++k) {
-        for (std::uint32_t i = 0; i < tiles; ++i) {
-          const std::uint64_t changes = step.changes[k][i];
-          if (changes != 0 || step.writes_all) log_.add_row(first + i, samples_ + k, starts ? 0 : changes);
+        std::array<std::uint16_t, kStepSamples> at;
+        std::uint32_t rows = 0;
+        for (std::uint32_t k = 0; k < step.sample_count; ++k) {
+          at[rows] = static_cast<std::uint16_t>(samples_ + k);
+          rows += step.writes_all || step.changes[k][i] != 0 ? 1 : 0;
         }
+        if (from[i] == spare_rows_[i].data()) {
+          log_.make_room(first + i, rows, course);
+          std::memcpy(log_.next_row(first + i), from[i], written);
+        }
+        log_.add_rows(first + i, std::span(at).first(rows), starts ? 0 : step.change_counts[i]);
       }
     };
-    for_each_strip(source_, grid_, samples, visit);
+    for_each_strip(source_, grid_, samples, step.rasters, visit);
+  }
+
+  // How many samples the block will have if it goes on changing as it did so far: before that is known, as many as the
+  // one before it. `samples` is how many there are with those that are being added.
+  [[nodiscard]] std::uint32_t expected_samples(std::uint32_t samples) const {
+    if (samples_ <= 1) return std::max(samples_before_, std::min(2 * samples, limits_.samples));
+    const std::uint64_t changed_by_sample = std::max<std::uint64_t>(changed_bytes_ / (samples_ - 1), 1);
+    const std::uint64_t more = std::min<std::uint64_t>(
+        (limits_.changed_bytes - changed_bytes_) / changed_by_sample, limits_.samples);
+    // An eighth more than that: where the guess is one short, all busy tiles have to move once again.
+    return static_cast<std::uint32_t>(
+        std::clamp<std::uint64_t>((samples_ + more) * 9 / 8 + 1, samples, limits_.samples));
   }
 
   // What a tile held at the end of the block before. Without a tolerance a block starts from its own sample
@@ -276,7 +293,10 @@ class BlockBuilder::Comparing final : public Implementation {
       std::memcpy(held_.data() + tile * row_bytes_, log_.last_row(tile), row_bytes_);
     }
   }
-  FinishedBlock close_block(PageBuffer& into) override { return log_.finish(samples_, into); }
+  FinishedBlock close_block(PageBuffer& into) override {
+    samples_before_ = samples_;
+    return log_.finish(samples_, into);
+  }
   void begin_block() override { log_.begin(); }
   void take_memory(PageBuffer memory) override { log_.take_memory(std::move(memory)); }
 
@@ -284,6 +304,7 @@ class BlockBuilder::Comparing final : public Implementation {
   StepFunction step_;
   PageBuffer held_;  // [tile][C][64] codes at the end of the block before, where there is a tolerance
   TileLog log_;
+  std::uint32_t samples_before_ = 0;  // of the block before
   // Of tiles that may have no room for a step's rows: most of them need none.
   alignas(64) std::array<std::array<std::byte, kStepSamples * kTilePixels * 3 * 2>, kStripTiles> spare_rows_;
 };
@@ -297,7 +318,7 @@ class BlockBuilder::Averaging final : public Implementation {
         gather_(gather_function(source)),
         expected_(source),
         codes_(grid_.tile_count() * limits.samples * row_bytes_),
-        log_(held_format(source), limits.samples, limits.samples, policy) {}
+        log_(held_format(source), limits.samples, policy) {}
 
  private:
   [[nodiscard]] std::byte* codes_at(std::uint64_t tile, std::uint32_t sample) {
@@ -306,15 +327,15 @@ class BlockBuilder::Averaging final : public Implementation {
 
   void add_samples(std::span<const std::span<const std::byte>> samples) override {
     const std::size_t tile_bytes = std::size_t{kTileSide} * source_.shape.channels * source_.code_bytes;
-    const auto visit = [&](std::uint64_t first, std::uint32_t tiles, const auto& rasters,
-                           std::size_t row_values) {
+    StripRasters rasters{};
+    const auto visit = [&](std::uint64_t first, std::uint32_t tiles, std::size_t row_values) {
       for (std::uint32_t i = 0; i < tiles; ++i) {
         for (std::uint32_t k = 0; k < samples.size(); ++k) {
           gather_({rasters[k] + i * tile_bytes, row_values}, codes_at(first + i, samples_ + k));
         }
       }
     };
-    for_each_strip(source_, grid_, samples, visit);
+    for_each_strip(source_, grid_, samples, rasters, visit);
   }
 
   FinishedBlock close_block(PageBuffer& into) override {
@@ -336,7 +357,8 @@ class BlockBuilder::Averaging final : public Implementation {
       if (changes == 0 && sample != 0 && policy_ != TilePolicy::dense) continue;
       std::memcpy(log_.next_row(tile), held.codes.data() + sample * row_values,
                   row_values * sizeof(std::uint16_t));
-      log_.add_row(tile, sample, changes);
+      const auto at = static_cast<std::uint16_t>(sample);
+      log_.add_rows(tile, {&at, 1}, static_cast<std::uint32_t>(std::popcount(changes)));
     }
   }
 

@@ -5,11 +5,18 @@
 #include <bit>
 #include <cstring>
 #include <new>
+#include <utility>
 
 #include "imev/block_builder.hpp"
 
 namespace nutik {
 namespace {
+
+// At first a room takes a quarter more rows than its tile had in the block before.
+constexpr std::uint32_t kSpareShare = 4;
+
+// Lists lie far from each other: while a tile is closed, that of a later one is fetched.
+constexpr std::uint64_t kAhead = 8;
 
 void write_index(const BlockGeometry& geometry, std::byte* list, std::uint64_t position,
                  std::uint32_t sample) {
@@ -32,34 +39,42 @@ std::uint64_t largest_body_bytes(const BlockGeometry& geometry, TilePolicy polic
   return std::max(rows, geometry.records_bytes(geometry.sample_count - 1));
 }
 
-TileLog::TileLog(const CaptureFormat& capture, std::uint32_t block_samples, std::uint32_t busy_samples,
-                 TilePolicy policy, std::uint64_t memory_bytes)
+TileLog::TileLog(const CaptureFormat& capture, std::uint32_t block_samples, TilePolicy policy,
+                 std::uint64_t memory_bytes)
     : full_(capture, block_samples),
-      busy_samples_(busy_samples),
       policy_(policy),
       tight_from_(memory_bytes / 2),
       differ_(differ_function(full_.channels, full_.code_bytes)),
       tiles_(full_.tile_count) {}
 
+// Of a tile that had so many rows in the block before. Where that block ended is a matter of what changed in it: if the
+// next one ends a little later, not all its tiles should have to move.
+std::uint32_t TileLog::first_room(std::uint32_t rows) const {
+  return std::min(std::max(rows + rows / kSpareShare, 1u), full_.sample_count);
+}
+
 void TileLog::begin() {
+  left_ = {};
   end_ = full_.directory_bytes();
   std::uint64_t as_before = end_;
-  for (const Tile& tile : tiles_) as_before += room_bytes(std::max(tile.rows, 1u));
+  for (const Tile& tile : tiles_) as_before += room_bytes(first_room(tile.rows));
+  const bool is_tight = as_before >= tight_from_;
   for (Tile& tile : tiles_) {
-    tile.room = as_before < tight_from_ ? std::max(tile.rows, 1u) : 1;
+    tile.room = is_tight ? 1 : first_room(tile.rows);
     begin_tile(tile);
   }
   // Address space: more than this is rarely needed, and only what is used is ever touched.
-  payload_.reserve(2 * end_);
+  payload_.grow(2 * end_);
 }
 
 void TileLog::begin_full() {
+  left_ = {};
   end_ = full_.directory_bytes();
   for (Tile& tile : tiles_) {
     tile.room = full_.sample_count;
     begin_tile(tile);
   }
-  payload_.reserve(end_);
+  payload_.grow(end_);
 }
 
 void TileLog::begin_tile(Tile& tile) {
@@ -68,20 +83,31 @@ void TileLog::begin_tile(Tile& tile) {
   end_ += room_bytes(tile.room);
 }
 
-// Room for so many bytes behind all others; tells where.
+// Room for so many bytes where tiles have left, or behind all others; tells where.
 std::uint64_t TileLog::append(std::uint64_t bytes) {
+  bytes = align_up(bytes, kBlockAlignment);
+  if (bytes <= left_.end - left_.begin) return std::exchange(left_.begin, left_.begin + bytes);
   const std::uint64_t offset = end_;
-  end_ += align_up(bytes, kBlockAlignment);
+  end_ += bytes;
   if (end_ > kLargestPayloadBytes) throw std::bad_alloc();  // no tile's offset reaches beyond
   if (end_ > payload_.size()) payload_.grow(end_ + end_ / 2);
   return offset;
 }
 
-void TileLog::make_room(std::uint64_t tile, std::uint32_t rows, std::uint32_t samples) {
+void TileLog::leave(const Tile& room) {
+  const std::uint64_t begin = room.offset - list_bytes(room.room);
+  if (begin != left_.end) left_.begin = begin;
+  left_.end = begin + room_bytes(room.room);
+}
+
+void TileLog::make_room(std::uint64_t tile, std::uint32_t rows, BlockCourse course) {
   Tile& at = tiles_[tile];
   const std::uint32_t needed = at.rows + rows;
-  const bool is_tight = end_ >= tight_from_;
-  const std::uint32_t wanted = is_tight ? needed : needed == samples ? busy_samples_ : 2 * at.room;
+  // As many as there will be if the tile goes on like this: one that changes now and then may well not.
+  const std::uint32_t expected = static_cast<std::uint32_t>(
+      (std::uint64_t{needed} * course.expected_samples + course.samples - 1) / course.samples);
+  const bool is_tight = end_ >= tight_from_, is_busy = needed == course.samples;
+  const std::uint32_t wanted = is_tight ? needed : is_busy ? expected : std::min(2 * at.room, expected);
   Tile moved = at;
   moved.room = std::min(std::max(needed, wanted), std::max(needed, full_.sample_count));
   moved.offset = append(room_bytes(moved.room)) + list_bytes(moved.room);
@@ -91,6 +117,7 @@ void TileLog::make_room(std::uint64_t tile, std::uint32_t rows, std::uint32_t sa
   } else {
     list(moved)[0] = 0;
   }
+  leave(at);
   at = moved;
 }
 
@@ -101,6 +128,7 @@ FinishedBlock TileLog::finish(std::uint32_t samples, PageBuffer& into) {
   finished.payload_bytes = geometry.directory_bytes();
   std::vector<TileEntry> entries(geometry.tile_count);
   for (std::uint64_t i = 0; i < entries.size(); ++i) {
+    if (i + kAhead < entries.size()) __builtin_prefetch(list(tiles_[i + kAhead]));
     const Tile& tile = tiles_[i];
     TileEntry& entry = entries[i];
     entry = choose(geometry, tile);

@@ -9,13 +9,15 @@
 //
 //       directory │ list, rows of tile 0 │ … of tile 1 │ … of tile 2 │ …  │ … of tile 1 in a larger room │ …
 //
-//            At first rooms take as many rows as their tiles had in the block before. A tile that needs more moves
-//            to a room behind all others: twice as large or, if it has changed with every sample so far, large
-//            enough for a block in which all tiles do
+//            At first rooms take as many rows as their tiles had in the block before, and some more. A tile that
+//            needs more moves to a room where others have just left, or behind all of them. It takes as many rows
+//            as the tile will have if it goes on like this until the block ends, but no more than twice as many as
+//            the old one unless the tile has changed with every sample so far
 #pragma once
 
-#include <bit>
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "capture/picture.hpp"
@@ -29,12 +31,17 @@ namespace nutik {
 // The most bytes that a tile of such a block may come to.
 [[nodiscard]] std::uint64_t largest_body_bytes(const BlockGeometry& geometry, TilePolicy policy);
 
+// How far a block has come, with the samples that are being added, and how far it may come.
+struct BlockCourse {
+  std::uint32_t samples;
+  std::uint32_t expected_samples;
+};
+
 class TileLog {
  public:
-  // A block has at most `block_samples`, and `busy_samples` where all tiles change with every one.
-  // From half of `memory_bytes` on, rooms are no larger than their rows.
-  TileLog(const CaptureFormat& capture, std::uint32_t block_samples, std::uint32_t busy_samples,
-          TilePolicy policy, std::uint64_t memory_bytes = ~std::uint64_t{0});
+  // A block has at most `block_samples`. From half of `memory_bytes` on, rooms are no larger than their rows.
+  TileLog(const CaptureFormat& capture, std::uint32_t block_samples, TilePolicy policy,
+          std::uint64_t memory_bytes = ~std::uint64_t{0});
 
   // What the block takes so far.
   [[nodiscard]] std::uint64_t bytes() const { return end_; }
@@ -52,19 +59,26 @@ class TileLog {
   [[nodiscard]] bool has_room(std::uint64_t tile, std::uint32_t rows) const {
     return tiles_[tile].rows + rows <= tiles_[tile].room;
   }
-  // Makes room for so many rows more in a block of so many samples so far. All rows may move.
-  void make_room(std::uint64_t tile, std::uint32_t rows, std::uint32_t samples);
+  // Fetches where the samples of a tile's next rows will be listed, which is far from its rows.
+  void fetch_list(std::uint64_t tile) { __builtin_prefetch(list(tiles_[tile]) + tiles_[tile].rows, 1); }
+  // Makes room for so many rows more. All rows may move.
+  void make_room(std::uint64_t tile, std::uint32_t rows, BlockCourse course);
 
-  // Takes the next row, which is where it belongs; `changes` are the lanes, as bits, that differ from the row before
-  // (none at the block's first sample). Different tiles may be given theirs side by side.
-  void add_row(std::uint64_t tile, std::uint32_t sample, std::uint64_t changes) {
+  // Takes the next rows, which are where they belong: at these samples, with so many change records in all. Different
+  // tiles may be given theirs side by side.
+  void add_rows(std::uint64_t tile, std::span<const std::uint16_t> samples, std::uint32_t changes) {
     Tile& at = tiles_[tile];
-    if (at.room > 1) list(at)[at.rows] = static_cast<std::uint16_t>(sample);
-    ++at.rows;
-    at.changes += static_cast<std::uint32_t>(std::popcount(changes));
+    at.changes += changes;
+    if (at.room == 1) {
+      at.rows = 1;
+      return;
+    }
+    std::uint16_t* listed = list(at);
+    for (const std::uint16_t sample : samples) listed[at.rows++] = sample;
   }
 
-  // Begins a block. Each tile has a room for as many rows as it had in the block before, and for one at least.
+  // Begins a block. Each tile has a room for as many rows as it had in the block before and some more, and for one at
+  // least.
   void begin();
   // The same with rooms for as many rows as a block may have samples: none has to move.
   void begin_full();
@@ -94,6 +108,7 @@ class TileLog {
     return list_bytes(room) + room * full_.row_bytes();
   }
 
+  [[nodiscard]] std::uint32_t first_room(std::uint32_t rows) const;
   void begin_tile(Tile& tile);
   [[nodiscard]] TileEntry choose(const BlockGeometry& geometry, const Tile& tile) const;
   [[nodiscard]] std::uint32_t slots(const Tile& tile) const;
@@ -101,14 +116,18 @@ class TileLog {
   std::uint64_t close_rows(const BlockGeometry& geometry, const Tile& tile);
   std::uint64_t close_records(const BlockGeometry& geometry, const Tile& tile, std::uint32_t slots);
   std::uint64_t append(std::uint64_t bytes);
+  void leave(const Tile& room);
 
   BlockGeometry full_;  // of a full block
-  std::uint32_t busy_samples_;
   TilePolicy policy_;
   std::uint64_t tight_from_;  // bytes
   DifferFunction differ_;
   PageBuffer payload_;
   std::uint64_t end_ = 0;  // of the last room in it
+  // Rooms side by side that tiles have left, the last ones to do so. What fits there need not be behind all others.
+  struct {
+    std::uint64_t begin = 0, end = 0;
+  } left_;
   std::vector<Tile> tiles_;
   std::vector<std::uint16_t> samples_;  // of a tile that is being closed, by row
   std::vector<std::byte> rows_;         // of one that is being stored as records

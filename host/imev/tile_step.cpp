@@ -1,6 +1,7 @@
 #include "imev/tile_step.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -104,6 +105,7 @@ inline __attribute__((always_inline)) void step_strip(StripStep& step) {
   const auto limit =
       static_cast<Code>(std::min<std::uint32_t>(step.tolerance, std::numeric_limits<Code>::max()));
   for (std::uint32_t i = 0; i < tiles; ++i) std::memcpy(held[i], step.held[i], kRowBytes);
+  step.change_counts.fill(0);
   for (std::uint32_t k = 0; k < samples; ++k) {
     const auto* raster = reinterpret_cast<const Code*>(step.rasters[k]);
     for (std::uint32_t i = 0; i < tiles; ++i) {
@@ -114,6 +116,7 @@ inline __attribute__((always_inline)) void step_strip(StripStep& step) {
       if (step.changes[k][i] == 0 && !step.writes_all) continue;
       std::memcpy(step.next[i], held[i], kRowBytes);
       step.next[i] += kRowBytes;
+      step.change_counts[i] += static_cast<std::uint32_t>(std::popcount(step.changes[k][i]));
     }
   }
 }

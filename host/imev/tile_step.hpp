@@ -37,6 +37,8 @@ struct StripStep {
 
   // out: the lanes, as bits, in which any channel was further than the tolerance from what was held.
   std::array<std::array<std::uint64_t, kStripTiles>, kStepSamples> changes;
+  std::array<std::uint32_t, kStripTiles>
+      change_counts;  // out: how many lanes they are in all samples together
 };
 using StepFunction = void (*)(StripStep&);
 [[nodiscard]] StepFunction step_function(const CaptureFormat& capture);
