@@ -29,7 +29,7 @@ ReadAhead::~ReadAhead() {
 void ReadAhead::decode(std::uint64_t most) {
   const ClosedAtEnd closed(decoded_);
   for (std::uint64_t sample = 0; sample < most; ++sample) {
-    auto raster = spare_.pop();
+    auto raster = spare_.pop_newest();
     if (!raster || !clip_.read(raster->first(sample_bytes_)) || !decoded_.push(std::move(*raster))) return;
   }
 }

@@ -27,15 +27,9 @@ class Channel {
   }
 
   // Waits for a value. Nothing where the channel is closed and all it held has been taken.
-  std::optional<T> pop() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return closed_ || !values_.empty(); });
-    if (values_.empty()) return std::nullopt;
-    T value = std::move(values_.front());
-    values_.pop_front();
-    changed_.notify_all();
-    return value;
-  }
+  std::optional<T> pop() { return take(false); }
+  // The same with the value that went in last: of memory to be used again, what caches may still hold.
+  std::optional<T> pop_newest() { return take(true); }
 
   // No value goes in any more; who waits is woken.
   void close() {
@@ -45,6 +39,16 @@ class Channel {
   }
 
  private:
+  std::optional<T> take(bool newest) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return closed_ || !values_.empty(); });
+    if (values_.empty()) return std::nullopt;
+    T value = std::move(newest ? values_.back() : values_.front());
+    newest ? values_.pop_back() : values_.pop_front();
+    changed_.notify_all();
+    return value;
+  }
+
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<T> values_;
