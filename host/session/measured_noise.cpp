@@ -41,8 +41,11 @@ std::optional<std::string> transfer_note(const StatedNoise& stated, const Transf
       stated.name, noise.transfer.text(), of_clip.text());
 }
 
-NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOptions& options,
-                            std::uint64_t most_samples, std::vector<Note>& clip_notes) {
+NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOptions& stated,
+                            std::uint64_t most_samples, const MemoryBudget& memory,
+                            std::vector<Note>& clip_notes) {
+  ClipOptions options = stated;
+  options.decoder_bytes = memory.bytes / 8;
   std::optional<CaptureFormat> first;
   std::optional<NoiseEstimator> estimator;
   for (const std::string& name : clips) {
@@ -50,8 +53,13 @@ NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOption
     const CaptureFormat format = clip_format(*clip, options);
     for (const Note& note : clip->info().notes) clip_notes.push_back(note);
     if (!first) {
+      const std::uint64_t within_decoder = clip->info().decoder_bytes;
+      MemoryNeeds needs{{"pictures within the decoder", within_decoder}};
+      needs.add(NoiseEstimator::needs(format, most_samples));
+      static_cast<void>(needs.rest_of(memory.bytes));
       first = format;
-      estimator.emplace(format);
+      estimator.emplace(format,
+                        NoiseEstimator::threads_in(memory.bytes - within_decoder, format, most_samples));
     } else if (format != *first) {
       throw InputError(nutik::format("{} is of another kind than {}: {} where that has {}", name,
                                      clips.front(), format_text(format), format_text(*first)));

@@ -11,6 +11,7 @@
 #include "capture/noise_file.hpp"
 #include "media/clip.hpp"
 #include "noise/noise_estimator.hpp"
+#include "session/memory_budget.hpp"
 #include "session/source_request.hpp"
 
 namespace nutik {
@@ -26,9 +27,11 @@ inline constexpr std::uint64_t kSamplesOfOwnNoise = 256;
 [[nodiscard]] std::optional<std::string> transfer_note(const StatedNoise& stated, const Transfer& of_clip);
 
 // Measures noise on clips of one format: several exposures of a still scene. Throws InputError where a clip
-// is of another format than the first, naming both. What the clips say of themselves is added to `clip_notes`.
+// is of another format than the first, naming both; MemoryTooLittle, before any is read, with the least that does.
+// What the clips say of themselves is added to `clip_notes`.
 [[nodiscard]] NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOptions& options,
-                                          std::uint64_t most_samples, std::vector<Note>& clip_notes);
+                                          std::uint64_t most_samples, const MemoryBudget& memory,
+                                          std::vector<Note>& clip_notes);
 
 // Whether so much of what pixels stray by is common to those that lie apart that it is no noise: something moves in most
 // of the picture, or a codec took its noise away. Holding codes within it would leave rings round what moves.

@@ -118,6 +118,7 @@ const Command kCommands[] = {
     {"mask", {"mask", "--moving", "CAPTURE", "o.pgm"}},
     {"activity", {"activity", "CAPTURE", "o.png"}},
     {"check", {"check", "CAPTURE"}},
+    {"noise", {"noise", "STILL", "-o", "o.noise"}},
     {"solve", {"solve", "-k", "named.fn", "--wish", "all = 0.3", "CAPTURE", "o.fn"}},
     {"solve, plate", {"solve", "-k", "named.fn", "--wish", "0,0,16,16 gone", "CAPTURE", "o.fn"}},
 };
@@ -155,7 +156,9 @@ class MemoryOfCommands : public testing::TestWithParam<Command> {
     }
     words.emplace_back("-q");
     if (reads_clip) {
-      for (const char* word : {"-f", "240", "--raw"}) words.emplace_back(word);
+      const bool is_timed = command.words.front() != "noise";
+      if (is_timed) words.insert(words.end(), {"-f", "240"});
+      words.emplace_back("--raw");
       words.emplace_back(is_tiny ? "16x16:gray" : "1280x720:gray");
     }
     if (!memory.empty()) words.insert(words.end(), {"--memory", memory});

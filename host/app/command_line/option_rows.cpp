@@ -295,7 +295,7 @@ constexpr Option kRows[] = {
      "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is "
      "sure to be right to half a code, or to half a float's step (default: auto; see -v)",
      "auto single compensated double fixed"},
-    {0, "memory", "SIZE", computing, kReadsClips | kExposes, &Options::memory,
+    {0, "memory", "SIZE", computing, kDecodesClips | kExposes, &Options::memory,
      "the most that may be held: 500MB, 2GB, 1GiB; libraries and drivers come on top (default: half of the "
      "machine's)"},
 

@@ -46,7 +46,7 @@ int run_noise(const Options& options) {
   std::vector<Note> clip_notes;
   const NoiseEstimate estimate =
       measure_noise(options.operands, clip_request(options, options.operands.front()).clip,
-                    NoiseEstimator::kMostSamples, clip_notes);
+                    NoiseEstimator::kMostSamples, memory_budget(options), clip_notes);
   std::vector<std::string> comments;
   for (const std::string& name : options.operands) {
     comments.push_back("measured on " + std::filesystem::path(name).filename().string());
