@@ -1,7 +1,7 @@
 // The kernels as the host can ask for them, each build against the reference within its bound: the output that it is
 // built for, and light, where every rounding shows.
 //
-// NUTIK_TEST_BUILDS=all builds all that there are (tools/check_kernels --builds), NUTIK_TEST_BUILDS=name the one of that
+// NUTIK_TEST_BUILDS=all builds all that there are (tools/check_kernel_builds), NUTIK_TEST_BUILDS=name the one of that
 // name; by default few of them, in which any two values meet.
 #include "support/kernel_builds.hpp"
 
