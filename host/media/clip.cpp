@@ -153,8 +153,11 @@ void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const Sto
                      {Setting::matrix, Setting::range});
   }
   CaptureFormat& capture = info.format;
-  capture.transfer = settle(info.facts, options.transfer, {}, codes.transfer, Setting::transfer,
+  capture.transfer = settle(info.facts, options.transfer, codes.transfer, codes.usual, Setting::transfer,
                             [](const Transfer& transfer) { return "transfer " + transfer.text(); });
+  if (info.facts.back().origin == Origin::assumed && !codes.unread_transfer.empty()) {
+    info.facts.back().remark = format("the file names {}", codes.unread_transfer);
+  }
   if (capture.shape.channels > 1) {
     capture.primaries =
         settle(info.facts, options.primaries, codes.primaries, Primaries::bt709, Setting::primaries,

@@ -134,7 +134,9 @@ class Clip {
 
 // What files say of codes that are read as they are stored, and what transfer function is usual for such.
 struct StoredCodes {
-  Transfer transfer;
+  Transfer usual;
+  std::optional<Transfer> transfer = std::nullopt;
+  std::string unread_transfer = {};  // what they name besides, for people
   std::optional<Primaries> primaries = std::nullopt;
   std::optional<Rational> pixel_aspect = std::nullopt;
 };

@@ -11,6 +11,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/coding_points.hpp"
 #include "media/picture_text.hpp"
 #include "system/interruption.hpp"
 
@@ -79,29 +80,6 @@ const char* colour_name(int colour_type) {
 // Fast rather than small: a picture is written and looked at many times while a function is adjusted.
 constexpr int kCompressionLevel = 2;
 
-// Numbers of ITU-T H.273, which cICP has; none where it has none for a function.
-std::optional<png_byte> number_of(const Transfer& transfer) {
-  switch (transfer.kind()) {
-    case Transfer::Kind::srgb: return png_byte{13};
-    case Transfer::Kind::bt709: return png_byte{1};
-    case Transfer::Kind::linear: return png_byte{8};
-    case Transfer::Kind::hlg: return png_byte{18};
-    case Transfer::Kind::pq: return png_byte{16};
-    case Transfer::Kind::gamma: break;
-  }
-  if (transfer == Transfer::gamma(2.2)) return png_byte{4};
-  if (transfer == Transfer::gamma(2.8)) return png_byte{5};
-  return std::nullopt;
-}
-png_byte number_of(Primaries primaries) {
-  switch (primaries) {
-    case Primaries::bt709: return 1;
-    case Primaries::bt2020: return 9;
-    case Primaries::p3: return 12;
-  }
-  return 2;  // not said
-}
-
 // What codes stand for: in cICP, which this libpng has no function for, and in older chunks where these can say it.
 void set_meaning(png_structp png, png_infop info, const Picture& picture) {
   if (picture.pixel_aspect != Rational{1, 1}) {
@@ -121,10 +99,10 @@ void set_meaning(png_structp png, png_infop info, const Picture& picture) {
 }
 
 void write_coding_points(png_structp png, const Picture& picture) {
-  const auto transfer = picture.transfer ? number_of(*picture.transfer) : std::nullopt;
+  const auto transfer = picture.transfer ? coding_point(*picture.transfer) : std::nullopt;
   if (!transfer) return;
   constexpr png_byte kRgb = 0, kFullRange = 1;
-  const std::array<png_byte, 4> points{number_of(picture.primaries), *transfer, kRgb, kFullRange};
+  const std::array<png_byte, 4> points{coding_point(picture.primaries), *transfer, kRgb, kFullRange};
   constexpr png_byte kName[]{'c', 'I', 'C', 'P'};
   png_write_chunk(png, kName, points.data(), points.size());
 }

@@ -118,6 +118,7 @@ TEST_F(Habits, NoticesSwallowedWords) {
 TEST_F(Habits, AnswersInJson) {
   EXPECT_EQ(json({"info", "clip.tik"})["samples"], 3);
   EXPECT_EQ(json({"info", "clip.tik"})["duration_ns"], 120'000'000);
+  EXPECT_EQ(json({"clip.tik"})["samples"], 3) << "the short form of info";
   EXPECT_FALSE(json({"devices"})["devices"].empty());
   EXPECT_EQ(json({"encode", "-f", "25", "frames", "b.tik"})["capture"], "b.tik");
   const nlohmann::json exposed = json({"-k", "one.fn", "clip.tik", "a.png"});
@@ -138,10 +139,9 @@ TEST_F(Habits, AnswersInJson) {
 TEST_F(Habits, ExplainsThePlan) {
   const ProgramResult result = run({"-v", "-k", "one.fn", "clip.tik", "a.png"});
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(
-      result.out.find("plan: exposes 1 of 3 samples; read: 1 block (samples 0 … 2), "
-                      "skipped: 0 blocks\n  M0: 2 pixels, live 0 s … 40"),
-      std::string::npos)
+  EXPECT_NE(result.out.find("plan: exposes 1 of 3 samples; read: 1 block (samples 0 … 2), "
+                            "skipped: 0 blocks\n  M0: 2 pixels, live 0 s … 40"),
+            std::string::npos)
       << result.out;
 }
 

@@ -333,5 +333,36 @@ TEST(StillClip, TakesThePixelAspectFromTheFile) {
   }
 }
 
+// As we write them ourselves; gAMA alone is written by programs that know nothing of the codes.
+TEST(StillClip, OfPngStandsForWhatItsChunksName) {
+  const Scratch scratch;
+  const auto facts_of = [&](const Picture& picture, const ClipOptions& options = {}) {
+    write_picture(scratch / "a.png", picture);
+    const auto clip = open_test_clip(scratch / "a.png", options);
+    std::vector<std::string> lines;
+    for (const Fact& fact : clip->info().facts) lines.push_back(fact.line());
+    return std::pair(clip->info().format.transfer, lines);
+  };
+  Picture picture = test::random_stills(kColour, 65'535, 1, 3).front();
+  EXPECT_EQ(facts_of(picture).second[0], "transfer linear, assumed");
+  EXPECT_EQ(facts_of(picture).second[1], "primaries bt709, assumed");
+  for (const Transfer& transfer : {Transfer::srgb(), Transfer::bt709(), Transfer::linear(), Transfer::hlg(),
+                                   Transfer::pq(), Transfer::gamma(2.2), Transfer::gamma(2.8)}) {
+    picture.transfer = transfer;
+    for (const Primaries primaries : {Primaries::bt709, Primaries::bt2020, Primaries::p3}) {
+      picture.primaries = primaries;
+      const auto [read, facts] = facts_of(picture);
+      EXPECT_EQ(read, transfer);
+      EXPECT_EQ(facts[0], "transfer " + transfer.text() + ", from the file");
+      EXPECT_EQ(facts[1], "primaries " + std::string(to_text(primaries)) + ", from the file");
+    }
+  }
+  picture.transfer = Transfer::gamma(3);
+  EXPECT_EQ(facts_of(picture).second[0], "transfer linear, assumed; the file names gamma 3");
+  ClipOptions stated;
+  stated.transfer = Transfer::srgb();
+  EXPECT_EQ(facts_of(picture, stated).second[0], "transfer srgb, as stated");
+}
+
 }  // namespace
 }  // namespace nutik

@@ -10,6 +10,7 @@
 #include "capture/format.hpp"
 #include "media/extension.hpp"
 #include "media/netpbm.hpp"
+#include "media/stills/png_tags.hpp"
 #include "media/stills/raw_file.hpp"
 #include "media/stills/stills.hpp"
 #include "media/tiff_reader.hpp"
@@ -35,6 +36,9 @@ struct Still {
   std::optional<std::uint32_t> maximum;  // that the file states
   std::vector<std::byte> codes;          // interleaved raster
   std::optional<Rational> pixel_aspect = std::nullopt;
+  std::optional<Transfer> transfer = std::nullopt;  // that the file names
+  std::optional<Primaries> primaries = std::nullopt;
+  std::string unread_transfer = {};  // that it names and that is not believed
 };
 
 bool has_extension(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions) {
@@ -100,22 +104,6 @@ std::optional<Shape> stated_size(std::string_view bytes) {
   return std::nullopt;
 }
 
-// What a PNG's pHYs states. Its chunks: u32 length, four letters, so many bytes, a checksum.
-std::optional<Rational> png_pixel_aspect(std::string_view bytes) {
-  constexpr std::size_t kSignature = 8, kFrame = 12, kLengthBytes = 4, kName = 4;
-  for (std::size_t at = kSignature; at + kFrame <= bytes.size();) {
-    const std::uint32_t length = big_endian(bytes, at, kLengthBytes);
-    const std::string_view name = bytes.substr(at + kLengthBytes, kName);
-    const std::size_t data = at + kLengthBytes + kName;
-    if (name == "IDAT" || data + length > bytes.size()) return std::nullopt;
-    if (name == "pHYs" && length >= 8) {
-      return aspect_of(big_endian(bytes, data, 4), big_endian(bytes, data + 4, 4));
-    }
-    at += kFrame + length;
-  }
-  return std::nullopt;
-}
-
 // What the header of a JPEG that is JFIF states, which is its first segment: FF E0, length, JFIF and a zero, two bytes
 // of version, the unit, and a density across and down.
 std::optional<Rational> jpeg_pixel_aspect(std::string_view bytes) {
@@ -126,10 +114,16 @@ std::optional<Rational> jpeg_pixel_aspect(std::string_view bytes) {
   return aspect_of(big_endian(bytes, kAcross, 2), big_endian(bytes, kDown, 2));
 }
 
-std::optional<Rational> pixel_aspect_of(const std::filesystem::path& file) {
+// What a PNG or JPEG says of its codes and pixels.
+void add_tags(const std::filesystem::path& file, Still& still) {
+  const PngTags tags = read_png_tags(file);
+  still.transfer = tags.transfer;
+  still.primaries = tags.primaries;
+  if (!tags.transfer) still.unread_transfer = tags.unread_transfer;
+  if (tags.density) still.pixel_aspect = aspect_of(tags.density->first, tags.density->second);
   const MappedFile mapped(file);
   const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
-  return bytes.starts_with("\x89PNG") ? png_pixel_aspect(bytes) : jpeg_pixel_aspect(bytes);
+  if (bytes.starts_with("\xFF\xD8")) still.pixel_aspect = jpeg_pixel_aspect(bytes);
 }
 
 // Before OpenCV allocates what a file says: Deflate makes 1032 bytes of one at most, which may be 8 pixels each, and a
@@ -180,7 +174,7 @@ Still read_with_opencv(const std::filesystem::path& file) {
   still.code_bytes = picture.depth() == CV_8U ? 1 : 2;
   const auto* bytes = reinterpret_cast<const std::byte*>(picture.data);
   still.codes.assign(bytes, bytes + picture.total() * picture.elemSize());
-  still.pixel_aspect = pixel_aspect_of(file);
+  add_tags(file, still);
   return still;
 }
 
@@ -208,10 +202,9 @@ class StillClip final : public Clip {
     const bool is_developed = is_raw(pages_.front().file);
     // Deep stills come from scientific cameras, whose codes are linear; shallow ones are made to be
     // seen.
-    describe_stored_codes(
-        info_, options,
-        {first_.code_bytes == 1 ? Transfer::srgb() : Transfer::linear(),
-         is_developed ? std::optional(Primaries::bt709) : std::nullopt, first_.pixel_aspect});
+    describe_stored_codes(info_, options,
+                          {first_.code_bytes == 1 ? Transfer::srgb() : Transfer::linear(), first_.transfer,
+                           first_.unread_transfer, first_.primaries, first_.pixel_aspect});
     if (capture.code_bytes == 2 && !first_.maximum && !options.white_code) {
       info_.notes.emplace_back(
           "the files do not say how many of their 16 bits are used: white is taken to be 65535; state "
@@ -267,7 +260,12 @@ class StillClip final : public Clip {
   }
 
   Still read_page(const Page& page) {
-    if (is_raw(page.file)) return still_of(raws_.develop(page.file), 65'535);
+    if (is_raw(page.file)) {
+      Still still = still_of(raws_.develop(page.file), 65'535);
+      still.transfer = Transfer::linear();
+      still.primaries = Primaries::bt709;
+      return still;
+    }
     if (has_extension(page.file, {".pgm", ".ppm", ".pnm"})) return read_netpbm_still(page.file);
     if (!is_tiff(page.file)) return read_with_opencv(page.file);
     if (page.number == 1) tiff_.emplace(page.file);

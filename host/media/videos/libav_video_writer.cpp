@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "media/coding_points.hpp"
 #include "media/videos/libav.hpp"
 #include "media/videos/videos.hpp"
 #include "system/output_file.hpp"
@@ -38,26 +39,6 @@ AVPixelFormat encoded_pixels(const VideoFormat& format, const VideoCodec& codec)
   const AVPixelFormat source = source_pixels(format);
   if (source == AV_PIX_FMT_RGB24) return AV_PIX_FMT_BGR0;
   return source == AV_PIX_FMT_RGB48 ? AV_PIX_FMT_GBRP16 : source;
-}
-
-AVColorTransferCharacteristic characteristic_of(const Transfer& transfer) {
-  if (transfer == Transfer::srgb()) return AVCOL_TRC_IEC61966_2_1;
-  if (transfer == Transfer::bt709()) return AVCOL_TRC_BT709;
-  if (transfer == Transfer::linear()) return AVCOL_TRC_LINEAR;
-  if (transfer == Transfer::hlg()) return AVCOL_TRC_ARIB_STD_B67;
-  if (transfer == Transfer::pq()) return AVCOL_TRC_SMPTE2084;
-  if (transfer == Transfer::gamma(2.2)) return AVCOL_TRC_GAMMA22;
-  if (transfer == Transfer::gamma(2.8)) return AVCOL_TRC_GAMMA28;
-  return AVCOL_TRC_UNSPECIFIED;
-}
-
-AVColorPrimaries primaries_of(Primaries primaries) {
-  switch (primaries) {
-    case Primaries::bt709: return AVCOL_PRI_BT709;
-    case Primaries::bt2020: return AVCOL_PRI_BT2020;
-    case Primaries::p3: return AVCOL_PRI_SMPTE432;
-  }
-  return AVCOL_PRI_UNSPECIFIED;
 }
 
 // What an encoder is told by name.
@@ -182,8 +163,9 @@ class LibavVideoWriter final : public VideoWriter {
                                                      : AVCOL_SPC_RGB;
     context.color_range =
         is_yuv && context.pix_fmt != AV_PIX_FMT_YUVJ420P ? AVCOL_RANGE_MPEG : AVCOL_RANGE_JPEG;
-    context.color_primaries = primaries_of(video_.primaries);
-    context.color_trc = characteristic_of(video_.transfer);
+    context.color_primaries = static_cast<AVColorPrimaries>(coding_point(video_.primaries));
+    context.color_trc = static_cast<AVColorTransferCharacteristic>(
+        coding_point(video_.transfer).value_or(AVCOL_TRC_UNSPECIFIED));
     if ((muxer_->oformat->flags & AVFMT_GLOBALHEADER) != 0) context.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
 
     Settings settings;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "media/coding_points.hpp"
 #include "media/videos/capture_rate.hpp"
 #include "media/videos/cine_header.hpp"
 #include "media/videos/libav.hpp"
@@ -11,22 +12,6 @@
 namespace nutik::videos {
 namespace {
 
-std::optional<Transfer> transfer_of(AVColorTransferCharacteristic characteristic) {
-  switch (characteristic) {
-    case AVCOL_TRC_BT709:
-    case AVCOL_TRC_SMPTE170M:
-    case AVCOL_TRC_BT2020_10:
-    case AVCOL_TRC_BT2020_12: return Transfer::bt709();
-    case AVCOL_TRC_IEC61966_2_1: return Transfer::srgb();
-    case AVCOL_TRC_GAMMA22: return Transfer::gamma(2.2);
-    case AVCOL_TRC_GAMMA28: return Transfer::gamma(2.8);
-    case AVCOL_TRC_LINEAR: return Transfer::linear();
-    case AVCOL_TRC_ARIB_STD_B67: return Transfer::hlg();
-    case AVCOL_TRC_SMPTE2084: return Transfer::pq();
-    default: return std::nullopt;
-  }
-}
-
 // What the file calls its transfer function; empty where it names none.
 std::string transfer_name(AVColorTransferCharacteristic characteristic) {
   if (characteristic == AVCOL_TRC_UNSPECIFIED || characteristic == AVCOL_TRC_RESERVED0 ||
@@ -35,21 +20,6 @@ std::string transfer_name(AVColorTransferCharacteristic characteristic) {
   }
   const char* name = av_color_transfer_name(characteristic);
   return name == nullptr ? std::to_string(characteristic) : name;
-}
-
-// Those that lie closest; none where the file names none. NTSC's and PAL's differ from BT.709's by less than an eye
-// notices.
-std::optional<Primaries> primaries_of(AVColorPrimaries primaries) {
-  switch (primaries) {
-    case AVCOL_PRI_BT2020: return Primaries::bt2020;
-    case AVCOL_PRI_SMPTE431:
-    case AVCOL_PRI_SMPTE432: return Primaries::p3;
-    case AVCOL_PRI_BT709:
-    case AVCOL_PRI_BT470BG:
-    case AVCOL_PRI_SMPTE170M:
-    case AVCOL_PRI_SMPTE240M: return Primaries::bt709;
-    default: return std::nullopt;
-  }
 }
 
 std::optional<Rational> pixel_aspect(AVFormatContext* format, AVStream& stream, const Upright& upright) {
@@ -163,11 +133,11 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.pixels = pixel_kind(codec, path.string());
   result.pixel_format = static_cast<AVPixelFormat>(codec.format);
   result.upright = upright(stream);
-  result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of(codec.color_trc);
+  result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of_coding_point(codec.color_trc);
   result.transfer_name = transfer_name(codec.color_trc);
   result.matrix = named_matrix(codec.color_space);
   result.range = named_range(codec);
-  result.primaries = primaries_of(codec.color_primaries);
+  result.primaries = primaries_of_coding_point(codec.color_primaries);
   result.pixel_aspect = pixel_aspect(opened.format.get(), stream, result.upright);
   if (!result.transfer && !result.transfer_name.empty()) {
     result.notes.emplace_back(

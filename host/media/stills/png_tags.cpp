@@ -1,0 +1,52 @@
+#include "media/stills/png_tags.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "capture/format.hpp"
+#include "media/coding_points.hpp"
+#include "system/mapped_file.hpp"
+
+namespace nutik::stills {
+namespace {
+
+std::uint32_t big_endian(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (const char byte : bytes.substr(0, 4)) value = value << 8 | static_cast<unsigned char>(byte);
+  return value;
+}
+
+}  // namespace
+
+// Chunks: u32 length, four letters, so many bytes, a checksum.
+PngTags read_png_tags(const std::filesystem::path& file) {
+  constexpr std::size_t kSignature = 8, kFrame = 12, kData = 8;
+  constexpr double kGammaParts = 100'000;
+  const MappedFile mapped(file);
+  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
+  PngTags tags;
+  if (!bytes.starts_with("\x89PNG")) return tags;
+  bool has_coding_points = false;
+  for (std::size_t at = kSignature; at + kFrame <= bytes.size();) {
+    const std::uint32_t length = big_endian(bytes.substr(at));
+    const std::string_view name = bytes.substr(at + 4, 4), data = bytes.substr(at + kData, length);
+    if (name == "IDAT" || data.size() < length) break;
+    if (name == "cICP" && length == 4) {
+      has_coding_points = true;
+      tags.primaries = primaries_of_coding_point(static_cast<unsigned char>(data[0]));
+      tags.transfer = transfer_of_coding_point(static_cast<unsigned char>(data[1]));
+    } else if (name == "sRGB" && !has_coding_points) {
+      tags.transfer = Transfer::srgb();
+      tags.primaries = Primaries::bt709;
+    } else if (name == "gAMA" && length == 4) {
+      tags.unread_transfer = format("gamma {:.4g}", kGammaParts / std::max(big_endian(data), 1u));
+    } else if (name == "pHYs" && length >= 8) {
+      tags.density = {big_endian(data), big_endian(data.substr(4))};
+    }
+    at += kFrame + length;
+  }
+  return tags;
+}
+
+}  // namespace nutik::stills
