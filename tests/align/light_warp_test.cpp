@@ -52,7 +52,7 @@ TEST(LightWarp, MovesCodesByWholePixelsAsTheyAre) {
   }
 }
 
-// Of a wave of 16 pixels the cubic keeps 0.99 between pixels; a code of sRGB is up to 2.3 steps of light, and two of
+// Of a wave of 16 pixels the cubic keeps 0.999 between pixels; a code of sRGB is up to 2.3 steps of light, and two of
 // them were rounded.
 TEST(LightWarp, ShowsLightWhereItLies) {
   const Warp turned{{std::cos(0.05), -std::sin(0.05), 3.3, std::sin(0.05), std::cos(0.05), -2.6, 0, 0, 1}};

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "media/module.hpp"
+#include "support/clips.hpp"
 
 namespace nutik {
 namespace {
@@ -57,6 +58,12 @@ CaptureFormat format_of(const Look& look) {
   format.code_bytes = look.code_bytes;
   format.white_code = look.white;
   return format;
+}
+
+std::unique_ptr<Registrar> registrar_of(const CaptureFormat& format, CameraMotion motion,
+                                        std::span<const std::byte> reference) {
+  test::use_modules();
+  return motion_module().open(format, motion, reference);
 }
 
 // A scene before which a disc, a fifth of the picture, moves by itself: eleven pixels a picture, turning.
@@ -142,7 +149,7 @@ TEST_P(Recovery, FindsShiftsAndTurnsWithASubjectOverAFifthOfThePicture) {
   const std::vector<Warp> truth = hand_held(c.motion);
   Scene scene(c.look);
   const auto reference = scene.seen(truth[0], 0);
-  const auto registrar = motion_module().open(format_of(c.look), c.motion, reference);
+  const auto registrar = registrar_of(format_of(c.look), c.motion, reference);
   double squared_pixels = 0, squared_degrees = 0;
   std::size_t places = 0, pictures = 0;
   Warp guess;
@@ -182,7 +189,7 @@ TEST(Registrar, FindsAPictureThatLiesFarFromWhereItWasExpected) {
   const Look look;
   Scene scene(look);
   const Warp far = moved(90, -55, 20);
-  const auto registrar = motion_module().open(format_of(look), CameraMotion::rigid, scene.seen(Warp(), 0));
+  const auto registrar = registrar_of(format_of(look), CameraMotion::rigid, scene.seen(Warp(), 0));
   const Registered found = registrar->find(scene.seen(far, 0), Warp());
   EXPECT_TRUE(is_sure(found));
   const Place is = found.warp.at(160, 120), should = far.at(160, 120);
@@ -195,7 +202,7 @@ TEST(Registrar, GivesTheSameTwice) {
   Scene scene(look);
   const auto reference = scene.seen(Warp(), 0), other = scene.seen(moved(90, -55, 20), 1);
   const auto find = [&] {
-    return motion_module().open(format_of(look), CameraMotion::homography, reference)->find(other, Warp());
+    return registrar_of(format_of(look), CameraMotion::homography, reference)->find(other, Warp());
   };
   EXPECT_EQ(find(), find());
 }
@@ -203,13 +210,13 @@ TEST(Registrar, GivesTheSameTwice) {
 TEST(Registrar, IsNotSureOfAnotherScene) {
   const Look look;
   Scene scene(look);
-  const auto registrar = motion_module().open(format_of(look), CameraMotion::rigid, scene.seen(Warp(), 0));
+  const auto registrar = registrar_of(format_of(look), CameraMotion::rigid, scene.seen(Warp(), 0));
   EXPECT_FALSE(is_sure(registrar->find(scene.seen(moved(5000, 3000, 0), 0), Warp())));
 }
 
 std::string why_not(const std::vector<std::byte>& reference) {
   try {
-    static_cast<void>(motion_module().open(format_of({}), CameraMotion::rigid, reference));
+    static_cast<void>(registrar_of(format_of({}), CameraMotion::rigid, reference));
   } catch (const TooLittleTexture& error) {
     return error.what();
   }

@@ -44,7 +44,7 @@ cv::Mat drawn(const Shift& shift, int picture, bool has_subject) {
       const double u = x - shift.x, v = y - shift.y, from_subject = u - 20 - 6 * picture;
       const bool is_subject = has_subject && std::abs(from_subject) < 10 && std::abs(v - 60) < 10;
       drawn.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(
-          std::lround(is_subject ? 230 + 5 * std::sin(from_subject) : 110 + 11 * texture(u, v)));
+          std::lround(is_subject ? 230 + 5 * std::sin(from_subject) : 110 + 7 * texture(u, v)));
     }
   }
   return drawn;
@@ -200,9 +200,7 @@ TEST_F(Aligning, IsPartOfARecipe) {
   const cv::Mat mean = cv::imread((scratch_ / "mean.png").string()),
                 blurred = cv::imread((scratch_ / "blurred.png").string());
   EXPECT_LT(mean.cols, blurred.cols);
-  const auto again = run({"again", "mean.png", "again.png"});
-  ASSERT_EQ(again.status, 0) << again.err;
-  EXPECT_EQ(bytes("mean.png"), bytes("again.png"));
+  EXPECT_NE(run({"again", "mean.png"}).out.find(" --align rigid "), std::string::npos);
 }
 
 TEST_F(Aligning, SaysWhatDoesNotGoTogether) {

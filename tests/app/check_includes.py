@@ -12,7 +12,7 @@ from collections import defaultdict
 from pathlib import Path
 
 ROOMS = {"app", "session", "system"}
-MOST_LINES = 6600  # 6500, and 100 for the rows of newer commands
+MOST_LINES = 6700  # 6500, and 200 for rows, notes and errors of newer commands and options
 # Commands that came after that was set, counted for themselves.
 NEWER = {"commands/camera_files.cpp", "commands/camera_files.hpp", "commands/plate.cpp", "commands/solve.cpp",
          "commands/study.cpp", "requests/align_words.cpp", "requests/solve_words.cpp", "requests/study_words.cpp"}

@@ -100,6 +100,19 @@ std::string file_with(const std::vector<Field>& fields) {
   return text;
 }
 
+TEST(TikFields, SayHowPicturesWereMovedOntoEachOther) {
+  Header header;
+  header.alignment = Alignment{"homography", 12, true, 17.99, 1.0 / 3, 2e-9};
+  const std::string file = file_with(header.fields());
+  const auto parse = [](const std::string& bytes) {
+    return parse_header(std::as_bytes(std::span(bytes)), "x.tik").header.alignment;
+  };
+  EXPECT_EQ(parse(file), header.alignment);
+  EXPECT_EQ(parse(file_with({})), std::nullopt);
+  EXPECT_THROW(static_cast<void>(parse(file_with({{"algn", false, "rigid -1 cut 0 0 0"}}))), InputError);
+  EXPECT_THROW(static_cast<void>(parse(file_with({{"algn", false, "rigid 1 cut 0"}}))), InputError);
+}
+
 TEST(TikFields, OfLaterProgramsArePassedOverUnlessTheyMustNotBe) {
   const auto parse = [](const std::string& file) {
     return parse_header(std::as_bytes(std::span(file)), "x.tik");
