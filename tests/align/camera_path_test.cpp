@@ -60,6 +60,7 @@ TEST(CameraPath, SaysWhatIsWrongInAFile) {
   starts(title + columns + "1,0,0,0,0,1,1,0,0,0,1,0,0,0,1\n", "path.csv:3: picture 0 is expected here");
   starts(title + columns + "0,0,0,0,0,1,1,0,0,0,1,0,0,0\n", "path.csv:3: the warp is");
   starts(title + columns + "0,0,0,0,0,1,1,0,nan,0,1,0,0,0,1\n", "path.csv:3: the warp is");
+  starts(title + columns + "0,0,0,0,0,1,1,0,1e300,0,1,0,0,0,1\n", "path.csv:3: the warp has 1e+300");
   starts(title + columns + "0,0,0,0,0,1,1,0,0,0,1,0,0,0,1,5\n", "path.csv:3: there is more");
   starts(title + columns + "0,0,0,0,0,1,1,0,0,0,1,0,-0.02,0,1\n", "path.csv:3: the warp has no place");
   starts(title + columns + "0,0,0,0,0,1,-1,0,0,0,1,0,0,0,1\n", "path.csv:3: the warp makes the picture flat");

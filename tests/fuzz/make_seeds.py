@@ -110,6 +110,9 @@ def texts(tests):
              "point 12.5 1.32 5021\npoint 200 2.5 17\n")
     for curve in "sensor", "points":
         yield "noise", noise.format(curve).encode()
+    columns = "picture,x,y,degrees,residual_pixels,agreeing,m0,m1,m2,m3,m4,m5,m6,m7,m8"
+    warps = "0,0,0,0,0.1,1,1,0,0,0,1,0,0,0,1\n1,2.5,-1,0.3,0.1,0.9,0.99,-0.1,2.5,0.1,0.99,-1,1e-05,-2e-05,1\n"
+    yield "paths", f"# nutik camera path,homography,0,64,48\n{columns}\n{warps}".encode()
     yield "tables", b"file,start_ns,exposure_ns\na.png,0,10000000\nb.png,40000000,20000000\n"
     yield "tables", b'\xef\xbb\xbf"a.png",5,\r\n\r\nb.png,99\r\n'
     for bits, depth, side in (8, 8, "Lower"), (12, 12, "Lower"), (16, 12, "Higher"):
