@@ -1,6 +1,7 @@
 #include "imev/activity.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -11,6 +12,10 @@ Activity::Activity(const CaptureFormat& capture, ActivityOptions options)
   if (!options_.counted.empty() && options_.counted.size() != changes_.size()) {
     throw std::logic_error("the pixels that count are not those of the capture");
   }
+  if (!options_.tags.empty() && options_.tags.size() != changes_.size()) {
+    throw std::logic_error("tags are not those of the capture's pixels");
+  }
+  for (const std::uint8_t tag : options_.tags) changed_by_tag_[tag];
 }
 
 bool Activity::is_change(const ChangeRecord& before, const ChangeRecord& after) const {
@@ -27,6 +32,11 @@ void Activity::add(const BlockView& block) {
   last_.resize(changes_.size());
   const std::size_t first_sample = changed_pixels_.size();
   changed_pixels_.resize(first_sample + block.extent().sample_count);
+  std::array<std::uint64_t*, 256> changed_of_tag{};  // at the block's first sample
+  for (auto& [tag, changed] : changed_by_tag_) {
+    changed.resize(changed_pixels_.size());
+    changed_of_tag[tag] = changed.data() + first_sample;
+  }
   std::vector<ChangeRecord> history;
   std::uint64_t pixel = 0;
   for (std::uint32_t y = 0; y < shape_.height; ++y) {
@@ -38,6 +48,7 @@ void Activity::add(const BlockView& block) {
         if (before != nullptr && is_change(*before, record)) {
           ++changes_[pixel];
           ++changed_pixels_[first_sample + record.sample];
+          if (!options_.tags.empty()) ++changed_of_tag[options_.tags[pixel]][record.sample];
         }
         before = &record;
       }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "capture/memory_needs.hpp"
@@ -15,6 +16,7 @@ struct ActivityOptions {
   // Differences of up to this many codes, of every channel, are none: for noise that the capture kept.
   std::uint32_t ignored_codes = 0;
   std::vector<std::uint8_t> counted;  // a 1 for each pixel that counts, row-major; empty: all of them
+  std::vector<std::uint8_t> tags;     // of each pixel, to be counted by tag too; empty: they are not
 };
 
 // Counts, block after block, the samples at which a pixel holds other codes than at the sample before;
@@ -36,6 +38,10 @@ class Activity {
   [[nodiscard]] const std::vector<std::uint64_t>& changes() const { return changes_; }
   // How many pixels changed at each sample of the blocks so far; none at the first.
   [[nodiscard]] const std::vector<std::uint64_t>& changed_pixels() const { return changed_pixels_; }
+  // The same of the pixels with each tag that any pixel has.
+  [[nodiscard]] const std::map<std::uint8_t, std::vector<std::uint64_t>>& changed_pixels_by_tag() const {
+    return changed_by_tag_;
+  }
   // How many pixels count.
   [[nodiscard]] std::uint64_t pixel_count() const;
 
@@ -46,6 +52,7 @@ class Activity {
   ActivityOptions options_;
   std::vector<std::uint64_t> changes_;
   std::vector<std::uint64_t> changed_pixels_;
+  std::map<std::uint8_t, std::vector<std::uint64_t>> changed_by_tag_;
   std::vector<ChangeRecord> last_;  // what each pixel held at the end of the block before; empty at first
 };
 

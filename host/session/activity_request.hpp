@@ -18,21 +18,33 @@ struct ActivityRequest {
   // Only pixels of this mask count: those with the tag, or with any but 0. None: all pixels.
   std::optional<std::string> mask;  // an input, as input_bytes.hpp has it
   std::optional<std::uint8_t> tag;
+  bool each_tag = false;  // all pixels count, and those with each tag of the mask for themselves, too
   std::uint32_t ignored_codes = 0;  // changes of no more are none
+};
+
+// Of the pixels with a tag.
+struct TagActivity {
+  std::uint8_t tag = 0;
+  std::uint64_t pixel_count = 0;
+  bool is_still = false;                   // nothing changes
+  std::optional<ActivityMoments> moments;  // none, either, of a capture that is too short
 };
 
 struct MeasuredActivity {
   Timeline timeline;
   Activity activity;
   std::optional<ActivityMoments> moments;
+  std::vector<TagActivity> tags = {};  // by increasing tag, where each was asked for
 
   [[nodiscard]] bool is_still() const { return changes() == 0; }
   [[nodiscard]] std::uint64_t changes() const;  // of all pixels, at all samples
-  // As shares of the pixels that count: of one sample; of a stretch, and of all that has a sample before it, on
-  // average.
+  // As shares of the pixels that count: of one sample; of all that has a sample before it, on average.
   [[nodiscard]] double changed_share(std::uint64_t sample) const;
-  [[nodiscard]] double mean_share(const ActivityStretch& stretch) const;
   [[nodiscard]] double mean_share() const;
+  // The quietest stretch, or the busiest, of all pixels or of those with a tag. All of the capture is quiet if nothing
+  // changes. Throws InputError that calls the capture by its name.
+  [[nodiscard]] SampleRange moment(const std::string& name, bool quietest) const;
+  [[nodiscard]] SampleRange moment(const std::string& name, bool quietest, const TagActivity& of) const;
   // A line for each sample: sample,start_ns,end_ns,changed_pixels,changed_share.
   [[nodiscard]] std::string table() const;
 };

@@ -129,6 +129,44 @@ TEST_F(Moment, ActivityCountsChangesAtEachSample) {
   }
 }
 
+TEST_F(Moment, ActivityCountsEachTagForItself) {
+  ASSERT_EQ(run({"mask", "--grid", "4x2", "clip.tik", "grid.pgm"}).status, 0);
+  const ProgramResult lines =
+      run({"activity", "--by", "8", "-m", "grid.pgm", "--tag", "all", "--moment", "quietest", "clip.tik"});
+  ASSERT_EQ(lines.status, 0) << lines.err;
+  const auto json = json_of({"activity", "--by", "8", "-m", "grid.pgm", "--tag", "all", "clip.tik"});
+  ASSERT_EQ(json["tags"].size(), 8u);
+  EXPECT_EQ(json["counted_pixels"], 96 * 48) << "all of them, as without a mask";
+  std::string expected;
+  bool differs = false;
+  for (int tag = 0; tag < 8; ++tag) {
+    const std::string name = std::to_string(tag);
+    // What one tag alone has.
+    const auto alone = json_of({"activity", "--by", "8", "-m", "grid.pgm", "--tag", name, "clip.tik"});
+    const auto& each = json["tags"][static_cast<std::size_t>(tag)];
+    EXPECT_EQ(each["tag"], tag);
+    EXPECT_EQ(each["counted_pixels"], 24 * 24);
+    EXPECT_EQ(each.contains("quietest"), alone.contains("quietest")) << tag;
+    if (each.contains("quietest")) {
+      EXPECT_EQ(each["quietest"], alone["quietest"]) << tag;
+      EXPECT_EQ(each["busiest"], alone["busiest"]) << tag;
+      differs |= each["quietest"] != json["quietest"];
+    }
+    expected +=
+        "--tag " + name + " " +
+        run({"activity", "--by", "8", "-m", "grid.pgm", "--tag", name, "--moment", "quietest", "clip.tik"})
+            .out;
+  }
+  EXPECT_EQ(lines.out, expected);
+  EXPECT_TRUE(differs) << "the square is not everywhere at once";
+  const ProgramResult busiest =
+      run({"activity", "--by", "8", "-m", "grid.pgm", "--tag", "all", "--moment", "busiest", "clip.tik"});
+  EXPECT_EQ(busiest.status, 3) << "of a tag in which nothing moves";
+  EXPECT_NE(busiest.err.find("clip.tik has no busiest moment where the mask is "), std::string::npos) << busiest.err;
+  const std::string text = run({"activity", "--by", "8", "-m", "grid.pgm", "--tag", "all", "clip.tik"}).out;
+  EXPECT_NE(text.find("  M7: 576 pixels, quietest "), std::string::npos) << text;
+}
+
 TEST_F(Moment, ActivitySaysWhereItIsQuiet) {
   const auto json = json_of({"activity", "--by", "8", "clip.tik"});
   EXPECT_EQ(json["busiest"]["first_sample"], 1);

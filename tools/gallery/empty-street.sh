@@ -2,10 +2,8 @@ nutik-cl encode --tolerance 2 clip.mkv clip.tik
 
 # Each of 32 columns is exposed when it is quietest: when nobody is in it.
 nutik-cl mask --grid 32x1 clip.tik regions.pgm
-for column in {0..31}; do
-  moment=$(nutik-cl activity --by 6 -m regions.pgm --tag $column --moment quietest clip.tik)
-  nutik-cl shutter box $moment --tag $column clip.tik
-done > picture.fn
+nutik-cl activity --by 6 -m regions.pgm --tag all --moment quietest clip.tik |
+  xargs -L1 nutik-cl shutter box clip.tik > picture.fn
 nutik-cl -m regions.pgm -k picture.fn clip.tik picture.png
 head -n 8 picture.fn > first-four.fn
 FnPlotter.py first-four.fn --capture clip.tik -o plot.png

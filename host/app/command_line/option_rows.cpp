@@ -240,7 +240,7 @@ constexpr Option kRows[] = {
 
     heading("Changes over time"),
     {0, "tag", "N", subject, bit(Id::activity), &Options::tag,
-     "count only pixels that have this value in the mask"},
+     "count only pixels that have this value in the mask; all: those with each value for themselves, too", "all"},
     {0, "by", "CODES", subject, bit(Id::activity), &Options::by,
      "count codes that differ by more than this at a sample (default: 0)"},
     {0, "moment", "quietest|busiest", subject, bit(Id::activity), &Options::moment,

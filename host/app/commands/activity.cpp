@@ -8,9 +8,11 @@
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/shell_text.hpp"
+#include "app/text/text_table.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/pictures.hpp"
+#include "session/size_text.hpp"
 #include "session/time_text.hpp"
 #include "system/output_file.hpp"
 
@@ -54,27 +56,36 @@ ActivityRequest activity_request(const Options& options) {
   ActivityRequest request;
   if (options.tag && !options.mask) throw UsageError("--tag is one of a mask; add -m mask.pgm");
   request.mask = options.mask;
-  if (options.tag) request.tag = static_cast<std::uint8_t>(parse_whole_number(*options.tag, "tag", 0, 255));
+  request.each_tag = options.tag == "all";
+  if (options.tag && !request.each_tag)
+    request.tag = static_cast<std::uint8_t>(parse_whole_number(*options.tag, "tag", 0, 255));
   if (options.by) request.ignored_codes = parse_whole_number(*options.by, "--by", 0, 65'535);
   return request;
 }
 
 Json activity_json(const std::string& name, const MeasuredActivity& measured) {
   const Timeline& timeline = measured.timeline;
-  const auto stretch_json = [&](const ActivityStretch& stretch) {
+  const auto stretch_json = [&](const ActivityStretch& stretch, std::uint64_t pixels) {
     return Json{{"first_sample", stretch.samples.first},
                 {"last_sample", stretch.samples.last - 1},
                 {"start_ns", timeline.start_ns(stretch.samples.first)},
                 {"end_ns", timeline.end_ns(stretch.samples.last - 1)},
-                {"mean_changed_share", measured.mean_share(stretch)}};
+                {"mean_changed_share", stretch.mean_share(pixels)}};
   };
   Json json{{"capture", name},
             {"duration_ns", timeline.duration_ns()},
             {"counted_pixels", measured.activity.pixel_count()}};
-  if (measured.moments) {
-    json.update({{"busiest_sample", measured.moments->busiest_sample},
-                 {"busiest", stretch_json(measured.moments->busiest)},
-                 {"quietest", stretch_json(measured.moments->quietest)}});
+  const auto add_moments = [&](Json& to, const std::optional<ActivityMoments>& moments,
+                               std::uint64_t pixels) {
+    if (!moments) return;
+    to.update({{"busiest_sample", moments->busiest_sample},
+               {"busiest", stretch_json(moments->busiest, pixels)},
+               {"quietest", stretch_json(moments->quietest, pixels)}});
+  };
+  add_moments(json, measured.moments, measured.activity.pixel_count());
+  for (const TagActivity& each : measured.tags) {
+    Json& tag = json["tags"].emplace_back(Json{{"tag", each.tag}, {"counted_pixels", each.pixel_count}});
+    add_moments(tag, each.moments, each.pixel_count);
   }
   json["samples"] = Json::array();
   for (std::uint64_t k = 0; k < timeline.sample_count(); ++k) {
@@ -103,7 +114,12 @@ void report_text(const std::string& name, const MeasuredActivity& measured) {
     const std::uint64_t first = stretch.samples.first, last = stretch.samples.last - 1;
     print_line(format("  {}      {} to {} ({}f to {}f), {:.3g} % of pixels change at a sample", what,
                       duration_text(timeline.start_ns(first)), duration_text(timeline.reach_end_ns(last)),
-                      first, last, 100 * measured.mean_share(stretch)));
+                      first, last, 100 * stretch.mean_share(measured.activity.pixel_count())));
+  }
+  for (const TagActivity& each : measured.tags) {
+    const SampleRange quiet = measured.moment(name, true, each);
+    print_line(format("  M{}: {}, quietest {}f to {}f", each.tag, counted(each.pixel_count, "pixel"),
+                      quiet.first, quiet.last - 1));
   }
   if (measured.mean_share() > 0.5) {
     print_note(
@@ -113,19 +129,16 @@ void report_text(const std::string& name, const MeasuredActivity& measured) {
                     quietest.samples.size(), shell_word(name)));
 }
 
-// The stretch that --moment asks for, as options of another command. Where nothing changes all is quiet.
-std::string moment_text(const std::string& name, const std::string& wanted,
-                        const MeasuredActivity& measured) {
-  const bool is_quietest = wanted == "quietest";
-  if (!measured.moments && !(measured.is_still() && is_quietest)) {
-    throw InputError(format("{} has no {} moment: {}", name, wanted,
-                            measured.is_still() ? "nothing changes" : "it has fewer than three samples"));
-  }
-  SampleRange samples{0, measured.timeline.sample_count()};
-  if (measured.moments) {
-    samples = (is_quietest ? measured.moments->quietest : measured.moments->busiest).samples;
-  }
-  return format("--start {}f --exposure {}f", samples.first, samples.size());
+// The stretches that --moment asks for, as options of another command: of all pixels, or a line for each tag.
+std::string moments_text(const std::string& name, bool quietest, const MeasuredActivity& measured) {
+  const auto options_of = [](const SampleRange& samples) {
+    return format("--start {}f --exposure {}f", samples.first, samples.size());
+  };
+  if (measured.tags.empty()) return options_of(measured.moment(name, quietest));
+  std::vector<std::string> lines;
+  for (const TagActivity& each : measured.tags)
+    lines.push_back(format("--tag {} {}", each.tag, options_of(measured.moment(name, quietest, each))));
+  return joined(lines, "\n");
 }
 
 }  // namespace
@@ -150,7 +163,7 @@ int run_activity(const Options& options) {
   }
   if (outputs.table) write_text(*outputs.table, measured.table());
   if (options.moment) {
-    print_line(moment_text(name, *options.moment, measured));
+    print_line(moments_text(name, *options.moment == "quietest", measured));
   } else if (outputs.prints_table) {
     print_text(measured.table());
   } else if (options.json) {
