@@ -13,7 +13,7 @@ namespace {
 using Column = Eigen::Index;
 
 // Of a decomposition's largest pivot: what is smaller is taken for 0.
-constexpr double kLeastPivot = 1e-11;
+constexpr double kLeastPivot = 1e-9;
 // A gradient this much smaller than its parts is none.
 constexpr double kLeastGradient = 1e-12;
 

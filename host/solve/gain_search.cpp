@@ -19,9 +19,10 @@ constexpr int kMostSteps = 60;
 constexpr double kLeastStep = 1e-15;
 // Nor is one that lessens the cost by a smaller share.
 constexpr double kLeastGain = 1e-12;
-// How far gains are changed to see what that changes, as a share: exact but for rounding where light is a straight
-// function of them.
+// How far gains are changed to see what that changes in a divisor, as a share.
 constexpr double kProbe = 1e-4;
+// Light that changes by less than this share of what would be there without other gains does not change.
+constexpr double kNoChange = 1e-9;
 // A gain this much smaller than the largest is what rounding left of 0.
 constexpr double kNoGain = 1e-12;
 // In place of a gain that is 0 on its way, whose time counts as if it were not.
@@ -93,10 +94,14 @@ double GainSearch::scale_of(std::uint8_t tag, const std::vector<double>& gains) 
          static_cast<double>(summary.support_ns);
 }
 
-std::vector<ChannelLight> GainSearch::region_light(const std::vector<double>& gains) const {
+GainSearch::Light GainSearch::light_of(const std::vector<double>& gains) const {
+  Light light;
   std::vector<std::array<CompensatedSum, 3>> sums(exposure_.regions.size());
   for (const auto& [tag, parts] : parts_) {
     const double scale = scale_of(tag, gains);
+    double still_ns = parts.still_ns[0];
+    for (std::size_t i = 0; i < gains.size(); ++i) still_ns += gains[i] * parts.still_ns[i + 1];
+    light.still[tag] = scale * still_ns;
     for (const auto& [region, light_ns] : parts.light_ns) {
       for (std::size_t channel = 0; channel < 3; ++channel) {
         sums[region][channel].add(scale * light_ns[0][channel]);
@@ -105,38 +110,62 @@ std::vector<ChannelLight> GainSearch::region_light(const std::vector<double>& ga
       }
     }
   }
-  std::vector<ChannelLight> light;
-  for (const auto& sum : sums) light.push_back({sum[0].value(), sum[1].value(), sum[2].value()});
+  for (const auto& sum : sums) light.regions.push_back({sum[0].value(), sum[1].value(), sum[2].value()});
   return light;
 }
 
-std::vector<WishedLight> GainSearch::wished(const std::vector<ChannelLight>& region_light,
-                                            const std::vector<double>& gains) const {
-  const auto brightness = [&](const ChannelLight& light) {
-    return light[0] * exposure_.luminance[0] + light[1] * exposure_.luminance[1] +
-           light[2] * exposure_.luminance[2];
+// By the rule for products: of integrals, and of what they are multiplied with. X is a straight function of a gain, but
+// where the gain's sign counts, so that its difference is its derivative.
+GainSearch::Light GainSearch::change_of(const std::vector<double>& gains, std::size_t gain) const {
+  Light change;
+  change.regions.resize(exposure_.regions.size());
+  const double by = kProbe * std::max(1.0, std::fabs(gains[gain]));
+  std::vector<double> more = gains, less = gains;
+  more[gain] += by;
+  less[gain] -= by;
+  for (const auto& [tag, parts] : parts_) {
+    const double scale = scale_of(tag, gains), above = scale_of(tag, more), below = scale_of(tag, less);
+    const bool is_scaled = scale != 0.0 && above != 0.0 && below != 0.0 && above != below;
+    const double scale_change =
+        is_scaled ? -scale * scale * (1 / above - 1 / below) / (more[gain] - less[gain]) : 0.0;
+    const auto changed = [&](const auto& part) {
+      double whole = part(0);
+      for (std::size_t i = 0; i < gains.size(); ++i) whole += gains[i] * part(i + 1);
+      return scale * part(gain + 1) + scale_change * whole;
+    };
+    const Parts& of = parts;
+    change.still[tag] = changed([&](std::size_t part) { return of.still_ns[part]; });
+    for (const auto& [region, light_ns] : parts.light_ns) {
+      const std::vector<ChannelLight>& integrals = light_ns;
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        change.regions[region][channel] +=
+            changed([&](std::size_t part) { return integrals[part][channel]; });
+    }
+  }
+  return change;
+}
+
+std::vector<WishedLight> GainSearch::wished(const Light& light, bool is_change) const {
+  const auto brightness = [&](const ChannelLight& of) {
+    return of[0] * exposure_.luminance[0] + of[1] * exposure_.luminance[1] + of[2] * exposure_.luminance[2];
   };
   std::vector<WishedLight> wished;
   for (const LightWish& wish : exposure_.wishes) {
     ChannelLight wanted{};
+    const auto* number = std::get_if<double>(&wish.target);
     if (wish.kind == Kind::gone) {
       for (const auto& [tag, still] : wish.still) {
-        const Parts& parts = parts_.at(tag);
-        double through = parts.still_ns[0];
-        for (std::size_t i = 0; i < gains.size(); ++i) through += gains[i] * parts.still_ns[i + 1];
-        const double scale = scale_of(tag, gains);
         for (std::size_t channel = 0; channel < 3; ++channel)
-          wanted[channel] += scale * through * still[channel];
+          wanted[channel] += light.still.at(tag) * still[channel];
       }
-    } else if (const auto* light = std::get_if<ChannelLight>(&wish.target)) {
-      wanted = *light;
     } else if (const auto* region = std::get_if<std::size_t>(&wish.target)) {
-      wanted = region_light[*region];
+      wanted = light.regions[*region];
+    } else if (!is_change && number == nullptr) {
+      wanted = std::get<ChannelLight>(wish.target);
     }
-    ChannelLight reached = region_light[wish.region];
+    ChannelLight reached = light.regions[wish.region];
     if (!compares_channels(wish.kind)) {
-      const auto* number = std::get_if<double>(&wish.target);
-      wanted = {number != nullptr ? *number : brightness(wanted)};
+      wanted = {number == nullptr ? brightness(wanted) : is_change ? 0.0 : *number};
       reached = {brightness(reached)};
     }
     for (double& each : wanted) each *= wish.factor;
@@ -146,7 +175,7 @@ std::vector<WishedLight> GainSearch::wished(const std::vector<ChannelLight>& reg
 }
 
 std::vector<WishedLight> GainSearch::wished(const std::vector<ChannelLight>& region_light) const {
-  return wished(region_light, gains_);
+  return wished({region_light, light_of(gains_).still}, false);
 }
 
 std::vector<double> GainSearch::missed(const LightWish& wish, const WishedLight& light) const {
@@ -163,9 +192,8 @@ std::vector<double> GainSearch::missed(const LightWish& wish, const WishedLight&
   return missed;
 }
 
-std::vector<double> GainSearch::differences(const std::vector<double>& gains) const {
+std::vector<double> GainSearch::differences(const std::vector<WishedLight>& wished) const {
   std::vector<double> differences;
-  const std::vector<WishedLight> wished = this->wished(region_light(gains), gains);
   for (std::size_t i = 0; i < wished.size(); ++i) {
     const LightWish& wish = exposure_.wishes[i];
     for (std::size_t channel = 0; channel < (compares_channels(wish.kind) ? exposure_.channels : 1);
@@ -174,6 +202,10 @@ std::vector<double> GainSearch::differences(const std::vector<double>& gains) co
                             (wished[i].reached[channel] - wished[i].wanted[channel]));
   }
   return differences;
+}
+
+std::vector<double> GainSearch::differences(const std::vector<double>& gains) const {
+  return differences(wished(light_of(gains), false));
 }
 
 double GainSearch::cost_of(const std::vector<double>& differences) const {
@@ -187,22 +219,12 @@ double GainSearch::cost_of(const std::vector<double>& differences) const {
 }
 
 std::vector<LeastSquaresRow> GainSearch::changes(const std::vector<double>& gains) const {
-  const std::vector<double> here = differences(gains);
-  std::vector<LeastSquaresRow> rows(here.size());
+  std::vector<LeastSquaresRow> rows;
+  for (const double difference : differences(gains)) rows.push_back({{}, difference});
   for (std::size_t i = 0; i < gains.size(); ++i) {
-    const double by = kProbe * std::max(1.0, std::fabs(gains[i]));
-    std::vector<double> more = gains, less = gains;
-    more[i] += by;
-    less[i] -= by;
-    const std::vector<double> above = differences(more), below = differences(less);
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      const double change = (above[row] - below[row]) / (more[i] - less[i]);
-      // What rounding leaves of no change.
-      const double noise = 1e-15 * (std::fabs(above[row]) + std::fabs(below[row])) / by;
-      rows[row].factors.push_back(std::fabs(change) <= noise ? 0.0 : change);
-    }
+    const std::vector<double> changes = differences(wished(change_of(gains, i), true));
+    for (std::size_t row = 0; row < rows.size(); ++row) rows[row].factors.push_back(changes[row]);
   }
-  for (std::size_t row = 0; row < rows.size(); ++row) rows[row].wanted = here[row];
   return rows;
 }
 
@@ -238,7 +260,12 @@ void GainSearch::descend() {
   double cost = cost_of(differences(gains_));
   for (int step = 0; step < kMostSteps && cost > 0.0; ++step) {
     check_interruption();
-    const std::vector<double> towards = stepped();
+    std::vector<double> towards;
+    try {
+      towards = stepped();
+    } catch (const InputError&) {  // a function whose parts cancel right beside it
+      return;
+    }
     bool is_better = false, is_far = false;
     for (double share = 1.0; share > 1e-6 && !is_better; share /= 2) {
       std::vector<double> next = gains_;
@@ -311,16 +338,37 @@ std::size_t GainSearch::open_count() const {
       told.push_back(i);
   }
   std::vector<LeastSquaresRow> rows;
-  const std::vector<LeastSquaresRow> all = changes(gains_);
-  for (std::size_t row = 0; row < all.size(); ++row) {
-    const bool is_kept = (row_kinds_[row] == Kind::at_most && all[row].wanted < -1e-9) ||
-                         (row_kinds_[row] == Kind::at_least && all[row].wanted > 1e-9);
-    if (is_kept) continue;  // with something left
+  for (const LeastSquaresRow& all : changes(gains_)) {
+    const Kind kind = row_kinds_[rows.size()];
     LeastSquaresRow kept;
-    for (const std::size_t i : told) kept.factors.push_back(all[row].factors[i]);
+    // A wish that is kept with something left tells nothing.
+    const bool is_kept = (kind == Kind::at_most && all.wanted < -kNoChange) ||
+                         (kind == Kind::at_least && all.wanted > kNoChange);
+    for (const std::size_t i : told) kept.factors.push_back(is_kept ? 0.0 : all.factors[i]);
     rows.push_back(std::move(kept));
   }
-  return told.size() - (rows.empty() ? 0 : rank_of(rows));
+  // Where all gains of a function are found, and a divisor grows with them, that they all be larger is no other answer.
+  std::size_t scales = 0;
+  for (const auto& [tag, parts] : parts_) {
+    std::vector<double> direction;
+    for (const std::size_t i : told) {
+      const bool is_of_it =
+          std::ranges::any_of(parts.points, [&](const TemplatePoint& point) { return point.gain_name == i; });
+      direction.push_back(is_of_it ? gains_[i] : 0.0);
+    }
+    double change = 0.0, all = 0.0;
+    for (const LeastSquaresRow& row : rows) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < told.size(); ++i) {
+        sum += row.factors[i] * direction[i];
+        all += std::fabs(row.factors[i] * direction[i]);
+      }
+      change += std::fabs(sum);
+    }
+    scales += all > 0.0 && change <= kNoChange * all ? 1u : 0u;
+  }
+  const std::size_t known = rank_of(rows) + scales;
+  return told.size() - std::min(told.size(), known);
 }
 
 }  // namespace nutik

@@ -77,7 +77,7 @@ class GainSearch {
   // What each wish asks for and gets with them, where regions have such light.
   [[nodiscard]] std::vector<WishedLight> wished(const std::vector<ChannelLight>& region_light) const;
   // The light of regions by the reckoning that find() goes by.
-  [[nodiscard]] std::vector<ChannelLight> region_light() const { return region_light(gains_); }
+  [[nodiscard]] std::vector<ChannelLight> region_light() const { return light_of(gains_).regions; }
 
   [[nodiscard]] const WishedExposure& exposure() const { return exposure_; }
   // What is missed of a wish, by channel or as brightness, signed; 0 where it is kept.
@@ -94,12 +94,20 @@ class GainSearch {
 
   [[nodiscard]] std::optional<Parts> parts_of(const std::vector<TemplatePoint>& function, std::uint8_t tag,
                                               const std::vector<std::int64_t>& times_ns) const;
+  // What gains come to, or how that changes with one of them.
+  struct Light {
+    std::vector<ChannelLight> regions;
+    std::map<std::uint8_t, double> still;  // what each function makes of light that rests
+  };
+
   // What a function's integrals are multiplied with: gain / X.
   [[nodiscard]] double scale_of(std::uint8_t tag, const std::vector<double>& gains) const;
-  [[nodiscard]] std::vector<ChannelLight> region_light(const std::vector<double>& gains) const;
-  [[nodiscard]] std::vector<WishedLight> wished(const std::vector<ChannelLight>& region_light,
-                                                const std::vector<double>& gains) const;
+  [[nodiscard]] Light light_of(const std::vector<double>& gains) const;
+  [[nodiscard]] Light change_of(const std::vector<double>& gains, std::size_t gain) const;
+  // What wishes want and have of light; of a change of light how both change.
+  [[nodiscard]] std::vector<WishedLight> wished(const Light& light, bool is_change) const;
   // What is missed of all wishes, those that are kept included, row by row, times the roots of their weights.
+  [[nodiscard]] std::vector<double> differences(const std::vector<WishedLight>& wished) const;
   [[nodiscard]] std::vector<double> differences(const std::vector<double>& gains) const;
   [[nodiscard]] double cost_of(const std::vector<double>& differences) const;
   // How differences change with the gains.

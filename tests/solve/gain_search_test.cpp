@@ -291,6 +291,31 @@ TEST(GainSearch, FollowsADivisorThatDependsOnGains) {
   }
 }
 
+// Three exposures of a scene in which now this, now that is missing, mixed so that all of it is missing.
+TEST(GainSearch, FindsMixturesWhoseScaleCountsForNothing) {
+  for (const char* divisor : {"integral", "support"}) {
+    OnePixel pixel({0.2, 0.2, 0.6, 0.6, 0.6, 0.6});
+    pixel.wished.regions.push_back(OnePixel({0.3, 0.3, 0.3, 0.3, 0.9, 0.9}).wished.regions[0]);
+    pixel.set("M0 [0:a], [20000000:a], [20000001:b], [40000000:b], [40000001:c], [60000000:c]");
+    pixel.wished.normalization = Normalization::parse(divisor);
+    // b takes away from a + c what neither scene should have.
+    pixel.wish(Kind::equal, 0.2);
+    pixel.wish(Kind::equal, 0.9);
+    pixel.wished.wishes[1].region = 1;
+    GainSearch search(pixel.wished);
+    const auto found = search.find({});
+    ASSERT_TRUE(found);
+    EXPECT_LE(found->cost, 1e-20) << divisor;
+    if (std::string(divisor) == "integral") {
+      EXPECT_NEAR(found->gains[0] / found->gains[2], 1, 1e-6);
+      EXPECT_NEAR(found->gains[1] / found->gains[2], -1, 1e-6);
+      EXPECT_EQ(search.open_count(), 0u) << "larger gains are no other answer";
+    } else {
+      EXPECT_EQ(search.open_count(), 1u);
+    }
+  }
+}
+
 TEST(GainSearch, CountsNoTimeOfAGainThatCameToNothing) {
   OnePixel pixel({0.2, 0.2, 0.6, 0.6, 0.5});
   pixel.set(kTwoBoxes);
