@@ -1,5 +1,9 @@
-// Function files; what is read from one is read again, identically, from what is written of it.
+// Function files; what is read from one is read again, identically, from what is written of it. The same text as one with
+// names in place of numbers: with numbers it is a function file.
+#include <algorithm>
+
 #include "exposure/function_file.hpp"
+#include "exposure/function_template.hpp"
 #include "exposure/function_text.hpp"
 #include "fuzz/target.hpp"
 
@@ -14,6 +18,14 @@ void read(Bytes input) {
     demand(!again.has_errors() && again.functions.at(tag).function == entry.function,
            "a function is read from its text as it was");
   }
+  const FunctionTemplate named = parse_template(as_text(input));
+  const NamedNumbers numbers{std::vector<double>(named.gains.size(), 1.5),
+                             std::vector<std::int64_t>(named.times.size(), 1'000'000)};
+  const bool is_ordered = std::ranges::all_of(named.functions, [&](const auto& entry) {
+    return FunctionTemplate::points(entry.second, numbers.times_ns).has_value();
+  });
+  demand(named.has_errors() || !is_ordered || !parse_functions(named.text_with(numbers)).has_errors(),
+         "a file with names is a function file with numbers");
 }
 
 }  // namespace
