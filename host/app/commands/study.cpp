@@ -33,6 +33,9 @@ constexpr const char* kFeather = "2px";
 // What regions are grown by, and the soft edge of them: less hides in these.
 constexpr double kMostCameraPixels = 4;
 
+// That pictures of a camera that moved are moved back by.
+constexpr const char* kUsualMotion = "homography";
+
 constexpr std::string_view kAboutRegions =
     "# What is the subject at each moment? What is not in the plate then.";
 
@@ -124,8 +127,6 @@ MemoryNeeds study_needs(const CaptureFormat& capture) {
 
 int run_study(const Options& stated) {
   Options options = stated;
-  // A camera that corrected its exposure changed the whole scene, and nothing of it would rest.
-  options.deflicker |= !is_tik(options.operands.front());
   ExposureTally tally;
   const StudyRequest request = study_request(options);
   const StudyFiles files(output_name(options, "study", "-study.png"));
@@ -136,14 +137,19 @@ int run_study(const Options& stated) {
   check_text(files.functions, "M0 ", inputs);
   check_text(files.commands, kAboutRegions, inputs);
 
-  Session session = open_session(options, {.besides = study_needs});
   const std::string& capture_name = options.operands.front();
-  const auto moved = moved_camera(session.capture());
+  // A camera that corrects its exposure changes the whole scene, and nothing of it rests.
+  options.deflicker |= !is_tik(capture_name);
+  Session session = open_session(options, {.besides = study_needs});
+  auto moved = moved_camera(session.capture());
   if (moved && moved->pixels > kMostCameraPixels) {
-    throw InputError(
-        format("{}: {}. A study needs a camera that stands still: --align rigid moves a clip's "
-               "pictures back",
-               capture_name, moved->text()));
+    if (!session.is_clip() || options.align) {
+      throw InputError(format("{}: {}. A study needs a camera that stands still{}", capture_name, moved->text(),
+                              session.is_clip() ? "" : ": encode the clip again with --align rigid"));
+    }
+    options.align = kUsualMotion;
+    session = open_session(options, {.besides = study_needs});
+    moved = moved_camera(session.capture());
   }
   Study study = plan_study(session.capture(), capture_name, request, session.devices().request().memory,
                            progress_bar("looking for the subject", options.quiet));
