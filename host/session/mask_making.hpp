@@ -41,8 +41,8 @@ struct MadeMask {
 
 // Of the size that everything stated agrees on. `capture` is null where no step reads one; `capture_name` is for
 // messages; `plate` makes the capture's plate in codes of the capture, and is asked once where a step needs it. Throws
-// NoMaskSize, UsageError where sizes differ or a time lies outside the capture, InputError
-// where a picture has another size than the mask, or the capture is damaged.
+// NoMaskSize, UsageError where a step lacks its capture or plate, sizes differ or a time lies outside the capture,
+// InputError where a picture has another size than the mask, or the capture is damaged.
 [[nodiscard]] MadeMask make_mask(const MaskRequest& request, CaptureSource* capture,
                                  const std::string& capture_name, const std::function<Picture()>& plate = {});
 

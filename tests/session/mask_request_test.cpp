@@ -66,5 +66,11 @@ TEST(MaskMaking, TakesThePicturesSizeWhereNothingElseIsKnown) {
   EXPECT_THROW(static_cast<void>(make_mask(unsized, nullptr, "")), InputError);
 }
 
+TEST(MaskMaking, RefusesStepsThatLackTheirCapture) {
+  EXPECT_THROW(static_cast<void>(make_mask(request({step(select::Motion{}, 1)}), nullptr, "")), UsageError);
+  const MaskStep mixed = step(select::Difference{grey("a.png", {1}), StatedTime::of_pictures(3)}, 1);
+  EXPECT_THROW(static_cast<void>(make_mask(request({mixed}), nullptr, "")), UsageError);
+}
+
 }  // namespace
 }  // namespace nutik
