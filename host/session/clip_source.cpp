@@ -86,8 +86,13 @@ std::uint64_t reference_of(const AlignRequest& align, const ClipSource& source) 
   if (align.path) return (*align.path)->reference;
   if (!align.reference) return 0;
   const std::uint64_t announced = source.announced_samples();
-  if (announced > 0)
-    return sample_at(*align.reference, "the picture to align to", source.timeline(announced));
+  if (announced > 0) {
+    // Pictures are counted without a rate.
+    const Timeline timeline = align.reference->counts_samples()
+                                  ? Timeline::constant(Rational{1, 1}, Timeline::kFullShutter, announced)
+                                  : source.timeline(announced);
+    return sample_at(*align.reference, "the picture to align to", timeline);
+  }
   const ClipMoment moment = clip_moment(*align.reference, "the picture to align to");
   if (moment.is_picture && moment.value >= 0) return static_cast<std::uint64_t>(moment.value);
   throw UsageError(

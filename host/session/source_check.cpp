@@ -27,6 +27,15 @@ CaptureFormat source_format(const CaptureFormat& capture) {
   return source;
 }
 
+// The same clip gives the same path.
+AlignRequest same_alignment(const tik::Alignment& aligned) {
+  AlignRequest request;
+  request.motion = camera_motion_of(aligned.motion).value_or(request.motion);
+  request.reference = StatedTime::of_pictures(static_cast<std::int64_t>(aligned.reference));
+  request.unseen = aligned.holds_unseen ? Unseen::held : Unseen::cropped;
+  return request;
+}
+
 }  // namespace
 
 SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const MemoryBudget& memory,
@@ -35,6 +44,8 @@ SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const 
   const std::string name = clip.path.string();
   clip.noise = NoNoise{};  // the capture has its noise model
   if (!clip.clip.white_code && wanted.code_bytes == 2) clip.clip.white_code = wanted.white_code;
+  if (const auto& aligned = capture.header().alignment; aligned && !clip.align)
+    clip.align = same_alignment(*aligned);
   const ClipSource source = open_clip_source(clip, memory);
   if (source.capture.shape != wanted.shape || source.capture.code_bytes != wanted.code_bytes ||
       source.capture.white_code != wanted.white_code) {

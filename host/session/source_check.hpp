@@ -19,9 +19,9 @@ struct SourceCheck {
   bool clip_goes_on = false;       // after the capture's last sample
 };
 
-// Reads both to the capture's end. The white code of 16-bit clips is taken from the capture unless it is stated, and
-// so is the noise, whatever is stated. Throws InputError where the clip's pictures are not those of the capture, or
-// too few.
+// Reads both to the capture's end; the clip of a capture that was aligned is aligned alike. The white code of 16-bit
+// clips is taken from the capture unless it is stated, and so is the noise, whatever is stated. Throws InputError where
+// the clip's pictures are not those of the capture, or too few.
 [[nodiscard]] SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip,
                                               const MemoryBudget& memory,
                                               const ReportedProgress& progress = {});

@@ -207,6 +207,33 @@ TEST(Registrar, GivesTheSameTwice) {
   EXPECT_EQ(find(), find());
 }
 
+TEST(Registrar, LeavesNearByWhatRests) {
+  Scene scene({});
+  const auto registrar = registrar_of(format_of({}), CameraMotion::rigid, scene.seen(Warp(), 0));
+  EXPECT_EQ(registrar->find(scene.seen(Warp(), 5), Warp(), Reach::near).warp, Warp())
+      << "only the subject moved";
+  const Registered found = registrar->find(scene.seen(moved(3, 0, 0), 5), Warp(), Reach::near);
+  EXPECT_TRUE(is_sure(found));
+  EXPECT_NEAR(found.warp.at(160, 120).x, 163, 0.05);
+}
+
+TEST(Registrar, TakesNoThingBeforeABareWallForTheCamera) {
+  const Texture texture(15);
+  const auto wall = [&](int left) {
+    std::vector<std::byte> raster(kWidth * kHeight, std::byte{100});
+    for (int y = 90; y < 140; ++y) {
+      for (int x = left; x < left + 50; ++x) {
+        const double grey = texture.at({double(x - left), double(y)});
+        raster[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)] =
+            static_cast<std::byte>(std::clamp(130 + 50 * grey, 0.0, 255.0));
+      }
+    }
+    return raster;
+  };
+  const auto registrar = registrar_of(format_of({}), CameraMotion::rigid, wall(120));
+  EXPECT_FALSE(is_sure(registrar->find(wall(125), Warp(), Reach::near)));
+}
+
 TEST(Registrar, IsNotSureOfAnotherScene) {
   const Look look;
   Scene scene(look);

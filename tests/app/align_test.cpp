@@ -165,6 +165,15 @@ TEST_F(Aligning, IsToldByInfo) {
   EXPECT_EQ(answered({"info", "b.tik"})["alignment"], aligned["alignment"]);
 }
 
+TEST_F(Aligning, IsDoneToTheClipThatACaptureIsComparedWith) {
+  ASSERT_EQ(
+      run(encoding({"--align", "rigid", "--align-to", "2f", "--unseen", "hold", "frames", "a.tik"})).status,
+      0);
+  const auto result =
+      run({"validate", "--start", "0f", "--exposure", "2f", "--runs", "1", "--source", "frames", "a.tik"});
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+}
+
 TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
   ASSERT_EQ(run(encoding({"frames", "plain.tik"})).status, 0);
   ASSERT_EQ(run(encoding({"--align", "rigid", "frames", "a.tik"})).status, 0);

@@ -109,7 +109,8 @@ std::string message_text(const std::exception& error) {
     return message +
            (aligning->way_out == CannotAlign::WayOut::hold
                 ? "; take a part of the clip (--from, --to), or keep the picture's size (--unseen hold)"
-                : "; take a part of the clip (--from, --to), or align to another picture (--align-to)");
+                : "; try --align homography, another picture to align to (--align-to), or a part of "
+                  "the clip (--from, --to)");
   }
   if (dynamic_cast<const EverythingMoves*>(&error) != nullptr) {
     return message + ". A camera that moved stands still with --align rigid";

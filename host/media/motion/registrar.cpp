@@ -29,6 +29,7 @@ constexpr float kMargin = 4;
 constexpr double kLeastSeen = 0.2;      // of the points
 constexpr double kLeastAcross = 0.01;   // of the texture's strength along its main direction
 constexpr std::size_t kFineLevels = 3;  // that a start from close by needs
+constexpr double kClearlyBetter = 2;    // of residuals
 constexpr double kTukey = 4.685;        // 95 % as efficient as least squares where all errors are normal
 constexpr double kLeastSigma = 0.3;     // codes
 constexpr int kFirstSteps = 3;          // of a level, in which nothing is excluded yet
@@ -185,7 +186,8 @@ class RobustRegistrar final : public Registrar {
       if (other.agreeing > best.agreeing) best = other;
     };
     if (!is_sure(best)) try_from(guess);
-    if (is_sure(best) || reach == Reach::near) return best;
+    if (reach == Reach::near) return unless_it_rests(pyramid.levels.front(), guess, best);
+    if (is_sure(best)) return best;
     if (!features_) features_.emplace(reference_, pyramid.feature_scale());
     if (const auto start = features_->find(pyramid.of_features())) try_from(*start);
     return best;
@@ -224,6 +226,41 @@ class RobustRegistrar final : public Registrar {
       if (!settle(levels_[i], pyramid.levels[i], is_fine ? frame_ : coarse_, fit)) return {guess, 0, 0};
     }
     return judged(levels_.front(), pyramid.levels.front(), fit);
+  }
+
+  // Near by, most pictures lie just where they are expected: that stands unless another place is clearly better, by
+  // texture from much of the picture. A thing that moves over a bare wall is no camera's motion.
+  [[nodiscard]] Registered unless_it_rests(const cv::Mat& grey, const Warp& guess,
+                                           const Registered& best) const {
+    const Level& level = levels_.front();
+    std::vector<double> brighter;
+    for (const Sampled& sample : sampled(level, grey, guess))
+      brighter.push_back(sample.grey - sample.point->grey);
+    if (brighter.empty()) return best;
+    const Fit resting{guess, 1, median(brighter)};
+    const Registered rests = judged(level, grey, resting);
+    if (rests.residual_pixels <= kClearlyBetter * best.residual_pixels) return rests;
+    return is_spread(level, grey, best.warp) ? best : Registered{guess, 0, rests.residual_pixels};
+  }
+
+  // Whether what follows a warp lies in a quarter of the picture's parts or more.
+  [[nodiscard]] static bool is_spread(const Level& level, const cv::Mat& grey, const Warp& warp) {
+    constexpr int kParts = 8;  // to a side
+    const std::vector<Sampled> seen = sampled(level, grey, warp);
+    std::vector<double> brighter;
+    for (const Sampled& sample : seen) brighter.push_back(sample.grey - sample.point->grey);
+    if (brighter.empty()) return false;
+    const Fit fit{warp, 1, median(brighter)};
+    bool has[kParts][kParts] = {};
+    int parts = 0;
+    for (const Sampled& sample : seen) {
+      if (std::abs(residual(sample, fit)) > gradient_of(*sample.point)) continue;
+      bool& part = has[static_cast<int>(sample.point->y) * kParts / level.size.height]
+                      [static_cast<int>(sample.point->x) * kParts / level.size.width];
+      parts += part ? 0 : 1;
+      part = true;
+    }
+    return 4 * parts >= kParts * kParts;
   }
 
   // The points that the picture shows, too. Empty where these are few.
