@@ -30,6 +30,7 @@ constexpr double kLeastSeen = 0.2;      // of the points
 constexpr double kLeastAcross = 0.01;   // of the texture's strength along its main direction
 constexpr std::size_t kFineLevels = 3;  // that a start from close by needs
 constexpr double kClearlyBetter = 2;    // of residuals
+constexpr double kClearlyMost = 0.7;    // of the texture
 constexpr double kTukey = 4.685;        // 95 % as efficient as least squares where all errors are normal
 constexpr double kLeastSigma = 0.3;     // codes
 constexpr int kFirstSteps = 3;          // of a level, in which nothing is excluded yet
@@ -240,7 +241,8 @@ class RobustRegistrar final : public Registrar {
     const Fit resting{guess, 1, median(brighter)};
     const Registered rests = judged(level, grey, resting);
     if (rests.residual_pixels <= kClearlyBetter * best.residual_pixels) return rests;
-    return is_spread(level, grey, best.warp) ? best : Registered{guess, 0, rests.residual_pixels};
+    const bool is_clear = best.agreeing >= kClearlyMost && is_spread(level, grey, best.warp);
+    return is_clear ? best : Registered{guess, 0, rests.residual_pixels};
   }
 
   // Whether what follows a warp lies in a quarter of the picture's parts or more.
