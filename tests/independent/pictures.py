@@ -71,13 +71,16 @@ def rgb_of_yuv(y, u, v, matrix, is_full):
     red, blue = LUMA_WEIGHTS[matrix]
     green = 1 - red - blue
     luma, chroma = (1, 1) if is_full else (255 / 219, 255 / 224)
-    whole = lambda weight: int(np.floor(weight * 2**14 + 0.5))
-    light = (y.astype(np.int64) - (0 if is_full else 16)) * whole(luma)
+    whole = lambda weight, bits: int(np.floor(weight * 2**bits + 0.5))
+    of_chroma = lambda weight: whole(weight * chroma, 16)
+    light = 64 * whole(luma, 14) * y.astype(np.int64) >> 14
+    black = 0 if is_full else 16 * 4 * whole(luma, 14)
     u, v = u.astype(np.int64) - 128, v.astype(np.int64) - 128
-    sums = (light + v * whole(2 * (1 - red) * chroma),
-            light - u * whole(blue / green * 2 * (1 - blue) * chroma) - v * whole(red / green * 2 * (1 - red) * chroma),
-            light + u * whole(2 * (1 - blue) * chroma))
-    return np.stack([np.clip(total + 2**13 >> 14, 0, 255) for total in sums], axis=-1).astype(np.uint8)
+    parts = (v * of_chroma(2 * (1 - red)),
+             -u * of_chroma(blue / green * 2 * (1 - blue)) - v * of_chroma(red / green * 2 * (1 - red)),
+             u * of_chroma(2 * (1 - blue)))
+    codes = (light + (64 * (part - black + 2**15) + 2**16 >> 16) >> 6 for part in parts)
+    return np.stack([np.clip(code, 0, 255) for code in codes], axis=-1).astype(np.uint8)
 
 
 class YuvVideo:

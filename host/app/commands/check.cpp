@@ -47,9 +47,11 @@ void read_capture(InputCheck& check, const std::string& name, const Options& opt
   MemoryNeeds needs = camera_check_needs(reader.format());
   needs.add("a block", largest_block(reader));
   needs.rest_of(memory_budget(options).bytes);
-  BlockCursor blocks(reader);
-  for (std::uint64_t block = 0; block < reader.block_count(); ++block) {
-    attempt(check, name, "capture_block", [&] { static_cast<void>(blocks.at(block)); });
+  {
+    BlockCursor blocks(reader);
+    for (std::uint64_t block = 0; block < reader.block_count(); ++block) {
+      attempt(check, name, "capture_block", [&] { static_cast<void>(blocks.at(block)); });
+    }
   }
   if (count_of(check.findings(), Finding::Severity::error) > 0) return;
   if (const auto moved = moved_camera(reader)) {
