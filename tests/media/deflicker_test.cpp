@@ -132,6 +132,21 @@ TEST(Deflicker, SaysOfWhichPicturesTheExposureCannotBeTold) {
 }
 
 TEST(Deflicker, KeepsTheOrderOfCodes) {
+  std::vector<Picture> pictures = {picture_at(0, 0, 255), picture_at(1, 1, 255)};
+  const auto codes = pictures[1].values<std::uint8_t>();
+  for (std::size_t i = 0; i < 3 * 256; ++i) codes[i] = static_cast<std::uint8_t>(i / 3);  // a ramp over all
+  std::vector<std::string> remarks;
+  const auto rasters = read_deflickered(pictures, remarks);
+  ASSERT_NE(rasters[1], pictures[1].bytes);
+  std::array<int, 3> seen{-1, -1, -1};
+  for (std::size_t i = 0; i < 3 * 256; ++i) {
+    const int code = std::to_integer<int>(rasters[1][i]);
+    EXPECT_GE(code, seen[i % 3]) << i;
+    seen[i % 3] = code;
+  }
+}
+
+TEST(CodeShift, IsTheOneThatMostPairsAgreeOn) {
   // Every pair of codes twice as far apart, and a tenth of them something else.
   std::vector<double> codes, wanted;
   for (int i = 0; i < 1000; ++i) {

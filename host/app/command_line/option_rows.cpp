@@ -84,8 +84,7 @@ constexpr Option kRows[] = {
      "or no (it only says that it is) (default: it is refused)",
      "frames fields no"},
     {0, "deflicker", "", decoding, kDecodesClips, &Options::deflicker,
-     "expose all pictures as the first one: undo what the camera did to its exposure and its white balance "
-     "while it filmed"},
+     "expose all pictures as the first one: undo a camera's automatic exposure and white balance"},
     {0, "as-far-as-it-goes", "", decoding, kDecodesClips, &Options::as_far_as_it_goes,
      "take a damaged clip's pictures up to the first that cannot be read, with a warning"},
     {0, "tolerance", "CODES", encoding, kEncodesClips, &Options::tolerance,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
@@ -33,11 +34,10 @@ constexpr const char* kFeather = "2px";
 // What regions are grown by, and the soft edge of them: less hides in these.
 constexpr double kMostCameraPixels = 4;
 
-// That pictures of a camera that moved are moved back by.
-constexpr const char* kUsualMotion = "homography";
-
 constexpr std::string_view kAboutRegions =
     "# What is the subject at each moment? What is not in the plate then.";
+constexpr std::string_view kAboutFunctions =
+    "# M0: everything between the moments; M1 and so on: the subject at each.";
 
 // The files of a study: its picture, and beside it what that was made with.
 struct StudyFiles {
@@ -93,25 +93,16 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
   }
   const auto name = [](const std::filesystem::path& path) { return shell_word(path.string()); };
   const std::string capture = shell_word(options.operands.front());
-  std::string text = std::string(kAboutRegions) + "\n";
-  text += format("nutik-cl mask{}{} \\\n  {} {}\n", stated_words(options, false), regions, capture,
-                 name(files.mask));
-  text += format("# {} has the gain functions: M0 of everything between the moments, M1 and so on of each.\n",
-                 files.functions.filename().string());
-  text += format("nutik-cl{} \\\n  {} {}\n", stated_words(exposing(options, files), true), capture,
-                 name(files.picture));
-  return text;
-}
-
-bool is_alike(std::string_view bytes, std::string_view begins) {
-  return bytes.substr(0, begins.size()) == begins.substr(0, bytes.size());
+  return format("{}\nnutik-cl mask{}{} \\\n  {} {}\nnutik-cl{} \\\n  {} {}\n", kAboutRegions,
+                stated_words(options, false), regions, capture, name(files.mask),
+                stated_words(exposing(options, files), true), capture, name(files.picture));
 }
 
 // What is written as text replaces an earlier study's, and nothing else.
 void check_text(const std::filesystem::path& file, std::string_view begins,
                 std::span<const std::string> inputs) {
   const bool is_input = std::ranges::find(inputs, file.string()) != inputs.end();
-  if (!is_input && (!std::filesystem::exists(file) || is_alike(first_bytes(file), begins))) return;
+  if (!is_input && (!std::filesystem::exists(file) || begins.starts_with(first_bytes(file)))) return;
   throw UsageError(format("{} {}; it is not replaced. Choose another name for the picture", file.string(),
                           is_input ? "is also an input" : "exists and is of no study"));
 }
@@ -121,6 +112,24 @@ MemoryNeeds study_needs(const CaptureFormat& capture) {
   needs.add(plate_making_needs(capture));
   needs.add(camera_check_needs(capture));
   return needs;
+}
+
+// Where the camera moved, a clip is read once more, with its pictures moved back.
+Session open_still(Options& options, std::optional<MovedCamera>& moved) {
+  {
+    Session session = open_session(options, {.besides = study_needs});
+    moved = moved_camera(session.capture());
+    if (!moved || moved->pixels <= kMostCameraPixels) return session;
+    if (!session.is_clip()) {
+      throw InputError(
+          format("{}: {}. A study needs a camera that stands still: encode the clip again with "
+                 "--align rigid",
+                 options.operands.front(), moved->text()));
+    }
+  }
+  moved.reset();
+  options.align = "homography";
+  return open_session(options, {.besides = study_needs});
 }
 
 }  // namespace
@@ -134,23 +143,14 @@ int run_study(const Options& stated) {
   check_output(files.picture, OutputKind::picture, inputs);
   inputs.push_back(files.picture.string());
   check_mask_output(files.mask, inputs);
-  check_text(files.functions, "M0 ", inputs);
+  check_text(files.functions, kAboutFunctions, inputs);
   check_text(files.commands, kAboutRegions, inputs);
 
   const std::string& capture_name = options.operands.front();
   // A camera that corrects its exposure changes the whole scene, and nothing of it rests.
   options.deflicker |= !is_tik(capture_name);
-  Session session = open_session(options, {.besides = study_needs});
-  auto moved = moved_camera(session.capture());
-  if (moved && moved->pixels > kMostCameraPixels) {
-    if (!session.is_clip() || options.align) {
-      throw InputError(format("{}: {}. A study needs a camera that stands still{}", capture_name, moved->text(),
-                              session.is_clip() ? "" : ": encode the clip again with --align rigid"));
-    }
-    options.align = kUsualMotion;
-    session = open_session(options, {.besides = study_needs});
-    moved = moved_camera(session.capture());
-  }
+  std::optional<MovedCamera> moved;
+  Session session = open_still(options, moved);
   Study study = plan_study(session.capture(), capture_name, request, session.devices().request().memory,
                            progress_bar("looking for the subject", options.quiet));
   const MadeMask made =
@@ -165,7 +165,7 @@ int run_study(const Options& stated) {
   print_warnings(exposure_warnings(exposed));
 
   write_picture(files.mask, made.mask.to_picture());
-  write_text(files.functions, functions_text(study.functions));
+  write_text(files.functions, format("{}\n{}", kAboutFunctions, functions_text(study.functions)));
   write_text(files.commands, commands_text(options, files, study));
   PictureRecipe recipe(recipe_sources(exposing(options, files)));
   write_picture(files.picture, exposed.picture, recipe.text(tally.precision()),
