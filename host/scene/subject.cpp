@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -282,13 +283,9 @@ std::vector<const SubjectPlace*> large_places(const SubjectTrack& track) {
 std::vector<SubjectPlace> choose_moments(const SubjectTrack& track, std::uint32_t count,
                                          MomentSpacing spacing) {
   std::vector<const SubjectPlace*> candidates = large_places(track);
-  const auto cut_off =
-      std::ranges::stable_partition(candidates, [](const SubjectPlace* place) { return !place->is_cut_off; });
-  if (candidates.size() - cut_off.size() >= count) {
-    candidates.erase(cut_off.begin(), cut_off.end());
-  } else {
-    std::ranges::sort(candidates, {}, &SubjectPlace::sample);
-  }
+  const auto is_cut_off = [](const SubjectPlace* place) { return place->is_cut_off; };
+  const auto whole = static_cast<std::uint64_t>(std::ranges::count_if(candidates, std::not_fn(is_cut_off)));
+  if (whole >= count) std::erase_if(candidates, is_cut_off);
   if (candidates.empty()) return {};
   // How far each candidate is along the way, or in time.
   std::vector<double> along{0};
