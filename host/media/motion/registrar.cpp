@@ -234,12 +234,9 @@ class RobustRegistrar final : public Registrar {
   [[nodiscard]] Registered unless_it_rests(const cv::Mat& grey, const Warp& guess,
                                            const Registered& best) const {
     const Level& level = levels_.front();
-    std::vector<double> brighter;
-    for (const Sampled& sample : sampled(level, grey, guess))
-      brighter.push_back(sample.grey - sample.point->grey);
-    if (brighter.empty()) return best;
-    const Fit resting{guess, 1, median(brighter)};
-    const Registered rests = judged(level, grey, resting);
+    const std::vector<Sampled> seen = sampled(level, grey, guess);
+    if (seen.empty()) return best;
+    const Registered rests = judged(level, grey, {guess, 1, brighter_by(seen)});
     if (rests.residual_pixels <= kClearlyBetter * best.residual_pixels) return rests;
     const bool is_clear = best.agreeing >= kClearlyMost && is_spread(level, grey, best.warp);
     return is_clear ? best : Registered{guess, 0, rests.residual_pixels};
@@ -249,10 +246,8 @@ class RobustRegistrar final : public Registrar {
   [[nodiscard]] static bool is_spread(const Level& level, const cv::Mat& grey, const Warp& warp) {
     constexpr int kParts = 8;  // to a side
     const std::vector<Sampled> seen = sampled(level, grey, warp);
-    std::vector<double> brighter;
-    for (const Sampled& sample : seen) brighter.push_back(sample.grey - sample.point->grey);
-    if (brighter.empty()) return false;
-    const Fit fit{warp, 1, median(brighter)};
+    if (seen.empty()) return false;
+    const Fit fit{warp, 1, brighter_by(seen)};
     bool has[kParts][kParts] = {};
     int parts = 0;
     for (const Sampled& sample : seen) {
@@ -291,6 +286,13 @@ class RobustRegistrar final : public Registrar {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::ranges::nth_element(values, middle);
     return *middle;
+  }
+
+  // How much brighter most of them are than the reference.
+  [[nodiscard]] static double brighter_by(const std::vector<Sampled>& seen) {
+    std::vector<double> brighter;
+    for (const Sampled& sample : seen) brighter.push_back(sample.grey - sample.point->grey);
+    return median(brighter);
   }
 
   // False where the picture shows too little of the reference, or the fit leads nowhere.
