@@ -67,19 +67,19 @@ std::optional<Rectangle> seen_by_all(const CameraPath& path) {
 
 Picture coverage_of(const CameraPath& path) {
   const Shape& shape = path.shape;
-  std::vector<std::uint64_t> seen(shape.pixel_count());
-  for (const Registered& picture : path.pictures) {
-    for (std::uint32_t y = 0; y < shape.height; ++y) {
-      const PixelSpan span = seen_span(picture.warp, shape, y);
-      std::uint64_t* const row = seen.data() + std::size_t{y} * shape.width;
-      for (std::uint32_t x = span.first; x < span.end; ++x) ++row[x];
-    }
-  }
   Picture coverage({shape.width, shape.height, 1}, ValueType::code8, 255);
-  const auto codes = coverage.values<std::uint8_t>();
+  auto* code = coverage.values<std::uint8_t>().data();
   const std::uint64_t all = std::max<std::uint64_t>(path.pictures.size(), 1);
-  // Rounded down: 255 is kept for what all saw.
-  for (std::size_t i = 0; i < seen.size(); ++i) codes[i] = static_cast<std::uint8_t>(255 * seen[i] / all);
+  std::vector<std::uint64_t> seen(shape.width);  // of a row
+  for (std::uint32_t y = 0; y < shape.height; ++y) {
+    std::ranges::fill(seen, 0);
+    for (const Registered& picture : path.pictures) {
+      const PixelSpan span = seen_span(picture.warp, shape, y);
+      for (std::uint32_t x = span.first; x < span.end; ++x) ++seen[x];
+    }
+    // Rounded down: 255 is kept for what all saw.
+    for (const std::uint64_t count : seen) *code++ = static_cast<std::uint8_t>(255 * count / all);
+  }
   return coverage;
 }
 
