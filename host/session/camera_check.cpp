@@ -34,9 +34,7 @@ double furthest_corner(const Warp& warp, const Shape& shape) {
 std::string MovedCamera::text() const {
   return format(
       "the camera moved: at sample {} its picture lies up to {:.1f} pixels from where it lay at first, "
-      "turned by "
-      "{:.2f} "
-      "degrees, and still things are not still",
+      "turned by {:.2f} degrees, and still things are not still",
       sample, pixels, degrees);
 }
 
