@@ -36,7 +36,8 @@ CannotAlign not_alike(const ClipToAlign& clip, CameraMotion motion, std::uint64_
              "{} motion, and half must. The camera moved too far or too fast, there is a cut between them, "
              "or what moves by itself fills most of the picture",
              clip.name, picture, clip.reference, 100 * found.agreeing, to_text(motion)),
-      CannotAlign::WayOut::other_part_or_reference};
+      motion == CameraMotion::homography ? CannotAlign::WayOut::other_part_or_reference
+                                         : CannotAlign::WayOut::homography};
 }
 
 class AlignedClip final : public Clip {

@@ -105,12 +105,11 @@ std::string message_text(const std::exception& error) {
   if (dynamic_cast<const ExposuresAreListed*>(&error) != nullptr) {
     return message + "; leave --shutter-angle out, or the exposure_ns column empty";
   }
-  if (const auto* aligning = dynamic_cast<const CannotAlign*>(&error)) {
-    return message +
-           (aligning->way_out == CannotAlign::WayOut::hold
-                ? "; take a part of the clip (--from, --to), or keep the picture's size (--unseen hold)"
-                : "; try --align homography, another picture to align to (--align-to), or a part of "
-                  "the clip (--from, --to)");
+  if (const auto* align = dynamic_cast<const CannotAlign*>(&error)) {
+    if (align->way_out == CannotAlign::WayOut::hold)
+      return message + "; take a part of the clip (--from, --to), or keep the picture's size (--unseen hold)";
+    return format("{}; try {}another picture to align to (--align-to), or a part of the clip (--from, --to)",
+                  message, align->way_out == CannotAlign::WayOut::homography ? "--align homography, " : "");
   }
   if (dynamic_cast<const EverythingMoves*>(&error) != nullptr) {
     return message + ". A camera that moved stands still with --align rigid";
