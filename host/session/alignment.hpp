@@ -63,8 +63,7 @@ struct TwofoldProgress {
   ReportedProgress finding, reading;
 };
 
-// `aligned to picture 0 (rigid), which the camera's pictures moved by up to …`, what is left of them, and how well that
-// holds.
+// `aligned to picture 0 (rigid), from which others are …`, how well that holds, and what is left of the pictures.
 [[nodiscard]] std::string alignment_text(const CameraPath& path, const Rectangle& area, Unseen unseen);
 
 // The same as a capture keeps it, and in words.
