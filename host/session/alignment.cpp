@@ -46,10 +46,10 @@ class AlignedClip final : public Clip {
       : name_(clip.name),
         path_(std::move(path)),
         warp_(clip.format, area),
+        held_(unseen == Unseen::held ? reference_raster(clip) : std::vector<std::byte>()),
         clip_(clip.open()),
         info_(clip_->info()),
         raster_(clip.format.sample_bytes()) {
-    if (unseen == Unseen::held) held_ = reference_raster(clip);
     info_.format.shape.width = area.width;
     info_.format.shape.height = area.height;
     info_.decoder_bytes += raster_.size() + held_.size() + LightWarp::bytes(clip.format);
@@ -78,14 +78,16 @@ class AlignedClip final : public Clip {
   }
 
   [[nodiscard]] std::optional<std::string> ended_early() const override { return clip_->ended_early(); }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
 
  private:
   std::string name_;
   Shared<CameraPath> path_;
   LightWarp warp_;
+  std::vector<std::byte> held_;  // before the clip, so that one decoder at a time is open
   std::unique_ptr<Clip> clip_;
   ClipInfo info_;
-  std::vector<std::byte> raster_, held_;
+  std::vector<std::byte> raster_;
   std::uint64_t next_ = 0;
 };
 
