@@ -20,7 +20,8 @@ namespace {
 // Adds to a check what can be read of an input: one that cannot is a finding like others, and the rest is checked all
 // the same.
 template <typename Read>
-void attempt(InputCheck& check, const std::string& name, const std::string& kind, Read read) {
+void attempt(InputCheck& check, const std::string& name, const std::string& kind, Read read,
+             Finding::Severity severity = Finding::Severity::error) {
   try {
     read();
   } catch (const InputError& error) {
@@ -29,7 +30,7 @@ void attempt(InputCheck& check, const std::string& name, const std::string& kind
     for (const char* behind : {": ", " "}) {
       if (message.starts_with(name + behind)) message.erase(0, message.find(' ', name.size()) + 1);
     }
-    check.add({Finding::Severity::error, kind, name, message});
+    check.add({severity, kind, name, message});
   }
 }
 
@@ -54,10 +55,12 @@ void read_capture(InputCheck& check, const std::string& name, const Options& opt
     }
   }
   if (count_of(check.findings(), Finding::Severity::error) > 0) return;
-  if (const auto moved = moved_camera(reader)) {
-    check.add({Finding::Severity::warning, "camera_moved", name,
-               moved->text() + "; encode the clip again with --align rigid"});
-  }
+  const auto look = [&] {
+    if (const auto moved = moved_camera(reader))
+      check.add({Finding::Severity::warning, "camera_moved", name,
+                 moved->text() + "; encode the clip again with --align rigid"});
+  };
+  attempt(check, name, "camera_unknown", look, Finding::Severity::warning);
 }
 
 InputCheck checked_inputs(const Options& options) {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <span>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
@@ -9,7 +8,6 @@
 #include "app/requests/requests.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
-#include "session/function_input.hpp"
 #include "session/functions.hpp"
 #include "session/mask_layers.hpp"
 #include "session/mask_making.hpp"
@@ -170,6 +168,8 @@ int run_mask(const Options& options) {
       });
   print_warnings(warnings_of(made));
   if (job.feather) made.mask = feathered(made.mask, *job.feather);
+  // Before anything is written: what cannot be looked at is an error.
+  const auto moved = job.request.tells_by_rest() ? moved_camera(session->capture()) : std::nullopt;
   if (options.preview) {
     const Picture below = backdrop(options, job.request, made.mask, session ? &*session : nullptr);
     write_picture(*options.preview, sheet::mask_overlay(made.mask, below));
@@ -180,7 +180,7 @@ int run_mask(const Options& options) {
     write_picture(job.output, made.mask.to_picture());
   }
   Answer answer = answer_of(job, made);
-  if (job.request.tells_by_rest()) answer.notes = camera_notes(moved_camera(session->capture()));
+  answer.notes = camera_notes(moved);
   tell(options, job.output, answer);
   if (session) print_source(*session, options);
   return 0;
