@@ -7,7 +7,6 @@
 #include "app/command_line/help.hpp"
 #include "app/command_line/words.hpp"
 #include "app/output/console.hpp"
-#include "app/text/text_table.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 

@@ -1,7 +1,6 @@
 // The one table of options: what a command line is parsed with, what help shows, and what holds for which option.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>

@@ -2,7 +2,6 @@
 
 #include "app/text/message_text.hpp"
 #include "session/format.hpp"
-#include "session/time_text.hpp"
 
 namespace nutik::app {
 namespace {

@@ -4,7 +4,6 @@
 // that the last sum is the light of the picture. Tables and JSON have the integrals themselves.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "app/output/report.hpp"
