@@ -147,7 +147,27 @@ TEST_F(Aligning, KeepsThePictureAndSaysWhatWasSeenWhenAskedTo) {
   // Every place was seen by the picture that others are moved onto, and shows that until it is seen again.
   const cv::Mat reference = drawn(hand(6), 6, true), is = shown("a.tik", 6);
   EXPECT_EQ(cv::norm(reference, is, cv::NORM_INF), 0);
-  EXPECT_GE(shown("a.tik", 0).at<std::uint8_t>(0, 0), 30);
+  const auto corners = [](const cv::Mat& picture) {
+    return std::pair(picture.at<std::uint8_t>(0, 0), picture.at<std::uint8_t>(kHeight - 1, kWidth - 1));
+  };
+  EXPECT_EQ(corners(shown("a.tik", 0)).second, corners(reference).second) << "not seen before";
+  EXPECT_EQ(corners(shown("a.tik", 8)).first, corners(reference).first) << "not seen since";
+}
+
+TEST_F(Aligning, TellsWhatWasDoneToPicturesBefore) {
+  write(
+      "dimmed", [](int) { return Shift(); }, false);
+  for (const char* name : {"dimmed/08.pgm", "dimmed/09.pgm"}) {
+    const std::string file = (scratch_ / name).string();
+    cv::imwrite(file, cv::imread(file, cv::IMREAD_UNCHANGED) * 0.7);
+  }
+  for (const char* unseen : {"crop", "hold"}) {
+    const auto result =
+        run(encoding({"--deflicker", "--align", "rigid", "--unseen", unseen, "dimmed", "a.tik"}));
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.err.find("the exposure of 2 of 12 pictures was corrected"), std::string::npos)
+        << result.err;
+  }
 }
 
 TEST_F(Aligning, IsToldByInfo) {
@@ -182,6 +202,7 @@ TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
   const std::string told = "the camera moved: at sample";
   const auto says = [&](const std::vector<std::string>& words) {
     const auto result = run(words);
+    EXPECT_EQ(result.status, 0) << result.err;
     return (result.out + result.err).find(told) != std::string::npos;
   };
   EXPECT_EQ(answered({"check", "plain.tik"})["findings"][0]["kind"], "camera_moved");
@@ -194,9 +215,30 @@ TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
   EXPECT_FALSE(says({"mask", "--rectangle", "1,1,9,9", "plain.tik", "-o", "m.pgm"}))
       << "the camera does not matter";
   write("far", [](int picture) { return Shift{2 * hand(picture).x, 2 * hand(picture).y}; });
-  expect_refused({"study", "-f", "100", "far", "-o", "s2.png"}, 3,
-                 "A study needs a camera that stands still: --align rigid");
-  EXPECT_EQ(run({"study", "-f", "100", "--align", "rigid", "far", "-o", "s2.png"}).status, 0);
+  // A clip is read again; a capture cannot be.
+  EXPECT_FALSE(says({"study", "-f", "100", "far", "-o", "s2.png"}));
+  EXPECT_NE(bytes("s2.txt").find(" --align homography "), std::string::npos) << bytes("s2.txt");
+  EXPECT_FALSE(says({"study", "-f", "100", "--align", "rigid", "far", "-o", "s2.png"}));
+  EXPECT_NE(bytes("s2.txt").find(" --align rigid "), std::string::npos) << bytes("s2.txt");
+  ASSERT_EQ(run(encoding({"far", "far.tik"})).status, 0);
+  expect_refused({"study", "far.tik", "-o", "s3.png"}, 3,
+                 "A study needs a camera that stands still: encode the clip again with --align rigid");
+}
+
+TEST_F(Aligning, IsNotLookedForWithoutItsModule) {
+  ASSERT_EQ(run(encoding({"frames", "plain.tik"})).status, 0);
+  std::filesystem::copy_file(NUTIK_TEST_PROGRAM, scratch_ / "alone");  // beside no modules
+  const auto without = [&](const std::string& words) {
+    return test::run_shell("env -u NUTIK_MODULES ./alone " + words, scratch_.folder());
+  };
+  const std::string why = "no camera's motion can be found: nutik-motion.so was not found";
+  const auto checked = without("check plain.tik");
+  EXPECT_EQ(checked.status, 0) << checked.out;
+  EXPECT_NE(checked.out.find("plain.tik: warning: " + why), std::string::npos) << checked.out;
+  const auto masked = without("mask --moving plain.tik -o m.pgm");
+  EXPECT_EQ(masked.status, 3);
+  EXPECT_NE(masked.err.find(why), std::string::npos) << masked.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "m.pgm"));
 }
 
 TEST_F(Aligning, IsPartOfARecipe) {
@@ -237,6 +279,10 @@ TEST_F(Aligning, SaysWhichPictureCannotBeAlignedAndWhy) {
   write("cut", [](int picture) { return picture < 5 ? hand(picture) : Shift{3000, 5000}; });
   expect_refused(encoding({"--align", "rigid", "cut", "a.tik"}), 3,
                  "picture 5 cannot be aligned to picture 0: of what is seen in both ");
+  const std::string others = "try another picture to align to";
+  expect_refused(encoding({"--align", "rigid", "cut", "a.tik"}), 3,
+                 "try --align homography, another picture");
+  expect_refused(encoding({"--align", "homography", "cut", "a.tik"}), 3, others);
   EXPECT_EQ(run(encoding({"--align", "rigid", "--to", "5f", "cut", "a.tik"})).status, 0);
   std::filesystem::create_directory(scratch_ / "blank");
   for (const char* name : {"blank/0.pgm", "blank/1.pgm"}) {
@@ -245,6 +291,7 @@ TEST_F(Aligning, SaysWhichPictureCannotBeAlignedAndWhy) {
   expect_refused(
       encoding({"--align", "rigid", "blank", "b.tik"}), 3,
       "no picture can be aligned to picture 0: it has 0 pixels whose surroundings can be recognized");
+  expect_refused(encoding({"--align", "rigid", "blank", "b.tik"}), 3, others);
   // A path by hand that leaves nothing.
   std::ofstream(scratch_ / "far.csv")
       << "# nutik camera path,translation,0,160,120\n"
