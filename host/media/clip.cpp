@@ -8,7 +8,6 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/clip_part.hpp"
-#include "media/deflicker.hpp"
 #include "media/module.hpp"
 #include "media/photron_clip.hpp"
 #include "media/photron_header.hpp"
@@ -143,8 +142,7 @@ std::unique_ptr<Clip> open_clip(const std::filesystem::path& name, const ClipOpt
   const std::filesystem::path& path = is_standard_input(name.string()) ? standard_input_file() : name;
   std::unique_ptr<Clip> clip = open_whole(path, options);
   if (options.ends_at_damage) clip = std::make_unique<EndingAtDamage>(std::move(clip), path);
-  clip = take_part(std::move(clip), path, options);
-  return options.deflickered ? deflicker(std::move(clip)) : std::move(clip);
+  return take_part(std::move(clip), path, options);
 }
 
 void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const StoredCodes& codes) {

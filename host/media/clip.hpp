@@ -102,7 +102,6 @@ struct ClipOptions {
   std::optional<ClipScale> scale = std::nullopt;
   Interlaced interlaced = Interlaced::refused;
   bool ends_at_damage = false;  // instead of being an error
-  bool deflickered = false;     // media/deflicker.hpp
   // What its decoder may hold: it works on no more pictures at a time than fit, one at least. None: on one for each
   // core.
   std::optional<std::uint64_t> decoder_bytes = std::nullopt;

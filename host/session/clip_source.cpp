@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "capture/format.hpp"
+#include "media/deflicker.hpp"
 #include "session/measured_noise.hpp"
 #include "session/time_text.hpp"
 #include "system/mapped_file.hpp"
@@ -206,6 +207,10 @@ ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& me
   source.capture = clip_format(*source.clip, request.clip);
   source.notes = source.clip->info().notes;
   if (request.align) align(source, open, memory, progress, stop);
+  if (request.deflickered) {
+    source.clip = deflicker(std::move(source.clip));
+    open = [bare = std::move(open)] { return deflicker(bare()); };
+  }
   source.capture.noise = noise_model(source, open, memory);
   return source;
 }

@@ -54,6 +54,7 @@ struct SourceRequest {
       shutter_angle;  // degrees; none: as listed in the files, else Timeline::kFullShutter
 
   std::optional<AlignRequest> align;
+  bool deflickered = false;  // media/deflicker.hpp, of pictures that are aligned
 
   // What counts as no change.
   std::uint32_t tolerance = 0;  // codes

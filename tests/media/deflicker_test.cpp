@@ -67,8 +67,7 @@ std::vector<std::vector<std::byte>> read_deflickered(const std::vector<Picture>&
   }
   ClipOptions options;
   options.rate = Rational{100, 1};
-  options.deflickered = true;
-  const auto clip = test::open_test_clip(scratch.folder(), options);
+  const auto clip = deflicker(test::open_test_clip(scratch.folder(), options));
   auto rasters = test::read_all(*clip);
   remarks = clip->remarks();
   return rasters;

@@ -83,7 +83,7 @@ constexpr Option kRows[] = {
      "of interlaced video: frames (a picture from each frame), fields (one from each field, twice as many), "
      "or no (it only says that it is) (default: it is refused)",
      "frames fields no"},
-    {0, "deflicker", "", decoding, kDecodesClips, &Options::deflicker,
+    {0, "deflicker", "", decoding, kReadsClips, &Options::deflicker,
      "expose all pictures as the first one: undo a camera's automatic exposure and white balance"},
     {0, "as-far-as-it-goes", "", decoding, kDecodesClips, &Options::as_far_as_it_goes,
      "take a damaged clip's pictures up to the first that cannot be read, with a warning"},

@@ -82,7 +82,7 @@ SourceRequest clip_request(const Options& options, const std::string& name) {
   if (options.clip_to) request.clip.to = clip_moment(StatedTime::parse(*options.clip_to, "--to"), "--to");
   if (options.deinterlace) request.clip.interlaced = parse_deinterlacing(*options.deinterlace);
   request.clip.ends_at_damage = options.as_far_as_it_goes;
-  request.clip.deflickered = options.deflicker;
+  request.deflickered = options.deflicker;
   if (options.crop) request.clip.crop = parse_crop(*options.crop);
   if (options.scale) request.clip.scale = parse_scale(*options.scale);
   request.align = align_request(options);
