@@ -1,6 +1,7 @@
 #include "session/wish.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <vector>

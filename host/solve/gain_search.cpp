@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <utility>
 
 #include "capture/error.hpp"
@@ -15,14 +17,14 @@ namespace {
 using Kind = LightWish::Kind;
 
 constexpr int kMostSteps = 60;
+// Other places to begin at, where a function cannot be normalized with the first.
+constexpr int kOtherBegins = 15;
 // A step that changes no gain by more than this share of it is none.
 constexpr double kLeastStep = 1e-15;
 // Nor is one that lessens the cost by a smaller share.
 constexpr double kLeastGain = 1e-12;
 // How far gains are changed to see what that changes in a divisor, as a share.
 constexpr double kProbe = 1e-4;
-// Light that changes by less than this share of what would be there without other gains does not change.
-constexpr double kNoChange = 1e-9;
 // A gain this much smaller than the largest is what rounding left of 0.
 constexpr double kNoGain = 1e-12;
 // In place of a gain that is 0 on its way, whose time counts as if it were not.
@@ -33,9 +35,15 @@ bool compares_channels(Kind kind) { return kind == Kind::like || kind == Kind::g
 
 // The middle of the bounds; where one is missing 1, or -1, or what is nearest to that.
 double begin_within(const Bounds& bounds) {
-  if (std::isfinite(bounds.low) && std::isfinite(bounds.high))
-    return bounds.low + (bounds.high - bounds.low) / 2;
+  if (std::isfinite(bounds.low) && std::isfinite(bounds.high)) return std::midpoint(bounds.low, bounds.high);
   return bounds.high <= 0.0 ? std::min(-1.0, bounds.high) : std::clamp(1.0, bounds.low, bounds.high);
+}
+
+// Another place within the bounds, for each share from 0 to 1; where a bound is missing about where it begins.
+double place_within(const Bounds& bounds, double share) {
+  const double begin = begin_within(bounds), reach = std::max(1.0, std::fabs(begin));
+  return std::lerp(std::isfinite(bounds.low) ? bounds.low : begin - reach,
+                   std::isfinite(bounds.high) ? bounds.high : begin + reach, share);
 }
 
 std::vector<ControlPoint> with_gains(const std::vector<TemplatePoint>& points, const auto& gain_of) {
@@ -218,6 +226,14 @@ double GainSearch::cost_of(const std::vector<double>& differences) const {
   return cost.value();
 }
 
+double GainSearch::cost_at(const std::vector<double>& gains) const {
+  try {
+    return cost_of(differences(gains));
+  } catch (const InputError&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
 std::vector<LeastSquaresRow> GainSearch::changes(const std::vector<double>& gains) const {
   std::vector<LeastSquaresRow> rows;
   for (const double difference : differences(gains)) rows.push_back({{}, difference});
@@ -257,7 +273,7 @@ std::vector<double> GainSearch::stepped() const {
 
 void GainSearch::descend() {
   if (gains_.empty()) return;
-  double cost = cost_of(differences(gains_));
+  double cost = cost_at(gains_);
   for (int step = 0; step < kMostSteps && cost > 0.0; ++step) {
     check_interruption();
     std::vector<double> towards;
@@ -274,12 +290,7 @@ void GainSearch::descend() {
         is_far |= std::fabs(next[i] - gains_[i]) > kLeastStep * std::fabs(next[i]);
       }
       if (!is_far) break;
-      double reached = cost;
-      try {
-        reached = cost_of(differences(next));
-      } catch (const InputError&) {  // a function whose parts cancel there: not so far
-        continue;
-      }
+      const double reached = cost_at(next);
       if (reached >= cost) continue;
       is_better = reached < cost * (1 - kLeastGain);
       cost = reached;
@@ -287,6 +298,22 @@ void GainSearch::descend() {
       if (!is_better) return;
     }
     if (!is_better) return;
+  }
+}
+
+// Where that costs least of several places, each gain's spread evenly over its bounds, and unlike the others'.
+void GainSearch::begin_elsewhere() {
+  double least = std::numeric_limits<double>::infinity();
+  for (int begin = 1; begin <= kOtherBegins; ++begin) {
+    std::vector<double> gains;
+    for (std::size_t i = 0; i < bounds_.size(); ++i) {
+      const double turn = begin * std::sqrt(static_cast<double>((i + 1) * (i + 2)));  // irrational
+      gains.push_back(place_within(bounds_[i], turn - std::floor(turn)));
+    }
+    const double cost = cost_at(gains);
+    if (!(cost < least)) continue;
+    least = cost;
+    gains_ = std::move(gains);
   }
 }
 
@@ -302,6 +329,7 @@ std::optional<FoundGains> GainSearch::find(const std::vector<std::int64_t>& time
   is_zero_.assign(bounds_.size(), false);
   gains_.clear();
   for (const Bounds& bounds : bounds_) gains_.push_back(begin_within(bounds));
+  if (!std::isfinite(cost_at(gains_))) begin_elsewhere();
   for (std::size_t turn = 0; turn <= bounds_.size(); ++turn) {
     descend();
     // A gain of 0, or what rounding leaves of it, counts in no support: with that the others are found again.
@@ -318,57 +346,6 @@ std::optional<FoundGains> GainSearch::find(const std::vector<std::int64_t>& time
     if (!has_new) break;
   }
   return FoundGains{gains_, cost_of(differences(gains_))};
-}
-
-std::vector<std::size_t> GainSearch::untold() const {
-  const std::vector<LeastSquaresRow> rows = changes(gains_);
-  std::vector<std::size_t> untold;
-  for (std::size_t i = 0; i < gains_.size(); ++i) {
-    if (std::ranges::all_of(rows, [&](const LeastSquaresRow& row) { return row.factors[i] == 0.0; }))
-      untold.push_back(i);
-  }
-  return untold;
-}
-
-std::size_t GainSearch::open_count() const {
-  const std::vector<std::size_t> untold = this->untold();
-  std::vector<std::size_t> told;  // within their bounds
-  for (std::size_t i = 0; i < gains_.size(); ++i) {
-    if (gains_[i] > bounds_[i].low && gains_[i] < bounds_[i].high && std::ranges::count(untold, i) == 0)
-      told.push_back(i);
-  }
-  std::vector<LeastSquaresRow> rows;
-  for (const LeastSquaresRow& all : changes(gains_)) {
-    const Kind kind = row_kinds_[rows.size()];
-    LeastSquaresRow kept;
-    // A wish that is kept with something left tells nothing.
-    const bool is_kept = (kind == Kind::at_most && all.wanted < -kNoChange) ||
-                         (kind == Kind::at_least && all.wanted > kNoChange);
-    for (const std::size_t i : told) kept.factors.push_back(is_kept ? 0.0 : all.factors[i]);
-    rows.push_back(std::move(kept));
-  }
-  // Where all gains of a function are found, and a divisor grows with them, that they all be larger is no other answer.
-  std::size_t scales = 0;
-  for (const auto& [tag, parts] : parts_) {
-    std::vector<double> direction;
-    for (const std::size_t i : told) {
-      const bool is_of_it =
-          std::ranges::any_of(parts.points, [&](const TemplatePoint& point) { return point.gain_name == i; });
-      direction.push_back(is_of_it ? gains_[i] : 0.0);
-    }
-    double change = 0.0, all = 0.0;
-    for (const LeastSquaresRow& row : rows) {
-      double sum = 0.0;
-      for (std::size_t i = 0; i < told.size(); ++i) {
-        sum += row.factors[i] * direction[i];
-        all += std::fabs(row.factors[i] * direction[i]);
-      }
-      change += std::fabs(sum);
-    }
-    scales += all > 0.0 && change <= kNoChange * all ? 1u : 0u;
-  }
-  const std::size_t known = rank_of(rows) + scales;
-  return told.size() - std::min(told.size(), known);
 }
 
 }  // namespace nutik

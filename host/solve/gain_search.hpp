@@ -66,11 +66,12 @@ class GainSearch {
  public:
   explicit GainSearch(WishedExposure exposure);
 
-  // None where times are out of order in a function. Throws InputError where a function cannot be normalized.
+  // None where times are out of order in a function. Throws InputError where a function cannot be normalized, wherever
+  // within the bounds it begins.
   [[nodiscard]] std::optional<FoundGains> find(const std::vector<std::int64_t>& times_ns);
 
   // Of the gains that find() found last: those that no wish depends on, and how many of the others the wishes leave
-  // open, being fewer than they.
+  // open, being fewer than they. None, either, where a function can hardly be normalized with them.
   [[nodiscard]] std::vector<std::size_t> untold() const;
   [[nodiscard]] std::size_t open_count() const;
 
@@ -110,8 +111,13 @@ class GainSearch {
   [[nodiscard]] std::vector<double> differences(const std::vector<WishedLight>& wished) const;
   [[nodiscard]] std::vector<double> differences(const std::vector<double>& gains) const;
   [[nodiscard]] double cost_of(const std::vector<double>& differences) const;
+  // Infinite where a function cannot be normalized with such gains.
+  [[nodiscard]] double cost_at(const std::vector<double>& gains) const;
   // How differences change with the gains.
   [[nodiscard]] std::vector<LeastSquaresRow> changes(const std::vector<double>& gains) const;
+  // The same of the gains that were found; none where a function cannot be normalized right beside them.
+  [[nodiscard]] std::vector<LeastSquaresRow> changes_of_found() const;
+  void begin_elsewhere();
   void descend();
   [[nodiscard]] std::vector<double> stepped() const;
 

@@ -1,8 +1,12 @@
 #include "solve/time_search.hpp"
 
 #include <algorithm>
+#include <exception>
+#include <optional>
+#include <tuple>
 #include <utility>
 
+#include "capture/error.hpp"
 #include "system/interruption.hpp"
 
 namespace nutik {
@@ -52,10 +56,14 @@ class Follower {
       if (times_ns[i] < candidates_[i].times_ns.front() || times_ns[i] > candidates_[i].times_ns.back())
         return std::nullopt;
     }
-    const auto found = search_.find(times_ns);
-    if (!found) return std::nullopt;
-    ++tried_;
-    return Tried{std::move(times_ns), found->cost};
+    try {
+      const auto found = search_.find(times_ns);
+      if (!found) return std::nullopt;
+      ++tried_;
+      return Tried{std::move(times_ns), found->cost};
+    } catch (const InputError&) {  // a function that cannot be normalized there
+      return std::nullopt;
+    }
   }
 
   // The best of one time after another changed by a step.
@@ -84,6 +92,7 @@ std::optional<FoundTimes> find_times(GainSearch& search, const std::vector<Candi
   std::uint64_t combinations = 1, tried = 0;
   for (const CandidateTimes& each : candidates) combinations *= each.times_ns.size();
   std::vector<Tried> best;  // the cheapest first
+  std::exception_ptr unusable;
   for (std::uint64_t number = 0; number < combinations; ++number) {
     check_interruption();
     if (progress) progress(number, combinations);
@@ -93,18 +102,25 @@ std::optional<FoundTimes> find_times(GainSearch& search, const std::vector<Candi
       times_ns[i] = candidates[i].times_ns[rest % candidates[i].times_ns.size()];
       rest /= candidates[i].times_ns.size();
     }
-    const auto found = search.find(times_ns);
+    std::optional<FoundGains> found;
+    try {
+      found = search.find(times_ns);
+    } catch (const InputError&) {  // a function that cannot be normalized with these times
+      unusable = std::current_exception();
+    }
     if (!found) continue;
     ++tried;
     const auto behind = std::ranges::upper_bound(best, found->cost, {}, &Tried::cost);
     best.insert(behind, {std::move(times_ns), found->cost});
     if (best.size() > kFollowed) best.pop_back();
   }
+  if (best.empty() && unusable) std::rethrow_exception(unusable);
   if (best.empty()) return std::nullopt;
   Follower follower(search, candidates, tried);
   for (Tried& each : best) each = follower.from(std::move(each));
   FoundTimes result;
-  result.times_ns = std::ranges::min_element(best, {}, &Tried::cost)->times_ns;
+  const auto by_cost_and_time = [](const Tried& each) { return std::tie(each.cost, each.times_ns); };
+  result.times_ns = std::ranges::min_element(best, {}, by_cost_and_time)->times_ns;
   result.found = *search.find(result.times_ns);
   result.tried = tried;
   return result;

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "solve/gain_search.hpp"
@@ -24,7 +25,8 @@ struct FoundTimes {
   std::uint64_t tried = 0;  // exposures
 };
 
-// None where no candidates have the times of every function in order. `search` is left at what was found. Progress
+// None where no candidates have the times of every function in order. Throws InputError where a function cannot be
+// normalized with any that have. `search` is left at what was found. Progress
 // counts combinations of candidates.
 [[nodiscard]] std::optional<FoundTimes> find_times(
     GainSearch& search, const std::vector<CandidateTimes>& candidates,

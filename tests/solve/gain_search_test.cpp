@@ -8,12 +8,13 @@
 #include <iostream>
 
 #include "render/reference_renderer.hpp"
-#include "solve/time_search.hpp"
+#include "support/one_pixel.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik {
 namespace {
 
+using test::OnePixel;
 using test::Random;
 using test::RandomCase;
 using Kind = LightWish::Kind;
@@ -188,39 +189,6 @@ TEST(GainSearch, ReachesConstructedWishes) {
   std::cout << "worst: " << worst << "\n";
 }
 
-// Light of one grey pixel, in shares of white, 10 ms a sample.
-class OnePixel {
- public:
-  explicit OnePixel(const std::vector<double>& light)
-      : timeline_(Timeline::constant({100, 1}, Timeline::kFullShutter, light.size())) {
-    std::vector<ChannelLight> course;
-    for (const double each : light) course.push_back({each, 0.0, 0.0});
-    wished.regions.resize(1);
-    wished.regions[0].courses.emplace(std::uint8_t{0}, LightCourse(timeline_, 0, std::move(course)));
-    wished.duration_ns = timeline_.duration_ns();
-    wished.luminance = {1.0, 0.0, 0.0};
-  }
-
-  void set(const char* functions) {
-    FunctionTemplate read = parse_template(functions);
-    ASSERT_FALSE(read.has_errors()) << read.diagnostics.report("");
-    wished.functions = read.functions;
-    wished.bounds.resize(read.gains.size());
-  }
-  void wish(Kind kind, double light, double weight = 1.0) {
-    LightWish wish;
-    wish.kind = kind;
-    wish.target = light;
-    wish.weight = weight;
-    wished.wishes.push_back(wish);
-  }
-
-  WishedExposure wished;
-
- private:
-  Timeline timeline_;
-};
-
 // 20 ms of gain a, then 20 ms of gain b.
 constexpr const char* kTwoBoxes = "M0 [0:a], [19999999:a], [20000000:b], [40000000:b], [40000001:0]";
 
@@ -291,6 +259,45 @@ TEST(GainSearch, FollowsADivisorThatDependsOnGains) {
   }
 }
 
+// A second of a scene with something at rest in the end, which the last 10 ms take away again. In the middle of the
+// bounds, at -100, they take away the whole second.
+TEST(GainSearch, BeginsElsewhereWhereAFunctionCancels) {
+  std::vector<double> light(101, 0.2);
+  for (std::size_t k = 75; k < light.size(); ++k) light[k] = 0.6;
+  OnePixel pixel(light);
+  pixel.set("M0{[0:1], [999999999:1], [1000000000:rest], [1009999999:rest], [1010000000:0]}");
+  pixel.wished.bounds = {{-200.0, 0.0}};
+  pixel.wished.normalization = Normalization::parse("integral");
+  pixel.wish(Kind::equal, 0.2);
+  GainSearch search(pixel.wished);
+  const auto found = search.find({});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->gains[0], -25, 1e-4);
+  EXPECT_LE(found->cost, 1e-20);
+
+  // Light that only a function that all but cancels has: what tells it is not known.
+  pixel.wished.wishes.clear();
+  pixel.wish(Kind::equal, 1e5);
+  GainSearch brightest(pixel.wished);
+  ASSERT_TRUE(brightest.find({}));
+  EXPECT_NO_THROW(static_cast<void>(brightest.untold()));
+  EXPECT_NO_THROW(static_cast<void>(brightest.open_count()));
+
+  // Nothing but a function that cancels.
+  pixel.wished.bounds = {{-100.0, -100.0}};
+  GainSearch none(pixel.wished);
+  EXPECT_THROW(static_cast<void>(none.find({})), InputError);
+}
+
+TEST(GainSearch, BeginsBetweenBoundsHoweverFarApart) {
+  OnePixel pixel({0.2, 0.2, 0.6});
+  pixel.set("M0 [0:a], [20000000:a], [20000001:0]");
+  pixel.wished.bounds = {{-1e308, 1e308}};
+  pixel.wish(Kind::equal, 0.1);
+  GainSearch search(pixel.wished);
+  EXPECT_NEAR(search.find({})->gains[0], 0.5, 1e-6);
+}
+
 // Three exposures of a scene in which now this, now that is missing, mixed so that all of it is missing.
 TEST(GainSearch, FindsMixturesWhoseScaleCountsForNothing) {
   for (const char* divisor : {"integral", "support"}) {
@@ -330,64 +337,6 @@ TEST(GainSearch, CountsNoTimeOfAGainThatCameToNothing) {
   EXPECT_EQ(found->gains[1], 0.0) << "what is bright moves";
   // 20 ms are exposed, not 40, for which a would have to be 2; but for half a nanosecond of its step.
   EXPECT_NEAR(found->gains[0], 1.0, 1e-7);
-}
-
-TEST(TimeSearch, FindsAConstructedMoment) {
-  // A ramp of light: a moment is told by its brightness.
-  std::vector<double> light;
-  for (int k = 0; k < 100; ++k) light.push_back(k < 60 ? 0.01 * k : 0.6 - 0.002 * (k - 60));
-  OnePixel pixel(light);
-  pixel.set("M0 [when-1:0], [when:1], [when+10000000:1], [when+10000001:0]");
-  // From 123.4567 ms on for 10 ms: 6.5433 ms of sample 12, the rest of sample 13.
-  const double wanted = (0.12 * 6.5433 + 0.13 * 3.4567) / 10;
-  pixel.wish(Kind::equal, wanted);
-  GainSearch search(pixel.wished);
-  CandidateTimes every;
-  every.step_ns = 10'000'000;
-  for (std::int64_t k = 1; k <= 55; ++k) every.times_ns.push_back(k * every.step_ns);
-  const auto found = find_times(search, {every});
-  ASSERT_TRUE(found);
-  EXPECT_NEAR(search.region_light()[0][0], wanted, 1e-8);
-  // The steps at both ends count as 2 ns of support, which is 2e-7 of it: as much light as 25 ns of the ramp.
-  EXPECT_NEAR(static_cast<double>(found->times_ns[0]), 123'456'700, 25);
-
-  CandidateTimes stated = every;
-  stated.step_ns = 0;
-  const auto nearest = find_times(search, {stated});
-  ASSERT_TRUE(nearest);
-  EXPECT_EQ(nearest->times_ns[0], 120'000'000) << "candidates alone";
-  EXPECT_EQ(nearest->tried, 55u);
-}
-
-TEST(TimeSearch, FindsTwoMomentsAndTheirGains) {
-  std::vector<double> light;
-  for (int k = 0; k < 100; ++k) light.push_back(0.5 + 0.4 * std::sin(0.07 * k) * std::exp(-0.01 * k));
-  OnePixel pixel(light);
-  pixel.set(
-      "M0 [a-1:0], [a:g], [a+20000000:g], [a+20000001:0], [b-1:0], [b:h], [b+20000000:h], [b+20000001:0]");
-  pixel.wished.bounds = {{0.0, 3.0}, {0.0, 3.0}};
-  pixel.wish(Kind::at_least, 0.9);
-  GainSearch search(pixel.wished);
-  CandidateTimes early, late;
-  early.step_ns = late.step_ns = 20'000'000;
-  for (std::int64_t k = 1; k < 20; ++k) {
-    early.times_ns.push_back(k * early.step_ns);
-    late.times_ns.push_back(k * late.step_ns + 300'000'000);
-  }
-  const auto found = find_times(search, {early, late});
-  ASSERT_TRUE(found);
-  EXPECT_LE(found->found.cost, 1e-20);
-  EXPECT_LT(found->times_ns[0] + 20'000'001, found->times_ns[1]);
-}
-
-TEST(TimeSearch, HasNoneWhereNoTimesAreInOrder) {
-  OnePixel pixel({0.2, 0.2, 0.6});
-  pixel.set("M0 [0:0], [when:1], [100:1], [101:0]");
-  pixel.wish(Kind::equal, 0.5);
-  GainSearch search(pixel.wished);
-  CandidateTimes late;
-  late.times_ns = {100, 200};
-  EXPECT_FALSE(find_times(search, {late}));
 }
 
 }  // namespace
