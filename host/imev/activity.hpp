@@ -25,10 +25,15 @@ class Activity {
  public:
   explicit Activity(const CaptureFormat& capture, ActivityOptions options = {});
 
-  // What it takes: the counts, what pixels held, which of them count.
+  // What it takes: the counts of pixels, what they held, which of them count.
   [[nodiscard]] static MemoryNeeds needs(const CaptureFormat& capture) {
     return {{"changes of pixels",
              capture.shape.pixel_count() * (sizeof(std::uint64_t) + sizeof(ChangeRecord) + 2)}};
+  }
+
+  // Besides, of so many samples: their counts, of all pixels and of those with each tag, with room that they grow by.
+  [[nodiscard]] static MemoryNeeds needs_of_samples(std::uint64_t samples, std::size_t tags) {
+    return {{"changes of samples", samples * (1 + tags) * 2 * sizeof(std::uint64_t)}};
   }
 
   // Adds the next block; blocks must come in order, all of them.

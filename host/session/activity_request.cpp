@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "capture/error.hpp"
@@ -50,6 +51,19 @@ std::vector<TagActivity> tag_activities(const Activity& activity, const std::vec
   return activities;
 }
 
+MeasuredActivity measured(CaptureSource& capture, const ActivityOptions& options,
+                          const ReportedProgress& progress) {
+  const Timeline& timeline = capture.timeline();
+  Activity activity(capture.format(), options);
+  for_each_block(capture, [&](const BlockView& block) {
+    if (progress) progress(block.extent().first_sample, timeline.sample_count());
+    activity.add(block);
+  });
+  auto moments = activity_moments(activity.changed_pixels());
+  std::vector<TagActivity> tags = tag_activities(activity, options.tags);
+  return {timeline, std::move(activity), std::move(moments), std::move(tags)};
+}
+
 double ratio(std::uint64_t part, std::uint64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -93,16 +107,18 @@ std::string MeasuredActivity::table() const {
 
 MeasuredActivity measure_activity(CaptureSource& capture, const ActivityRequest& request,
                                   const ReportedProgress& progress) {
-  const Timeline& timeline = capture.timeline();
-  const ActivityOptions options = options_of(request, capture.format().shape);
-  Activity activity(capture.format(), options);
-  for_each_block(capture, [&](const BlockView& block) {
-    if (progress) progress(block.extent().first_sample, timeline.sample_count());
-    activity.add(block);
-  });
-  auto moments = activity_moments(activity.changed_pixels());
-  std::vector<TagActivity> tags = tag_activities(activity, options.tags);
-  return {timeline, std::move(activity), std::move(moments), std::move(tags)};
+  return measured(capture, options_of(request, capture.format().shape), progress);
+}
+
+MeasuredActivity measure_activity(Session& session, const ActivityRequest& request,
+                                  const ReportedProgress& progress) {
+  ActivityOptions options = options_of(request, session.format().shape);
+  const std::set<std::uint8_t> tags(options.tags.begin(), options.tags.end());
+  MemoryNeeds needs = Activity::needs(session.format());
+  needs.add(Activity::needs_of_samples(session.timeline().sample_count(), tags.size()));
+  needs.add("a block", largest_block(session.capture()));
+  needs.rest_of(session.devices().request().memory.bytes);
+  return measured(session.capture(), options, progress);
 }
 
 }  // namespace nutik

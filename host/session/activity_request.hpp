@@ -11,6 +11,7 @@
 #include "imev/activity_moments.hpp"
 #include "imev/capture_source.hpp"
 #include "session/reported_progress.hpp"
+#include "session/session.hpp"
 
 namespace nutik {
 
@@ -52,6 +53,9 @@ struct MeasuredActivity {
 // Reads all of the capture; `progress` counts samples. Throws InputError where the mask does not fit the capture or
 // no pixel counts.
 [[nodiscard]] MeasuredActivity measure_activity(CaptureSource& capture, const ActivityRequest& request,
+                                                const ReportedProgress& progress = {});
+// Of a session's capture and within its memory: throws MemoryTooLittle, too.
+[[nodiscard]] MeasuredActivity measure_activity(Session& session, const ActivityRequest& request,
                                                 const ReportedProgress& progress = {});
 
 }  // namespace nutik

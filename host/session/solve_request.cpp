@@ -19,7 +19,7 @@
 namespace nutik {
 namespace {
 
-// Of a region's light at the white code more is warned of.
+// A larger share of a region's light at the white code is warned of.
 constexpr double kMostWhite = 0.01;
 // What the exposure comes to lies no further from what was reckoned, unless it is computed in single.
 constexpr double kMostApart = 1e-6;
@@ -62,16 +62,6 @@ class Solver {
   void check() const {
     const Shape& shape = session_.format().shape;
     if (request_.wishes.empty()) throw UsageError("nothing is wished for");
-    // Of all that follows, so that nothing is begun that cannot be ended.
-    tik::Reader& capture = session_.capture();
-    std::uint32_t block_samples = 0;
-    for (std::uint64_t block = 0; block < capture.block_count(); ++block)
-      block_samples = std::max(block_samples, capture.block_extent(block).sample_count);
-    MemoryNeeds needs = rendering_needs(session_.format(), ValueType::light64,
-                                        request_.functions.functions.size(), block_samples);
-    needs.add(solve_needs(request_)(session_.format()));
-    needs.add("a block", largest_block(capture));
-    needs.rest_of(session_.devices().request().memory.bytes);
     // Masks and functions that do not fit.
     static_cast<void>(make_plan(session_.capture(), tags_of(request_.functions), mask_,
                                 plan_options_of(request_.exposure)));
@@ -101,6 +91,20 @@ class Solver {
                    nutik::quoted(wish.text)));
       }
     }
+  }
+
+  // Of all that follows, so that nothing is begun that cannot be ended.
+  void check_memory(SampleRange samples) const {
+    tik::Reader& capture = session_.capture();
+    std::uint32_t block_samples = 0;
+    for (std::uint64_t block = 0; block < capture.block_count(); ++block)
+      block_samples = std::max(block_samples, capture.block_extent(block).sample_count);
+    MemoryNeeds needs = rendering_needs(session_.format(), ValueType::light64,
+                                        request_.functions.functions.size(), block_samples);
+    needs.add(solve_needs(request_)(session_.format()));
+    needs.add("a block", largest_block(capture));
+    needs.add(region_light_needs(capture, mask_, marks(), regions_, samples));
+    needs.rest_of(session_.devices().request().memory.bytes);
   }
 
   void check(const LightRegion& region, const StatedWish& wish) const {
@@ -195,6 +199,8 @@ class Solver {
       wished.wishes.push_back(std::move(light));
     }
 
+    const SampleRange samples = needed_samples(candidates);
+    check_memory(samples);
     std::optional<Picture> plate;
     if (request_.needs_plate()) {
       OutputFormat light;
@@ -202,9 +208,8 @@ class Solver {
       plate = make_plate(session_.capture(), name_, {}, light, session_.devices().request().memory, reading)
                   .picture;
     }
-    wished.regions =
-        measure_regions(session_.capture(), request_.exposure.transfer.value_or(format.transfer), mask_,
-                        marks(), regions_, plate ? &*plate : nullptr, needed_samples(candidates), reading);
+    wished.regions = measure_regions(session_.capture(), request_.exposure.transfer.value_or(format.transfer),
+                                     mask_, marks(), regions_, plate ? &*plate : nullptr, samples, reading);
     for (std::size_t i = 0; i < wished.wishes.size(); ++i) {
       set_rest(request_.wishes[i], wished.regions[wished.wishes[i].region], wished.wishes[i]);
     }
@@ -285,7 +290,6 @@ class Solver {
     OutputFormat codes;
     codes.transfer = Transfer::srgb();
     static_cast<void>(stored(std::move(exposed.picture), session_.format(), codes, solved.saturation));
-    solved.figures.emplace(std::move(exposed.figures));
   }
 
   static std::vector<double> white_shares(const WishedExposure& wished) {

@@ -57,8 +57,7 @@ struct SolvedExposure {
   std::vector<std::size_t> untold;  // gains that no wish depends on
   std::size_t open_count = 0;       // by how many gains the others are more than wishes tell
   std::uint64_t tried = 0;          // candidate exposures
-  std::optional<ExposureFigures> figures;
-  Saturation saturation;  // of the picture as screens show it
+  Saturation saturation;            // of the picture as screens show it
   std::vector<std::string> warnings;
 
   [[nodiscard]] bool is_kept() const;

@@ -11,13 +11,15 @@ constexpr std::size_t kRun = 64;
 }  // namespace
 
 LightCourse::LightCourse(const Timeline& timeline, std::uint64_t first, std::vector<ChannelLight> light)
-    : first_(first), light_(std::move(light)) {
+    : light_(std::move(light)) {
+  edges_ns_.reserve(2 * light_.size() + 1);
   for (std::uint64_t k = 0; k < light_.size(); ++k) {
     edges_ns_.push_back(timeline.start_ns(first + k));
     edges_ns_.push_back(timeline.end_ns(first + k));
   }
   edges_ns_.push_back(timeline.reach_end_ns(first + light_.size() - 1));
   const std::size_t stretches = edges_ns_.size() - 1;
+  runs_.reserve(stretches / kRun);
   for (std::size_t begin = 0; begin + kRun <= stretches; begin += kRun) {
     Run run{edges_ns_[begin], edges_ns_[begin + kRun]};
     std::array<CompensatedSum, 3> sums, moments;
@@ -32,6 +34,10 @@ LightCourse::LightCourse(const Timeline& timeline, std::uint64_t first, std::vec
     }
     runs_.push_back(run);
   }
+}
+
+std::uint64_t LightCourse::bytes(std::uint64_t samples) {
+  return samples * (sizeof(ChannelLight) + 2 * sizeof(std::int64_t)) + 2 * samples / kRun * sizeof(Run);
 }
 
 std::size_t LightCourse::stretch_at(std::int64_t time_ns) const {

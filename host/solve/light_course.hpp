@@ -24,10 +24,11 @@ class LightCourse {
   // The light of the samples from `first` on. Before them nothing is known, and after the last of them it holds.
   LightCourse(const Timeline& timeline, std::uint64_t first, std::vector<ChannelLight> light);
 
+  // What a course of so many samples takes.
+  [[nodiscard]] static std::uint64_t bytes(std::uint64_t samples);
+
   // ∫ light · gain over the pieces.
   [[nodiscard]] ChannelLight integral_ns(std::span<const GainPiece> pieces) const;
-  // The light that a sample has.
-  [[nodiscard]] const ChannelLight& at_sample(std::uint64_t sample) const { return light_[sample - first_]; }
 
  private:
   // Stretch 2 k is the exposure of the k-th sample, 2 k + 1 the gap behind it.
@@ -41,7 +42,6 @@ class LightCourse {
     ChannelLight moment_ns2{};  // ∫ light · (time − middle)
   };
 
-  std::uint64_t first_;
   std::vector<ChannelLight> light_;
   std::vector<std::int64_t> edges_ns_;  // where stretches begin, and where the last one ends
   std::vector<Run> runs_;               // of kRun stretches each; those that are left over have none

@@ -26,11 +26,7 @@ struct Course {
 class Courses {
  public:
   Courses(const Mask& mask, const Mask* marks, const std::vector<LightRegion>& regions)
-      : mask_(mask),
-        pixels_(mask, marks),
-        regions_(regions),
-        weights_(regions.size()),
-        counts_(regions.size()) {
+      : mask_(mask), pixels_(mask, marks), regions_(regions), weights_(regions.size()) {
     course_of_.assign(regions.size(), {});
     for (auto& courses : course_of_) courses.fill(kNone);
     for (std::uint64_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
@@ -39,7 +35,6 @@ class Courses {
         const double weight = pixels_.weight(regions[region], pixel);
         if (weight == 0.0) continue;
         weights_[region].add(weight);
-        ++counts_[region];
         for_each_share(pixel, [&](std::uint8_t tag, double) { course(region, tag); });
       }
     }
@@ -56,8 +51,6 @@ class Courses {
       });
     }
   }
-
-  [[nodiscard]] std::uint64_t pixel_count(std::size_t region) const { return counts_[region]; }
 
   // Whether any pixel of each tile is in a region.
   [[nodiscard]] std::vector<bool> wanted_tiles(const TileGrid& grid) const {
@@ -94,10 +87,20 @@ class Courses {
   const Mask& mask_;
   RegionPixels pixels_;
   const std::vector<LightRegion>& regions_;
-  std::vector<CompensatedSum> weights_;  // of each region's pixels
-  std::vector<std::uint64_t> counts_;
+  std::vector<CompensatedSum> weights_;                          // of each region's pixels
   std::vector<std::array<std::size_t, kMaskValues>> course_of_;  // by region and tag
 };
+
+// With what else the blocks hold that hold any of the samples.
+SampleRange in_whole_blocks(const CaptureSource& capture, SampleRange samples) {
+  SampleRange whole = samples;
+  for (std::uint64_t block = 0; block < capture.block_count(); ++block) {
+    const SampleRange held = capture.block_extent(block).range();
+    if (held.last <= samples.first || held.first >= samples.last) continue;
+    whole = {std::min(whole.first, held.first), std::max(whole.last, held.last)};
+  }
+  return whole;
+}
 
 }  // namespace
 
@@ -134,6 +137,16 @@ ChannelLight mean_light(const Picture& light, const RegionPixels& pixels, const 
   return mean;
 }
 
+MemoryNeeds region_light_needs(const CaptureSource& capture, const Mask& mask, const Mask* marks,
+                               const std::vector<LightRegion>& regions, SampleRange samples) {
+  std::uint64_t longest = 0;
+  for (std::uint64_t block = 0; block < capture.block_count(); ++block)
+    longest = std::max<std::uint64_t>(longest, capture.block_extent(block).sample_count);
+  const std::uint64_t course_bytes =
+      LightCourse::bytes(in_whole_blocks(capture, samples).size()) + longest * sizeof(ChannelSums);
+  return {{"light of regions", Courses(mask, marks, regions).list.size() * course_bytes}};
+}
+
 std::vector<RegionLight> measure_regions(CaptureSource& capture, const Transfer& transfer, const Mask& mask,
                                          const Mask* marks, const std::vector<LightRegion>& regions,
                                          const Picture* plate, SampleRange samples,
@@ -153,8 +166,8 @@ std::vector<RegionLight> measure_regions(CaptureSource& capture, const Transfer&
   std::vector<CompensatedSum> white_ns(regions.size());
   std::vector<ChangeRecord> history;
   BlockCursor cursor(capture);
-  std::optional<std::uint64_t> first_sample;
-  std::uint64_t last_sample = 0;
+  const SampleRange read = in_whole_blocks(capture, samples);
+  for (Course& course : courses.list) course.light.reserve(read.size());
   const auto add_pixel = [&](const BlockView& block, const std::vector<std::int64_t>& starts_ns,
                              std::uint64_t pixel) {
     courses.for_each(pixel, [&](Course& course, double weight) {
@@ -181,8 +194,6 @@ std::vector<RegionLight> measure_regions(CaptureSource& capture, const Transfer&
     if (held.last <= samples.first || held.first >= samples.last) continue;
     if (progress) progress(number, capture.block_count());
     const BlockView block = cursor.at(number, wants);
-    if (!first_sample) first_sample = held.first;
-    last_sample = held.last;
     std::vector<std::int64_t> starts_ns;
     for (std::uint64_t k = held.first; k < held.last; ++k) starts_ns.push_back(timeline.start_ns(k));
     starts_ns.push_back(timeline.reach_end_ns(held.last - 1));
@@ -215,9 +226,8 @@ std::vector<RegionLight> measure_regions(CaptureSource& capture, const Transfer&
 
   std::vector<RegionLight> measured(regions.size());
   const auto read_ns =
-      static_cast<double>(timeline.reach_end_ns(last_sample - 1) - timeline.start_ns(*first_sample));
+      static_cast<double>(timeline.reach_end_ns(read.last - 1) - timeline.start_ns(read.first));
   for (std::size_t region = 0; region < regions.size(); ++region) {
-    measured[region].pixel_count = courses.pixel_count(region);
     measured[region].white_share = white_ns[region].value() / read_ns;
   }
   if (plate != nullptr) {
@@ -231,7 +241,7 @@ std::vector<RegionLight> measure_regions(CaptureSource& capture, const Transfer&
   }
   for (Course& course : courses.list) {
     RegionLight& region = measured[course.region];
-    region.courses.emplace(course.tag, LightCourse(timeline, *first_sample, std::move(course.light)));
+    region.courses.emplace(course.tag, LightCourse(timeline, read.first, std::move(course.light)));
     if (plate != nullptr) {
       region.plate[course.tag] = {course.plate[0].value(), course.plate[1].value(), course.plate[2].value()};
     }

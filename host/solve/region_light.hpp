@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "capture/memory_needs.hpp"
 #include "capture/picture.hpp"
 #include "capture/transfer.hpp"
 #include "exposure/mask.hpp"
@@ -31,9 +32,8 @@ struct LightRegion {
 struct RegionLight {
   std::map<std::uint8_t, LightCourse> courses;  // by the mask value of the function that exposes them
   std::map<std::uint8_t, ChannelLight>
-      plate;                      // the same of the scene without what moves; empty where none was given
-  std::uint64_t pixel_count = 0;  // 0: no pixel is in the region
-  double white_share = 0;         // of its light, over time, that is held at the white code
+      plate;               // the same of the scene without what moves; empty where none was given
+  double white_share = 0;  // of its light, over time, that is held at the white code
 };
 
 // The weights of a region's pixels, one after another.
@@ -52,6 +52,11 @@ class RegionPixels {
 // The mean light of a region in a picture of light64, by channel.
 [[nodiscard]] ChannelLight mean_light(const Picture& light, const RegionPixels& pixels,
                                       const LightRegion& region);
+
+// What measure_regions() holds, beside a block and a plate, of the same.
+[[nodiscard]] MemoryNeeds region_light_needs(const CaptureSource& capture, const Mask& mask,
+                                             const Mask* marks, const std::vector<LightRegion>& regions,
+                                             SampleRange samples);
 
 // Of `samples`, which must not be none. `plate`, light64 of the same shape, may be null. Throws InputError for a damaged
 // block; progress counts blocks.

@@ -167,6 +167,19 @@ TEST_F(Moment, ActivityCountsEachTagForItself) {
   EXPECT_NE(text.find("  M7: 576 pixels, quietest "), std::string::npos) << text;
 }
 
+TEST_F(Moment, ActivityCountsTheMemoryOfEachTag) {
+  std::string mask = "P5 96 48 255\n";
+  for (int pixel = 0; pixel < 96 * 48; ++pixel) mask += static_cast<char>(pixel % 256);
+  scratch_.write("all-values.pgm", mask);
+  const auto with_tag = [&](const char* tag) {
+    return run({"activity", "-m", "all-values.pgm", "--tag", tag, "--memory", "220kB", "clip.tik"});
+  };
+  EXPECT_EQ(with_tag("3").status, 0) << with_tag("3").err;
+  const ProgramResult refused = with_tag("all");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("changes of samples 0.0822 MB"), std::string::npos) << refused.err;
+}
+
 TEST_F(Moment, ActivitySaysWhereItIsQuiet) {
   const auto json = json_of({"activity", "--by", "8", "clip.tik"});
   EXPECT_EQ(json["busiest"]["first_sample"], 1);

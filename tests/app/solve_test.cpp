@@ -62,6 +62,12 @@ TEST_F(Solve, FindsThePapersGainForTheBallAtRest) {
     EXPECT_TRUE(answer["kept"]) << answer;
     EXPECT_EQ(answer["tried_exposures"], 1);
   }
+  // It begins at -100, which takes away as much as the trail adds: nothing to divide by.
+  const json from_nothing = solved({"-k", "figure14.fn", "--normalize", "integral", "--free", "rest=-200..0",
+                                    "--wish", "72,22,6,6 gone at 0s", "clip.tik", "-o", "integral.fn"});
+  EXPECT_NEAR(from_nothing["gains"]["rest"].get<double>(), -25, 1e-5);
+  EXPECT_TRUE(from_nothing["kept"]) << from_nothing;
+
   // The ball is gone from the picture: there it has what the same functions make of the empty scene.
   ASSERT_EQ(run({"-k", "solved.fn", "clip.tik", "picture.pfm"}).status, 0);
   ASSERT_EQ(run({"--start", "0s", "--exposure", "1f", "clip.tik", "empty.pfm"}).status, 0);
@@ -185,6 +191,8 @@ TEST_F(Solve, SaysWhatMakesNoSense) {
   refused({"-k", "figure14.fn", "--wish", "all = 1", "-o", "solved.txt"}, 2,
           "gain functions are written as .fn");
   refused({"-k", "figure14.fn", "--wish", "72,22,6,6 gone", "--memory", "10kB"}, 2, "the plate");
+  // A region of one function: of 120 samples the light, and of a block of them how it changes.
+  refused({"-k", "figure14.fn", "--wish", "72,22,6,6 gone at 0s", "--memory", "10kB"}, 2, "light of regions");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "figure14-solved.fn"));
 }
 

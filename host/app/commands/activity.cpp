@@ -149,8 +149,7 @@ int run_activity(const Options& options) {
   const std::string& name = options.operands.front();
   Session session =
       open_session(name, options, make_devices(options), {.besides = Activity::needs, .renders = false});
-  const MeasuredActivity measured =
-      measure_activity(session.capture(), request, progress_bar("counting", options.quiet));
+  const auto measured = measure_activity(session, request, progress_bar("counting", options.quiet));
   const Activity& activity = measured.activity;
 
   if (outputs.chart) {
