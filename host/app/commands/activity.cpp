@@ -25,8 +25,7 @@ struct ActivityOutputs {
 };
 
 ActivityOutputs outputs_of(const Options& options) {
-  ActivityOutputs outputs;
-  outputs.chart = stated_output(options, "activity");
+  ActivityOutputs outputs{stated_output(options, "activity"), {}, {}};
   std::vector<std::string> inputs = input_files(options);
   if (outputs.chart) {
     constexpr std::uint32_t kColour = 3;
@@ -75,8 +74,7 @@ Json activity_json(const std::string& name, const MeasuredActivity& measured) {
   Json json{{"capture", name},
             {"duration_ns", timeline.duration_ns()},
             {"counted_pixels", measured.activity.pixel_count()}};
-  const auto add_moments = [&](Json& to, const std::optional<ActivityMoments>& moments,
-                               std::uint64_t pixels) {
+  const auto add_moments = [&](Json& to, const auto& moments, std::uint64_t pixels) {
     if (!moments) return;
     to.update({{"busiest_sample", moments->busiest_sample},
                {"busiest", stretch_json(moments->busiest, pixels)},
@@ -157,9 +155,8 @@ int run_activity(const Options& options) {
                   sheet::activity_chart(std::filesystem::path(name).filename().string(), measured.timeline,
                                         activity.changed_pixels(), activity.pixel_count(), measured.moments));
   }
-  if (outputs.map) {
+  if (outputs.map)
     write_picture(*outputs.map, sheet::activity_map(session.format().shape, activity.changes()));
-  }
   if (outputs.table) write_text(*outputs.table, measured.table());
   if (options.moment) {
     print_line(moments_text(name, *options.moment == "quietest", measured));
