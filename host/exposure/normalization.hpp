@@ -31,6 +31,10 @@ class Normalization {
   // `support`, `integral`, `absolute`, `seconds:0.5`. Throws UsageError for anything else.
   static Normalization parse(std::string_view text);
   [[nodiscard]] std::string text() const;
+  // Whether other gains, none of them 0, have another divisor.
+  [[nodiscard]] bool depends_on_gains() const {
+    return divisor_ == Divisor::integral || divisor_ == Divisor::absolute;
+  }
 
   // The function that, divided by D, gives `gain` · ∫ g v / X over a capture of this length: every gain times
   // one factor, `gain` · D / X, rounded once. A function that is zero in the capture comes back as it was.

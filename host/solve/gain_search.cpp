@@ -17,8 +17,9 @@ namespace {
 using Kind = LightWish::Kind;
 
 constexpr int kMostSteps = 60;
-// Other places to begin at, where a function cannot be normalized with the first.
+// Other places to begin at, where the first led to more cost than that.
 constexpr int kOtherBegins = 15;
+constexpr double kLeastCost = 1e-12;
 // A step that changes no gain by more than this share of it is none.
 constexpr double kLeastStep = 1e-15;
 // Nor is one that lessens the cost by a smaller share.
@@ -301,20 +302,25 @@ void GainSearch::descend() {
   }
 }
 
-// Where that costs least of several places, each gain's spread evenly over its bounds, and unlike the others'.
-void GainSearch::begin_elsewhere() {
-  double least = std::numeric_limits<double>::infinity();
-  for (int begin = 1; begin <= kOtherBegins; ++begin) {
-    std::vector<double> gains;
+// A divisor that depends on gains bends light, so that a descent may end in a hollow that is not the lowest: others
+// begin at places unlike the first, each gain's spread evenly over its bounds.
+void GainSearch::descend_from_several() {
+  descend();
+  double least = cost_at(gains_);
+  std::vector<double> best = gains_;
+  for (int begin = 1; begin <= kOtherBegins && least > kLeastCost; ++begin) {
     for (std::size_t i = 0; i < bounds_.size(); ++i) {
       const double turn = begin * std::sqrt(static_cast<double>((i + 1) * (i + 2)));  // irrational
-      gains.push_back(place_within(bounds_[i], turn - std::floor(turn)));
+      gains_[i] = place_within(bounds_[i], turn - std::floor(turn));
     }
-    const double cost = cost_at(gains);
-    if (!(cost < least)) continue;
+    if (!std::isfinite(cost_at(gains_))) continue;
+    descend();
+    const double cost = cost_at(gains_);
+    if (cost >= least) continue;
     least = cost;
-    gains_ = std::move(gains);
+    best = gains_;
   }
+  gains_ = std::move(best);
 }
 
 std::optional<FoundGains> GainSearch::find(const std::vector<std::int64_t>& times_ns) {
@@ -329,9 +335,12 @@ std::optional<FoundGains> GainSearch::find(const std::vector<std::int64_t>& time
   is_zero_.assign(bounds_.size(), false);
   gains_.clear();
   for (const Bounds& bounds : bounds_) gains_.push_back(begin_within(bounds));
-  if (!std::isfinite(cost_at(gains_))) begin_elsewhere();
   for (std::size_t turn = 0; turn <= bounds_.size(); ++turn) {
-    descend();
+    if (turn == 0 && exposure_.normalization.depends_on_gains()) {
+      descend_from_several();
+    } else {
+      descend();
+    }
     // A gain of 0, or what rounding leaves of it, counts in no support: with that the others are found again.
     bool has_new = false;
     double largest = 0.0;

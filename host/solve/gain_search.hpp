@@ -117,7 +117,7 @@ class GainSearch {
   [[nodiscard]] std::vector<LeastSquaresRow> changes(const std::vector<double>& gains) const;
   // The same of the gains that were found; none where a function cannot be normalized right beside them.
   [[nodiscard]] std::vector<LeastSquaresRow> changes_of_found() const;
-  void begin_elsewhere();
+  void descend_from_several();
   void descend();
   [[nodiscard]] std::vector<double> stepped() const;
 

@@ -275,6 +275,15 @@ TEST(GainSearch, BeginsElsewhereWhereAFunctionCancels) {
   EXPECT_NEAR(found->gains[0], -25, 1e-4);
   EXPECT_LE(found->cost, 1e-20);
 
+  // From far on the other side of where it cancels, the way down ends at a bound.
+  for (const double low : {-300.0, -1000.0}) {
+    pixel.wished.bounds = {{low, 0.0}};
+    const auto nearer = GainSearch(pixel.wished).find({});
+    ASSERT_TRUE(nearer);
+    EXPECT_NEAR(nearer->gains[0], -25, 1e-4);
+  }
+  pixel.wished.bounds = {{-200.0, 0.0}};
+
   // Light that only a function that all but cancels has: what tells it is not known.
   pixel.wished.wishes.clear();
   pixel.wish(Kind::equal, 1e5);
