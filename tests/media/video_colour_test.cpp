@@ -52,6 +52,21 @@ TEST(VideoColour, OfFilesThatSayNothingDependsOnTheirLines) {
   EXPECT_EQ(facts_of(*changed)[Setting::matrix], stated("matrix bt601"));
 }
 
+TEST(VideoColour, ThatIsNotKnownIsNamed) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  test::make(scratch, test_picture("64x48") + "-colorspace ycgco -color_primaries film clip.mkv");
+  std::map<Setting, std::string> notes;
+  const auto clip = test::open_test_clip(scratch / "clip.mkv");
+  for (const Note& note : clip->info().notes) {
+    if (!note.settings.empty()) notes[note.settings.front()] = note.text;
+  }
+  EXPECT_EQ(notes[Setting::matrix],
+            "the file's matrix, ycgco, is not known here and another is taken; state which");
+  EXPECT_EQ(notes[Setting::primaries],
+            "the file's set of primaries, film, is not known here and another is taken; state which");
+}
+
 TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
   NEEDS_FFMPEG();
   const Scratch scratch;

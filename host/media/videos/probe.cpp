@@ -139,12 +139,23 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.range = named_range(codec);
   result.primaries = primaries_of_coding_point(codec.color_primaries);
   result.pixel_aspect = pixel_aspect(opened.format.get(), stream, result.upright);
-  if (!result.transfer && !result.transfer_name.empty()) {
+  const auto note_unknown = [&](bool is_known, const char* what, const char* name, Setting setting) {
+    if (is_known || name == nullptr || *name == 0) return;
     result.notes.emplace_back(
-        format("the file's transfer function, {}, is not known here and another is taken; "
-               "state which",
-               result.transfer_name),
-        std::vector{Setting::transfer});
+        format("the file's {}, {}, is not known here and another is taken; state which", what, name),
+        std::vector{setting});
+  };
+  note_unknown(result.transfer.has_value(), "transfer function", result.transfer_name.c_str(),
+               Setting::transfer);
+  if (codec.color_space != AVCOL_SPC_UNSPECIFIED && codec.color_space != AVCOL_SPC_RESERVED &&
+      is_yuv(result.pixel_format)) {
+    note_unknown(result.matrix.has_value(), "matrix", av_color_space_name(codec.color_space),
+                 Setting::matrix);
+  }
+  if (codec.color_primaries != AVCOL_PRI_UNSPECIFIED && codec.color_primaries != AVCOL_PRI_RESERVED &&
+      codec.color_primaries != AVCOL_PRI_RESERVED0) {
+    note_unknown(result.primaries.has_value(), "set of primaries",
+                 av_color_primaries_name(codec.color_primaries), Setting::primaries);
   }
   if ((av_pix_fmt_desc_get(static_cast<AVPixelFormat>(codec.format))->flags & AV_PIX_FMT_FLAG_ALPHA) != 0) {
     result.notes.emplace_back("the file's transparency is left out");
