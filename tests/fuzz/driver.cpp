@@ -1,4 +1,5 @@
 #include <sanitizer/allocator_interface.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -13,6 +14,8 @@
 
 namespace nutik::fuzz {
 namespace {
+
+constexpr double kMostSeconds = 10;
 
 // Counted by hooks of the allocator, of all threads.
 constexpr std::int64_t kNoCeiling = std::numeric_limits<std::int64_t>::max();
@@ -35,6 +38,13 @@ void count_release(const volatile void* memory) {
   if (memory == nullptr) return;
   allocated_bytes -=
       static_cast<std::int64_t>(__sanitizer_get_allocated_size(const_cast<const void*>(memory)));
+}
+
+// Of the process, so that a busy machine makes no findings.
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 std::filesystem::path make_folder() {
@@ -90,10 +100,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   input_bytes = size;
   allocated_bytes = 0;
   ceiling_bytes = static_cast<std::int64_t>(kTarget.ceiling.fixed + kTarget.ceiling.per_input_byte * size);
+  const double begin = cpu_seconds();
   try {
     kTarget.read(input);
   } catch (const nutik::Error&) {
   }
   ceiling_bytes = kNoCeiling;
+  demand(cpu_seconds() - begin <= kMostSeconds, "an input takes ten seconds of CPU at most");
   return 0;
 }

@@ -2,7 +2,7 @@
 //
 //   in:      bytes, and a ceiling of memory
 //   always:  they are read, or refused with an Error. Any other exception, a crash, an undefined operation, more memory
-//            than the ceiling, or ten seconds without an end are findings
+//            than the ceiling, or more than ten seconds of CPU are findings
 //
 // Each target is a source file beside this one; tools/fuzz runs them.
 #pragma once
