@@ -5,9 +5,11 @@
 #include <thread>
 
 #include "session/activity.hpp"
+#include "session/pictures.hpp"
+#include "session/series_making.hpp"
 #include "session/shared_warnings.hpp"
 #include "session/sheet_making.hpp"
-#include "session/video_output.hpp"
+#include "session/video_making.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
 #include "support/still_clip.hpp"
@@ -80,6 +82,81 @@ TEST_F(ManyExposures, OfASheetAreThoseOfTheSession) {
   EXPECT_EQ(numbers, (std::vector<std::size_t>{0, 1}));
   EXPECT_EQ(sheet.layout.columns * sheet.layout.rows, 2u);
   EXPECT_EQ(sheet.picture.shape.channels, 3u);
+}
+
+// The file that holds this picture, byte by byte.
+std::string file_of(const test::Scratch& scratch, const Picture& picture) {
+  const auto path = scratch / "alone.png";
+  write_picture(path, picture);
+  return test::read_file(path);
+}
+
+ExposureRequest thirty_milliseconds() {
+  ExposureRequest request;
+  request.gains = PlainInterval{StatedTime::parse("30ms", "length"), Shutter()};
+  return request;
+}
+
+TEST_F(ManyExposures, OfASeriesAreThoseOfTheSession) {
+  std::vector<SeriesPicture> pictures;
+  for (const char* start : {"0ms", "10ms", "60ms"}) {
+    pictures.push_back(
+        {StatedTime::parse(start, "start"), scratch_ / ("s" + std::to_string(pictures.size()) + ".png")});
+  }
+  std::vector<Picture> exposed;
+  make_series(session_, thirty_milliseconds(), pictures, output_format({}, session_.format()), {}, {},
+              [&](std::uint64_t, ExposedPicture& one) {
+                exposed.push_back(one.picture);
+                return std::string();
+              });
+  ASSERT_EQ(exposed.size(), pictures.size());
+  for (std::size_t k = 0; k < exposed.size(); ++k) {
+    ExposureRequest request = thirty_milliseconds();
+    request.start = pictures[k].start;
+    const Picture alone = session_.render(request, output_format({}, session_.format())).picture;
+    EXPECT_EQ(exposed[k].bytes, alone.bytes) << k;
+    EXPECT_EQ(test::read_file(pictures[k].path), file_of(scratch_, alone)) << k;
+  }
+}
+
+TEST_F(ManyExposures, OfASeriesEndAtAPictureThatCannotBeWritten) {
+  const std::vector<SeriesPicture> pictures(
+      1000, {StatedTime::parse("0ms", "start"), scratch_ / "no/such/folder/s.png"});
+  std::uint64_t exposed = 0;
+  EXPECT_THROW(
+      make_series(session_, thirty_milliseconds(), pictures, output_format({}, session_.format()), {}, {},
+                  [&](std::uint64_t, ExposedPicture&) {
+                    ++exposed;
+                    return std::string();
+                  }),
+      OutputError);
+  EXPECT_LT(exposed, pictures.size());
+}
+
+TEST_F(ManyExposures, OfAVideoAreThoseOfTheSession) {
+  FramesRequest request;
+  request.exposure.gains = PlainInterval();
+  request.rate = {25, 1};
+  const VideoOutput output(scratch_ / "v-%02d.png", request.rate, {}, {});
+  const Frames frames = frames_of(request, session_.timeline());
+  ASSERT_EQ(frames.count, 3u);  // of 120 ms
+  std::vector<Exposure> times;
+  const MadeVideo made = make_video(session_, request, frames, output, {},
+                                    [&](std::uint64_t, const Exposure& exposure, const ExposedPicture&) {
+                                      times.push_back(exposure);
+                                      return std::string();
+                                    });
+  EXPECT_EQ(made.frames, frames.count);
+  EXPECT_FALSE(made.interruption);
+  ASSERT_EQ(times.size(), frames.count);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const ExposedPicture alone =
+        session_.render(functions_of(request.exposure, times[k], session_.timeline()),
+                        Mask::uniform(16, 16, 0), {}, output.frame_format(session_.format()));
+    EXPECT_EQ(test::read_file(scratch_ / ("v-0" + std::to_string(k) + ".png")),
+              file_of(scratch_, alone.picture))
+        << k;
+  }
 }
 
 TEST_F(ManyExposures, ActivityCountsThePixelsOfAMask) {

@@ -1,5 +1,4 @@
 // A series of exposures of one capture: `expose` with --every.
-#include <atomic>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,11 +9,10 @@
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/message_text.hpp"
-#include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/picture_queue.hpp"
 #include "session/pictures.hpp"
+#include "session/series_making.hpp"
 #include "session/size_text.hpp"
 
 namespace nutik::app {
@@ -48,7 +46,7 @@ class PictureNames {
 
 int run_series(const Options& options) {
   const PictureNames names(output_name(options, "expose", "-" + exposure_label(options) + "-%04d.png"));
-  ExposureRequest request = exposure_request(options);
+  const ExposureRequest request = exposure_request(options);
   const SeriesRequest series = series_request(options);
   const std::vector<std::string> inputs = input_files(options);
   check_output(names[0], OutputKind::picture, inputs);  // before a clip is read
@@ -57,48 +55,39 @@ int run_series(const Options& options) {
   Session session = open_session(options, {.besides = PictureQueue::needs([&](const CaptureFormat& capture) {
                                              return output_format(wishes, names[0], capture).type;
                                            })});
-  const std::vector<StatedTime> starts = starts_of(series, request, session.timeline());
-  for (std::uint64_t k = 1; k < starts.size(); ++k) check_output(names[k], OutputKind::picture, inputs);
+  std::vector<SeriesPicture> pictures;
+  for (StatedTime& start : starts_of(series, request, session.timeline())) {
+    pictures.push_back({std::move(start), names[pictures.size()]});
+    check_output(pictures.back().path, OutputKind::picture, inputs);
+  }
   const OutputFormat output = output_format(wishes, names[0], session.format());
 
   ExposureTally tally;
-  std::atomic<bool> has_failed = false;  // a picture could not be written: the others would not, either
-  std::string failure;
-  PictureQueue pictures([&](std::size_t, const Error& error) {
-    if (!has_failed) failure = message_text(error);
-    has_failed = true;
-  });
   std::optional<ExposureFigures> first;
   {
     WarningsAtEnd warnings;
-    Progress progress("exposing", starts.size(), options.quiet);
-    for (std::uint64_t k = 0; k < starts.size() && !has_failed; ++k) {
-      progress.show(k);
-      request.start = starts[k];
-      ExposedPicture exposed = session.render(request, output);
-      tally.add(exposed);
-      warnings.add(names[k].string(), exposure_warnings(exposed));
-      pictures.push(k, names[k], std::move(exposed.picture),
-                    recipe.text(tally.precision(), {{{"start", starts[k].text()}}, {}}), file_wishes(wishes));
-      if (k == 0) first = std::move(exposed.figures);
-    }
-    pictures.finish();
+    make_series(session, request, pictures, output, file_wishes(wishes),
+                progress_bar("exposing", options.quiet), [&](std::uint64_t k, ExposedPicture& exposed) {
+                  tally.add(exposed);
+                  warnings.add(pictures[k].path.string(), exposure_warnings(exposed));
+                  if (k == 0) first = std::move(exposed.figures);
+                  return recipe.text(tally.precision(), {{{"start", pictures[k].start.text()}}, {}});
+                });
   }
-  if (has_failed) throw OutputError(failure);
 
   Answer answer{{{"pictures", Json::array()}}};
-  for (std::uint64_t k = 0; k < starts.size(); ++k) {
-    answer.json["pictures"].push_back({{"picture", names[k].string()}, {"start", starts[k].text()}});
+  for (const SeriesPicture& picture : pictures) {
+    answer.json["pictures"].push_back({{"picture", picture.path.string()}, {"start", picture.start.text()}});
   }
   answer.json.update(shape_json(session.format().shape));
   answer.json["functions"] = functions_json(*first);
   answer.line = format("{} … {}: {} exposures every {}, {}{}{}", names[0].string(),
-                       names[starts.size() - 1].filename().string(), starts.size(), series.every.text(),
+                       pictures.back().path.filename().string(), pictures.size(), series.every.text(),
                        shape_text(session.format().shape), still_gains_text(*first, request.is_plain()),
                        codes_text(first->capture, output));
   if (options.verbose) answer.details.push_back("first " + plan_text(*first));
   tally.end(answer, session, options.verbose,
-            format(", {:.1f} exposures a second", static_cast<double>(starts.size()) / tally.seconds()));
+            format(", {:.1f} exposures a second", static_cast<double>(pictures.size()) / tally.seconds()));
   answer.notes = source_lines(session);
   return tell(options, names[0], answer);
 }
