@@ -98,6 +98,13 @@ StoredErrors real_errors(const RenderPlan& plan, const ErrorBound& bound, const 
   return errors;
 }
 
+// Of an error above 0.
+double share_of(double error, double allowed) {
+  if (std::isnan(error)) return kInfinite;  // no bound allows what is no number
+  if (std::isinf(allowed)) return std::isinf(error) ? 1.0 : 0.0;
+  return error / allowed;
+}
+
 }  // namespace
 
 LightErrors light_errors(const RenderPlan& plan, const ErrorBound& bound, const Picture& expected,
@@ -110,14 +117,18 @@ LightErrors light_errors(const RenderPlan& plan, const ErrorBound& bound, const 
   for (std::uint64_t i = 0; i < wanted.size(); ++i) {
     if (found[i] == wanted[i]) continue;
     double error = std::fabs(found[i] - wanted[i]);
+    const double allowed = bounds.of(i / plan.capture.shape.channels).light;
+    if (const double share = share_of(error, allowed); share > errors.share_of_bound) {
+      errors.share_of_bound = share;
+      errors.bounded_error = std::isnan(error) ? kInfinite : error;
+      errors.bound = allowed;
+    }
     if (std::isnan(error)) error = kInfinite;
     if (error > errors.worst) {
       errors.worst = error;
       errors.worst_value = i;
     }
     errors.rms = std::hypot(errors.rms, error);  // squares of large light would overflow
-    errors.share_of_bound =
-        std::max(errors.share_of_bound, error / bounds.of(i / plan.capture.shape.channels).light);
   }
   errors.rms /= std::sqrt(static_cast<double>(std::max<std::size_t>(1, wanted.size())));
   const double share_of_white = worst_share_of_white(plan, bound.output, expected, light);

@@ -2,7 +2,7 @@
 //
 //   in:      a plan, the bound of an arithmetic, the light of the reference (light64), a picture of the arithmetic
 //   out:     errors in light and in codes; values that are stored otherwise than the reference's
-//   always:  a value that is no number is infinitely wrong; each value is held to the bound of its own pixel
+//   always:  a value that is no number is infinitely wrong, also where the bound is infinite; each value is held to the bound of its own pixel
 #pragma once
 
 #include <cstdint>
@@ -21,6 +21,8 @@ struct LightErrors {
       0.0;  // between the places of both on the scale of codes, before they are rounded
   double worst_16_bit_codes = 0.0;
   double share_of_bound = 0.0;  // the largest error in what the bound of its pixel allows
+  double bounded_error = 0.0;   // that error, infinite of what is no number,
+  double bound = 0.0;           // and what its pixel is allowed
 };
 
 [[nodiscard]] LightErrors light_errors(const RenderPlan& plan, const ErrorBound& bound,

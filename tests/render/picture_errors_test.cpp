@@ -67,6 +67,17 @@ TEST_F(PictureErrors, OfCodesByHand) {
   EXPECT_EQ(stored_errors(plan_, bound(0, 0.95), expected, wrong).explained, 3u);
 }
 
+TEST_F(PictureErrors, OfNoNumberExceedAnyBound) {
+  const Picture expected = light({0.1, 0.2, 0.3, 0.4});
+  const LightErrors wrong = light_errors(plan_, bound(INFINITY, 0), expected, light({0.1, 0.2, NAN, 0.4}));
+  EXPECT_EQ(wrong.share_of_bound, INFINITY);
+  EXPECT_EQ(wrong.bounded_error, INFINITY);
+  EXPECT_EQ(wrong.worst_value, 2u);
+  const LightErrors large =
+      light_errors(plan_, bound(INFINITY, 0), expected, light({0.1, INFINITY, 0.3, 4e200}));
+  EXPECT_EQ(large.share_of_bound, 1.0);
+}
+
 TEST_F(PictureErrors, OfFloatsAllowForTheirStep) {
   Picture floats(format_.shape, ValueType::light32, 0);
   const float next = std::nextafter(0.1f, 1.0f);
