@@ -10,6 +10,7 @@ that is busy. --markdown prints the table of docs/reliability.md.
 
 import argparse
 import os
+import random
 import shutil
 import signal
 import struct
@@ -69,6 +70,12 @@ LINES = (
     Line(f"mask --size {PNG_SIDE}x{PNG_SIDE} --ellipse 4000,4000,3500,3000 --smooth 100 -o o.pgm", 14 * PNG_MB),
     Line("activity dense.tik o.png", 2 * BLOCK_MB),
     Line("activity ages.tik o.png"),
+    Line("plate dense.tik o.png", 3 * BLOCK_MB),
+    Line("plate busy.tik o.png", 4 * BLOCK_MB),
+    Line("study busy.tik -o o.png", 4 * BLOCK_MB, (3,)),
+    Line("solve -k solve.fn --wish all=plate busy.tik o.fn", 4 * BLOCK_MB, uses_device=True),
+    Line(f"encode --align homography -f 10 --raw {SIDE}x{SIDE}:gray busy.gray o.tik", 2 * BLOCK_MB, (3,)),
+    Line(f"encode --deflicker -f 10 --raw {SIDE}x{SIDE}:gray busy.gray o.tik", 4 * BLOCK_MB),
     Line("noise huge.tif -o o.noise", 0, (3,)),
     Line("recover cut.tik o.tik"),
     Line("retime -f 20 dense.tik o.tik"),
@@ -102,12 +109,19 @@ def write_inputs(folder, run):
     (folder / "huge.tif").write_bytes(tiff_of_few_bytes())
     (folder / "black.png").write_bytes(png(PNG_SIDE, PNG_SIDE))
     (folder / "text.png").write_bytes(png(8, 8, *(chunk(b"tEXt", b"nutik-cl\0{" + b"[" * 60_000) for _ in range(40))))
-    (folder / "black.gray").write_bytes(bytes(SIDE * SIDE) * SAMPLES)
+    with (folder / "black.gray").open("wb") as black:
+        black.truncate(SIDE * SIDE * SAMPLES)
+    noise = random.Random(1)
+    with (folder / "busy.gray").open("wb") as busy:  # picture by picture: what this process holds, a child begins with
+        for _ in range(SAMPLES):
+            busy.write(noise.randbytes(SIDE * SIDE))
+    (folder / "solve.fn").write_text("M0 [0:1], [1000000000:1], [1000000001:g], [5000000000:g], [5000000001:0]\n")
     with (folder / "points.fn").open("w") as functions:
         functions.write("M0 {" + ",".join(f"[{1000 * i}:{i % 7}]" for i in range(POINTS)) + "}\n")
     (folder / "list.txt").write_text("--start 0s --exposure 1s a.png\n--" + "x" * 8_000_000 + "\n" +
                                      "".join(f"--start 0s --exposure {k}f l-{k}.png\n" for k in range(1, 12)))
     run(f"encode --tiles dense --block-samples {SAMPLES} -f 10 --raw {SIDE}x{SIDE}:gray black.gray dense.tik")
+    run(f"encode -f 10 --raw {SIDE}x{SIDE}:gray busy.gray busy.tik")
     dense = (folder / "dense.tik").read_bytes()
     (folder / "cut.tik").write_bytes(dense[:-100])
     # One picture a year, for longer than anybody lives.
