@@ -1,10 +1,6 @@
 #include "media/input_checksum.hpp"
 
-#define XXH_STATIC_LINKING_ONLY
-#include <xxhash.h>
-
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -12,6 +8,7 @@
 #include "media/photron_clip.hpp"
 #include "media/still_sequence.hpp"
 #include "media/stills_table.hpp"
+#include "system/checksum.hpp"
 #include "system/input_bytes.hpp"
 #include "system/mapped_file.hpp"
 
@@ -24,27 +21,11 @@ constexpr std::uint64_t kLeastEndBytes = 4 << 10;
 constexpr std::uint64_t kMostEndBytes = 1 << 20;
 constexpr std::size_t kPieceBytes = 1 << 20;
 
-struct FreeState {
-  void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
-};
-
-class Hash {
- public:
-  Hash() : state_(XXH3_createState()) {
-    if (!state_) throw std::bad_alloc();
-    XXH3_64bits_reset(state_.get());
-  }
-  void add(std::span<const std::byte> bytes) { XXH3_64bits_update(state_.get(), bytes.data(), bytes.size()); }
-  void add_size(std::uint64_t size) {
-    std::byte bytes[8];
-    for (int i = 0; i < 8; ++i) bytes[i] = static_cast<std::byte>(size >> (8 * i));
-    add(bytes);
-  }
-  [[nodiscard]] std::uint64_t value() const { return XXH3_64bits_digest(state_.get()); }
-
- private:
-  std::unique_ptr<XXH3_state_t, FreeState> state_;
-};
+void add_size(Checksum& to, std::uint64_t size) {
+  std::byte bytes[8];
+  for (int i = 0; i < 8; ++i) bytes[i] = static_cast<std::byte>(size >> (8 * i));
+  to.add(bytes);
+}
 
 std::uint64_t size_of(const fs::path& file) {
   std::error_code error;
@@ -69,9 +50,9 @@ std::string files_checksum(std::span<const fs::path> files) {
   const bool whole = total <= kWholeChecksumBytes;
   const std::uint64_t end_bytes =
       std::clamp<std::uint64_t>(kWholeChecksumBytes / (2 * files.size()), kLeastEndBytes, kMostEndBytes);
-  Hash hash;
+  Checksum checksum;
   for (const fs::path& file : files) {
-    hash.add_size(size_of(file));
+    add_size(checksum, size_of(file));
     if (size_of(file) == 0) continue;
     const MappedFile mapped(file);
     const auto bytes = mapped.bytes();
@@ -79,22 +60,22 @@ std::string files_checksum(std::span<const fs::path> files) {
       // Piece by piece: a clip may be larger than the memory that is allowed.
       for (std::size_t at = 0; at < bytes.size(); at += kPieceBytes) {
         const auto piece = bytes.subspan(at, std::min(kPieceBytes, bytes.size() - at));
-        hash.add(piece);
+        checksum.add(piece);
         mapped.release(piece);
       }
     } else {
-      hash.add(bytes.first(end_bytes));
-      hash.add(bytes.last(end_bytes));
+      checksum.add(bytes.first(end_bytes));
+      checksum.add(bytes.last(end_bytes));
     }
   }
-  return format("xxh3-64{}:{:016x}", whole ? "" : "-ends", hash.value());
+  return format("xxh3-64{}:{:016x}", whole ? "" : "-ends", checksum.value());
 }
 
 std::string bytes_checksum(std::span<const std::byte> bytes) {
-  Hash hash;
-  hash.add_size(bytes.size());
-  hash.add(bytes);
-  return format("xxh3-64:{:016x}", hash.value());
+  Checksum checksum;
+  add_size(checksum, bytes.size());
+  checksum.add(bytes);
+  return format("xxh3-64:{:016x}", checksum.value());
 }
 
 std::string input_name(const fs::path& path) {

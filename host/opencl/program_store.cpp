@@ -6,11 +6,12 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "opencl/cache_folder.hpp"
+#include "system/checksum.hpp"
 
 namespace nutik {
 namespace {
 
-constexpr std::string_view kMagic = "nutik-cl program 1\n";
+constexpr std::string_view kMagic = "nutik-cl program 2\n";
 
 // How often a driver is asked to build a kernel before it is taken at its word.
 constexpr int kAttempts = 4;
@@ -27,15 +28,6 @@ bool take_number(std::string_view& from, std::uint64_t& number) {
 }
 
 }  // namespace
-
-// FNV-1a.
-std::uint64_t hash_of(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char byte : bytes) {
-    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
-  }
-  return hash;
-}
 
 std::string identity_of(const cl::Device& device) {
   const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
@@ -57,7 +49,7 @@ ProgramStore::ProgramStore(cl::Context context, cl::Device device, std::filesyst
       device_key_(identity_of(device_)) {}
 
 std::filesystem::path ProgramStore::file_for(const std::string& name, const std::string& key) const {
-  return cache_folder_ / format("{}-{:016x}.bin", name, hash_of(key));
+  return cache_folder_ / format("{}-{:016x}.bin", name, checksum(key));
 }
 
 // magic, key length, key, binary length, hash of the binary, binary
@@ -72,7 +64,7 @@ bool ProgramStore::load(const std::string& name, const std::string& key, const s
   if (!take_number(rest, key_bytes) || rest.substr(0, key_bytes) != key) return false;
   rest.remove_prefix(key.size());
   if (!take_number(rest, binary_bytes) || !take_number(rest, hash)) return false;
-  if (rest.size() != binary_bytes || hash_of(rest) != hash) return false;
+  if (rest.size() != binary_bytes || checksum(rest) != hash) return false;
   try {
     const std::vector<unsigned char> binary(rest.begin(), rest.end());
     program = cl::Program(context_, {device_}, {binary});
@@ -142,7 +134,7 @@ void ProgramStore::save_new_binaries() {
       append_number(bytes, key.size());
       bytes += key;
       append_number(bytes, binary.size());
-      append_number(bytes, hash_of(binary));
+      append_number(bytes, checksum(binary));
       bytes += binary;
       write_to_cache(file_for(entry.name, key), bytes);
     } catch (const std::exception&) {

@@ -57,8 +57,6 @@ class ProgramStore {
   std::map<std::string, Entry> entries_;  // by key
 };
 
-[[nodiscard]] std::uint64_t hash_of(std::string_view bytes);
-
 // A device with its driver, in lines: what a binary was built for.
 [[nodiscard]] std::string identity_of(const cl::Device& device);
 

@@ -7,6 +7,7 @@
 #include "opencl/cache_folder.hpp"
 #include "opencl/kernel_sources.hpp"
 #include "opencl/program_store.hpp"
+#include "system/checksum.hpp"
 
 namespace nutik {
 namespace {
@@ -62,7 +63,7 @@ bool is_worse(const Verdict& a, const Verdict& b) {
 
 VerdictStore::VerdictStore(const cl::Device& device, std::filesystem::path folder)
     : device_key_(format("{}{}{:016x} {:016x}\n", kMagic, identity_of(device),
-                         hash_of(kernel_source("expose")), hash_of(kernel_source("develop")))),
+                         checksum(kernel_source("expose")), checksum(kernel_source("develop")))),
       folder_(std::move(folder)) {}
 
 std::string VerdictStore::key_of(const TestedPrograms& programs) const {
@@ -72,7 +73,7 @@ std::string VerdictStore::key_of(const TestedPrograms& programs) const {
 std::optional<Verdict> VerdictStore::find(const TestedPrograms& programs) const {
   if (folder_.empty()) return {};
   const std::string key = key_of(programs);
-  const auto kept = read_verdict(folder_ / format("{}{:016x}.txt", kPrefix, hash_of(key)), key);
+  const auto kept = read_verdict(folder_ / format("{}{:016x}.txt", kPrefix, checksum(key)), key);
   if (!kept || kept->precision != programs.precision) return {};
   return kept->verdict;
 }
@@ -80,7 +81,7 @@ std::optional<Verdict> VerdictStore::find(const TestedPrograms& programs) const 
 void VerdictStore::keep(const TestedPrograms& programs, const Verdict& verdict) const {
   if (folder_.empty()) return;
   const std::string key = key_of(programs);
-  write_to_cache(folder_ / format("{}{:016x}.txt", kPrefix, hash_of(key)),
+  write_to_cache(folder_ / format("{}{:016x}.txt", kPrefix, checksum(key)),
                  key + verdict_line(programs.precision, verdict));
 }
 

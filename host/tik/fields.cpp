@@ -8,7 +8,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/block.hpp"
-#include "tik/checksum.hpp"
+#include "system/checksum.hpp"
 
 namespace nutik::tik {
 namespace {

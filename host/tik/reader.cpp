@@ -6,9 +6,9 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/seconds_text.hpp"
+#include "system/checksum.hpp"
 #include "system/interruption.hpp"
 #include "system/output_file.hpp"
-#include "tik/checksum.hpp"
 #include "tik/codec.hpp"
 #include "tik/writer.hpp"
 

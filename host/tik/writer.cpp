@@ -8,7 +8,7 @@
 
 #include "capture/error.hpp"
 #include "imev/payload_parts.hpp"
-#include "tik/checksum.hpp"
+#include "system/checksum.hpp"
 
 namespace nutik::tik {
 namespace {

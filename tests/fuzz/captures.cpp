@@ -3,7 +3,7 @@
 
 #include "fuzz/target.hpp"
 #include "render/reference_renderer.hpp"
-#include "tik/checksum.hpp"
+#include "system/checksum.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik::fuzz {
@@ -59,14 +59,14 @@ void mend_block(std::span<std::byte> file, std::size_t at, std::size_t first_blo
     const std::uint64_t payload =
         (exposures + header.exposure_bytes + tik::kAlignment - 1) / tik::kAlignment * tik::kAlignment;
     if (header.exposure_bytes != 0) {
-      header.exposures_checksum = tik::checksum(file.subspan(exposures, header.exposure_bytes));
+      header.exposures_checksum = checksum(file.subspan(exposures, header.exposure_bytes));
     }
     if (fits(payload, header.stored_bytes, file.size())) {
-      header.payload_checksum = tik::checksum(file.subspan(payload, header.stored_bytes));
+      header.payload_checksum = checksum(file.subspan(payload, header.stored_bytes));
     }
   }
-  header.front_checksum = tik::checksum(file.first(first_block));
-  header.header_checksum = tik::checksum_of(header, offsetof(tik::BlockHeader, header_checksum));
+  header.front_checksum = checksum(file.first(first_block));
+  header.header_checksum = checksum_of(header, offsetof(tik::BlockHeader, header_checksum));
   store(file, at, header);
 }
 
@@ -76,13 +76,13 @@ void mend_footer(std::span<std::byte> file) {
   auto footer = load<tik::Footer>(file, at);
   const std::uint64_t index_bytes = footer.block_count * sizeof(tik::IndexEntry);
   if (footer.block_count <= file.size() && fits(footer.index_offset, index_bytes, file.size())) {
-    footer.index_checksum = tik::checksum(file.subspan(footer.index_offset, index_bytes));
+    footer.index_checksum = checksum(file.subspan(footer.index_offset, index_bytes));
   }
   const std::uint64_t exposure_bytes = footer.sample_count * sizeof(Exposure);
   if (footer.sample_count <= file.size() && fits(footer.exposures_offset, exposure_bytes, file.size())) {
-    footer.exposures_checksum = tik::checksum(file.subspan(footer.exposures_offset, exposure_bytes));
+    footer.exposures_checksum = checksum(file.subspan(footer.exposures_offset, exposure_bytes));
   }
-  footer.checksum = tik::checksum_of(footer, offsetof(tik::Footer, checksum));
+  footer.checksum = checksum_of(footer, offsetof(tik::Footer, checksum));
   std::memcpy(footer.magic, tik::kFooterMagic, sizeof footer.magic);
   store(file, at, footer);
 }

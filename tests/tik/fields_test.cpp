@@ -10,7 +10,7 @@
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
-#include "tik/checksum.hpp"
+#include "system/checksum.hpp"
 #include "tik/header.hpp"
 #include "tik/reader.hpp"
 #include "tik/writer.hpp"

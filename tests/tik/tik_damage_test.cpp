@@ -10,7 +10,7 @@
 #include "support/payloads.hpp"
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
-#include "tik/checksum.hpp"
+#include "system/checksum.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik::tik {
