@@ -323,7 +323,7 @@ TEST_F(Moment, SweepRefusesWhatMakesNoSense) {
   refused({"--shift", "0..1f/1f", "--stretch", "1..2/1", "--scale-gain", "1..2/1"},
           "three parameters do not fit a sheet");
   refused({"--shift", "0..1f/1f", "--stretch", "1..2/1", "--columns", "3"}, "leave out --columns");
-  refused({"--shift", "0..1f/1f", "--each", "same.png"}, "has no place for a number; write name%02d.png");
+  refused({"--shift", "0..1f/1f", "--each", "same.png"}, "--each needs a number in its pictures' name, as in same-%03d.png");
   refused({"--shift", "0..1f/1f", "--each", "x%d.gif"}, "pictures are written as .png");
   refused({"--shift", "0..1f/1f", "--each", "x%d.pfm"}, "x0.pfm holds floating point only; write a .png");
   expect_refused({"sweep", "--shift", "0..1f/1f", "clip.tik"}, 2, "an exposure needs a plain interval");

@@ -1,5 +1,4 @@
 // A series of exposures of one capture: `expose` with --every.
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -11,41 +10,13 @@
 #include "app/requests/requests.hpp"
 #include "session/format.hpp"
 #include "session/picture_queue.hpp"
-#include "session/pictures.hpp"
 #include "session/series_making.hpp"
 #include "session/size_text.hpp"
 
 namespace nutik::app {
-namespace {
-
-namespace fs = std::filesystem;
-
-// Where each picture goes; numbers count from 0, as pictures of a clip do.
-class PictureNames {
- public:
-  explicit PictureNames(const fs::path& pattern) : folder_(pattern.parent_path()) {
-    const auto name = NumberedName::parse(pattern.filename().string());
-    if (!name) {
-      throw UsageError(
-          format("a series needs a number in its pictures' name, as in {}; {} would be written again and "
-                 "again",
-                 (folder_ / (pattern.stem().string() + "-%03d" + pattern.extension().string())).string(),
-                 pattern.string()));
-    }
-    name_ = *name;
-  }
-
-  [[nodiscard]] fs::path operator[](std::uint64_t k) const { return folder_ / name_.with(k); }
-
- private:
-  fs::path folder_;
-  NumberedName name_;
-};
-
-}  // namespace
-
 int run_series(const Options& options) {
-  const PictureNames names(output_name(options, "expose", "-" + exposure_label(options) + "-%04d.png"));
+  const PictureNames names(output_name(options, "expose", "-" + exposure_label(options) + "-%04d.png"),
+                           "a series");
   const ExposureRequest request = exposure_request(options);
   const SeriesRequest series = series_request(options);
   const std::vector<std::string> inputs = input_files(options);

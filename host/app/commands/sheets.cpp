@@ -91,13 +91,9 @@ std::vector<std::filesystem::path> single_names(const Options& options, std::siz
                                                 const std::filesystem::path& sheet) {
   std::vector<std::filesystem::path> names;
   if (!options.each) return names;
-  const std::filesystem::path pattern = *options.each;
-  const auto numbered = NumberedName::parse(pattern.filename().string());
-  if (!numbered) {
-    throw UsageError(format("--each {} has no place for a number; write name%02d.png", *options.each));
-  }
+  const PictureNames numbered(*options.each, "--each");
   for (std::size_t i = 0; i < count; ++i) {
-    names.push_back(pattern.parent_path() / numbered->with(i));
+    names.push_back(numbered[i]);
     check_output(names.back(), OutputKind::picture, inputs);
     if (std::filesystem::absolute(names.back()).lexically_normal() ==
         std::filesystem::absolute(sheet).lexically_normal()) {

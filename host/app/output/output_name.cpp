@@ -4,7 +4,6 @@
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/function_input.hpp"
-#include "session/pictures.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {
@@ -40,6 +39,18 @@ bool writes_to_standard_output(const Options& options) {
   if (writes && options.json)
     throw UsageError("--json answers on standard output, where the picture goes; use one");
   return writes;
+}
+
+PictureNames::PictureNames(const std::filesystem::path& pattern, std::string_view who)
+    : folder_(pattern.parent_path()) {
+  const auto name = NumberedName::parse(pattern.filename().string());
+  if (!name) {
+    throw UsageError(
+        format("{} needs a number in its pictures' name, as in {}; {} would be written again and again", who,
+               (folder_ / (pattern.stem().string() + "-%03d" + pattern.extension().string())).string(),
+               pattern.string()));
+  }
+  name_ = *name;
 }
 
 std::vector<std::string> input_files(const Options& options) {

@@ -1,6 +1,7 @@
 // Where a command writes.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "app/command_line/options.hpp"
 #include "session/output_check.hpp"
+#include "session/pictures.hpp"
 
 namespace nutik::app {
 
@@ -22,6 +24,19 @@ namespace nutik::app {
 
 // Whether standard output takes a picture, so that nothing else may go there. Throws UsageError where something must.
 [[nodiscard]] bool writes_to_standard_output(const Options& options);
+
+// Names of many pictures, of a pattern like `motion-%03d.png`; numbers count from 0, as pictures of a clip do.
+class PictureNames {
+ public:
+  // Throws UsageError where the pattern has no place for a number; `who` needs one.
+  PictureNames(const std::filesystem::path& pattern, std::string_view who);
+
+  [[nodiscard]] std::filesystem::path operator[](std::uint64_t k) const { return folder_ / name_.with(k); }
+
+ private:
+  std::filesystem::path folder_;
+  NumberedName name_;
+};
 
 // The files that a command reads, each still of a sequence among them: no output may replace one. Its first operand is
 // one of them, where it has any.
