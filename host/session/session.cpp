@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <future>
-#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -90,7 +89,7 @@ class Session::Implementation {
   std::optional<Timeline> announced_;
 
   PlanCache plans_;
-  std::once_flag warmed_up_;
+  std::atomic_flag warmed_up_;
   std::atomic<bool> is_spent_ = false;
 };
 
@@ -196,7 +195,7 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
                                                std::uint64_t stream_bytes) {
   throw_if_cancelled(control);
   RenderPlan plan = plans_.plan(source, functions, mask, options);
-  std::call_once(warmed_up_, [&] { warm_up(source, plan, output); });
+  if (!warmed_up_.test_and_set()) warm_up(source, plan, output);
   if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());
   // In the mask and in its map.
   const std::uint64_t mixed_bytes = 2 * mask.mixed.bytes();
