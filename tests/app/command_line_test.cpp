@@ -158,7 +158,7 @@ TEST_F(CommandLine, RefusesWhatMakesNoSense) {
   expect_refused({"-k", "one.fn", "clip.tik", "a.png", "b.png"}, 2, "'b.png' is one file too many");
   expect_refused({"-k", "one.fn", "--start", "0s", "--exposure", "1ms", "clip.tik"}, 2, "use one");
   expect_refused({"--start", "0s", "clip.tik"}, 2, "Add --exposure 10ms");
-  expect_refused({"--exposure", "10", "clip.tik"}, 2, "exposure '10' is no time; write a number and a unit");
+  expect_refused({"--exposure", "10", "clip.tik"}, 2, "--exposure '10' is no time; write a number and a unit");
   expect_refused({"--exposure", "1f", "--start", "9f", "clip.tik"}, 2,
                  "picture 9 is outside the capture, which has 6");
   expect_refused({"--exposure", "1ms", "--start", "9s", "clip.tik"}, 2,
@@ -166,7 +166,7 @@ TEST_F(CommandLine, RefusesWhatMakesNoSense) {
   expect_refused({"--fsp", "3", "clip.avi", "x.tik"}, 2, "there is no option --fsp; did you mean --fps?");
   expect_refused({"--tolerance", "1", "-k", "one.fn", "clip.tik"}, 2, "--tolerance describes a clip");
   expect_refused({"devices", "-m", "mask.pgm"}, 2, "-m does not go with devices; it is an option of: expose");
-  expect_refused({"-f", "fast", "clip.avi", "x.tik"}, 2, "frame rate 'fast' is not a number");
+  expect_refused({"-f", "fast", "clip.avi", "x.tik"}, 2, "--fps 'fast' is not a number");
   expect_refused({"-a", "400", "clip.avi", "x.tik"}, 2, "shutter angle 400 is outside 0 < angle <= 360");
   expect_refused({"--depth", "12", "-k", "one.fn", "clip.tik"}, 2,
                  "depth '12' is not known; choose 8, 16, half or float");

@@ -168,7 +168,7 @@ TEST_F(Noise, SaysWhatCannotBe) {
   };
   expect_refused(with({"--noise", "camera.noise", "--tolerance", "2"}), 2, "leave one out");
   expect_refused(with({"--sigmas", "2"}), 2, "--sigmas counts standard deviations of a camera's noise");
-  expect_refused(with({"--noise", "auto", "--sigmas", "0"}), 2, "sigmas '0' is no number of 0.1 … 100");
+  expect_refused(with({"--noise", "auto", "--sigmas", "0"}), 2, "--sigmas '0' is no number of 0.1 … 100");
   expect_refused(with({"--noise", "absent.noise"}), 3, "absent.noise");
   scratch_.write("wrong.noise", "nutik noise 0\nwhite 255\ntransfer srbg\n");
   expect_refused(with({"--noise", "wrong.noise"}), 3, "wrong.noise:3:10: transfer 'srbg' is not known");

@@ -147,7 +147,7 @@ TEST_F(Series, SaysWhatIsWrongBeforeItWrites) {
   expect_refused(with({"--every", "1.5f", "-o", "o%d.pfm"}), "is not a whole number of pictures");
   expect_refused(with({"--every", "40", "-o", "o%d.pfm"}), "every '40' is no time");
   expect_refused(with({"--every", "1s", "--count", "0", "-o", "o%d.pfm"}),
-                 "count '0' is no whole number of 1 … 1000000");
+                 "--count '0' is no whole number of 1 … 1000000");
   expect_refused(with({"--count", "3", "-o", "o%d.pfm"}), "--count goes with --every");
   expect_refused(with({"--every", "300ms", "--count", "5", "-o", "o%d.pfm"}),
                  "exposure 4 of the series would start at 1.2 s, behind the end of the capture at 1 s; "

@@ -215,9 +215,9 @@ TEST_F(Video, SaysWhatMakesNoSense) {
   };
   const Case cases[] = {
       {{"v.mp4", "--out-fps", "0"}, 2, "frame rate 0 is not positive"},
-      {{"v.mp4", "--out-fps", "fast"}, 2, "frame rate of the video 'fast' is not a number"},
+      {{"v.mp4", "--out-fps", "fast"}, 2, "--out-fps 'fast' is not a number"},
       {{"v.mp4", "--speed", "-1"}, 2, "speed -1 is not positive"},
-      {{"v.mp4", "--from", "3"}, 2, "the video's start '3' is no time"},
+      {{"v.mp4", "--from", "3"}, 2, "--from '3' is no time"},
       {{"v.mp4", "--from", "0.7s"}, 2, "the video's start 0.7s lies outside the capture, which lasts 700 ms"},
       {{"v.mp4", "--from", "71f"}, 2, "picture 71 is outside the capture"},
       {{"v.mp4", "--from", "0.5s", "--to", "0.5s"}, 2, "no frame fits"},

@@ -31,6 +31,7 @@ struct MaskJob {
   std::filesystem::path output;
   std::optional<Feather> feather;    // of a soft one, which is written as layers
   std::optional<MaskLayers> layers;  // that take the place of the output
+  BackdropTime backdrop;             // of the preview, where there is a capture
 };
 
 // Nothing large is read before all of it makes sense.
@@ -77,22 +78,19 @@ MaskJob job_of(const Options& options) {
   } else if (options.start || options.exposure) {
     throw UsageError("--start and --exposure say what --preview shows; add --preview picture.png");
   }
+  if ((options.start || options.exposure) && !job.capture) {
+    throw UsageError("--start and --exposure need a capture: nutik-cl mask … clip.tik");
+  }
+  if (options.start) job.backdrop.start = StatedTime::parse(*options.start, "--start");
+  if (options.exposure) job.backdrop.length = StatedTime::parse(*options.exposure, "--exposure");
   read_inputs(job.request, options);
   return job;
 }
 
 // What the mask is laid over.
-Picture backdrop(const Options& options, const MaskRequest& request, const Mask& mask, Session* session) {
-  if (session == nullptr) {
-    if (options.start || options.exposure) {
-      throw UsageError("--start and --exposure need a capture: nutik-cl mask … clip.tik");
-    }
-    return backdrop_of(request, mask);
-  }
-  BackdropTime time;
-  if (options.start) time.start = StatedTime::parse(*options.start, "start");
-  if (options.exposure) time.length = StatedTime::parse(*options.exposure, "exposure");
-  ExposedPicture exposed = backdrop_of(*session, time);
+Picture backdrop(const MaskJob& job, const Mask& mask, Session* session) {
+  if (session == nullptr) return backdrop_of(job.request, mask);
+  ExposedPicture exposed = backdrop_of(*session, job.backdrop);
   print_warnings(exposure_warnings(exposed));
   return std::move(exposed.picture);
 }
@@ -171,7 +169,7 @@ int run_mask(const Options& options) {
   // Before anything is written: what cannot be looked at is an error.
   const auto moved = job.request.tells_by_rest() ? moved_camera(session->capture()) : std::nullopt;
   if (options.preview) {
-    const Picture below = backdrop(options, job.request, made.mask, session ? &*session : nullptr);
+    const Picture below = backdrop(job, made.mask, session ? &*session : nullptr);
     write_picture(*options.preview, sheet::mask_overlay(made.mask, below));
   }
   if (job.layers) {

@@ -71,7 +71,8 @@ Mask exposure_mask(const Options& options, const FunctionSet& functions) {
 }
 
 // All but when it is exposed. Functions are read unless they are known.
-ExposureRequest timeless_request(const Options& options, const std::optional<Shared<FunctionSet>>& known = {}) {
+ExposureRequest timeless_request(const Options& options,
+                                 const std::optional<Shared<FunctionSet>>& known = {}) {
   ExposureRequest request;
   request.unmapped_is_zero = parse_only(options.unmapped, "--unmapped", "zero");
   request.live_all = parse_only(options.live, "--live", "all");
@@ -149,10 +150,10 @@ ExposureRequest exposure_request(const Options& options) {
         "gain functions (-k functions.fn)");
   }
   ExposureRequest request = timeless_request(options);
-  request.start = StatedTime::parse(options.start.value_or("0s"), "start");
+  request.start = StatedTime::parse(options.start.value_or("0s"), "--start");
   if (auto* plain = std::get_if<PlainInterval>(&request.gains)) {
     if (!options.exposure) throw UsageError("how long is the exposure? Add --exposure 10ms");
-    plain->length = StatedTime::parse(*options.exposure, "exposure");
+    plain->length = StatedTime::parse(*options.exposure, "--exposure");
   }
   return request;
 }
@@ -174,7 +175,7 @@ OutputRequest output_request(const Options& options) {
   OutputRequest request;
   if (options.depth) request.depth = parse_depth(*options.depth);
   if (options.quality) {
-    request.quality = static_cast<int>(parse_whole_number(*options.quality, "quality", 1, 100));
+    request.quality = static_cast<int>(parse_whole_number(*options.quality, "--quality", 1, 100));
   }
   if (options.negative) request.negative = parse_negative_light(*options.negative);
   if (options.out_transfer) request.transfer = parse_out_transfer(*options.out_transfer);
@@ -184,16 +185,16 @@ OutputRequest output_request(const Options& options) {
 SeriesRequest series_request(const Options& options) {
   SeriesRequest series{step_of(options), std::nullopt};
   if (options.count) {
-    series.count = parse_whole_number(*options.count, "count", 1, SeriesRequest::kMostExposures);
+    series.count = parse_whole_number(*options.count, "--count", 1, SeriesRequest::kMostExposures);
   }
   return series;
 }
 
 ContactRequest contact_request(const Options& options) {
   ContactRequest request;
-  if (options.start) request.start = StatedTime::parse(*options.start, "start");
+  if (options.start) request.start = StatedTime::parse(*options.start, "--start");
   if (options.every) request.every = step_of(options);
-  if (options.exposure) request.length = StatedTime::parse(*options.exposure, "exposure");
+  if (options.exposure) request.length = StatedTime::parse(*options.exposure, "--exposure");
   return request;
 }
 
@@ -212,11 +213,11 @@ FramesRequest frames_request(const Options& options) {
   }
   FramesRequest request;
   request.exposure = timeless_request(options);
-  request.rate = Rational::parse(options.out_fps.value_or(kFilmRate), "frame rate of the video");
-  request.speed = Rational::parse(options.speed.value_or("1"), "speed");
-  request.angle = Rational::parse(options.out_angle.value_or(kFilmAngle), "shutter angle of the video");
-  if (options.from) request.from = StatedTime::parse(*options.from, "the video's start");
-  if (options.to) request.to = StatedTime::parse(*options.to, "the video's end");
+  request.rate = Rational::parse(options.out_fps.value_or(kFilmRate), "--out-fps");
+  request.speed = Rational::parse(options.speed.value_or("1"), "--speed");
+  request.angle = Rational::parse(options.out_angle.value_or(kFilmAngle), "--out-angle");
+  if (options.from) request.from = StatedTime::parse(*options.from, "--from");
+  if (options.to) request.to = StatedTime::parse(*options.to, "--to");
   // Before anything is opened.
   static_cast<void>(FrameTimes({}, request.rate, request.speed, request.angle));
   return request;

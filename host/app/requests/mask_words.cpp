@@ -177,7 +177,7 @@ std::vector<MaskStep> steps_of(const Options& options) {
   for (const Said& said : options.said) {
     const std::string name = "--" + std::string(said.option);
     if (said.option == "tag") {
-      tag = static_cast<std::uint8_t>(parse_whole_number(said.words.front(), "tag", 0, 255));
+      tag = static_cast<std::uint8_t>(parse_whole_number(said.words.front(), "--tag", 0, 255));
       has_region = false;
     } else if (said.option == "grid") {
       steps.push_back(grid_step(said, tag));

@@ -37,7 +37,7 @@ void refuse_source_options(const Options& options, const std::string& capture) {
 
 void read_noise(SourceRequest& request, const Options& options) {
   if (options.tolerance) {
-    request.tolerance = parse_whole_number(*options.tolerance, "tolerance", 0, 65'535);
+    request.tolerance = parse_whole_number(*options.tolerance, "--tolerance", 0, 65'535);
   }
   if (options.noise && options.tolerance) {
     throw UsageError("--noise and --tolerance both say what is no change; leave one out");
@@ -46,7 +46,8 @@ void read_noise(SourceRequest& request, const Options& options) {
     throw UsageError(
         "--sigmas counts standard deviations of a camera's noise: it needs --noise FILE or --noise auto");
   }
-  if (options.sigmas) request.sigmas = parse_number(*options.sigmas, "sigmas", kLeastSigmas, kLargestSigmas);
+  if (options.sigmas)
+    request.sigmas = parse_number(*options.sigmas, "--sigmas", kLeastSigmas, kLargestSigmas);
   if (options.noise == kAutomaticNoise) {
     request.noise = NoiseOfClip{};
   } else if (options.noise) {
@@ -68,9 +69,10 @@ SourceRequest source_request(const Options& options, const std::string& name) {
 SourceRequest clip_request(const Options& options, const std::string& name) {
   SourceRequest request;
   request.path = name;
-  if (options.fps) request.clip.rate = Rational::parse(*options.fps, "frame rate");
-  if (options.shutter_angle) request.shutter_angle = Rational::parse(*options.shutter_angle, "shutter angle");
-  if (options.white) request.clip.white_code = parse_whole_number(*options.white, "white code", 1, 65'535);
+  if (options.fps) request.clip.rate = Rational::parse(*options.fps, "--fps");
+  if (options.shutter_angle)
+    request.shutter_angle = Rational::parse(*options.shutter_angle, "--shutter-angle");
+  if (options.white) request.clip.white_code = parse_whole_number(*options.white, "--white", 1, 65'535);
   if (options.raw) request.clip.raw = parse_raw_video(*options.raw);
   if (options.transfer) request.clip.transfer = Transfer::parse(*options.transfer);
   if (options.matrix) request.clip.matrix = parse_yuv_matrix(*options.matrix);
@@ -90,7 +92,7 @@ SourceRequest clip_request(const Options& options, const std::string& name) {
   if (options.tiles) request.tiles = parse_tile_policy(*options.tiles);
   if (options.block_samples) {
     request.block_samples =
-        parse_whole_number(*options.block_samples, "block length", 1, kLargestBlockSamples);
+        parse_whole_number(*options.block_samples, "--block-samples", 1, kLargestBlockSamples);
   }
   // Made here so that a senseless rate or angle is refused before anything is opened.
   static_cast<void>(Timeline::constant(request.clip.rate.value_or(Rational{1, 1}),
