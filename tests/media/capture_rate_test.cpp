@@ -62,22 +62,82 @@ TEST(CaptureRate, IsOnlyNamedWhereItFitsNoTimes) {
   ASSERT_EQ(clip->info().notes.size(), 1u);
   EXPECT_NE(notes_of(*clip).find("its own times are taken"), std::string::npos);
   EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::frame_rate});
-  test::make(scratch, phone_clip("25", android("fast")));
-  EXPECT_EQ(notes_of(*test::open_test_clip(scratch / "clip.mp4")), "");
 }
 
-// Pictures that phones leave out stay left out: times are pressed, not made even.
+TEST(CaptureRate, ThatIsNoneIsSaid) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  for (const char* value : {"fast", "0", "-240", "nan", "1/0"}) {
+    test::make(scratch, phone_clip("25", android(value)));
+    const auto clip = test::open_test_clip(scratch / "clip.mp4");
+    EXPECT_EQ(clip->info().timing.rate, (Rational{25, 1})) << value;
+    ASSERT_EQ(clip->info().notes.size(), 1u) << value;
+    EXPECT_NE(
+        notes_of(*clip).find("com.android.capture.fps is '" + std::string(value) + "', which is no rate"),
+        std::string::npos)
+        << notes_of(*clip);
+    EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::frame_rate});
+  }
+}
+
+// A clip whose pictures of these numbers, of two seconds, were left out.
+void make_phone_clip_without(const Scratch& scratch, const std::string& pictures, const std::string& words) {
+  test::make(scratch, "-f lavfi -i testsrc2=s=32x32:d=2:r=30 -vf \"select='not(" + pictures +
+                          ")'\" -vsync vfr -movflags use_metadata_tags "
+                          "-metadata com.android.capture.fps=240 -c:v mpeg4 " +
+                          words);
+}
+
+// Pictures that phones leave out stay left out: times are pressed, not made even, and the gaps count for nothing in
+// how much. Clocks of containers round differences, to a millisecond of 33 1/3 in Matroska.
 TEST(CaptureRate, KeepsTheUnevennessOfTimes) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  test::make(scratch,
-             "-f lavfi -i testsrc2=s=32x32:d=2:r=30 -vf \"select='not(eq(n,20))'\" -vsync vfr "
-             "-movflags use_metadata_tags -metadata com.android.capture.fps=240 -c:v mpeg4 clip.mp4");
+  struct Case {
+    const char* left_out;  // as a condition on n
+    bool (*is_left_out)(int n);
+    double factor;
+  };
+  for (const Case& dropped :
+       {Case{"eq(n,20)", [](int n) { return n == 20; }, 8},
+        Case{"eq(mod(n,10),4)", [](int n) { return n % 10 == 4; }, 8},
+        Case{"eq(mod(n,30),3)+eq(mod(n,30),4)+eq(mod(n,30),17)",
+             [](int n) { return n % 30 == 3 || n % 30 == 4 || n % 30 == 17; }, 8},
+        // Two of three: the usual difference is not the period.
+        Case{"gt(mod(n,5),0)*lt(mod(n,5),4)", [](int n) { return n % 5 > 0 && n % 5 < 4; }, 8}}) {
+    for (const auto& [file, words, off_ns] :
+         {std::tuple("clip.mp4", "clip.mp4", 2.0), std::tuple("clip.mkv", "clip.mkv", 0.5e6 / 8 + 2)}) {
+      SCOPED_TRACE(std::string(dropped.left_out) + " " + file);
+      make_phone_clip_without(scratch, dropped.left_out, words);
+      const auto clip = test::open_test_clip(scratch / file);
+      EXPECT_NE(notes_of(*clip).find("which the file plays as 30"), std::string::npos) << notes_of(*clip);
+      const Timeline timeline = timeline_of("", clip->info(), {}, clip->info().sample_count);
+      ASSERT_FALSE(timeline.is_constant());
+      std::uint64_t sample = 0;
+      for (int n = 0; n < 60; ++n) {
+        if (dropped.is_left_out(n)) continue;
+        EXPECT_NEAR(static_cast<double>(timeline.start_ns(sample++)), n * 1e9 / 240, off_ns) << n;
+      }
+      EXPECT_EQ(sample, timeline.sample_count());
+    }
+  }
+}
+
+// Times that follow no rate press to none.
+TEST(CaptureRate, IsOnlyNamedWhereTimesFollowNoRate) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  test::make(
+      scratch,
+      "-f lavfi -i testsrc2=s=32x32:d=1:r=30 -vf \"settb=1/1000,setpts='33*N+14*mod(N*N,7)'\" -vsync vfr "
+      "-enc_time_base 1:1000 -movflags use_metadata_tags -metadata com.android.capture.fps=240 "
+      "-video_track_timescale 1000 -c:v mpeg4 clip.mp4");
   const auto clip = test::open_test_clip(scratch / "clip.mp4");
-  const Timeline timeline = timeline_of("", clip->info(), {}, 59);
-  ASSERT_FALSE(timeline.is_constant());
-  EXPECT_NEAR(static_cast<double>(timeline.start_ns(19)), 19 * 1e9 / 240, 2);
-  EXPECT_NEAR(static_cast<double>(timeline.start_ns(20)), 21 * 1e9 / 240, 2);
+  ASSERT_FALSE(clip->info().timing.rate);
+  EXPECT_EQ(clip->info().timing.starts_ns[1], 47'000'000);
+  EXPECT_NE(notes_of(*clip).find("at uneven times, of no rate that can be told: its own times are taken"),
+            std::string::npos)
+      << notes_of(*clip);
 }
 
 std::string box(const std::string& type, const std::string& data) {

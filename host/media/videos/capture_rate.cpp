@@ -79,23 +79,58 @@ std::optional<Rational> samsung_rate(Bytes file) {
 
 bool is_mp4(Bytes file) { return file.size() >= 8 && std::memcmp(file.data() + 4, "ftyp", 4) == 0; }
 
-double mean_rate(const ClipTiming& timing) {
-  if (timing.rate) return timing.rate->value();
-  if (timing.starts_ns.size() < 2) return 0.0;
-  return static_cast<double>(timing.starts_ns.size() - 1) * static_cast<double>(kSecondNs) /
-         static_cast<double>(timing.starts_ns.back() - timing.starts_ns.front());
+// How many pictures a second times show where none is missing between them: pictures that were dropped leave gaps of
+// whole periods. 0 where times keep no such period.
+double steady_rate(const std::vector<std::int64_t>& starts_ns) {
+  constexpr int kMostParts = 6;        // of the usual difference, which is no period where most were dropped
+  constexpr double kBetter = 0.5;      // than a longer period, which fits as well by chance
+  constexpr double kMostMisfit = 0.1;  // periods, in the mean; times that keep none are 0.25 off
+  if (starts_ns.size() < 2) return 0.0;
+  std::vector<double> differences;
+  for (std::size_t k = 1; k < starts_ns.size(); ++k)
+    differences.push_back(static_cast<double>(starts_ns[k] - starts_ns[k - 1]));
+  std::vector<double> sorted = differences;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double span_ns = static_cast<double>(starts_ns.back() - starts_ns.front());
+  if (!(*middle > 0.0 && span_ns > 0.0)) return 0.0;
+  double best_ns = 0.0, least = kMostMisfit / kBetter;
+  for (int parts = 1; parts <= kMostParts; ++parts) {
+    double period_ns = *middle / parts, misfit = 0.0;
+    // Once more with the mean period, for the usual difference was rounded to the container's clock.
+    for (int pass = 0; pass < 2; ++pass) {
+      double periods = 0.0;
+      misfit = 0.0;
+      for (const double difference : differences) {
+        const double whole = std::max(1.0, std::round(difference / period_ns));
+        misfit += std::fabs(difference / period_ns - whole) / static_cast<double>(differences.size());
+        periods += whole;
+      }
+      period_ns = span_ns / periods;
+    }
+    if (misfit >= kBetter * least) continue;
+    best_ns = period_ns;
+    least = misfit;
+  }
+  return best_ns > 0.0 ? static_cast<double>(kSecondNs) / best_ns : 0.0;
 }
 
 }  // namespace
 
-std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std::filesystem::path& path) {
+std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std::filesystem::path& path,
+                                        std::vector<Note>& notes) {
   constexpr const char* kAndroid = "com.android.capture.fps";
   if (const AVDictionaryEntry* entry = av_dict_get(format.metadata, kAndroid, nullptr, 0)) {
+    std::optional<Rational> rate;
     try {
-      const Rational rate = Rational::parse(entry->value, kAndroid);
-      if (rate.numerator > 0) return CaptureRate{rate, kAndroid};
-    } catch (const UsageError&) {  // no number: the file does not tell
+      rate = Rational::parse(entry->value, kAndroid);
+    } catch (const UsageError&) {  // no number: said below
     }
+    if (rate && rate->numerator > 0) return CaptureRate{*rate, kAndroid};
+    notes.emplace_back(nutik::format("the file's {} is '{:.40}', which is no rate: how fast it was filmed is "
+                                     "not known, and the rate at which it plays is taken",
+                                     kAndroid, entry->value),
+                       std::vector{Setting::frame_rate});
   }
   const MappedFile mapped(path);
   if (!is_mp4(mapped.bytes())) return std::nullopt;
@@ -118,28 +153,30 @@ bool has_slow_parts(const std::filesystem::path& path) {
 }
 
 void apply_capture_rate(const CaptureRate& filmed, ClipTiming& timing, std::vector<Note>& notes) {
-  const double played = mean_rate(timing);
-  if (!(played > 0.0)) return;
-  const double times = filmed.rate.value() / played;
+  if (!timing.rate && timing.starts_ns.size() < 2) return;
+  const double played = timing.rate ? timing.rate->value() : steady_rate(timing.starts_ns);
+  const std::string played_text = timing.rate ? format("{:.6g}", played) : format("{:.3g}", played);
+  const double times = played > 0.0 ? filmed.rate.value() / played : 0.0;
   if (std::fabs(times - 1.0) < kSameRate) {
     timing.rate_from = format("the file, as {} says", filmed.name);
     return;
   }
-  const double whole = times > 1.0 ? times : 1.0 / times;
+  const double whole = times >= 1.0 ? times : 1.0 / times;
   const double nearest = std::round(whole);
-  if (std::fabs(whole / nearest - 1.0) > kSameRate) {
-    notes.emplace_back(
-        format("{} says that {} pictures a second were filmed, and the file plays {:.6g}, no whole number of "
-               "times slower or faster: its own times are taken; state the rate that is right",
-               filmed.name, filmed.rate.text(), played),
-        std::vector{Setting::frame_rate});
+  if (!(std::fabs(whole / nearest - 1.0) <= kSameRate)) {
+    const std::string plays = played > 0.0
+                                  ? format("plays {}, no whole number of times slower or faster", played_text)
+                                  : std::string("plays them at uneven times, of no rate that can be told");
+    notes.emplace_back(format("{} says that {} pictures a second were filmed, and the file {}: its own times "
+                              "are taken; state the rate that is right",
+                              filmed.name, filmed.rate.text(), plays),
+                       std::vector{Setting::frame_rate});
     return;
   }
   notes.emplace_back(
-      format(
-          "{} says that {} pictures a second were filmed, which the file plays as {:.6g}: times are those of "
-          "filming; state another rate if that is wrong",
-          filmed.name, filmed.rate.text(), played),
+      format("{} says that {} pictures a second were filmed, which the file plays as {}: times are those of "
+             "filming; state another rate if that is wrong",
+             filmed.name, filmed.rate.text(), played_text),
       std::vector{Setting::frame_rate});
   timing.rate_from = format("the file's {}", filmed.name);
   if (timing.rate) {
@@ -148,7 +185,9 @@ void apply_capture_rate(const CaptureRate& filmed, ClipTiming& timing, std::vect
   }
   const auto factor = static_cast<std::int64_t>(nearest);
   for (std::int64_t& start_ns : timing.starts_ns) {
-    start_ns = times > 1.0 ? round_half_up(start_ns, factor) : start_ns * factor;
+    // What is longer than a capture lasts is refused where the timeline is made of it.
+    const int128 slower = std::min<int128>(static_cast<int128>(start_ns) * factor, INT64_MAX);
+    start_ns = times > 1.0 ? round_half_up(start_ns, factor) : static_cast<std::int64_t>(slower);
   }
 }
 

@@ -16,16 +16,18 @@ struct CaptureRate {
   std::string name;  // of what states it
 };
 
-// What Android's cameras write (com.android.capture.fps), or Samsung's (moov/udta/smta).
+// What Android's cameras write (com.android.capture.fps), or Samsung's (moov/udta/smta). Says in `notes` where that is no
+// rate.
 [[nodiscard]] std::optional<CaptureRate> capture_rate(const AVFormatContext& format,
-                                                      const std::filesystem::path& path);
+                                                      const std::filesystem::path& path,
+                                                      std::vector<Note>& notes);
 
 // Whether Samsung's trailer names parts that were filmed faster than others.
 [[nodiscard]] bool has_slow_parts(const std::filesystem::path& path);
 
 // Times as they were filmed, where the rate is one that the file's own times were stretched or pressed from: a whole
-// number of times as fast, or slow. Where the times run at it already nothing changes. Says in `notes` what was done,
-// or why not.
+// number of times as fast, or slow, as pictures follow each other where none was dropped. Where the times run at it
+// already nothing changes. Says in `notes` what was done, or why not.
 void apply_capture_rate(const CaptureRate& filmed, ClipTiming& timing, std::vector<Note>& notes);
 
 }  // namespace nutik::videos

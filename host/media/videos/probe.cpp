@@ -190,7 +190,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   }
   result.timing = timing_of(*opened.format, stream, packets, path.string());
   if (cine) add_cine_header(*cine, opened, path.string(), result);
-  if (const auto filmed = capture_rate(*opened.format, path)) {
+  if (const auto filmed = capture_rate(*opened.format, path, result.notes)) {
     apply_capture_rate(*filmed, result.timing, result.notes);
   } else if (has_slow_parts(path)) {
     result.notes.emplace_back(
