@@ -179,6 +179,57 @@ TEST(ClipTimes, AreThoseOfTheDecodedPictures) {
   }
 }
 
+// Cut in its middle, a broadcast or a disc starts with pictures that refer to others which are gone.
+TEST(ClipTimes, OfAStreamCutInItsMiddleAreThoseOfTheDecodedPictures) {
+  NEEDS_FFMPEG();
+  constexpr int kSlots = 90;
+  const std::string gaps = "eq(mod(n,20),7)+eq(n,62)";
+  const std::string mpeg2 = "-c:v mpeg2video -bf 2 -g 12 -q:v 4", h264 = "-c:v libx264 -bf 3 -g 12";
+  const TimedClip clips[] = {{"even.mpg", "", mpeg2, {25, 1}, true},
+                             {"gaps.mpg", gaps, mpeg2, {25, 1}, false},
+                             {"disc.vob", "", mpeg2 + " -f dvd", {25, 1}, true},
+                             {"in-order.mpg", "", "-c:v mpeg1video -bf 0 -g 12", {25, 1}, true},
+                             {"even.ts", "", h264, {25, 1}, true},
+                             {"gaps.ts", gaps, h264, {25, 1}, false}};
+  int compared = 0;
+  for (const TimedClip& clip : clips) {
+    const Scratch scratch;
+    make_timed(scratch, clip, kSlots);
+    const std::string whole = test::read_file(scratch / clip.name);
+    for (const double share : {0.2, 0.35, 0.5}) {
+      SCOPED_TRACE(clip.name + " from " + std::to_string(share));
+      const std::string name = "cut-" + clip.name;
+      scratch.write(name, whole.substr(static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
+      const ProbedTimes want = probed(scratch, name);
+      ASSERT_GT(want.pictures, std::size_t{20});
+      ASSERT_GE(want.ticks.size() + 1, want.pictures);
+      const auto opened = open_test_clip(scratch / name);
+      ASSERT_EQ(opened->info().sample_count, want.pictures);
+      EXPECT_EQ(read_all(*opened).size(), want.pictures);
+      if (!std::ranges::is_sorted(want.ticks, std::ranges::less_equal())) {
+        // What tells the first pictures' times was cut away, and FFmpeg makes up some.
+        expect_clip_refused(scratch / name, {}, "if they were taken at a constant rate, state it");
+        continue;
+      }
+      ++compared;
+      ASSERT_EQ(opened->info().notes.size(), 1u);
+      EXPECT_NE(
+          opened->info().notes[0].text.find("packets give no picture, as where it was cut in its middle"),
+          std::string::npos)
+          << opened->info().notes[0].text;
+      const Timeline timeline = timeline_of(name, opened->info(), {}, {360, 1}, want.pictures);
+      const double tick_ns = want.tick_s.value() * 1e9;
+      for (std::size_t k = 0; k < want.ticks.size(); ++k) {
+        EXPECT_NEAR(static_cast<double>(timeline.start_ns(k)),
+                    static_cast<double>(want.ticks[k] - want.ticks[0]) * tick_ns, tick_ns)
+            << k;
+      }
+      EXPECT_TRUE(clip.is_constant || !timeline.is_constant());
+    }
+  }
+  EXPECT_GE(compared, 15);
+}
+
 TEST(ClipTimes, NoRateIsInventedFromThreePictures) {
   NEEDS_FFMPEG();
   const Scratch scratch;

@@ -3,38 +3,50 @@
 #include <thread>
 
 #include "media/videos/clip_colour.hpp"
-#include "media/videos/damage_log.hpp"
 #include "media/videos/deinterlacer.hpp"
 #include "media/videos/libav.hpp"
 #include "media/videos/phantom_packing.hpp"
+#include "media/videos/picture_decoder.hpp"
 #include "media/videos/pixels.hpp"
 #include "media/videos/videos.hpp"
 
 namespace nutik::videos {
 namespace {
 
+// Of a decoded picture.
+std::uint64_t decoded_bytes(const AVCodecParameters& parameters) {
+  const int bytes = av_image_get_buffer_size(static_cast<AVPixelFormat>(parameters.format), parameters.width,
+                                             parameters.height, 64);
+  if (bytes > 0) return static_cast<std::uint64_t>(bytes);
+  return static_cast<std::uint64_t>(parameters.width) * static_cast<std::uint64_t>(parameters.height) * 3 + 1;
+}
+
+// Pictures that are kept beside those worked on: the packet and the picture it becomes; where pictures refer to
+// others, those, of which encoders use five or fewer unless they are told otherwise, and those that are shown later.
+std::uint64_t kept_pictures(const AVCodecParameters& parameters) {
+  const AVCodecDescriptor* kind = avcodec_descriptor_get(parameters.codec_id);
+  const bool refers = kind == nullptr || (kind->props & AV_CODEC_PROP_INTRA_ONLY) == 0;
+  return 2 + (refers ? 5 + static_cast<std::uint64_t>(parameters.video_delay) : 0);
+}
+
+int decoder_threads(const OpenedVideo& opened, const ClipOptions& options) {
+  const std::uint64_t cores = std::max(std::thread::hardware_concurrency(), 1u);
+  if (!options.decoder_bytes) return static_cast<int>(cores);
+  const AVCodecParameters& parameters = *opened.format->streams[opened.stream]->codecpar;
+  const std::uint64_t pictures = *options.decoder_bytes / decoded_bytes(parameters);
+  const std::uint64_t kept = kept_pictures(parameters);
+  return static_cast<int>(std::clamp<std::uint64_t>(pictures - std::min(pictures, kept), 1, cores));
+}
+
 class LibavClip final : public Clip {
  public:
-  LibavClip(const std::filesystem::path& path, const Probe& probe, const ClipOptions& options)
+  LibavClip(OpenedVideo opened, int threads, const std::filesystem::path& path, const Probe& probe,
+            const ClipOptions& options)
       : name_(path.string()),
-        opened_(open_video(path, options.raw)),
         coded_(probe.shape),
         converter_(probe.pixels, probe.upright, yuv_coding(probe, options)),
-        packet_(allocated(av_packet_alloc())),
+        decoder_(std::move(opened), name_, PictureDecoder::Wanted::pictures, probe.skipped_packets, threads),
         frame_(allocated(av_frame_alloc())) {
-    const AVCodecParameters* parameters = stream().codecpar;
-    const AVCodec* decoder = avcodec_find_decoder(parameters->codec_id);
-    if (decoder == nullptr) throw InputError(format("{}: no decoder here knows its pictures", name_));
-    codec_.reset(allocated(avcodec_alloc_context3(decoder)));
-    codec_->thread_count = threads(options);
-    codec_->err_recognition = AV_EF_CRCCHECK;
-    damage_->listen_to(*codec_);
-    int code = avcodec_parameters_to_context(codec_.get(), parameters);
-    // Some files give the depth of what the table makes of them.
-    if (is_phantom_packed(*parameters)) codec_->bits_per_coded_sample = kPhantomPackedBits;
-    if (code < 0 || avcodec_open2(codec_.get(), decoder, nullptr) < 0) {
-      throw InputError(format("{}: its decoder cannot be started", name_));
-    }
     const PixelKind& pixels = probe.pixels;
     CaptureFormat& capture = info_.format;
     capture.shape = coded_;
@@ -46,8 +58,9 @@ class LibavClip final : public Clip {
     info_.notes = probe.notes;
     info_.timing = probe.timing;
     info_.sample_count = probe.sample_count;
-    const auto pictures = static_cast<std::uint64_t>(codec_->thread_count) + kept_pictures();
-    info_.decoder_bytes = pictures * decoded_bytes();
+    const AVCodecParameters& parameters = *decoder_.stream().codecpar;
+    info_.decoder_bytes = (static_cast<std::uint64_t>(decoder_.threads()) + kept_pictures(parameters)) *
+                          decoded_bytes(parameters);
     describe(capture, info_.facts, probe, options);
     settle_fields(options.interlaced);
   }
@@ -57,15 +70,13 @@ class LibavClip final : public Clip {
   bool read(std::span<std::byte> raster) override {
     if (!next_picture()) return false;
     check_whole();
-    if (is_phantom_packed(*stream().codecpar)) expand_phantom_codes(*frame_);
+    if (is_phantom_packed(*decoder_.stream().codecpar)) expand_phantom_codes(*frame_);
     converter_.convert(*frame_, raster, name_);
     ++frames_read_;
     return true;
   }
 
  private:
-  [[nodiscard]] const AVStream& stream() const { return *opened_.format->streams[opened_.stream]; }
-
   // Throws where the picture is of another size, or damaged.
   void check_whole() const {
     if (frame_->width != static_cast<int>(coded_.width) ||
@@ -75,7 +86,7 @@ class LibavClip final : public Clip {
     }
     // A decoder fills damaged parts with what was there before, which would pass for a still scene.
     const bool is_flagged = frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0;
-    const auto said = damage_->said();
+    const auto said = decoder_.damage();
     if (is_flagged || said) {
       // Decoders are some pictures ahead of who reads them.
       throw InputError(format("{}: picture {}{} is damaged{}; cut the clip before it, or encode it anew with "
@@ -88,11 +99,11 @@ class LibavClip final : public Clip {
   }
 
   void settle_fields(Interlaced wish) {
-    fields_ = field_order(stream().codecpar->field_order);
+    fields_ = field_order(decoder_.stream().codecpar->field_order);
     interlaced_ = wish;
     if (wish == Interlaced::refused && fields_) refuse_fields("it", *fields_);
     if (wish != Interlaced::frames && wish != Interlaced::fields) return;
-    info_.decoder_bytes += Deinterlacer::kHeldPictures * decoded_bytes();
+    info_.decoder_bytes += Deinterlacer::kHeldPictures * decoded_bytes(*decoder_.stream().codecpar);
     if (wish == Interlaced::fields) info_ = of_fields(std::move(info_));
     info_.facts.push_back(
         {format("a picture from each {}, {}", wish == Interlaced::fields ? "field" : "frame",
@@ -106,31 +117,6 @@ class LibavClip final : public Clip {
                "would come out as combs. Say what pictures are made of: frames, fields, or neither, no",
                name_, what, to_text(order)),
         {Setting::deinterlace});
-  }
-
-  // Of a decoded picture.
-  [[nodiscard]] std::uint64_t decoded_bytes() const {
-    const AVCodecParameters& parameters = *stream().codecpar;
-    const int bytes = av_image_get_buffer_size(static_cast<AVPixelFormat>(parameters.format),
-                                               parameters.width, parameters.height, 64);
-    return bytes > 0 ? static_cast<std::uint64_t>(bytes) : std::uint64_t{coded_.width} * coded_.height * 3;
-  }
-
-  // Pictures that are kept beside those worked on: the packet and the picture it becomes; where pictures refer to
-  // others, those, of which encoders use five or fewer unless they are told otherwise, and those that are shown later.
-  [[nodiscard]] std::uint64_t kept_pictures() const {
-    const AVCodecParameters& parameters = *stream().codecpar;
-    const AVCodecDescriptor* kind = avcodec_descriptor_get(parameters.codec_id);
-    const bool refers = kind == nullptr || (kind->props & AV_CODEC_PROP_INTRA_ONLY) == 0;
-    return 2 + (refers ? 5 + static_cast<std::uint64_t>(parameters.video_delay) : 0);
-  }
-
-  [[nodiscard]] int threads(const ClipOptions& options) const {
-    const std::uint64_t cores = std::max(std::thread::hardware_concurrency(), 1u);
-    if (!options.decoder_bytes) return static_cast<int>(cores);
-    const std::uint64_t pictures = *options.decoder_bytes / std::max<std::uint64_t>(decoded_bytes(), 1);
-    return static_cast<int>(
-        std::clamp<std::uint64_t>(pictures - std::min(pictures, kept_pictures()), 1, cores));
   }
 
   void set_white(std::uint32_t white, const PixelKind& pixels) {
@@ -148,7 +134,7 @@ class LibavClip final : public Clip {
   // The next picture, which was made of fields where that was asked for.
   bool next_picture() {
     if (interlaced_ == Interlaced::refused || interlaced_ == Interlaced::ignored) {
-      if (!decode_next()) return false;
+      if (!decoder_.next(*frame_)) return false;
       if (interlaced_ == Interlaced::refused && frame_->interlaced_frame != 0) {
         refuse_fields(format("picture {}", frames_read_), order_of(*frame_));
       }
@@ -156,7 +142,7 @@ class LibavClip final : public Clip {
     }
     while (!deinterlacer_ || !deinterlacer_->take(*frame_)) {
       if (has_ended_) return false;
-      has_ended_ = !decode_next();
+      has_ended_ = !decoder_.next(*frame_);
       if (has_ended_ && !deinterlacer_) return false;
       if (has_ended_) {
         deinterlacer_->end();
@@ -173,46 +159,11 @@ class LibavClip final : public Clip {
     return true;
   }
 
-  bool decode_next() {
-    for (;;) {
-      const int code = avcodec_receive_frame(codec_.get(), frame_.get());
-      if (code == 0) return true;
-      if (code == AVERROR_EOF) return false;
-      if (code != AVERROR(EAGAIN)) fail(code);
-      feed();
-    }
-  }
-
-  void feed() {
-    for (;;) {
-      if (av_read_frame(opened_.format.get(), packet_.get()) < 0) {
-        avcodec_send_packet(codec_.get(), nullptr);
-        return;
-      }
-      const bool wanted = packet_->stream_index == opened_.stream;
-      const int code = wanted ? avcodec_send_packet(codec_.get(), packet_.get()) : 0;
-      av_packet_unref(packet_.get());
-      // A clip that was cut starts with packets that refer to pictures before it.
-      const bool is_cut = code == AVERROR_INVALIDDATA && frames_read_ == 0;
-      if (code < 0 && !is_cut) fail(code);
-      if (is_cut) damage_->forget();
-      if (wanted) return;
-    }
-  }
-
-  [[noreturn]] void fail(int code) const {
-    throw InputError(format("{}: picture {} cannot be decoded: {}", name_, frames_read_, error_text(code)),
-                     {Setting::end_at_damage});
-  }
-
   std::string name_;
   ClipInfo info_;
-  OpenedVideo opened_;
   Shape coded_;  // before the pictures are turned upright
   PixelConverter converter_;
-  std::unique_ptr<DamageLog> damage_ = std::make_unique<DamageLog>();  // outlives the decoder
-  CodecPointer codec_;
-  PacketPointer packet_;
+  PictureDecoder decoder_;
   FramePointer frame_;
   std::uint64_t frames_read_ = 0;
   Interlaced interlaced_ = Interlaced::refused;
@@ -225,7 +176,9 @@ class LibavClip final : public Clip {
 
 std::unique_ptr<Clip> open_with_libav(const std::filesystem::path& path, const Probe& probe,
                                       const ClipOptions& options) {
-  return std::make_unique<LibavClip>(path, probe, options);
+  OpenedVideo opened = open_video(path, options.raw);
+  const int threads = decoder_threads(opened, options);
+  return std::make_unique<LibavClip>(std::move(opened), threads, path, probe, options);
 }
 
 }  // namespace nutik::videos

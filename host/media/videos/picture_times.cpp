@@ -1,7 +1,6 @@
 #include "media/videos/picture_times.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <string_view>
 
 namespace nutik::videos {
@@ -43,21 +42,36 @@ ClipTiming of_rate(Rational rate) {
   return timing;
 }
 
-// The times at which pictures are shown, in order; none where the container does not tell.
-std::optional<std::vector<std::int64_t>> shown_times(const std::vector<PacketTimes>& packets, int delay) {
+bool is_timed(const std::vector<PacketTimes>& packets, std::int64_t PacketTimes::*time) {
+  return std::ranges::none_of(packets,
+                              [&](const PacketTimes& packet) { return packet.*time == AV_NOPTS_VALUE; });
+}
+
+}  // namespace
+
+std::size_t packets_before_key(const std::vector<PacketTimes>& packets) {
+  const auto key = std::ranges::find_if(packets, &PacketTimes::is_key);
+  return key == packets.end() ? 0 : static_cast<std::size_t>(key - packets.begin());
+}
+
+bool must_be_decoded(const std::vector<PacketTimes>& packets) {
+  if (packets.empty() || !is_timed(packets, &PacketTimes::shown)) {
+    return std::ranges::any_of(packets,
+                               [](const PacketTimes& packet) { return packet.shown != AV_NOPTS_VALUE; });
+  }
+  return std::ranges::min(packets, {}, &PacketTimes::shown).shown < packets.front().shown;
+}
+
+std::vector<std::int64_t> shown_times(const std::vector<PacketTimes>& packets, int delay) {
   std::vector<std::int64_t> times;
-  const auto is_timed = [&](auto time) {
-    return std::ranges::none_of(packets,
-                                [&](const PacketTimes& packet) { return packet.*time == AV_NOPTS_VALUE; });
-  };
-  if (is_timed(&PacketTimes::shown)) {
+  if (is_timed(packets, &PacketTimes::shown)) {
     for (const PacketTimes& packet : packets) times.push_back(packet.shown);
     std::ranges::sort(times);  // packets come in the order of decoding
     return times;
   }
-  // AVI and MPEG program streams may time the decoding alone. A decoder hands out a picture whenever it takes one in,
-  // once it holds as many as are reordered; those that it holds at the end follow.
-  if (packets.empty() || !is_timed(&PacketTimes::decoded)) return std::nullopt;
+  // AVI may time the decoding alone. A decoder hands out a picture whenever it takes one in, once it holds as many as
+  // are reordered; those that it holds at the end follow.
+  if (packets.empty() || !is_timed(packets, &PacketTimes::decoded)) return {};
   const std::size_t held = std::min(packets.size(), static_cast<std::size_t>(std::max(delay, 0)));
   for (std::size_t i = held; i < packets.size(); ++i) times.push_back(packets[i].decoded);
   const PacketTimes& last = packets.back();
@@ -66,8 +80,6 @@ std::optional<std::vector<std::int64_t>> shown_times(const std::vector<PacketTim
   }
   return times;
 }
-
-}  // namespace
 
 ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base, std::vector<KnownRate> rates,
                      const std::string& name) {
@@ -106,12 +118,11 @@ std::vector<KnownRate> announced_rates(const AVFormatContext& file, const AVStre
 }
 
 ClipTiming timing_of(const AVFormatContext& file, const AVStream& stream,
-                     const std::vector<PacketTimes>& packets, const std::string& name) {
+                     const std::vector<std::int64_t>& times, const std::string& name) {
   std::vector<KnownRate> rates = announced_rates(file, stream);
-  const auto times = shown_times(packets, stream.codecpar->video_delay);
-  if (times && times->size() > 1) {
+  if (times.size() > 1) {
     const Rational clock = Rational::of(stream.time_base.num, stream.time_base.den);
-    return timing_of(*times, clock, std::move(rates), name);
+    return timing_of(times, clock, std::move(rates), name);
   }
   if (!rates.empty()) return of_rate(rates.front().rate);
   return {};

@@ -7,6 +7,7 @@
 #include "media/videos/cine_header.hpp"
 #include "media/videos/libav.hpp"
 #include "media/videos/phantom_packing.hpp"
+#include "media/videos/picture_decoder.hpp"
 #include "media/videos/picture_times.hpp"
 
 namespace nutik::videos {
@@ -114,6 +115,45 @@ std::uint64_t count_raw_pictures(const std::filesystem::path& path, const RawVid
                    {Setting::raw_layout});
 }
 
+// When pictures are shown that a decoder hands out: those that it holds at the end, and for which no packet comes that
+// tells, as long after each other as they are said to last.
+std::vector<std::int64_t> decoded_times(const std::filesystem::path& path, std::uint64_t skipped_packets) {
+  PictureDecoder decoder(open_video(path, std::nullopt), path.string(), PictureDecoder::Wanted::times,
+                         skipped_packets, 1);
+  const FramePointer picture(allocated(av_frame_alloc()));
+  std::vector<std::int64_t> times;
+  while (decoder.next(*picture)) {
+    std::int64_t time = picture->best_effort_timestamp;
+    if (time == AV_NOPTS_VALUE && !times.empty() && times.back() != AV_NOPTS_VALUE) {
+      const std::int64_t duration = std::max<std::int64_t>(picture->pkt_duration, 1);
+      time = std::min(times.back(), INT64_MAX - duration) + duration;
+    }
+    times.push_back(time);
+  }
+  return times;
+}
+
+// When pictures are shown, and what that tells of those that are not. A stream for broadcasts or discs can be cut
+// anywhere.
+std::vector<std::int64_t> picture_times(const std::filesystem::path& path, const OpenedVideo& opened,
+                                        const std::vector<PacketTimes>& packets, Probe& result) {
+  const bool can_be_cut = (opened.format->iformat->flags & AVFMT_TS_DISCONT) != 0;
+  if (can_be_cut) result.skipped_packets = packets_before_key(packets);
+  if (result.skipped_packets == 0 && !must_be_decoded(packets)) {
+    return shown_times(packets, opened.format->streams[opened.stream]->codecpar->video_delay);
+  }
+  std::vector<std::int64_t> times = decoded_times(path, result.skipped_packets);
+  result.sample_count = times.size();
+  if (times.size() < packets.size()) {
+    result.notes.emplace_back(
+        format("{} of the file's {} packets give no picture, as where it was cut in its middle and its first "
+               "pictures refer to others that are gone: time 0 is that of the first that can be decoded",
+               packets.size() - times.size(), packets.size()));
+  }
+  if (!times.empty() && times.front() == AV_NOPTS_VALUE) times.clear();
+  return times;
+}
+
 }  // namespace
 
 Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& raw) {
@@ -172,7 +212,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   while ((code = av_read_frame(opened.format.get(), packet.get())) >= 0) {
     const bool counts = packet->stream_index == opened.stream && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
     if (counts) {
-      packets.push_back({packet->pts, packet->dts, packet->duration});
+      packets.push_back({packet->pts, packet->dts, packet->duration, (packet->flags & AV_PKT_FLAG_KEY) != 0});
       const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
       if (time != AV_NOPTS_VALUE && time < INT64_MAX - packet->duration) {
         last_end = std::max(last_end, time + packet->duration);
@@ -188,7 +228,8 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   if (auto note = missing_end_note(*opened.format, stream, last_end, packets.size())) {
     result.notes.emplace_back(std::move(*note));
   }
-  result.timing = timing_of(*opened.format, stream, packets, path.string());
+  result.timing =
+      timing_of(*opened.format, stream, picture_times(path, opened, packets, result), path.string());
   if (cine) add_cine_header(*cine, opened, path.string(), result);
   if (const auto filmed = capture_rate(*opened.format, path, result.notes)) {
     apply_capture_rate(*filmed, result.timing, result.notes);

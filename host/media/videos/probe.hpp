@@ -1,4 +1,5 @@
-// What a video file says of itself, read through libavformat without decoding a picture.
+// What a video file says of itself, read through libavformat; pictures are decoded only where packets do not tell when
+// they are shown.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +28,9 @@ struct Probe {
   std::string transfer_name;  // that the file has for its function, known here or not; empty: it has none
   ClipTiming timing;
   std::uint64_t sample_count = 0;
-  std::optional<Transfer> transfer;  // where the file names one that is known here
-  std::vector<Note> notes;           // what a person should know, whole sentences
+  std::uint64_t skipped_packets = 0;  // of the stream's first ones: PictureDecoder
+  std::optional<Transfer> transfer;   // where the file names one that is known here
+  std::vector<Note> notes;            // what a person should know, whole sentences
 };
 
 // Reads every packet's time. Throws InputError where the file cannot be opened or has no picture

@@ -1,0 +1,70 @@
+#include "media/videos/picture_decoder.hpp"
+
+#include <utility>
+
+#include "media/videos/phantom_packing.hpp"
+
+namespace nutik::videos {
+
+PictureDecoder::PictureDecoder(OpenedVideo opened, std::string name, Wanted wanted, std::uint64_t skipped,
+                               int threads)
+    : name_(std::move(name)),
+      opened_(std::move(opened)),
+      packet_(allocated(av_packet_alloc())),
+      wanted_(wanted),
+      skipped_(skipped) {
+  const AVCodecParameters& parameters = *stream().codecpar;
+  const AVCodec* decoder = avcodec_find_decoder(parameters.codec_id);
+  if (decoder == nullptr) throw InputError(format("{}: no decoder here knows its pictures", name_));
+  codec_.reset(allocated(avcodec_alloc_context3(decoder)));
+  codec_->thread_count = threads;
+  codec_->err_recognition = AV_EF_CRCCHECK;
+  if (wanted == Wanted::times) codec_->skip_loop_filter = codec_->skip_idct = AVDISCARD_ALL;
+  codec_->pkt_timebase = stream().time_base;
+  damage_->listen_to(*codec_);
+  const int code = avcodec_parameters_to_context(codec_.get(), &parameters);
+  // Some files give the depth of what the table makes of them.
+  if (is_phantom_packed(parameters)) codec_->bits_per_coded_sample = kPhantomPackedBits;
+  if (code < 0 || avcodec_open2(codec_.get(), decoder, nullptr) < 0) {
+    throw InputError(format("{}: its decoder cannot be started", name_));
+  }
+}
+
+bool PictureDecoder::next(AVFrame& picture) {
+  for (;;) {
+    const int code = avcodec_receive_frame(codec_.get(), &picture);
+    if (code == AVERROR_EOF) return false;
+    if (code == 0) {
+      ++pictures_;
+      return true;
+    }
+    if (code != AVERROR(EAGAIN) && wanted_ == Wanted::pictures) fail(code);
+    feed();
+  }
+}
+
+void PictureDecoder::feed() {
+  for (;;) {
+    if (av_read_frame(opened_.format.get(), packet_.get()) < 0) {
+      avcodec_send_packet(codec_.get(), nullptr);
+      return;
+    }
+    const bool is_of_stream = packet_->stream_index == opened_.stream;
+    const bool is_wanted = is_of_stream && skipped_ == 0;
+    if (is_of_stream && skipped_ > 0) --skipped_;
+    const int code = is_wanted ? avcodec_send_packet(codec_.get(), packet_.get()) : 0;
+    av_packet_unref(packet_.get());
+    // A clip that was cut starts with packets that refer to pictures before it.
+    const bool is_cut = code == AVERROR_INVALIDDATA && pictures_ == 0;
+    if (code < 0 && !is_cut && wanted_ == Wanted::pictures) fail(code);
+    if (is_cut) damage_->forget();
+    if (is_wanted) return;
+  }
+}
+
+void PictureDecoder::fail(int code) const {
+  throw InputError(format("{}: picture {} cannot be decoded: {}", name_, pictures_, error_text(code)),
+                   {Setting::end_at_damage});
+}
+
+}  // namespace nutik::videos

@@ -1,0 +1,50 @@
+// The pictures of a video's stream as libavcodec hands them out, one after another in the order in which they are
+// shown.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "media/videos/damage_log.hpp"
+#include "media/videos/libav.hpp"
+
+namespace nutik::videos {
+
+class PictureDecoder {
+ public:
+  // Of times the pictures are worth nothing: what only makes them look right is left out, and so are those that cannot
+  // be decoded.
+  enum class Wanted { pictures, times };
+
+  // Throws InputError naming the file where no decoder knows its pictures. The first `skipped` packets of its stream
+  // refer to pictures that it lacks.
+  PictureDecoder(OpenedVideo opened, std::string name, Wanted wanted, std::uint64_t skipped, int threads);
+
+  [[nodiscard]] const AVStream& stream() const { return *opened_.format->streams[opened_.stream]; }
+
+  // That it uses, as many as were asked for at most.
+  [[nodiscard]] int threads() const { return codec_->thread_count; }
+
+  // False at the end. Throws InputError where the file is damaged so that a wanted picture is none.
+  bool next(AVFrame& picture);
+
+  // What its decoder has said of damage so far: of the picture that came last, or of one soon after it.
+  [[nodiscard]] std::optional<std::string> damage() const { return damage_->said(); }
+
+ private:
+  void feed();
+  [[noreturn]] void fail(int code) const;
+
+  std::string name_;
+  OpenedVideo opened_;
+  std::unique_ptr<DamageLog> damage_ = std::make_unique<DamageLog>();  // outlives the decoder
+  CodecPointer codec_;
+  PacketPointer packet_;
+  Wanted wanted_;
+  std::uint64_t skipped_;
+  std::uint64_t pictures_ = 0;
+};
+
+}  // namespace nutik::videos
