@@ -27,6 +27,15 @@ Split split(int128 numerator, int128 denominator) {
   return {whole, part, denominator};
 }
 
+int128 common_divisor(int128 a, int128 b) {
+  while (b != 0) {
+    const int128 rest = a % b;
+    a = b;
+    b = rest;
+  }
+  return a;
+}
+
 void check_term(Rational value, const char* what) {
   if (value.numerator <= 0) throw UsageError(format("{} {} is not positive", what, value.text()));
   if (value.numerator > kLargestTerm || value.denominator > kLargestTerm) {
@@ -43,6 +52,21 @@ ExactTime ExactTime::of_sample(const Timeline& timeline, std::uint64_t k) {
   if (!timeline.is_constant()) return {timeline.start_ns(k), 1};
   const Rational rate = timeline.rate();
   return {static_cast<int128>(k) * rate.denominator * kSecondNs, rate.numerator};
+}
+
+ExactTime operator+(const ExactTime& a, const ExactTime& b) {
+  constexpr int128 kFinest = 1'000'000'000'000'000;
+  const Split of_a = split(a.numerator, a.denominator), of_b = split(b.numerator, b.denominator);
+  int128 part = of_a.part * of_b.of + of_b.part * of_a.of, of = of_a.of * of_b.of;
+  const int128 shared = common_divisor(part, of);
+  part /= shared;
+  of /= shared;
+  if (of > kFinest) {
+    part = static_cast<int128>(static_cast<long double>(part) / static_cast<long double>(of) *
+                               static_cast<long double>(kFinest));
+    of = kFinest;
+  }
+  return {(of_a.whole + of_b.whole) * of + part, of};
 }
 
 std::int64_t rounded_sum(const ExactTime& a, const ExactTime& b) {

@@ -25,6 +25,9 @@ struct ExactTime {
   static ExactTime of_sample(const Timeline& timeline, std::uint64_t k);
 };
 
+// In lowest terms. Where that takes a denominator above 10^15, what is nearest among 10^-15 ns.
+[[nodiscard]] ExactTime operator+(const ExactTime& a, const ExactTime& b);
+
 // Rounded half up, once, from the exact sum.
 [[nodiscard]] std::int64_t rounded_sum(const ExactTime& a, const ExactTime& b);
 

@@ -110,9 +110,14 @@ class Candidates {
     }
     const std::int64_t step_ns = std::max<std::int64_t>(free.step->nanoseconds(), 1);
     static_cast<void>(multiplied(1, static_cast<std::uint64_t>((range.to_ns - range.from_ns) / step_ns)));
-    for (std::int64_t time_ns = range.from_ns; time_ns <= range.to_ns; time_ns += step_ns)
-      times_ns.push_back(time_ns);
-    return times_ns;
+    const ExactTime from = exact_time(free.from, "the range", timeline_),
+                    step = free.step->nanoseconds() > 0 ? exact_time(*free.step, "the step", timeline_)
+                                                        : ExactTime{1, 1};
+    for (int128 k = 0;; ++k) {
+      const std::int64_t time_ns = rounded_sum(from, {k * step.numerator, step.denominator});
+      if (time_ns > range.to_ns) return times_ns;
+      if (times_ns.empty() || time_ns > times_ns.back()) times_ns.push_back(time_ns);
+    }
   }
 
   const FunctionTemplate& functions_;

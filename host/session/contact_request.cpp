@@ -24,9 +24,9 @@ void check_count(int128 count, const StatedTime& every, std::int64_t span_ns) {
       StatedTime::of_nanoseconds(least_ns));
 }
 
-std::vector<std::int64_t> starts_of(const ContactRequest& request, const Timeline& timeline) {
+std::vector<ExactTime> starts_of(const ContactRequest& request, const Timeline& timeline) {
   const std::uint64_t first = sample_at(request.start, "start", timeline);
-  std::vector<std::int64_t> starts;
+  std::vector<ExactTime> starts;
   if (!request.every || request.every->counts_samples()) {
     const std::uint64_t samples = timeline.sample_count() - first;
     const std::uint64_t stride = request.every ? static_cast<std::uint64_t>(request.every->number.numerator)
@@ -36,7 +36,7 @@ std::vector<std::int64_t> starts_of(const ContactRequest& request, const Timelin
                   timeline.duration_ns() - timeline.start_ns(first));
     }
     for (std::uint64_t k = first; k < timeline.sample_count(); k += stride)
-      starts.push_back(timeline.start_ns(k));
+      starts.push_back(ExactTime::of_sample(timeline, k));
     return starts;
   }
   const StatedTime& every = *request.every;
@@ -45,33 +45,35 @@ std::vector<std::int64_t> starts_of(const ContactRequest& request, const Timelin
   const int128 step = static_cast<int128>(every.number.numerator) * every.unit_ns;
   const int128 count = (static_cast<int128>(span_ns) * every.number.denominator + step - 1) / step;
   check_count(count, every, span_ns);
+  const ExactTime start = exact_time(request.start, "start", timeline);
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(count); ++i) {
-    const std::int64_t at_ns = start_ns + round_half_up(i * step, every.number.denominator);
-    if (at_ns < timeline.duration_ns()) starts.push_back(at_ns);
+    const ExactTime at = start + ExactTime{i * step, every.number.denominator};
+    if (round_half_up(at.numerator, at.denominator) < timeline.duration_ns()) starts.push_back(at);
   }
   return starts;
 }
 
 // As plain_interval has it; pictures that the capture no longer has may be counted, too. How far an exposure passes
 // the end is all the same, as long as it does: a warning then says so.
-Exposure interval_from(std::int64_t start_ns, const StatedTime& length, const Timeline& timeline) {
+Exposure interval_from(const ExactTime& start, const StatedTime& length, const Timeline& timeline) {
+  const std::int64_t start_ns = round_half_up(start.numerator, start.denominator);
   if (length.counts_samples() && length.number.denominator == 1) {
     const std::uint64_t left = timeline.sample_count() - sample_at(start_ns, timeline);
     if (length.number.numerator > static_cast<std::int64_t>(left))
       return {start_ns, timeline.duration_ns() + 1};
   }
-  return plain_interval(StatedTime::of_nanoseconds(start_ns), length, timeline);
+  return plain_interval(start, length, timeline);
 }
 
 }  // namespace
 
 std::vector<Exposure> exposures_of(const ContactRequest& request, const Timeline& timeline) {
   std::vector<Exposure> exposures;
-  for (const std::int64_t start_ns : starts_of(request, timeline)) {
+  for (const ExactTime& start : starts_of(request, timeline)) {
     if (request.length) {
-      exposures.push_back(interval_from(start_ns, *request.length, timeline));
+      exposures.push_back(interval_from(start, *request.length, timeline));
     } else {
-      const std::uint64_t sample = sample_at(start_ns, timeline);
+      const std::uint64_t sample = sample_at(round_half_up(start.numerator, start.denominator), timeline);
       exposures.push_back({timeline.start_ns(sample), timeline.end_ns(sample)});
     }
   }

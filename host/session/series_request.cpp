@@ -16,15 +16,14 @@ StatedTime start_of(const StatedTime& every, const StatedTime& first, std::uint6
     if (first.counts_samples()) return StatedTime::of_pictures(first.number.numerator + pictures);
     // So many pictures after the one at the start.
     const std::int64_t first_ns = first.nanoseconds();
-    const std::uint64_t sample = sample_at(first_ns, timeline);
-    const std::uint64_t later = sample + static_cast<std::uint64_t>(pictures);
-    const std::int64_t later_ns =
-        later < timeline.sample_count() ? timeline.start_ns(later) : timeline.duration_ns();
-    return StatedTime::of_nanoseconds(first_ns + later_ns - timeline.start_ns(sample));
+    const auto left = static_cast<std::int64_t>(timeline.sample_count() - sample_at(first_ns, timeline));
+    return pictures == 0 ? first
+                         : StatedTime::of(exact_time(first, "start", timeline) +
+                                          periods_from(first_ns, std::min(pictures, left), timeline));
   }
   const ExactTime start = exact_time(first, "start", timeline);
   const ExactTime later{steps * every.number.numerator * every.unit_ns, every.number.denominator};
-  return StatedTime::of_nanoseconds(rounded_sum(start, later));
+  return StatedTime::of(start + later);
 }
 
 bool starts_within(const StatedTime& start, const Timeline& timeline) {

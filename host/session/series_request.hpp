@@ -35,8 +35,8 @@ struct NothingInCapture : UsageError {
   using UsageError::UsageError;
 };
 
-// The start of each exposure, exactly start + k · every, rounded once from its own exact value: no drift.
-// Counted in pictures where both are, else in nanoseconds. Throws the errors above, or UsageError where the first
+// The start of each exposure, exactly start + k · every: no drift, and what is added to it is rounded once with it.
+// Counted in pictures where both are, else in time. Throws the errors above, or UsageError where the first
 // starts behind the capture's end.
 [[nodiscard]] std::vector<StatedTime> starts_of(const SeriesRequest& series, const ExposureRequest& request,
                                                 const Timeline& timeline);

@@ -47,15 +47,28 @@ std::int64_t whole_samples(const StatedTime& time, std::string_view what) {
   return time.number.numerator;
 }
 
-// How long `count` periods from the picture at a time are.
-std::int64_t periods_ns(std::int64_t time_ns, std::int64_t count, const Timeline& timeline) {
-  const std::uint64_t first = sample_at(time_ns, timeline);
-  const std::uint64_t last = existing_sample(static_cast<std::int64_t>(first) + count - 1, timeline);
-  const bool at_end = last + 1 == timeline.sample_count();
-  return (at_end ? timeline.duration_ns() : timeline.start_ns(last + 1)) - timeline.start_ns(first);
+std::int64_t rounded(const ExactTime& time) { return round_half_up(time.numerator, time.denominator); }
+
+[[noreturn]] void refuse_length(const StatedTime& length, std::string_view why) {
+  throw UsageError(format("exposure '{}' is {}", length.text(), why));
+}
+
+// GainFunction could not hold later times than the longest.
+Exposure checked(Exposure interval, const StatedTime& length) {
+  if (interval.end_ns <= interval.start_ns) refuse_length(length, "shorter than a nanosecond");
+  interval.end_ns = std::min(interval.end_ns, std::max(kLongestNs, interval.start_ns));
+  return interval;
 }
 
 }  // namespace
+
+ExactTime periods_from(std::int64_t time_ns, std::int64_t count, const Timeline& timeline) {
+  const std::uint64_t first = sample_at(time_ns, timeline);
+  const std::uint64_t last = existing_sample(static_cast<std::int64_t>(first) + count - 1, timeline);
+  if (timeline.is_constant()) return ExactTime::of_sample(timeline, static_cast<std::uint64_t>(count));
+  const bool at_end = last + 1 == timeline.sample_count();
+  return {(at_end ? timeline.duration_ns() : timeline.start_ns(last + 1)) - timeline.start_ns(first), 1};
+}
 
 StatedTime StatedTime::parse(std::string_view text, std::string_view what) {
   const auto unit_at = text.find_first_not_of("0123456789./-");
@@ -87,6 +100,21 @@ StatedTime StatedTime::of_nanoseconds(std::int64_t nanoseconds) {
   return {{nanoseconds / unit->nanoseconds, 1}, unit->nanoseconds};
 }
 
+StatedTime StatedTime::of(const ExactTime& time) {
+  constexpr int128 kLargest = 999'999'999'999'999;  // Rational::parse() reads no more digits
+  if (time.denominator == 1) return of_nanoseconds(static_cast<std::int64_t>(time.numerator));
+  const auto shared =
+      static_cast<std::int64_t>(std::gcd(static_cast<std::int64_t>(time.numerator % kSecondNs), kSecondNs));
+  const int128 above = time.numerator / shared, below = time.denominator * (kSecondNs / shared);
+  if (above <= kLargest && above >= -kLargest && below <= kLargest)
+    return {Rational::of(static_cast<std::int64_t>(above), static_cast<std::int64_t>(below)), kSecondNs};
+  if (time.numerator <= kLargest && time.numerator >= -kLargest)
+    return {
+        Rational::of(static_cast<std::int64_t>(time.numerator), static_cast<std::int64_t>(time.denominator)),
+        1};
+  return of_nanoseconds(round_half_up(time.numerator, time.denominator));
+}
+
 std::string StatedTime::text() const {
   const auto unit = std::ranges::find(kUnits, unit_ns, &Unit::nanoseconds);
   return format("{}{}", number.text(), unit->name);
@@ -110,25 +138,23 @@ std::int64_t moment_ns(const StatedTime& time, const Timeline& timeline) {
 }
 
 Exposure plain_interval(const StatedTime& start, const StatedTime& length, const Timeline& timeline) {
-  const auto fail = [&](std::string_view why) {
-    throw UsageError(format("exposure '{}' is {}", length.text(), why));
-  };
-  if (length.number.numerator <= 0) fail("not longer than nothing");
-  const std::int64_t count = length.counts_samples() ? whole_samples(length, "exposure") : 0;
-  Exposure interval;
-  interval.start_ns = moment_ns(start, timeline);
-  if (count == 0) {
-    interval.end_ns = interval.start_ns + length.nanoseconds();
-  } else if (start.counts_samples()) {
-    const std::int64_t first = whole_samples(start, "start");
-    interval.end_ns = timeline.end_ns(existing_sample(first + count - 1, timeline));
-  } else {
-    interval.end_ns = interval.start_ns + periods_ns(interval.start_ns, count, timeline);
-  }
-  if (interval.end_ns <= interval.start_ns) fail("shorter than a nanosecond");
-  // GainFunction could not hold later times.
-  interval.end_ns = std::min(interval.end_ns, std::max(kLongestNs, interval.start_ns));
-  return interval;
+  if (!start.counts_samples()) return plain_interval(exact_time(start, "start", timeline), length, timeline);
+  if (length.number.numerator <= 0) refuse_length(length, "not longer than nothing");
+  const std::int64_t first = whole_samples(start, "start");
+  const std::uint64_t sample = existing_sample(first, timeline);
+  if (!length.counts_samples())
+    return plain_interval(ExactTime::of_sample(timeline, sample), length, timeline);
+  const std::int64_t last = first + whole_samples(length, "exposure") - 1;
+  return checked({timeline.start_ns(sample), timeline.end_ns(existing_sample(last, timeline))}, length);
+}
+
+Exposure plain_interval(const ExactTime& start, const StatedTime& length, const Timeline& timeline) {
+  if (length.number.numerator <= 0) refuse_length(length, "not longer than nothing");
+  const std::int64_t start_ns = rounded(start);
+  const ExactTime exact = length.counts_samples()
+                              ? periods_from(start_ns, whole_samples(length, "exposure"), timeline)
+                              : exact_time(length, "exposure", timeline);
+  return checked({start_ns, rounded_sum(start, exact)}, length);
 }
 
 std::uint64_t sample_at(std::int64_t time_ns, const Timeline& timeline) {

@@ -22,6 +22,8 @@ struct StatedTime {
   // In the coarsest unit that holds it in whole numbers.
   static StatedTime of_nanoseconds(std::int64_t nanoseconds);
   static StatedTime of_pictures(std::int64_t count) { return {{count, 1}, 0}; }
+  // Exactly, where 15 digits above and 15 below the fraction line hold it; else the nearest nanosecond.
+  static StatedTime of(const ExactTime& time);
 
   [[nodiscard]] bool counts_samples() const { return unit_ns == 0; }
   // Rounded half up. For a time in seconds or parts of it.
@@ -35,9 +37,16 @@ struct StatedTime {
 // When the plain interval from a start and of a length begins and ends on a timeline. From `37f` for `3f` is from
 // the start of picture 37's exposure to the end of picture 39's, so that one picture is exactly what the camera
 // exposed; `3f` after a start at 0.4s is as long as three periods there. Throws UsageError where it is not longer
-// than nothing, or where pictures are counted that the timeline lacks.
+// than nothing, or where pictures are counted that the timeline lacks. Both ends are rounded half up once, from their
+// own exact values: 1/300s for 1/300s ends at 2/300s.
 [[nodiscard]] Exposure plain_interval(const StatedTime& start, const StatedTime& length,
                                       const Timeline& timeline);
+// The same from a moment, which is no picture's: lengths in pictures are periods.
+[[nodiscard]] Exposure plain_interval(const ExactTime& start, const StatedTime& length,
+                                      const Timeline& timeline);
+
+// How long `count` periods are from the picture at a time, within the capture. Throws UsageError where it ends before.
+[[nodiscard]] ExactTime periods_from(std::int64_t time_ns, std::int64_t count, const Timeline& timeline);
 
 // The picture at a time: `37f`, or the last whose exposure begins no later than the time. Throws UsageError
 // naming `what` where the time lies outside the capture.

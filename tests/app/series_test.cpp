@@ -87,8 +87,11 @@ TEST_F(Series, MovesFunctionsAndKeepsTheMask) {
 TEST_F(Series, RoundsEachStartOnce) {
   const auto answer = run({"--start", "1/300s", "--exposure", "1ms", "--every", "1001/90000s", "--count", "3",
                            "--json", "clip.tik", "r-%d.pfm"});
-  for (const char* start : {"3333333ns", "14455556ns", "25577778ns"})
-    EXPECT_NE(answer.out.find(start), std::string::npos) << start << " in " << answer.out;
+  for (const char* start : {"1/300s", "1301/90000s", "1151/45000s"})
+    EXPECT_NE(answer.out.find('"' + std::string(start) + '"'), std::string::npos)
+        << start << " in " << answer.out;
+  const auto rounded = run({"--start", "14455556ns", "--exposure", "1ms", "clip.tik", "rounded.pfm"});
+  EXPECT_EQ(file("rounded.pfm"), file("r-1.pfm")) << "14455555.56 ns to 15455555.56 ns";
 }
 
 TEST_F(Series, CountsInPicturesOfTheClip) {

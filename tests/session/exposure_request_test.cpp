@@ -85,6 +85,20 @@ TEST(SeriesRequest, StartsWithinTheCapture) {
   EXPECT_EQ(starts_of({time("2f"), 3}, plain("1f", "1f"), kTimeline).back(), time("5f"));
 }
 
+// No nanosecond is exposed twice, or not at all, by exposures that follow each other.
+TEST(SeriesRequest, OfTimesBesideEachOtherLeavesNoGaps) {
+  const ExposureRequest request = plain("1/7ms", "1/300s");
+  for (const char* every : {"1/300s", "1f"}) {
+    const Timeline timeline = Timeline::constant({300, 1}, {180, 1}, 30);
+    const std::vector<StatedTime> starts = starts_of({time(every), std::nullopt}, request, timeline);
+    ASSERT_EQ(starts.size(), 29u);
+    for (std::size_t k = 1; k < starts.size(); ++k) {
+      const Exposure before = plain_interval(starts[k - 1], time("1/300s"), timeline);
+      EXPECT_EQ(plain_interval(starts[k], time("1/300s"), timeline).start_ns, before.end_ns) << every << k;
+    }
+  }
+}
+
 TEST(SeriesRequest, SaysHowManyWouldFit) {
   try {
     static_cast<void>(starts_of({time("2f"), 9}, plain("1f", "1f"), kTimeline));

@@ -47,6 +47,16 @@ TEST(ContactRequest, CountsPicturesOrTimes) {
   EXPECT_EQ(labels_of(times, kTimeline)[1], "40 ms   4f");
 }
 
+// Each ends where the next begins, whatever is rounded.
+TEST(ContactRequest, OfTimesBesideEachOtherLeavesNoGaps) {
+  for (const char* length : {"1/300s", "1001/240000s"}) {
+    const std::vector<Exposure> all = exposures_of({time("1/7s"), time(length), time(length)},
+                                                   Timeline::constant({1000, 1}, {360, 1}, 300));
+    ASSERT_GT(all.size(), 30u);
+    for (std::size_t k = 1; k < all.size(); ++k) EXPECT_EQ(all[k].start_ns, all[k - 1].end_ns) << length << k;
+  }
+}
+
 TEST(ContactRequest, SaysWhichStepFitsASheet) {
   try {
     static_cast<void>(exposures_of({time("0s"), time("1us"), {}}, kTimeline));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "capture/error.hpp"
+#include "support/random_case.hpp"
 
 namespace nutik {
 namespace {
@@ -41,6 +42,33 @@ TEST(StatedTime, CountsPicturesOnATimeline) {
   EXPECT_EQ(sample_at(time("0.1s"), "start", timeline), 9u) << "the end belongs to the last picture";
   EXPECT_THROW(static_cast<void>(sample_at(time("101ms"), "start", timeline)), UsageError);
   EXPECT_THROW(static_cast<void>(plain_interval(time("8f"), time("3f"), timeline)), UsageError);
+}
+
+TEST(StatedTime, EndsAreRoundedOnceFromTheSumOfStartAndLength) {
+  const Timeline thousand = Timeline::constant({1000, 1}, {360, 1}, 1000);
+  EXPECT_EQ(plain_interval(time("1/300s"), time("1/300s"), thousand), (Exposure{3'333'333, 6'666'667}));
+  const Timeline timeline = Timeline::constant({300, 1}, {180, 1}, 300);  // a third of 10 ms each
+  EXPECT_EQ(plain_interval(time("1f"), time("1/300s"), timeline), (Exposure{3'333'333, 6'666'667}));
+  EXPECT_EQ(plain_interval(time("1/300s"), time("1f"), timeline), (Exposure{3'333'333, 6'666'667}));
+  test::Random random(3);
+  const Timeline hour = Timeline::constant({1, 1}, {360, 1}, 3600);
+  for (int i = 0; i < 1000; ++i) {
+    const std::int64_t a = random.whole(0, 100'000), b = random.whole(1, 100'000),
+                       c = random.whole(1, 100'000), d = random.whole(1, 100'000);
+    const StatedTime start{Rational::of(a, b), 1'000'000}, length{Rational::of(c, d), 1'000'000};
+    const int128 end = (static_cast<int128>(a) * d + static_cast<int128>(c) * b) * 1'000'000;
+    ASSERT_EQ(plain_interval(start, length, hour).end_ns, round_half_up(end, static_cast<int128>(b) * d))
+        << start.text() << " for " << length.text();
+  }
+}
+
+TEST(StatedTime, OfAnExactOneIsExactWhereDigitsHoldIt) {
+  EXPECT_EQ(StatedTime::of({40'000'000, 1}).text(), "40ms");
+  EXPECT_EQ(StatedTime::of(ExactTime{10'000'000, 3}).text(), "1/300s");
+  EXPECT_EQ(StatedTime::of(ExactTime{10'000'000, 3} + ExactTime{10'000'000, 3}).text(), "1/150s");
+  EXPECT_EQ(StatedTime::of(ExactTime{1, 999'999'999'999'989}).text(), "1/999999999999989ns");
+  EXPECT_EQ(StatedTime::of(ExactTime{1'000'000'000'000'000, 3}).text(), "1000000/3s");
+  EXPECT_EQ(StatedTime::of(ExactTime{1'000'000'000'000'001, 3}).text(), "333333333333334ns") << "rounded";
 }
 
 }  // namespace
