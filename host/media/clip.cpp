@@ -47,11 +47,11 @@ class DescribedClip final : public Clip {
   ClipInfo info_;
 };
 
-// A clip whose first picture that cannot be read is its end.
-class EndingAtDamage final : public Clip {
+// A clip with a picture that cannot be read: that is its end, or an error which says that it could be.
+class PerhapsDamaged final : public Clip {
  public:
-  EndingAtDamage(std::unique_ptr<Clip> clip, const std::filesystem::path& path)
-      : clip_(std::move(clip)), name_(path.string()) {}
+  PerhapsDamaged(std::unique_ptr<Clip> clip, const std::filesystem::path& path, bool ends_at_damage)
+      : clip_(std::move(clip)), name_(input_title(path.string())), ends_at_damage_(ends_at_damage) {}
 
   [[nodiscard]] const ClipInfo& info() const override { return clip_->info(); }
 
@@ -62,7 +62,13 @@ class EndingAtDamage final : public Clip {
       ++samples_read_;
       return true;
     } catch (const InputError& error) {
-      if (samples_read_ == 0) throw;
+      // What has settings of its own is no damage.
+      if (samples_read_ == 0 || (!ends_at_damage_ && !error.settings().empty())) throw;
+      if (!ends_at_damage_) {
+        throw InputError(format("{}; the {} before it can be taken", error.what(),
+                                samples_read_ == 1 ? "picture" : format("{} pictures", samples_read_)),
+                         {Setting::end_at_damage});
+      }
       reason_ = format("{} is taken as far as it goes, {} of {} pictures: {}", name_, samples_read_,
                        clip_->info().sample_count, error.what());
       has_ended_ = true;
@@ -73,10 +79,12 @@ class EndingAtDamage final : public Clip {
   [[nodiscard]] std::optional<std::string> ended_early() const override {
     return has_ended_ ? std::optional(reason_) : std::nullopt;
   }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
 
  private:
   std::unique_ptr<Clip> clip_;
   std::string name_;
+  bool ends_at_damage_;
   std::uint64_t samples_read_ = 0;
   std::string reason_;
   std::atomic<bool> has_ended_ = false;  // asked for while another thread reads; `reason_` stays from then on
@@ -118,7 +126,7 @@ void refuse_events(const std::filesystem::path& path) {
   throw InputError(
       format("{} is the recording of an event camera, which holds changes of single pixels and no "
              "pictures: such are not read. Make a video of it with its camera's program",
-             path.string()));
+             input_title(path.string())));
 }
 
 // All of it, as its files have it.
@@ -129,7 +137,7 @@ std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOp
   }
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
-    throw InputError(format("{} cannot be read: no such file", path.string()));
+    throw InputError(format("{} cannot be read: no such file", input_title(path.string())));
   }
   if (options.raw) return open_raw(path, options);
   refuse_events(path);
@@ -141,8 +149,8 @@ std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOp
 std::unique_ptr<Clip> open_clip(const std::filesystem::path& name, const ClipOptions& options) {
   const std::filesystem::path& path = is_standard_input(name.string()) ? standard_input_file() : name;
   std::unique_ptr<Clip> clip = open_whole(path, options);
-  if (options.ends_at_damage) clip = std::make_unique<EndingAtDamage>(std::move(clip), path);
-  return take_part(std::move(clip), path, options);
+  return take_part(std::make_unique<PerhapsDamaged>(std::move(clip), path, options.ends_at_damage), path,
+                   options);
 }
 
 void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const StoredCodes& codes) {

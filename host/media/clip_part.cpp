@@ -11,6 +11,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/light_means.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik {
 namespace {
@@ -86,7 +87,10 @@ void keep(std::vector<Value>& values, std::uint64_t first, std::uint64_t end) {
 class ClipPart final : public Clip {
  public:
   ClipPart(std::unique_ptr<Clip> clip, const std::filesystem::path& path, const ClipOptions& options)
-      : name_(path.string()), clip_(std::move(clip)), info_(clip_->info()), whole_(info_.format) {
+      : name_(input_title(path.string())),
+        clip_(std::move(clip)),
+        info_(clip_->info()),
+        whole_(info_.format) {
     choose_samples(options);
     crop_ = options.crop.value_or(Rectangle::whole(whole_.shape));
     if (options.crop) crop(*options.crop);

@@ -160,7 +160,7 @@ class PhotronClip final : public Clip {
   bool read(std::span<std::byte> raster) override {
     if (next_ == count_) return false;
     if ((next_ + 1) * layout_.picture_bytes() > file_.bytes().size()) {
-      throw InputError(cut_off_text(), {Setting::end_at_damage});
+      throw cut_off();
     }
     const auto picture = file_.bytes().subspan(next_ * layout_.picture_bytes(), layout_.picture_bytes());
     if (layout_.is_packed()) {
@@ -182,10 +182,12 @@ class PhotronClip final : public Clip {
                   layout_.bits * layout_.shape.channels);
   }
 
-  [[nodiscard]] std::string cut_off_text() const {
-    return format("{} was cut off: {} names {} pictures ({}), and it has {} whole ones", name_.string(),
-                  header_.file.filename().string(), count_, described(),
-                  file_.bytes().size() / layout_.picture_bytes());
+  [[nodiscard]] InputError cut_off() const {
+    return InputError(
+        format("{} was cut off: {} names {} pictures ({}), and it has {} whole ones, which can be taken",
+               name_.string(), header_.file.filename().string(), count_, described(),
+               file_.bytes().size() / layout_.picture_bytes()),
+        {Setting::end_at_damage});
   }
 
   void check_size(bool ends_at_damage) {
@@ -194,7 +196,7 @@ class PhotronClip final : public Clip {
     if (count_ * one == bytes && count_ > 0) return;
     if (bytes < count_ * one && count_ > 0) {
       if (ends_at_damage && bytes >= one) return;
-      throw InputError(cut_off_text(), {Setting::end_at_damage});
+      throw cut_off();
     }
     throw InputError(
         format("{} has {} bytes, and {} names {} pictures, {} bytes each ({}): it is of another recording",

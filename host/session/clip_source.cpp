@@ -44,7 +44,7 @@ CameraNoise own_noise(ClipSource& source, const OpenClip& open, const MemoryBudg
       NoiseEstimator::threads_in(memory.bytes - within_decoder, source.capture, kSamplesOfOwnNoise);
   NoiseEstimator estimator(source.capture, threads);
   estimator.add_clip(
-      source.request.path.string(), [&](std::span<std::byte> raster) { return source.clip->read(raster); },
+      source.name(), [&](std::span<std::byte> raster) { return source.clip->read(raster); },
       kSamplesOfOwnNoise);
   source.clip.reset();
   source.clip = open();
@@ -54,7 +54,7 @@ CameraNoise own_noise(ClipSource& source, const OpenClip& open, const MemoryBudg
         "{}: no noise can be measured on it: pixels {} apart stray alike, as noise of a sensor does not. "
         "Something moves in most of the picture, or a codec took its noise away. Take the noise of a still "
         "scene, filmed with the same settings and not compressed, or a tolerance",
-        source.request.path.string(), kNeighbourPixels));
+        source.name(), kNeighbourPixels));
   }
   for (const std::string& note : noise_notes(estimate)) source.notes.emplace_back(note);
   return estimate.noise;
@@ -98,16 +98,19 @@ std::uint64_t reference_of(const AlignRequest& align, const ClipSource& source) 
   if (moment.is_picture && moment.value >= 0) return static_cast<std::uint64_t>(moment.value);
   throw UsageError(
       format("{} does not say how many pictures it has: name the one to align to by its number, 12f",
-             source.request.path.string()));
+             source.name()));
 }
 
 // From here on the source's clip is one whose camera stands still, however often `open` opens it.
 void align(ClipSource& source, OpenClip& open, const MemoryBudget& memory, const ReportedProgress& progress,
            const std::stop_token& stop) {
   AlignRequest& request = *source.request.align;
-  const ClipToAlign clip{source.request.path.string(),      source.capture,
-                         reference_of(request, source),     source.announced_samples(),
-                         source.clip->info().decoder_bytes, open};
+  const ClipToAlign clip{source.name(),
+                         source.capture,
+                         reference_of(request, source),
+                         source.announced_samples(),
+                         source.clip->info().decoder_bytes,
+                         open};
   source.clip.reset();
   if (!request.path) {
     request.path.emplace(find_camera_path(clip, request.motion, memory, progress, stop));
@@ -155,10 +158,9 @@ CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
 }
 
 Timeline ClipSource::timeline(std::uint64_t sample_count) const {
-  const std::string name = request.path.string();
   return request.shutter_angle
-             ? timeline_of(name, clip->info(), request.clip, *request.shutter_angle, sample_count)
-             : timeline_of(name, clip->info(), request.clip, sample_count);
+             ? timeline_of(name(), clip->info(), request.clip, *request.shutter_angle, sample_count)
+             : timeline_of(name(), clip->info(), request.clip, sample_count);
 }
 
 std::vector<Fact> ClipSource::facts(const Timeline& timeline) const {
@@ -202,7 +204,7 @@ ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& me
   OpenClip open = [path = request.path, options] { return open_clip(path, options); };
   source.clip = open();
   if (request.shutter_angle && !request.clip.rate && !source.clip->info().timing.exposures.empty()) {
-    throw ExposuresAreListed(request.path.string());
+    throw ExposuresAreListed(source.name());
   }
   source.capture = clip_format(*source.clip, request.clip);
   source.notes = source.clip->info().notes;
@@ -223,7 +225,7 @@ Timeline known_timeline(const SourceRequest& request, const MemoryBudget& memory
   const std::uint64_t count = source.announced_samples();
   if (count == 0) {
     throw InputError(format("{} does not say how many pictures it has; encode it first and name the capture",
-                            request.path.string()));
+                            source.name()));
   }
   return source.timeline(count);
 }

@@ -18,6 +18,7 @@
 #include "session/alignment.hpp"
 #include "session/clip_memory.hpp"
 #include "session/source_request.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik {
 
@@ -42,6 +43,8 @@ struct ClipSource {
   // What the capture is taken for, its times included, each with who said it.
   [[nodiscard]] std::vector<Fact> facts(const Timeline& timeline) const;
 
+  // For messages.
+  [[nodiscard]] std::string name() const { return input_title(request.path.string()); }
   // As the files announce it; 0: they do not.
   [[nodiscard]] std::uint64_t announced_samples() const { return clip->info().sample_count; }
   // Of so many samples. Throws InputError where nothing tells how fast they were taken.

@@ -65,7 +65,7 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMe
       first_(samples_.next(1)),
       blocks_(kPayloads),
       spare_payloads_(kPayloads) {
-  if (first_.empty()) throw InputError(format("{} has no picture", source_.request.path.string()));
+  if (first_.empty()) throw InputError(format("{} has no picture", source_.name()));
   tik::Header header;
   header.capture = held_format(source_.capture);
   const std::optional<Rational>& stated_rate = source_.request.clip.rate;
@@ -99,7 +99,7 @@ std::vector<std::string> Encoding::warnings(std::uint64_t samples) const {
   return {
       format("{} announces {} pictures and {} could be decoded: if some within are damaged, those "
              "after them have the times of others",
-             source_.request.path.string(), announced, samples)};
+             source_.name(), announced, samples)};
 }
 
 std::uint64_t Encoding::build(const ReportedProgress& progress, const std::stop_token& stop) {

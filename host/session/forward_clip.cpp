@@ -48,8 +48,7 @@ ExposedPicture expose_forward(ClipSource source, const MemoryBudget& memory, con
                          expose);
     } catch (const SampleCountMismatch& mismatch) {
       if (decoded == mismatch.sample_count || mismatch.sample_count == 0) {
-        throw InputError(format("{}: only {} pictures can be decoded", source.request.path.string(),
-                                mismatch.sample_count));
+        throw InputError(format("{}: only {} pictures can be decoded", source.name(), mismatch.sample_count));
       }
       decoded = mismatch.sample_count;
     }

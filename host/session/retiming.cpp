@@ -11,6 +11,7 @@
 #include "capture/fact.hpp"
 #include "media/clip.hpp"
 #include "media/settled_fact.hpp"
+#include "session/clip_source.hpp"
 #include "session/time_text.hpp"
 #include "system/interruption.hpp"
 #include "tik/reader.hpp"
@@ -91,6 +92,14 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
 }  // namespace
 
 Retimed retime(const RetimeRequest& request) {
+  std::error_code error;
+  if (std::filesystem::exists(request.capture, error) && !is_tik(request.capture)) {
+    throw InputError(
+        format("{} is no .tik capture, and only those are corrected: state a clip's rate, angle and "
+               "transfer function when it is encoded",
+               request.capture.string()),
+        {Setting::frame_rate, Setting::shutter_angle, Setting::transfer});
+  }
   if (request.changes_nothing()) {
     throw UsageError(
         "what is to be corrected? State rate, angle, transfer function, primaries or pixel aspect",

@@ -41,7 +41,7 @@ AlignRequest same_alignment(const tik::Alignment& aligned) {
 SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const MemoryBudget& memory,
                                 const ReportedProgress& progress) {
   const CaptureFormat wanted = source_format(capture.format());
-  const std::string name = clip.path.string();
+  const std::string name = input_title(clip.path.string());
   clip.noise = NoNoise{};  // the capture has its noise model
   if (!clip.clip.white_code && wanted.code_bytes == 2) clip.clip.white_code = wanted.white_code;
   if (const auto& aligned = capture.header().alignment; aligned && !clip.align)

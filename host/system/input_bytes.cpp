@@ -18,6 +18,7 @@ namespace nutik {
 namespace {
 
 constexpr const char* kTitle = "standard input";
+constexpr const char* kFile = "/dev/stdin";
 
 std::string read_to_end(std::FILE* stream) {
   std::string bytes;
@@ -70,12 +71,14 @@ void keep_standard_input() {
 const std::filesystem::path& standard_input_file() {
   static const std::filesystem::path file = [] {
     keep_standard_input();
-    return std::filesystem::path("/dev/stdin");
+    return std::filesystem::path(kFile);
   }();
   return file;
 }
 
-std::string input_title(const std::string& name) { return is_standard_input(name) ? kTitle : name; }
+std::string input_title(const std::string& name) {
+  return is_standard_input(name) || name == kFile ? kTitle : name;
+}
 
 InputBytes::InputBytes(const std::string& name) {
   if (!is_standard_input(name)) {

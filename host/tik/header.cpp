@@ -90,7 +90,7 @@ class HeaderParser {
 
   void check_kind() {
     if (!is_netpbm(text_)) {
-      throw InputError(format("{} is no .tik file: it does not start with a Netpbm picture", name_));
+      throw InputError(format("{} is no .tik capture; a clip becomes one when it is encoded", name_));
     }
     at_ = 3;
     const auto line_end = text_.find('\n', at_);

@@ -144,7 +144,14 @@ TEST_F(PartOfAClip, ComesThroughAPipe) {
   EXPECT_NE(empty.err.find("standard input is empty"), std::string::npos) << empty.err;
   const auto senseless = shell("echo nonsense | " + program + " expose --exposure 1f - -o x.png");
   EXPECT_EQ(senseless.status, 3);
-  EXPECT_NE(senseless.err.find("/dev/stdin is no video"), std::string::npos) << senseless.err;
+  EXPECT_NE(senseless.err.find("nutik-cl: standard input is no video"), std::string::npos) << senseless.err;
+  const auto behind = shell("cat a.y4m | " + program + " encode --from 9s - x.tik");
+  EXPECT_NE(behind.err.find("no picture begins there in standard input, which has 12"), std::string::npos)
+      << behind.err;
+  const auto cut = shell("head -c 40000 a.y4m | " + program + " encode - cut.tik");
+  EXPECT_EQ(cut.status, 0) << cut.err;
+  EXPECT_NE(cut.err.find("note: it was cut off within picture "), std::string::npos) << cut.err;
+  EXPECT_EQ(cut.err.find("/dev/stdin"), std::string::npos) << cut.err;
 }
 
 TEST_F(PartOfAClip, EndsAtItsDamageWhereThatIsAsked) {
@@ -154,7 +161,7 @@ TEST_F(PartOfAClip, EndsAtItsDamageWhereThatIsAsked) {
   std::string bytes = test::read_file(scratch_ / "a.mkv");
   bytes[bytes.size() * 2 / 3] = static_cast<char>(bytes[bytes.size() * 2 / 3] ^ 8);
   scratch_.write("a.mkv", bytes);
-  expect_refused({"encode", "a.mkv", "a.tik"}, 3, "(--as-far-as-it-goes)");
+  expect_refused({"encode", "a.mkv", "a.tik"}, 3, "pictures before it can be taken (--as-far-as-it-goes)");
   const auto encoded = run({"encode", "--as-far-as-it-goes", "a.mkv", "a.tik"});
   EXPECT_EQ(encoded.status, 0) << encoded.err;
   EXPECT_NE(encoded.err.find("warning: a.mkv is taken as far as it goes, "), std::string::npos)

@@ -170,7 +170,11 @@ TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
   }
   EXPECT_EQ(test::read_file(scratch_ / "clip.pfm"), test::read_file(scratch_ / "anew.pfm"));
   expect_refused({"retime", "clip.tik"}, 2, "what is to be corrected?");
-  expect_refused({"retime", "clip.mkv", "-f", "9"}, 3, "no .tik file");
+  expect_refused({"retime", "clip.mkv", "-f", "9"}, 3,
+                 "clip.mkv is no .tik capture, and only those are corrected: state a clip's rate");
+  expect_refused({"retime", "clip.mkv"}, 3, "(--fps, --shutter-angle, --transfer)");
+  expect_refused({"info", "clip.mkv"}, 3,
+                 "clip.mkv is no .tik capture; a clip becomes one when it is encoded");
 }
 
 }  // namespace

@@ -90,12 +90,38 @@ TEST_F(DamagedVideo, IsTakenAsFarAsItGoesWhereThatIsAsked) {
   EXPECT_THROW(read_all(*open_test_clip(scratch_.write("all.mkv", damaged), options)), InputError);
 }
 
+// Whatever is wrong with a picture, the way out is named: those before it. Of the first there is none.
+TEST_F(DamagedVideo, NamesThePicturesThatCanBeTaken) {
+  const auto stills = test::random_stills({8, 8, 1}, 255, 4, 1);
+  for (int k = 0; k < 4; ++k) {
+    scratch_.write(
+        "s" + std::to_string(k) + ".pgm",
+        k == 2 ? "P5\n8 8\n255\nshort" : test::netpbm_file(stills[static_cast<std::size_t>(k)], true));
+  }
+  const auto refusal = [&](const std::string& pattern) {
+    try {
+      read_all(*open_test_clip(scratch_ / pattern));
+    } catch (const InputError& error) {
+      return std::pair(std::string(error.what()), error.settings());
+    }
+    return std::pair(std::string("it was read"), std::vector<Setting>());
+  };
+  const auto [third, settings] = refusal("s*.pgm");
+  EXPECT_NE(third.find("s2.pgm cannot be read: it was cut off"), std::string::npos) << third;
+  EXPECT_NE(third.find("; the 2 pictures before it can be taken"), std::string::npos) << third;
+  EXPECT_EQ(settings, std::vector{Setting::end_at_damage});
+  const auto [first, none] = refusal("s[23].pgm");
+  EXPECT_EQ(first.find("can be taken"), std::string::npos) << first;
+  EXPECT_EQ(none, std::vector<Setting>());
+}
+
 TEST_F(DamagedVideo, ThatWasCutOffSaysSo) {
   NEEDS_FFMPEG();
   for (const auto& [codec, name] :
        std::vector<std::pair<std::string, std::string>>{{"-c:v ffv1", "c.mkv"},
                                                         {"-c:v libx264 -qp 0 -pix_fmt gray", "h.mkv"},
-                                                        {"-c:v mjpeg -pix_fmt yuvj420p", "m.avi"}}) {
+                                                        {"-c:v mjpeg -pix_fmt yuvj420p", "m.avi"},
+                                                        {"-f yuv4mpegpipe -pix_fmt gray", "p.y4m"}}) {
     SCOPED_TRACE(name);
     make_clip(codec, name);
     EXPECT_TRUE(open_test_clip(scratch_ / name)->info().notes.empty());

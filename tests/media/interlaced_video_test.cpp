@@ -48,9 +48,9 @@ std::string joined(const std::vector<std::vector<std::byte>>& rasters) {
 TEST_F(InterlacedVideo, IsRefusedWithTheWayOut) {
   NEEDS_FFMPEG();
   const std::vector<std::tuple<char, std::string, std::string, std::string>> clips{
-      {'t', "-c:v ffv1", "t.mkv", "t.mkv: it is interlaced, top field first"},
-      {'b', "-c:v ffv1", "b.mkv", "b.mkv: it is interlaced, bottom field first"},
-      {'t', "-f yuv4mpegpipe -pix_fmt gray", "t.y4m", "t.y4m: it is interlaced, top field first"},
+      {'t', "-c:v ffv1", "t.mkv", "t.mkv is interlaced, top field first"},
+      {'b', "-c:v ffv1", "b.mkv", "b.mkv is interlaced, bottom field first"},
+      {'t', "-f yuv4mpegpipe -pix_fmt gray", "t.y4m", "t.y4m is interlaced, top field first"},
       {'t', "-c:v mpeg2video -flags +ilme+ildct -pix_fmt yuv420p -q:v 2", "t.mpg",
        "is interlaced, top field first"},
       {'b', "-c:v libx264 -flags +ilme+ildct -x264opts bff=1 -pix_fmt yuv420p", "b.mp4",
@@ -63,6 +63,9 @@ TEST_F(InterlacedVideo, IsRefusedWithTheWayOut) {
       FAIL() << "it was read";
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+      // Each way out in the word that states it.
+      for (const char* word : {"'frames'", "'fields'", "'no'"})
+        EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
       EXPECT_EQ(error.settings(), std::vector{Setting::deinterlace});
     }
   }

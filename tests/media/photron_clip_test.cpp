@@ -148,8 +148,9 @@ void expect_refusal(const std::string& part, const Header& header, std::size_t b
 
 TEST(PhotronClip, SaysWhatItsHeaderDoesNotFit) {
   expect_refusal(
-      "ball.mraw was cut off: ball.cih names 3 pictures (8 x 5 pixels of 16 bits), and it has 2 whole", {},
-      8 * 5 * 2 * 3 - 1);
+      "ball.mraw was cut off: ball.cih names 3 pictures (8 x 5 pixels of 16 bits), and it has 2 whole "
+      "ones, which can be taken",
+      {}, 8 * 5 * 2 * 3 - 1);
   expect_refusal("ball.mraw has 241 bytes, and ball.cih names 3 pictures, 80 bytes each", {}, 241);
   expect_refusal("does not say how large", {{0, 5, 1}});
   expect_refusal("does not say how large", {{70'000, 5, 1}});

@@ -198,8 +198,8 @@ TEST(TikFile, TellsOtherFilesApart) {
     const auto path = scratch.write("x.tik", content);
     return test::message_of<InputError>([&] { Reader reader(path); });
   };
-  EXPECT_NE(refusal("").find("no .tik file"), std::string::npos);
-  EXPECT_NE(refusal("hello").find("no .tik file"), std::string::npos);
+  EXPECT_NE(refusal("").find("no .tik capture"), std::string::npos);
+  EXPECT_NE(refusal("hello").find("no .tik capture"), std::string::npos);
   EXPECT_NE(refusal("P6\n2 2\n255\n123456789012").find("is a Netpbm picture, not a .tik file"),
             std::string::npos);
   EXPECT_NE(refusal("P6\n# TIK FPS=120\n2 2\n255\n...").find("TIK file of another program"),

@@ -85,7 +85,7 @@ InputCheck checked_inputs(const Options& options) {
   }
   if (!options.operands.empty()) {
     const std::string& name = options.operands.front();
-    attempt(check, name, "capture", [&] { read_capture(check, name, options); });
+    attempt(check, input_title(name), "capture", [&] { read_capture(check, name, options); });
   }
   check.finish(options.unmapped.has_value());
   return check;

@@ -26,6 +26,7 @@ extern "C" {
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/clip.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik::videos {
 
@@ -105,13 +106,13 @@ inline OpenedVideo open_video(const std::filesystem::path& path, const std::opti
   if (code < 0) {
     throw InputError(
         format("{} is no video that can be read: {}; a video without a header has to be described",
-               path.string(), error_text(code)),
+               input_title(path.string()), error_text(code)),
         {Setting::raw_layout});
   }
   OpenedVideo opened{FormatPointer(context), 0};
   code = avformat_find_stream_info(context, nullptr);
   if (code >= 0) code = av_find_best_stream(context, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  if (code < 0) throw InputError(format("{} has no video stream", path.string()));
+  if (code < 0) throw InputError(format("{} has no video stream", input_title(path.string())));
   opened.stream = code;
   return opened;
 }

@@ -42,7 +42,7 @@ class LibavClip final : public Clip {
  public:
   LibavClip(OpenedVideo opened, int threads, const std::filesystem::path& path, const Probe& probe,
             const ClipOptions& options)
-      : name_(path.string()),
+      : name_(input_title(path.string())),
         coded_(probe.shape),
         converter_(probe.pixels, probe.upright, yuv_coding(probe, options)),
         decoder_(std::move(opened), name_, PictureDecoder::Wanted::pictures, probe.skipped_packets, threads),
@@ -89,19 +89,18 @@ class LibavClip final : public Clip {
     const auto said = decoder_.damage();
     if (is_flagged || said) {
       // Decoders are some pictures ahead of who reads them.
-      throw InputError(format("{}: picture {}{} is damaged{}; cut the clip before it, or encode it anew with "
-                              "what is left of it: "
-                              "ffmpeg -i {} -c:v ffv1 mended.mkv",
-                              name_, frames_read_, is_flagged ? "" : " or one soon after it",
-                              said ? format(" (FFmpeg says: {})", *said) : std::string(), name_),
-                       {Setting::end_at_damage});
+      throw InputError(
+          format("{}: picture {}{} is damaged{}. What can be read of the clip is another clip after "
+                 "ffmpeg -i CLIP -c:v ffv1 mended.mkv",
+                 name_, frames_read_, is_flagged ? "" : " or one soon after it",
+                 said ? format(" (FFmpeg says: {})", *said) : std::string()));
     }
   }
 
   void settle_fields(Interlaced wish) {
     fields_ = field_order(decoder_.stream().codecpar->field_order);
     interlaced_ = wish;
-    if (wish == Interlaced::refused && fields_) refuse_fields("it", *fields_);
+    if (wish == Interlaced::refused && fields_) refuse_fields(name_, *fields_);
     if (wish != Interlaced::frames && wish != Interlaced::fields) return;
     info_.decoder_bytes += Deinterlacer::kHeldPictures * decoded_bytes(*decoder_.stream().codecpar);
     if (wish == Interlaced::fields) info_ = of_fields(std::move(info_));
@@ -113,9 +112,11 @@ class LibavClip final : public Clip {
 
   [[noreturn]] void refuse_fields(const std::string& what, FieldOrder order) const {
     throw InputError(
-        format("{}: {} is interlaced, {}: its odd and even lines were taken at two moments, and "
-               "would come out as combs. Say what pictures are made of: frames, fields, or neither, no",
-               name_, what, to_text(order)),
+        format("{} is interlaced, {}: odd and even lines of its frames were filmed at two moments, and what "
+               "moves would come out as combs. Make a picture of each field, 'fields' (twice as many, and no "
+               "moment is lost), or of each frame, 'frames'; or take frames as they are, 'no', where a file "
+               "only says that it is interlaced",
+               what, to_text(order)),
         {Setting::deinterlace});
   }
 
@@ -136,7 +137,7 @@ class LibavClip final : public Clip {
     if (interlaced_ == Interlaced::refused || interlaced_ == Interlaced::ignored) {
       if (!decoder_.next(*frame_)) return false;
       if (interlaced_ == Interlaced::refused && frame_->interlaced_frame != 0) {
-        refuse_fields(format("picture {}", frames_read_), order_of(*frame_));
+        refuse_fields(format("{}: picture {}", name_, frames_read_), order_of(*frame_));
       }
       return true;
     }

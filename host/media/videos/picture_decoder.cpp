@@ -63,8 +63,7 @@ void PictureDecoder::feed() {
 }
 
 void PictureDecoder::fail(int code) const {
-  throw InputError(format("{}: picture {} cannot be decoded: {}", name_, pictures_, error_text(code)),
-                   {Setting::end_at_damage});
+  throw InputError(format("{}: picture {} cannot be decoded: {}", name_, pictures_, error_text(code)));
 }
 
 }  // namespace nutik::videos

@@ -101,6 +101,15 @@ std::optional<std::string> missing_end_note(const AVFormatContext& file, const A
       *announced, found);
 }
 
+// A video without an index is read as far as there are whole pictures.
+std::optional<std::string> cut_picture_note(const AVFormatContext& file, std::int64_t pictures_end,
+                                            std::size_t pictures) {
+  const std::int64_t bytes = avio_size(file.pb);
+  if (std::string_view(file.iformat->name) != "yuv4mpegpipe" || bytes <= pictures_end) return {};
+  return format("it was cut off within picture {}: {} bytes behind the last whole one are left out", pictures,
+                bytes - pictures_end);
+}
+
 // How many pictures the file holds. A size or format that is wrong would cut them at the wrong places.
 std::uint64_t count_raw_pictures(const std::filesystem::path& path, const RawVideo& raw) {
   const int bytes = av_image_get_buffer_size(av_get_pix_fmt(raw.pixel_format.c_str()),
@@ -109,17 +118,18 @@ std::uint64_t count_raw_pictures(const std::filesystem::path& path, const RawVid
   if (bytes > 0 && file_bytes > 0 && file_bytes % static_cast<std::uint64_t>(bytes) == 0) {
     return file_bytes / static_cast<std::uint64_t>(bytes);
   }
-  throw InputError(format("{} has {} bytes, which is no whole number of pictures of {} bytes ({} x {}, {}); "
-                          "check its size and pixel format",
-                          path.string(), file_bytes, bytes, raw.width, raw.height, raw.pixel_format),
-                   {Setting::raw_layout});
+  throw InputError(
+      format("{} has {} bytes, which is no whole number of pictures of {} bytes ({} x {}, {}); "
+             "check its size and pixel format",
+             input_title(path.string()), file_bytes, bytes, raw.width, raw.height, raw.pixel_format),
+      {Setting::raw_layout});
 }
 
 // When pictures are shown that a decoder hands out: those that it holds at the end, and for which no packet comes that
 // tells, as long after each other as they are said to last.
 std::vector<std::int64_t> decoded_times(const std::filesystem::path& path, std::uint64_t skipped_packets) {
-  PictureDecoder decoder(open_video(path, std::nullopt), path.string(), PictureDecoder::Wanted::times,
-                         skipped_packets, 1);
+  PictureDecoder decoder(open_video(path, std::nullopt), input_title(path.string()),
+                         PictureDecoder::Wanted::times, skipped_packets, 1);
   const FramePointer picture(allocated(av_frame_alloc()));
   std::vector<std::int64_t> times;
   while (decoder.next(*picture)) {
@@ -162,7 +172,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
     throw InputError(
         format("{} holds Phantom's codes of 12 bits, packed two in three bytes, which are not read: save the "
                "recording with 10 bits packed, or with 16 bits a pixel",
-               path.string()));
+               input_title(path.string())));
   }
   const OpenedVideo opened = open_video(path, raw);
   AVStream& stream = *opened.format->streams[opened.stream];
@@ -170,7 +180,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   Probe result;
   result.stream = opened.stream;
   result.shape = {static_cast<std::uint32_t>(codec.width), static_cast<std::uint32_t>(codec.height), 3};
-  result.pixels = pixel_kind(codec, path.string());
+  result.pixels = pixel_kind(codec, input_title(path.string()));
   result.pixel_format = static_cast<AVPixelFormat>(codec.format);
   result.upright = upright(stream);
   result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of_coding_point(codec.color_trc);
@@ -206,13 +216,14 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   }
 
   std::vector<PacketTimes> packets;
-  std::int64_t last_end = INT64_MIN;
+  std::int64_t last_end = INT64_MIN, last_byte = 0;
   const PacketPointer packet(allocated(av_packet_alloc()));
   int code = 0;
   while ((code = av_read_frame(opened.format.get(), packet.get())) >= 0) {
     const bool counts = packet->stream_index == opened.stream && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
     if (counts) {
       packets.push_back({packet->pts, packet->dts, packet->duration, (packet->flags & AV_PKT_FLAG_KEY) != 0});
+      last_byte = packet->pos + packet->size;
       const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
       if (time != AV_NOPTS_VALUE && time < INT64_MAX - packet->duration) {
         last_end = std::max(last_end, time + packet->duration);
@@ -228,9 +239,12 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   if (auto note = missing_end_note(*opened.format, stream, last_end, packets.size())) {
     result.notes.emplace_back(std::move(*note));
   }
-  result.timing =
-      timing_of(*opened.format, stream, picture_times(path, opened, packets, result), path.string());
-  if (cine) add_cine_header(*cine, opened, path.string(), result);
+  if (auto note = cut_picture_note(*opened.format, last_byte, packets.size())) {
+    result.notes.emplace_back(std::move(*note));
+  }
+  result.timing = timing_of(*opened.format, stream, picture_times(path, opened, packets, result),
+                            input_title(path.string()));
+  if (cine) add_cine_header(*cine, opened, input_title(path.string()), result);
   if (const auto filmed = capture_rate(*opened.format, path, result.notes)) {
     apply_capture_rate(*filmed, result.timing, result.notes);
   } else if (has_slow_parts(path)) {
