@@ -26,12 +26,15 @@ std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const ClipOp
   const std::vector<ListedStill> stills = read_stills_table(path);
   std::vector<std::filesystem::path> files;
   std::vector<StillTimes> exif;
+  ClipTiming listed;  // for whoever wants to know what a stated rate replaces
   for (const ListedStill& still : stills) {
     files.push_back(still.file);
+    if (still.times.start_ns) listed.starts_ns.push_back(*still.times.start_ns);
     const bool is_timed = still.times.start_ns && still.times.exposure_ns;
     exif.push_back(is_timed || options.rate ? StillTimes{} : module.read_exif_times(still.file));
   }
-  return module.open(files, options.rate ? ClipTiming{} : timing_of(path, stills, exif), options);
+  if (listed.starts_ns.size() < stills.size()) listed.starts_ns.clear();
+  return module.open(files, options.rate ? listed : timing_of(path, stills, exif), options);
 }
 
 // A clip of which there is more to tell than its module knows.

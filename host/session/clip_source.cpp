@@ -4,6 +4,7 @@
 
 #include "capture/format.hpp"
 #include "media/deflicker.hpp"
+#include "session/evened_times.hpp"
 #include "session/measured_noise.hpp"
 #include "session/time_text.hpp"
 #include "system/mapped_file.hpp"
@@ -208,6 +209,13 @@ ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& me
   }
   source.capture = clip_format(*source.clip, request.clip);
   source.notes = source.clip->info().notes;
+  if (request.clip.rate) {
+    // What a stated rate was to help with is settled.
+    std::erase_if(source.notes,
+                  [](const Note& note) { return note.settings == std::vector{Setting::frame_rate}; });
+    if (auto note = evened_note(source.clip->info().timing.starts_ns))
+      source.notes.push_back(std::move(*note));
+  }
   if (request.align) align(source, open, memory, progress, stop);
   if (request.deflickered) {
     source.clip = deflicker(std::move(source.clip));

@@ -12,6 +12,7 @@
 #include "media/clip.hpp"
 #include "media/settled_fact.hpp"
 #include "session/clip_source.hpp"
+#include "session/evened_times.hpp"
 #include "session/time_text.hpp"
 #include "system/interruption.hpp"
 #include "tik/reader.hpp"
@@ -46,6 +47,12 @@ bool is_timed_shutter(std::string_view line) {
          line.ends_with(" ns");
 }
 
+std::vector<std::int64_t> starts_of(const Timeline& irregular) {
+  std::vector<std::int64_t> starts;
+  for (const Exposure& exposure : irregular.table()) starts.push_back(exposure.start_ns);
+  return starts;
+}
+
 Timeline timeline_of(const RetimeRequest& request, const tik::Header& header, const Timeline& before) {
   if (!request.rate && !request.shutter_angle) return before;
   if (request.rate && !request.shutter_angle && std::ranges::any_of(header.facts, is_timed_shutter)) {
@@ -59,9 +66,7 @@ Timeline timeline_of(const RetimeRequest& request, const tik::Header& header, co
   if (request.rate || before.is_constant()) {
     return Timeline::constant(request.rate.value_or(before.rate()), angle, before.sample_count());
   }
-  std::vector<std::int64_t> starts;
-  for (const Exposure& exposure : before.table()) starts.push_back(exposure.start_ns);
-  return Timeline::irregular(std::move(starts), angle);
+  return Timeline::irregular(starts_of(before), angle);
 }
 
 // Those that still hold, and what was stated now in the places of what it corrects.
@@ -135,7 +140,11 @@ Retimed retime(const RetimeRequest& request) {
     writer.append(stored, payload, exposures);
   }
   writer.finish(timeline);
-  return {capture, timeline, writer.bytes_written()};
+  std::vector<Note> notes;
+  if (request.rate && !reader.timeline().is_constant()) {
+    if (auto note = evened_note(starts_of(reader.timeline()))) notes.push_back(std::move(*note));
+  }
+  return {capture, timeline, writer.bytes_written(), std::move(notes)};
 }
 
 }  // namespace nutik

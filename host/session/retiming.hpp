@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
+#include "capture/error.hpp"
 #include "capture/picture.hpp"
 #include "capture/timeline.hpp"
 
@@ -29,6 +31,7 @@ struct Retimed {
   CaptureFormat capture;
   Timeline timeline;
   std::uint64_t file_bytes = 0;
+  std::vector<Note> notes;  // on what was lost
 };
 
 // Copies blocks as they are. Throws UsageError where nothing is to be changed, or samples are means of light by the

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "capture/error.hpp"
+#include "session/evened_times.hpp"
 #include "support/messages.hpp"
 #include "support/payloads.hpp"
 #include "support/random_case.hpp"
@@ -77,6 +78,38 @@ TEST(Retiming, GivesIrregularStartsAnotherAngle) {
                 static_cast<double>(period) / 4, 1);
   }
   EXPECT_EQ(after.header().facts, std::vector<std::string>{"shutter 90 degrees, as stated"});
+}
+
+TEST(Retiming, SaysWhichStepsItMakesEven) {
+  test::RandomCase random(1);
+  for (std::uint64_t seed = 2; random.timeline.sample_count() < 5; ++seed) random = test::RandomCase(seed);
+  std::vector<std::int64_t> starts;
+  for (std::uint64_t k = 0; k < random.timeline.sample_count(); ++k)
+    starts.push_back(static_cast<std::int64_t>(k + (k > 1) + 2 * (k > 3)) * 10'000'000);
+  random.timeline = Timeline::irregular(starts, {360, 1});
+  const Scratch scratch;
+  const auto path = test::write_tik(random, {tik::CodecId::lz4, 0}, scratch);
+  EXPECT_TRUE(retime({path, scratch / "angle.tik", {}, Rational{90, 1}, {}, {}, {}}).notes.empty());
+  const Retimed even = retime({path, path, Rational{100, 1}, {}, {}, {}, {}});
+  ASSERT_EQ(even.notes.size(), 1u);
+  EXPECT_EQ(even.notes[0].text, "2 of the clip's " + std::to_string(starts.size() - 1) +
+                                    " steps from one picture to the next last 20 ms to 30 ms, and the others "
+                                    "about 10 ms: at the stated "
+                                    "rate all last alike");
+  EXPECT_EQ(even.notes[0].settings, std::vector{Setting::frame_rate});
+  EXPECT_TRUE(retime({path, path, Rational{50, 1}, {}, {}, {}, {}}).notes.empty()) << "it is even already";
+}
+
+TEST(EvenedTimes, CountForWhatClocksDoNotRound) {
+  EXPECT_FALSE(evened_note({0, 10}));
+  const auto rounded = evened_note({0, 33'000'000, 67'000'000, 100'000'000});
+  ASSERT_TRUE(rounded);
+  EXPECT_NE(rounded->text.find("about 33 ms and differ by less than a tenth"), std::string::npos)
+      << rounded->text;
+  const auto one = evened_note({0, 33'000'000, 67'000'000, 133'000'000, 167'000'000});
+  EXPECT_NE(one->text.find("1 of the clip's 4 steps from one picture to the next lasts 66 ms, and"),
+            std::string::npos)
+      << one->text;
 }
 
 // A copy of a capture that tells these facts.

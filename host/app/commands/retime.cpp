@@ -3,6 +3,7 @@
 #include "app/commands/commands.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
+#include "app/text/message_text.hpp"
 #include "session/clip_source.hpp"
 #include "session/format.hpp"
 #include "session/retiming.hpp"
@@ -23,7 +24,7 @@ int run_retime(const Options& options) {
   if (options.pixel_aspect) request.pixel_aspect = parse_pixel_aspect(*options.pixel_aspect);
   if (output) check_output(*output, OutputKind::tik, std::array{request.capture.string()});
 
-  const auto [capture, timeline, file_bytes] = retime(request);
+  const auto [capture, timeline, file_bytes, notes] = retime(request);
   Answer answer{{{"capture", request.output.string()}}};
   answer.json.update(shape_json(capture.shape));
   answer.json.update({{"samples", timeline.sample_count()},
@@ -39,6 +40,7 @@ int run_retime(const Options& options) {
              request.output.string(), shape_text(capture.shape), counted(timeline.sample_count(), "sample"),
              rate_text(timeline.rate(), "picture"), timeline.shutter_angle().text(), capture.transfer.text(),
              to_text(capture.primaries), aspect_text(capture.pixel_aspect));
+  for (const Note& note : notes) answer.notes.push_back(note_text(note));
   return tell(options, request.output, answer, true);
 }
 

@@ -1,0 +1,55 @@
+// What the program says of a clip's times: one thing, and whatever becomes of them.
+#include <gtest/gtest.h>
+
+#include "support/ffmpeg.hpp"
+#include "support/program_test.hpp"
+
+namespace nutik {
+namespace {
+
+class Times : public test::ProgramTest {
+ protected:
+  // Two seconds at 30 pictures a second without those of these numbers.
+  void make_uneven(const std::string& left_out, const std::string& words) const {
+    test::make(scratch_, "-f lavfi -i testsrc2=s=32x32:d=2:r=30 -vf \"select='not(" + left_out +
+                             ")'\" -vsync vfr -c:v mpeg4 -movflags use_metadata_tags " + words + " clip.mp4");
+  }
+
+  // What is said on standard error of a clip that is encoded.
+  [[nodiscard]] std::string said(std::vector<std::string> words) const {
+    words.insert(words.begin(), "encode");
+    words.insert(words.end(), {"-o", "clip.tik"});
+    const auto encoded = run(words);
+    EXPECT_EQ(encoded.status, 0) << encoded.err;
+    return encoded.err;
+  }
+};
+
+TEST_F(Times, ThatAStatedRateMakesEvenAreSaid) {
+  NEEDS_FFMPEG();
+  make_uneven("eq(n,5)+eq(n,12)+eq(n,13)", "-metadata com.android.capture.fps=240");
+  const std::string evened = "steps from one picture to the next last";
+  EXPECT_EQ(said({"clip.mp4"}).find(evened), std::string::npos);
+  EXPECT_EQ(said({"-f", "240", "clip.mp4"}),
+            "note: 2 of the clip's 56 steps from one picture to the next last 8.333 ms to 12.5 ms, and the "
+            "others about "
+            "4.167 ms: at the stated rate all last alike (--fps)\n")
+      << "what the file says of its rate is settled";
+  EXPECT_EQ(said({"clip.mp4"}).find(evened), std::string::npos);
+  const auto retimed = run({"retime", "clip.tik", "-f", "240"});
+  EXPECT_NE(retimed.err.find("note: 2 of the clip's 56 steps"), std::string::npos) << retimed.err;
+  EXPECT_EQ(run({"retime", "clip.tik", "-f", "120"}).err, "") << "they are even now";
+}
+
+TEST_F(Times, OfATableThatAStatedRateMakesEvenAreSaid) {
+  for (const char* name : {"a.pgm", "b.pgm", "c.pgm", "d.pgm"})
+    scratch_.write(name, "P5\n2 2\n255\n" + std::string(4, name[0]));
+  scratch_.write("stills.csv", "a.pgm,0,1000\nb.pgm,2000,1000\nc.pgm,9000,1000\nd.pgm,11000,1000\n");
+  EXPECT_EQ(said({"-f", "100", "stills.csv"}),
+            "note: 1 of the clip's 3 steps from one picture to the next lasts 7 us, and the others about 2 "
+            "us: at the "
+            "stated rate all last alike (--fps)\n");
+}
+
+}  // namespace
+}  // namespace nutik
