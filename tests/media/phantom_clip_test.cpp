@@ -39,12 +39,15 @@ struct Recording {
   std::uint32_t depth = 10;
   std::uint32_t black = 0;
   std::uint32_t mosaic = 0;  // 4: red and green first
+  std::vector<std::int64_t> times_us = {};
 };
 
 // A file of grey pictures of 32 pixels in each row, their codes packed into 10 bits; 1000 a second, exposed for 250 µs.
 std::string phantom_file(const std::vector<std::vector<std::uint16_t>>& pictures, const Recording& of) {
   constexpr std::size_t kHeader = 44, kBitmap = 40, kSetup = 5740, kWidth = 32;
-  const std::size_t height = pictures.front().size() / kWidth, offsets = kHeader + kBitmap + kSetup;
+  const std::size_t height = pictures.front().size() / kWidth,
+                    tags = of.times_us.empty() ? 0 : 8 + 8 * of.times_us.size(),
+                    offsets = kHeader + kBitmap + kSetup + tags;
   std::string bytes(offsets + 8 * pictures.size(), '\0');
   bytes.replace(0, 2, "CI");
   put(bytes, 2, kHeader, 2);
@@ -68,6 +71,16 @@ std::string phantom_file(const std::vector<std::vector<std::uint16_t>>& pictures
   put(bytes, setup + 808, of.mosaic, 4);
   put(bytes, setup + 896, of.depth, 4);
   put(bytes, setup + 5732, of.black, 4);
+  if (tags > 0) {
+    put(bytes, setup + kSetup, tags, 4);
+    put(bytes, setup + kSetup + 4, 1002, 2);
+  }
+  for (std::size_t k = 0; k < of.times_us.size(); ++k) {
+    // Since 1970, in 2^-32 s.
+    const auto since = static_cast<double>(of.times_us[k]) * 1e-6 * 4294967296.0;
+    put(bytes, setup + kSetup + 8 + 8 * k,
+        (std::uint64_t{1'700'000'000} << 32) + static_cast<std::uint64_t>(since), 8);
+  }
   for (std::size_t k = 0; k < pictures.size(); ++k) {
     put(bytes, offsets + 8 * k, bytes.size(), 8);
     const std::string picture = packed(pictures[k]);
@@ -99,6 +112,34 @@ class PhantomClip : public testing::Test {
 
   Scratch scratch_;
 };
+
+// The camera's own times go before the rate that it states, and where they tell another that is said.
+TEST_F(PhantomClip, SaysWhereItsTimesAreNotOfTheRateThatItStates) {
+  const std::vector<std::vector<std::uint16_t>> pictures(5, std::vector<std::uint16_t>(32, 500));
+  const auto told = [&](std::vector<std::int64_t> times_us) {
+    Recording of;
+    of.times_us = std::move(times_us);
+    const auto clip = open(pictures, of);
+    return std::pair(clip->info().timing, clip->info().notes);
+  };
+  EXPECT_TRUE(told({0, 1000, 2000, 3000, 4000}).second.empty());
+  const auto [tenth, said] = told({0, 9997, 19994, 29991, 39988});
+  ASSERT_TRUE(tenth.rate);
+  EXPECT_NEAR(tenth.rate->value(), 1e6 / 9997, 1e-4);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].text,
+            "the camera states 1000 pictures a second, and by the times that it wrote down the file has "
+            "100.03, one in "
+            "10 of 1000.3. These times are taken; state a rate if they are wrong");
+  EXPECT_EQ(said[0].settings, std::vector{Setting::frame_rate});
+  const auto near = told({0, 990, 1980, 2970, 3960}).second;
+  ASSERT_EQ(near.size(), 1u);
+  EXPECT_NE(near[0].text.find("the file has 1010.1. These times"), std::string::npos) << near[0].text;
+  const auto [uneven, gaps] = told({0, 1000, 3000, 4000, 5000});
+  EXPECT_FALSE(uneven.rate);
+  ASSERT_EQ(gaps.size(), 1u);
+  EXPECT_NE(gaps[0].text.find("the file has them "), std::string::npos) << gaps[0].text;
+}
 
 // ITU-R BT.709's curve backwards, from black to white.
 double bt709_light(double code) {

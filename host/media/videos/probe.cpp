@@ -1,6 +1,8 @@
 #include "media/videos/probe.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "media/coding_points.hpp"
 #include "media/videos/capture_rate.hpp"
@@ -46,6 +48,31 @@ std::size_t first_senseless(const std::vector<std::int64_t>& starts_ns) {
   return 0;
 }
 
+// Where a camera's own times are not those of the rate that it states. Cameras count periods in whole ticks of their
+// clock, too: 90 000 a second are 311 ticks of 28 MHz, which are 90 032 a second.
+std::optional<Note> other_rate_note(const Rational& stated, const ClipTiming& timing) {
+  if (timing.rate == stated) return {};
+  std::string found;
+  if (timing.rate) {
+    const double taken = timing.rate->value(), times = std::round(stated.value() / taken);
+    found = format("has {:.6g}", taken);
+    if (times >= 2.0) found += format(", one in {:.0f} of {:.6g}", times, taken * times);
+  } else {
+    const std::vector<std::int64_t>& starts = timing.starts_ns;
+    std::int64_t least = INT64_MAX, most = 0;
+    for (std::size_t k = 1; k < starts.size(); ++k) {
+      least = std::min(least, starts[k] - starts[k - 1]);
+      most = std::max(most, starts[k] - starts[k - 1]);
+    }
+    found = format("has them {} to {} ns apart", least, most);
+  }
+  return Note(
+      format("the camera states {} pictures a second, and by the times that it wrote down the file {}. These "
+             "times are taken; state a rate if they are wrong",
+             stated.text(), found),
+      {Setting::frame_rate});
+}
+
 // The demuxer numbers the pictures of a .cine and knows the camera's nominal rate. When they were
 // taken the camera wrote down, too: a file may hold every tenth picture only.
 void add_cine_header(const CineHeader& header, const OpenedVideo& opened, const std::string& name,
@@ -55,8 +82,11 @@ void add_cine_header(const CineHeader& header, const OpenedVideo& opened, const 
     const std::size_t senseless = first_senseless(starts);
     if (senseless == 0) {
       const AVStream& stream = *opened.format->streams[opened.stream];
-      result.timing = timing_of(starts, {1, kSecondNs}, announced_rates(*opened.format, stream), name);
+      const std::vector<KnownRate> stated = announced_rates(*opened.format, stream);
+      result.timing = timing_of(starts, {1, kSecondNs}, stated, name);
       result.timing.rate_from = "the camera's times in the file";
+      auto note = stated.empty() ? std::nullopt : other_rate_note(stated.front().rate, result.timing);
+      if (note) result.notes.push_back(std::move(*note));
     } else {
       result.notes.emplace_back(
           format("the camera's times are not used: picture {} is stamped {} ns after the one "
