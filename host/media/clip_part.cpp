@@ -128,6 +128,7 @@ class ClipPart final : public Clip {
   }
 
   [[nodiscard]] std::optional<std::string> ended_early() const override { return clip_->ended_early(); }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
 
  private:
   // Pictures before the part are decoded, for the others may refer to them.

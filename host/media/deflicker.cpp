@@ -114,7 +114,7 @@ class DeflickeredClip final : public Clip {
   [[nodiscard]] std::optional<std::string> ended_early() const override { return clip_->ended_early(); }
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
-    std::vector<std::string> remarks;
+    std::vector<std::string> remarks = clip_->remarks();
     if (corrected_ > 0) {
       remarks.push_back(format("the exposure of {} of {} pictures was corrected, by up to {:.0f} of {} codes",
                                corrected_.load(), pictures_.load(), most_ * info_.format.white_code,

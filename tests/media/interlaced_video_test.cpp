@@ -93,6 +93,48 @@ TEST_F(InterlacedVideo, BecomesWhatFfmpegMakesOfIt) {
   }
 }
 
+// What is asked for may not be what the clip says of itself, in its container or picture by picture.
+TEST_F(InterlacedVideo, IsSaidWhereWhatIsAskedDoesNotFit) {
+  NEEDS_FFMPEG();
+  make_interlaced(scratch_, 't', "-c:v ffv1", "told.mkv");
+  make_interlaced(scratch_, 't', "-c:v mpeg4 -flags +ilme+ildct -pix_fmt yuv420p", "by-picture.avi");
+  const std::string still = "-f lavfi -i testsrc2=size=64x48:rate=25 -frames:v 4 ";
+  test::make(scratch_, still + "-vf setfield=prog -c:v ffv1 whole-told.mkv");
+  test::make(scratch_, still + "-c:v mjpeg -pix_fmt yuvj420p whole.avi");
+  const auto said = [&](const std::string& name, Interlaced wish) {
+    ClipOptions options;
+    options.interlaced = wish;
+    const auto clip = open_test_clip(scratch_ / name, options);
+    read_all(*clip);
+    std::string all;
+    for (const Note& note : clip->info().notes) all += note.text + "\n";
+    for (const std::string& remark : clip->remarks()) all += remark + "\n";
+    return all;
+  };
+  for (const char* name : {"told.mkv", "by-picture.avi"}) {
+    EXPECT_NE(said(name, Interlaced::ignored)
+                  .find("says that it is interlaced, and its frames are taken as they are"),
+              std::string::npos)
+        << name;
+    EXPECT_EQ(said(name, Interlaced::fields), "") << name;
+    EXPECT_EQ(said(name, Interlaced::frames), "") << name;
+  }
+  for (const char* name : {"whole-told.mkv", "whole.avi"}) {
+    EXPECT_NE(said(name, Interlaced::fields)
+                  .find("nothing in the clip says that it is interlaced, and two pictures are made of each "
+                        "all the same"),
+              std::string::npos)
+        << name << said(name, Interlaced::fields);
+    EXPECT_NE(
+        said(name, Interlaced::frames)
+            .find("nothing in the clip says that it is interlaced, and each picture is made of one field"),
+        std::string::npos)
+        << name;
+    EXPECT_EQ(said(name, Interlaced::ignored), "") << name;
+    EXPECT_EQ(said(name, Interlaced::refused), "") << name;
+  }
+}
+
 TEST_F(InterlacedVideo, OfFieldsRunsTwiceAsFast) {
   NEEDS_FFMPEG();
   make_interlaced(scratch_, 't', "-c:v ffv1", "t.mkv");

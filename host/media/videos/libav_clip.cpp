@@ -67,6 +67,11 @@ class LibavClip final : public Clip {
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
 
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    auto doubt = is_told_ || frames_read_ == 0 ? std::nullopt : doubt_about_fields(has_interlaced_);
+    return doubt ? std::vector{std::move(*doubt)} : std::vector<std::string>();
+  }
+
   bool read(std::span<std::byte> raster) override {
     if (!next_picture()) return false;
     check_whole();
@@ -101,6 +106,12 @@ class LibavClip final : public Clip {
     fields_ = field_order(decoder_.stream().codecpar->field_order);
     interlaced_ = wish;
     if (wish == Interlaced::refused && fields_) refuse_fields(name_, *fields_);
+    const bool is_progressive = decoder_.stream().codecpar->field_order == AV_FIELD_PROGRESSIVE;
+    is_told_ = fields_.has_value() || is_progressive;
+    if (is_told_) {
+      if (auto doubt = doubt_about_fields(fields_.has_value()))
+        info_.notes.emplace_back(std::move(*doubt), std::vector{Setting::deinterlace});
+    }
     if (wish != Interlaced::frames && wish != Interlaced::fields) return;
     info_.decoder_bytes += Deinterlacer::kHeldPictures * decoded_bytes(*decoder_.stream().codecpar);
     if (wish == Interlaced::fields) info_ = of_fields(std::move(info_));
@@ -108,6 +119,21 @@ class LibavClip final : public Clip {
         {format("a picture from each {}, {}", wish == Interlaced::fields ? "field" : "frame",
                 fields_ ? to_text(*fields_) : "in the order that each frame tells"),
          Origin::stated, Setting::deinterlace});
+  }
+
+  // What speaks against what was asked for, where the clip is interlaced, or is not.
+  [[nodiscard]] std::optional<std::string> doubt_about_fields(bool is_interlaced) const {
+    if (interlaced_ == Interlaced::ignored && is_interlaced) {
+      return "the clip says that it is interlaced, and its frames are taken as they are: what moves comes "
+             "out "
+             "as combs if that is so";
+    }
+    if (is_interlaced || interlaced_ == Interlaced::refused || interlaced_ == Interlaced::ignored) return {};
+    return format(
+        "nothing in the clip says that it is interlaced, and {} all the same: half of the lines are made up, "
+        "which is worse than its own pictures if that is so",
+        interlaced_ == Interlaced::fields ? "two pictures are made of each"
+                                          : "each picture is made of one field");
   }
 
   [[noreturn]] void refuse_fields(const std::string& what, FieldOrder order) const {
@@ -132,10 +158,16 @@ class LibavClip final : public Clip {
     info_.format.white_code = white;
   }
 
+  bool next_frame() {
+    if (!decoder_.next(*frame_)) return false;
+    has_interlaced_ |= frame_->interlaced_frame != 0;
+    return true;
+  }
+
   // The next picture, which was made of fields where that was asked for.
   bool next_picture() {
     if (interlaced_ == Interlaced::refused || interlaced_ == Interlaced::ignored) {
-      if (!decoder_.next(*frame_)) return false;
+      if (!next_frame()) return false;
       if (interlaced_ == Interlaced::refused && frame_->interlaced_frame != 0) {
         refuse_fields(format("{}: picture {}", name_, frames_read_), order_of(*frame_));
       }
@@ -143,7 +175,7 @@ class LibavClip final : public Clip {
     }
     while (!deinterlacer_ || !deinterlacer_->take(*frame_)) {
       if (has_ended_) return false;
-      has_ended_ = !decoder_.next(*frame_);
+      has_ended_ = !next_frame();
       if (has_ended_ && !deinterlacer_) return false;
       if (has_ended_) {
         deinterlacer_->end();
@@ -169,6 +201,8 @@ class LibavClip final : public Clip {
   std::uint64_t frames_read_ = 0;
   Interlaced interlaced_ = Interlaced::refused;
   std::optional<FieldOrder> fields_;  // as the container says of all frames
+  bool is_told_ = false;              // by the container, whether they are interlaced
+  bool has_interlaced_ = false;       // a frame that says so itself
   std::optional<Deinterlacer> deinterlacer_;
   bool has_ended_ = false;  // the decoder
 };
