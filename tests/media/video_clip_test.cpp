@@ -1,6 +1,7 @@
 // Video whose depth OpenCV's reader would lose: codes, white and transfer.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "capture/error.hpp"
@@ -259,6 +260,49 @@ TEST(VideoClip, StandsUprightAsPlayersShowIt) {
       got.append(reinterpret_cast<const char*>(raster.data()), raster.size());
     EXPECT_EQ(got, test::read_file(scratch / "shown")) << angle;
   }
+}
+
+// What is between quarter turns is said, and not made.
+TEST(VideoClip, SaysWhereItsPicturesAreTurnedByNoQuarter) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  make(scratch, "-f lavfi -i testsrc2=s=16x8:r=25 -frames:v 2 -c:v ffv1 flat.mov");
+  const std::string flat = test::read_file(scratch / "flat.mov");
+  const std::size_t matrix =
+      flat.find("tkhd") + 44;  // of 9 numbers, big-endian, of which 16 bits are a fraction
+  ASSERT_LT(matrix, flat.size());
+  const auto open_with = [&](const std::array<double, 4>& turn) {
+    std::string bytes = flat;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto fixed = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(turn[i] * 65536)));
+      const std::size_t at = matrix + std::array<std::size_t, 4>{0, 4, 12, 16}[i];
+      for (std::size_t byte = 0; byte < 4; ++byte)
+        bytes[at + byte] = static_cast<char>(fixed >> (24 - 8 * byte));
+    }
+    return open_test_clip(scratch.write("clip.mov", bytes));
+  };
+  const auto turned = [](double degrees) {
+    const double angle = degrees * 3.14159265358979 / 180;
+    return std::array{std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle)};
+  };
+  for (const double degrees : {0.0, 90.0, 180.0, 270.0, 0.2})
+    EXPECT_TRUE(open_with(turned(degrees))->info().notes.empty()) << degrees;
+  EXPECT_TRUE(open_with({-1, 0, 0, 1})->info().notes.empty()) << "a mirror";
+  EXPECT_TRUE(open_with({2, 0, 0, 2})->info().notes.empty()) << "twice as large";
+  for (const auto& [degrees, made] : {std::pair(15.0, 0), {60.0, 90}, {-20.0, 0}}) {
+    const auto clip = open_with(turned(degrees));
+    ASSERT_EQ(clip->info().notes.size(), 1u) << degrees;
+    EXPECT_EQ(clip->info().notes[0].text,
+              "the file's display matrix turns its pictures clockwise by " +
+                  std::to_string(static_cast<int>(degrees)) +
+                  " degrees, and only quarter turns are made: they are turned by " + std::to_string(made) +
+                  " degrees");
+    EXPECT_EQ(clip->info().format.shape.width, made == 90 ? 8u : 16u);
+  }
+  EXPECT_NE(open_with({1, 0, 0.5, 1})->info().notes.at(0).text.find("skews its pictures"), std::string::npos);
+  const auto senseless = open_with({0, 0, 0, 0});
+  ASSERT_EQ(senseless->info().notes.size(), 1u);
+  EXPECT_NE(senseless->info().notes[0].text.find("makes no sense"), std::string::npos);
 }
 
 TEST(VideoClip, RefusesPicturesThatTheDecoderMarksAsDamaged) {

@@ -195,12 +195,27 @@ Upright upright(const AVStream& stream) {
   Upright upright;
   upright.is_mirrored = std::int64_t{matrix[0]} * matrix[4] < std::int64_t{matrix[1]} * matrix[3];
   if (upright.is_mirrored) {
-    matrix[0] = -matrix[0];
-    matrix[1] = -matrix[1];
+    matrix[0] = -std::max(matrix[0], -INT32_MAX);
+    matrix[1] = -std::max(matrix[1], -INT32_MAX);
   }
   const double turned = av_display_rotation_get(matrix);  // counter-clockwise
   if (!std::isnan(turned))
     upright.quarter_turns = static_cast<int>((std::lround(-turned / 90.0) % 4 + 4) % 4);
+  // Each axis of a turned picture goes along one of the screen's.
+  const auto goes_along = [](std::int64_t x, std::int64_t y) {
+    constexpr std::int64_t kStraight = 100;  // as good as: about half a degree
+    return std::min(std::abs(x), std::abs(y)) <= std::max(std::abs(x), std::abs(y)) / kStraight;
+  };
+  const double across =
+      static_cast<double>(matrix[0]) * matrix[3] + static_cast<double>(matrix[1]) * matrix[4];
+  const double lengths = std::hypot(matrix[0], matrix[1]) * std::hypot(matrix[3], matrix[4]);
+  if (std::isnan(turned)) {
+    upright.left_out = "makes no sense";
+  } else if (std::abs(across) > lengths / 100) {
+    upright.left_out = "skews its pictures";
+  } else if (!goes_along(matrix[0], matrix[1])) {
+    upright.left_out = format("turns its pictures clockwise by {:.3g} degrees", -turned);
+  }
   return upright;
 }
 

@@ -33,7 +33,8 @@ struct PixelKind {
 // How a stream's pictures come to stand upright: first mirrored, left for right, then turned clockwise.
 struct Upright {
   bool is_mirrored = false;
-  int quarter_turns = 0;  // 0 … 3
+  int quarter_turns = 0;      // 0 … 3
+  std::string left_out = {};  // what else the stream's matrix does, for people
 };
 [[nodiscard]] Upright upright(const AVStream& stream);
 

@@ -219,6 +219,11 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.range = named_range(codec);
   result.primaries = primaries_of_coding_point(codec.color_primaries);
   result.pixel_aspect = pixel_aspect(opened.format.get(), stream, result.upright);
+  if (!result.upright.left_out.empty()) {
+    result.notes.emplace_back(
+        format("the file's display matrix {}, and only quarter turns are made: they are turned by {} degrees",
+               result.upright.left_out, 90 * result.upright.quarter_turns));
+  }
   const auto note_unknown = [&](bool is_known, const char* what, const char* name, Setting setting) {
     if (is_known || name == nullptr || *name == 0) return;
     result.notes.emplace_back(
