@@ -28,6 +28,8 @@ struct StatedTime {
   [[nodiscard]] bool counts_samples() const { return unit_ns == 0; }
   // Rounded half up. For a time in seconds or parts of it.
   [[nodiscard]] std::int64_t nanoseconds() const;
+  // Exactly, where 15 digits above and six below the fraction line hold it; else rounded.
+  [[nodiscard]] Rational modest_nanoseconds() const;
   // As parse() reads it: `0.4s`, `37f`.
   [[nodiscard]] std::string text() const;
 

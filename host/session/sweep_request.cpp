@@ -30,21 +30,30 @@ std::int64_t periods_ns(const Rational& count, const Timeline& timeline) {
                    static_cast<int128>(count.denominator) * static_cast<int128>(timeline.sample_count()));
 }
 
-// The functions with one value applied.
-FunctionSet with_value(const FunctionSet& functions, const SweepRange& range, const Rational& value,
+// from + number · step, exactly.
+std::pair<int128, int128> exact_value(const SweepRange& range, std::uint64_t number) {
+  const auto& [parameter, from, to, step, counts_pictures] = range;
+  return {static_cast<int128>(from.numerator) * step.denominator +
+              static_cast<int128>(number) * step.numerator * from.denominator,
+          static_cast<int128>(from.denominator) * step.denominator};
+}
+
+// The functions with the value of a number applied.
+FunctionSet with_value(const FunctionSet& functions, const SweepRange& range, std::uint64_t number,
                        const Timeline& timeline) {
   const auto each = [&](auto change) {
     FunctionSet changed;
     for (const auto& [tag, function] : functions) changed.emplace(tag, change(function));
     return changed;
   };
+  if (range.parameter == SweepParameter::shift) {
+    const std::int64_t by_ns =
+        range.counts_pictures ? periods_ns(range.value(number), timeline) : range.shift_ns(number);
+    return each([&](const GainFunction& function) { return function.shifted(by_ns); });
+  }
+  const Rational value = range.value(number);
   if (range.parameter == SweepParameter::gain) {
     return each([&](const GainFunction& function) { return function.scaled(value.value()); });
-  }
-  if (range.parameter == SweepParameter::shift) {
-    // A whole number of nanoseconds, or periods of the clip.
-    const std::int64_t by_ns = range.counts_pictures ? periods_ns(value, timeline) : value.numerator;
-    return each([&](const GainFunction& function) { return function.shifted(by_ns); });
   }
   std::int64_t fixed_ns = timeline.duration_ns();
   for (const auto& [tag, function] : functions) {
@@ -66,21 +75,21 @@ std::uint64_t SweepRange::count() const {
 }
 
 Rational SweepRange::value(std::uint64_t number) const {
-  const int128 numerator = static_cast<int128>(from.numerator) * step.denominator +
-                           static_cast<int128>(number) * step.numerator * from.denominator;
-  const int128 denominator = static_cast<int128>(from.denominator) * step.denominator;
+  const auto [numerator, denominator] = exact_value(*this, number);
   const int128 divisor = common_divisor(numerator, denominator);
   return Rational::of(static_cast<std::int64_t>(numerator / divisor),
                       static_cast<std::int64_t>(denominator / divisor));
 }
 
+std::int64_t SweepRange::shift_ns(std::uint64_t number) const {
+  const auto [numerator, denominator] = exact_value(*this, number);
+  return round_half_up(numerator, denominator);
+}
+
 std::string SweepRange::label(std::uint64_t number) const {
-  const Rational at = value(number);
-  switch (parameter) {
-    case SweepParameter::gain: return format("gain × {}", at.text());
-    case SweepParameter::stretch: return format("length × {}", at.text());
-    case SweepParameter::shift: break;
-  }
+  if (parameter == SweepParameter::gain) return format("gain × {}", value(number).text());
+  if (parameter == SweepParameter::stretch) return format("length × {}", value(number).text());
+  const Rational at = counts_pictures ? value(number) : Rational{shift_ns(number), 1};
   if (at.numerator == 0) return "as it is";
   const char* sign = at.numerator < 0 ? "−" : "+";
   const Rational distance{at.numerator < 0 ? -at.numerator : at.numerator, at.denominator};
@@ -111,7 +120,7 @@ std::string SweepRequest::label(const SweepPoint& point) const {
 FunctionSet SweepRequest::varied(FunctionSet functions, const SweepPoint& point,
                                  const Timeline& timeline) const {
   for (std::size_t i = 0; i < ranges.size(); ++i) {
-    functions = with_value(functions, ranges[i], ranges[i].value(point[i]), timeline);
+    functions = with_value(functions, ranges[i], point[i], timeline);
   }
   return functions;
 }

@@ -14,7 +14,7 @@ namespace nutik {
 enum class SweepParameter { shift, gain, stretch };
 
 // A parameter's values: from, from + step, … up to `to`. step > 0, from <= to; numerators of at most nine digits and
-// denominators of at most six.
+// denominators of at most six; of nanoseconds numerators of at most 15, or whole ones.
 struct SweepRange {
   SweepParameter parameter = SweepParameter::shift;
   Rational from;
@@ -25,6 +25,8 @@ struct SweepRange {
   [[nodiscard]] std::uint64_t count() const;
   // The value with a number of 0 … count() - 1, exactly.
   [[nodiscard]] Rational value(std::uint64_t number) const;
+  // That of a shift in time, rounded once.
+  [[nodiscard]] std::int64_t shift_ns(std::uint64_t number) const;
   // `+100 ms`, `−3 f`, `gain × 0.5`; `as it is` where nothing is shifted.
   [[nodiscard]] std::string label(std::uint64_t number) const;
 

@@ -36,6 +36,19 @@ TEST(SweepRequest, AppliesItsValues) {
   EXPECT_EQ(stretch.varied(box(20'000'000, 30'000'000), {1}, kTimeline), box(20'000'000, 40'000'000));
 }
 
+TEST(SweepRequest, OfTimesInThirdsOfNanosecondsNeverDrifts) {
+  const Rational step = time("1/300s").modest_nanoseconds();
+  EXPECT_EQ(step, (Rational{10'000'000, 3}));
+  const SweepRange range{SweepParameter::shift, {0, 1}, {1'000'000'000, 1}, step, false};
+  ASSERT_EQ(range.count(), 301u);
+  for (std::uint64_t k = 0; k <= 300; ++k)
+    ASSERT_EQ(range.shift_ns(k), static_cast<std::int64_t>((k * 20'000'000 + 3) / 6)) << k;
+  EXPECT_EQ(range.label(150), "+500 ms");
+  EXPECT_EQ(time("1/999999999999999ns").modest_nanoseconds(), (Rational{0, 1})) << "rounded";
+  const SweepRequest sweep{{range}};
+  EXPECT_EQ(sweep.varied(box(0, 10), {300}, kTimeline), box(1'000'000'000, 1'000'000'010));
+}
+
 TEST(ContactRequest, CountsPicturesOrTimes) {
   EXPECT_EQ(exposures_of({}, kTimeline).size(), 10u);
   const std::vector<Exposure> pictures = exposures_of({time("1f"), time("4f"), {}}, kTimeline);

@@ -107,9 +107,10 @@ std::vector<std::filesystem::path> single_names(const Options& options, std::siz
 
 // `shift_ns`, `gain_factor`, and its value at a point.
 std::pair<std::string, Json> varied_json(const SweepRange& range, std::uint64_t point) {
+  if (range.parameter == SweepParameter::shift && !range.counts_pictures)
+    return {"shift_ns", range.shift_ns(point)};
   const Rational value = range.value(point);
-  if (range.parameter == SweepParameter::shift)
-    return {range.counts_pictures ? "shift_samples" : "shift_ns", value.numerator};
+  if (range.parameter == SweepParameter::shift) return {"shift_samples", value.numerator};
   return {range.parameter == SweepParameter::gain ? "gain_factor" : "stretch_factor", value.value()};
 }
 

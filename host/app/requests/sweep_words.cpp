@@ -55,10 +55,10 @@ SweepRange shift_range(const std::string& text) {
     if (time.counts_samples() != step.counts_samples()) {
       throw UsageError(format("--shift '{}' mixes times and pictures; use one of them", text));
     }
-    return time.counts_samples() ? time.number : Rational{time.nanoseconds(), 1};
+    return time.counts_samples() ? time.number : time.modest_nanoseconds();
   };
   range.counts_pictures = step.counts_samples();
-  range.step = step.counts_samples() ? step.number : Rational{step.nanoseconds(), 1};
+  range.step = step.counts_samples() ? step.number : step.modest_nanoseconds();
   range.from = parse(parts.from);
   range.to = parse(parts.to);
   if (!range.counts_pictures) return range;
