@@ -41,6 +41,24 @@ TEST_F(Times, ThatAStatedRateMakesEvenAreSaid) {
   EXPECT_EQ(run({"retime", "clip.tik", "-f", "120"}).err, "") << "they are even now";
 }
 
+// A file that says how fast it was filmed, rightly or not, is not told to be one that does not.
+TEST_F(Times, HaveOneNoteOnTheirRate) {
+  NEEDS_FFMPEG();
+  const auto said_of = [&](const std::string& stated) {
+    test::make(scratch_, "-f lavfi -i testsrc2=s=32x32:d=1:r=15 -c:v mpeg4 -movflags use_metadata_tags " +
+                             stated + " clip.mp4");
+    return said({"clip.mp4"});
+  };
+  const std::string usual = "slow-motion files state their playback rate";
+  EXPECT_NE(said_of("").find(usual), std::string::npos);
+  for (const char* rate : {"60", "37", "fast"}) {
+    const std::string notes = said_of("-metadata com.android.capture.fps=" + std::string(rate));
+    EXPECT_EQ(notes.find(usual), std::string::npos) << notes;
+    EXPECT_EQ(notes.find("--fps"), notes.rfind("--fps")) << notes;
+    EXPECT_NE(notes.find("--fps"), std::string::npos) << notes;
+  }
+}
+
 TEST_F(Times, OfATableThatAStatedRateMakesEvenAreSaid) {
   for (const char* name : {"a.pgm", "b.pgm", "c.pgm", "d.pgm"})
     scratch_.write(name, "P5\n2 2\n255\n" + std::string(4, name[0]));

@@ -1,5 +1,7 @@
 #include "app/text/timing_text.hpp"
 
+#include <algorithm>
+
 #include "app/text/message_text.hpp"
 #include "session/format.hpp"
 
@@ -65,7 +67,11 @@ std::vector<std::string> note_lines(std::span<const Note> notes, const Timeline&
   std::vector<std::string> lines;
   for (const Note& note : notes) lines.push_back(note_text(note));
   const double rate = timeline.rate().value();
-  if (!request.clip.rate && rate >= kLowestPlaybackRate && rate <= kHighestPlaybackRate) {
+  const auto is_of_rate = [](const Note& note) {
+    return std::ranges::find(note.settings, Setting::frame_rate) != note.settings.end();
+  };
+  if (!request.clip.rate && std::ranges::none_of(notes, is_of_rate) && rate >= kLowestPlaybackRate &&
+      rate <= kHighestPlaybackRate) {
     lines.push_back(format(
         "note: the rate of {} a second comes from the file; slow-motion files state their playback rate: "
         "if it was filmed faster, say so with --fps",
