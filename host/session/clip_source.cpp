@@ -14,6 +14,10 @@
 namespace nutik {
 namespace {
 
+// Rates from the one to the other are what players show; a clip filmed faster often says one of them.
+constexpr double kLowestPlaybackRate = 1.0;
+constexpr double kHighestPlaybackRate = 60.0;
+
 // The file is read once to count and once to decode.
 void refuse_streams(const std::filesystem::path& path) {
   std::error_code error;
@@ -189,6 +193,21 @@ std::vector<Fact> ClipSource::facts(const Timeline& timeline) const {
   std::vector<Fact> facts{std::move(rate), std::move(angle)};
   facts.insert(facts.end(), clip->info().facts.begin(), clip->info().facts.end());
   return facts;
+}
+
+std::vector<Note> ClipSource::all_notes(const Timeline& timeline) const {
+  std::vector<Note> all = notes;
+  const double rate = timeline.rate().value();
+  const bool is_rate_told = std::ranges::any_of(notes, [](const Note& note) {
+    return std::ranges::find(note.settings, Setting::frame_rate) != note.settings.end();
+  });
+  if (!request.clip.rate && !is_rate_told && rate >= kLowestPlaybackRate && rate <= kHighestPlaybackRate) {
+    all.emplace_back(format("the rate of {} a second comes from the file; slow-motion files state their "
+                            "playback rate: if it was filmed faster, say so",
+                            timeline.rate().text()),
+                     std::vector{Setting::frame_rate});
+  }
+  return all;
 }
 
 ReadClip ClipSource::read_clip() const {

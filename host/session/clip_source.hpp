@@ -43,6 +43,9 @@ struct ClipSource {
   // What the capture is taken for, its times included, each with who said it.
   [[nodiscard]] std::vector<Fact> facts(const Timeline& timeline) const;
 
+  // `notes`, and that the rate may be one of playing: slow-motion files state that.
+  [[nodiscard]] std::vector<Note> all_notes(const Timeline& timeline) const;
+
   // For messages.
   [[nodiscard]] std::string name() const { return input_title(request.path.string()); }
   // As the files announce it; 0: they do not.

@@ -86,8 +86,9 @@ Encoded Encoding::run(const ReportedProgress& progress, const std::stop_token& s
   writer_->finish(timeline);
   std::vector<Fact> facts = source_.facts(timeline);
   for (std::string& remark : source_.clip->remarks()) source_.notes.emplace_back(std::move(remark));
-  return {source_.capture,  std::move(timeline),      writer_->bytes_written(),
-          std::move(facts), std::move(source_.notes), warnings(samples),
+  std::vector<Note> notes = source_.all_notes(timeline);
+  return {source_.capture,  std::move(timeline), writer_->bytes_written(),
+          std::move(facts), std::move(notes),    warnings(samples),
           source_.camera};
 }
 

@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "capture/fact.hpp"
 #include "capture/source_text.hpp"
 #include "capture/timeline.hpp"
 #include "exposure/function_check.hpp"
@@ -56,6 +57,9 @@ struct CheckedCapture {
   std::string name;
   CaptureFormat format;
   std::optional<Timeline> timeline;  // not known for clips that do not say how long they are
+  // Of a clip: what it is taken for, and what else a person should know.
+  std::vector<Fact> facts = {};
+  std::vector<Note> notes = {};
 };
 
 // What a function comes to.

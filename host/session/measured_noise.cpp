@@ -42,8 +42,7 @@ std::optional<std::string> transfer_note(const StatedNoise& stated, const Transf
 }
 
 NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOptions& stated,
-                            std::uint64_t most_samples, const MemoryBudget& memory,
-                            std::vector<Note>& clip_notes) {
+                            std::uint64_t most_samples, const MemoryBudget& memory, ClipTold& told) {
   ClipOptions options = stated;
   options.decoder_bytes = memory.bytes / 8;
   std::optional<CaptureFormat> first;
@@ -51,8 +50,9 @@ NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOption
   for (const std::string& name : clips) {
     const std::unique_ptr<Clip> clip = open_clip(name, options);
     const CaptureFormat format = clip_format(*clip, options);
-    for (const Note& note : clip->info().notes) clip_notes.push_back(note);
+    for (const Note& note : clip->info().notes) told.notes.push_back(note);
     if (!first) {
+      told.facts = clip->info().facts;
       const std::uint64_t within_decoder = clip->info().decoder_bytes;
       MemoryNeeds needs{{"pictures within the decoder", within_decoder}};
       needs.add(NoiseEstimator::needs(format, most_samples));

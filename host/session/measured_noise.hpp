@@ -26,12 +26,17 @@ inline constexpr std::uint64_t kSamplesOfOwnNoise = 256;
 // clip, and the noise depends on it; none where all is well.
 [[nodiscard]] std::optional<std::string> transfer_note(const StatedNoise& stated, const Transfer& of_clip);
 
+struct ClipTold {
+  std::vector<Fact> facts;
+  std::vector<Note> notes;
+};
+
 // Measures noise on clips of one format: several exposures of a still scene. Throws InputError where a clip
 // is of another format than the first, naming both; MemoryTooLittle, before any is read, with the least that does.
-// What the clips say of themselves is added to `clip_notes`.
+// `told` gets what the first clip is taken for, and the notes on all.
 [[nodiscard]] NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOptions& options,
                                           std::uint64_t most_samples, const MemoryBudget& memory,
-                                          std::vector<Note>& clip_notes);
+                                          ClipTold& told);
 
 // Whether so much of what pixels stray by is common to those that lie apart that it is no noise: something moves in most
 // of the picture, or a codec took its noise away. Holding codes within it would leave rings round what moves.

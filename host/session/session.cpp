@@ -126,7 +126,7 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
     clip_ = open_clip_source(source, memory(), terms.progress, terms.stop);
     announced_ = clip_->timeline(clip_->announced_samples());
     facts_ = clip_->facts(*announced_);
-    notes_ = clip_->notes;
+    notes_ = clip_->all_notes(*announced_);
   }
   format_ = reader_ ? reader_->format() : held_format(clip_->capture);
   if (reader_ && !terms.renders) check_reading({});

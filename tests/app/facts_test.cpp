@@ -160,6 +160,65 @@ TEST_F(Facts, OfVideosAreWhatFfprobeFinds) {
   }
 }
 
+// Scripts are told what people are: every command that reads a clip names what was assumed of it.
+TEST_F(Facts, OfAClipAreToldToScriptsByEveryCommandThatReadsIt) {
+  const auto made = test::run_shell(
+      "ffmpeg -v error -y -f lavfi -i testsrc=s=64x48:r=30:d=0.5 -pix_fmt yuv420p -c:v ffv1 clip.mkv",
+      scratch_.folder());
+  if (made.status != 0) GTEST_SKIP() << "ffmpeg cannot make the clip: " << made.err;
+  scratch_.write("list", "--start 0s --exposure 3f clip.mkv listed.png\n");
+  scratch_.write("one.fn", "M0{[0:1], [100000000:1]}\n");
+  scratch_.write("named.fn", "M0{[0:gain], [100000000:gain]}\n");
+  const std::vector<std::vector<std::string>> commands{
+      {"encode", "clip.mkv", "a.tik"},
+      {"expose", "--start", "0s", "--exposure", "3f", "clip.mkv", "a.png"},
+      {"expose", "--start", "0s", "--exposure", "1f", "--every", "3f", "clip.mkv", "series%d.png"},
+      {"check", "clip.mkv"},
+      {"check", "-k", "one.fn", "clip.mkv"},
+      {"noise", "clip.mkv", "-o", "a.noise"},
+      {"activity", "clip.mkv"},
+      {"trace", "--pixel", "3,4", "--start", "0s", "--exposure", "3f", "clip.mkv"},
+      {"validate", "--runs", "1", "--start", "0s", "--exposure", "3f", "clip.mkv"},
+      {"batch", "list"},
+      {"contact", "clip.mkv", "sheet.png"},
+      {"sweep", "--start", "0s", "--exposure", "3f", "--shift", "0f..2f/1f", "clip.mkv", "sweep.png"},
+      {"video", "--out-fps", "10", "clip.mkv", "film.mkv"},
+      {"plate", "clip.mkv", "plate.png"},
+      {"mask", "--moving", "clip.mkv", "-o", "mask.pgm"},
+      {"study", "clip.mkv", "-o", "study.png"},
+      {"solve", "-k", "named.fn", "--wish", "all = 0.5s", "clip.mkv", "-o", "solved.fn"}};
+  for (const auto& command : commands) {
+    std::vector<std::string> words = command;
+    words.push_back("--json");
+    const auto told = run(words);
+    SCOPED_TRACE(testing::PrintToString(command) + told.out + told.err);
+    EXPECT_EQ(told.status, 0);
+    EXPECT_NE(told.out.find("\"facts\": ["), std::string::npos);
+    EXPECT_NE(told.out.find("\"transfer srgb, assumed\""), std::string::npos);
+    EXPECT_NE(told.out.find("\"matrix bt601, assumed\""), std::string::npos);
+    EXPECT_NE(told.out.find("\"notes\": ["), std::string::npos);
+    if (command.front() == "noise") continue;  // which needs no times
+    EXPECT_NE(told.out.find("\"shutter 360 degrees, assumed\""), std::string::npos);
+    EXPECT_NE(told.out.find("slow-motion files state their playback rate"), std::string::npos);
+    EXPECT_EQ(told.err.find("note:"), std::string::npos) << "told twice";
+  }
+}
+
+// A check of a clip lists them, too.
+TEST_F(Facts, OfAClipAreToldByACheck) {
+  const auto made = test::run_shell(
+      "ffmpeg -v error -y -f lavfi -i testsrc=s=64x48:r=30:d=0.5 -pix_fmt yuv420p -c:v ffv1 clip.mkv",
+      scratch_.folder());
+  if (made.status != 0) GTEST_SKIP() << "ffmpeg cannot make the clip: " << made.err;
+  const auto told = run({"check", "clip.mkv"});
+  EXPECT_EQ(told.status, 0);
+  EXPECT_NE(told.err.find("transfer srgb (assumed)"), std::string::npos) << told.err;
+  EXPECT_NE(told.err.find("what is assumed can be stated (--shutter-angle, --transfer"), std::string::npos)
+      << told.err;
+  EXPECT_NE(told.err.find("note: the rate of 30 a second comes from the file"), std::string::npos)
+      << told.err;
+}
+
 TEST_F(Facts, OfAnEventCameraAreThatItHasNoPictures) {
   if (!fs::exists(kMedia / "evt2.raw")) GTEST_SKIP() << "no clips in " << kMedia;
   expect_refused({"encode", (kMedia / "evt2.raw").string(), "x.tik"}, 3,

@@ -119,10 +119,6 @@ void report_text(const std::string& name, const MeasuredActivity& measured) {
     print_line(format("  M{}: {}, quietest {}f to {}f", each.tag, counted(each.pixel_count, "pixel"),
                       quiet.first, quiet.last - 1));
   }
-  if (measured.mean_share() > 0.5) {
-    print_note(
-        "note: most pixels change at every sample, as noise does; --by CODES counts larger changes only");
-  }
   print_line(format("try: nutik-cl --start {}f --exposure {}f {} quiet.png", quietest.samples.first,
                     quietest.samples.size(), shell_word(name)));
 }
@@ -158,17 +154,22 @@ int run_activity(const Options& options) {
   if (outputs.map)
     write_picture(*outputs.map, sheet::activity_map(session.format().shape, activity.changes()));
   if (outputs.table) write_text(*outputs.table, measured.table());
+  Answer answer;
   if (options.moment) {
     print_line(moments_text(name, *options.moment == "quietest", measured));
   } else if (outputs.prints_table) {
     print_text(measured.table());
   } else if (options.json) {
-    print_json(activity_json(name, measured));
+    answer.json = activity_json(name, measured);
   } else if (!options.quiet) {
     report_text(name, measured);
   }
-  print_source(session, options);
-  return 0;
+  answer.tell_source(session);
+  if (measured.moments && measured.mean_share() > 0.5) {
+    answer.notes.emplace_back(
+        "most pixels change at every sample, as noise does; --by CODES counts larger changes only");
+  }
+  return tell(options, name, answer, true);
 }
 
 }  // namespace nutik::app

@@ -142,6 +142,8 @@ class Batch {
   [[nodiscard]] const ExposureTally& tally() const { return tally_; }
   // The lines whose pictures are missing. After finish().
   [[nodiscard]] const std::set<std::size_t>& failed_lines() const { return failed_lines_; }
+  // What each clip was taken for.
+  [[nodiscard]] const Json& clips() const { return clips_; }
   // After an exposure that did not fail.
   [[nodiscard]] std::string renderer_name() const { return devices_->renderer().name(); }
 
@@ -161,7 +163,11 @@ class Batch {
       session_.reset();
       capture_checksum_.reset();
       session_.emplace(open_session(name, options_, devices_, {.besides = PictureQueue::needs(widest)}));
-      print_source(*session_, options_);
+      Answer source{{{"capture", name}}};
+      source.tell_source(*session_);
+      source.json["notes"] = source.notes;
+      if (session_->is_clip()) clips_.push_back(source.json);
+      if (!options_.json) tell(options_, name, source, true);
     }
     return *session_;
   }
@@ -179,6 +185,7 @@ class Batch {
   ExposureTally tally_;
   std::optional<std::string> capture_checksum_;  // where a recipe needed it
   std::optional<Session> session_;
+  Json clips_ = Json::array();
   std::map<std::filesystem::path, std::size_t> line_of_output_;
   std::mutex reporting_;
   std::set<std::size_t> failed_lines_;
@@ -211,7 +218,7 @@ int run_batch(const Options& options) {
   if (options.json) {
     Json json{{"exposures", exposures.size()}, {"failed_lines", batch.failed_lines()}};
     json.update(batch.tally().saturation_json());
-    json["seconds"] = seconds;
+    json.update({{"clips", batch.clips()}, {"seconds", seconds}});
     print_json(json);
   } else if (!options.quiet) {
     print_line(format("{} of {}{}, {:.2f} s, {:.1f} exposures a second{}", done,

@@ -1,5 +1,5 @@
 #include "app/commands/commands.hpp"
-#include "app/output/console.hpp"
+#include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/check_text.hpp"
 #include "app/text/findings.hpp"
@@ -39,9 +39,13 @@ void read_capture(InputCheck& check, const std::string& name, const Options& opt
   if (!is_tik(name)) {
     const ClipSource source = open_clip_source(request, memory_budget(options));
     const std::uint64_t announced = source.announced_samples();
-    check.add_capture({name, source.capture, std::nullopt});
-    if (announced != 0) check.add_capture({name, source.capture, source.timeline(announced)});
-    return;
+    CheckedCapture clip{name, source.capture, std::nullopt, source.clip->info().facts, source.notes};
+    check.add_capture(clip);
+    if (announced == 0) return;
+    clip.timeline = source.timeline(announced);
+    clip.facts = source.facts(*clip.timeline);
+    clip.notes = source.all_notes(*clip.timeline);
+    return check.add_capture(std::move(clip));
   }
   tik::Reader reader(name);
   check.add_capture({name, reader.format(), reader.timeline()});
@@ -115,11 +119,10 @@ int run_check(const Options& options) {
         format("--unmapped {} is not known; the only choice is --unmapped zero", *options.unmapped));
   }
   const InputCheck check = checked_inputs(options);
-  if (options.json) {
-    print_json(check_json(check));
-  } else {
-    print_check(check, options.quiet);
-  }
+  Answer answer{check_json(check)};
+  if (check.capture()) answer.tell_source(check.capture()->facts, check.capture()->notes);
+  if (!options.json) print_check(check, options.quiet);
+  tell(options, {}, answer, true);
   return count_of(check.findings(), Finding::Severity::error) > 0 ? 3 : 0;
 }
 

@@ -1,5 +1,7 @@
-#include "app/commands/commands.hpp"
+#include <utility>
+
 #include "app/commands/camera_files.hpp"
+#include "app/commands/commands.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
@@ -47,9 +49,9 @@ int run_encode(const Options& options) {
   answer.line = format("{}: {}, {}, {}, {} of {} raw, {:.2f} s", output.string(), shape_text(shape),
                        counted(timeline.sample_count(), "sample"), timing_text(encoded.facts),
                        bytes_text(encoded.file_bytes), bytes_text(raw_bytes), seconds);
-  answer.details = fact_lines(encoded.facts);
-  answer.details.erase(answer.details.begin());  // of times, which the line above has
-  answer.notes = note_lines(encoded.notes, timeline, source);
+  answer.tell_source(encoded.facts, encoded.notes);
+  answer.source.erase(answer.source.begin());  // of times, which the line above has
+  answer.details = std::exchange(answer.source, {});
   if (encoded.camera) camera_files.write(**encoded.camera, timeline, input, answer);
   return tell(options, output, answer);
 }

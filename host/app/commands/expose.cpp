@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/timing_text.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/pictures.hpp"
@@ -43,10 +43,8 @@ int run_expose(const Options& options) {
                        codes_text(figures.capture, exposed.output));
   if (options.verbose) answer.details.push_back(plan_text(figures));
   tally.end(answer, session, options.verbose);
-  if (session.is_clip()) {
-    std::ranges::move(fact_lines(session.facts()), std::back_inserter(answer.details));
-    answer.notes = note_lines(session.notes(), figures.timeline, session.source());
-  }
+  answer.tell_source(session);
+  std::ranges::move(std::exchange(answer.source, {}), std::back_inserter(answer.details));
   return tell(options, output, answer);
 }
 

@@ -155,8 +155,9 @@ int run_mask(const Options& options) {
   const MaskJob job = job_of(options);
   std::optional<Session> session;
   if (job.capture) {
-    session.emplace(open_session(*job.capture, options, make_devices(options),
-                                 {.besides = mask_needs_of(job.request), .renders = options.preview.has_value()}));
+    session.emplace(
+        open_session(*job.capture, options, make_devices(options),
+                     {.besides = mask_needs_of(job.request), .renders = options.preview.has_value()}));
   }
 
   MadeMask made =
@@ -179,9 +180,8 @@ int run_mask(const Options& options) {
   }
   Answer answer = answer_of(job, made);
   answer.notes = camera_notes(moved);
-  tell(options, job.output, answer);
-  if (session) print_source(*session, options);
-  return 0;
+  if (session) answer.tell_source(*session);
+  return tell(options, job.output, answer);
 }
 
 }  // namespace nutik::app

@@ -1,7 +1,6 @@
 #include "app/commands/commands.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/message_text.hpp"
 #include "session/clip_source.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
@@ -43,10 +42,10 @@ int run_noise(const Options& options) {
       options.output ? *options.output : sequence_name(options.operands.front()) + ".noise";
   check_output(output, OutputKind::noise, options.operands);
 
-  std::vector<Note> clip_notes;
+  ClipTold told;
   const NoiseEstimate estimate =
       measure_noise(options.operands, clip_request(options, options.operands.front()).clip,
-                    NoiseEstimator::kMostSamples, memory_budget(options), clip_notes);
+                    NoiseEstimator::kMostSamples, memory_budget(options), told);
   std::vector<std::string> comments;
   for (const std::string& name : options.operands) {
     comments.push_back("measured on " + std::filesystem::path(name).filename().string());
@@ -65,8 +64,8 @@ int run_noise(const Options& options) {
   answer.json["seconds"] = stopwatch.seconds();
   answer.line = format("{}: measured on {} samples, {:.1f} % of the pixels still, {:.2f} s", output.string(),
                        estimate.sample_count, 100 * still, stopwatch.seconds());
-  for (const Note& note : clip_notes) answer.notes.push_back(note_text(note));
-  for (const std::string& note : noise_notes(estimate)) answer.notes.push_back("note: " + note);
+  answer.tell_source(told.facts, told.notes);
+  std::ranges::move(noise_notes(estimate), std::back_inserter(answer.notes));
   return tell(options, output, answer, options.output.has_value());
 }
 

@@ -19,11 +19,7 @@ namespace nutik::app {
 [[nodiscard]] Session open_session(const std::string& name, const Options& options,
                                    std::shared_ptr<Devices> devices, Session::Terms terms = {});
 
-// On a clip, what it was taken for, and what else to know: whole lines. Empty for a .tik.
-[[nodiscard]] std::vector<std::string> source_lines(const Session& session);
 // That the camera of a capture moved and nobody aligned it, as a note.
 [[nodiscard]] std::vector<std::string> camera_notes(const std::optional<MovedCamera>& moved);
-// Prints them as notes, unless --quiet.
-void print_source(const Session& session, const Options& options);
 
 }  // namespace nutik::app

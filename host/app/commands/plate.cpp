@@ -57,7 +57,7 @@ int run_plate(const Options& options) {
              shape_text(made.picture.shape), session.timeline().sample_count(),
              100.0 * static_cast<double>(uncertain) / static_cast<double>(capture.shape.pixel_count()),
              stopwatch.seconds());
-  answer.notes = source_lines(session);
+  answer.tell_source(session);
   return tell(options, output, answer);
 }
 

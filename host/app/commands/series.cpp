@@ -59,7 +59,7 @@ int run_series(const Options& options) {
   if (options.verbose) answer.details.push_back("first " + plan_text(*first));
   tally.end(answer, session, options.verbose,
             format(", {:.1f} exposures a second", static_cast<double>(pictures.size()) / tally.seconds()));
-  answer.notes = source_lines(session);
+  answer.tell_source(session);
   return tell(options, names[0], answer);
 }
 

@@ -72,7 +72,7 @@ class SheetJob {
     answer.line = format("{}: {}, {}, {}", output_.string(), counted_as, counted(columns, "column"),
                          counted(rows, "row"));
     tally_.end(answer, session, options_.verbose);
-    answer.notes = source_lines(session);
+    answer.tell_source(session);
     return tell(options_, output_, answer);
   }
 

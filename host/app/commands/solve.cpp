@@ -104,12 +104,12 @@ std::string next_command(const Options& options, const std::filesystem::path& ou
 std::vector<std::string> notes_of(const SolveRequest& request, const SolvedExposure& solved) {
   std::vector<std::string> notes;
   for (const std::size_t gain : solved.untold) {
-    notes.push_back(format("note: no wish depends on {}; it stays where it began, at {:.9g}",
+    notes.push_back(format("no wish depends on {}; it stays where it began, at {:.9g}",
                            request.functions.gains[gain], solved.numbers.gains[gain]));
   }
   if (solved.open_count > 0) {
     notes.push_back(format(
-        "note: the wishes are kept in more than one way: gains could still change together, in {}. What is "
+        "the wishes are kept in more than one way: gains could still change together, in {}. What is "
         "nearest to where they began was taken; another wish, or bounds, would tell",
         counted(solved.open_count, "way")));
   }
@@ -149,7 +149,7 @@ int run_solve(const Options& options) {
                                     counted(solved.saturation.below, "pixel"), solved.saturation.above));
   }
   answer.details.push_back("try: " + next_command(options, output));
-  answer.notes = source_lines(session);
+  answer.tell_source(session);
   for (std::string& note : notes_of(request, solved)) answer.notes.push_back(std::move(note));
   return tell(options, output, answer);
 }

@@ -190,9 +190,9 @@ int run_study(const Options& stated) {
       format("  {}, {}: the mask and the functions, to be changed by hand; {}: the commands",
              files.mask.string(), files.functions.string(), files.commands.string()));
   tally.end(answer, session, options.verbose);
-  answer.notes = source_lines(session);
+  answer.tell_source(session);
   std::ranges::move(camera_notes(moved), std::back_inserter(answer.notes));
-  for (const std::string& note : study.notes) answer.notes.push_back("note: " + note);
+  std::ranges::move(study.notes, std::back_inserter(answer.notes));
   return tell(options, files.picture, answer);
 }
 

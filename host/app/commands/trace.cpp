@@ -5,6 +5,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
+#include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/trace_text.hpp"
@@ -94,8 +95,9 @@ int run_trace(const Options& options) {
   const ExposureRequest request = exposure_request(options);
   if (output) {
     if (!is_table_name(*output) && !is_picture_name(*output)) {
-      throw UsageError(format("{}: traces are written as a table, .csv, or as a picture: .png, .tif, .jpg or .ppm",
-                              output->string()));
+      throw UsageError(
+          format("{}: traces are written as a table, .csv, or as a picture: .png, .tif, .jpg or .ppm",
+                 output->string()));
     }
     if (is_table_name(*output)) {
       check_output(*output, OutputKind::table, input_files(options));
@@ -117,20 +119,16 @@ int run_trace(const Options& options) {
     write_picture(*output, picture_of(exposure, title, is_plain));
   }
 
-  if (options.json) {
-    Json json{{"capture", input}};
-    if (traced.pixel) json.update({{"x", traced.pixel->first}, {"y", traced.pixel->second}});
-    json.update(trace_json(exposure));
-    print_json(json);
-    return 0;
-  }
+  Answer answer{{{"capture", input}}};
+  if (traced.pixel) answer.json.update({{"x", traced.pixel->first}, {"y", traced.pixel->second}});
+  if (options.json) answer.json.update(trace_json(exposure));
   const bool is_mixed = traces.size() > 1;
   for (const Trace& trace : traces) {
-    if (output) break;
+    if (output || options.json) break;
     if (is_mixed) print_line(function_name(exposure, trace, is_plain));
     print_line(steps_text(trace, exposure.function_of(trace), options.verbose));
   }
-  if (!options.quiet) {
+  if (!options.quiet && !options.json) {
     const std::string place = (output ? output->string() + ": " : "") + title;
     const std::string codes = traced_codes(traces, exposure.figures.capture,
                                            output_format(output_request(options), session.format()));
@@ -145,9 +143,9 @@ int run_trace(const Options& options) {
                         traces[0].steps.size(), integral_text(static_cast<double>(summary.support_ns)),
                         integral_text(std::scalbn(summary.integral_ns, summary.exponent))));
     }
-    print_source(session, options);
   }
-  return 0;
+  answer.tell_source(session);
+  return tell(options, input, answer, true);
 }
 
 }  // namespace nutik::app

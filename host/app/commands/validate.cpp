@@ -67,10 +67,10 @@ int run_validate(const Options& options) {
                                   progress_bar("comparing with the source", options.quiet));
   }
 
+  Answer answer;
   if (options.json) {
-    Json json = validation_json(validation, figures, input, device, runs);
-    if (source) json["source"] = source_json(*source, shape, *options.source);
-    print_json(json);
+    answer.json = validation_json(validation, figures, input, device, runs);
+    if (source) answer.json["source"] = source_json(*source, shape, *options.source);
   } else {
     if (!options.quiet) {
       print_line(format("{}: {}, {} of {} samples, as {}; medians of {} on {}", input, shape_text(shape),
@@ -80,11 +80,12 @@ int run_validate(const Options& options) {
     print_line(variants_text(validation));
     if (!options.quiet) print_line(choice_text(validation));
     if (source) print_line(source_text(*source, shape, *options.source));
-    print_source(session, options);
   }
+  answer.tell_source(session);
   if (source && source->clip_goes_on) {
-    print_note(format("note: {} goes on after the capture's last sample", *options.source));
+    answer.notes.push_back(format("{} goes on after the capture's last sample", *options.source));
   }
+  tell(options, input, answer, true);
   const bool is_true = !source || source->comparison.values_beyond() == 0;
   if (!is_true) print_error(format("the capture is not true to {}: was it made from it?", *options.source));
   if (!validation.is_within_bounds()) {

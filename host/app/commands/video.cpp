@@ -62,8 +62,8 @@ int run_video(const Options& options) {
                        counted(frames.count, "frame"), request.text(), duration_text(start_ns),
                        duration_text(end_ns), output.kind() + codes);
   tally.end(answer, session, options.verbose);
-  for (const std::string& note : made.notes) answer.notes.push_back("note: " + note);
-  std::ranges::move(source_lines(session), std::back_inserter(answer.notes));
+  answer.tell_source(session);
+  std::ranges::copy(made.notes, std::back_inserter(answer.notes));
   return tell(options, output.path(), answer);
 }
 

@@ -54,7 +54,7 @@ void print_warnings(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) print_warning(text);
 }
 void print_notes(const std::vector<std::string>& texts) {
-  for (const std::string& text : texts) print_note(text);
+  for (const std::string& text : texts) print_note("note: " + text);
 }
 
 void keep_lines_from_output() { line_stream = stderr; }

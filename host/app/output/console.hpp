@@ -13,7 +13,7 @@ void print_warning(const std::string& text);  // to stderr, behind "warning:", i
 void print_error(const std::string& text);    // to stderr, behind "nutik-cl:", likewise
 void print_note(const std::string& text);     // to stderr
 void print_warnings(const std::vector<std::string>& texts);
-void print_notes(const std::vector<std::string>& texts);
+void print_notes(const std::vector<std::string>& texts);  // each behind "note:"
 
 // From now on lines go to stderr: standard output is for the result itself.
 void keep_lines_from_output();

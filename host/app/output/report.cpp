@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "app/text/message_text.hpp"
 #include "app/text/text_table.hpp"
+#include "app/text/timing_text.hpp"
 #include "session/format.hpp"
 #include "session/functions.hpp"
 #include "session/size_text.hpp"
@@ -40,16 +42,29 @@ Json shape_json(const Shape& shape) {
   return {{"width", shape.width}, {"height", shape.height}, {"channels", shape.channels}};
 }
 
+void Answer::tell_source(const std::vector<Fact>& facts, const std::vector<Note>& more) {
+  source = fact_lines(facts);
+  for (const Fact& fact : facts) json["facts"].push_back(fact.line());
+  std::ranges::move(note_texts(more), std::back_inserter(notes));
+}
+
+void Answer::tell_source(const Session& session) {
+  if (session.is_clip()) tell_source(session.facts(), session.notes());
+}
+
 int tell(const Options& options, const std::filesystem::path& output, const Answer& answer) {
   return tell(options, output, answer, options.output.has_value() || options.operands.size() > 1);
 }
 
 int tell(const Options& options, const std::filesystem::path& output, const Answer& answer, bool was_named) {
   if (options.json) {
-    print_json(answer.json);
+    Json json = answer.json;
+    json["notes"] = answer.notes;
+    print_json(json);
   } else if (!options.quiet) {
-    print_line(answer.line);
+    if (!answer.line.empty()) print_line(answer.line);
     for (const std::string& detail : answer.details) print_line(detail);
+    for (const std::string& line : answer.source) print_note(line);
     print_notes(answer.notes);
   } else if (!was_named) {
     print_text(output.string() + "\n");  // for a script, byte by byte

@@ -37,7 +37,12 @@ struct Answer {
   Json json;
   std::string line = {};
   std::vector<std::string> details = {};  // more lines
-  std::vector<std::string> notes = {};
+  std::vector<std::string> source = {};   // lines of what a clip was taken for, which json has as `facts`
+  std::vector<std::string> notes = {};    // whole sentences
+
+  // What a clip was taken for, each with who said it, and what else a person should know of it.
+  void tell_source(const std::vector<Fact>& facts, const std::vector<Note>& more);
+  void tell_source(const Session& session);  // where it was made from a clip
 };
 
 // Prints it as --json and -q ask; returns the exit status. -q leaves the output's name where nobody gave it one: with

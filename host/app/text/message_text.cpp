@@ -148,8 +148,10 @@ std::string message_text(const std::exception& error) {
   return message;
 }
 
-std::string note_text(const Note& note) {
-  return format("note: {}{}", note.text, options_text(note.settings));
+std::vector<std::string> note_texts(const std::vector<Note>& notes) {
+  std::vector<std::string> texts;
+  for (const Note& note : notes) texts.push_back(note.text + options_text(note.settings));
+  return texts;
 }
 
 }  // namespace nutik::app

@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <string>
+#include <vector>
 
 #include "session/error.hpp"
 
@@ -12,7 +13,6 @@ namespace nutik::app {
 [[nodiscard]] std::string message_text(const std::exception& error);
 // ` (--depth, --renderer)`: what settings are called here; empty if there are none.
 [[nodiscard]] std::string options_text(const std::vector<Setting>& settings);
-// `note: …`
-[[nodiscard]] std::string note_text(const Note& note);
+[[nodiscard]] std::vector<std::string> note_texts(const std::vector<Note>& notes);
 
 }  // namespace nutik::app
