@@ -164,13 +164,17 @@ void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const Sto
   CaptureFormat& capture = info.format;
   capture.transfer = settle(info.facts, options.transfer, codes.transfer, codes.usual, Setting::transfer,
                             [](const Transfer& transfer) { return "transfer " + transfer.text(); });
-  if (info.facts.back().origin == Origin::assumed && !codes.unread_transfer.empty()) {
-    info.facts.back().remark = format("the file names {}", codes.unread_transfer);
-  }
+  const auto add_origin = [&](const std::string& unread) {
+    Fact& fact = info.facts.back();
+    if (fact.origin == Origin::file) fact.source = codes.colours_from;
+    if (fact.origin == Origin::assumed && !unread.empty()) fact.remark = format("the file names {}", unread);
+  };
+  add_origin(codes.unread_transfer);
   if (capture.shape.channels > 1) {
     capture.primaries =
         settle(info.facts, options.primaries, codes.primaries, Primaries::bt709, Setting::primaries,
                [](Primaries primaries) { return format("primaries {}", to_text(primaries)); });
+    add_origin(codes.unread_primaries);
   }
   capture.pixel_aspect = settle(info.facts, options.pixel_aspect, codes.pixel_aspect, Rational{1, 1},
                                 Setting::pixel_aspect, pixel_aspect_text);

@@ -135,8 +135,10 @@ class Clip {
 struct StoredCodes {
   Transfer usual;
   std::optional<Transfer> transfer = std::nullopt;
-  std::string unread_transfer = {};  // what they name besides, for people
   std::optional<Primaries> primaries = std::nullopt;
+  std::string colours_from = "the file";  // what of it says these, for people
+  // What they name besides that is none of those known here, for people.
+  std::string unread_transfer = {}, unread_primaries = {};
   std::optional<Rational> pixel_aspect = std::nullopt;
 };
 

@@ -8,6 +8,9 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <string_view>
+
+#include "capture/format.hpp"
 
 namespace nutik {
 namespace {
@@ -68,7 +71,99 @@ void describe(cmsHPROFILE profile, const std::string& words) {
   }
 }
 
+std::string name_of(cmsHPROFILE profile) {
+  constexpr std::size_t kMost = 60;
+  std::array<char, kMost + 1> text{};
+  cmsGetProfileInfoASCII(profile, cmsInfoDescription, "en", "US", text.data(), text.size());
+  std::string name;
+  for (const char c : std::string_view(text.data())) {
+    if (c >= ' ' && c <= '~') name += c;
+  }
+  return name;
+}
+
+bool is_curve_of(const cmsToneCurve* curve, const Transfer& transfer) {
+  constexpr int kCodes = 255;
+  constexpr double kRounded = 1.0 / 65'535;  // where tables end
+  for (int code = 0; code <= kCodes; ++code) {
+    const double light = cmsEvalToneCurveFloat(curve, static_cast<float>(code) / kCodes);
+    const double least = transfer.light_of(std::max(code - 0.5, 0.0) / kCodes);
+    const double most = transfer.light_of(std::min((code + 0.5) / kCodes, 1.0));
+    if (!(light >= least - kRounded && light <= most + kRounded)) return false;
+  }
+  return true;
+}
+
+// The power that a curve would be, in as few decimals as the format's rounding leaves.
+std::optional<Transfer> power_of(const cmsToneCurve* curve) {
+  const double power = std::log(cmsEvalToneCurveFloat(curve, 0.5F)) / std::log(0.5);
+  if (!(power >= 0.1 && power <= 10.0)) return std::nullopt;
+  constexpr double kRounding = 1e-5;  // parameters are whole 65536ths
+  for (double parts = 10;; parts *= 10) {
+    const double decimal = std::round(power * parts) / parts;
+    if (std::abs(power - decimal) <= kRounding) return Transfer::gamma(decimal);
+  }
+}
+
+// Of curves that are alike, which those of channels have to be.
+std::optional<Transfer> transfer_of(const std::vector<const cmsToneCurve*>& curves) {
+  std::vector known{Transfer::srgb(), Transfer::linear(), Transfer::bt709(), Transfer::hlg(), Transfer::pq()};
+  if (const auto power = power_of(curves.front())) known.push_back(*power);
+  for (const Transfer& transfer : known) {
+    if (std::ranges::all_of(curves, [&](const auto* curve) { return is_curve_of(curve, transfer); }))
+      return transfer;
+  }
+  return std::nullopt;
+}
+
+constexpr std::array kColorants{cmsSigRedColorantTag, cmsSigGreenColorantTag, cmsSigBlueColorantTag};
+
+std::optional<Primaries> primaries_of(cmsHPROFILE profile) {
+  // White of a channel that is off by that much is off by 0.45 of a code of 8 bits in sRGB.
+  constexpr double kAlike = 0.002;
+  for (const Primaries primaries : {Primaries::bt709, Primaries::bt2020, Primaries::p3}) {
+    Picture sample;
+    sample.shape.channels = 3;
+    sample.primaries = primaries;
+    const Curve curve = curve_of(Transfer::linear());
+    const Profile known = curve ? profile_of(sample, curve.get()) : nullptr;
+    if (!known) throw std::bad_alloc();
+    const bool are_alike = std::ranges::all_of(kColorants, [&](cmsTagSignature tag) {
+      const auto* a = static_cast<const cmsCIEXYZ*>(cmsReadTag(profile, tag));
+      const auto* b = static_cast<const cmsCIEXYZ*>(cmsReadTag(known.get(), tag));
+      return a != nullptr && b != nullptr && std::abs(a->X - b->X) < kAlike &&
+             std::abs(a->Y - b->Y) < kAlike && std::abs(a->Z - b->Z) < kAlike;
+    });
+    if (are_alike) return primaries;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+ProfiledColours read_colour_profile(std::span<const std::byte> bytes) {
+  const Profile profile(cmsOpenProfileFromMem(bytes.data(), static_cast<cmsUInt32Number>(bytes.size())));
+  if (!profile) return {"a damaged ICC profile", std::nullopt, std::nullopt};
+  const std::string name = name_of(profile.get());
+  ProfiledColours colours{
+      name.empty() ? "an ICC profile without a name" : format("the ICC profile '{}'", name), std::nullopt,
+      std::nullopt};
+  const bool is_grey = cmsGetColorSpace(profile.get()) == cmsSigGrayData;
+  // Tables of colours go before curves and primaries.
+  if (cmsIsTag(profile.get(), cmsSigAToB0Tag) || cmsIsTag(profile.get(), cmsSigAToB1Tag)) return colours;
+  if (!is_grey && cmsGetColorSpace(profile.get()) != cmsSigRgbData) return colours;
+  std::vector<const cmsToneCurve*> curves;
+  for (const cmsTagSignature tag : is_grey
+                                       ? std::vector{cmsSigGrayTRCTag}
+                                       : std::vector{cmsSigRedTRCTag, cmsSigGreenTRCTag, cmsSigBlueTRCTag}) {
+    const auto* curve = static_cast<const cmsToneCurve*>(cmsReadTag(profile.get(), tag));
+    if (curve == nullptr) return colours;
+    curves.push_back(curve);
+  }
+  colours.transfer = transfer_of(curves);
+  if (!is_grey) colours.primaries = primaries_of(profile.get());
+  return colours;
+}
 
 std::vector<std::byte> colour_profile(const Picture& picture) {
   const bool is_light = !holds_codes(picture.type);

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -160,6 +162,20 @@ std::optional<std::string> read_jpeg_comments(std::span<const std::byte> file, c
     text->append(reinterpret_cast<const char*>(marker->data), marker->data_length);
   }
   return text;
+}
+
+std::vector<std::byte> read_jpeg_profile(std::span<const std::byte> file, const std::string& name) {
+  std::string title = format("{} cannot be read", name);
+  Decompressor jpeg(title);
+  jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(file.data()), file.size());
+  jpeg_save_markers(&jpeg, JPEG_APP0 + 2, 0xFFFF);
+  jpeg_read_header(&jpeg, TRUE);
+  JOCTET* bytes = nullptr;
+  unsigned size = 0;
+  if (!jpeg_read_icc_profile(&jpeg, &bytes, &size)) return {};
+  const std::unique_ptr<JOCTET, decltype(&std::free)> owned(bytes, &std::free);
+  const auto* first = reinterpret_cast<const std::byte*>(bytes);
+  return {first, first + size};
 }
 
 }  // namespace nutik

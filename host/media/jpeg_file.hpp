@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "capture/picture.hpp"
 #include "system/output_file.hpp"
@@ -20,5 +21,9 @@ void write_jpeg(OutputFile& file, const Picture& picture, const std::string& tex
 // The comments before the picture, one behind the other; nothing where there is none. Throws InputError.
 [[nodiscard]] std::optional<std::string> read_jpeg_comments(std::span<const std::byte> file,
                                                             const std::string& name);
+
+// The ICC profile; empty where there is none, or not all of it. Throws InputError.
+[[nodiscard]] std::vector<std::byte> read_jpeg_profile(std::span<const std::byte> file,
+                                                       const std::string& name);
 
 }  // namespace nutik

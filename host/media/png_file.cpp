@@ -12,6 +12,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/coding_points.hpp"
+#include "media/colour_profile.hpp"
 #include "media/picture_text.hpp"
 #include "system/interruption.hpp"
 
@@ -96,6 +97,10 @@ void set_meaning(png_structp png, png_infop info, const Picture& picture) {
     const auto& xy = chromaticities(picture.primaries);
     png_set_cHRM(png, info, xy[3][0], xy[3][1], xy[0][0], xy[0][1], xy[1][0], xy[1][1], xy[2][0], xy[2][1]);
   }
+  if (coding_point(transfer)) return;
+  const std::vector<std::byte> profile = colour_profile(picture);
+  png_set_iCCP(png, info, "ICC", PNG_COMPRESSION_TYPE_BASE, reinterpret_cast<png_const_bytep>(profile.data()),
+               static_cast<png_uint_32>(profile.size()));
 }
 
 void write_coding_points(png_structp png, const Picture& picture) {
@@ -183,6 +188,21 @@ std::optional<std::string> read_png_text(std::span<const std::byte> file, const 
     if (std::strcmp(texts[i].key, keyword) == 0) return std::string(texts[i].text, texts[i].text_length);
   }
   return std::nullopt;
+}
+
+std::vector<std::byte> read_png_profile(std::span<const std::byte> file, const std::string& name) {
+  std::string error_name = name;
+  ReadStructure read(error_name);
+  ByteReader reader{file};
+  png_set_read_fn(read.png, &reader, read_bytes);
+  png_read_info(read.png, read.info);
+  png_charp title = nullptr;
+  png_bytep profile = nullptr;
+  png_uint_32 size = 0;
+  int compression = 0;
+  if (png_get_iCCP(read.png, read.info, &title, &compression, &profile, &size) == 0) return {};
+  const auto* bytes = reinterpret_cast<const std::byte*>(profile);
+  return {bytes, bytes + size};
 }
 
 void write_png(OutputFile& file, const Picture& picture, const std::string& text) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "capture/picture.hpp"
 #include "system/output_file.hpp"
@@ -25,7 +26,12 @@ namespace nutik {
 [[nodiscard]] std::optional<std::string> read_png_text(std::span<const std::byte> file, const char* keyword,
                                                        const std::string& name);
 
-// Writes codes: 8 or 16 bits, grey or RGB; what they mean in the chunks cICP, sRGB or gAMA and cHRM, pixels that are
+// The ICC profile; empty where there is none that can be read. Throws InputError where the file is damaged.
+[[nodiscard]] std::vector<std::byte> read_png_profile(std::span<const std::byte> file,
+                                                      const std::string& name);
+
+// Writes codes: 8 or 16 bits, grey or RGB; what they mean in the chunks cICP, sRGB or gAMA and cHRM, and in iCCP what
+// cICP has no number for; pixels that are
 // not square in pHYs. `text` is kept as picture_text.hpp says; none where it is empty.
 void write_png(OutputFile& file, const Picture& picture, const std::string& text);
 

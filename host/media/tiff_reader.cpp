@@ -45,6 +45,7 @@ class PageReader {
       page.picture = read_shown();
     }
     page.resolution = resolution();
+    page.profile = profile();
     return page;
   }
 
@@ -113,6 +114,13 @@ class PageReader {
       return std::nullopt;
     }
     return std::pair(double{across}, double{down});
+  }
+
+  [[nodiscard]] std::vector<std::byte> profile() const {
+    std::uint32_t size = 0;
+    const std::byte* bytes = nullptr;
+    if (TIFFGetField(file_, TIFFTAG_ICCPROFILE, &size, &bytes) != 1 || bytes == nullptr) return {};
+    return {bytes, bytes + size};
   }
 
   [[nodiscard]] std::optional<std::uint32_t> stated_maximum() const {

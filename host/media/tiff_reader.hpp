@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "capture/picture.hpp"
 
@@ -23,6 +24,7 @@ struct TiffPage {
   // How many of its pixels are as long as one and the same length, along a row and along a column, of no unit; where it
   // has a resolution.
   std::optional<std::pair<double, double>> resolution;
+  std::vector<std::byte> profile;  // ICC; empty where it has none
 };
 
 class TiffReader {

@@ -358,10 +358,18 @@ TEST(StillClip, OfPngStandsForWhatItsChunksName) {
     }
   }
   picture.transfer = Transfer::gamma(3);
-  EXPECT_EQ(facts_of(picture).second[0], "transfer linear, assumed; the file names gamma 3");
+  EXPECT_EQ(facts_of(picture).second[0], "transfer gamma:3, from the ICC profile 'p3, gamma:3'");
   ClipOptions stated;
   stated.transfer = Transfer::srgb();
   EXPECT_EQ(facts_of(picture, stated).second[0], "transfer srgb, as stated");
+  std::string png = test::read_file(scratch / "a.png");
+  const auto profile = png.find("iCCP");
+  ASSERT_NE(profile, std::string::npos);
+  const auto byte = [&](std::size_t at) { return std::size_t{static_cast<unsigned char>(png[at])}; };
+  png.erase(profile - 4, 12 + (byte(profile - 2) << 8 | byte(profile - 1)));
+  scratch.write("bare.png", png);
+  EXPECT_EQ(open_test_clip(scratch / "bare.png")->info().facts[0].line(),
+            "transfer linear, assumed; the file names gamma 3");
 }
 
 }  // namespace

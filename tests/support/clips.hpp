@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -20,6 +21,12 @@ inline std::unique_ptr<Clip> open_test_clip(const std::filesystem::path& path,
                                             const ClipOptions& options = {}) {
   use_modules();
   return open_clip(path, options);
+}
+
+inline std::map<Setting, Fact> facts_of(const Clip& clip) {
+  std::map<Setting, Fact> facts;
+  for (const Fact& fact : clip.info().facts) facts.insert({fact.setting, fact});
+  return facts;
 }
 
 inline std::vector<std::vector<std::byte>> read_all(Clip& clip) {

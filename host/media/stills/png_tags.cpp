@@ -41,11 +41,14 @@ PngTags read_png_tags(const std::filesystem::path& file) {
       tags.primaries = Primaries::bt709;
     } else if (name == "gAMA" && length == 4) {
       tags.unread_transfer = format("gamma {:.4g}", kGammaParts / std::max(big_endian(data), 1u));
+    } else if (name == "iCCP") {
+      tags.has_profile = true;
     } else if (name == "pHYs" && length >= 8) {
       tags.density = {big_endian(data), big_endian(data.substr(4))};
     }
     at += kFrame + length;
   }
+  tags.has_profile &= !has_coding_points;
   return tags;
 }
 

@@ -15,6 +15,7 @@ namespace nutik::stills {
 struct PngTags {
   std::optional<Transfer> transfer;                  // of cICP, else of sRGB
   std::optional<Primaries> primaries;                // likewise
+  bool has_profile = false;                          // iCCP, which goes before sRGB and not before cICP
   std::string unread_transfer;                       // gAMA alone, which programs write without being asked
   std::optional<std::pair<double, double>> density;  // pixels on a length, across and down
 };

@@ -8,8 +8,11 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/colour_profile.hpp"
 #include "media/extension.hpp"
+#include "media/jpeg_file.hpp"
 #include "media/netpbm.hpp"
+#include "media/png_file.hpp"
 #include "media/stills/png_tags.hpp"
 #include "media/stills/raw_file.hpp"
 #include "media/stills/stills.hpp"
@@ -38,7 +41,8 @@ struct Still {
   std::optional<Rational> pixel_aspect = std::nullopt;
   std::optional<Transfer> transfer = std::nullopt;  // that the file names
   std::optional<Primaries> primaries = std::nullopt;
-  std::string unread_transfer = {};  // that it names and that is not believed
+  std::string colours_from = "the file";                    // what of it names these
+  std::string unread_transfer = {}, unread_primaries = {};  // that it names and that are not believed
 };
 
 bool has_extension(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions) {
@@ -114,6 +118,15 @@ std::optional<Rational> jpeg_pixel_aspect(std::string_view bytes) {
   return aspect_of(big_endian(bytes, kAcross, 2), big_endian(bytes, kDown, 2));
 }
 
+void follow_profile(Still& still, std::span<const std::byte> profile) {
+  const ProfiledColours colours = read_colour_profile(profile);
+  still.transfer = colours.transfer;
+  still.primaries = colours.primaries;
+  still.colours_from = colours.name;
+  if (!colours.transfer) still.unread_transfer = colours.name;
+  if (!colours.primaries) still.unread_primaries = colours.name;
+}
+
 // What a PNG or JPEG says of its codes and pixels.
 void add_tags(const std::filesystem::path& file, Still& still) {
   const PngTags tags = read_png_tags(file);
@@ -123,7 +136,11 @@ void add_tags(const std::filesystem::path& file, Still& still) {
   if (tags.density) still.pixel_aspect = aspect_of(tags.density->first, tags.density->second);
   const MappedFile mapped(file);
   const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
-  if (bytes.starts_with("\xFF\xD8")) still.pixel_aspect = jpeg_pixel_aspect(bytes);
+  if (tags.has_profile) follow_profile(still, read_png_profile(mapped.bytes(), file.string()));
+  if (!bytes.starts_with("\xFF\xD8")) return;
+  still.pixel_aspect = jpeg_pixel_aspect(bytes);
+  const std::vector<std::byte> profile = read_jpeg_profile(mapped.bytes(), file.string());
+  if (!profile.empty()) follow_profile(still, profile);
 }
 
 // Before OpenCV allocates what a file says: Deflate makes 1032 bytes of one at most, which may be 8 pixels each, and a
@@ -193,18 +210,17 @@ class StillClip final : public Clip {
     }
     first_ = read_page(pages_.front());
     first_maximum_ = first_.maximum;
-    white_is_stated_ = options.white_code.has_value();
+    stated_ = options;
     CaptureFormat& capture = info_.format;
     capture.shape = first_.shape;
     capture.code_bytes = first_.code_bytes;
     const std::uint32_t full = first_.code_bytes == 1 ? 255 : 65'535;
     capture.white_code = options.white_code.value_or(first_.maximum.value_or(full));
     const bool is_developed = is_raw(pages_.front().file);
-    // Deep stills come from scientific cameras, whose codes are linear; shallow ones are made to be
-    // seen.
     describe_stored_codes(info_, options,
-                          {first_.code_bytes == 1 ? Transfer::srgb() : Transfer::linear(), first_.transfer,
-                           first_.unread_transfer, first_.primaries, first_.pixel_aspect});
+                          {usual_transfer(first_), first_.transfer, first_.primaries, first_.colours_from,
+                           first_.unread_transfer, first_.unread_primaries, first_.pixel_aspect});
+    add_unread_colours(options);
     if (capture.code_bytes == 2 && !first_.maximum && !options.white_code) {
       info_.notes.emplace_back(
           "the files do not say how many of their 16 bits are used: white is taken to be 65535; state "
@@ -228,6 +244,7 @@ class StillClip final : public Clip {
     const Page& page = pages_[next_];
     const Still still = next_ == 0 ? std::move(first_) : read_page(page);
     check_like_first(still, page);
+    check_colours(still, page);
     std::memcpy(raster.data(), still.codes.data(), still.codes.size());
     ++next_;
     return true;
@@ -236,6 +253,25 @@ class StillClip final : public Clip {
  private:
   static bool is_raw(const std::filesystem::path& file) { return has_extension(file, {".dng"}); }
   static bool is_tiff(const std::filesystem::path& file) { return has_extension(file, {".tif", ".tiff"}); }
+
+  // A profile was made for these codes: what it says and is not known here would be right.
+  void add_unread_colours(const ClipOptions& options) {
+    const bool is_colour = first_.shape.channels > 1;
+    if (first_.colours_from == Still().colours_from) return;
+    std::vector<Setting> open;
+    if (!first_.transfer && !options.transfer) open.push_back(Setting::transfer);
+    if (is_colour && !first_.primaries && !options.primaries) open.push_back(Setting::primaries);
+    if (open.empty()) return;
+    const bool are_both = open.size() == 2, is_transfer = open.front() == Setting::transfer;
+    info_.notes.emplace_back(
+        format("{} says what the codes stand for, and its {} known here: what is usual "
+               "is taken, and colours are wrong by what it differs; state what comes nearest",
+               first_.colours_from,
+               are_both      ? "curves and primaries are none that are"
+               : is_transfer ? "curves are none that are"
+                             : "primaries are none that are"),
+        std::move(open));
+  }
 
   // The rate that the first picture states, and the exposure, where it was the same for all.
   void add_raw_times() {
@@ -272,13 +308,35 @@ class StillClip final : public Clip {
     std::optional<TiffPage> read = tiff_->next();
     if (!read) throw InputError(format("{} cannot be read: the file was cut off", page.name()));
     Still still = still_of(std::move(read->picture), read->maximum);
+    if (!read->profile.empty()) follow_profile(still, read->profile);
     if (read->resolution) still.pixel_aspect = aspect_of(read->resolution->first, read->resolution->second);
     return still;
   }
 
+  // Deep stills come from scientific cameras, whose codes are linear; shallow ones are made to be seen.
+  [[nodiscard]] static Transfer usual_transfer(const Still& still) {
+    return still.code_bytes == 1 ? Transfer::srgb() : Transfer::linear();
+  }
+
+  void check_colours(const Still& still, const Page& page) const {
+    const CaptureFormat& capture = info_.format;
+    const Transfer transfer = still.transfer.value_or(usual_transfer(still));
+    const Primaries primaries = still.primaries.value_or(Primaries::bt709);
+    const bool other_transfer = !stated_.transfer && transfer != capture.transfer;
+    const bool other_primaries =
+        !stated_.primaries && capture.shape.channels > 1 && primaries != capture.primaries;
+    if (!other_transfer && !other_primaries) return;
+    throw InputError(
+        format("{} has transfer {} and primaries {}, the first still, {}, {} and {}. All must be "
+               "alike; state what all are to be taken for",
+               page.name(), transfer.text(), to_text(primaries), pages_.front().file.string(),
+               capture.transfer.text(), to_text(capture.primaries)),
+        {other_transfer ? Setting::transfer : Setting::primaries});
+  }
+
   void check_like_first(const Still& still, const Page& page) const {
     const CaptureFormat& capture = info_.format;
-    const bool same_white = white_is_stated_ || still.maximum == first_maximum_;
+    const bool same_white = stated_.white_code || still.maximum == first_maximum_;
     if (still.shape == capture.shape && still.code_bytes == capture.code_bytes && same_white) return;
     const auto text = [](const Shape& shape, std::uint32_t code_bytes, std::optional<std::uint32_t> maximum) {
       return format("{} x {} {} of {} bits{}", shape.width, shape.height,
@@ -298,7 +356,7 @@ class StillClip final : public Clip {
   std::optional<TiffReader> tiff_;  // of the page read last
   Still first_;
   std::optional<std::uint32_t> first_maximum_;
-  bool white_is_stated_ = false;
+  ClipOptions stated_;
   std::size_t next_ = 0;
   ClipInfo info_;
 };
