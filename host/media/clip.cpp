@@ -194,6 +194,8 @@ std::string_view to_text(YuvMatrix matrix) {
     case YuvMatrix::bt2020: return "bt2020";
     case YuvMatrix::fcc: return "fcc";
     case YuvMatrix::smpte240m: return "smpte240m";
+    case YuvMatrix::p3: return "p3";
+    case YuvMatrix::ycgco: return "ycgco";
   }
   return {};
 }
@@ -201,10 +203,10 @@ std::string_view to_text(YuvMatrix matrix) {
 std::string_view to_text(CodeRange range) { return range == CodeRange::full ? "full" : "limited"; }
 
 YuvMatrix parse_yuv_matrix(std::string_view text) {
-  for (const YuvMatrix matrix : {YuvMatrix::bt601, YuvMatrix::bt709, YuvMatrix::bt2020}) {
+  for (const YuvMatrix matrix : {YuvMatrix::bt601, YuvMatrix::bt709, YuvMatrix::bt2020, YuvMatrix::ycgco}) {
     if (text == to_text(matrix)) return matrix;
   }
-  throw UsageError(format("matrix '{}' is not known; choose bt601, bt709 or bt2020", text));
+  throw UsageError(format("matrix '{}' is not known; choose bt601, bt709, bt2020 or ycgco", text));
 }
 
 CodeRange parse_code_range(std::string_view text) {

@@ -42,11 +42,11 @@ struct ClipInfo {
 };
 
 // How YUV becomes RGB, and which codes stand for black and white.
-enum class YuvMatrix { bt601, bt709, bt2020, fcc, smpte240m };
+enum class YuvMatrix { bt601, bt709, bt2020, fcc, smpte240m, p3, ycgco };
 enum class CodeRange { limited, full };
 [[nodiscard]] std::string_view to_text(YuvMatrix matrix);
 [[nodiscard]] std::string_view to_text(CodeRange range);
-// `bt601`, `bt709` or `bt2020`; `limited` or `full`. Throw UsageError listing these.
+// `bt601`, `bt709`, `bt2020` or `ycgco`; `limited` or `full`. Throw UsageError listing these.
 [[nodiscard]] YuvMatrix parse_yuv_matrix(std::string_view text);
 [[nodiscard]] CodeRange parse_code_range(std::string_view text);
 // `32:27`, from 1:64 to 64:1. Throws UsageError.

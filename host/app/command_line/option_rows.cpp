@@ -57,9 +57,9 @@ constexpr Option kRows[] = {
      "and grey video of more than 8 bits and for 16-bit colour; what deep video names; a .tik's own)",
      "srgb bt709 linear gamma: hlg pq"},
     {0, "matrix", "NAME", decoding, kDecodesClips, &Options::matrix,
-     "how a video's YUV becomes RGB: bt601, bt709 or bt2020 (default: what the file says; else bt709 from "
+     "how a video's YUV becomes RGB: bt601, bt709, bt2020 or ycgco (default: what the file says; else bt709 from "
      "720 lines on, bt601 below)",
-     "bt601 bt709 bt2020"},
+     "bt601 bt709 bt2020 ycgco"},
     {0, "range", "NAME", decoding, kDecodesClips, &Options::range,
      "which codes of YUV are black and white: limited or full (default: what the file says, else limited)",
      "limited full"},

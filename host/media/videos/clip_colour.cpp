@@ -13,7 +13,14 @@ YuvMatrix usual_matrix(const Probe& probe) {
 
 }  // namespace
 
-YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options) {
+YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::string& name) {
+  if (!probe.unread_matrix.empty() && !options.matrix) {
+    throw InputError(
+        format("{} names a matrix by which no RGB is made here, {}: its colours would be wrong. Convert "
+               "it, for example with ffmpeg -vf zscale=matrix=709, or state the matrix that it really has",
+               name, probe.unread_matrix),
+        {Setting::matrix});
+  }
   return {options.matrix.value_or(probe.matrix.value_or(usual_matrix(probe))),
           options.range.value_or(probe.range.value_or(CodeRange::limited))};
 }
@@ -40,7 +47,8 @@ void describe(CaptureFormat& capture, std::vector<Fact>& facts, const Probe& pro
            [](CodeRange range) { return format("{} range", to_text(range)); });
   }
   if (!pixels.is_grey) {
-    const bool is_wide = yuv_coding(probe, options).matrix == YuvMatrix::bt2020;
+    const bool is_wide =
+        options.matrix.value_or(probe.matrix.value_or(usual_matrix(probe))) == YuvMatrix::bt2020;
     capture.primaries = settle(
         facts, options.primaries, probe.primaries, is_wide ? Primaries::bt2020 : Primaries::bt709,
         Setting::primaries, [](Primaries primaries) { return format("primaries {}", to_text(primaries)); });

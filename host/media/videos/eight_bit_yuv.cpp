@@ -19,7 +19,7 @@ namespace nutik::videos {
 namespace {
 
 // A code is made in 64ths, less half of its range: so it fits 16 bits whatever luma and chroma come to (at most 279 and
-// 292 codes either way), of which processors add and multiply twice as many at once as of 32.
+// 299 codes either way), of which processors add and multiply twice as many at once as of 32.
 //
 // How far it may be off: half a code by its own rounding, half a 64th each by luma's part and chroma's, 239 * 2^-15 by
 // luma's weight and 2 * 128 * 2^-17 by chroma's: 0.525 of a code.
@@ -31,25 +31,27 @@ constexpr int kHalfRange = 128 << kFraction;
 // What a step of luma or chroma adds to a code, and what does not depend on them.
 struct Weights {
   std::uint16_t luma;
-  std::int32_t red_of_v, green_of_u, green_of_v, blue_of_u;
+  std::int32_t red_of_u, red_of_v, green_of_u, green_of_v, blue_of_u, blue_of_v;
   std::int32_t red, green, blue;
+
+  [[nodiscard]] bool are_crossed() const { return red_of_u != 0 || blue_of_v != 0; }
 };
 
 Weights weights_of(const YuvCoding& coding) {
-  const auto [red, blue] = luma_weights(coding.matrix);
+  const ChromaWeights chroma = chroma_weights(coding.matrix);
   const bool is_full = coding.range == CodeRange::full;
-  const double luma = is_full ? 1.0 : 255.0 / 219.0, chroma = is_full ? 1.0 : 255.0 / 224.0;
-  const double green = 1.0 - red - blue;
-  const double red_of_v = 2.0 * (1.0 - red) * chroma, blue_of_u = 2.0 * (1.0 - blue) * chroma;
+  const double luma = is_full ? 1.0 : 255.0 / 219.0, scale = is_full ? 1.0 : 255.0 / chroma.limited_span;
   const auto whole = [](double weight, int fraction) {
     return static_cast<std::int32_t>(std::lround(std::ldexp(weight, fraction)));
   };
-  const auto of_chroma = [&](double weight) { return whole(weight, kChromaFraction); };
+  const auto of_chroma = [&](double weight) { return whole(weight * scale, kChromaFraction); };
   Weights weights{static_cast<std::uint16_t>(whole(luma, kLumaFraction)),
-                  of_chroma(red_of_v),
-                  of_chroma(blue / green * blue_of_u),
-                  of_chroma(red / green * red_of_v),
-                  of_chroma(blue_of_u),
+                  of_chroma(chroma.red_of_u),
+                  of_chroma(chroma.red_of_v),
+                  of_chroma(chroma.green_of_u),
+                  of_chroma(chroma.green_of_v),
+                  of_chroma(chroma.blue_of_u),
+                  of_chroma(chroma.blue_of_v),
                   0,
                   0,
                   0};
@@ -57,15 +59,15 @@ Weights weights_of(const YuvCoding& coding) {
   constexpr std::int32_t kCode = 1 << kChromaFraction, k64th = kCode >> kFraction;
   const std::int32_t black = is_full ? 0 : 16 * weights.luma << (kChromaFraction - kLumaFraction);
   const std::int32_t constant = kCode / 2 - 128 * kCode + 2 * (k64th / 2) - black;
-  weights.red = constant - 128 * weights.red_of_v;
-  weights.green = constant + 128 * (weights.green_of_u + weights.green_of_v);
-  weights.blue = constant - 128 * weights.blue_of_u;
+  weights.red = constant - 128 * (weights.red_of_u + weights.red_of_v);
+  weights.green = constant - 128 * (weights.green_of_u + weights.green_of_v);
+  weights.blue = constant - 128 * (weights.blue_of_u + weights.blue_of_v);
   return weights;
 }
 
 // What `count` samples of chroma add to the codes of 2^kShift pixels each. The compiler makes vectors of these loops as
 // long as no pointer may be another's.
-template <int kShift>
+template <int kShift, bool kAreCrossed>
 inline __attribute__((always_inline)) void add_chroma(const std::uint8_t* __restrict u,
                                                       const std::uint8_t* __restrict v, std::size_t count,
                                                       Weights w, std::int16_t* __restrict red,
@@ -75,10 +77,12 @@ inline __attribute__((always_inline)) void add_chroma(const std::uint8_t* __rest
   constexpr int kCut = kChromaFraction - kFraction;
   for (std::size_t i = 0; i < count; ++i) {
     const std::int32_t from_u = u[i], from_v = v[i];
-    const auto to_red = static_cast<std::int16_t>((w.red + from_v * w.red_of_v) >> kCut);
+    const auto to_red = static_cast<std::int16_t>(
+        (w.red + from_v * w.red_of_v + (kAreCrossed ? from_u * w.red_of_u : 0)) >> kCut);
     const auto to_green =
-        static_cast<std::int16_t>((w.green - from_u * w.green_of_u - from_v * w.green_of_v) >> kCut);
-    const auto to_blue = static_cast<std::int16_t>((w.blue + from_u * w.blue_of_u) >> kCut);
+        static_cast<std::int16_t>((w.green + from_u * w.green_of_u + from_v * w.green_of_v) >> kCut);
+    const auto to_blue = static_cast<std::int16_t>(
+        (w.blue + from_u * w.blue_of_u + (kAreCrossed ? from_v * w.blue_of_v : 0)) >> kCut);
 #pragma GCC unroll 4
     for (std::size_t k = 0; k < kTogether; ++k) {
       red[kTogether * i + k] = to_red;
@@ -92,12 +96,26 @@ inline __attribute__((always_inline)) void add_chroma(const std::uint8_t* __rest
   NUTIK_SIMD_CLONES void name(const std::uint8_t* __restrict u, const std::uint8_t* __restrict v, \
                               std::size_t count, const Weights& w, std::int16_t* __restrict red,  \
                               std::int16_t* __restrict green, std::int16_t* __restrict blue) {    \
-    add_chroma<shift>(u, v, count, w, red, green, blue);                                          \
+    add_chroma<shift, false>(u, v, count, w, red, green, blue);                                   \
   }
 NUTIK_ADD_CHROMA(add_chroma_1, 0)
 NUTIK_ADD_CHROMA(add_chroma_2, 1)
 NUTIK_ADD_CHROMA(add_chroma_4, 2)
 #undef NUTIK_ADD_CHROMA
+
+// Where either of them changes all channels, which is rare enough for one instruction set.
+template <int kShift>
+void add_crossed_chroma(const std::uint8_t* u, const std::uint8_t* v, std::size_t count, const Weights& w,
+                        std::int16_t* red, std::int16_t* green, std::int16_t* blue) {
+  add_chroma<kShift, true>(u, v, count, w, red, green, blue);
+}
+
+using AddChroma = decltype(&add_chroma_1);
+AddChroma chroma_adder(int shift, const Weights& weights) {
+  constexpr AddChroma kUsual[] = {&add_chroma_1, &add_chroma_2, &add_chroma_4};
+  constexpr AddChroma kCrossed[] = {&add_crossed_chroma<0>, &add_crossed_chroma<1>, &add_crossed_chroma<2>};
+  return (weights.are_crossed() ? kCrossed : kUsual)[shift];
+}
 
 // A channel's code from luma's part and chroma's. Their sum, as 16 bits have it, is right.
 inline __attribute__((always_inline)) std::uint8_t code_of(std::uint16_t luma_part,
@@ -180,8 +198,8 @@ AVPixelFormat with_byte_planes(AVPixelFormat format) {
 void eight_bit_rgb(const AVFrame& frame, const YuvCoding& coding, std::uint8_t* rgb, std::ptrdiff_t stride) {
   const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(static_cast<AVPixelFormat>(frame.format));
   const int across = pixels.log2_chroma_w, down = pixels.log2_chroma_h;
-  const auto add_chroma = across == 0 ? add_chroma_1 : across == 1 ? add_chroma_2 : add_chroma_4;
   const Weights weights = weights_of(coding);
+  const AddChroma add_chroma = chroma_adder(across, weights);
   const auto width = static_cast<std::size_t>(frame.width);
   const std::size_t chroma_width = ((width - 1) >> across) + 1;
   const std::size_t part_count = chroma_width << across;

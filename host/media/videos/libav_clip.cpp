@@ -44,7 +44,7 @@ class LibavClip final : public Clip {
             const ClipOptions& options)
       : name_(input_title(path.string())),
         coded_(probe.shape),
-        converter_(probe.pixels, probe.upright, yuv_coding(probe, options)),
+        converter_(probe.pixels, probe.upright, yuv_coding(probe, options, name_)),
         decoder_(std::move(opened), name_, PictureDecoder::Wanted::pictures, probe.skipped_packets, threads),
         frame_(allocated(av_frame_alloc())) {
     const PixelKind& pixels = probe.pixels;

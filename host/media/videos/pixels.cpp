@@ -42,18 +42,13 @@ AVPixelFormat planar_format(std::uint32_t bits) {
 // libswscale would do it, too, but its white is 65280 for limited range and 65472 for full range of
 // 10 bits: off by up to 4 codes of the source.
 void yuv_to_rgb(const AVFrame& planes, std::uint32_t bits, const YuvCoding& coding, AVFrame& rgb) {
-  const auto [red_weight, blue_weight] = luma_weights(coding.matrix);
+  const ChromaWeights weights = chroma_weights(coding.matrix);
   const bool full = coding.range == CodeRange::full;
   const double unit = std::ldexp(1.0, static_cast<int>(bits) - 8);
   const double black = full ? 0.0 : 16.0 * unit, grey = 128.0 * unit;
   const double most = std::ldexp(1.0, static_cast<int>(bits)) - 1;
   const double luma_scale = 65'535.0 / (full ? most : 219.0 * unit);
-  const double chroma_scale = 65'535.0 / (full ? most : 224.0 * unit);
-  const double red_of_v = 2.0 * (1.0 - red_weight) * chroma_scale;
-  const double blue_of_u = 2.0 * (1.0 - blue_weight) * chroma_scale;
-  const double green_weight = 1.0 - red_weight - blue_weight;
-  const double green_of_v = red_weight / green_weight * red_of_v;
-  const double green_of_u = blue_weight / green_weight * blue_of_u;
+  const double chroma_scale = 65'535.0 / (full ? most : weights.limited_span * unit);
   const auto nearest = [](double value) {
     return static_cast<std::uint16_t>(std::clamp(value, 0.0, 65'535.0) + 0.5);
   };
@@ -66,10 +61,11 @@ void yuv_to_rgb(const AVFrame& planes, std::uint32_t bits, const YuvCoding& codi
     auto* out =
         reinterpret_cast<std::uint16_t*>(rgb.data[0] + static_cast<std::ptrdiff_t>(row) * rgb.linesize[0]);
     for (int x = 0; x < planes.width; ++x) {
-      const double luma = (y[x] - black) * luma_scale, from_u = u[x] - grey, from_v = v[x] - grey;
-      out[3 * x] = nearest(luma + red_of_v * from_v);
-      out[3 * x + 1] = nearest(luma - green_of_v * from_v - green_of_u * from_u);
-      out[3 * x + 2] = nearest(luma + blue_of_u * from_u);
+      const double luma = (y[x] - black) * luma_scale;
+      const double from_u = (u[x] - grey) * chroma_scale, from_v = (v[x] - grey) * chroma_scale;
+      out[3 * x] = nearest(luma + weights.red_of_u * from_u + weights.red_of_v * from_v);
+      out[3 * x + 1] = nearest(luma + weights.green_of_u * from_u + weights.green_of_v * from_v);
+      out[3 * x + 2] = nearest(luma + weights.blue_of_u * from_u + weights.blue_of_v * from_v);
     }
   }
 }
@@ -154,26 +150,44 @@ bool is_yuv(AVPixelFormat format) {
          format != AV_PIX_FMT_XYZ12LE && format != AV_PIX_FMT_XYZ12BE;
 }
 
-LumaWeights luma_weights(YuvMatrix matrix) {
+ChromaWeights chroma_weights(YuvMatrix matrix) {
+  // Of luma that red and blue weigh so much in.
+  const auto of_luma = [](double red, double blue) {
+    const double red_of_v = 2.0 * (1.0 - red), blue_of_u = 2.0 * (1.0 - blue), green = 1.0 - red - blue;
+    return ChromaWeights{0.0, red_of_v, -blue / green * blue_of_u, -red / green * red_of_v, blue_of_u,
+                         0.0, 224.0};
+  };
   switch (matrix) {
-    case YuvMatrix::bt601: return {0.299, 0.114};
-    case YuvMatrix::bt709: return {0.2126, 0.0722};
-    case YuvMatrix::bt2020: return {0.2627, 0.0593};
-    case YuvMatrix::fcc: return {0.30, 0.11};
-    case YuvMatrix::smpte240m: return {0.212, 0.087};
+    case YuvMatrix::bt601: return of_luma(0.299, 0.114);
+    case YuvMatrix::bt709: return of_luma(0.2126, 0.0722);
+    case YuvMatrix::bt2020: return of_luma(0.2627, 0.0593);
+    case YuvMatrix::fcc: return of_luma(0.30, 0.11);
+    case YuvMatrix::smpte240m: return of_luma(0.212, 0.087);
+    case YuvMatrix::p3: return of_luma(0.22897456406974884, 0.079286914093745);
+    // H.273 makes it of codes, which have 219 steps from black to white.
+    case YuvMatrix::ycgco: return {-1.0, 1.0, 1.0, 0.0, -1.0, -1.0, 219.0};
   }
   return {};
 }
 
-std::optional<YuvMatrix> named_matrix(AVColorSpace space) {
+std::optional<YuvMatrix> named_matrix(AVColorSpace space, AVColorPrimaries primaries) {
+  // What these primaries' light weighs in luma.
+  if (space == AVCOL_SPC_CHROMA_DERIVED_NCL) {
+    switch (primaries) {
+      case AVCOL_PRI_BT709: return YuvMatrix::bt709;
+      case AVCOL_PRI_BT2020: return YuvMatrix::bt2020;
+      case AVCOL_PRI_SMPTE432: return YuvMatrix::p3;
+      default: return std::nullopt;
+    }
+  }
   switch (space) {
     case AVCOL_SPC_BT470BG:
     case AVCOL_SPC_SMPTE170M: return YuvMatrix::bt601;
     case AVCOL_SPC_BT709: return YuvMatrix::bt709;
-    case AVCOL_SPC_BT2020_NCL:
-    case AVCOL_SPC_BT2020_CL: return YuvMatrix::bt2020;
+    case AVCOL_SPC_BT2020_NCL: return YuvMatrix::bt2020;
     case AVCOL_SPC_FCC: return YuvMatrix::fcc;
     case AVCOL_SPC_SMPTE240M: return YuvMatrix::smpte240m;
+    case AVCOL_SPC_YCGCO: return YuvMatrix::ycgco;
     default: return std::nullopt;
   }
 }

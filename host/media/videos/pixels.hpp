@@ -43,15 +43,17 @@ struct YuvCoding {
   YuvMatrix matrix = YuvMatrix::bt601;
   CodeRange range = CodeRange::limited;
 };
-// What red and blue weigh in a matrix's luma.
-struct LumaWeights {
-  double red, blue;
+// What is added to luma for each channel, of U and V as shares of their span: how many steps of 8 bits that has in the
+// limited range. Luma has 219.
+struct ChromaWeights {
+  double red_of_u, red_of_v, green_of_u, green_of_v, blue_of_u, blue_of_v;
+  double limited_span;
 };
-[[nodiscard]] LumaWeights luma_weights(YuvMatrix matrix);
+[[nodiscard]] ChromaWeights chroma_weights(YuvMatrix matrix);
 // Whether the pixels of a stream are YUV of three components.
 [[nodiscard]] bool is_yuv(AVPixelFormat format);
-// What a stream says of its YUV; none where it does not.
-[[nodiscard]] std::optional<YuvMatrix> named_matrix(AVColorSpace space);
+// What a stream says of its YUV; none where it does not, or names what is not known here.
+[[nodiscard]] std::optional<YuvMatrix> named_matrix(AVColorSpace space, AVColorPrimaries primaries);
 [[nodiscard]] std::optional<CodeRange> named_range(const AVCodecParameters& codec);
 
 class PixelConverter {

@@ -215,7 +215,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.upright = upright(stream);
   result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of_coding_point(codec.color_trc);
   result.transfer_name = transfer_name(codec.color_trc);
-  result.matrix = named_matrix(codec.color_space);
+  result.matrix = named_matrix(codec.color_space, codec.color_primaries);
   result.range = named_range(codec);
   result.primaries = primaries_of_coding_point(codec.color_primaries);
   result.pixel_aspect = pixel_aspect(opened.format.get(), stream, result.upright);
@@ -233,9 +233,9 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   note_unknown(result.transfer.has_value(), "transfer function", result.transfer_name.c_str(),
                Setting::transfer);
   if (codec.color_space != AVCOL_SPC_UNSPECIFIED && codec.color_space != AVCOL_SPC_RESERVED &&
-      is_yuv(result.pixel_format)) {
-    note_unknown(result.matrix.has_value(), "matrix", av_color_space_name(codec.color_space),
-                 Setting::matrix);
+      is_yuv(result.pixel_format) && !result.pixels.is_grey && !result.matrix) {
+    const char* name = av_color_space_name(codec.color_space);
+    result.unread_matrix = name != nullptr ? name : format("number {} of H.273", int{codec.color_space});
   }
   if (codec.color_primaries != AVCOL_PRI_UNSPECIFIED && codec.color_primaries != AVCOL_PRI_RESERVED &&
       codec.color_primaries != AVCOL_PRI_RESERVED0) {

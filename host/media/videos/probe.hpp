@@ -22,6 +22,7 @@ struct Probe {
   AVPixelFormat pixel_format = AV_PIX_FMT_NONE;
   Upright upright;
   std::optional<YuvMatrix> matrix;  // as the file names them
+  std::string unread_matrix;        // that it names, and by which nothing here makes RGB
   std::optional<CodeRange> range;
   std::optional<Primaries> primaries;
   std::optional<Rational> pixel_aspect;  // of pictures that stand upright

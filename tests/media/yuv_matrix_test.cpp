@@ -1,0 +1,218 @@
+// YUV becomes RGB by the matrix that is named, as standards have it, or it is refused.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+
+#include "capture/error.hpp"
+#include "support/chromaticity.hpp"
+#include "support/clips.hpp"
+#include "support/ffmpeg.hpp"
+#include "support/random_case.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Scratch;
+
+std::string test_picture(const std::string& size) {
+  return "-f lavfi -i testsrc2=s=" + size + ":d=0.08:r=25 -c:v ffv1 -pix_fmt yuv420p ";
+}
+
+std::string matrix_of(const Clip& clip) { return test::facts_of(clip).at(Setting::matrix).line(); }
+
+// Wrong colours do not come out with a note: a matrix that is none of those known here has to be stated.
+TEST(MatrixOfYuv, OfAMatrixThatIsNotKnownIsRefused) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  for (const char* named :
+       {"ictcp", "smpte2085", "chroma-derived-c", "bt2020c", "chroma-derived-nc -color_primaries film"}) {
+    test::make(scratch, test_picture("64x48") + "-colorspace " + named + " clip.mkv");
+    try {
+      static_cast<void>(test::open_test_clip(scratch / "clip.mkv"));
+      FAIL() << named << " was read";
+    } catch (const InputError& error) {
+      const std::string message = error.what(), words = named;
+      EXPECT_NE(message.find("clip.mkv names a matrix by which no RGB is made here, " +
+                             words.substr(0, words.find(' ')) + ":"),
+                std::string::npos)
+          << message;
+      EXPECT_EQ(error.settings(), std::vector{Setting::matrix});
+    }
+    ClipOptions options;
+    options.matrix = YuvMatrix::bt709;
+    EXPECT_EQ(matrix_of(*test::open_test_clip(scratch / "clip.mkv", options)), "matrix bt709, as stated");
+  }
+  // What has no YUV needs none.
+  test::make(scratch,
+             "-f lavfi -i testsrc2=s=64x48:d=0.08:r=25 -c:v ffv1 -pix_fmt gray -colorspace ictcp grey.mkv");
+  EXPECT_EQ(test::read_all(*test::open_test_clip(scratch / "grey.mkv")).size(), 2u);
+}
+
+// A row of Y, U and V of 10 bits, each as they say.
+std::string planes_of(const std::vector<std::array<int, 3>>& yuv) {
+  std::string raw;
+  for (std::size_t plane = 0; plane < 3; ++plane) {
+    for (const auto& pixel : yuv) {
+      raw += static_cast<char>(pixel[plane] & 255);
+      raw += static_cast<char>(pixel[plane] >> 8);
+    }
+  }
+  return raw;
+}
+
+// Luma that weighs channels as white light is made of the file's primaries.
+TEST(MatrixOfYuv, OfAMatrixFromPrimariesFollowsThese) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  for (const auto& [primaries, matrix] :
+       {std::pair{"bt709", "matrix bt709"}, {"bt2020", "matrix bt2020"}, {"smpte432", "matrix p3"}}) {
+    test::make(scratch, test_picture("64x48") + "-colorspace chroma-derived-nc -color_primaries " +
+                            primaries + " clip.mkv");
+    EXPECT_EQ(matrix_of(*test::open_test_clip(scratch / "clip.mkv")),
+              std::string(matrix) + ", from the file");
+  }
+  // P3's weights are those of no standard: luma is Y of XYZ.
+  const auto weights = test::to_xyz({{{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {0.3127, 0.3290}}})[1];
+  const std::vector<std::array<int, 3>> yuv{
+      {500, 600, 470}, {300, 480, 560}, {700, 512, 512}, {640, 400, 620}};
+  scratch.write("raw", planes_of(yuv));
+  test::make(scratch,
+             "-f rawvideo -s 4x1 -pix_fmt yuv444p10le -r 25 -i raw -c:v ffv1 -colorspace chroma-derived-nc "
+             "-color_primaries smpte432 -color_range tv clip.mkv");
+  const auto clip = test::open_test_clip(scratch / "clip.mkv");
+  const auto raster = test::read_all(*clip).at(0);
+  for (std::size_t i = 0; i < yuv.size(); ++i) {
+    const double y = (yuv[i][0] - 64) / 876.0, u = (yuv[i][1] - 512) / 896.0, v = (yuv[i][2] - 512) / 896.0;
+    const double red = y + 2 * (1 - weights[0]) * v, blue = y + 2 * (1 - weights[2]) * u;
+    const std::array rgb{red, (y - weights[0] * red - weights[2] * blue) / weights[1], blue};
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      EXPECT_NEAR(test::code_at(clip->info().format, raster, i * 3 + channel), 65'535 * rgb[channel], 0.501)
+          << i << ", " << channel;
+    }
+  }
+}
+
+// H.273, equations of MatrixCoefficients 8, from their words: of codes whose range is that of luma.
+TEST(MatrixOfYuv, OfYCgCoIsThatOfTheStandard) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  for (const int bits : {8, 10}) {
+    for (const bool is_full : {false, true}) {
+      const int unit = 1 << (bits - 8), half = 128 * unit;
+      const int black = is_full ? 0 : 16 * unit, white = is_full ? (1 << bits) - 1 : 235 * unit;
+      test::Random random(7);
+      std::vector<std::array<int, 3>> rgb, yuv;
+      while (rgb.size() < 4096) {
+        std::array<int, 3> codes{};
+        for (int& code : codes) code = static_cast<int>(random.whole(black, white));
+        const auto [r, g, b] = codes;
+        if ((r + b) % 4 != 0 || g % 2 != 0) continue;  // so that nothing is rounded
+        rgb.push_back(codes);
+        yuv.push_back({g / 2 + (r + b) / 4, g / 2 - (r + b) / 4 + half, (r - b) / 2 + half});
+      }
+      std::string raw;
+      for (std::size_t plane = 0; plane < 3; ++plane) {
+        for (const auto& pixel : yuv) {
+          raw += static_cast<char>(pixel[plane] & 255);
+          if (bits > 8) raw += static_cast<char>(pixel[plane] >> 8);
+        }
+      }
+      scratch.write("raw", raw);
+      test::make(scratch, "-f rawvideo -s 64x64 -pix_fmt " +
+                              std::string(bits == 8 ? "yuv444p" : "yuv444p10le") +
+                              " -r 25 -i raw -c:v ffv1 -colorspace ycgco -color_range " +
+                              (is_full ? "pc" : "tv") + " clip.mkv");
+      const auto clip = test::open_test_clip(scratch / "clip.mkv");
+      EXPECT_EQ(matrix_of(*clip), "matrix ycgco, from the file");
+      const CaptureFormat& format = clip->info().format;
+      const auto raster = test::read_all(*clip).at(0);
+      for (std::size_t i = 0; i < rgb.size(); ++i) {
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+          const double exact = format.white_code * double(rgb[i][channel] - black) / (white - black);
+          ASSERT_NEAR(test::code_at(format, raster, i * 3 + channel), exact, bits == 8 ? 0.53 : 0.51)
+              << bits << " bits, " << (is_full ? "full" : "limited") << ", pixel " << i << ", " << channel;
+        }
+      }
+    }
+  }
+}
+
+// Even patches, so that nobody's way of spreading chroma matters.
+TEST(MatrixOfYuv, OfEveryMatrixAndRangeIsThatOfZscale) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  if (test::run_shell("ffmpeg -v error -f lavfi -i color=s=16x16:d=0.04 -vf zscale -f null -",
+                      scratch.folder())
+          .status != 0) {
+    GTEST_SKIP() << "this ffmpeg has no zscale";
+  }
+  constexpr std::size_t kSide = 320, kPatch = 16;
+  struct Kind {
+    const char *pixels, *rgb;
+    int bits;
+  };
+  test::Random random(6);
+  for (const Kind& kind : {Kind{"yuv420p", "gbrp", 8}, Kind{"yuv420p10le", "gbrp10le", 10}}) {
+    const std::size_t bytes = kind.bits > 8 ? 2 : 1;
+    for (const auto& [matrix, zscale] : {std::pair{YuvMatrix::bt601, "170m"},
+                                         {YuvMatrix::bt709, "709"},
+                                         {YuvMatrix::bt2020, "2020_ncl"},
+                                         {YuvMatrix::ycgco, "ycgco"}}) {
+      for (const CodeRange range : {CodeRange::limited, CodeRange::full}) {
+        std::array<std::vector<int>, 3> patches;
+        for (std::size_t i = 0; i < (kSide / kPatch) * (kSide / kPatch); ++i) {
+          const int unit = 1 << (kind.bits - 8);
+          patches[0].push_back(static_cast<int>(random.whole(16, 235)) * unit);
+          for (std::size_t plane : {1, 2})
+            patches[plane].push_back(static_cast<int>(random.whole(90, 166)) * unit);
+        }
+        std::string raw;
+        for (std::size_t plane = 0; plane < 3; ++plane) {
+          const std::size_t side = plane == 0 ? kSide : kSide / 2, patch = plane == 0 ? kPatch : kPatch / 2;
+          for (std::size_t y = 0; y < side; ++y) {
+            for (std::size_t x = 0; x < side; ++x) {
+              const int code = patches[plane][y / patch * (kSide / kPatch) + x / patch];
+              raw += static_cast<char>(code & 255);
+              if (bytes == 2) raw += static_cast<char>(code >> 8);
+            }
+          }
+        }
+        scratch.write("raw", raw);
+        test::make(scratch, "-f rawvideo -s 320x320 -r 25 -pix_fmt " + std::string(kind.pixels) +
+                                " -i raw -c:v ffv1 clip.mkv");
+        test::make(scratch, "-i clip.mkv -vf zscale=matrixin=" + std::string(zscale) +
+                                ":rangein=" + std::string(to_text(range)) +
+                                ":matrix=gbr:range=full,format=" + kind.rgb + " -f rawvideo wanted");
+        std::ifstream file(scratch / "wanted", std::ios::binary);
+        const std::string wanted((std::istreambuf_iterator<char>(file)), {});
+        ASSERT_EQ(wanted.size(), kSide * kSide * 3 * bytes);
+        ClipOptions options;
+        options.matrix = matrix;
+        options.range = range;
+        const auto clip = test::open_test_clip(scratch / "clip.mkv", options);
+        const auto raster = test::read_all(*clip).at(0);
+        const double white = clip->info().format.white_code, most = (1 << kind.bits) - 1;
+        for (std::size_t y = kPatch / 2; y < kSide; y += kPatch) {
+          for (std::size_t x = kPatch / 2; x < kSide; x += kPatch) {
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+              constexpr std::size_t kPlaneOf[] = {2, 0, 1};  // of green, blue, red
+              const std::size_t at = (kPlaneOf[channel] * kSide * kSide + y * kSide + x) * bytes;
+              const int expected = static_cast<unsigned char>(wanted[at]) +
+                                   (bytes == 2 ? static_cast<unsigned char>(wanted[at + 1]) << 8 : 0);
+              const double code =
+                  test::code_at(clip->info().format, raster, (y * kSide + x) * 3 + channel) / white * most;
+              ASSERT_LE(std::fabs(code - expected), 2.0)
+                  << kind.pixels << ", " << zscale << ", " << to_text(range) << ", channel " << channel;
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nutik
