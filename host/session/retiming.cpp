@@ -96,6 +96,22 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
 
 }  // namespace
 
+void check_stated_transfer(const tik::Header& header, const std::string& name,
+                           const std::optional<Transfer>& stated) {
+  const Transfer& held = header.capture.transfer;
+  if (!stated || *stated == held) return;
+  const char* const why = header.capture.noise.camera ? "what a camera's noise explains was held as its mean"
+                          : header.is_scaled          ? "pictures were scaled"
+                          : header.alignment          ? "pictures were moved by fractions of a pixel"
+                                                      : nullptr;
+  if (why == nullptr) return;
+  throw UsageError(
+      format("{} holds codes that are means of light by {}: {}. By {} that light has other means, and "
+             "no code says which; encode the clip again with it",
+             name, held.text(), why, stated->text()),
+      {Setting::transfer});
+}
+
 Retimed retime(const RetimeRequest& request) {
   std::error_code error;
   if (std::filesystem::exists(request.capture, error) && !is_tik(request.capture)) {
@@ -114,13 +130,7 @@ Retimed retime(const RetimeRequest& request) {
   const tik::Reader reader(request.capture);
   tik::Header header = reader.header();
   CaptureFormat& capture = header.capture;
-  if (request.transfer && *request.transfer != capture.transfer && capture.noise.camera) {
-    throw UsageError(
-        format("{} holds means of light by {}: with another transfer function they are others; encode "
-               "the clip again with it",
-               request.capture.string(), capture.transfer.text()),
-        {Setting::transfer});
-  }
+  check_stated_transfer(header, request.capture.string(), request.transfer);
   const Timeline timeline = timeline_of(request, header, reader.timeline());
   header.rate = timeline.is_constant() ? std::optional(timeline.rate()) : std::nullopt;
   header.shutter_angle = timeline.shutter_angle();

@@ -9,6 +9,7 @@
 #include "capture/error.hpp"
 #include "capture/picture.hpp"
 #include "capture/timeline.hpp"
+#include "tik/header.hpp"
 
 namespace nutik {
 
@@ -33,6 +34,11 @@ struct Retimed {
   std::uint64_t file_bytes = 0;
   std::vector<Note> notes;  // on what was lost
 };
+
+// Throws UsageError where codes of a capture `name` are means of light by its own transfer function and another is stated,
+// by which the same light has another mean: they were scaled, aligned or held within a camera's noise.
+void check_stated_transfer(const tik::Header& header, const std::string& name,
+                           const std::optional<Transfer>& stated);
 
 // Copies blocks as they are. Throws UsageError where nothing is to be changed, or samples are means of light by the
 // transfer function that is to go; InputError where the capture is damaged; OutputError.

@@ -15,6 +15,7 @@
 #include "session/clip_memory.hpp"
 #include "session/clip_source.hpp"
 #include "session/forward_clip.hpp"
+#include "session/retiming.hpp"
 #include "session/scratch_capture.hpp"
 
 namespace nutik {
@@ -64,6 +65,9 @@ class Session::Implementation {
   [[nodiscard]] MemoryNeeds held_needs() const;
   // The same while the capture is read without a picture: with a block of it.
   void check_reading(const MemoryNeeds& more) const;
+  void check_transfer(const std::optional<Transfer>& stated) const {
+    if (reader_) check_stated_transfer(reader_->header(), source_.path.string(), stated);
+  }
   [[nodiscard]] RenderPlan plan(const ExposureRequest& request);
   [[nodiscard]] ExposedPicture expose(CaptureSource& source, const FunctionSet& functions, const Mask& mask,
                                       const PlanOptions& options, const OutputFormat& output,
@@ -107,6 +111,7 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
           "what is stated describes a clip that is encoded; {} was encoded already", source.path.string()));
     }
     reader_ = std::make_unique<tik::Reader>(source.path);
+    check_transfer(source.clip.transfer);
   } else if (reading_ == Reading::whole) {
     ScratchCapture scratch = encode_to_scratch(
         source, memory(),
@@ -169,6 +174,7 @@ tik::Reader& Session::Implementation::capture() {
 }
 
 RenderPlan Session::Implementation::plan(const ExposureRequest& request) {
+  check_transfer(request.transfer);
   return plans_.plan(capture(), functions_of(request, timeline()), mask_of(request, format_.shape),
                      plan_options_of(request));
 }
@@ -194,6 +200,7 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
                                                const OutputFormat& output, const RenderControl& control,
                                                std::uint64_t stream_bytes) {
   throw_if_cancelled(control);
+  check_transfer(options.transfer);
   RenderPlan plan = plans_.plan(source, functions, mask, options);
   if (!warmed_up_.test_and_set()) warm_up(source, plan, output);
   if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());

@@ -25,8 +25,9 @@ constexpr std::string_view kNoise = "noise";
 constexpr std::size_t kLongestHeader = 65'536;
 
 // Tags of fields. Those that are not written yet have a name, so that nobody takes it for something else.
-constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = "fact", kAligned = "algn";
-constexpr std::array<std::string_view, 4> kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned};
+constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = "fact", kAligned = "algn",
+                           kMeans = "mean";
+constexpr std::array<std::string_view, 5> kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned, kMeans};
 
 bool is_netpbm(std::string_view text) {
   return text.size() > 2 && text[0] == 'P' && text[1] >= '1' && text[1] <= '7' &&
@@ -230,6 +231,8 @@ void take_fields(std::span<const Field> fields, Header& header) {
       capture.primaries = parse_primaries(field.data);
     } else if (field.tag == kAligned) {
       header.alignment = parse_alignment(field.data);
+    } else if (field.tag == kMeans) {
+      header.is_scaled = true;
     } else if (field.tag == kFacts) {
       for (std::size_t at = 0; at < field.data.size();) {
         const std::size_t end = std::min(field.data.find('\n', at), field.data.size());
@@ -288,6 +291,7 @@ std::vector<Field> Header::fields() const {
   for (const std::string& fact : facts) lines += fact + "\n";
   if (!lines.empty()) fields.push_back({std::string(kFacts), false, lines});
   if (alignment) fields.push_back({std::string(kAligned), false, text_of(*alignment)});
+  if (is_scaled) fields.push_back({std::string(kMeans), false, "scaled"});
   return fields;
 }
 

@@ -59,6 +59,7 @@ struct Header {
   // Who said what of the capture: `matrix bt601, assumed`. Lines for people.
   std::vector<std::string> facts;
   std::optional<Alignment> alignment = std::nullopt;
+  bool is_scaled = false;  // codes are means of the light of a clip's smaller pixels
 
   // The header as text, up to and including the line end before the raster.
   [[nodiscard]] std::string text() const;

@@ -99,6 +99,50 @@ TEST_F(Colour, OfACaptureFollowsAStatedTransfer) {
   }
 }
 
+// Light has another mean by another transfer function: what holds means is not said to be something else afterwards.
+TEST_F(Colour, OfMeansOfLightStaysWhatItIs) {
+  NEEDS_FFMPEG();
+  test::make(scratch_,
+             "-f lavfi -i testsrc2=s=64x48:d=0.4:r=25 -vf noise=alls=20:allf=t -c:v ffv1 -pix_fmt gray10le "
+             "clip.mkv");
+  const std::string camera =
+      "nutik noise 0\nwhite 1023\ntransfer linear\nchannel grey\nread 0.002\nshot 0.0001\n"
+      "curve sensor\n";
+  scratch_.write("camera.noise", camera);
+  const std::vector<std::string> exposing{"--start", "0s", "--exposure", "3f"};
+  const auto with = [](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  for (const auto& [options, reason] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"--noise", "camera.noise"}, "what a camera's noise explains was held as its mean"},
+           {{"--scale", "1/2"}, "pictures were scaled"}}) {
+    succeed(with({"encode", "-q", "clip.mkv", "means.tik"}, options));
+    const std::string said = "means.tik holds codes that are means of light by linear: " + reason;
+    expect_refused(with({"--transfer", "srgb", "means.tik", "x.png"}, exposing), 2, said);
+    expect_refused({"contact", "--transfer", "srgb", "means.tik", "x.png"}, 2, said);
+    expect_refused(
+        {"trace", "--pixel", "1,1", "--transfer", "srgb", "means.tik", "--start", "0s", "--exposure", "3f"},
+        2, said);
+    expect_refused({"retime", "--transfer", "srgb", "means.tik", "x.tik"}, 2, said);
+    EXPECT_FALSE(std::filesystem::exists(scratch_ / "x.tik"));
+    succeed(with({"--transfer", "linear", "means.tik", "x.png"}, exposing));
+    // A corrected capture still knows.
+    succeed({"retime", "-f", "50", "means.tik", "fast.tik"});
+    expect_refused({"retime", "--transfer", "srgb", "fast.tik", "x.tik"}, 2, reason);
+    // The clip itself is read by any.
+    succeed(with(with({"--transfer", "srgb", "clip.mkv", "x.png"}, exposing), options));
+  }
+  // Codes that no transfer function went into are the same by any: capture and clip make one picture.
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--crop", "32x32+8+8"}, {"--deflicker"}, {"--tolerance", "2"}}) {
+    succeed(with({"encode", "-q", "clip.mkv", "codes.tik"}, options));
+    succeed(with({"--transfer", "srgb", "--no-recipe", "codes.tik", "held.png"}, exposing));
+    succeed(with(with({"--transfer", "srgb", "--no-recipe", "clip.mkv", "read.png"}, exposing), options));
+    EXPECT_EQ(test::read_file(scratch_ / "held.png"), test::read_file(scratch_ / "read.png")) << options[0];
+  }
+}
+
 // Names and data of a PNG's chunks before its pixels.
 std::map<std::string, std::string> chunks_of(const std::string& png) {
   std::map<std::string, std::string> chunks;

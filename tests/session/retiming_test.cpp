@@ -194,5 +194,22 @@ TEST(Retiming, RefusesWhatItCannotDo) {
   EXPECT_EQ(message({held, scratch / "a.tik", Rational{7, 1}, {}, noisy.capture.transfer, {}, {}}), "");
 }
 
+// Interpolated light is a mean, too.
+TEST(Retiming, KeepsTheTransferOfAlignedPictures) {
+  tik::Header header;
+  header.capture.transfer = Transfer::linear();
+  const auto message = [&](const std::optional<Transfer>& stated) {
+    return test::message_of<Error>([&] { check_stated_transfer(header, "x.tik", stated); });
+  };
+  EXPECT_EQ(message(Transfer::srgb()), "");
+  header.alignment = tik::Alignment{"rigid", 0, false, 3, 0, 0.1};
+  EXPECT_NE(message(Transfer::srgb())
+                .find("x.tik holds codes that are means of light by linear: pictures were moved "
+                      "by fractions of a pixel"),
+            std::string::npos);
+  EXPECT_EQ(message(Transfer::linear()), "");
+  EXPECT_EQ(message(std::nullopt), "");
+}
+
 }  // namespace
 }  // namespace nutik

@@ -113,6 +113,17 @@ TEST(TikFields, SayHowPicturesWereMovedOntoEachOther) {
   EXPECT_THROW(static_cast<void>(parse(file_with({{"algn", false, "rigid 1 cut 0"}}))), InputError);
 }
 
+TEST(TikFields, SayThatPicturesWereScaled) {
+  const auto parse = [](const std::string& bytes) {
+    return parse_header(std::as_bytes(std::span(bytes)), "x.tik").header.is_scaled;
+  };
+  Header header;
+  EXPECT_TRUE(header.fields().empty());
+  header.is_scaled = true;
+  EXPECT_TRUE(parse(file_with(header.fields())));
+  EXPECT_FALSE(parse(file_with({})));
+}
+
 TEST(TikFields, OfLaterProgramsArePassedOverUnlessTheyMustNotBe) {
   const auto parse = [](const std::string& file) {
     return parse_header(std::as_bytes(std::span(file)), "x.tik");
