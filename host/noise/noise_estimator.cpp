@@ -1,6 +1,7 @@
 #include "noise/noise_estimator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -20,7 +21,10 @@ constexpr double kRangeTail = 0.001;  // pixels at either end that do not make t
 constexpr int kPasses = 50;           // they settle after a few
 constexpr double kOutlier = 3.0;      // standard deviations of a variance's distribution
 constexpr double kClipping = 3.0;  // standard deviations from black and white within which codes are cut off
-constexpr double kJoinedWidth = 0.5;     // group widths within which points of several clips are one
+constexpr double kJoinedWidth = 0.5;  // group widths within which points of several clips are one
+constexpr double kTold =
+    1.0;  // variance from which on rounding to codes does not make pixels stray unlike each other
+constexpr double kUneven = 0.25;         // standard deviation of the pixels' own variances, of their mean
 constexpr double kLeastDistance = 1e-5;  // of points, in white codes: six digits tell them apart
 constexpr double kLargestMisfit = 0.04;
 constexpr double kWorstMisfit = 0.10;
@@ -37,6 +41,31 @@ struct StillPixels {
   std::uint64_t count = 0;
   double beside = 0, below = 0;  // sums
 };
+
+// Whether pixels' variances lie further apart than those of one noise do when each is measured with so many degrees of
+// freedom: by 2 / degrees of their mean's square, and how far that is off of so many pixels follows from the fourth
+// moment of chi-squared. Each place of a mosaic has a noise of its own.
+bool is_uneven(std::span<const PixelNoise> group, const StillPixels& still, double degrees) {
+  struct Place {
+    double count = 0, sum = 0, squares = 0;
+  };
+  const double limit = variance_quantile(degrees, kOutlier) * still.variance;
+  std::array<Place, kMosaicPlaces> places;
+  for (const PixelNoise& pixel : group) {
+    if (pixel.variance > limit) continue;
+    auto& [count, sum, squares] = places[pixel.place];
+    count += 1;
+    sum += pixel.variance;
+    squares += double{pixel.variance} * pixel.variance;
+  }
+  double spread = 0;
+  for (const auto& [count, sum, squares] : places) {
+    if (count > 0) spread += count * (squares * count / (sum * sum) - 1);
+  }
+  const auto count = static_cast<double>(still.count);
+  const double of_noise = 2 / degrees, uncertainty = of_noise * std::sqrt((2 + 12 / degrees) / count);
+  return spread / count > of_noise + kUneven * kUneven + kOutlier * uncertainty;
+}
 
 // The mean variance of pixels that vary alike, without those that vary far more: from their median on, the
 // limit and the mean are found in turn. Rounding alone makes variances of up to kRoundingVariance and more, in
@@ -202,6 +231,10 @@ void NoiseEstimator::add_points(ChannelPoints& channel, std::vector<PixelNoise> 
     channel.beside += still.beside;
     channel.below += still.below;
     const double uncertainty = 1 / std::sqrt(2.0 * degrees * static_cast<double>(still.count));
+    if (still.variance >= kTold) {
+      ++channel.told;
+      channel.uneven += is_uneven(group, still, degrees);
+    }
     const double sd = std::sqrt(std::max(still.variance, kRoundingVariance));
     channel.points.push_back({{still.code, sd, still.count}, uncertainty});
   };
@@ -250,7 +283,9 @@ NoiseEstimate NoiseEstimator::estimate() const {
     estimate.noise.channels.push_back(std::move(noise));
     estimate.channels.push_back(
         {fit.misfit, static_cast<double>(channel.still_pixels) / static_cast<double>(channel.pixels),
-         std::max(channel.beside, channel.below) / channel.variance});
+         std::max(channel.beside, channel.below) / channel.variance,
+         static_cast<double>(channel.uneven) /
+             static_cast<double>(std::max<std::uint64_t>(channel.told, 1))});
   }
   return estimate;
 }

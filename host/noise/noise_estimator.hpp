@@ -28,6 +28,9 @@ struct NoiseEstimate {
     // Of what these stray by, the share that a pixel kNeighbourPixels beside or below strays by, too: of light on a
     // sensor nearly nothing, of what moves, or of what a codec left, much.
     double shared = 0;
+    // Of the codes at which pixels stray by a code and more, the share at which some stray more than others, by a
+    // quarter and more: noise of a sensor is a code's, what moves is that of edges.
+    double uneven = 0;
   };
 
   CameraNoise noise;
@@ -81,6 +84,7 @@ class NoiseEstimator {
     std::uint64_t still_pixels = 0;
     std::uint64_t pixels = 0;
     double variance = 0, beside = 0, below = 0;  // sums over still pixels
+    std::uint64_t told = 0, uneven = 0;          // groups of which it is known whether pixels stray unevenly
   };
 
   void add_points(ChannelPoints& channel, std::vector<PixelNoise> pixels, double degrees) const;

@@ -126,8 +126,10 @@ std::vector<PixelNoise> StillWindow::measure(std::uint32_t channel) const {
   }
   const auto scale = static_cast<float>(1 / (6.0 * (samples_ - 2)));
   for (std::size_t i = 0; i < count; ++i) {
-    const auto& [code, variance, beside, below] = noise[i];
-    noise[i] = {means[i], variance * scale, beside * scale, below * scale};
+    const PixelNoise& sums = noise[i];
+    const std::uint64_t x = pixels_[i] % format_.shape.width, y = pixels_[i] / format_.shape.width;
+    noise[i] = {means[i], sums.variance * scale, sums.beside * scale, sums.below * scale,
+                static_cast<std::uint32_t>(2 * (y % 2) + x % 2)};
   }
   return noise;
 }

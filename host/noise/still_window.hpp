@@ -30,7 +30,11 @@ struct PixelNoise {
   // Covariances with the pixel that lies kNeighbourPixels to the right, and below: 0 where there is none.
   float beside = 0;
   float below = 0;
+  // Of its row's and its column's number the last bit: what is interpolated of a mosaic strays less than what was
+  // measured beside it.
+  std::uint32_t place = 0;
 };
+inline constexpr std::size_t kMosaicPlaces = 4;
 
 class StillWindow {
  public:

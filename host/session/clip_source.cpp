@@ -54,12 +54,11 @@ CameraNoise own_noise(ClipSource& source, const OpenClip& open, const MemoryBudg
   source.clip.reset();
   source.clip = open();
   const NoiseEstimate estimate = estimator.estimate();
-  if (is_no_noise(estimate)) {
-    throw InputError(format(
-        "{}: no noise can be measured on it: pixels {} apart stray alike, as noise of a sensor does not. "
-        "Something moves in most of the picture, or a codec took its noise away. Take the noise of a still "
-        "scene, filmed with the same settings and not compressed, or a tolerance",
-        source.name(), kNeighbourPixels));
+  if (const std::string reason = reason_for_no_noise(estimate); !reason.empty()) {
+    throw InputError(
+        format("{}: no noise can be measured on it: {}. Take the noise of a still scene, filmed with the "
+               "same settings and not compressed, or a tolerance",
+               source.name(), reason));
   }
   for (const std::string& note : noise_notes(estimate)) source.notes.emplace_back(note);
   return estimate.noise;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLittleStill = 0.5;  // of the pixels
 constexpr double kMuchShared = 0.25;  // of a variance
+constexpr double kMuchUneven = 0.25;  // of the codes
 
 std::string format_text(const CaptureFormat& format) {
   return nutik::format("{} x {} pixels, {} channel{}, {} bits, white code {}, transfer {}",
@@ -70,9 +71,26 @@ NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOption
   return estimator->estimate();
 }
 
-bool is_no_noise(const NoiseEstimate& estimate) {
-  return std::ranges::any_of(estimate.channels,
-                             [](const auto& channel) { return channel.shared > kMuchShared; });
+std::string reason_for_no_noise(const NoiseEstimate& estimate) {
+  double shared = 0, uneven = 0;
+  for (const NoiseEstimate::Channel& channel : estimate.channels) {
+    shared = std::max(shared, channel.shared);
+    uneven = std::max(uneven, channel.uneven);
+  }
+  if (shared > kMuchShared) {
+    return format(
+        "pixels {} apart stray alike, as noise of a sensor does not: something moves in most of the picture, "
+        "or a codec took the noise away",
+        kNeighbourPixels);
+  }
+  if (uneven > kMuchUneven) {
+    return format(
+        "at {:.0f} % of the codes some pixels stray more than others, as noise of a sensor does not: the "
+        "camera "
+        "or the scene moves, or a codec took the noise away",
+        100 * uneven);
+  }
+  return {};
 }
 
 std::vector<std::string> noise_notes(const NoiseEstimate& estimate) {
@@ -89,13 +107,8 @@ std::vector<std::string> noise_notes(const NoiseEstimate& estimate) {
                "scene tells more",
                100 * still));
   }
-  if (is_no_noise(estimate)) {
-    notes.push_back(
-        format("pixels {} apart stray alike, as noise of a sensor does not: something moves in most of the "
-               "picture, or "
-               "a codec took the noise away; what moves leaves rings where codes are held within it",
-               kNeighbourPixels));
-  }
+  if (const std::string reason = reason_for_no_noise(estimate); !reason.empty())
+    notes.push_back(reason + "; what moves leaves rings where codes are held within it");
   if (!is_sensor) {
     notes.push_back(
         "the noise is not that of a sensor (compressed clips are not, nor those whose transfer function is "

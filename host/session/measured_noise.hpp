@@ -38,9 +38,10 @@ struct ClipTold {
                                           std::uint64_t most_samples, const MemoryBudget& memory,
                                           ClipTold& told);
 
-// Whether so much of what pixels stray by is common to those that lie apart that it is no noise: something moves in most
-// of the picture, or a codec took its noise away. Holding codes within it would leave rings round what moves.
-[[nodiscard]] bool is_no_noise(const NoiseEstimate& estimate);
+// Why it is no noise of a sensor: so much of what pixels stray by is common to those that lie apart, or at so many codes
+// some stray more than others, that something moves, or a codec took the noise away. Holding codes within it would leave
+// rings round what moves. Empty where it may be one.
+[[nodiscard]] std::string reason_for_no_noise(const NoiseEstimate& estimate);
 
 // What a person should know of an estimate: that little was still, or that no sensor's curve fits; empty where
 // it is as it should be.

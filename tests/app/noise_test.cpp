@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "capture/noise_file.hpp"
 #include "support/noisy_scene.hpp"
@@ -145,6 +146,18 @@ TEST_F(Noise, IsNotMeasuredOnWhatMoves) {
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "a.tik"));
   const auto measured = run({"noise", "pour", "-o", "pour.noise"});
   EXPECT_NE(measured.err.find("note: pixels 4 apart stray alike"), std::string::npos) << measured.err;
+}
+
+// A camera that is held by hand, two drops that merge; a beam and particles that stand still.
+TEST_F(Noise, IsMeasuredOnRecordingsThatStandStillAlone) {
+  const std::filesystem::path media = NUTIK_TEST_MEDIA;
+  if (!std::filesystem::exists(media / "README.md")) GTEST_SKIP() << "no clips in " << media;
+  for (const char* name : {"realshort.mp4", "cine_781.cine"}) {
+    expect_refused({"encode", "-f", "100", "--noise", "auto", (media / name).string(), "a.tik"}, 3,
+                   "% of the codes some pixels stray more than others, as noise of a sensor does not");
+  }
+  for (const char* name : {"data_small_cine.cine", "stuck.tif"})
+    run({"encode", "-f", "100", "--noise", "auto", (media / name).string(), "a.tik"});
 }
 
 TEST_F(Noise, SaysWhatCannotBe) {

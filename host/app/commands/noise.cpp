@@ -56,9 +56,11 @@ int run_noise(const Options& options) {
       {{"noise", output.string()}, {"samples", estimate.sample_count}, {"channels", Json::array()}}};
   double still = 1;
   for (std::size_t channel = 0; channel < estimate.channels.size(); ++channel) {
-    const double still_share = estimate.channels[channel].still_share;
-    still = std::min(still, still_share);
-    answer.json["channels"].push_back({{"still_share", still_share}});
+    const NoiseEstimate::Channel& measured = estimate.channels[channel];
+    still = std::min(still, measured.still_share);
+    answer.json["channels"].push_back({{"still_share", measured.still_share},
+                                       {"alike_share", measured.shared},
+                                       {"uneven_share", measured.uneven}});
     answer.details.push_back(channel_text(estimate, channel));
   }
   answer.json["seconds"] = stopwatch.seconds();
