@@ -1,6 +1,7 @@
 // One brightness for a person to see, whichever command shows a capture; files that say what they hold.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -96,6 +97,46 @@ TEST_F(Colour, OfACaptureFollowsAStatedTransfer) {
   for (std::size_t field = 0; field < 4; ++field) {
     EXPECT_EQ(codes.at<std::uint8_t>(32, static_cast<int>(field) * 64 + 32),
               std::lround(kCodes[field] / 4095.0 * 255));
+  }
+}
+
+// HLG's and PQ's codes go on behind white. What codes to be seen cut off is counted and said, with what keeps it.
+TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
+  write_scene();
+  const std::vector<std::string> exposing{"--start", "0s", "--exposure", "1f", "-f", "30", "scene"};
+  const auto told = [&](const std::string& transfer, const std::vector<std::string>& more) {
+    std::vector<std::string> words = exposing;
+    words.insert(words.end(), {"--transfer", transfer});
+    words.insert(words.end(), more.begin(), more.end());
+    const auto result = run(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.out + result.err;
+  };
+  constexpr const char* kSaid = "brighter come out white";
+  // Of HLG the field of code 4095 lies above 75 %, of PQ that too, and no other above 203 cd/m².
+  for (const auto& [transfer, share, stops] :
+       std::vector<std::array<std::string, 3>>{{"hlg", "26.5", "-2.0"}, {"pq", "2.03", "-5.7"}}) {
+    const std::string said = told(transfer, {"x.png"});
+    EXPECT_NE(said.find("note: white is " + share + " % of the light that " + transfer +
+                        " reaches, and 4096 pixels brighter come out white; --ev " + stops + " shows"),
+              std::string::npos)
+        << said;
+    const std::string all = told(transfer, {"--ev", stops, "x.png"});
+    EXPECT_EQ(all.find(kSaid), std::string::npos) << all;
+    EXPECT_NE(all.find("no pixel saturated"), std::string::npos) << all;
+    EXPECT_EQ(told(transfer, {"x.exr"}).find(kSaid), std::string::npos);
+    EXPECT_EQ(told(transfer, {"--out-transfer", "source", "x.png"}).find(kSaid), std::string::npos);
+    EXPECT_NE(told(transfer, {"--json", "x.png"}).find(kSaid), std::string::npos);
+  }
+  EXPECT_EQ(told("srgb", {"x.png"}).find(kSaid), std::string::npos);
+  scratch_.write("list", "--start 0s --exposure 1f a.png\n--start 1f --exposure 1f b.png\n");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"batch", "-f", "30", "--transfer", "hlg", "list", "scene"},
+        {"contact", "-f", "30", "--transfer", "hlg", "--every", "1f", "scene", "sheet.png"},
+        {"video", "-f", "30", "--transfer", "hlg", "--out-fps", "30", "scene", "x.mkv"}}) {
+    const auto result = run(words);
+    EXPECT_NE((result.out + result.err).find(kSaid), std::string::npos)
+        << words[0] << result.out << result.err;
   }
 }
 

@@ -218,13 +218,14 @@ int run_batch(const Options& options) {
   if (options.json) {
     Json json{{"exposures", exposures.size()}, {"failed_lines", batch.failed_lines()}};
     json.update(batch.tally().saturation_json());
-    json.update({{"clips", batch.clips()}, {"seconds", seconds}});
+    json.update({{"clips", batch.clips()}, {"seconds", seconds}, {"notes", batch.tally().notes()}});
     print_json(json);
   } else if (!options.quiet) {
     print_line(format("{} of {}{}, {:.2f} s, {:.1f} exposures a second{}", done,
                       counted(exposures.size(), "picture"), batch.tally().saturation_text(), seconds,
                       static_cast<double>(done) / seconds,
                       done > 0 ? " on " + batch.renderer_name() : std::string()));
+    print_notes(batch.tally().notes());
   }
   return failed > 0 ? 1 : 0;
 }

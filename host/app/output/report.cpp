@@ -1,6 +1,7 @@
 #include "app/output/report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "app/text/message_text.hpp"
@@ -75,6 +76,8 @@ int tell(const Options& options, const std::filesystem::path& output, const Answ
 void ExposureTally::add(const ExposedPicture& exposed) {
   saturation_ += exposed.saturation;
   has_codes_ |= holds_codes(exposed.output.type);
+  const Transfer& held = exposed.figures.capture.transfer;
+  if (exposed.saturation.above > 0 && exposed.output.transfer && held.reference_white() < 1) cut_off_ = held;
   precision_ = to_text(exposed.precision);
   report_ = rendering_report(exposed, exposed.output);
 }
@@ -93,11 +96,22 @@ Json ExposureTally::saturation_json() const {
   return {{"saturated_below_pixels", saturation_.below}, {"saturated_above_pixels", saturation_.above}};
 }
 
+std::vector<std::string> ExposureTally::notes() const {
+  if (!cut_off_) return {};
+  const double white = cut_off_->reference_white();
+  return {format(
+      "white is {:.3g} % of the light that {} reaches, and {} brighter come out white; --ev {:.1f} shows "
+      "what a still scene holds, an .exr or a .tif with --depth float keeps it all",
+      100 * white, cut_off_->text(), counted(saturation_.above, "pixel"),
+      std::floor(10 * std::log2(white)) / 10)};
+}
+
 void ExposureTally::end(Answer& answer, Session& session, bool verbose, const std::string& rate) const {
   const std::string renderer = session.devices().renderer().name();
   answer.json.update(saturation_json());
   answer.json.update({{"precision", precision_}, {"renderer", renderer}, {"seconds", seconds()}});
   answer.line += format("{}{}, {:.2f} s on {}", saturation_text(), rate, seconds(), renderer);
+  std::ranges::move(notes(), std::back_inserter(answer.notes));
   if (verbose && !report_.empty()) answer.details.push_back(report_);
 }
 

@@ -64,6 +64,8 @@ class ExposureTally {
   // `saturated_above_pixels`. Nothing where all pictures hold light.
   [[nodiscard]] std::string saturation_text() const;
   [[nodiscard]] Json saturation_json() const;
+  // That codes to be seen end at white, where those of the capture go on behind it.
+  [[nodiscard]] std::vector<std::string> notes() const;
 
   // Ends an answer with that and with what the exposures were made with; `rate` is put before the seconds.
   void end(Answer& answer, Session& session, bool verbose, const std::string& rate = {}) const;
@@ -72,6 +74,7 @@ class ExposureTally {
   Stopwatch stopwatch_;
   Saturation saturation_;
   bool has_codes_ = false;
+  std::optional<Transfer> cut_off_;  // whose light above white was cut off
   std::string precision_, report_;
 };
 
