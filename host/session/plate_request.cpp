@@ -68,9 +68,8 @@ MadePlate make_plate(CaptureSource& capture, const std::string& capture_name, co
   const CodeBand band = noise ? CodeBand::of_noise(format, *noise)
                               : CodeBand::of_codes(format, request.by_codes.value_or(least));
   Plate plate = make_plate(capture, band, memory.bytes, progress);
-  MadePlate made{{}, std::move(plate.uncertain), noise || request.by_codes};
-  Saturation none;  // of light that the capture holds
-  made.picture = stored(std::move(plate.light), format, output, none);
+  MadePlate made{{}, std::move(plate.uncertain), noise || request.by_codes, {}};
+  made.picture = stored(std::move(plate.light), format, output, made.saturation);
   state_values(made.picture, format, output);
   return made;
 }

@@ -27,6 +27,7 @@ struct MadePlate {
   Picture picture;
   Region uncertain;            // pixels that hold their light for less than half of the time
   bool is_noise_known = true;  // false: nothing was stated, and the noise cannot be measured. 1/32 was taken
+  Saturation saturation = {};  // of its codes
 };
 
 // Beside a block of the capture.

@@ -117,9 +117,10 @@ TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
   for (const auto& [transfer, share, stops] :
        std::vector<std::array<std::string, 3>>{{"hlg", "26.5", "-2.0"}, {"pq", "2.03", "-5.7"}}) {
     const std::string said = told(transfer, {"x.png"});
-    EXPECT_NE(said.find("note: white is " + share + " % of the light that " + transfer +
-                        " reaches, and 4096 pixels brighter come out white; --ev " + stops + " shows"),
-              std::string::npos)
+    EXPECT_NE(
+        said.find("note: white is " + share + " % of the light that " + transfer +
+                  " reaches, and 4096 pixels brighter come out white; expose with --ev " + stops + " shows"),
+        std::string::npos)
         << said;
     const std::string all = told(transfer, {"--ev", stops, "x.png"});
     EXPECT_EQ(all.find(kSaid), std::string::npos) << all;
@@ -130,11 +131,16 @@ TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
   }
   EXPECT_EQ(told("srgb", {"x.png"}).find(kSaid), std::string::npos);
   scratch_.write("list", "--start 0s --exposure 1f a.png\n--start 1f --exposure 1f b.png\n");
+  const auto plate = run({"plate", "-f", "30", "--transfer", "hlg", "scene", "plate.png"});
+  EXPECT_NE(plate.err.find("4096 pixels hold more light than white and come out white; an .exr"),
+            std::string::npos)
+      << plate.err;
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"batch", "-f", "30", "--transfer", "hlg", "list", "scene"},
         {"contact", "-f", "30", "--transfer", "hlg", "--every", "1f", "scene", "sheet.png"},
         {"video", "-f", "30", "--transfer", "hlg", "--out-fps", "30", "scene", "x.mkv"}}) {
     const auto result = run(words);
+    EXPECT_EQ(result.status, 0);
     EXPECT_NE((result.out + result.err).find(kSaid), std::string::npos)
         << words[0] << result.out << result.err;
   }

@@ -219,7 +219,7 @@ TEST_F(CommandLine, SaysWhereRateAndAngleComeFrom) {
   EXPECT_NE(from_file.out.find("25 pictures a second (from the file), shutter 360 degrees (assumed)"),
             std::string::npos)
       << from_file.out;
-  EXPECT_NE(from_file.err.find("if it was filmed faster, say so with --fps"), std::string::npos);
+  EXPECT_NE(from_file.err.find("if it was filmed faster, say so (--fps)"), std::string::npos);
   const ProgramResult stated = run({"-f", "30000/1001", "-a", "172.8", "clip.avi", "a.tik"});
   EXPECT_NE(stated.out.find("30000/1001 pictures a second (--fps), shutter 172.8 degrees (--shutter-angle)"),
             std::string::npos)

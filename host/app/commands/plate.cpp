@@ -58,6 +58,12 @@ int run_plate(const Options& options) {
              100.0 * static_cast<double>(uncertain) / static_cast<double>(capture.shape.pixel_count()),
              stopwatch.seconds());
   answer.tell_source(session);
+  if (made.saturation.above > 0) {
+    answer.notes.push_back(
+        format("{} hold more light than white and come out white; an .exr or a .tif with --depth float "
+               "keeps it",
+               counted(made.saturation.above, "pixel")));
+  }
   return tell(options, output, answer);
 }
 
