@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
+#include "scene/place_times.hpp"
 #include "system/parallel.hpp"
 
 namespace nutik {
@@ -108,6 +110,10 @@ class PlateMaker {
     for (PageBuffer& room : rooms_) room = {};  // other groups come to lie in it
   }
 
+  // From here on only what is uncertain is made, again: of what it held while its whole place looked as it mostly does.
+  void look_at_places() { times_.emplace(capture_, plate_.uncertain, band_); }
+
+  [[nodiscard]] const Region& uncertain() const { return plate_.uncertain; }
   [[nodiscard]] Plate finished() && { return std::move(plate_); }
 
  private:
@@ -119,24 +125,29 @@ class PlateMaker {
     const std::uint32_t bottom = std::min(shape.height, (tile_row + 1) * kTileSide);
     for (std::uint32_t x = 0; x < shape.width; ++x) {
       for (std::uint32_t y = tile_row * kTileSide; y < bottom; ++y) {
+        const std::uint64_t pixel = std::uint64_t{y} * shape.width + x;
+        if (times_ && plate_.uncertain.inside[pixel] == 0) continue;
         held.clear();
         for (const BlockView& block : blocks) {
           block.read_history(grid_.tile_of(x, y), TileGrid::lane_of(x, y), history);
-          add(block.extent(), history, held);
+          add(block.extent(), history, x, y, held);
         }
         const std::uint64_t duration = longest.keep_longest(held);
-        set(std::uint64_t{y} * shape.width + x, held, duration);
+        set(pixel, held, duration);
       }
     }
   }
 
-  void add(const BlockExtent& extent, const std::vector<ChangeRecord>& history,
-           std::vector<HeldCodes>& held) const {
+  void add(const BlockExtent& extent, const std::vector<ChangeRecord>& history, std::uint32_t x,
+           std::uint32_t y, std::vector<HeldCodes>& held) const {
+    const auto time_ns = [&](std::uint32_t sample) {
+      return times_ ? times_->clock_ns(x, y, extent.first_sample + sample)
+                    : starts_ns_[extent.first_sample + sample];
+    };
     for (std::size_t r = 0; r < history.size(); ++r) {
       const std::uint32_t until = r + 1 < history.size() ? history[r + 1].sample : extent.sample_count;
-      const std::int64_t begin_ns = starts_ns_[extent.first_sample + history[r].sample];
-      const std::int64_t end_ns = starts_ns_[extent.first_sample + until];
-      held.push_back({history[r].codes, static_cast<std::uint64_t>(end_ns - begin_ns)});
+      const std::int64_t held_ns = time_ns(until) - time_ns(history[r].sample);
+      if (held_ns > 0) held.push_back({history[r].codes, static_cast<std::uint64_t>(held_ns)});
     }
   }
 
@@ -151,7 +162,9 @@ class PlateMaker {
       }
       light[channel] = sum / static_cast<double>(duration_ns);
     }
-    plate_.uncertain.inside[pixel] = 2 * duration_ns < static_cast<std::uint64_t>(starts_ns_.back());
+    if (!times_) {
+      plate_.uncertain.inside[pixel] = 2 * duration_ns < static_cast<std::uint64_t>(starts_ns_.back());
+    }
   }
 
   CaptureSource& capture_;
@@ -161,12 +174,15 @@ class PlateMaker {
   std::vector<double> light_of_code_;
   std::vector<PageBuffer> rooms_;  // for blocks that are unpacked
   Plate plate_;
+  std::optional<PlaceTimes> times_;
 };
 
 }  // namespace
 
 MemoryNeeds plate_needs(const CaptureFormat& capture) {
-  return {{"the plate", capture.shape.pixel_count() * (capture.shape.channels * sizeof(double) + 1)}};
+  MemoryNeeds needs = PlaceTimes::needs(capture);
+  needs.add("the plate", capture.shape.pixel_count() * (capture.shape.channels * sizeof(double) + 1));
+  return needs;
 }
 
 Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t memory_bytes,
@@ -185,6 +201,10 @@ Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t mem
   for (std::uint32_t row = 0; row < rows; row += at_once) {
     if (progress) progress(row, rows);
     maker.make(row, std::min(row + at_once, rows));
+  }
+  if (maker.uncertain().pixel_count() > 0) {
+    maker.look_at_places();
+    for (std::uint32_t row = 0; row < rows; row += at_once) maker.make(row, std::min(row + at_once, rows));
   }
   return std::move(maker).finished();
 }

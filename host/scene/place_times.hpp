@@ -1,0 +1,55 @@
+// When places of a picture show what they hold longest as a whole.
+//
+//   in:      a capture, which of its pixels are uncertain, how far codes of the same light may lie apart
+//   out:     clocks, one for each place: uncertain pixels that hang together. They run while most of the place looks as
+//            it does for longest
+//   always:  a subject that hardly stirs holds many of its pixels for longer than what is behind it, but not all at once
+//            for as long as that
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "capture/memory_needs.hpp"
+#include "imev/capture_source.hpp"
+#include "mask/region.hpp"
+#include "scene/code_band.hpp"
+#include "scene/looks.hpp"
+
+namespace nutik {
+
+class PlaceTimes {
+ public:
+  // What is seen at a look holds until the next. Throws InputError where the capture is damaged.
+  PlaceTimes(CaptureSource& capture, const Region& uncertain, const CodeBand& band);
+
+  // For how long the clock at an uncertain pixel ran until a sample began; sample_count() is the capture's end.
+  [[nodiscard]] std::int64_t clock_ns(std::uint32_t x, std::uint32_t y, std::uint64_t sample) const;
+
+  [[nodiscard]] static MemoryNeeds needs(const CaptureFormat& capture);
+
+ private:
+  // From each look to the next: whether a place's clock runs, and how long it ran before.
+  struct Clock {
+    std::vector<std::uint8_t> runs;
+    std::vector<std::int64_t> before_ns;
+  };
+  struct Spot {  // a pixel that is looked at
+    std::uint32_t x, y;
+  };
+
+  // Finds places, and returns spots of each.
+  std::vector<std::vector<Spot>> spots_of_places(const Region& uncertain);
+  // `bins` are those of a place's spots, look by look.
+  [[nodiscard]] Clock clock_of(const std::vector<std::uint16_t>& bins, std::uint32_t channels,
+                               std::uint32_t reach) const;
+
+  const Timeline& timeline_;
+  Looks looks_;
+  std::vector<std::int64_t> starts_ns_;  // of looks, and the capture's end
+  std::uint32_t side_, columns_, rows_;  // of cells, in pixels; how many
+  std::vector<std::size_t> clock_of_cell_;
+  std::vector<Clock> clocks_;
+};
+
+}  // namespace nutik
