@@ -7,17 +7,20 @@
 #include <iterator>
 #include <utility>
 
-#include "imev/each_block.hpp"
+#include "scene/looks.hpp"
 
 namespace nutik {
 namespace {
 
-constexpr std::uint64_t kMostLookedAt = 256;
 constexpr std::uint32_t kMostCellsToASide = 480;
-constexpr std::uint32_t kGapPixels = 8;   // between moments: for the soft borders of both
 constexpr std::uint64_t kLeastCells = 6;  // fewer are noise
 
-// Which cells differ from the plate, in half of their pixels or more.
+// Cells that differ from the plate, in half of their pixels or more; and by how much all do, in shares of white.
+struct DifferingCells {
+  Region region;
+  std::vector<float> contrast;
+};
+
 class Difference {
  public:
   Difference(const CaptureFormat& capture, const Picture& plate, std::uint32_t by_codes)
@@ -30,37 +33,41 @@ class Difference {
 
   [[nodiscard]] std::uint32_t side() const { return side_; }
 
-  [[nodiscard]] Region cells(std::span<const std::byte> raster) const {
+  [[nodiscard]] DifferingCells cells(std::span<const std::byte> raster) const {
     return capture_.code_bytes == 1 ? cells(reinterpret_cast<const std::uint8_t*>(raster.data()))
                                     : cells(reinterpret_cast<const std::uint16_t*>(raster.data()));
   }
 
  private:
   template <typename Code>
-  [[nodiscard]] Region cells(const Code* codes) const {
+  [[nodiscard]] DifferingCells cells(const Code* codes) const {
     const auto [width, height, channels] = capture_.shape;
     const Code* plate = plate_.values<Code>().data();
     std::vector<std::uint32_t> counts(std::size_t{columns_} * rows_);
+    std::vector<std::uint64_t> sums(counts.size());
     for (std::uint32_t y = 0; y < height; ++y) {
-      std::uint32_t* const row = counts.data() + std::size_t{y / side_} * columns_;
+      const std::size_t row = std::size_t{y / side_} * columns_;
       for (std::uint32_t x = 0; x < width; ++x) {
-        bool differs = false;
+        std::uint32_t most = 0;
         for (std::uint32_t channel = 0; channel < channels; ++channel, ++codes, ++plate) {
-          differs |= static_cast<std::uint32_t>(std::abs(int{*codes} - int{*plate})) > by_codes_;
+          most = std::max(most, static_cast<std::uint32_t>(std::abs(int{*codes} - int{*plate})));
         }
-        row[x / side_] += differs ? 1 : 0;
+        counts[row + x / side_] += most > by_codes_ ? 1 : 0;
+        sums[row + x / side_] += most;
       }
     }
-    Region region = Region::none(columns_, rows_);
+    DifferingCells cells{Region::none(columns_, rows_), std::vector<float>(counts.size())};
     for (std::uint32_t row = 0; row < rows_; ++row) {
       const std::uint32_t high = std::min(side_, height - row * side_);
       for (std::uint32_t column = 0; column < columns_; ++column) {
         const std::uint32_t wide = std::min(side_, width - column * side_);
         const std::size_t cell = std::size_t{row} * columns_ + column;
-        region.inside[cell] = 2 * counts[cell] >= wide * high;
+        cells.region.inside[cell] = 2 * counts[cell] >= wide * high;
+        cells.contrast[cell] = static_cast<float>(static_cast<double>(sums[cell]) /
+                                                  (static_cast<double>(wide) * high * capture_.white_code));
       }
     }
-    return region;
+    return cells;
   }
 
   const CaptureFormat& capture_;
@@ -69,8 +76,9 @@ class Difference {
 };
 
 // What hangs together at one sample.
-SubjectPlace place_of(std::vector<std::size_t> cells, std::uint64_t sample, const Region& grid,
+SubjectPlace place_of(std::vector<std::size_t> cells, std::uint64_t sample, const DifferingCells& differing,
                       std::uint32_t side, const Shape& shape) {
+  const Region& grid = differing.region;
   SubjectPlace place;
   place.sample = sample;
   std::ranges::sort(cells);
@@ -82,6 +90,7 @@ SubjectPlace place_of(std::vector<std::size_t> cells, std::uint64_t sample, cons
     right = std::max(right, x);
     sum_x += static_cast<double>(x) + 0.5;
     sum_y += static_cast<double>(y) + 0.5;
+    place.contrast += differing.contrast[cell] / static_cast<double>(cells.size());
   }
   const std::size_t top = cells.front() / grid.width, bottom = cells.back() / grid.width;
   place.is_cut_off = left == 0 || top == 0 || right + 1 == grid.width || bottom + 1 == grid.height;
@@ -107,19 +116,21 @@ class Followed {
   [[nodiscard]] bool is_lost(std::size_t look) const { return look > last_look_ + kMostLooksWithout; }
   [[nodiscard]] bool was_seen(std::size_t look) const { return last_look_ == look; }
 
-  // How far a place is from where this would be now, going on as it did; in its own sizes.
+  // How unlike a place is to what would be seen of this now, going on as it did: how far off it lies, in its own sizes,
+  // and how often it would have doubled.
   [[nodiscard]] double strays(const SubjectPlace& place, std::size_t look, std::uint32_t side) const {
     const SubjectPlace& last = places_.back();
     Point expected = last.centre;
     if (places_.size() > 1) {
       const auto looks = static_cast<double>(look - last_look_) / static_cast<double>(last_step_);
-      const Point& before = places_[places_.size() - 2].centre;
-      expected.x += looks * (last.centre.x - before.x);
-      expected.y += looks * (last.centre.y - before.y);
+      const Point& earlier = places_[places_.size() - 2].centre;
+      expected.x += looks * (last.centre.x - earlier.x);
+      expected.y += looks * (last.centre.y - earlier.y);
     }
-    const double size =
-        side * std::sqrt(static_cast<double>(std::max(last.cells.size(), place.cells.size())));
-    return std::min(distance(expected, place.centre), distance(last.centre, place.centre)) / size;
+    const auto before = static_cast<double>(last.cells.size()), now = static_cast<double>(place.cells.size());
+    const double size = side * std::sqrt(std::max(before, now));
+    return std::min(distance(expected, place.centre), distance(last.centre, place.centre)) / size +
+           std::abs(std::log2(now / before));
   }
 
   void add(SubjectPlace place, std::size_t look) {
@@ -128,18 +139,20 @@ class Followed {
     places_.push_back(std::move(place));
   }
 
-  // How far it goes, in a measure that lets a small thing that crosses the picture win over a large one that stirs.
+  // How far it goes, in a measure that lets a small thing that crosses the picture win over a large one that stirs, and
+  // a thing over its shadow.
   [[nodiscard]] double weight() const {
-    double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL, cells = 0;
+    double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL, cells = 0, contrast = 0;
     for (const SubjectPlace& place : places_) {
       left = std::min(left, place.centre.x);
       right = std::max(right, place.centre.x);
       top = std::min(top, place.centre.y);
       bottom = std::max(bottom, place.centre.y);
       cells += static_cast<double>(place.cells.size());
+      contrast += place.contrast;
     }
-    return std::hypot(right - left, bottom - top) *
-           std::pow(cells / static_cast<double>(places_.size()), 0.25);
+    const auto count = static_cast<double>(places_.size());
+    return std::hypot(right - left, bottom - top) * std::pow(cells / count, 0.25) * contrast / count;
   }
 
   [[nodiscard]] std::vector<SubjectPlace>&& places() && { return std::move(places_); }
@@ -157,9 +170,9 @@ class Follower {
   Follower(const Shape& shape, std::uint32_t side) : shape_(shape), side_(side) {}
 
   // What differs at the next look.
-  void add(const Region& cells, std::uint64_t sample) {
+  void add(const DifferingCells& cells, std::uint64_t sample) {
     std::vector<SubjectPlace> places;
-    for (std::vector<std::size_t>& part : parts_of(cells, kLeastCells)) {
+    for (std::vector<std::size_t>& part : parts_of(cells.region, kLeastCells)) {
       if (places.size() == kMostParts) break;
       places.push_back(place_of(std::move(part), sample, cells, side_, shape_));
     }
@@ -189,7 +202,7 @@ class Follower {
 
  private:
   static constexpr std::size_t kMostParts = 12;
-  static constexpr double kMostStray = 4;  // sizes
+  static constexpr double kMostStray = 4;
 
   Shape shape_;
   std::uint32_t side_;
@@ -197,129 +210,84 @@ class Follower {
   std::vector<Followed> followed_;
 };
 
-// Whether two places touch or overlap when each is grown by half of so many cells.
-bool overlap(const SubjectPlace& a, const SubjectPlace& b, std::size_t columns, std::size_t gap) {
-  for (const std::size_t cell : a.cells) {
-    const std::size_t x = cell % columns, y = cell / columns;
-    for (std::size_t row = y - std::min(y, gap); row <= y + gap; ++row) {
-      const std::size_t first = row * columns + x - std::min(x, gap);
-      const std::size_t last = row * columns + std::min(x + gap, columns - 1);
-      const auto found = std::ranges::lower_bound(b.cells, first);
-      if (found != b.cells.end() && *found <= last) return true;
+// From one place that it stays at to the last there. None where hardly anything would be left of its way.
+std::vector<SampleRange> rests_of(const std::vector<SubjectPlace>& places, std::uint32_t side) {
+  constexpr double kMostStir = 0.25;  // of its size
+  constexpr std::uint64_t kLeastLooks = 4;
+  constexpr std::uint64_t kLeastOfWay = 8;  // one of so many parts of the time
+  std::vector<SampleRange> rests;
+  if (places.empty()) return rests;
+  const std::uint64_t way = places.back().sample - places.front().sample + 1;
+  std::uint64_t resting = 0;
+  for (std::size_t first = 0, last = 0; first < places.size(); first = last + 1) {
+    const double size = side * std::sqrt(static_cast<double>(places[first].cells.size()));
+    last = first;
+    while (last + 1 < places.size() &&
+           distance(places[last + 1].centre, places[first].centre) <= kMostStir * size) {
+      ++last;
+    }
+    const SampleRange rest{places[first].sample, places[last].sample + 1};
+    if (last - first + 1 < kLeastLooks || kLeastOfWay * rest.size() < way) continue;
+    // As one where it only shifted.
+    if (!rests.empty() && first > 0 && rests.back().last == places[first - 1].sample + 1) {
+      rests.back().last = rest.last;
+    } else {
+      rests.push_back(rest);
     }
   }
-  return false;
+  for (const SampleRange& rest : rests) resting += rest.size();
+  if (kLeastOfWay * (way - resting) < way) rests.clear();
+  return rests;
 }
 
 }  // namespace
 
 double SubjectTrack::covered_share() const {
-  if (places.empty()) return 0;
+  const auto counts = [&](std::uint64_t sample) {
+    return sample >= places.front().sample && sample <= places.back().sample &&
+           std::ranges::none_of(rests,
+                                [&](SampleRange rest) { return rest.first <= sample && sample < rest.last; });
+  };
   std::vector<std::size_t> swept;
   std::size_t sum = 0;
   for (const SubjectPlace& place : places) {
+    if (!counts(place.sample)) continue;
     sum += place.cells.size();
     std::vector<std::size_t> joined;
     std::ranges::set_union(swept, place.cells, std::back_inserter(joined));
     swept = std::move(joined);
   }
-  const auto looks = std::ranges::count_if(looked_at, [&](std::uint64_t sample) {
-    return sample >= places.front().sample && sample <= places.back().sample;
-  });
+  if (swept.empty()) return 0;
+  const auto looks = std::ranges::count_if(looked_at, counts);
   return static_cast<double>(sum) / (static_cast<double>(swept.size()) * static_cast<double>(looks));
 }
 
 SubjectTrack track_subject(CaptureSource& capture, const Picture& plate, std::uint32_t by_codes,
                            const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
   const CaptureFormat& format = capture.format();
-  const std::uint64_t count = capture.timeline().sample_count();
-  const std::uint64_t looks = std::min(count, kMostLookedAt);
+  const Looks looks(capture.timeline().sample_count());
   const Difference difference(format, plate, by_codes);
   Follower follower(format.shape, difference.side());
   SubjectTrack track;
-  for (std::uint64_t i = 0; i < looks; ++i) track.looked_at.push_back(i * count / looks);
   track.cell_side = difference.side();
-  std::vector<std::byte> raster(format.sample_bytes());
   SampleRange stretch;  // without anything, up to now
-  auto next = track.looked_at.begin();
-  for_each_block(capture, [&](const BlockView& block) {
-    for (; next != track.looked_at.end() && *next < block.extent().range().last; ++next) {
-      if (progress) progress(static_cast<std::uint64_t>(next - track.looked_at.begin()), looks);
-      block.read_sample(static_cast<std::uint32_t>(*next - block.extent().first_sample), raster);
-      const Region cells = difference.cells(raster);
-      track.cell_columns = cells.width;
-      const std::uint64_t differing = cells.pixel_count();
-      track.moving_share += static_cast<double>(differing) /
-                            (static_cast<double>(cells.inside.size()) * static_cast<double>(looks));
-      stretch = differing >= kLeastCells ? SampleRange()
-                                         : SampleRange{stretch.empty() ? *next : stretch.first, *next + 1};
-      if (stretch.size() > track.empty.size()) track.empty = stretch;
-      follower.add(cells, *next);
-    }
+  for_each_look(capture, looks, [&](std::uint64_t look, std::span<const std::byte> raster) {
+    if (progress) progress(look, looks.count());
+    const std::uint64_t sample = looks.sample(look);
+    const DifferingCells cells = difference.cells(raster);
+    track.looked_at.push_back(sample);
+    track.cell_columns = cells.region.width;
+    const std::uint64_t differing = cells.region.pixel_count();
+    track.moving_share += static_cast<double>(differing) /
+                          (static_cast<double>(cells.contrast.size()) * static_cast<double>(looks.count()));
+    stretch = differing >= kLeastCells ? SampleRange()
+                                       : SampleRange{stretch.empty() ? sample : stretch.first, sample + 1};
+    if (stretch.size() > track.empty.size()) track.empty = stretch;
+    follower.add(cells, sample);
   });
   track.places = std::move(follower).subject();
+  track.rests = rests_of(track.places, track.cell_side);
   return track;
-}
-
-namespace {
-
-// Those that are no mere piece of the subject, of which the rest looks like what is behind it.
-std::vector<const SubjectPlace*> large_places(const SubjectTrack& track) {
-  constexpr std::size_t kLeastShare = 4;  // of its usual size
-  std::vector<std::size_t> sizes;
-  for (const SubjectPlace& place : track.places) sizes.push_back(place.cells.size());
-  if (sizes.empty()) return {};
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::ranges::nth_element(sizes, middle);
-  std::vector<const SubjectPlace*> large;
-  for (const SubjectPlace& place : track.places) {
-    if (kLeastShare * place.cells.size() >= *middle) large.push_back(&place);
-  }
-  return large;
-}
-
-}  // namespace
-
-std::vector<SubjectPlace> choose_moments(const SubjectTrack& track, std::uint32_t count,
-                                         MomentSpacing spacing) {
-  std::vector<const SubjectPlace*> candidates = large_places(track);
-  const auto is_cut_off = [](const SubjectPlace* place) { return place->is_cut_off; };
-  const auto whole = static_cast<std::uint64_t>(std::ranges::count_if(candidates, std::not_fn(is_cut_off)));
-  if (whole >= count) std::erase_if(candidates, is_cut_off);
-  if (candidates.empty()) return {};
-  // How far each candidate is along the way, or in time.
-  std::vector<double> along{0};
-  for (std::size_t i = 1; i < candidates.size(); ++i) {
-    const SubjectPlace &from = *candidates[i - 1], &to = *candidates[i];
-    along.push_back(along.back() + (spacing == MomentSpacing::time
-                                        ? static_cast<double>(to.sample - from.sample)
-                                        : distance(from.centre, to.centre)));
-  }
-  const std::size_t gap = (kGapPixels - 1) / track.cell_side + 1;
-  std::vector<const SubjectPlace*> chosen;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const double wanted = count == 1 ? along.back() / 2 : along.back() * i / (count - 1);
-    // The nearest that overlaps with none so far, within half of the way to the next wish.
-    const double reach = count == 1 ? along.back() : along.back() / (2 * (count - 1));
-    const SubjectPlace* best = nullptr;
-    double best_away = reach;
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-      const double away = std::abs(along[k] - wanted);
-      if (away > best_away || (best != nullptr && away == best_away)) continue;
-      if (std::ranges::any_of(chosen, [&](const SubjectPlace* other) {
-            return overlap(*candidates[k], *other, track.cell_columns, gap);
-          })) {
-        continue;
-      }
-      best = candidates[k];
-      best_away = away;
-    }
-    if (best != nullptr) chosen.push_back(best);
-  }
-  std::ranges::sort(chosen, {}, &SubjectPlace::sample);
-  std::vector<SubjectPlace> moments;
-  for (const SubjectPlace* each : chosen) moments.push_back(*each);
-  return moments;
 }
 
 }  // namespace nutik

@@ -21,6 +21,7 @@ struct SubjectPlace {
   Point centre;                    // of gravity
   Rectangle box;                   // that holds it, with a border
   bool is_cut_off = false;         // by the picture's border
+  double contrast = 0;             // how far it differs from the plate on average, as a share of white
   std::vector<std::size_t> cells;  // that it covers, increasing
 };
 
@@ -29,10 +30,12 @@ struct SubjectTrack {
   std::uint32_t cell_columns = 0;        // in a row
   std::vector<SubjectPlace> places;      // in time order; none of samples at which it was not found
   std::vector<std::uint64_t> looked_at;  // samples, increasing: all, or so many evenly over the capture
-  SampleRange empty;        // the longest stretch of them at which nothing at all differs from the plate
-  double moving_share = 0;  // of the picture, that differs from the plate on average
+  SampleRange empty;  // the longest stretch of them at which nothing at all differs from the plate
+  std::vector<SampleRange> rests;  // where it stays in its place for a good part of the time
+  double moving_share = 0;         // of the picture, that differs from the plate on average
 
-  // For how much of the time from the first place to the last a cell that is covered at all is covered, on average.
+  // For how much of the time from the first place to the last, without rests, a cell that is covered at all is covered,
+  // on average.
   [[nodiscard]] double covered_share() const;
 };
 
@@ -43,12 +46,5 @@ struct SubjectTrack {
 [[nodiscard]] SubjectTrack track_subject(
     CaptureSource& capture, const Picture& plate, std::uint32_t by_codes,
     const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});
-
-enum class MomentSpacing { time, distance };
-
-// Up to `count` of the track's places, evenly in time or along its way, 8 pixels apart or more; no small
-// pieces of the subject, and whole ones as far as there are any. In time order.
-[[nodiscard]] std::vector<SubjectPlace> choose_moments(const SubjectTrack& track, std::uint32_t count,
-                                                       MomentSpacing spacing);
 
 }  // namespace nutik

@@ -159,21 +159,49 @@ class StudyPlanner {
     Pieces pieces;
     const Interval without = study.empty.empty() ? way : interval_of(study.empty);
     const bool is_apart = without.end_ns <= way.begin_ns || without.begin_ns >= way.end_ns;
+    double way_ns = 0;  // each time as strong as it is
+    std::vector<std::pair<Interval, std::pair<double, double>>> moving;
+    for (const Interval& part : without_rests(way)) {
+      const auto gain = [&](std::int64_t time_ns) {
+        return begin + (end - begin) * static_cast<double>(time_ns - way.begin_ns) /
+                           static_cast<double>(way.end_ns - way.begin_ns);
+      };
+      const double first_gain = gain(part.begin_ns), last_gain = gain(part.end_ns);
+      way_ns += static_cast<double>(part.end_ns - part.begin_ns) * (first_gain + last_gain) / 2;
+      moving.push_back({part, {first_gain, last_gain}});
+    }
+    const auto add_way = [&] {
+      for (const auto& [part, gains] : moving) pieces.add(part, gains.first, gains.second);
+    };
     if (!is_apart || request_.style == StudyStyle::frozen) {
-      pieces.add(way, begin, end);
+      add_way();
       return pieces.function();
     }
     const double wanted = kTrailOpacity / track_.covered_share();
     study.trail_strength = std::round(10 * std::clamp(wanted, 1.0, kMostStrength)) / 10;
-    const double way_ns = static_cast<double>(way.end_ns - way.begin_ns) * (begin + end) / 2;
     const double taken =
         -(1 - 1 / study.trail_strength) * way_ns / static_cast<double>(without.end_ns - without.begin_ns);
     const double rounded = std::round(1000 * taken) / 1000;
     const bool is_before = without.begin_ns < way.begin_ns;
     if (is_before) pieces.add(without, rounded, rounded);
-    pieces.add(way, begin, end);
+    add_way();
     if (!is_before) pieces.add(without, rounded, rounded);
     return pieces.function();
+  }
+
+  // Parts of the way in which the subject goes on; all of it for a scene that is exposed for all of the time.
+  [[nodiscard]] std::vector<Interval> without_rests(const Interval& way) const {
+    std::vector<Interval> parts{way};
+    if (request_.style == StudyStyle::frozen) return parts;
+    for (const SampleRange& rest : track_.rests) {
+      const Interval resting = interval_of(rest);
+      if (parts.empty() || resting.begin_ns >= way.end_ns) break;
+      const Interval part = parts.back();
+      parts.pop_back();
+      if (part.begin_ns < resting.begin_ns) parts.push_back({part.begin_ns, resting.begin_ns});
+      if (resting.end_ns < part.end_ns) parts.push_back({resting.end_ns, part.end_ns});
+    }
+    return parts.empty() ? std::vector<Interval>{way} : parts;
   }
 
   const StudyRequest& request_;

@@ -14,6 +14,7 @@
 #include "capture/error.hpp"
 #include "imev/capture_source.hpp"
 #include "render/render_plan.hpp"
+#include "scene/moments.hpp"
 #include "scene/subject.hpp"
 #include "session/mask_request.hpp"
 #include "session/memory_budget.hpp"

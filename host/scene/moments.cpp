@@ -1,0 +1,138 @@
+#include "scene/moments.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nutik {
+namespace {
+
+using Places = std::vector<const SubjectPlace*>;
+
+constexpr std::uint32_t kGapPixels = 8;  // between moments: for the soft borders of both
+
+double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+double middle_of(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+// Whether two places touch or overlap when each is grown by half of so many cells.
+bool overlap(const SubjectPlace& a, const SubjectPlace& b, std::size_t columns, std::size_t gap) {
+  for (const std::size_t cell : a.cells) {
+    const std::size_t x = cell % columns, y = cell / columns;
+    for (std::size_t row = y - std::min(y, gap); row <= y + gap; ++row) {
+      const std::size_t first = row * columns + x - std::min(x, gap);
+      const std::size_t last = row * columns + std::min(x + gap, columns - 1);
+      const auto found = std::ranges::lower_bound(b.cells, first);
+      if (found != b.cells.end() && *found <= last) return true;
+    }
+  }
+  return false;
+}
+
+// Those that are no mere piece of the subject, of which the rest looks like what is behind it, nor only its shadow.
+Places large_places(const SubjectTrack& track) {
+  constexpr double kLeastSize = 0.25, kLeastContrast = 0.5;  // shares of what is usual
+  std::vector<double> sizes, contrasts;
+  for (const SubjectPlace& place : track.places) {
+    sizes.push_back(static_cast<double>(place.cells.size()));
+    contrasts.push_back(place.contrast);
+  }
+  if (sizes.empty()) return {};
+  const double size = middle_of(sizes), contrast = middle_of(contrasts);
+  Places large;
+  for (const SubjectPlace& place : track.places) {
+    if (static_cast<double>(place.cells.size()) >= kLeastSize * size &&
+        place.contrast >= kLeastContrast * contrast) {
+      large.push_back(&place);
+    }
+  }
+  return large;
+}
+
+class Chooser {
+ public:
+  Chooser(const SubjectTrack& track, std::uint32_t count) : track_(track), count_(count) {}
+
+  // Those nearest to wishes that are spread evenly over candidates.
+  void add_evenly(const Places& candidates, MomentSpacing spacing) {
+    std::vector<double> along{0};  // how far each candidate is along the way, or in time
+    for (std::size_t i = 1; i < candidates.size(); ++i) {
+      const SubjectPlace &from = *candidates[i - 1], &to = *candidates[i];
+      along.push_back(along.back() + (spacing == MomentSpacing::time
+                                          ? static_cast<double>(to.sample - from.sample)
+                                          : distance(from.centre, to.centre)));
+    }
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      const double wanted = count_ == 1 ? along.back() / 2 : along.back() * i / (count_ - 1);
+      // Within half of the way to the next wish.
+      const double reach = count_ == 1 ? along.back() : along.back() / (2 * (count_ - 1));
+      const SubjectPlace* best = nullptr;
+      double best_away = reach;
+      for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const double away = std::abs(along[k] - wanted);
+        if (away > best_away || (best != nullptr && away == best_away) || !is_free(*candidates[k])) continue;
+        best = candidates[k];
+        best_away = away;
+      }
+      if (best != nullptr) chosen_.push_back(best);
+    }
+  }
+
+  // What there is room for beside those, the furthest first.
+  void add_others(const Places& candidates) {
+    while (chosen_.size() < count_) {
+      const SubjectPlace* best = nullptr;
+      double furthest = -1;
+      for (const SubjectPlace* candidate : candidates) {
+        double nearest = HUGE_VAL;
+        for (const SubjectPlace* other : chosen_) {
+          nearest = std::min(nearest, distance(candidate->centre, other->centre));
+        }
+        if (nearest <= furthest || !is_free(*candidate)) continue;
+        furthest = nearest;
+        best = candidate;
+      }
+      if (best == nullptr) return;
+      chosen_.push_back(best);
+    }
+  }
+
+  [[nodiscard]] std::vector<SubjectPlace> chosen() const {
+    std::vector<SubjectPlace> moments;
+    for (const SubjectPlace* each : chosen_) moments.push_back(*each);
+    std::ranges::sort(moments, {}, &SubjectPlace::sample);
+    return moments;
+  }
+
+ private:
+  [[nodiscard]] bool is_free(const SubjectPlace& place) const {
+    const std::size_t gap = (kGapPixels - 1) / track_.cell_side + 1;
+    return std::ranges::none_of(
+        chosen_, [&](const SubjectPlace* other) { return overlap(place, *other, track_.cell_columns, gap); });
+  }
+
+  const SubjectTrack& track_;
+  std::uint32_t count_;
+  Places chosen_;
+};
+
+}  // namespace
+
+std::vector<SubjectPlace> choose_moments(const SubjectTrack& track, std::uint32_t count,
+                                         MomentSpacing spacing) {
+  const Places candidates = large_places(track);
+  Places whole = candidates;
+  std::erase_if(whole, [](const SubjectPlace* place) { return place->is_cut_off; });
+  Chooser chooser(track, count);
+  if (const Places& most = whole.size() >= count ? whole : candidates; !most.empty()) {
+    chooser.add_evenly(most, spacing);
+  }
+  chooser.add_others(whole);
+  chooser.add_others(candidates);
+  return chooser.chosen();
+}
+
+}  // namespace nutik
