@@ -108,6 +108,37 @@ SubjectPlace place_of(std::vector<std::size_t> cells, std::uint64_t sample, cons
 
 double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
+// How far places lie apart, and how much steps from one to the next differ from those before them.
+class Way {
+ public:
+  explicit Way(const std::vector<SubjectPlace>& places) {
+    double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL;
+    Point step;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Point& centre = places[i].centre;
+      left = std::min(left, centre.x);
+      right = std::max(right, centre.x);
+      top = std::min(top, centre.y);
+      bottom = std::max(bottom, centre.y);
+      if (i == 0) continue;
+      const Point& before = places[i - 1].centre;
+      const Point next{centre.x - before.x, centre.y - before.y};
+      length_ += std::hypot(next.x, next.y);
+      if (i > 1) turns_ += distance(next, step);
+      step = next;
+    }
+    extent_ = places.empty() ? 0 : std::hypot(right - left, bottom - top);
+  }
+
+  [[nodiscard]] double extent() const { return extent_; }  // in pixels
+  [[nodiscard]] double turns_of_extent() const { return extent_ > 0 ? turns_ / extent_ : 0; }
+  // 0 of what goes straight on, 1.7 of places at random.
+  [[nodiscard]] double turns_of_length() const { return length_ > 0 ? turns_ / length_ : 0; }
+
+ private:
+  double extent_ = 0, length_ = 0, turns_ = 0;
+};
+
 // What was followed from one look to the next.
 class Followed {
  public:
@@ -139,20 +170,17 @@ class Followed {
     places_.push_back(std::move(place));
   }
 
-  // How far it goes, in a measure that lets a small thing that crosses the picture win over a large one that stirs, and
-  // a thing over its shadow.
+  // How far it goes, in a measure that lets a small thing that crosses the picture win over a large one that stirs, a
+  // thing over its shadow, and one that goes its way over what flickers here and there.
   [[nodiscard]] double weight() const {
-    double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL, cells = 0, contrast = 0;
+    double cells = 0, contrast = 0;
     for (const SubjectPlace& place : places_) {
-      left = std::min(left, place.centre.x);
-      right = std::max(right, place.centre.x);
-      top = std::min(top, place.centre.y);
-      bottom = std::max(bottom, place.centre.y);
       cells += static_cast<double>(place.cells.size());
       contrast += place.contrast;
     }
     const auto count = static_cast<double>(places_.size());
-    return std::hypot(right - left, bottom - top) * std::pow(cells / count, 0.25) * contrast / count;
+    const Way way(places_);
+    return way.extent() * std::pow(cells / count, 0.25) * contrast / count / (1 + way.turns_of_extent());
   }
 
   [[nodiscard]] std::vector<SubjectPlace>&& places() && { return std::move(places_); }
@@ -242,6 +270,15 @@ std::vector<SampleRange> rests_of(const std::vector<SubjectPlace>& places, std::
 
 }  // namespace
 
+double SubjectTrack::size() const {
+  std::vector<std::size_t> sizes;
+  for (const SubjectPlace& place : places) sizes.push_back(place.cells.size());
+  if (sizes.empty()) return 0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::ranges::nth_element(sizes, middle);
+  return cell_side * std::sqrt(static_cast<double>(*middle));
+}
+
 double SubjectTrack::covered_share() const {
   const auto counts = [&](std::uint64_t sample) {
     return sample >= places.front().sample && sample <= places.back().sample &&
@@ -287,6 +324,11 @@ SubjectTrack track_subject(CaptureSource& capture, const Picture& plate, std::ui
   });
   track.places = std::move(follower).subject();
   track.rests = rests_of(track.places, track.cell_side);
+  const Way way(track.places);
+  track.extent = way.extent();
+  // A pendulum turns often on its long way; who stands for a while stirs, and yet goes somewhere.
+  constexpr double kMostTurnsOfLength = 1.3, kMostTurnsOfExtent = 2;
+  track.flickers = way.turns_of_length() > kMostTurnsOfLength && way.turns_of_extent() > kMostTurnsOfExtent;
   return track;
 }
 

@@ -32,8 +32,12 @@ struct SubjectTrack {
   std::vector<std::uint64_t> looked_at;  // samples, increasing: all, or so many evenly over the capture
   SampleRange empty;  // the longest stretch of them at which nothing at all differs from the plate
   std::vector<SampleRange> rests;  // where it stays in its place for a good part of the time
+  double extent = 0;               // in pixels, from where its centre is furthest to one side to the other
+  bool flickers = false;           // its places lie here and there, as if it were no single thing
   double moving_share = 0;         // of the picture, that differs from the plate on average
 
+  // In pixels: the root of the area that it usually covers. 0 where there is none.
+  [[nodiscard]] double size() const;
   // For how much of the time from the first place to the last, without rests, a cell that is covered at all is covered,
   // on average.
   [[nodiscard]] double covered_share() const;

@@ -8,6 +8,7 @@
 #include "capture/format.hpp"
 #include "exposure/function_text.hpp"
 #include "scene/code_band.hpp"
+#include "session/mask_making.hpp"
 #include "session/plate_request.hpp"
 
 namespace nutik {
@@ -19,7 +20,7 @@ constexpr double kMostStrength = 8;  // more shows the noise of the empty scene
 constexpr double kMostMoving = 0.2;  // of the picture, on average
 constexpr std::uint64_t kLeastEmptySamples = 4;
 // In pixels: without specks, without holes, and with the subject's soft border.
-constexpr double kSmoothRadius = 1, kGrowRadius = 9, kShrinkRadius = 6;
+constexpr double kSmoothRadius = 1, kGrowRadius = 9, kShrinkRadius = 7;
 
 bool shows_one(StudyStyle style) { return style == StudyStyle::rear_curtain || style == StudyStyle::frozen; }
 
@@ -68,8 +69,9 @@ class Pieces {
 
 class StudyPlanner {
  public:
-  StudyPlanner(const StudyRequest& request, const Timeline& timeline, SubjectTrack track)
-      : request_(request), timeline_(timeline), track_(std::move(track)) {
+  StudyPlanner(const StudyRequest& request, const Timeline& timeline, const std::string& name,
+               SubjectTrack track)
+      : request_(request), timeline_(timeline), name_(name), track_(std::move(track)) {
     shape_ = request.trail.value_or(usual_trail(request.style));
   }
 
@@ -85,6 +87,12 @@ class StudyPlanner {
     }
     for (const SubjectPlace& place : choose_moments(track_, wanted, request_.spacing)) {
       study.moments.push_back(place.sample);
+    }
+    if (study.moments.size() < std::min(wanted, 2u)) {
+      throw NoSubject(format(
+          "{}: what moves goes {:.0f} pixels, and is {:.0f} pixels large: at no two moments does it lie "
+          "apart from itself. A single moment can be shown, frozen or at the end of its trail",
+          name_, track_.extent, track_.size()));
     }
     if (study.moments.size() < wanted) {
       study.notes.push_back(
@@ -206,11 +214,27 @@ class StudyPlanner {
 
   const StudyRequest& request_;
   const Timeline& timeline_;
+  const std::string& name_;  // of the capture, for messages
   SubjectTrack track_;
   TrailShape shape_;
 };
 
 }  // namespace
+
+MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& capture_name) {
+  MadeMask made = make_mask(study.mask, &capture, capture_name, [&] { return std::move(study.plate); });
+  const auto left = made.mask.pixels_per_tag();
+  for (std::size_t i = 0; i < made.steps.size(); ++i) {
+    const StepReport& step = made.steps[i];
+    if (2 * left[step.tag] >= step.pixel_count) continue;
+    throw NoSubject(nutik::format(
+        "{}: the subject overlaps with itself: of the {} pixels that it has at picture {} moments after it "
+        "cover "
+        "all but {}. It goes too little for its size. Name moments further apart, or show a single one",
+        capture_name, step.pixel_count, study.moments[i], left[step.tag]));
+  }
+  return made;
+}
 
 Study plan_study(CaptureSource& capture, const std::string& capture_name, const StudyRequest& request,
                  const MemoryBudget& memory, const ReportedProgress& progress) {
@@ -242,9 +266,17 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
         "{}: nothing moves: no part of it differs from the rest of the time by more than {} codes",
         capture_name, by_codes));
   }
+  if (track.flickers && std::holds_alternative<std::uint32_t>(request.moments)) {
+    throw NoSubject(nutik::format(
+        "{}: what differs from the scene at rest flickers here and there over {:.0f} pixels, and nothing of "
+        "it "
+        "goes its way as one thing: light that changes, leaves, or many things at once. Name a region with a "
+        "single subject, a part of the time, or the moments to show",
+        capture_name, track.extent));
+  }
   Study study;
   study.plate = std::move(plate.picture);
-  const StudyPlanner planner(request, capture.timeline(), std::move(track));
+  const StudyPlanner planner(request, capture.timeline(), capture_name, std::move(track));
   planner.choose(study);
   planner.add_regions(study);
   planner.add_functions(study);

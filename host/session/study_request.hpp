@@ -16,6 +16,7 @@
 #include "render/render_plan.hpp"
 #include "scene/moments.hpp"
 #include "scene/subject.hpp"
+#include "session/mask_making.hpp"
 #include "session/mask_request.hpp"
 #include "session/memory_budget.hpp"
 #include "session/reported_progress.hpp"
@@ -45,6 +46,11 @@ struct EverythingMoves : InputError {
   using InputError::InputError;
 };
 
+// What moves makes no study.
+struct NoSubject : InputError {
+  using InputError::InputError;
+};
+
 struct Study {
   std::vector<std::uint64_t> moments;  // samples: of tags 1, 2, …; what is left has tag 0
   MaskRequest mask;
@@ -60,5 +66,9 @@ struct Study {
 [[nodiscard]] Study plan_study(CaptureSource& capture, const std::string& capture_name,
                                const StudyRequest& request, const MemoryBudget& memory,
                                const ReportedProgress& progress = {});
+
+// The regions of its moments, of the capture that it was planned for; takes its plate. Throws NoSubject where they cover
+// one another.
+[[nodiscard]] MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& capture_name);
 
 }  // namespace nutik

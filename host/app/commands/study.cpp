@@ -153,8 +153,7 @@ int run_study(const Options& stated) {
   Session session = open_still(options, moved);
   Study study = plan_study(session.capture(), capture_name, request, session.devices().request().memory,
                            progress_bar("looking for the subject", options.quiet));
-  const MadeMask made =
-      make_mask(study.mask, &session.capture(), capture_name, [&] { return std::move(study.plate); });
+  const MadeMask made = make_regions(study, session.capture(), capture_name);
   ExposureRequest exposure;
   exposure.gains = Shared(FunctionSet(study.functions));
   exposure.mask = Shared(CountedMask(feathered(made.mask, Feather::parse(kFeather))));
