@@ -19,6 +19,7 @@ constexpr double kTrailOpacity = 0.5;
 constexpr double kMostStrength = 8;  // more shows the noise of the empty scene
 constexpr double kMostMoving = 0.2;  // of the picture, on average
 constexpr std::uint64_t kLeastEmptySamples = 4;
+constexpr double kLeastExtent = 1.0 / 16;  // of the picture's longer side, that a subject goes
 // In pixels: without specks, without holes, and with the subject's soft border.
 constexpr double kSmoothRadius = 1, kGrowRadius = 9, kShrinkRadius = 7;
 
@@ -265,6 +266,13 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
     throw InputError(nutik::format(
         "{}: nothing moves: no part of it differs from the rest of the time by more than {} codes",
         capture_name, by_codes));
+  }
+  const std::uint32_t side = std::max(format.shape.width, format.shape.height);
+  if (kLeastExtent * side > track.extent && std::holds_alternative<std::uint32_t>(request.moments)) {
+    throw NoSubject(nutik::format(
+        "{}: nothing goes anywhere: what moves most goes {:.0f} pixels of {}, and is {:.0f} pixels "
+        "large. Take a part of the picture, or name the moments to show",
+        capture_name, track.extent, side, track.size()));
   }
   if (track.flickers && std::holds_alternative<std::uint32_t>(request.moments)) {
     throw NoSubject(nutik::format(

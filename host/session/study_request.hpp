@@ -15,6 +15,7 @@
 #include "imev/capture_source.hpp"
 #include "render/render_plan.hpp"
 #include "scene/moments.hpp"
+#include "scene/shots.hpp"
 #include "scene/subject.hpp"
 #include "session/mask_making.hpp"
 #include "session/mask_request.hpp"

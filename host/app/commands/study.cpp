@@ -3,24 +3,20 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 
 #include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
+#include "app/commands/study_shot.hpp"
 #include "app/output/output_name.hpp"
-#include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/shell_text.hpp"
-#include "session/camera_check.hpp"
 #include "session/error.hpp"
 #include "session/format.hpp"
 #include "session/functions.hpp"
-#include "session/mask_making.hpp"
 #include "session/pictures.hpp"
-#include "session/plate_request.hpp"
 #include "session/size_text.hpp"
 #include "session/time_text.hpp"
 #include "system/output_file.hpp"
@@ -30,9 +26,6 @@ namespace {
 
 // How far the subject's border is blended with what lies around it.
 constexpr const char* kFeather = "2px";
-
-// What regions are grown by, and the soft edge of them: less hides in these.
-constexpr double kMostCameraPixels = 4;
 
 constexpr std::string_view kAboutRegions =
     "# What is the subject at each moment? What is not in the plate then.";
@@ -107,31 +100,6 @@ void check_text(const std::filesystem::path& file, std::string_view begins,
                           is_input ? "is also an input" : "exists and is of no study"));
 }
 
-MemoryNeeds study_needs(const CaptureFormat& capture) {
-  MemoryNeeds needs = mask_making_needs(capture);
-  needs.add(plate_making_needs(capture));
-  needs.add(camera_check_needs(capture));
-  return needs;
-}
-
-// Where the camera moved, a clip is read once more, with its pictures moved back.
-Session open_still(Options& options, std::optional<MovedCamera>& moved) {
-  {
-    Session session = open_session(options, {.besides = study_needs});
-    moved = moved_camera(session.capture());
-    if (!moved || moved->pixels <= kMostCameraPixels) return session;
-    if (!session.is_clip()) {
-      throw InputError(
-          format("{}: {}. A study needs a camera that stands still: encode the clip again with "
-                 "--align rigid",
-                 options.operands.front(), moved->text()));
-    }
-  }
-  moved.reset();
-  options.align = "homography";
-  return open_session(options, {.besides = study_needs});
-}
-
 }  // namespace
 
 int run_study(const Options& stated) {
@@ -146,13 +114,10 @@ int run_study(const Options& stated) {
   check_text(files.functions, kAboutFunctions, inputs);
   check_text(files.commands, kAboutRegions, inputs);
 
-  const std::string& capture_name = options.operands.front();
+  const std::string capture_name = options.operands.front();
   // A camera that corrects its exposure changes the whole scene, and nothing of it rests.
   options.deflicker |= !is_tik(capture_name);
-  std::optional<MovedCamera> moved;
-  Session session = open_still(options, moved);
-  Study study = plan_study(session.capture(), capture_name, request, session.devices().request().memory,
-                           progress_bar("looking for the subject", options.quiet));
+  auto [session, study, moved] = plan_study(options, request);
   const MadeMask made = make_regions(study, session.capture(), capture_name);
   ExposureRequest exposure;
   exposure.gains = Shared(FunctionSet(study.functions));
