@@ -12,6 +12,8 @@ constexpr std::uint32_t kCellsToASide = 48;
 constexpr std::uint32_t kManyUncertain = 16;  // one of so many pixels, or more: cells hang together
 constexpr std::uint32_t kSpotsToASide = 3;    // of a cell
 constexpr double kMostOfAPlace = 0.6;         // looks the same at two looks
+// A place that never looks the same for so much of the time has no look of its own: leaves, or noise.
+constexpr double kLeastAlike = 1.0 / 8;
 
 std::uint32_t cell_side(const Shape& shape) {
   return (std::max(shape.width, shape.height) - 1) / kCellsToASide + 1;
@@ -133,10 +135,19 @@ PlaceTimes::Clock PlaceTimes::clock_of(const std::vector<std::uint16_t>& bins, s
     longest = like_it;
     best = a;
   }
+  std::vector<std::uint8_t> runs;
+  std::int64_t alike_ns = 0;
+  for (std::size_t look = 0; look < looks; ++look) {
+    runs.push_back(same[best * looks + look] >= kMostOfAPlace ? 1 : 0);
+    if (runs.back() != 0) alike_ns += starts_ns_[look + 1] - starts_ns_[look];
+  }
+  if (static_cast<double>(alike_ns) < kLeastAlike * static_cast<double>(timeline_.duration_ns())) {
+    runs.assign(looks, 1);
+  }
   Clock clock;
   std::int64_t before_ns = 0;
   for (std::size_t look = 0; look < looks; ++look) {
-    clock.runs.push_back(same[best * looks + look] >= kMostOfAPlace ? 1 : 0);
+    clock.runs.push_back(runs[look]);
     clock.before_ns.push_back(before_ns);
     if (clock.runs.back() != 0) before_ns += starts_ns_[look + 1] - starts_ns_[look];
   }

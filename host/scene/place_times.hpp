@@ -2,7 +2,7 @@
 //
 //   in:      a capture, which of its pixels are uncertain, how far codes of the same light may lie apart
 //   out:     clocks, one for each place: uncertain pixels that hang together. They run while most of the place looks as
-//            it does for longest
+//            it does for longest; always, where that is for less than an eighth of the time
 //   always:  a subject that hardly stirs holds many of its pixels for longer than what is behind it, but not all at once
 //            for as long as that
 #pragma once

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t kMostCellsToASide = 48;
 constexpr double kLeastChange = 1.0 / 16;  // of a cell's mean, as a share of white
 constexpr double kLeastChanged = 0.6;      // of all cells, at a cut
-constexpr double kMostBeside = 0.5;        // of that, from each of the two pictures to the next on its side
+constexpr double kMostBeside = 0.6;        // of that, from each of the two pictures to the next on its side
 
 using Means = std::vector<float>;
 

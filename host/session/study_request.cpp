@@ -31,6 +31,8 @@ TrailShape usual_trail(StudyStyle style) {
     case StudyStyle::rear_curtain: return TrailShape::ramp;
     case StudyStyle::strobe: return TrailShape::none;
     case StudyStyle::frozen: return TrailShape::even;
+    case StudyStyle::clean:
+    case StudyStyle::slit: break;
   }
   return TrailShape::none;
 }
@@ -81,6 +83,7 @@ class StudyPlanner {
       study.moments = stated_moments(*times, timeline_);
       return;
     }
+    study.are_moments_found = true;
     const std::uint32_t wanted = shows_one(request_.style) ? 1 : std::get<std::uint32_t>(request_.moments);
     if (request_.style == StudyStyle::rear_curtain) {
       study.moments = {last_whole_place().sample};
@@ -222,8 +225,35 @@ class StudyPlanner {
 
 }  // namespace
 
+namespace {
+
+// Columns as equal as can be, at moments spread over all of the time.
+Study slit_study(CaptureSource& capture, const std::string& name, std::uint32_t wanted) {
+  const std::uint64_t samples = capture.timeline().sample_count();
+  const auto columns =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>({wanted, samples, capture.format().shape.width}));
+  if (columns < 2) throw InputError(format("{}: a single column shows nothing of the time", name));
+  Study study;
+  for (std::uint32_t i = 0; i < columns; ++i) {
+    const std::uint64_t sample = std::uint64_t{i} * (samples - 1) / (columns - 1);
+    Pieces moment;
+    moment.add({capture.timeline().start_ns(sample), capture.timeline().end_ns(sample)}, 1, 1);
+    study.moments.push_back(sample);
+    study.functions.emplace(static_cast<std::uint8_t>(i), moment.function());
+  }
+  study.mask.steps.push_back({{"--grid"}, 0, select::Grid{columns, 1}, std::nullopt, {}});
+  if (columns < wanted) {
+    study.notes.push_back(format("{} columns, not {}: there are no more {}", columns, wanted,
+                                 columns == samples ? "pictures" : "pixels in a row"));
+  }
+  return study;
+}
+
+}  // namespace
+
 MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& capture_name) {
   MadeMask made = make_mask(study.mask, &capture, capture_name, [&] { return std::move(study.plate); });
+  if (!study.are_moments_found) return made;
   const auto left = made.mask.pixels_per_tag();
   for (std::size_t i = 0; i < made.steps.size(); ++i) {
     const StepReport& step = made.steps[i];
@@ -239,6 +269,9 @@ MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& c
 
 Study plan_study(CaptureSource& capture, const std::string& capture_name, const StudyRequest& request,
                  const MemoryBudget& memory, const ReportedProgress& progress) {
+  if (request.style == StudyStyle::slit) {
+    return slit_study(capture, capture_name, std::get<std::uint32_t>(request.moments));
+  }
   const CaptureFormat& format = capture.format();
   OutputFormat codes;
   codes.type = code_type(format);
@@ -252,6 +285,11 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
                       "it does where nobody held "
                       "the camera still. A study needs a scene that rests and something that moves in it",
                       capture_name, 100 * moving));
+  }
+  if (request.style == StudyStyle::clean) {
+    Study study;
+    study.plate = std::move(plate.picture);
+    return study;
   }
   const auto by_codes = static_cast<std::uint32_t>(std::ceil(2 * CodeBand::kLeastShare * format.white_code));
   SubjectTrack track = track_subject(capture, plate.picture, by_codes, progress);

@@ -29,7 +29,9 @@ enum class StudyStyle {
   trail,         // sharp moments over the trail of the whole way
   strobe,        // sharp moments, and nothing between them
   rear_curtain,  // the last moment, and a trail that grows towards it
-  frozen         // one moment in a scene that is exposed for all of the time
+  frozen,        // one moment in a scene that is exposed for all of the time
+  clean,         // the scene without what moves: its plate
+  slit           // columns, each at a moment later than the one to its left
 };
 enum class TrailShape { even, fade, ramp, none };
 
@@ -53,7 +55,9 @@ struct NoSubject : InputError {
 };
 
 struct Study {
-  std::vector<std::uint64_t> moments;  // samples: of tags 1, 2, …; what is left has tag 0
+  // Samples: of tags 1, 2, …; what is left has tag 0. Of a slit's columns: of tags 0, 1, …
+  std::vector<std::uint64_t> moments;
+  bool are_moments_found = false;  // not stated
   MaskRequest mask;
   FunctionSet functions;      // as a function file has them, to be normalized by their integrals
   double trail_strength = 1;  // how many times as strong the trail is as in a plain exposure
@@ -68,8 +72,8 @@ struct Study {
                                const StudyRequest& request, const MemoryBudget& memory,
                                const ReportedProgress& progress = {});
 
-// The regions of its moments, of the capture that it was planned for; takes its plate. Throws NoSubject where they cover
-// one another.
+// The regions of its moments, of the capture that it was planned for; takes its plate. Throws NoSubject where moments that
+// were found cover one another.
 [[nodiscard]] MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& capture_name);
 
 }  // namespace nutik

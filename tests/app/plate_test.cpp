@@ -31,7 +31,12 @@ TEST_F(Plates, HoldWhatEachPixelHoldsMostOften) {
     for (const auto& shown : scene_.pictures) ++held[shown[i]];
     const std::size_t longest = *std::ranges::max_element(held);
     const int x = static_cast<int>(i) % plate.cols, y = static_cast<int>(i) / plate.cols;
-    EXPECT_EQ(held[plate.at<std::uint8_t>(y, x)], longest) << x << ", " << y;
+    // What is uncertain is told together with what lies around.
+    if (2 * longest >= count) {
+      EXPECT_EQ(held[plate.at<std::uint8_t>(y, x)], longest) << x << ", " << y;
+    } else {
+      EXPECT_GT(held[plate.at<std::uint8_t>(y, x)], 0u) << x << ", " << y;
+    }
     EXPECT_EQ(unsure.at<std::uint8_t>(y, x), 2 * longest < count ? 255 : 0) << x << ", " << y;
     uncertain += 2 * longest < count ? 1u : 0u;
   }

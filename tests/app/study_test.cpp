@@ -50,18 +50,23 @@ TEST_F(Study, ShowsTheSubjectAsItWasAtEachMoment) {
 }
 
 TEST_F(Study, WritesTheCommandsThatMakeTheSame) {
-  for (const char* style : {"trail", "strobe", "rear-curtain", "frozen"}) {
+  for (const char* style : {"trail", "strobe", "rear-curtain", "frozen", "slit", "clean"}) {
+    std::filesystem::remove(scratch_ / "study.pgm");
     ASSERT_EQ(run({"study", "clip.tik", "--style", style, "--depth", "16", "-o", "study.png"}).status, 0)
         << style;
+    const bool has_mask = std::string_view(style) != "clean";
+    ASSERT_EQ(std::filesystem::exists(scratch_ / "study.pgm"), has_mask) << style;
     const std::string picture = test::read_file(scratch_ / "study.png"),
-                      mask = test::read_file(scratch_ / "study.pgm");
+                      mask = has_mask ? test::read_file(scratch_ / "study.pgm") : "";
     std::filesystem::remove(scratch_ / "study.png");
     std::filesystem::remove(scratch_ / "study.pgm");
     const std::string folder = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path().string();
     const std::string command =
         "cd '" + scratch_.folder().string() + "' && PATH='" + folder + "':$PATH sh -e study.txt";
     ASSERT_EQ(std::system((command + " > log 2>&1").c_str()), 0) << test::read_file(scratch_ / "log");
-    EXPECT_TRUE(test::read_file(scratch_ / "study.pgm") == mask) << style;
+    if (has_mask) {
+      EXPECT_TRUE(test::read_file(scratch_ / "study.pgm") == mask) << style;
+    }
     EXPECT_TRUE(test::read_file(scratch_ / "study.png") == picture) << style;
   }
 }
@@ -139,6 +144,132 @@ TEST_F(Study, UndoesWhatTheCameraDidToItsExposure) {
   const cv::Mat steady = cv::imread((scratch_ / "steady.png").string(), cv::IMREAD_UNCHANGED);
   const cv::Mat dim = cv::imread((scratch_ / "dim.png").string(), cv::IMREAD_UNCHANGED);
   EXPECT_LE(cv::norm(steady, dim, cv::NORM_INF), 2.0);
+}
+
+// Frames of a grey clip in a folder, each by its number.
+class DrawnClip {
+ public:
+  explicit DrawnClip(std::filesystem::path folder) : folder_(std::move(folder)) {
+    std::filesystem::create_directory(folder_);
+  }
+  void add(const cv::Mat& frame) {
+    cv::imwrite((folder_ / (std::to_string(1000 + count_++) + ".png")).string(), frame);
+  }
+
+ private:
+  std::filesystem::path folder_;
+  int count_ = 0;
+};
+
+// A texture that no other number has.
+cv::Mat ground_of(int number) {
+  cv::Mat frame(96, 160, CV_8UC1);
+  cv::RNG random(static_cast<std::uint64_t>(number + 1));
+  for (int y = 0; y < frame.rows; y += 8) {
+    for (int x = 0; x < frame.cols; x += 8) frame(cv::Rect(x, y, 8, 8)) = random.uniform(60, 160);
+  }
+  return frame;
+}
+
+TEST_F(Study, ShowsOneShotOfAClipWithCuts) {
+  DrawnClip clip(scratch_ / "shots");
+  for (int k = 0; k < 24; ++k) clip.add(ground_of(100 + k / 12 * 50));  // twelve still ones each
+  for (int k = 0; k < 20; ++k) {
+    cv::Mat frame = ground_of(7);
+    frame(cv::Rect(4 + 7 * k, 40, 12, 12)) = 250;
+    clip.add(frame);
+  }
+  const auto result = run({"study", "-f", "100", "shots", "-o", "shots.png"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find(
+                "the clip has 3 shots, which begin at pictures 0, 12, 24: of the longest that makes a study, "
+                "pictures 24 … 43 were taken"),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(test::read_file(scratch_ / "shots.txt").find("--from 24f --to 44f"), std::string::npos);
+  ASSERT_EQ(run({"encode", "-f", "100", "shots", "shots.tik"}).status, 0);
+  const auto refused = run({"study", "shots.tik", "-o", "none.png"});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find("it has 3 shots, which begin at pictures 0, 12, 24"), std::string::npos)
+      << refused.err;
+}
+
+TEST_F(Study, RefusesWhatGoesLessThanItsOwnSize) {
+  DrawnClip clip(scratch_ / "stirs");
+  for (int k = 0; k < 20; ++k) {
+    cv::Mat frame = ground_of(7);
+    if (k >= 12) frame(cv::Rect(40 + 3 * (k - 12), 20, 60, 60)) = 250;
+    clip.add(frame);
+  }
+  const auto result = run({"study", "-f", "100", "stirs", "-o", "stirs.png"});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_NE(result.err.find(
+                "goes 21 pixels, and is 60 pixels large: at no two moments does it lie apart from itself"),
+            std::string::npos)
+      << result.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "stirs.png"));
+  EXPECT_EQ(run({"study", "-f", "100", "stirs", "--style", "frozen", "-o", "stirs.png"}).status, 0);
+}
+
+TEST_F(Study, RefusesWhatFlickersHereAndThere) {
+  DrawnClip clip(scratch_ / "flickers");
+  cv::RNG random(5);
+  for (int k = 0; k < 40; ++k) {
+    cv::Mat frame = ground_of(7);
+    frame(cv::Rect(50 + random.uniform(0, 30), 30 + random.uniform(0, 30), 12, 12)) = 250;
+    clip.add(frame);
+  }
+  const auto result = run({"study", "-f", "100", "flickers", "-o", "flickers.png"});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_NE(result.err.find("nothing of it goes its way as one thing"), std::string::npos) << result.err;
+}
+
+// A square that comes, rests for four fifths of its time, and goes on.
+TEST_F(Study, LeavesRestsOutOfTheTrail) {
+  DrawnClip clip(scratch_ / "rests");
+  for (int k = 0; k < 100; ++k) {
+    const int along = k < 10 ? k : k < 90 ? 10 : k - 80;
+    cv::Mat frame = ground_of(7);
+    frame(cv::Rect(4 + 7 * along, 40, 12, 12)) = 250;
+    if (along != 10 || k % 2 == 0) clip.add(frame);
+    if (along == 10 && k % 2 != 0) clip.add(ground_of(7));  // so that the plate is sure
+  }
+  ASSERT_EQ(run({"study", "-f", "100", "rests", "--moments", "2f,98f", "-o", "rests.png"}).status, 0);
+  // Beside the way the picture is the ground; where it rested, no more than a pass of it is left.
+  const cv::Mat study = picture("rests.png"), ground = ground_of(7);
+  EXPECT_NEAR(study.at<std::uint8_t>(10, 10), ground.at<std::uint8_t>(10, 10), 1);
+  double most = 0;
+  for (int x = 24; x < 140; ++x)
+    most = std::max(most, double(std::abs(study.at<std::uint8_t>(46, x) - ground.at<std::uint8_t>(46, x))));
+  double at_rest = 0;
+  for (int x = 76; x < 84; ++x)
+    at_rest =
+        std::max(at_rest, double(std::abs(study.at<std::uint8_t>(46, x) - ground.at<std::uint8_t>(46, x))));
+  EXPECT_LE(at_rest, most);
+}
+
+TEST_F(Study, ShowsEachColumnAtItsOwnMoment) {
+  const auto result =
+      run({"study", "clip.tik", "--style", "slit", "--moments", "4", "--json", "-o", "slit.png"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  ASSERT_EQ(json["moments"].size(), 4u);
+  const cv::Mat slit = picture("slit.png");
+  for (int x = 0; x < slit.cols; ++x) {
+    const auto column = static_cast<std::size_t>(x * 4 / slit.cols);
+    const auto sample = json["moments"][column]["sample"].get<std::size_t>();
+    for (int y = 0; y < slit.rows; ++y) {
+      ASSERT_EQ(slit.at<std::uint8_t>(y, x),
+                scene_.pictures[sample][static_cast<std::size_t>(y * slit.cols + x)])
+          << x << ", " << y;
+    }
+  }
+  const auto which = run({"study", "clip.tik", "--style", "slit", "--moments", "1f,3f"});
+  EXPECT_EQ(which.status, 2);
+  EXPECT_NE(which.err.find("how many there are, not which"), std::string::npos) << which.err;
+  const auto trail = run({"study", "clip.tik", "--style", "clean", "--trail", "fade"});
+  EXPECT_EQ(trail.status, 2);
+  EXPECT_NE(trail.err.find("--trail says nothing to --style clean"), std::string::npos) << trail.err;
 }
 
 TEST_F(Study, SaysWhyThereIsNone) {

@@ -132,6 +132,28 @@ TEST(Plate, LooksAtTheColoursOfOneTimeTogether) {
   EXPECT_NEAR(code_of(capture, plate.light.values<double>()[1]), 100, 1e-9);
 }
 
+// A scene of 80 that three people stand in, one after another, each of whom hides the same place: two have the
+// same dark legs, and no two the same coat. These legs are held for 45 % of the time, and what is behind them for 40 %.
+TEST(Plate, ShowsOfAnUncertainPlaceWhatItHoldsLongestAsAWhole) {
+  constexpr std::uint32_t kSide = 48;
+  CaptureFormat capture = format(1, 1, 255);
+  capture.shape = {kSide, kSide, 1};
+  Rasters rasters;
+  for (int k = 0; k < 100; ++k) {
+    const bool is_first = k >= 10 && k < 35, is_second = k >= 50 && k < 70, is_third = k >= 80 && k < 95;
+    std::vector<std::byte> raster(std::size_t{kSide} * kSide, std::byte{80});
+    for (std::uint32_t y = 8; y < 40 && (is_first || is_second || is_third); ++y) {
+      const int legs = is_third ? 40 : 10, coat = is_first ? 120 : is_second ? 200 : 160;
+      for (std::uint32_t x = 16; x < 32; ++x) raster[y * kSide + x] = std::byte(y < 24 ? coat : legs);
+    }
+    rasters.push_back(std::move(raster));
+  }
+  MemoryCapture held(capture, Timeline::constant({100, 1}, Timeline::kFullShutter, 100), rasters, 37);
+  const Plate plate = make_plate(held, CodeBand::of_codes(capture, 4), 1 << 24);
+  EXPECT_EQ(plate.uncertain.pixel_count(), 32u * 16u);
+  for (const double light : plate.light.values<double>()) ASSERT_NEAR(code_of(capture, light), 80, 1e-9);
+}
+
 TEST(Plate, SaysTheLeastMemoryThatWorks) {
   MemoryCapture capture = one_pixel({1, 2}, {0, 10});
   const CodeBand band = CodeBand::of_codes(capture.format(), 0);

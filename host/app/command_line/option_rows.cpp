@@ -252,11 +252,12 @@ constexpr Option kRows[] = {
     heading("The study"),
     {0, "style", "NAME", subject, bit(Id::study), &Options::style,
      "trail (sharp moments over the whole way), strobe (moments alone), rear-curtain (the last moment, and "
-     "a trail that grows towards it) or frozen (one moment in a scene exposed for all of the time) "
-     "(default: trail)",
-     "trail strobe rear-curtain frozen"},
+     "a trail that grows towards it), frozen (one moment in a scene exposed for all of the time), clean (the "
+     "scene without what moves) or slit (columns, each later than the one to its left) (default: trail)",
+     "trail strobe rear-curtain frozen clean slit"},
     {0, "moments", "N|TIMES", subject, bit(Id::study), &Options::moments,
-     "how many moments, or which: 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen 1)"},
+     "how many moments, or which: 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen 1); of slit "
+     "how many columns (default: 256)"},
     {0, "spacing", "time|distance", subject, bit(Id::study), &Options::spacing,
      "moments are evenly apart in time, or along the way (default: time)", "time distance"},
     {0, "trail", "SHAPE", subject, bit(Id::study), &Options::trail,

@@ -9,6 +9,7 @@
 #include "app/commands/opened_session.hpp"
 #include "app/commands/study_shot.hpp"
 #include "app/output/output_name.hpp"
+#include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
@@ -17,6 +18,7 @@
 #include "session/format.hpp"
 #include "session/functions.hpp"
 #include "session/pictures.hpp"
+#include "session/plate_request.hpp"
 #include "session/size_text.hpp"
 #include "session/time_text.hpp"
 #include "system/output_file.hpp"
@@ -27,10 +29,9 @@ namespace {
 // How far the subject's border is blended with what lies around it.
 constexpr const char* kFeather = "2px";
 
-constexpr std::string_view kAboutRegions =
-    "# What is the subject at each moment? What is not in the plate then.";
+constexpr std::string_view kAboutCommands = "# What makes the same study by hand.";
 constexpr std::string_view kAboutFunctions =
-    "# M0: everything between the moments; M1 and so on: the subject at each.";
+    "# The light of each part of the picture: M0, M1 and so on are values of the mask.";
 
 // The files of a study: its picture, and beside it what that was made with.
 struct StudyFiles {
@@ -53,13 +54,12 @@ std::string functions_text(const FunctionSet& functions) {
   return text;
 }
 
-// What was stated of the clip and, of an exposure, of the picture: as words of another command.
-std::string stated_words(const Options& options, bool of_exposure) {
+// What was stated of the clip and of the picture, as far as another command knows it: as words of that.
+std::string stated_words(const Options& options, CommandId command) {
   std::string words;
   for (const Option& option : app::options()) {
-    const bool counts = option.describes_clip() ||
-                        (of_exposure && (option.makes_picture() || option.scope == Scope::computing));
-    if (!counts || !option.is_in(options)) continue;
+    const bool counts = option.makes_picture() || option.scope == Scope::computing;
+    if (!counts || !option.is_of(command) || !option.is_in(options)) continue;
     words += " " + option.name();
     if (const std::string* const value = option.stated(options)) words += " " + shell_word(*value);
   }
@@ -67,28 +67,37 @@ std::string stated_words(const Options& options, bool of_exposure) {
 }
 
 // The exposure by hand.
-Options exposing(const Options& options, const StudyFiles& files) {
+Options exposing(const Options& options, const StudyFiles& files, StudyStyle style) {
   Options by_hand = options;
   by_hand.mask = files.mask.string();
   by_hand.functions = files.functions.string();
-  by_hand.feather = kFeather;
+  if (style != StudyStyle::slit) by_hand.feather = kFeather;
   by_hand.normalize = "integral";
   return by_hand;
 }
 
 // What makes the same by hand.
-std::string commands_text(const Options& options, const StudyFiles& files, const Study& study) {
-  std::string regions;
-  for (std::size_t i = 0; i < study.moments.size(); ++i) {
-    const MaskStep& step = study.mask.steps[i];
-    regions += format(" \\\n  --tag {} --subject {}f", step.tag, study.moments[i]);
-    for (const RegionChange& change : step.changes) regions += " " + change_words(change);
-  }
+std::string commands_text(const Options& options, const StudyFiles& files, const Study& study,
+                          StudyStyle style) {
   const auto name = [](const std::filesystem::path& path) { return shell_word(path.string()); };
   const std::string capture = shell_word(options.operands.front());
-  return format("{}\nnutik-cl mask{}{} \\\n  {} {}\nnutik-cl{} \\\n  {} {}\n", kAboutRegions,
-                stated_words(options, false), regions, capture, name(files.mask),
-                stated_words(exposing(options, files), true), capture, name(files.picture));
+  if (style == StudyStyle::clean) {
+    return format("{}\nnutik-cl plate{} \\\n  {} {}\n", kAboutCommands,
+                  stated_words(options, CommandId::plate), capture, name(files.picture));
+  }
+  std::string regions;
+  for (const MaskStep& step : study.mask.steps) {
+    if (style == StudyStyle::slit) {
+      regions += format(" --grid {}x1", study.moments.size());
+    } else {
+      regions += format(" \\\n  --tag {} --subject {}f", step.tag, study.moments[step.tag - 1U]);
+    }
+    for (const RegionChange& change : step.changes) regions += " " + change_words(change);
+  }
+  return format("{}\nnutik-cl mask{}{} \\\n  {} {}\nnutik-cl{} \\\n  {} {}\n", kAboutCommands,
+                stated_words(options, CommandId::mask), regions, capture, name(files.mask),
+                stated_words(exposing(options, files, style), CommandId::expose), capture,
+                name(files.picture));
 }
 
 // What is written as text replaces an earlier study's, and nothing else.
@@ -98,6 +107,13 @@ void check_text(const std::filesystem::path& file, std::string_view begins,
   if (!is_input && (!std::filesystem::exists(file) || begins.starts_with(first_bytes(file)))) return;
   throw UsageError(format("{} {}; it is not replaced. Choose another name for the picture", file.string(),
                           is_input ? "is also an input" : "exists and is of no study"));
+}
+
+void add_notes(Answer& answer, const Session& session, const std::optional<MovedCamera>& moved,
+               const Study& study) {
+  answer.tell_source(session);
+  std::ranges::move(camera_notes(moved), std::back_inserter(answer.notes));
+  std::ranges::copy(study.notes, std::back_inserter(answer.notes));
 }
 
 }  // namespace
@@ -112,16 +128,31 @@ int run_study(const Options& stated) {
   inputs.push_back(files.picture.string());
   check_mask_output(files.mask, inputs);
   check_text(files.functions, kAboutFunctions, inputs);
-  check_text(files.commands, kAboutRegions, inputs);
+  check_text(files.commands, kAboutCommands, inputs);
 
   const std::string capture_name = options.operands.front();
   // A camera that corrects its exposure changes the whole scene, and nothing of it rests.
   options.deflicker |= !is_tik(capture_name);
   auto [session, study, moved] = plan_study(options, request);
+  if (request.style == StudyStyle::clean) {
+    const MadePlate plate =
+        make_plate(session.capture(), capture_name, {},
+                   output_format(output_request(options), files.picture, session.format()),
+                   session.devices().request().memory, progress_bar("reading", options.quiet));
+    write_text(files.commands, commands_text(options, files, study, request.style));
+    write_picture(files.picture, plate.picture, {}, file_wishes(output_request(options)));
+    Answer answer{{{"picture", files.picture.string()}, {"commands", files.commands.string()}}};
+    answer.line = format("{}: {}, the scene without what moves; {}: the command", files.picture.string(),
+                         shape_text(plate.picture.shape), files.commands.string());
+    add_notes(answer, session, moved, study);
+    return tell(options, files.picture, answer);
+  }
   const MadeMask made = make_regions(study, session.capture(), capture_name);
   ExposureRequest exposure;
   exposure.gains = Shared(FunctionSet(study.functions));
-  exposure.mask = Shared(CountedMask(feathered(made.mask, Feather::parse(kFeather))));
+  const bool is_slit = request.style == StudyStyle::slit;
+  exposure.mask = is_slit ? Shared(CountedMask(made.mask))
+                          : Shared(CountedMask(feathered(made.mask, Feather::parse(kFeather))));
   exposure.normalization = Normalization::parse("integral");
   const ExposedPicture exposed =
       session.render(exposure, output_format(output_request(options), files.picture, session.format()));
@@ -130,8 +161,8 @@ int run_study(const Options& stated) {
 
   write_picture(files.mask, made.mask.to_picture());
   write_text(files.functions, format("{}\n{}", kAboutFunctions, functions_text(study.functions)));
-  write_text(files.commands, commands_text(options, files, study));
-  PictureRecipe recipe(recipe_sources(exposing(options, files)));
+  write_text(files.commands, commands_text(options, files, study, request.style));
+  PictureRecipe recipe(recipe_sources(exposing(options, files, request.style)));
   write_picture(files.picture, exposed.picture, recipe.text(tally.precision()),
                 file_wishes(output_request(options)));
 
@@ -148,15 +179,14 @@ int run_study(const Options& stated) {
     moments +=
         format("{} {} ({}f)", moments.empty() ? "" : ",", duration_text(timeline.start_ns(sample)), sample);
   }
-  answer.line =
-      format("{}: {}, the subject at{}", files.picture.string(), shape_text(exposed.picture.shape), moments);
+  if (is_slit) moments = format(" {} moments, one in each column", study.moments.size());
+  answer.line = format("{}: {}, {}{}", files.picture.string(), shape_text(exposed.picture.shape),
+                       is_slit ? "the scene at" : "the subject at", moments);
   answer.details.push_back(
       format("  {}, {}: the mask and the functions, to be changed by hand; {}: the commands",
              files.mask.string(), files.functions.string(), files.commands.string()));
   tally.end(answer, session, options.verbose);
-  answer.tell_source(session);
-  std::ranges::move(camera_notes(moved), std::back_inserter(answer.notes));
-  std::ranges::move(study.notes, std::back_inserter(answer.notes));
+  add_notes(answer, session, moved, study);
   return tell(options, files.picture, answer);
 }
 

@@ -10,6 +10,7 @@ namespace nutik::app {
 namespace {
 
 constexpr std::uint32_t kMostMoments = 50;
+constexpr std::uint32_t kMostColumns = 256;  // of a slit: a mask has no more values
 
 // The value that a name stands for; `usual` where nothing was said.
 template <typename Value, std::size_t count>
@@ -29,6 +30,8 @@ constexpr std::array kStyles{
     std::pair<std::string_view, StudyStyle>("strobe", StudyStyle::strobe),
     std::pair<std::string_view, StudyStyle>("rear-curtain", StudyStyle::rear_curtain),
     std::pair<std::string_view, StudyStyle>("frozen", StudyStyle::frozen),
+    std::pair<std::string_view, StudyStyle>("clean", StudyStyle::clean),
+    std::pair<std::string_view, StudyStyle>("slit", StudyStyle::slit),
 };
 constexpr std::array kSpacings{
     std::pair<std::string_view, MomentSpacing>("time", MomentSpacing::time),
@@ -41,9 +44,15 @@ constexpr std::array kTrails{
     std::pair<std::string_view, std::optional<TrailShape>>("none", TrailShape::none),
 };
 
-std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(const std::string& text) {
+std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(const std::string& text,
+                                                                   StudyStyle style) {
   if (text.find_first_not_of("0123456789") == std::string::npos) {
-    return parse_whole_number(text, "--moments", 1, kMostMoments);
+    return style == StudyStyle::slit ? parse_whole_number(text, "--moments", 2, kMostColumns)
+                                     : parse_whole_number(text, "--moments", 1, kMostMoments);
+  }
+  if (style == StudyStyle::slit) {
+    throw UsageError(
+        "--style slit shows a moment in each column; say with --moments how many there are, not which");
   }
   std::vector<StatedTime> times;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -64,7 +73,17 @@ StudyRequest study_request(const Options& options) {
   request.style = named(options.style, "--style", kStyles, request.style);
   request.spacing = named(options.spacing, "--spacing", kSpacings, request.spacing);
   request.trail = named(options.trail, "--trail", kTrails, request.trail);
-  if (options.moments) request.moments = parse_moments(*options.moments);
+  const bool is_slit = request.style == StudyStyle::slit, is_clean = request.style == StudyStyle::clean;
+  for (const auto& [said, name] : {std::pair(options.moments.has_value() && !is_slit, "--moments"),
+                                   std::pair(options.spacing.has_value(), "--spacing"),
+                                   std::pair(options.trail.has_value(), "--trail")}) {
+    if ((is_slit || is_clean) && said) {
+      throw UsageError(format("{} says nothing to --style {}, which shows {}; leave it out", name,
+                              *options.style, is_slit ? "a moment in each column" : "no subject"));
+    }
+  }
+  if (is_slit) request.moments = kMostColumns;
+  if (options.moments) request.moments = parse_moments(*options.moments, request.style);
   const bool shows_one = request.style == StudyStyle::rear_curtain || request.style == StudyStyle::frozen;
   const auto* times = std::get_if<std::vector<StatedTime>>(&request.moments);
   if (shows_one && options.moments && (times == nullptr || times->size() != 1)) {
