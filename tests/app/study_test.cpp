@@ -238,14 +238,16 @@ TEST_F(Study, LeavesRestsOutOfTheTrail) {
   // Beside the way the picture is the ground; where it rested, no more than a pass of it is left.
   const cv::Mat study = picture("rests.png"), ground = ground_of(7);
   EXPECT_NEAR(study.at<std::uint8_t>(10, 10), ground.at<std::uint8_t>(10, 10), 1);
-  double most = 0;
-  for (int x = 24; x < 140; ++x)
-    most = std::max(most, double(std::abs(study.at<std::uint8_t>(46, x) - ground.at<std::uint8_t>(46, x))));
-  double at_rest = 0;
-  for (int x = 76; x < 84; ++x)
-    at_rest =
-        std::max(at_rest, double(std::abs(study.at<std::uint8_t>(46, x) - ground.at<std::uint8_t>(46, x))));
-  EXPECT_LE(at_rest, most);
+  const auto most_within = [&](int from, int to) {
+    int most = 0;
+    for (int x = from; x < to; ++x) {
+      most = std::max(most, std::abs(study.at<std::uint8_t>(46, x) - ground.at<std::uint8_t>(46, x)));
+    }
+    return most;
+  };
+  const int at_rest = most_within(76, 84), before = most_within(32, 68);
+  EXPECT_GT(before, 2) << "there is a trail";
+  EXPECT_LE(at_rest, before + 2);
 }
 
 TEST_F(Study, ShowsEachColumnAtItsOwnMoment) {
