@@ -268,6 +268,56 @@ std::vector<SampleRange> rests_of(const std::vector<SubjectPlace>& places, std::
   return rests;
 }
 
+// Finds the subject of a region.
+class Tracker {
+ public:
+  Tracker(const Shape& shape, std::uint32_t side, const Rectangle& region, std::uint64_t looks)
+      : follower_(shape, side), looks_(looks) {
+    track_.cell_side = side;
+    left_ = region.x / side;
+    top_ = region.y / side;
+    right_ = (region.x + region.width - 1) / side;
+    bottom_ = (region.y + region.height - 1) / side;
+  }
+
+  void add(DifferingCells cells, std::uint64_t sample) {
+    const std::uint32_t columns = cells.region.width;
+    for (std::size_t cell = 0; cell < cells.region.inside.size(); ++cell) {
+      const std::size_t column = cell % columns, row = cell / columns;
+      if (column < left_ || column > right_ || row < top_ || row > bottom_) cells.region.inside[cell] = 0;
+    }
+    track_.looked_at.push_back(sample);
+    track_.cell_columns = columns;
+    const std::uint64_t differing = cells.region.pixel_count();
+    track_.moving_share += static_cast<double>(differing) /
+                           (static_cast<double>(right_ - left_ + 1) *
+                            static_cast<double>(bottom_ - top_ + 1) * static_cast<double>(looks_));
+    without_ = differing >= kLeastCells ? SampleRange()
+                                        : SampleRange{without_.empty() ? sample : without_.first, sample + 1};
+    if (without_.size() > track_.empty.size()) track_.empty = without_;
+    follower_.add(cells, sample);
+  }
+
+  [[nodiscard]] SubjectTrack track() && {
+    track_.places = std::move(follower_).subject();
+    track_.rests = rests_of(track_.places, track_.cell_side);
+    const Way way(track_.places);
+    track_.extent = way.extent();
+    // A pendulum turns often on its long way; who stands for a while stirs, and yet goes somewhere.
+    constexpr double kMostTurnsOfLength = 1.3, kMostTurnsOfExtent = 2;
+    track_.flickers =
+        way.turns_of_length() > kMostTurnsOfLength && way.turns_of_extent() > kMostTurnsOfExtent;
+    return std::move(track_);
+  }
+
+ private:
+  Follower follower_;
+  std::uint64_t looks_;
+  std::size_t left_, top_, right_, bottom_;  // cells of the region
+  SampleRange without_;                      // anything, up to now
+  SubjectTrack track_;
+};
+
 }  // namespace
 
 double SubjectTrack::size() const {
@@ -299,37 +349,24 @@ double SubjectTrack::covered_share() const {
   return static_cast<double>(sum) / (static_cast<double>(swept.size()) * static_cast<double>(looks));
 }
 
-SubjectTrack track_subject(CaptureSource& capture, const Picture& plate, std::uint32_t by_codes,
-                           const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+std::vector<SubjectTrack> track_subjects(CaptureSource& capture, const Picture& plate, std::uint32_t by_codes,
+                                         const std::vector<Rectangle>& regions,
+                                         const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
   const CaptureFormat& format = capture.format();
   const Looks looks(capture.timeline().sample_count());
   const Difference difference(format, plate, by_codes);
-  Follower follower(format.shape, difference.side());
-  SubjectTrack track;
-  track.cell_side = difference.side();
-  SampleRange stretch;  // without anything, up to now
+  std::vector<Tracker> trackers;
+  for (const Rectangle& region : regions) {
+    trackers.emplace_back(format.shape, difference.side(), region, looks.count());
+  }
   for_each_look(capture, looks, [&](std::uint64_t look, std::span<const std::byte> raster) {
     if (progress) progress(look, looks.count());
-    const std::uint64_t sample = looks.sample(look);
     const DifferingCells cells = difference.cells(raster);
-    track.looked_at.push_back(sample);
-    track.cell_columns = cells.region.width;
-    const std::uint64_t differing = cells.region.pixel_count();
-    track.moving_share += static_cast<double>(differing) /
-                          (static_cast<double>(cells.contrast.size()) * static_cast<double>(looks.count()));
-    stretch = differing >= kLeastCells ? SampleRange()
-                                       : SampleRange{stretch.empty() ? sample : stretch.first, sample + 1};
-    if (stretch.size() > track.empty.size()) track.empty = stretch;
-    follower.add(cells, sample);
+    for (Tracker& tracker : trackers) tracker.add(cells, looks.sample(look));
   });
-  track.places = std::move(follower).subject();
-  track.rests = rests_of(track.places, track.cell_side);
-  const Way way(track.places);
-  track.extent = way.extent();
-  // A pendulum turns often on its long way; who stands for a while stirs, and yet goes somewhere.
-  constexpr double kMostTurnsOfLength = 1.3, kMostTurnsOfExtent = 2;
-  track.flickers = way.turns_of_length() > kMostTurnsOfLength && way.turns_of_extent() > kMostTurnsOfExtent;
-  return track;
+  std::vector<SubjectTrack> tracks;
+  for (Tracker& tracker : trackers) tracks.push_back(std::move(tracker).track());
+  return tracks;
 }
 
 }  // namespace nutik

@@ -43,12 +43,13 @@ struct SubjectTrack {
   [[nodiscard]] double covered_share() const;
 };
 
-// A pixel is not the plate's where a channel differs from it by more than `by_codes`. What hangs together at a sample is
-// taken for the same as what lay nearest where that went at the samples before; of all that was followed so, the subject
-// is what goes furthest for its size. `progress(done, all)` may be empty. Throws InputError where the capture is
-// damaged.
-[[nodiscard]] SubjectTrack track_subject(
+// One in each region, of the pixels there. A pixel is not the plate's where a channel differs from it by more than
+// `by_codes`. What hangs together at a sample is taken for the same as what lay nearest where that went at the samples
+// before; of all that was followed so, the subject is what goes furthest for its size. `progress(done, all)` may be
+// empty. Throws InputError where the capture is damaged.
+[[nodiscard]] std::vector<SubjectTrack> track_subjects(
     CaptureSource& capture, const Picture& plate, std::uint32_t by_codes,
+    const std::vector<Rectangle>& regions,
     const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});
 
 }  // namespace nutik

@@ -6,10 +6,11 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "exposure/function_text.hpp"
 #include "scene/code_band.hpp"
+#include "session/gain_pieces.hpp"
 #include "session/mask_making.hpp"
 #include "session/plate_request.hpp"
+#include "session/study_slit.hpp"
 
 namespace nutik {
 namespace {
@@ -49,59 +50,27 @@ std::vector<std::uint64_t> stated_moments(const std::vector<StatedTime>& times, 
   return samples;
 }
 
-// Gains of pieces of a function, each of its own interval. In time order.
-class Pieces {
- public:
-  void add(Interval interval, double begin_gain, double end_gain) {
-    if (!points_.empty() && points_.back().time_ns == interval.begin_ns) {
-      points_.pop_back();  // it goes on from the piece before it
-      if (points_.back().gain == begin_gain) points_.pop_back();
-    } else {
-      points_.push_back({interval.begin_ns, 0.0});
-    }
-    if (points_.empty() || points_.back().gain != begin_gain)
-      points_.push_back({interval.begin_ns, begin_gain});
-    points_.push_back({interval.end_ns, end_gain});
-    points_.push_back({interval.end_ns, 0.0});
-  }
-  [[nodiscard]] GainFunction function() const { return with_steps(GainFunction(points_)); }
-
- private:
-  std::vector<ControlPoint> points_;
-};
-
 class StudyPlanner {
  public:
   StudyPlanner(const StudyRequest& request, const Timeline& timeline, const std::string& name,
-               SubjectTrack track)
-      : request_(request), timeline_(timeline), name_(name), track_(std::move(track)) {
+               std::vector<SubjectTrack> tracks)
+      : request_(request), timeline_(timeline), name_(name), tracks_(std::move(tracks)) {
     shape_ = request.trail.value_or(usual_trail(request.style));
   }
 
-  void choose(Study& study) const {
-    if (const auto* times = std::get_if<std::vector<StatedTime>>(&request_.moments)) {
-      study.moments = stated_moments(*times, timeline_);
-      return;
+  // Subject by subject.
+  void choose(Study& study) {
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      for (const std::uint64_t sample : moments_of(tracks_[i], study)) {
+        study.moments.push_back(sample);
+        subjects_.push_back(i);
+      }
     }
-    study.are_moments_found = true;
-    const std::uint32_t wanted = shows_one(request_.style) ? 1 : std::get<std::uint32_t>(request_.moments);
-    if (request_.style == StudyStyle::rear_curtain) {
-      study.moments = {last_whole_place().sample};
-      return;
-    }
-    for (const SubjectPlace& place : choose_moments(track_, wanted, request_.spacing)) {
-      study.moments.push_back(place.sample);
-    }
-    if (study.moments.size() < std::min(wanted, 2u)) {
-      throw NoSubject(format(
-          "{}: what moves goes {:.0f} pixels, and is {:.0f} pixels large: at no two moments does it lie "
-          "apart from itself. A single moment can be shown, frozen or at the end of its trail",
-          name_, track_.extent, track_.size()));
-    }
-    if (study.moments.size() < wanted) {
-      study.notes.push_back(
-          format("{} of {} moments are shown: at others the subject would overlap with itself",
-                 study.moments.size(), wanted));
+    constexpr std::size_t kMostTags = 255;
+    if (study.moments.size() > kMostTags) {
+      throw UsageError(format("{} moments of {} subjects are {}; a mask has room for {}",
+                              study.moments.size() / tracks_.size(), tracks_.size(), study.moments.size(),
+                              kMostTags));
     }
   }
 
@@ -111,7 +80,7 @@ class StudyPlanner {
       step.name = {"--subject"};
       step.tag = static_cast<std::uint8_t>(i + 1);
       step.selection = select::Subject{StatedTime::of_pictures(static_cast<std::int64_t>(study.moments[i]))};
-      step.changes = {{RegionChange::Kind::within, 0.0, box_at(study.moments[i])},
+      step.changes = {{RegionChange::Kind::within, 0.0, box_at(tracks_[subjects_[i]], study.moments[i])},
                       {RegionChange::Kind::largest, 0.0, {}},
                       {RegionChange::Kind::smooth, kSmoothRadius, {}},
                       {RegionChange::Kind::grow, kGrowRadius, {}},
@@ -122,27 +91,62 @@ class StudyPlanner {
 
   void add_functions(Study& study) const {
     for (std::size_t i = 0; i < study.moments.size(); ++i) {
-      Pieces moment;
+      GainPieces moment;
       moment.add(interval_of({study.moments[i], study.moments[i] + 1}), 1, 1);
       study.functions.emplace(static_cast<std::uint8_t>(i + 1), moment.function());
     }
-    study.empty = track_.empty;
+    study.empty = empty_of_all();
     if (study.empty.size() < kLeastEmptySamples) study.empty = {};
     study.functions.emplace(std::uint8_t{0}, shape_ == TrailShape::none ? background(study) : trail(study));
   }
 
  private:
-  // Where the subject is at a sample: where it was found last before, if it was not looked for there.
-  [[nodiscard]] select::Rectangle box_at(std::uint64_t sample) const {
-    const auto after = std::ranges::upper_bound(track_.places, sample, {}, &SubjectPlace::sample);
-    const Rectangle& box = (after == track_.places.begin() ? after : after - 1)->box;
+  [[nodiscard]] std::vector<std::uint64_t> moments_of(const SubjectTrack& track, Study& study) const {
+    if (const auto* times = std::get_if<std::vector<StatedTime>>(&request_.moments)) {
+      return stated_moments(*times, timeline_);
+    }
+    study.are_moments_found = true;
+    if (request_.style == StudyStyle::rear_curtain) return {last_whole_place(track).sample};
+    const std::uint32_t wanted = shows_one(request_.style) ? 1 : std::get<std::uint32_t>(request_.moments);
+    std::vector<std::uint64_t> moments;
+    for (const SubjectPlace& place : choose_moments(track, wanted, request_.spacing)) {
+      moments.push_back(place.sample);
+    }
+    if (moments.size() < std::min(wanted, 2u)) {
+      throw NoSubject(format(
+          "{}: what moves goes {:.0f} pixels, and is {:.0f} pixels large: at no two moments does it lie "
+          "apart from itself. A single moment can be shown, frozen or at the end of its trail",
+          name_, track.extent, track.size()));
+    }
+    if (moments.size() < wanted) {
+      study.notes.push_back(
+          format("{} of {} moments are shown: at others the subject would overlap with itself",
+                 moments.size(), wanted));
+    }
+    return moments;
+  }
+
+  // When none of them is there.
+  [[nodiscard]] SampleRange empty_of_all() const {
+    SampleRange empty = tracks_.front().empty;
+    for (const SubjectTrack& track : tracks_) {
+      empty.first = std::max(empty.first, track.empty.first);
+      empty.last = std::max(empty.first, std::min(empty.last, track.empty.last));
+    }
+    return empty;
+  }
+
+  // Where a subject is at a sample: where it was found last before, if it was not looked for there.
+  [[nodiscard]] static select::Rectangle box_at(const SubjectTrack& track, std::uint64_t sample) {
+    const auto after = std::ranges::upper_bound(track.places, sample, {}, &SubjectPlace::sample);
+    const Rectangle& box = (after == track.places.begin() ? after : after - 1)->box;
     return {{double(box.x), double(box.y)}, double(box.width), double(box.height)};
   }
 
-  [[nodiscard]] const SubjectPlace& last_whole_place() const {
-    const auto whole = std::find_if(track_.places.rbegin(), track_.places.rend(),
+  [[nodiscard]] static const SubjectPlace& last_whole_place(const SubjectTrack& track) {
+    const auto whole = std::find_if(track.places.rbegin(), track.places.rend(),
                                     [](const SubjectPlace& place) { return !place.is_cut_off; });
-    return whole == track_.places.rend() ? track_.places.back() : *whole;
+    return whole == track.places.rend() ? track.places.back() : *whole;
   }
 
   [[nodiscard]] Interval interval_of(SampleRange samples) const {
@@ -152,7 +156,7 @@ class StudyPlanner {
   // The scene between the moments: when nothing is there; else the moments together, in each of which most of it is
   // seen.
   [[nodiscard]] GainFunction background(const Study& study) const {
-    Pieces pieces;
+    GainPieces pieces;
     if (!study.empty.empty()) {
       pieces.add(interval_of(study.empty), 1, 1);
     } else {
@@ -161,14 +165,20 @@ class StudyPlanner {
     return pieces.function();
   }
 
-  // The subject's whole way. Where nothing is there for a while, that is taken away again, so that the way may be as
+  // The whole way of the subject, or of all of them. Where nothing is there for a while, that is taken away again, so that the way may be as
   // much stronger.
   [[nodiscard]] GainFunction trail(Study& study) const {
-    const std::uint64_t last =
-        request_.style == StudyStyle::rear_curtain ? study.moments.back() : track_.places.back().sample;
-    const Interval way = interval_of({std::min(track_.places.front().sample, last), last + 1});
+    std::uint64_t first = tracks_.front().places.front().sample, last = 0;
+    double covered = 0;
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      first = std::min(first, tracks_[i].places.front().sample);
+      last = std::max(last, request_.style == StudyStyle::rear_curtain ? study.moments[i]
+                                                                       : tracks_[i].places.back().sample);
+      covered = std::max(covered, tracks_[i].covered_share());
+    }
+    const Interval way = interval_of({std::min(first, last), last + 1});
     const double begin = shape_ == TrailShape::ramp ? 0.0 : 1.0, end = shape_ == TrailShape::fade ? 0.0 : 1.0;
-    Pieces pieces;
+    GainPieces pieces;
     const Interval without = study.empty.empty() ? way : interval_of(study.empty);
     const bool is_apart = without.end_ns <= way.begin_ns || without.begin_ns >= way.end_ns;
     double way_ns = 0;  // each time as strong as it is
@@ -189,7 +199,7 @@ class StudyPlanner {
       add_way();
       return pieces.function();
     }
-    const double wanted = kTrailOpacity / track_.covered_share();
+    const double wanted = kTrailOpacity / covered;
     study.trail_strength = std::round(10 * std::clamp(wanted, 1.0, kMostStrength)) / 10;
     const double taken =
         -(1 - 1 / study.trail_strength) * way_ns / static_cast<double>(without.end_ns - without.begin_ns);
@@ -201,11 +211,12 @@ class StudyPlanner {
     return pieces.function();
   }
 
-  // Parts of the way in which the subject goes on; all of it for a scene that is exposed for all of the time.
+  // Parts of the way in which a single subject goes on; all of it for several, or for a scene that is exposed for all of
+  // the time.
   [[nodiscard]] std::vector<Interval> without_rests(const Interval& way) const {
     std::vector<Interval> parts{way};
-    if (request_.style == StudyStyle::frozen) return parts;
-    for (const SampleRange& rest : track_.rests) {
+    if (request_.style == StudyStyle::frozen || tracks_.size() > 1) return parts;
+    for (const SampleRange& rest : tracks_.front().rests) {
       const Interval resting = interval_of(rest);
       if (parts.empty() || resting.begin_ns >= way.end_ns) break;
       const Interval part = parts.back();
@@ -219,7 +230,8 @@ class StudyPlanner {
   const StudyRequest& request_;
   const Timeline& timeline_;
   const std::string& name_;  // of the capture, for messages
-  SubjectTrack track_;
+  std::vector<SubjectTrack> tracks_;
+  std::vector<std::size_t> subjects_;  // whose moment each is
   TrailShape shape_;
 };
 
@@ -227,26 +239,60 @@ class StudyPlanner {
 
 namespace {
 
-// Columns as equal as can be, at moments spread over all of the time.
-Study slit_study(CaptureSource& capture, const std::string& name, std::uint32_t wanted) {
-  const std::uint64_t samples = capture.timeline().sample_count();
-  const auto columns =
-      static_cast<std::uint32_t>(std::min<std::uint64_t>({wanted, samples, capture.format().shape.width}));
-  if (columns < 2) throw InputError(format("{}: a single column shows nothing of the time", name));
-  Study study;
-  for (std::uint32_t i = 0; i < columns; ++i) {
-    const std::uint64_t sample = std::uint64_t{i} * (samples - 1) / (columns - 1);
-    Pieces moment;
-    moment.add({capture.timeline().start_ns(sample), capture.timeline().end_ns(sample)}, 1, 1);
-    study.moments.push_back(sample);
-    study.functions.emplace(static_cast<std::uint8_t>(i), moment.function());
+std::string text_of(const Rectangle& region) {
+  return format("region {},{},{},{}", region.x, region.y, region.width, region.height);
+}
+
+// Where subjects are looked for, one in each.
+std::vector<Rectangle> regions_of(const StudyRequest& request, const std::string& name, const Shape& shape) {
+  for (const Rectangle& region : request.regions) {
+    if (region.lies_in(shape)) continue;
+    throw UsageError(format("{} does not lie in the {} x {} pixels of {}", text_of(region), shape.width,
+                            shape.height, name));
   }
-  study.mask.steps.push_back({{"--grid"}, 0, select::Grid{columns, 1}, std::nullopt, {}});
-  if (columns < wanted) {
-    study.notes.push_back(format("{} columns, not {}: there are no more {}", columns, wanted,
-                                 columns == samples ? "pictures" : "pixels in a row"));
+  return request.regions.empty() ? std::vector<Rectangle>{Rectangle::whole(shape)} : request.regions;
+}
+
+double uncertain_share(const Region& uncertain, const std::vector<Rectangle>& regions) {
+  std::uint64_t count = 0, all = 0;
+  for (const Rectangle& region : regions) {
+    for (std::uint32_t y = region.y; y < region.y + region.height; ++y) {
+      const auto row = uncertain.inside.begin() + (std::ptrdiff_t{y} * uncertain.width + region.x);
+      count += static_cast<std::uint64_t>(std::count(row, row + region.width, std::uint8_t{1}));
+    }
+    all += std::uint64_t{region.width} * region.height;
   }
-  return study;
+  return static_cast<double>(count) / static_cast<double>(all);
+}
+
+// Throws what makes no study. Moments that are stated are shown wherever the subject goes.
+void check_track(const SubjectTrack& track, const std::string& where, std::uint32_t by_codes,
+                 std::uint32_t side, bool is_stated) {
+  if (track.moving_share > kMostMoving) {
+    throw EverythingMoves(format(
+        "{}: {:.0f} % of the picture differ from the scene at rest on average: everything moves, as it "
+        "does where the camera did. A study needs a scene that rests, and something that moves in it",
+        where, 100 * track.moving_share));
+  }
+  if (track.places.empty()) {
+    throw NoSubject(
+        format("{}: nothing moves: no part of it differs from the rest of the time by more than {} codes",
+               where, by_codes));
+  }
+  if (is_stated) return;
+  if (kLeastExtent * side > track.extent) {
+    throw NoSubject(
+        format("{}: nothing goes anywhere: what moves most goes {:.0f} pixels of {}, and is {:.0f} pixels "
+               "large. Take a part of the picture, or name the moments to show",
+               where, track.extent, side, track.size()));
+  }
+  if (track.flickers) {
+    throw NoSubject(format(
+        "{}: what differs from the scene at rest flickers here and there over {:.0f} pixels, and nothing "
+        "of it goes its way as one thing: light that changes, leaves, or many things at once. Name a "
+        "region with a single subject, a part of the time, or the moments to show",
+        where, track.extent));
+  }
 }
 
 }  // namespace
@@ -273,12 +319,12 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
     return slit_study(capture, capture_name, std::get<std::uint32_t>(request.moments));
   }
   const CaptureFormat& format = capture.format();
+  const std::vector<Rectangle> regions = regions_of(request, capture_name, format.shape);
   OutputFormat codes;
   codes.type = code_type(format);
   codes.white_code = format.white_code;
   MadePlate plate = make_plate(capture, capture_name, {}, codes, memory, progress);
-  const double moving =
-      static_cast<double>(plate.uncertain.pixel_count()) / static_cast<double>(format.shape.pixel_count());
+  const double moving = uncertain_share(plate.uncertain, regions);
   if (moving > kMostMoving) {
     throw EverythingMoves(
         nutik::format("{}: {:.0f} % of the pixels hold no light for half of the time: everything moves, as "
@@ -292,37 +338,15 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
     return study;
   }
   const auto by_codes = static_cast<std::uint32_t>(std::ceil(2 * CodeBand::kLeastShare * format.white_code));
-  SubjectTrack track = track_subject(capture, plate.picture, by_codes, progress);
-  if (track.moving_share > kMostMoving) {
-    throw EverythingMoves(
-        nutik::format("{}: {:.0f} % of the picture differ from the scene at rest on average: everything "
-                      "moves, as it does where the "
-                      "camera did. A study needs a scene that rests, and something that moves in it",
-                      capture_name, 100 * track.moving_share));
-  }
-  if (track.places.empty()) {
-    throw InputError(nutik::format(
-        "{}: nothing moves: no part of it differs from the rest of the time by more than {} codes",
-        capture_name, by_codes));
-  }
-  const std::uint32_t side = std::max(format.shape.width, format.shape.height);
-  if (kLeastExtent * side > track.extent && std::holds_alternative<std::uint32_t>(request.moments)) {
-    throw NoSubject(nutik::format(
-        "{}: nothing goes anywhere: what moves most goes {:.0f} pixels of {}, and is {:.0f} pixels "
-        "large. Take a part of the picture, or name the moments to show",
-        capture_name, track.extent, side, track.size()));
-  }
-  if (track.flickers && std::holds_alternative<std::uint32_t>(request.moments)) {
-    throw NoSubject(nutik::format(
-        "{}: what differs from the scene at rest flickers here and there over {:.0f} pixels, and nothing of "
-        "it "
-        "goes its way as one thing: light that changes, leaves, or many things at once. Name a region with a "
-        "single subject, a part of the time, or the moments to show",
-        capture_name, track.extent));
+  std::vector<SubjectTrack> tracks = track_subjects(capture, plate.picture, by_codes, regions, progress);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const bool is_stated = std::holds_alternative<std::vector<StatedTime>>(request.moments);
+    check_track(tracks[i], request.regions.empty() ? capture_name : capture_name + ", " + text_of(regions[i]),
+                by_codes, std::max(regions[i].width, regions[i].height), is_stated);
   }
   Study study;
   study.plate = std::move(plate.picture);
-  const StudyPlanner planner(request, capture.timeline(), capture_name, std::move(track));
+  StudyPlanner planner(request, capture.timeline(), capture_name, std::move(tracks));
   planner.choose(study);
   planner.add_regions(study);
   planner.add_functions(study);

@@ -40,6 +40,8 @@ struct StudyRequest {
   std::variant<std::uint32_t, std::vector<StatedTime>> moments = std::uint32_t{5};
   MomentSpacing spacing = MomentSpacing::time;
   std::optional<TrailShape> trail;  // none: what the style has
+  std::vector<Rectangle>
+      regions;  // each with a subject of its own, in pixels; none: one in all of the picture
 
   friend bool operator==(const StudyRequest&, const StudyRequest&) = default;
 };
@@ -55,7 +57,7 @@ struct NoSubject : InputError {
 };
 
 struct Study {
-  // Samples: of tags 1, 2, …; what is left has tag 0. Of a slit's columns: of tags 0, 1, …
+  // Samples, of one subject after another: of tags 1, 2, …; what is left has tag 0. Of a slit's columns: of tags 0, 1, …
   std::vector<std::uint64_t> moments;
   bool are_moments_found = false;  // not stated
   MaskRequest mask;

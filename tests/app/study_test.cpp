@@ -250,6 +250,43 @@ TEST_F(Study, LeavesRestsOutOfTheTrail) {
   EXPECT_LE(at_rest, before + 2);
 }
 
+// Two squares, one above the other, on opposite ways.
+TEST_F(Study, FollowsASubjectInEachRegion) {
+  DrawnClip clip(scratch_ / "two");
+  const auto upper = [](int k) { return cv::Rect(4 + 7 * k, 20, 12, 12); };
+  const auto lower = [](int k) { return cv::Rect(140 - 7 * k, 64, 12, 12); };
+  for (int k = 0; k < 20; ++k) {
+    cv::Mat frame = ground_of(7);
+    frame(upper(k)) = 250;
+    frame(lower(k)) = 5;
+    clip.add(frame);
+  }
+  const auto result = run({"study", "-f", "100", "two", "--region", "0,0,160,48", "--region", "0,48,160,48",
+                           "--moments", "3", "--json", "-o", "two.png"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  ASSERT_EQ(json["moments"].size(), 6u);
+  const cv::Mat mask = picture("two.pgm"), study = picture("two.png");
+  for (int tag = 1; tag <= 6; ++tag) {
+    const int sample = json["moments"][static_cast<std::size_t>(tag - 1)]["sample"].get<int>();
+    const cv::Rect place = tag <= 3 ? upper(sample) : lower(sample);
+    const int x = place.x + place.width / 2, y = place.y + place.height / 2;
+    EXPECT_EQ(mask.at<std::uint8_t>(y, x), tag);
+    EXPECT_NEAR(study.at<std::uint8_t>(y, x), tag <= 3 ? 250 : 5, 1);
+  }
+  const auto outside = run({"study", "-f", "100", "two", "--region", "100,0,80,48", "-o", "no.png"});
+  EXPECT_EQ(outside.status, 2);
+  EXPECT_NE(outside.err.find("region 100,0,80,48 does not lie in the 160 x 96 pixels of two"),
+            std::string::npos)
+      << outside.err;
+  const auto none = run({"study", "-f", "100", "two", "--region", "1,2,3", "-o", "no.png"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("--region '1,2,3' is none; write whole pixels"), std::string::npos) << none.err;
+  const auto empty = run({"study", "-f", "100", "two", "--region", "0,84,160,12", "-o", "no.png"});
+  EXPECT_EQ(empty.status, 3);
+  EXPECT_NE(empty.err.find("two, region 0,84,160,12: nothing moves"), std::string::npos) << empty.err;
+}
+
 TEST_F(Study, ShowsEachColumnAtItsOwnMoment) {
   const auto result =
       run({"study", "clip.tik", "--style", "slit", "--moments", "4", "--json", "-o", "slit.png"});

@@ -258,6 +258,9 @@ constexpr Option kRows[] = {
     {0, "moments", "N|TIMES", subject, bit(Id::study), &Options::moments,
      "how many moments, or which: 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen 1); of slit "
      "how many columns (default: 256)"},
+    step("region", "X,Y,W,H",
+         "look for a subject in this rectangle only; several times for as many subjects, each in its own",
+         Id::study),
     {0, "spacing", "time|distance", subject, bit(Id::study), &Options::spacing,
      "moments are evenly apart in time, or along the way (default: time)", "time distance"},
     {0, "trail", "SHAPE", subject, bit(Id::study), &Options::trail,

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "app/requests/requests.hpp"
@@ -66,6 +68,16 @@ std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(const std::st
   return times;
 }
 
+Rectangle region_of(const std::string& text) {
+  const std::vector<double> n = parse_numbers(text, "--region");
+  const auto is_whole = [](double each) { return each >= 0 && each <= 65'535 && each == std::floor(each); };
+  if (n.size() != 4 || !std::ranges::all_of(n, is_whole) || n[2] == 0 || n[3] == 0) {
+    throw UsageError(format("--region '{}' is none; write whole pixels: X,Y,WIDTH,HEIGHT", text));
+  }
+  const auto pixels = [&](std::size_t i) { return static_cast<std::uint32_t>(n[i]); };
+  return {pixels(0), pixels(1), pixels(2), pixels(3)};
+}
+
 }  // namespace
 
 StudyRequest study_request(const Options& options) {
@@ -80,6 +92,14 @@ StudyRequest study_request(const Options& options) {
     if ((is_slit || is_clean) && said) {
       throw UsageError(format("{} says nothing to --style {}, which shows {}; leave it out", name,
                               *options.style, is_slit ? "a moment in each column" : "no subject"));
+    }
+  }
+  for (const Said& said : options.said) {
+    if (said.option != "region") continue;
+    request.regions.push_back(region_of(said.words.front()));
+    if (is_slit || is_clean) {
+      throw UsageError(format("--region says nothing to --style {}, which follows no subject; leave it out",
+                              *options.style));
     }
   }
   if (is_slit) request.moments = kMostColumns;
