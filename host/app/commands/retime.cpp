@@ -40,7 +40,7 @@ int run_retime(const Options& options) {
              request.output.string(), shape_text(capture.shape), counted(timeline.sample_count(), "sample"),
              rate_text(timeline.rate(), "picture"), timeline.shutter_angle().text(), capture.transfer.text(),
              to_text(capture.primaries), aspect_text(capture.pixel_aspect));
-  for (const Note& note : notes) answer.notes.push_back(note_text(note));
+  answer.notes = note_texts(notes);
   return tell(options, request.output, answer, true);
 }
 
