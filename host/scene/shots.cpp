@@ -54,6 +54,29 @@ double changed(const Means& a, const Means& b, std::uint32_t channels) {
   return static_cast<double>(count * channels) / static_cast<double>(a.size());
 }
 
+// How much two pictures are alike up to brightness and contrast, as a camera or a lamp changes them: 1 of the same scene.
+double correlation(const Means& a, const Means& b) {
+  const auto count = static_cast<double>(a.size());
+  double sum_a = 0, sum_b = 0, aa = 0, bb = 0, ab = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double x = a[i], y = b[i];
+    sum_a += x;
+    sum_b += y;
+    aa += x * x;
+    bb += y * y;
+    ab += x * y;
+  }
+  const double spread = (aa - sum_a * sum_a / count) * (bb - sum_b * sum_b / count);
+  return spread > 0 ? (ab - sum_a * sum_b / count) / std::sqrt(spread) : 0;
+}
+
+// A share of cells that differ; none where the scene is the same.
+double step_between(const Means& a, const Means& b, std::uint32_t channels) {
+  constexpr double kSameScene = 0.8;
+  const double share = changed(a, b, channels);
+  return share >= kLeastChanged && correlation(a, b) > kSameScene ? 0 : share;
+}
+
 }  // namespace
 
 std::vector<SampleRange> shots_of(CaptureSource& capture) {
@@ -68,8 +91,8 @@ std::vector<SampleRange> shots_of(CaptureSource& capture) {
       Means means = format.code_bytes == 1
                         ? means_of(format, reinterpret_cast<const std::uint8_t*>(raster.data()))
                         : means_of(format, reinterpret_cast<const std::uint16_t*>(raster.data()));
-      if (!last.empty()) steps.push_back(changed(means, last, format.shape.channels));
-      if (!before.empty()) double_steps.push_back(changed(means, before, format.shape.channels));
+      if (!last.empty()) steps.push_back(step_between(means, last, format.shape.channels));
+      if (!before.empty()) double_steps.push_back(step_between(means, before, format.shape.channels));
       before = std::move(last);
       last = std::move(means);
     }

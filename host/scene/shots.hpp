@@ -1,7 +1,7 @@
 // The shots of a capture: what was filmed without a cut.
 //
 //   always:  shots follow one another, from the first sample to the last. A flash is no cut, as the scene after it is the one
-//            before it, nor is a camera that turns fast, as all its pictures differ
+//            before it, nor a light that is switched on, nor a camera that turns fast, as all its pictures differ
 #pragma once
 
 #include <vector>

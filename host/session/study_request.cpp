@@ -114,9 +114,10 @@ class StudyPlanner {
     }
     if (moments.size() < std::min(wanted, 2u)) {
       throw NoSubject(format(
-          "{}: what moves goes {:.0f} pixels, and is {:.0f} pixels large: at no two moments does it lie "
+          "{}: what moves goes {:.0f} pixels, and is {:.0f} pixels large: at no two moments{} does it lie "
           "apart from itself. A single moment can be shown, frozen or at the end of its trail",
-          name_, track.extent, track.size()));
+          name_, track.extent, track.size(),
+          track.extent > track.size() ? " at which it is seen as a whole" : ""));
     }
     if (moments.size() < wanted) {
       study.notes.push_back(
