@@ -34,7 +34,8 @@ class PathParser {
 
  private:
   [[noreturn]] void fail(const std::string& why) const {
-    throw InputError(format("{}:{}: {}; write one with --camera-path", name_, line_, why));
+    throw InputError(
+        format("{}:{}: {}; the path of a camera is written when a clip is aligned", name_, line_, why));
   }
 
   std::string_view next_line() {

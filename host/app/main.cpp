@@ -8,7 +8,7 @@
 #include "app/output/console.hpp"
 #include "app/output/output_name.hpp"
 #include "app/text/message_text.hpp"
-#include "session/error.hpp"
+#include "session/below/error.hpp"
 #include "system/interruption.hpp"
 #include "system/mapped_file.hpp"
 

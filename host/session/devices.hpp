@@ -1,4 +1,4 @@
-// What computes the pictures of one session or of several: a renderer, started when it is first needed or before.
+// The renderer of one session or of several. It starts in the background or when it is first needed.
 //
 //   threads: any number may use one
 #pragma once
@@ -16,11 +16,11 @@
 #include "opencl/device.hpp"
 #include "opencl/opencl_renderer.hpp"
 #include "render/renderer.hpp"
-#include "session/computing_request.hpp"
+#include "session/requests/computing_request.hpp"
 
 namespace nutik {
 
-// None, or more than one, is meant by what was stated; what() lists those found.
+// The stated name fits no device, or several; what() lists those found.
 struct DeviceNotFound : DeviceError {
   std::string wanted;
   std::vector<DeviceInfo> devices;
@@ -29,32 +29,31 @@ struct DeviceNotFound : DeviceError {
       : DeviceError(error), wanted(std::move(stated)), devices(std::move(found)) {}
 };
 
-// The worst kept verdict on each arithmetic of a device that was tested (opencl/self_test.hpp).
+// For each arithmetic that was tested on a device, its worst verdict (opencl/self_test.hpp).
 [[nodiscard]] std::map<Precision, Verdict> known_verdicts(std::size_t device);
 
 class Devices {
  public:
-  // Told what takes long, a whole line: kernels that are built. On any thread; may be empty.
+  // Called with a whole line when something takes long: kernels are built. On any thread; may be empty.
   using Announce = std::function<void(const std::string& message)>;
 
   explicit Devices(const ComputingRequest& request, Announce announce = {});
 
-  // Starts the device in the background. renderer() and opencl() wait for it, and throw the errors of that.
-  // May be left out.
+  // Starts the device in the background, so that renderer() and opencl() wait less; they throw its errors. Optional.
   void start();
 
   [[nodiscard]] const ComputingRequest& request() const { return request_; }
 
-  // Wait until it is there. Throw DeviceNotFound, DeviceError where the device cannot do what is asked; opencl()
-  // UsageError where the reference was asked for.
+  // Wait until the renderer has started. Throw DeviceNotFound, or DeviceError if the device cannot do what is asked;
+  // opencl() throws UsageError if the reference was asked for.
   [[nodiscard]] Renderer& renderer();
   [[nodiscard]] OpenClRenderer& opencl();
-  // Whether it is there already.
+  // Whether it has started.
   [[nodiscard]] bool is_ready();
 
-  // Blocks of this capture stay where the renderer reads them from, those of the one before no longer. Null: of none.
+  // Keeps blocks of this capture in the renderer's memory in place of the previous one's; null: of none.
   void keep_resident(const CaptureSource* source);
-  // Before a capture goes: it is no longer the resident one.
+  // To be called before a capture is destroyed: its blocks are kept no longer.
   void release(const CaptureSource* source);
 
  private:

@@ -4,7 +4,7 @@
 
 #include "capture/format.hpp"
 #include "render/picture_memory.hpp"
-#include "session/size_text.hpp"
+#include "session/text/size_text.hpp"
 
 namespace nutik {
 BlocksTooLong::BlocksTooLong(std::uint64_t bytes, std::uint32_t block_samples, std::uint64_t sample_bytes,

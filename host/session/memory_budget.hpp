@@ -1,4 +1,4 @@
-// What a session may hold in memory, shared out among those who hold pictures and blocks.
+// How much memory a session may use, and the shares of its parts.
 #pragma once
 
 #include <algorithm>
@@ -17,33 +17,32 @@ struct MemoryBudget {
   // Half of the machine's memory.
   static MemoryBudget of_machine();
 
-  // Of tables that plans have in common.
+  // For gain tables that several plans share.
   [[nodiscard]] std::uint64_t table_bytes() const { return bytes / 32; }
-  // Of blocks where a device reads them.
+  // For blocks that a device reads.
   [[nodiscard]] std::uint64_t rendering_bytes() const { return bytes / 2; }
 
   friend bool operator==(const MemoryBudget&, const MemoryBudget&) = default;
 };
 
-// How many finished pictures of a size may wait to be written: no more than 64 MB of them, but one.
+// How many finished pictures may wait to be written: 64 MB of them, at least one and at most four.
 [[nodiscard]] inline std::uint32_t waiting_pictures(std::uint64_t picture_bytes) {
   return static_cast<std::uint32_t>(std::clamp<std::uint64_t>((64 << 20) / picture_bytes, 1, 4));
 }
 
-// What is held of a capture, or beside it, by its format.
+// Memory that follows from a capture's format.
 using NeedsOfFormat = std::function<MemoryNeeds(const CaptureFormat& capture)>;
 
-// Memory for two copies of a mask: the one in use and the one before. Held of every capture of this format, whatever is
-// rendered of it.
+// Memory for two copies of a mask: the one in use and the one before. Every rendering needs it.
 [[nodiscard]] MemoryNeeds mask_needs(const CaptureFormat& capture);
 
-// What rendering takes at the least, with tables of so many functions over a block of so many samples.
+// The least memory that renders a picture with `function_count` functions from blocks of `block_samples`.
 [[nodiscard]] MemoryNeeds rendering_needs(const CaptureFormat& capture, ValueType type,
                                           std::uint64_t function_count, std::uint64_t block_samples);
 
-// The budget does not hold blocks of so many samples.
+// Blocks of the stated length do not fit the budget.
 struct BlocksTooLong : UsageError {
-  std::uint64_t most_samples;  // that would do
+  std::uint64_t most_samples;  // that fit
 
   BlocksTooLong(std::uint64_t bytes, std::uint32_t block_samples, std::uint64_t sample_bytes,
                 std::uint64_t most_samples);

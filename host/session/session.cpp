@@ -12,11 +12,11 @@
 #include "imev/expected_values.hpp"
 #include "render/picture_memory.hpp"
 #include "render/plan_cache.hpp"
-#include "session/clip_memory.hpp"
-#include "session/clip_source.hpp"
-#include "session/forward_clip.hpp"
-#include "session/retiming.hpp"
-#include "session/scratch_capture.hpp"
+#include "session/clips/clip_memory.hpp"
+#include "session/clips/clip_source.hpp"
+#include "session/clips/forward_clip.hpp"
+#include "session/clips/scratch_capture.hpp"
+#include "session/making/retiming.hpp"
 
 namespace nutik {
 

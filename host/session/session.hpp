@@ -22,12 +22,12 @@
 
 #include "opencl/validation.hpp"
 #include "render/trace.hpp"
+#include "session/clips/source_check.hpp"
 #include "session/devices.hpp"
 #include "session/exposed_picture.hpp"
-#include "session/exposure_request.hpp"
 #include "session/reported_progress.hpp"
-#include "session/source_check.hpp"
-#include "session/source_request.hpp"
+#include "session/requests/exposure_request.hpp"
+#include "session/requests/source_request.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik {
@@ -71,9 +71,9 @@ class Session {
     ReportedProgress progress = {};  // of a clip that is read whole, in samples
     std::stop_token stop = {};       // ends that: Cancelled
 
-    // What the caller will hold in memory beside the session, of the budget: pictures that wait to be written, say.
+    // The part of the budget that the caller uses beside the session: for pictures that wait to be written, say.
     NeedsOfFormat besides = {};
-    bool renders = true;  // false: whoever asks only reads the capture
+    bool renders = true;  // false: the capture will only be read
   };
 
   // Throws UsageError where the request describes a clip and names a .tik, or does not fit the clip; InputError where
@@ -123,7 +123,7 @@ class Session {
   // How many finished pictures of a type may wait to be written.
   [[nodiscard]] std::uint32_t waiting_pictures(ValueType type) const;
 
-  // The capture itself, for whoever reads its blocks; of a whole session.
+  // The capture itself, to read its blocks. Of a session that was read whole.
   [[nodiscard]] tik::Reader& capture();
 
  private:

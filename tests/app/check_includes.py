@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The program is a client of the session: host/app includes the session's headers, the system's and its own, what writes
-its outputs knows nothing of its requests, and it stays small, as the engine belongs below it.
+its outputs knows nothing of its requests, and it stays small, as the engine belongs below it. What lies below names no
+option of a command line.
 
     check_includes.py --app FOLDER
 """
@@ -17,6 +18,7 @@ MOST_LINES = 6700  # 6500, and 200 for rows, notes and errors of newer commands 
 NEWER = {"commands/camera_files.cpp", "commands/camera_files.hpp", "commands/plate.cpp", "commands/solve.cpp",
          "commands/study.cpp", "commands/study_shot.cpp", "commands/study_shot.hpp", "requests/align_words.cpp", "requests/solve_words.cpp", "requests/study_words.cpp"}
 MOST_LINES_OF_NEWER = 200
+OPTION = re.compile(r'"(?:[^"\\\n]|\\.)*--[a-z](?:[^"\\\n]|\\.)*"')  # within a text
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
@@ -46,6 +48,9 @@ def main():
             mistakes.append(f"{name}: {sizes[name]} lines, {MOST_LINES_OF_NEWER} at most")
     if lines > MOST_LINES:
         mistakes.append(f"{lines} lines, {MOST_LINES} at most: what is engine belongs into the session")
+    for path in sorted(app.parent.rglob("*.[ch]pp")):
+        if app not in path.parents:
+            mistakes += [f"{path.relative_to(app.parent)} says {text}" for text in OPTION.findall(path.read_text(encoding="utf-8"))]
     for mistake in mistakes:
         print(mistake)
     print(f"{len(files)} files, {lines} lines, {len(mistakes)} mistakes")

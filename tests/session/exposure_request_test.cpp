@@ -1,11 +1,11 @@
-#include "session/exposure_request.hpp"
+#include "session/requests/exposure_request.hpp"
 
 #include <gtest/gtest.h>
 
 #include "capture/error.hpp"
-#include "session/frames_request.hpp"
-#include "session/function_input.hpp"
-#include "session/series_request.hpp"
+#include "session/requests/frames_request.hpp"
+#include "session/requests/function_input.hpp"
+#include "session/requests/series_request.hpp"
 
 namespace nutik {
 namespace {
@@ -28,7 +28,7 @@ constexpr std::string_view kTwoFunctions =
 ExposureRequest with_functions(std::string_view text, const Mask& mask) {
   ExposureRequest request;
   request.gains = read_functions(text, "two.fn").functions;
-  request.mask = Shared(CountedMask(mask));
+  request.mask = Shared(MaskWithRegions(mask));
   return request;
 }
 

@@ -1,4 +1,4 @@
-#include "session/input_check.hpp"
+#include "session/making/input_check.hpp"
 
 #include <gtest/gtest.h>
 

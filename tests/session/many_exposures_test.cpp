@@ -4,12 +4,12 @@
 #include <cstdlib>
 #include <thread>
 
-#include "session/activity.hpp"
-#include "session/pictures.hpp"
-#include "session/series_making.hpp"
-#include "session/shared_warnings.hpp"
-#include "session/sheet_making.hpp"
-#include "session/video_making.hpp"
+#include "session/below/activity.hpp"
+#include "session/below/pictures.hpp"
+#include "session/making/series_making.hpp"
+#include "session/making/sheet_making.hpp"
+#include "session/making/video_making.hpp"
+#include "session/text/shared_warnings.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
 #include "support/still_clip.hpp"

@@ -1,4 +1,4 @@
-#include "session/mask_making.hpp"
+#include "session/making/mask_making.hpp"
 
 #include <gtest/gtest.h>
 

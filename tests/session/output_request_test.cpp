@@ -1,4 +1,4 @@
-#include "session/output_request.hpp"
+#include "session/requests/output_request.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // A capture that is corrected is, but for what was corrected, the capture it was.
-#include "session/retiming.hpp"
+#include "session/making/retiming.hpp"
 
 #include <gtest/gtest.h>
 
 #include "capture/error.hpp"
-#include "session/evened_times.hpp"
+#include "session/clips/evened_times.hpp"
 #include "support/messages.hpp"
 #include "support/payloads.hpp"
 #include "support/random_case.hpp"

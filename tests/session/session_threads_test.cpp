@@ -48,7 +48,7 @@ std::vector<Asked> requests_of(const RandomCase& random) {
       asked.exposure.start = StatedTime::of_nanoseconds(duration_ns / 40 * (step % 10));
     } else {
       asked.exposure.gains = Shared(random.functions);
-      asked.exposure.mask = Shared(CountedMask(random.mask));
+      asked.exposure.mask = Shared(MaskWithRegions(random.mask));
     }
     asked.exposure.gain = 1.0 + 0.1 * static_cast<double>(k);
     if (k % 5 == 4) asked.rectangle = Rectangle{0, 0, (shape.width + 1) / 2, (shape.height + 1) / 2};

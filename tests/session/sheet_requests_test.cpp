@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "session/contact_request.hpp"
-#include "session/sweep_request.hpp"
+#include "session/requests/contact_request.hpp"
+#include "session/requests/sweep_request.hpp"
 
 namespace nutik {
 namespace {

@@ -1,4 +1,4 @@
-#include "session/stated_time.hpp"
+#include "session/requests/stated_time.hpp"
 
 #include <gtest/gtest.h>
 

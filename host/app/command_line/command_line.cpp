@@ -8,8 +8,8 @@
 #include "app/command_line/words.hpp"
 #include "app/text/shell_text.hpp"
 #include "app/text/text_table.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {

@@ -7,8 +7,8 @@
 #include "app/command_line/help.hpp"
 #include "app/command_line/words.hpp"
 #include "app/output/console.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
 
 namespace nutik::app {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "app/output/console.hpp"
 #include "app/text/text_table.hpp"
-#include "session/format.hpp"
+#include "session/below/format.hpp"
 
 namespace nutik::app {
 namespace {

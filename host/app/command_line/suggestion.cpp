@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "session/format.hpp"
+#include "session/below/format.hpp"
 
 namespace nutik::app {
 namespace {

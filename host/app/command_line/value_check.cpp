@@ -7,8 +7,8 @@
 
 #include "app/command_line/suggestion.hpp"
 #include "app/text/text_table.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
 
 namespace nutik::app {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "app/command_line/suggestion.hpp"
 #include "app/command_line/value_check.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/functions.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/below/functions.hpp"
 
 namespace nutik::app {
 namespace {

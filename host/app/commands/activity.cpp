@@ -1,4 +1,4 @@
-#include "session/activity.hpp"
+#include "session/below/activity.hpp"
 
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
@@ -9,11 +9,11 @@
 #include "app/text/number_text.hpp"
 #include "app/text/shell_text.hpp"
 #include "app/text/text_table.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/pictures.hpp"
-#include "session/size_text.hpp"
-#include "session/time_text.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/below/pictures.hpp"
+#include "session/text/size_text.hpp"
+#include "session/text/time_text.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {

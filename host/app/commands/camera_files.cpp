@@ -1,8 +1,8 @@
 #include "app/commands/camera_files.hpp"
 
-#include "session/camera_record.hpp"
-#include "session/output_check.hpp"
-#include "session/pictures.hpp"
+#include "session/below/pictures.hpp"
+#include "session/clips/camera_record.hpp"
+#include "session/making/output_check.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {

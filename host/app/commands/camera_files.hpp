@@ -8,7 +8,7 @@
 
 #include "app/command_line/options.hpp"
 #include "app/output/report.hpp"
-#include "session/camera_record.hpp"
+#include "session/clips/camera_record.hpp"
 
 namespace nutik::app {
 

@@ -2,9 +2,9 @@
 
 #include "app/commands/commands.hpp"
 #include "app/output/report.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/size_text.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/text/size_text.hpp"
 
 namespace nutik::app {
 namespace {

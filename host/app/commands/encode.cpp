@@ -8,10 +8,10 @@
 #include "app/requests/requests.hpp"
 #include "app/text/shell_text.hpp"
 #include "app/text/timing_text.hpp"
-#include "session/encoding.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/size_text.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/clips/encoding.hpp"
+#include "session/text/size_text.hpp"
 
 namespace nutik::app {
 
@@ -30,7 +30,7 @@ int run_encode(const Options& options) {
   check_output(output, OutputKind::tik, input_files(options));
   const CameraFiles camera_files(options, output, input_files(options));
 
-  const Encoded encoded =
+  const EncodedCapture encoded =
       encode(source, {output, codec}, memory_budget(options), progress_bar("encoding", options.quiet));
   print_warnings(encoded.warnings);
   const Shape& shape = encoded.capture.shape;

@@ -7,10 +7,10 @@
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/pictures.hpp"
-#include "session/size_text.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/below/pictures.hpp"
+#include "session/text/size_text.hpp"
 
 namespace nutik::app {
 

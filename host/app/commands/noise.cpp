@@ -1,12 +1,12 @@
 #include "app/commands/commands.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "session/clip_source.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/measured_noise.hpp"
-#include "session/output_check.hpp"
-#include "session/pictures.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/below/pictures.hpp"
+#include "session/clips/clip_source.hpp"
+#include "session/clips/measured_noise.hpp"
+#include "session/making/output_check.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {

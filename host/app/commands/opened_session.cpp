@@ -5,7 +5,7 @@
 #include "app/output/console.hpp"
 #include "app/output/progress.hpp"
 #include "app/requests/requests.hpp"
-#include "session/format.hpp"
+#include "session/below/format.hpp"
 
 namespace nutik::app {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/command_line/options.hpp"
-#include "session/camera_check.hpp"
+#include "session/clips/camera_check.hpp"
 #include "session/session.hpp"
 
 namespace nutik::app {

@@ -1,4 +1,4 @@
-#include "session/plate_request.hpp"
+#include "session/making/plate_request.hpp"
 
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
@@ -7,11 +7,11 @@
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/output_check.hpp"
-#include "session/pictures.hpp"
-#include "session/size_text.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/below/pictures.hpp"
+#include "session/making/output_check.hpp"
+#include "session/text/size_text.hpp"
 
 namespace nutik::app {
 

@@ -4,10 +4,10 @@
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "app/text/shell_text.hpp"
-#include "session/capture.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/size_text.hpp"
+#include "session/below/capture.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/text/size_text.hpp"
 
 namespace nutik::app {
 

@@ -4,11 +4,11 @@
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "app/text/message_text.hpp"
-#include "session/clip_source.hpp"
-#include "session/format.hpp"
-#include "session/retiming.hpp"
-#include "session/size_text.hpp"
-#include "session/time_text.hpp"
+#include "session/below/format.hpp"
+#include "session/clips/clip_source.hpp"
+#include "session/making/retiming.hpp"
+#include "session/text/size_text.hpp"
+#include "session/text/time_text.hpp"
 
 namespace nutik::app {
 

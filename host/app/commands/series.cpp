@@ -8,10 +8,10 @@
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "session/format.hpp"
-#include "session/picture_queue.hpp"
-#include "session/series_making.hpp"
-#include "session/size_text.hpp"
+#include "session/below/format.hpp"
+#include "session/making/picture_queue.hpp"
+#include "session/making/series_making.hpp"
+#include "session/text/size_text.hpp"
 
 namespace nutik::app {
 int run_series(const Options& options) {

@@ -10,11 +10,11 @@
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/pictures.hpp"
-#include "session/sheet_making.hpp"
-#include "session/size_text.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/below/pictures.hpp"
+#include "session/making/sheet_making.hpp"
+#include "session/text/size_text.hpp"
 
 namespace nutik::app {
 namespace {

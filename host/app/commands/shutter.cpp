@@ -6,11 +6,11 @@
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
-#include "session/clip_source.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/functions.hpp"
-#include "session/stated_time.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/below/functions.hpp"
+#include "session/clips/clip_source.hpp"
+#include "session/requests/stated_time.hpp"
 
 namespace nutik::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "session/solve_request.hpp"
+#include "session/making/solve_request.hpp"
 
 #include <algorithm>
 
@@ -11,10 +11,10 @@
 #include "app/requests/requests.hpp"
 #include "app/text/shell_text.hpp"
 #include "app/text/text_table.hpp"
-#include "session/format.hpp"
-#include "session/output_check.hpp"
-#include "session/size_text.hpp"
-#include "session/time_text.hpp"
+#include "session/below/format.hpp"
+#include "session/making/output_check.hpp"
+#include "session/text/size_text.hpp"
+#include "session/text/time_text.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {
@@ -108,10 +108,10 @@ std::vector<std::string> notes_of(const SolveRequest& request, const SolvedExpos
                            request.functions.gains[gain], solved.numbers.gains[gain]));
   }
   if (solved.open_count > 0) {
-    notes.push_back(format(
-        "the wishes are kept in more than one way: gains could still change together, in {}. What is "
-        "nearest to where they began was taken; another wish, or bounds, would tell",
-        counted(solved.open_count, "way")));
+    notes.push_back(
+        format("the wishes are kept in more than one way: gains could still change together, in {}. What is "
+               "nearest to where they began was taken; another wish, or bounds, would tell",
+               counted(solved.open_count, "way")));
   }
   return notes;
 }

@@ -1,5 +1,5 @@
-#include "session/clip_source.hpp"
-#include "session/study_request.hpp"
+#include "session/clips/clip_source.hpp"
+#include "session/making/study_request.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -14,13 +14,13 @@
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/shell_text.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/functions.hpp"
-#include "session/pictures.hpp"
-#include "session/plate_request.hpp"
-#include "session/size_text.hpp"
-#include "session/time_text.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/below/functions.hpp"
+#include "session/below/pictures.hpp"
+#include "session/making/plate_request.hpp"
+#include "session/text/size_text.hpp"
+#include "session/text/time_text.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {
@@ -151,8 +151,8 @@ int run_study(const Options& stated) {
   ExposureRequest exposure;
   exposure.gains = Shared(FunctionSet(study.functions));
   const bool is_slit = request.style == StudyStyle::slit;
-  exposure.mask = is_slit ? Shared(CountedMask(made.mask))
-                          : Shared(CountedMask(feathered(made.mask, Feather::parse(kFeather))));
+  exposure.mask = is_slit ? Shared(MaskWithRegions(made.mask))
+                          : Shared(MaskWithRegions(feathered(made.mask, Feather::parse(kFeather))));
   exposure.normalization = Normalization::parse("integral");
   const ExposedPicture exposed =
       session.render(exposure, output_format(output_request(options), files.picture, session.format()));

@@ -5,11 +5,11 @@
 
 #include "app/commands/opened_session.hpp"
 #include "app/output/progress.hpp"
-#include "session/alignment.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/mask_making.hpp"
-#include "session/plate_request.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/clips/alignment.hpp"
+#include "session/making/mask_making.hpp"
+#include "session/making/plate_request.hpp"
 
 namespace nutik::app {
 namespace {

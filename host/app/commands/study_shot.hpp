@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "app/command_line/options.hpp"
-#include "session/camera_check.hpp"
+#include "session/clips/camera_check.hpp"
+#include "session/making/study_request.hpp"
 #include "session/session.hpp"
-#include "session/study_request.hpp"
 
 namespace nutik::app {
 

@@ -9,12 +9,12 @@
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/trace_text.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/pictures.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/below/pictures.hpp"
 #include "session/session.hpp"
-#include "session/time_text.hpp"
-#include "session/trace_picture.hpp"
+#include "session/text/time_text.hpp"
+#include "session/text/trace_picture.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {

@@ -6,12 +6,12 @@
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/validation_text.hpp"
-#include "session/clip_source.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/clips/clip_source.hpp"
+#include "session/clips/source_check.hpp"
 #include "session/session.hpp"
-#include "session/size_text.hpp"
-#include "session/source_check.hpp"
+#include "session/text/size_text.hpp"
 
 namespace nutik::app {
 namespace {

@@ -6,10 +6,10 @@
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "session/format.hpp"
-#include "session/size_text.hpp"
-#include "session/time_text.hpp"
-#include "session/video_making.hpp"
+#include "session/below/format.hpp"
+#include "session/making/video_making.hpp"
+#include "session/text/size_text.hpp"
+#include "session/text/time_text.hpp"
 
 namespace nutik::app {
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "session/error.hpp"
-#include "session/functions.hpp"
+#include "session/below/error.hpp"
+#include "session/below/functions.hpp"
 
 namespace nutik::app {
 namespace {

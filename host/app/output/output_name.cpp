@@ -1,9 +1,9 @@
 #include "app/output/output_name.hpp"
 
 #include "app/command_line/option_table.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/function_input.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/requests/function_input.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {

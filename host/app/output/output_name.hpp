@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/command_line/options.hpp"
-#include "session/output_check.hpp"
-#include "session/pictures.hpp"
+#include "session/below/pictures.hpp"
+#include "session/making/output_check.hpp"
 
 namespace nutik::app {
 

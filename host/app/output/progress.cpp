@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "session/format.hpp"
+#include "session/below/format.hpp"
 
 namespace nutik::app {
 namespace {

@@ -7,10 +7,10 @@
 #include "app/text/message_text.hpp"
 #include "app/text/text_table.hpp"
 #include "app/text/timing_text.hpp"
-#include "session/format.hpp"
-#include "session/functions.hpp"
-#include "session/size_text.hpp"
-#include "session/time_text.hpp"
+#include "session/below/format.hpp"
+#include "session/below/functions.hpp"
+#include "session/text/size_text.hpp"
+#include "session/text/time_text.hpp"
 
 namespace nutik::app {
 namespace {

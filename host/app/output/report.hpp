@@ -12,7 +12,7 @@
 #include "app/command_line/options.hpp"
 #include "app/output/console.hpp"
 #include "session/session.hpp"
-#include "session/shared_warnings.hpp"
+#include "session/text/shared_warnings.hpp"
 
 namespace nutik::app {
 

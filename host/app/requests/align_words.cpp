@@ -1,7 +1,7 @@
 #include "app/command_line/option_table.hpp"
 #include "app/requests/requests.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {

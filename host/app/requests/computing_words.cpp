@@ -5,8 +5,8 @@
 
 #include "app/output/console.hpp"
 #include "app/text/number_text.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
 #include "system/freed_memory.hpp"
 
 namespace nutik::app {

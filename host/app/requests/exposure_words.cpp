@@ -7,10 +7,10 @@
 #include "app/output/console.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/shell_text.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/function_input.hpp"
-#include "session/functions.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/below/functions.hpp"
+#include "session/requests/function_input.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {
@@ -102,7 +102,7 @@ ExposureRequest timeless_request(const Options& options,
   }
   request.gains = functions;
   if (options.mask) {
-    request.mask = Shared(CountedMask(exposure_mask(options, *functions)));
+    request.mask = Shared(MaskWithRegions(exposure_mask(options, *functions)));
   }
   return request;
 }

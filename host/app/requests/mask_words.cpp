@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "app/text/number_text.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/function_input.hpp"
-#include "session/picture_input.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/requests/function_input.hpp"
+#include "session/requests/picture_input.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "app/command_line/option_table.hpp"
-#include "session/format.hpp"
-#include "session/function_input.hpp"
-#include "session/pictures.hpp"
+#include "session/below/format.hpp"
+#include "session/below/pictures.hpp"
+#include "session/requests/function_input.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {

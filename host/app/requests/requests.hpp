@@ -11,20 +11,20 @@
 #include <string_view>
 
 #include "app/command_line/options.hpp"
-#include "session/contact_request.hpp"
+#include "session/below/sheets.hpp"
 #include "session/devices.hpp"
-#include "session/exposure_request.hpp"
-#include "session/frames_request.hpp"
-#include "session/mask_request.hpp"
-#include "session/output_request.hpp"
-#include "session/own_exposure.hpp"
-#include "session/picture_recipe.hpp"
-#include "session/series_request.hpp"
-#include "session/sheets.hpp"
-#include "session/solve_request.hpp"
-#include "session/source_request.hpp"
-#include "session/study_request.hpp"
-#include "session/sweep_request.hpp"
+#include "session/making/picture_recipe.hpp"
+#include "session/making/solve_request.hpp"
+#include "session/making/study_request.hpp"
+#include "session/requests/contact_request.hpp"
+#include "session/requests/exposure_request.hpp"
+#include "session/requests/frames_request.hpp"
+#include "session/requests/mask_request.hpp"
+#include "session/requests/output_request.hpp"
+#include "session/requests/own_exposure.hpp"
+#include "session/requests/series_request.hpp"
+#include "session/requests/source_request.hpp"
+#include "session/requests/sweep_request.hpp"
 
 namespace nutik::app {
 

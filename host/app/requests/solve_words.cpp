@@ -2,9 +2,9 @@
 
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/function_input.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/requests/function_input.hpp"
 
 namespace nutik::app {
 

@@ -2,11 +2,11 @@
 
 #include "app/command_line/option_table.hpp"
 #include "app/text/number_text.hpp"
-#include "session/capture.hpp"
-#include "session/clip_source.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/measured_noise.hpp"
+#include "session/below/capture.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/clips/clip_source.hpp"
+#include "session/clips/measured_noise.hpp"
 
 namespace nutik::app {
 namespace {

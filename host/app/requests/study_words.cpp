@@ -5,8 +5,8 @@
 
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
 
 namespace nutik::app {
 namespace {

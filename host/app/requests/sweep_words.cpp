@@ -2,10 +2,10 @@
 
 #include <cstdlib>
 
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/sheets.hpp"
-#include "session/stated_time.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/below/sheets.hpp"
+#include "session/requests/stated_time.hpp"
 
 namespace nutik::app {
 namespace {

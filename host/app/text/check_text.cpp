@@ -7,9 +7,9 @@
 
 #include "app/text/findings.hpp"
 #include "app/text/text_table.hpp"
-#include "session/format.hpp"
-#include "session/size_text.hpp"
-#include "session/time_text.hpp"
+#include "session/below/format.hpp"
+#include "session/text/size_text.hpp"
+#include "session/text/time_text.hpp"
 
 namespace nutik::app {
 namespace {

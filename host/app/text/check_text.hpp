@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/output/report.hpp"
-#include "session/input_check.hpp"
+#include "session/making/input_check.hpp"
 
 namespace nutik::app {
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "app/text/message_text.hpp"
-#include "session/format.hpp"
-#include "session/size_text.hpp"
+#include "session/below/format.hpp"
+#include "session/text/size_text.hpp"
 
 namespace nutik::app {
 namespace {

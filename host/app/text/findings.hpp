@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/output/report.hpp"
-#include "session/input_check.hpp"
+#include "session/making/input_check.hpp"
 
 namespace nutik::app {
 

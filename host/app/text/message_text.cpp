@@ -5,19 +5,19 @@
 #include <vector>
 
 #include "app/command_line/suggestion.hpp"
-#include "session/alignment.hpp"
-#include "session/clip_source.hpp"
-#include "session/contact_request.hpp"
+#include "session/below/format.hpp"
+#include "session/clips/alignment.hpp"
+#include "session/clips/clip_source.hpp"
 #include "session/devices.hpp"
-#include "session/format.hpp"
-#include "session/mask_making.hpp"
+#include "session/making/mask_making.hpp"
+#include "session/making/output_check.hpp"
+#include "session/making/picture_recipe.hpp"
+#include "session/making/study_request.hpp"
 #include "session/memory_budget.hpp"
-#include "session/output_check.hpp"
-#include "session/output_request.hpp"
-#include "session/picture_input.hpp"
-#include "session/picture_recipe.hpp"
-#include "session/series_request.hpp"
-#include "session/study_request.hpp"
+#include "session/requests/contact_request.hpp"
+#include "session/requests/output_request.hpp"
+#include "session/requests/picture_input.hpp"
+#include "session/requests/series_request.hpp"
 
 namespace nutik::app {
 namespace {

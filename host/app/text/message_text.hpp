@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "session/error.hpp"
+#include "session/below/error.hpp"
 
 namespace nutik::app {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "app/text/text_table.hpp"
-#include "session/error.hpp"
-#include "session/format.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
 
 namespace nutik::app {
 

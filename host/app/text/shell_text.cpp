@@ -1,8 +1,8 @@
 #include "app/text/shell_text.hpp"
 
-#include "session/error.hpp"
-#include "session/format.hpp"
-#include "session/functions.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/below/functions.hpp"
 
 namespace nutik::app {
 

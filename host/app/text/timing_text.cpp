@@ -1,7 +1,7 @@
 #include "app/text/timing_text.hpp"
 
 #include "app/text/message_text.hpp"
-#include "session/format.hpp"
+#include "session/below/format.hpp"
 
 namespace nutik::app {
 namespace {

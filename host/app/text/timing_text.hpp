@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "session/source_request.hpp"
+#include "session/requests/source_request.hpp"
 
 namespace nutik::app {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/text/text_table.hpp"
-#include "session/format.hpp"
+#include "session/below/format.hpp"
 
 namespace nutik::app {
 namespace {

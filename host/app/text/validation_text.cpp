@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "app/text/text_table.hpp"
-#include "session/format.hpp"
-#include "session/size_text.hpp"
+#include "session/below/format.hpp"
+#include "session/text/size_text.hpp"
 
 namespace nutik::app {
 namespace {

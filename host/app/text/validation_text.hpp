@@ -4,8 +4,8 @@
 #include <string>
 
 #include "app/output/report.hpp"
+#include "session/clips/source_check.hpp"
 #include "session/session.hpp"
-#include "session/source_check.hpp"
 
 namespace nutik::app {
 

@@ -1,6 +1,0 @@
-// What changes in a capture, when and where.
-#pragma once
-
-#include "session/activity_request.hpp"
-#include "sheet/activity_chart.hpp"
-#include "sheet/activity_map.hpp"

@@ -1,0 +1,6 @@
+// What changes in a capture, when and where.
+#pragma once
+
+#include "session/making/activity_request.hpp"
+#include "sheet/activity_chart.hpp"
+#include "sheet/activity_map.hpp"

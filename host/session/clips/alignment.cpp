@@ -1,0 +1,190 @@
+#include "session/clips/alignment.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "align/light_warp.hpp"
+#include "align/seen_area.hpp"
+#include "capture/format.hpp"
+#include "media/module.hpp"
+#include "media/read_ahead.hpp"
+#include "system/interruption.hpp"
+
+namespace nutik {
+namespace {
+
+// The raster of the picture that the others are moved onto.
+std::vector<std::byte> reference_raster(const ClipToAlign& clip) {
+  const std::unique_ptr<Clip> pictures = clip.open();
+  std::vector<std::byte> raster(clip.format.sample_bytes());
+  for (std::uint64_t picture = 0; picture <= clip.reference; ++picture) {
+    check_interruption();
+    if (pictures->read(raster)) continue;
+    throw InputError(format("{} has {} pictures: there is no picture {} to align them to", clip.name, picture,
+                            clip.reference));
+  }
+  return raster;
+}
+
+CannotAlign not_alike(const ClipToAlign& clip, CameraMotion motion, std::uint64_t picture,
+                      const Registered& found) {
+  return {
+      format("{}: picture {} cannot be aligned to picture {}: of what is seen in both {:.1f} % follow one "
+             "{} motion, and half must. The camera moved too far or too fast, there is a cut between them, "
+             "or what moves by itself fills most of the picture",
+             clip.name, picture, clip.reference, 100 * found.agreeing, to_text(motion)),
+      motion == CameraMotion::homography ? CannotAlign::WayOut::other_part_or_reference
+                                         : CannotAlign::WayOut::homography};
+}
+
+class AlignedClip final : public Clip {
+ public:
+  AlignedClip(const ClipToAlign& clip, Shared<CameraPath> path, const Rectangle& area, Unseen unseen)
+      : name_(clip.name),
+        path_(std::move(path)),
+        warp_(clip.format, area),
+        held_(unseen == Unseen::held ? reference_raster(clip) : std::vector<std::byte>()),
+        clip_(clip.open()),
+        info_(clip_->info()),
+        raster_(clip.format.sample_bytes()) {
+    info_.format.shape.width = area.width;
+    info_.format.shape.height = area.height;
+    info_.decoder_bytes += raster_.size() + held_.size() + LightWarp::bytes(clip.format);
+  }
+
+  [[nodiscard]] const ClipInfo& info() const override { return info_; }
+
+  bool read(std::span<std::byte> raster) override {
+    const bool goes_on = clip_->read(raster_);
+    const std::uint64_t picture = next_++, count = path_->pictures.size();
+    if (goes_on != (picture < count)) {
+      throw InputError(format("the camera's path is that of {} pictures, and {} has {}", count, name_,
+                              goes_on ? "more" : std::to_string(picture)));
+    }
+    if (!goes_on) return false;
+    try {
+      // What was not seen holds.
+      warp_.take(raster_, path_->pictures[picture].warp, held_.empty() ? raster : std::span(held_));
+    } catch (const CodeAboveWhite& error) {
+      throw InputError(
+          format("{}: picture {} has the code {}, which is above white", name_, picture, error.code),
+          {Setting::white_code});
+    }
+    if (!held_.empty()) std::memcpy(raster.data(), held_.data(), held_.size());
+    return true;
+  }
+
+  [[nodiscard]] std::optional<std::string> ended_early() const override { return clip_->ended_early(); }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
+
+ private:
+  std::string name_;
+  Shared<CameraPath> path_;
+  LightWarp warp_;
+  std::vector<std::byte> held_;  // before the clip, so that one decoder at a time is open
+  std::unique_ptr<Clip> clip_;
+  ClipInfo info_;
+  std::vector<std::byte> raster_;
+  std::uint64_t next_ = 0;
+};
+
+}  // namespace
+
+CameraPath find_camera_path(const ClipToAlign& clip, CameraMotion motion, const MemoryBudget& memory,
+                            const ReportedProgress& progress, const std::stop_token& stop) {
+  const std::uint64_t sample_bytes = clip.format.sample_bytes();
+  MemoryNeeds needs{{"pictures within the decoder", clip.decoder_bytes},
+                    {"pictures decoded ahead", 2 * sample_bytes},
+                    {"the picture that others are aligned to", sample_bytes}};
+  needs.add(registrar_needs(clip.format, Reach::anywhere));
+  needs.rest_of(memory.bytes);
+
+  std::unique_ptr<Registrar> registrar;
+  try {
+    registrar = motion_module().open(clip.format, motion, reference_raster(clip));
+  } catch (const TooLittleTexture& error) {
+    throw CannotAlign(
+        format("{}: no picture can be aligned to picture {}: {}", clip.name, clip.reference, error.what()),
+        CannotAlign::WayOut::other_part_or_reference);
+  }
+  CameraPath path{motion, clip.format.shape, clip.reference, {}};
+  Warp guess;
+  const std::unique_ptr<Clip> pictures = clip.open();
+  ReadAhead ahead(*pictures, 2 * sample_bytes);
+  for (auto rasters = ahead.next(1); !rasters.empty(); rasters = ahead.next(1)) {
+    check_interruption();
+    if (stop.stop_requested()) throw Cancelled();
+    const std::uint64_t picture = path.pictures.size();
+    if (progress) progress(picture, clip.announced_samples);
+    Registered found = registrar->find(rasters.front(), guess);
+    if (!is_sure(found)) throw not_alike(clip, motion, picture, found);
+    guess = found.warp;
+    if (picture == clip.reference) found.warp = Warp();  // itself
+    path.pictures.push_back(found);
+  }
+  return path;
+}
+
+Rectangle shown_area(const std::string& name, const CameraPath& path, Unseen unseen) {
+  if (unseen == Unseen::held) return Rectangle::whole(path.shape);
+  if (const auto area = seen_by_all(path)) return *area;
+  const CameraPath::Step step = path.step(path.furthest());
+  throw CannotAlign(
+      format("{}: no place was seen by all of its {} pictures: in picture {} the camera looks "
+             "{:.0f} pixels to the side and {:.0f} up or down from where it did in picture {}",
+             name, path.pictures.size(), path.furthest(), std::abs(step.x), std::abs(step.y), path.reference),
+      CannotAlign::WayOut::hold);
+}
+
+std::unique_ptr<Clip> open_aligned(const ClipToAlign& clip, const Shared<CameraPath>& path, Unseen unseen) {
+  const Shape& shape = clip.format.shape;
+  if (path->shape.width != shape.width || path->shape.height != shape.height) {
+    throw InputError(format("the camera's path is that of pictures of {} x {}, and {} has {} x {}",
+                            path->shape.width, path->shape.height, clip.name, shape.width, shape.height));
+  }
+  return std::make_unique<AlignedClip>(clip, path, shown_area(clip.name, *path, unseen), unseen);
+}
+
+TwofoldProgress::TwofoldProgress(const SourceRequest& source, const ReportedProgress& progress)
+    : reading(progress) {
+  if (!progress || !source.align || source.align->path) return;
+  finding = [progress](std::uint64_t done, std::uint64_t total) { progress(done, 2 * total); };
+  reading = [progress](std::uint64_t done, std::uint64_t total) { progress(total + done, 2 * total); };
+}
+
+std::string alignment_text(const CameraPath& path, const Rectangle& area, Unseen unseen) {
+  const std::string shown =
+      unseen == Unseen::held
+          ? "what a picture did not see holds what was seen there before"
+          : format("all of them saw {} x {} pixels from {},{} on", area.width, area.height, area.x, area.y);
+  return format(
+      "aligned to picture {} ({}), from which others are {}; half of the texture lies within {:.2f} "
+      "pixels of that; {}",
+      path.reference, to_text(path.motion), path.summary(), path.residual_pixels(), shown);
+}
+
+tik::Alignment kept_alignment(const CameraPath& path, Unseen unseen) {
+  const CameraPath::Step furthest = path.step(path.furthest());
+  return {std::string(to_text(path.motion)),
+          path.reference,
+          unseen == Unseen::held,
+          std::hypot(furthest.x, furthest.y),
+          std::abs(path.step(path.most_turned()).degrees),
+          path.residual_pixels()};
+}
+
+std::string alignment_text(const tik::Alignment& aligned) {
+  const std::string turned = aligned.turned_degrees == 0
+                                 ? std::string()
+                                 : format(" and turned by up to {:.3f} degrees", aligned.turned_degrees);
+  return format(
+      "to sample {} ({}), from which others were moved by up to {:.2f} pixels{}; what a sample did not see "
+      "{}",
+      aligned.reference, aligned.motion, aligned.moved_pixels, turned,
+      aligned.holds_unseen ? "holds what was seen before" : "was cut away");
+}
+
+}  // namespace nutik

@@ -1,0 +1,110 @@
+#include "session/clips/clip_memory.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "imev/expected_values.hpp"
+
+namespace nutik {
+namespace {
+
+// Two are decoded ahead at least, so that decoding goes on while one is looked at.
+constexpr std::uint64_t kLeastRasters = 2;
+constexpr std::uint64_t kMostReadAhead = 64 << 20;
+// Of a thread that packs: a group of tiles (tik/codec.cpp) plain, in parts, and packed, and the codec's own.
+constexpr std::uint64_t kPackingBytes = 8 << 20;
+
+// What blocks come to in units of where they close: the one being built and the one being packed may each reach twice
+// that (imev/tile_log.hpp), and what it is packed into is no larger than its content. With a camera's noise there are
+// the samples as they came, and three times what is held of them.
+std::uint64_t block_units(const CaptureFormat& capture) {
+  if (!capture.noise.camera) return 5;
+  return 1 + 3 * held_format(capture).sample_bytes() / capture.sample_bytes();
+}
+
+// Blocks of one sample, in each of the places where there is one.
+std::uint64_t least_block_bytes(const CaptureFormat& capture) {
+  return (capture.noise.camera ? block_units(capture) : 3) * capture.sample_bytes();
+}
+
+void check_stated(const MemoryBudget& budget, const ClipToRead& clip, std::uint64_t closing_bytes) {
+  const std::uint64_t sample_bytes = clip.capture.sample_bytes();
+  if (!clip.block_samples || *clip.block_samples <= 1) return;
+  if (*clip.block_samples * sample_bytes <= closing_bytes) return;
+  throw BlocksTooLong(budget.bytes, *clip.block_samples, sample_bytes,
+                      std::max<std::uint64_t>(1, closing_bytes / sample_bytes));
+}
+
+std::uint32_t announced(const ClipToRead& clip, std::uint32_t samples) {
+  if (clip.announced_samples == 0) return samples;
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(samples, clip.announced_samples));
+}
+
+// With a camera's noise a block takes memory for the samples that it may hold: no more than there are.
+void set_blocks(ClipMemory& memory, const ClipToRead& clip, std::uint64_t closing_bytes) {
+  memory.stream_samples = announced(clip, clip.block_samples.value_or(default_block_samples(
+                                              clip.capture, std::min(kDefaultBlockBytes, closing_bytes))));
+  memory.blocks = clip.block_samples ? BlockLimits(*clip.block_samples)
+                                     : default_block_limits(clip.capture, closing_bytes);
+  memory.blocks.samples = announced(clip, memory.blocks.samples);
+  if (!clip.block_samples && !clip.capture.noise.camera) memory.blocks.memory_bytes = closing_bytes;
+}
+
+std::uint64_t read_ahead(std::uint64_t least, std::uint64_t rest) {
+  return least + std::min(kMostReadAhead - std::min(kMostReadAhead, least), rest / 8);
+}
+
+}  // namespace
+
+ClipMemory memory_for_encoding(const MemoryBudget& budget, const ClipToRead& clip,
+                               const MemoryNeeds& rendering) {
+  const std::uint64_t sample_bytes = clip.capture.sample_bytes();
+  const std::uint64_t least_ahead = kLeastRasters * sample_bytes;
+  const std::uint64_t least_blocks = least_block_bytes(clip.capture);
+  const MemoryNeeds needs{{"pictures within the decoder", clip.decoder_bytes},
+                          {"pictures decoded ahead", least_ahead},
+                          {"blocks", least_blocks},
+                          {"packing them", kPackingBytes}};
+  MemoryNeeds rendering_needs = rendering;
+  if (!rendering.parts().empty()) rendering_needs.add("blocks", held_format(clip.capture).sample_bytes());
+  if (rendering_needs.bytes() > needs.bytes()) rendering_needs.rest_of(budget.bytes);
+  std::uint64_t rest = needs.rest_of(budget.bytes);
+
+  ClipMemory memory;
+  memory.read_ahead_bytes = read_ahead(least_ahead, rest);
+  rest -= memory.read_ahead_bytes - least_ahead;
+  const std::uint64_t more_threads = std::min<std::uint64_t>(
+      std::max(std::thread::hardware_concurrency(), 1u) - 1, rest / 8 / kPackingBytes);
+  memory.threads = static_cast<std::uint32_t>(1 + more_threads);
+  rest -= more_threads * kPackingBytes;
+  std::uint64_t closing = (rest + least_blocks) / block_units(clip.capture);
+  if (!clip.capture.noise.camera) closing = std::max(sample_bytes, rest / block_units(clip.capture));
+  if (!rendering.parts().empty()) closing = std::min(closing, budget.bytes - rendering.bytes());
+  check_stated(budget, clip, closing);
+  set_blocks(memory, clip, closing);
+  return memory;
+}
+
+ClipMemory memory_for_streaming(const MemoryBudget& budget, const ClipToRead& clip,
+                                const MemoryNeeds& rendering) {
+  const std::uint64_t sample_bytes = clip.capture.sample_bytes();
+  const std::uint64_t least_ahead = kLeastRasters * sample_bytes;
+  const std::uint64_t least_blocks = least_block_bytes(clip.capture);
+  MemoryNeeds needs{{"pictures within the decoder", clip.decoder_bytes},
+                    {"pictures decoded ahead", least_ahead},
+                    {"blocks", least_blocks}};
+  needs.add(rendering);
+  std::uint64_t rest = needs.rest_of(budget.bytes);
+
+  ClipMemory memory;
+  memory.read_ahead_bytes = read_ahead(least_ahead, rest);
+  rest -= memory.read_ahead_bytes - least_ahead;
+  // Half of the rest: tables and maps share the other one.
+  const std::uint64_t closing = (rest / 2 + least_blocks) / block_units(clip.capture);
+  check_stated(budget, clip, closing);
+  set_blocks(memory, clip, closing);
+  memory.bytes = clip.decoder_bytes + memory.read_ahead_bytes + least_blocks + rest / 2;
+  return memory;
+}
+
+}  // namespace nutik

@@ -1,0 +1,259 @@
+#include "session/clips/clip_source.hpp"
+
+#include <algorithm>
+
+#include "capture/format.hpp"
+#include "media/deflicker.hpp"
+#include "session/clips/evened_times.hpp"
+#include "session/clips/measured_noise.hpp"
+#include "session/text/time_text.hpp"
+#include "system/mapped_file.hpp"
+#include "tik/header.hpp"
+#include "tik/reader.hpp"
+
+namespace nutik {
+namespace {
+
+// Rates from the one to the other are what players show; a clip filmed faster often says one of them.
+constexpr double kLowestPlaybackRate = 1.0;
+constexpr double kHighestPlaybackRate = 60.0;
+
+// The file is read once to count and once to decode.
+void refuse_streams(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status) || !std::filesystem::is_other(status)) return;
+  throw InputError(
+      format("{} is no regular file: a clip is read more than once; name standard input as -, or save the "
+             "stream to a file "
+             "first",
+             path.string()));
+}
+
+// On the clip itself, which is then opened again. Throws MemoryTooLittle with the least that does for encoding, too.
+CameraNoise own_noise(ClipSource& source, const OpenClip& open, const MemoryBudget& memory) {
+  MemoryNeeds needs{{"pictures within the decoder", source.clip->info().decoder_bytes}};
+  const std::uint64_t within_decoder = needs.bytes();
+  needs.add(NoiseEstimator::needs(source.capture, kSamplesOfOwnNoise));
+  if (needs.bytes() > memory.bytes) {
+    ClipToRead clip = source.clip_to_read();
+    clip.capture.noise.camera.emplace();
+    try {
+      static_cast<void>(memory_for_encoding(memory, clip));
+    } catch (const MemoryTooLittle& error) {
+      if (error.least_bytes() > needs.bytes()) throw;
+    }
+    needs.rest_of(memory.bytes);
+  }
+  const std::uint32_t threads =
+      NoiseEstimator::threads_in(memory.bytes - within_decoder, source.capture, kSamplesOfOwnNoise);
+  NoiseEstimator estimator(source.capture, threads);
+  estimator.add_clip(
+      source.name(), [&](std::span<std::byte> raster) { return source.clip->read(raster); },
+      kSamplesOfOwnNoise);
+  source.clip.reset();
+  source.clip = open();
+  const NoiseEstimate estimate = estimator.estimate();
+  if (const std::string reason = reason_for_no_noise(estimate); !reason.empty()) {
+    throw InputError(
+        format("{}: no noise can be measured on it: {}. Take the noise of a still scene, filmed with the "
+               "same settings and not compressed, or a tolerance",
+               source.name(), reason));
+  }
+  for (const std::string& note : noise_notes(estimate)) source.notes.emplace_back(note);
+  return estimate.noise;
+}
+
+NoiseModel noise_model(ClipSource& source, const OpenClip& open, const MemoryBudget& memory) {
+  const SourceRequest& request = source.request;
+  NoiseModel model{request.tolerance, std::nullopt, request.sigmas};
+  if (std::holds_alternative<NoiseOfClip>(request.noise)) {
+    model.camera = own_noise(source, open, memory);
+  } else if (const auto* stated = std::get_if<StatedNoise>(&request.noise)) {
+    model.camera = stated->noise;
+    if (auto note = transfer_note(*stated, source.capture.transfer))
+      source.notes.emplace_back(std::move(*note));
+    if (request.clip.scale || request.align) {
+      std::vector settings{Setting::automatic_noise};
+      if (request.clip.scale) settings.insert(settings.begin(), Setting::scale);
+      source.notes.emplace_back(format("{} is the noise of single pixels, and a mean of several has less: "
+                                       "changes below it are taken for "
+                                       "noise; measure it on the clip itself",
+                                       stated->name),
+                                std::move(settings));
+    }
+  }
+  return model;
+}
+
+// The picture that others are moved onto.
+std::uint64_t reference_of(const AlignRequest& align, const ClipSource& source) {
+  if (align.path) return (*align.path)->reference;
+  if (!align.reference) return 0;
+  const std::uint64_t announced = source.announced_samples();
+  if (announced > 0) {
+    // Pictures are counted without a rate.
+    const Timeline timeline = align.reference->counts_samples()
+                                  ? Timeline::constant(Rational{1, 1}, Timeline::kFullShutter, announced)
+                                  : source.timeline(announced);
+    return sample_at(*align.reference, "the picture to align to", timeline);
+  }
+  const ClipMoment moment = clip_moment(*align.reference, "the picture to align to");
+  if (moment.is_picture && moment.value >= 0) return static_cast<std::uint64_t>(moment.value);
+  throw UsageError(
+      format("{} does not say how many pictures it has: name the one to align to by its number, 12f",
+             source.name()));
+}
+
+// From here on the source's clip is one whose camera stands still, however often `open` opens it.
+void align(ClipSource& source, OpenClip& open, const MemoryBudget& memory, const ReportedProgress& progress,
+           const std::stop_token& stop) {
+  AlignRequest& request = *source.request.align;
+  const ClipToAlign clip{source.name(),
+                         source.capture,
+                         reference_of(request, source),
+                         source.announced_samples(),
+                         source.clip->info().decoder_bytes,
+                         open};
+  source.clip.reset();
+  if (!request.path) {
+    request.path.emplace(find_camera_path(clip, request.motion, memory, progress, stop));
+  }
+  source.camera = request.path;
+  open = [clip, path = *request.path, unseen = request.unseen] { return open_aligned(clip, path, unseen); };
+  source.clip = open();
+  source.capture.shape = source.clip->info().format.shape;
+  const CameraPath& path = **source.camera;
+  source.notes.emplace_back(
+      alignment_text(path, shown_area(clip.name, path, request.unseen), request.unseen));
+}
+
+}  // namespace
+
+ExposuresAreListed::ExposuresAreListed(const std::string& name)
+    : UsageError(format("{} says how long each picture was exposed", name)) {}
+
+bool is_tik(const std::filesystem::path& path) {
+  const std::string start = first_bytes(path);
+  return tik::looks_like_tik(std::as_bytes(std::span(start))) || path.extension() == ".tik";
+}
+
+std::optional<Shape> known_shape(const std::filesystem::path& path) {
+  if (!is_tik(path)) return std::nullopt;
+  try {
+    const MappedFile file(path);
+    return tik::parse_header(file.bytes(), path.string()).header.capture.shape;
+  } catch (const InputError&) {  // it is said when it is opened
+    return std::nullopt;
+  }
+}
+
+CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
+  CaptureFormat capture = clip.info().format;
+  if (options.transfer) capture.transfer = *options.transfer;
+  if (options.white_code) {
+    if (capture.code_bytes == 1 && *options.white_code > 255) {
+      throw UsageError(
+          format("white code {} does not fit the clip's 8-bit codes (255 at most)", *options.white_code));
+    }
+    capture.white_code = *options.white_code;
+  }
+  return capture;
+}
+
+Timeline ClipSource::timeline(std::uint64_t sample_count) const {
+  return request.shutter_angle
+             ? timeline_of(name(), clip->info(), request.clip, *request.shutter_angle, sample_count)
+             : timeline_of(name(), clip->info(), request.clip, sample_count);
+}
+
+std::vector<Fact> ClipSource::facts(const Timeline& timeline) const {
+  const ClipTiming& timing = clip->info().timing;
+  const bool is_stated = request.clip.rate.has_value();
+  const Rational mean = timeline.rate();
+  Fact rate{
+      timeline.is_constant() || mean.value() < 1
+          ? rate_text(mean, "picture") + (timeline.is_constant() ? "" : " on average, at irregular times")
+          : format("irregular times, {:.4g} pictures a second on average", mean.value()),
+      is_stated ? Origin::stated : Origin::file, Setting::frame_rate};
+  if (!is_stated) rate.source = timing.rate_from;
+  const bool is_written_down = timing.exposed_ns || !timing.exposures.empty();
+  Fact angle{format("shutter {} degrees", timeline.shutter_angle().text()),
+             request.shutter_angle ? Origin::stated
+             : is_written_down     ? Origin::file
+                                   : Origin::assumed,
+             Setting::shutter_angle};
+  if (!request.shutter_angle && timing.exposed_ns) {
+    angle.source = format("{}: {} ns", timing.rate_from.starts_with("the ") ? "the file" : timing.rate_from,
+                          *timing.exposed_ns);
+  } else if (!request.shutter_angle && !timing.exposures.empty()) {
+    angle.source = "the mean of the listed exposures";
+  }
+  std::vector<Fact> facts{std::move(rate), std::move(angle)};
+  facts.insert(facts.end(), clip->info().facts.begin(), clip->info().facts.end());
+  return facts;
+}
+
+std::vector<Note> ClipSource::all_notes(const Timeline& timeline) const {
+  std::vector<Note> all = notes;
+  const double rate = timeline.rate().value();
+  const bool is_rate_told = std::ranges::any_of(notes, [](const Note& note) {
+    return std::ranges::find(note.settings, Setting::frame_rate) != note.settings.end();
+  });
+  if (!request.clip.rate && !is_rate_told && rate >= kLowestPlaybackRate && rate <= kHighestPlaybackRate) {
+    all.emplace_back(format("the rate of {} a second comes from the file; slow-motion files state their "
+                            "playback rate: if it was filmed faster, say so",
+                            timeline.rate().text()),
+                     std::vector{Setting::frame_rate});
+  }
+  return all;
+}
+
+ClipToRead ClipSource::clip_to_read() const {
+  return {capture, clip->info().decoder_bytes, request.block_samples, announced_samples()};
+}
+
+ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory,
+                            const ReportedProgress& progress, const std::stop_token& stop) {
+  ClipSource source;
+  source.request = request;
+  refuse_streams(request.path);
+  ClipOptions options = request.clip;
+  options.decoder_bytes = memory.bytes / 8;
+  OpenClip open = [path = request.path, options] { return open_clip(path, options); };
+  source.clip = open();
+  if (request.shutter_angle && !request.clip.rate && !source.clip->info().timing.exposures.empty()) {
+    throw ExposuresAreListed(source.name());
+  }
+  source.capture = clip_format(*source.clip, request.clip);
+  source.notes = source.clip->info().notes;
+  if (request.clip.rate) {
+    // What a stated rate was to help with is settled.
+    std::erase_if(source.notes,
+                  [](const Note& note) { return note.settings == std::vector{Setting::frame_rate}; });
+    if (auto note = evened_note(source.clip->info().timing.starts_ns))
+      source.notes.push_back(std::move(*note));
+  }
+  if (request.align) align(source, open, memory, progress, stop);
+  if (request.deflickered) {
+    source.clip = deflicker(std::move(source.clip));
+    open = [bare = std::move(open)] { return deflicker(bare()); };
+  }
+  source.capture.noise = noise_model(source, open, memory);
+  return source;
+}
+
+Timeline known_timeline(const SourceRequest& request, const MemoryBudget& memory) {
+  if (is_tik(request.path)) return tik::Reader(request.path).timeline();
+  SourceRequest timed = request;
+  timed.align.reset();  // its times are those of the clip
+  const ClipSource source = open_clip_source(timed, memory);
+  const std::uint64_t count = source.announced_samples();
+  if (count == 0) {
+    throw InputError(format("{} does not say how many pictures it has; encode it first and name the capture",
+                            source.name()));
+  }
+  return source.timeline(count);
+}
+
+}  // namespace nutik

@@ -1,0 +1,162 @@
+// Three stages side by side, so that decoding goes on while a block is closed, packed and written.
+//
+//   a thread        decodes samples               │ rasters, reused (media/read_ahead.hpp)
+//   the caller's    builds blocks from them       │ payloads, reused
+//   another         packs and writes the blocks
+#include "session/clips/encoding.hpp"
+
+#include <algorithm>
+#include <future>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "imev/block_builder.hpp"
+#include "imev/expected_values.hpp"
+#include "media/read_ahead.hpp"
+#include "system/channel.hpp"
+#include "system/interruption.hpp"
+#include "tik/writer.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::size_t kPayloads = 1;  // besides the one that is being built
+
+class Encoding {
+ public:
+  // Reads the first sample.
+  Encoding(ClipSource source, const EncodeRequest& request, const ClipMemory& memory);
+
+  EncodedCapture run(const ReportedProgress& progress, const std::stop_token& stop);
+
+ private:
+  struct Block {
+    BlockExtent extent;
+    PageBuffer payload;
+    FinishedBlock finished;
+  };
+
+  [[nodiscard]] std::vector<std::string> warnings(std::uint64_t samples) const;
+  // Returns how many samples there were.
+  std::uint64_t build(const ReportedProgress& progress, const std::stop_token& stop);
+  bool hand_over_block();  // false where nobody stores blocks any more
+  void store();
+
+  ClipSource source_;
+  BlockBuilder builder_;
+  Timeline times_;  // as announced
+  std::optional<tik::Writer> writer_;
+
+  ReadAhead samples_;
+  std::span<const std::span<const std::byte>> first_;  // the first sample, until the next are asked for
+  Channel<Block> blocks_;                              // built
+  Channel<PageBuffer> spare_payloads_;
+};
+
+Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMemory& memory)
+    : source_(std::move(source)),
+      builder_(source_.capture, memory.blocks, source_.request.tiles),
+      // Before anything is read, so that times that cannot be used are said at once.
+      times_(source_.timeline(std::max<std::uint64_t>(source_.announced_samples(), 1))),
+      samples_(*source_.clip, memory.read_ahead_bytes),
+      first_(samples_.next(1)),
+      blocks_(kPayloads),
+      spare_payloads_(kPayloads) {
+  if (first_.empty()) throw InputError(format("{} has no picture", source_.name()));
+  tik::Header header;
+  header.capture = held_format(source_.capture);
+  const std::optional<Rational>& stated_rate = source_.request.clip.rate;
+  header.rate = stated_rate ? stated_rate : source_.clip->info().timing.rate;
+  header.shutter_angle = times_.shutter_angle();
+  for (const Fact& fact : source_.facts(times_)) header.facts.push_back(fact.line());
+  header.is_scaled = source_.request.clip.scale.has_value();
+  if (source_.camera) header.alignment = kept_alignment(**source_.camera, source_.request.align->unseen);
+  writer_.emplace(request.output, header, request.codec, to_held_codes(source_.capture, first_.front()),
+                  memory.threads, request.lasting);
+  for (std::size_t i = 0; i < kPayloads; ++i) spare_payloads_.push(PageBuffer());
+}
+
+EncodedCapture Encoding::run(const ReportedProgress& progress, const std::stop_token& stop) {
+  auto storing = std::async(std::launch::async, [this] { store(); });
+  const std::uint64_t samples = build(progress, stop);
+  storing.get();
+  Timeline timeline = source_.timeline(samples);
+  writer_->finish(timeline);
+  std::vector<Fact> facts = source_.facts(timeline);
+  for (std::string& remark : source_.clip->remarks()) source_.notes.emplace_back(std::move(remark));
+  std::vector<Note> notes = source_.all_notes(timeline);
+  return {source_.capture,  std::move(timeline), writer_->bytes_written(),
+          std::move(facts), std::move(notes),    warnings(samples),
+          source_.camera};
+}
+
+// Pictures that a decoder leaves out shift all behind them to earlier times.
+std::vector<std::string> Encoding::warnings(std::uint64_t samples) const {
+  if (auto reason = source_.clip->ended_early()) return {std::move(*reason)};
+  const std::uint64_t announced = source_.announced_samples();
+  if (announced == 0 || announced == samples) return {};
+  return {
+      format("{} announces {} pictures and {} could be decoded: if some within are damaged, those "
+             "after them have the times of others",
+             source_.name(), announced, samples)};
+}
+
+std::uint64_t Encoding::build(const ReportedProgress& progress, const std::stop_token& stop) {
+  const ClosedAtEnd closed(blocks_);
+  std::uint64_t samples = 0;
+  for (auto rasters = first_; !rasters.empty();
+       rasters = samples_.next(std::min(builder_.room(), BlockBuilder::kSamplesAtOnce))) {
+    check_interruption();
+    if (stop.stop_requested()) throw Cancelled();
+    samples += rasters.size();
+    if (progress) progress(samples, source_.announced_samples());
+    builder_.add(rasters);
+    if (builder_.is_full() && !hand_over_block()) return samples;
+  }
+  if (!builder_.is_empty()) hand_over_block();
+  return samples;
+}
+
+bool Encoding::hand_over_block() {
+  auto payload = spare_payloads_.pop();
+  if (!payload) return false;
+  Block block{builder_.extent(), std::move(*payload), {}};
+  block.finished = builder_.finish(block.payload);
+  return blocks_.push(std::move(block));
+}
+
+void Encoding::store() {
+  const ClosedAtEnd closed(blocks_, spare_payloads_);
+  while (auto block = blocks_.pop()) {
+    const SampleRange range = block->extent.range();
+    if (range.last > times_.sample_count()) times_ = source_.timeline(range.last);
+    std::span<const Exposure> exposures;
+    if (!times_.is_constant()) {
+      exposures = times_.table().subspan(range.first, block->extent.sample_count);
+    }
+    writer_->append(
+        {block->extent, block->payload.first(block->finished.span_bytes), block->finished.record_count},
+        exposures);
+    spare_payloads_.push(std::move(block->payload));
+  }
+}
+
+}  // namespace
+
+EncodedCapture encode(ClipSource source, const EncodeRequest& request, const ClipMemory& memory,
+                      const ReportedProgress& progress, std::stop_token stop) {
+  return Encoding(std::move(source), request, memory).run(progress, stop);
+}
+
+EncodedCapture encode(const SourceRequest& source, const EncodeRequest& request, const MemoryBudget& memory,
+                      const ReportedProgress& progress, std::stop_token stop) {
+  const TwofoldProgress twofold(source, progress);
+  ClipSource clip = open_clip_source(source, memory, twofold.finding, stop);
+  const ClipMemory shares = memory_for_encoding(memory, clip.clip_to_read());
+  return encode(std::move(clip), request, shares, twofold.reading, std::move(stop));
+}
+
+}  // namespace nutik

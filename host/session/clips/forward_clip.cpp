@@ -1,0 +1,59 @@
+#include "session/clips/forward_clip.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/read_ahead.hpp"
+#include "session/clips/clip_memory.hpp"
+
+namespace nutik {
+namespace {
+
+ExposedPicture expose_once(ClipSource& source, std::uint64_t sample_count, const MemoryBudget& memory,
+                           const ExposureRequest& request, ValueType type, const MemoryNeeds& besides,
+                           const ExposeStream& expose) {
+  const Timeline timeline = source.timeline(sample_count);
+  const FunctionSet functions = functions_of(request, timeline);
+  const Mask mask = mask_of(request, source.capture.shape);
+  PlanOptions options = plan_options_of(request);
+  options.transfer.reset();  // it went into the capture's format
+  MemoryNeeds rendering = rendering_needs(source.capture, type, functions.size(),
+                                          source.request.block_samples.value_or(kDefaultBlockSamples));
+  rendering.add(besides);
+  const ClipMemory shares = memory_for_streaming(memory, source.clip_to_read(), rendering);
+  const SampleRange needed = needed_samples(timeline, functions, mask, options);
+  const std::uint64_t last =
+      streamed_samples(source.capture, needed, shares.stream_samples, timeline.sample_count()).last;
+  // At the timeline's end samples that follow are counted: they prove it wrong.
+  const bool is_end = last == timeline.sample_count();
+  ReadAhead samples(*source.clip, shares.read_ahead_bytes, is_end ? ReadAhead::kAll : last);
+  StreamingCapture stream(source.capture, timeline, needed, shares.stream_samples, source.request.tiles,
+                          [&](std::uint64_t most) { return samples.next(most); });
+  ExposedPicture exposed = expose(stream, functions, mask, options, shares.bytes);
+  if (auto reason = source.clip->ended_early()) exposed.warnings.push_back(std::move(*reason));
+  for (std::string& remark : source.clip->remarks()) exposed.warnings.push_back(std::move(remark));
+  return exposed;
+}
+
+}  // namespace
+
+ExposedPicture expose_forward(ClipSource source, const MemoryBudget& memory, const ExposureRequest& request,
+                              ValueType type, const MemoryNeeds& besides, const ExposeStream& expose) {
+  std::optional<std::uint64_t> decoded;  // samples, where they are not those announced
+  for (;;) {
+    try {
+      return expose_once(source, decoded.value_or(source.announced_samples()), memory, request, type, besides,
+                         expose);
+    } catch (const SampleCountMismatch& mismatch) {
+      if (decoded == mismatch.sample_count || mismatch.sample_count == 0) {
+        throw InputError(format("{}: only {} pictures can be decoded", source.name(), mismatch.sample_count));
+      }
+      decoded = mismatch.sample_count;
+    }
+    source = open_clip_source(source.request, memory);
+  }
+}
+
+}  // namespace nutik

@@ -1,0 +1,120 @@
+#include "session/clips/measured_noise.hpp"
+
+#include <algorithm>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "capture/noise_file.hpp"
+#include "session/clips/clip_source.hpp"
+#include "system/mapped_file.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr double kLittleStill = 0.5;  // of the pixels
+constexpr double kMuchShared = 0.25;  // of a variance
+constexpr double kMuchUneven = 0.25;  // of the codes
+
+std::string format_text(const CaptureFormat& format) {
+  return nutik::format("{} x {} pixels, {} channel{}, {} bits, white code {}, transfer {}",
+                       format.shape.width, format.shape.height, format.shape.channels,
+                       format.shape.channels == 1 ? "" : "s", format.code_bytes * 8, format.white_code,
+                       format.transfer.text());
+}
+
+}  // namespace
+
+CameraNoise read_noise_file(const std::filesystem::path& path) {
+  const MappedFile file(path);
+  const auto bytes = file.bytes();
+  return parse_noise({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
+}
+
+std::optional<std::string> transfer_note(const StatedNoise& stated, const Transfer& of_clip) {
+  const CameraNoise& noise = stated.noise;
+  // Measured points are in codes, whatever they stand for.
+  const bool is_in_light = std::ranges::any_of(
+      noise.channels, [](const ChannelNoise& channel) { return channel.curve == NoiseCurve::sensor; });
+  if (!is_in_light || noise.transfer == of_clip) return std::nullopt;
+  return format(
+      "{} says transfer {} and the clip's is {}: read and shot noise are in light, and come to other codes; "
+      "where the file's is wrong, measure the noise again or correct that line",
+      stated.name, noise.transfer.text(), of_clip.text());
+}
+
+NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOptions& stated,
+                            std::uint64_t most_samples, const MemoryBudget& memory, ClipTold& told) {
+  ClipOptions options = stated;
+  options.decoder_bytes = memory.bytes / 8;
+  std::optional<CaptureFormat> first;
+  std::optional<NoiseEstimator> estimator;
+  for (const std::string& name : clips) {
+    const std::unique_ptr<Clip> clip = open_clip(name, options);
+    const CaptureFormat format = clip_format(*clip, options);
+    for (const Note& note : clip->info().notes) told.notes.push_back(note);
+    if (!first) {
+      told.facts = clip->info().facts;
+      const std::uint64_t within_decoder = clip->info().decoder_bytes;
+      MemoryNeeds needs{{"pictures within the decoder", within_decoder}};
+      needs.add(NoiseEstimator::needs(format, most_samples));
+      static_cast<void>(needs.rest_of(memory.bytes));
+      first = format;
+      estimator.emplace(format,
+                        NoiseEstimator::threads_in(memory.bytes - within_decoder, format, most_samples));
+    } else if (format != *first) {
+      throw InputError(nutik::format("{} is of another kind than {}: {} where that has {}", name,
+                                     clips.front(), format_text(format), format_text(*first)));
+    }
+    estimator->add_clip(
+        name, [&](std::span<std::byte> raster) { return clip->read(raster); }, most_samples);
+  }
+  return estimator->estimate();
+}
+
+std::string reason_for_no_noise(const NoiseEstimate& estimate) {
+  double shared = 0, uneven = 0;
+  for (const NoiseEstimate::Channel& channel : estimate.channels) {
+    shared = std::max(shared, channel.shared);
+    uneven = std::max(uneven, channel.uneven);
+  }
+  if (shared > kMuchShared) {
+    return format(
+        "pixels {} apart stray alike, as noise of a sensor does not: something moves in most of the picture, "
+        "or a codec took the noise away",
+        kNeighbourPixels);
+  }
+  if (uneven > kMuchUneven) {
+    return format(
+        "at {:.0f} % of the codes some pixels stray more than others, as noise of a sensor does not: the "
+        "camera "
+        "or the scene moves, or a codec took the noise away",
+        100 * uneven);
+  }
+  return {};
+}
+
+std::vector<std::string> noise_notes(const NoiseEstimate& estimate) {
+  std::vector<std::string> notes;
+  double still = 1;
+  bool is_sensor = true;
+  for (std::size_t channel = 0; channel < estimate.channels.size(); ++channel) {
+    still = std::min(still, estimate.channels[channel].still_share);
+    is_sensor &= estimate.noise.channels[channel].curve == NoiseCurve::sensor;
+  }
+  if (still < kLittleStill) {
+    notes.push_back(
+        format("only {:.0f} % of the pixels are still: what moves slowly may count as noise; a still "
+               "scene tells more",
+               100 * still));
+  }
+  if (const std::string reason = reason_for_no_noise(estimate); !reason.empty())
+    notes.push_back(reason + "; what moves leaves rings where codes are held within it");
+  if (!is_sensor) {
+    notes.push_back(
+        "the noise is not that of a sensor (compressed clips are not, nor those whose transfer function is "
+        "another): lines between the points are used, and nothing is known beyond them");
+  }
+  return notes;
+}
+
+}  // namespace nutik

@@ -1,0 +1,50 @@
+// A camera's noise, from a file or from footage of it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "capture/noise_file.hpp"
+#include "media/clip.hpp"
+#include "noise/noise_estimator.hpp"
+#include "session/memory_budget.hpp"
+#include "session/requests/source_request.hpp"
+
+namespace nutik {
+
+// Samples that a clip's own noise is measured on, from its start: enough for any camera, and soon decoded.
+inline constexpr std::uint64_t kSamplesOfOwnNoise = 256;
+
+// Throws InputError naming file, line and column of what is wrong with a noise file.
+[[nodiscard]] CameraNoise read_noise_file(const std::filesystem::path& path);
+
+// What a person should know where codes stand for light by another transfer function in the noise than in the
+// clip, and the noise depends on it; none where all is well.
+[[nodiscard]] std::optional<std::string> transfer_note(const StatedNoise& stated, const Transfer& of_clip);
+
+struct ClipTold {
+  std::vector<Fact> facts;
+  std::vector<Note> notes;
+};
+
+// Measures noise on clips of one format: several exposures of a still scene. Throws InputError where a clip
+// is of another format than the first, naming both; MemoryTooLittle, before any is read, with the least that does.
+// `told` gets what the first clip is taken for, and the notes on all.
+[[nodiscard]] NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOptions& options,
+                                          std::uint64_t most_samples, const MemoryBudget& memory,
+                                          ClipTold& told);
+
+// Why it is no noise of a sensor: so much of what pixels stray by is common to those that lie apart, or at so many codes
+// some stray more than others, that something moves, or a codec took the noise away. Holding codes within it would leave
+// rings round what moves. Empty where it may be one.
+[[nodiscard]] std::string reason_for_no_noise(const NoiseEstimate& estimate);
+
+// What a person should know of an estimate: that little was still, or that no sensor's curve fits; empty where
+// it is as it should be.
+[[nodiscard]] std::vector<std::string> noise_notes(const NoiseEstimate& estimate);
+
+}  // namespace nutik

@@ -1,0 +1,26 @@
+// A clip as a temporary capture that can be read anywhere and repeatedly.
+#pragma once
+
+#include <memory>
+#include <stop_token>
+
+#include "session/clips/encoding.hpp"
+#include "tik/reader.hpp"
+
+namespace nutik {
+
+struct ScratchCapture {
+  std::unique_ptr<tik::Reader> reader;
+  EncodedCapture encoded;
+};
+
+// Encodes into a temporary file, in TMPDIR, else /tmp. It has no name any more when this returns, and takes no space
+// once the reader is gone; what a killed process left behind is removed by the next that makes one. Throws as encode()
+// does, OutputError where there is no space.
+// `rendering` tells what will be held while the capture is used, beside a block of it.
+[[nodiscard]] ScratchCapture encode_to_scratch(const SourceRequest& source, const MemoryBudget& memory,
+                                               const NeedsOfFormat& rendering,
+                                               const ReportedProgress& progress = {},
+                                               std::stop_token stop = {});
+
+}  // namespace nutik

@@ -1,0 +1,82 @@
+#include "session/clips/source_check.hpp"
+
+#include <algorithm>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "imev/each_block.hpp"
+#include "imev/expected_values.hpp"
+#include "session/clips/clip_source.hpp"
+#include "session/text/size_text.hpp"
+
+namespace nutik {
+namespace {
+
+std::string samples_text(const CaptureFormat& format) {
+  return nutik::format("{}, {} bits, white code {}", shape_text(format.shape), format.code_bytes * 8,
+                       format.white_code);
+}
+
+// What the samples of a capture were before it was encoded.
+CaptureFormat source_format(const CaptureFormat& capture) {
+  CaptureFormat source = capture;
+  if (capture.noise.camera) {
+    source.white_code = capture.noise.camera->white_code;
+    source.code_bytes = source.white_code > 255 ? 2 : 1;
+  }
+  return source;
+}
+
+// The same clip gives the same path.
+AlignRequest same_alignment(const tik::Alignment& aligned) {
+  AlignRequest request;
+  request.motion = camera_motion_of(aligned.motion).value_or(request.motion);
+  request.reference = StatedTime::of_pictures(static_cast<std::int64_t>(aligned.reference));
+  request.unseen = aligned.holds_unseen ? Unseen::held : Unseen::cropped;
+  return request;
+}
+
+}  // namespace
+
+SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const MemoryBudget& memory,
+                                const ReportedProgress& progress) {
+  const CaptureFormat wanted = source_format(capture.format());
+  const std::string name = input_title(clip.path.string());
+  clip.noise = NoNoise{};  // the capture has its noise model
+  if (!clip.clip.white_code && wanted.code_bytes == 2) clip.clip.white_code = wanted.white_code;
+  if (const auto& aligned = capture.header().alignment; aligned && !clip.align)
+    clip.align = same_alignment(*aligned);
+  const ClipSource source = open_clip_source(clip, memory);
+  if (source.capture.shape != wanted.shape || source.capture.code_bytes != wanted.code_bytes ||
+      source.capture.white_code != wanted.white_code) {
+    throw InputError(format("{} is not what the capture was made from: it has {}, the capture {}", name,
+                            samples_text(source.capture), samples_text(wanted)));
+  }
+
+  const MemoryNeeds needs{{"pictures within the decoder", source.clip->info().decoder_bytes},
+                          {"a picture of the clip", wanted.sample_bytes()},
+                          {"a picture of the capture", capture.format().sample_bytes()},
+                          {"a block", largest_block(capture)}};
+  needs.rest_of(memory.bytes);
+  SourceCheck check{SourceComparison(wanted), 0, capture.file_bytes(), 0, false};
+  for (const tik::IndexEntry& block : capture.index()) check.record_count += block.record_count;
+  const std::uint64_t sample_count = capture.timeline().sample_count();
+  check.source_bytes = wanted.sample_bytes() * sample_count;
+  std::vector<std::byte> raster(wanted.sample_bytes());
+  for_each_block(capture, [&](const BlockView& block) {
+    for (std::uint32_t k = 0; k < block.extent().sample_count; ++k) {
+      const std::uint64_t sample = block.extent().first_sample + k;
+      if (!source.clip->read(raster)) {
+        throw InputError(
+            format("{} is not what the capture was made from: it has {} pictures, the capture {}", name,
+                   sample, sample_count));
+      }
+      check.comparison.add(block, k, raster);
+      if (progress) progress(sample, sample_count);
+    }
+  });
+  check.clip_goes_on = source.clip->read(raster);
+  return check;
+}
+
+}  // namespace nutik

@@ -1,0 +1,116 @@
+// Looks for mistakes in a function file, a mask and a capture, each optional, without exposing anything.
+//
+//   in:      what could be read of them
+//   out:     findings, and figures for each function
+//   always:  what could not be read is left out; a finding of the caller's tells of it
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "capture/fact.hpp"
+#include "capture/source_text.hpp"
+#include "capture/timeline.hpp"
+#include "exposure/function_check.hpp"
+#include "exposure/function_file.hpp"
+#include "exposure/mask_check.hpp"
+#include "exposure/normalization.hpp"
+#include "render/render_plan.hpp"
+
+namespace nutik {
+
+struct Finding {
+  using Severity = Diagnostic::Severity;
+  // A mask value; all values that an editor blended; all specks of one value.
+  using Details =
+      std::variant<std::monostate, std::uint8_t, std::vector<BlendedValue>, std::vector<MaskSpeck>>;
+
+  Severity severity = Severity::error;
+  std::string kind;                               // for scripts: `mistyped_time`
+  std::string file;                               // the input it is about
+  std::string message;                            // without the file's name
+  std::optional<TextPlace> place = std::nullopt;  // in a function file
+  Excerpt excerpt = {};
+  Details details = {};
+  std::vector<Setting> settings = {};  // that would help
+};
+
+// A function file and its text, which findings show.
+struct CheckedFunctions {
+  std::string name;
+  SourceText source;
+  FunctionFile file;
+};
+
+struct CheckedMask {
+  std::string name;
+  Mask mask;
+  std::array<std::uint64_t, kMaskValues> pixels;  // of each value
+};
+
+struct CheckedCapture {
+  std::string name;
+  CaptureFormat format;
+  std::optional<Timeline> timeline;  // not known for clips that do not say how long they are
+  // Of a clip: what it is taken for, and what else a person should know.
+  std::vector<Fact> facts = {};
+  std::vector<Note> notes = {};
+};
+
+// What a function comes to.
+struct FunctionFigures {
+  std::uint8_t tag;
+  GainSummary summary;
+  std::optional<std::uint64_t> pixels;
+  std::optional<std::uint64_t> samples;
+};
+
+class InputCheck {
+ public:
+  void add(Finding finding) { findings_.push_back(std::move(finding)); }
+  // Finds the mistakes of its text.
+  void add_functions(const std::string& name, std::string_view text);
+  void add_mask(const std::string& name, Mask mask) {
+    const auto pixels = mask.pixels_per_tag();
+    mask_.emplace(CheckedMask{name, std::move(mask), pixels});
+  }
+  void add_capture(CheckedCapture capture) { capture_ = std::move(capture); }
+
+  // How functions will be exposed, which their figures are told for; as they are where nothing is said.
+  void set_weight(const Normalization& normalization, double gain);
+
+  // Checks them against each other, once all have been added. Mask values without a function are no mistake if they are
+  // exposed to black.
+  void finish(bool unmapped_is_zero);
+
+  [[nodiscard]] const std::optional<CheckedFunctions>& functions() const { return functions_; }
+  [[nodiscard]] const std::optional<CheckedMask>& mask() const { return mask_; }
+  [[nodiscard]] const std::optional<CheckedCapture>& capture() const { return capture_; }
+  [[nodiscard]] const CheckedDomain& domain() const { return domain_; }
+  [[nodiscard]] const std::vector<FunctionFigures>& figures() const { return figures_; }  // by mask value
+  [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
+
+ private:
+  [[nodiscard]] CheckedDomain domain_of_inputs() const;
+  [[nodiscard]] Finding function_finding(std::string kind, std::uint8_t tag, std::size_t at,
+                                         const std::string& message) const;
+  [[nodiscard]] FunctionFigures figures_of(std::uint8_t tag, const GainSummary& summary) const;
+  void check_functions();
+  void check_mask(bool unmapped_is_zero);
+
+  std::optional<CheckedFunctions> functions_;
+  std::optional<CheckedMask> mask_;
+  std::optional<CheckedCapture> capture_;
+  Normalization normalization_;
+  double gain_ = 1.0;
+  CheckedDomain domain_;
+  std::vector<FunctionFigures> figures_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace nutik

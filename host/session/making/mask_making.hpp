@@ -1,0 +1,52 @@
+// Makes a mask as it was asked for.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "capture/memory_needs.hpp"
+#include "exposure/mask.hpp"
+#include "imev/capture_source.hpp"
+#include "session/requests/mask_request.hpp"
+
+namespace nutik {
+
+// What a step came to.
+struct StepReport {
+  std::string name;
+  std::uint8_t tag = 0;                    // of a grid, the first
+  std::uint8_t last_tag = 0;               // of a grid; else the same
+  std::uint64_t pixel_count = 0;           // that it gave its tag
+  std::optional<std::uint32_t> by_codes;   // more than which a code had to change
+  std::vector<std::uint8_t> covered_tags;  // its tags that later steps left on no pixel
+};
+
+// Neither capture nor picture nor anything else says how large the mask is.
+struct NoMaskSize : UsageError {
+  using UsageError::UsageError;
+};
+
+struct MadeMask {
+  Mask mask;
+  std::vector<StepReport> steps;
+};
+
+// What making a mask of a capture takes, beside a block of it: two codes of each value, or two pictures, and of each
+// pixel its span, that again while the usual noise is sought, and a few regions.
+[[nodiscard]] MemoryNeeds mask_making_needs(const CaptureFormat& capture);
+
+// Of the size that everything stated agrees on. `capture` is null where no step reads one; `capture_name` is for
+// messages; `plate` makes the capture's plate in codes of the capture, and is asked once where a step needs it. Throws
+// NoMaskSize, UsageError where a step lacks its capture or plate, sizes differ or a time lies outside the capture,
+// InputError where a picture has another size than the mask, or the capture is damaged.
+[[nodiscard]] MadeMask make_mask(const MaskRequest& request, CaptureSource* capture,
+                                 const std::string& capture_name, const std::function<Picture()>& plate = {});
+
+// Of steps that select no pixel, and of tags that later steps cover.
+[[nodiscard]] std::vector<std::string> warnings_of(const MadeMask& made);
+
+}  // namespace nutik

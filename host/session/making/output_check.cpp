@@ -1,0 +1,162 @@
+#include "session/making/output_check.hpp"
+
+#include <unistd.h>
+
+#include <string_view>
+
+#include "capture/format.hpp"
+#include "exposure/function_file.hpp"
+#include "media/picture_writer.hpp"
+#include "media/recipe.hpp"
+#include "system/mapped_file.hpp"
+#include "tik/header.hpp"
+
+namespace nutik {
+namespace {
+
+bool is_tik_content(const std::string& bytes) { return tik::looks_like_tik(std::as_bytes(std::span(bytes))); }
+
+bool is_picture_content(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG") || bytes.starts_with(std::string_view("II*\0", 4)) ||
+      bytes.starts_with(std::string_view("MM\0*", 4)) || bytes.starts_with("II+") ||
+      bytes.starts_with("\xFF\xD8\xFF") || bytes.starts_with("\x76\x2f\x31\x01")) {
+    return true;
+  }
+  return bytes.size() > 2 && bytes[0] == 'P' &&
+         std::string_view("123456fF").find(bytes[1]) != std::string_view::npos &&
+         !is_tik_content(std::string(bytes));
+}
+
+// A grey PGM or PNG that does not carry how it was exposed.
+bool is_mask_content(const std::filesystem::path& file) {
+  constexpr std::size_t kPngColourType = 25;
+  const MappedFile mapped(file);
+  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
+  const bool is_pgm = bytes.starts_with("P2") || bytes.starts_with("P5");
+  const bool is_grey_png =
+      bytes.starts_with("\x89PNG") && bytes.size() > kPngColourType && bytes[kPngColourType] == 0;
+  if (!is_pgm && !is_grey_png) return false;
+  try {
+    return !read_recipe(file);
+  } catch (const InputError&) {  // damaged, and so no exposure that is missed
+    return true;
+  }
+}
+
+// Text with a comma in its first line.
+bool is_table_content(std::string_view bytes) {
+  const std::string_view line = bytes.substr(0, bytes.find('\n'));
+  return line.find(',') != std::string_view::npos && line.find('\0') == std::string_view::npos;
+}
+
+bool is_functions_content(const std::filesystem::path& file) {
+  const MappedFile mapped(file);
+  const FunctionFile functions =
+      parse_functions({reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size()});
+  return !functions.functions.empty() || !functions.broken.empty();
+}
+
+bool is_video_content(std::string_view bytes) {
+  const bool is_matroska = bytes.starts_with("\x1A\x45\xDF\xA3");
+  const bool is_mp4 = bytes.size() >= 8 && bytes.substr(4, 4) == "ftyp";
+  const bool is_avi = bytes.size() >= 12 && bytes.starts_with("RIFF") && bytes.substr(8, 4) == "AVI ";
+  return is_matroska || is_mp4 || is_avi;
+}
+
+bool is_content_of(OutputKind kind, const std::filesystem::path& file) {
+  const std::string bytes = first_bytes(file);
+  if (bytes.empty()) return true;
+  switch (kind) {
+    case OutputKind::tik: return is_tik_content(bytes);
+    case OutputKind::picture: return is_picture_content(bytes);
+    case OutputKind::mask: return is_mask_content(file);
+    case OutputKind::table: return is_table_content(bytes);
+    case OutputKind::video: return is_video_content(bytes);
+    case OutputKind::noise: return bytes.starts_with("nutik noise");
+    case OutputKind::functions: return is_functions_content(file);
+  }
+  return false;
+}
+
+const char* name_of(OutputKind kind) {
+  switch (kind) {
+    case OutputKind::tik: return ".tik file";
+    case OutputKind::picture: return "picture";
+    case OutputKind::mask: return "mask";
+    case OutputKind::table: return "table";
+    case OutputKind::video: return "video";
+    case OutputKind::noise: return "noise file";
+    case OutputKind::functions: return "function file";
+  }
+  return "";
+}
+
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  return std::filesystem::absolute(a).lexically_normal() == std::filesystem::absolute(b).lexically_normal();
+}
+
+}  // namespace
+
+void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs) {
+  const std::string name = output.string();
+  const bool is_picture = kind == OutputKind::picture || kind == OutputKind::mask;
+  if (is_picture && names_standard_output(output)) {
+    if (isatty(STDOUT_FILENO) == 1) {
+      throw UsageError(format(
+          "{} is standard output, which is a terminal; send it on to a program or a file, or name a file",
+          name));
+    }
+    return;
+  }
+  for (const std::string& input : inputs) {
+    if (is_same_file(output, input)) {
+      throw UsageError(format("the output {} is also an input; choose another name", name));
+    }
+  }
+  if (kind == OutputKind::tik && output.extension() != ".tik") {
+    throw WrongOutputName(kind, format("{} is no name for a capture", name));
+  }
+  if (kind == OutputKind::noise && (output.extension() == ".tik" || is_picture_name(output))) {
+    throw UsageError(format("{} is no name for a text: a camera's noise is written as .noise", name));
+  }
+  if (kind == OutputKind::functions && output.extension() != ".fn") {
+    throw UsageError(format("{}: gain functions are written as .fn", name));
+  }
+  if (is_picture && !is_picture_name(output)) {
+    throw UsageError(format("{}: pictures are written as {}", name, picture_extensions()));
+  }
+  if (kind == OutputKind::table && output.extension() != ".csv") {
+    throw WrongOutputName(kind, format("{}: tables are written as .csv", name));
+  }
+  std::error_code error;
+  if (!std::filesystem::exists(output, error)) return;
+  if (std::filesystem::is_directory(output, error)) {
+    throw UsageError(format("{} is a folder; name a file in it", name));
+  }
+  if (!is_content_of(kind, output)) {
+    throw UsageError(
+        format("{} exists and is no {}; it is not replaced. Choose another name", name, name_of(kind)));
+  }
+}
+
+bool is_mask_name(const std::filesystem::path& path) {
+  const std::string extension = picture_extension(path);
+  return extension == ".pgm" || extension == ".png";
+}
+
+void check_mask_output(const std::filesystem::path& output, std::span<const std::string> inputs) {
+  if (!is_mask_name(output)) {
+    throw UsageError(format("{}: masks are written as .pgm or .png, which keep every tag", output.string()));
+  }
+  check_output(output, OutputKind::mask, inputs);
+}
+
+void check_picture_output(const std::filesystem::path& output, std::uint32_t channels,
+                          std::span<const std::string> inputs) {
+  check_output(output, OutputKind::picture, inputs);
+  static_cast<void>(value_type_for(output, Depth::bits8, ValueType::code8, channels));
+}
+
+}  // namespace nutik

@@ -1,0 +1,95 @@
+#include "session/making/plate_request.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "imev/each_block.hpp"
+#include "noise/noise_estimator.hpp"
+#include "render/code_scale.hpp"
+#include "scene/plate.hpp"
+#include "session/clips/camera_check.hpp"
+#include "session/making/mask_making.hpp"
+
+namespace nutik {
+namespace {
+
+// Samples that the noise is measured on: several windows of the estimator, in the middle of the capture.
+constexpr std::uint64_t kMeasuredSamples = 4 * kWindowSamples;
+
+// The noise that a capture holds; none where nothing tells it: all of it moves, or is black.
+std::optional<CameraNoise> noise_of(CaptureSource& capture) {
+  const std::uint64_t count = capture.timeline().sample_count();
+  std::uint64_t sample = (count - std::min(count, kMeasuredSamples)) / 2;
+  std::uint64_t block = 0;
+  BlockCursor cursor(capture);
+  std::optional<BlockView> view;
+  NoiseEstimator estimator(capture.format());
+  try {
+    estimator.add_clip(
+        "the capture",
+        [&](std::span<std::byte> raster) {
+          if (sample == count) return false;
+          while (capture.block_extent(block).range().last <= sample) {
+            ++block;
+            view.reset();
+          }
+          if (!view) view.emplace(cursor.at(block));
+          view->read_sample(static_cast<std::uint32_t>(sample++ - view->extent().first_sample), raster);
+          return true;
+        },
+        kMeasuredSamples);
+    return estimator.estimate().noise;
+  } catch (const UnknownNoise&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+MemoryNeeds plate_making_needs(const CaptureFormat& capture) {
+  MemoryNeeds needs = plate_needs(capture);
+  needs.add("noise", kWindowSamples * 2 * capture.shape.value_count());
+  return needs;
+}
+
+MadePlate make_plate(CaptureSource& capture, const std::string& capture_name, const PlateRequest& request,
+                     const OutputFormat& output, const MemoryBudget& memory,
+                     const ReportedProgress& progress) {
+  const CaptureFormat& format = capture.format();
+  if (capture.timeline().sample_count() < 2) {
+    throw InputError(nutik::format("{}: a single sample does not tell what moves", capture_name));
+  }
+  std::optional<CameraNoise> noise;
+  if (!request.by_codes) noise = noise_of(capture);
+  const auto least = static_cast<std::uint32_t>(std::ceil(CodeBand::kLeastShare * format.white_code));
+  const CodeBand band = noise ? CodeBand::of_noise(format, *noise)
+                              : CodeBand::of_codes(format, request.by_codes.value_or(least));
+  Plate plate = make_plate(capture, band, memory.bytes, progress);
+  MadePlate made{{}, std::move(plate.uncertain), noise || request.by_codes, {}};
+  made.picture = stored(std::move(plate.light), format, output, made.saturation);
+  state_values(made.picture, format, output);
+  return made;
+}
+
+Picture make_code_plate(CaptureSource& capture, const std::string& capture_name, const MemoryBudget& memory,
+                        const ReportedProgress& progress) {
+  OutputFormat codes;
+  codes.type = code_type(capture.format());
+  codes.white_code = capture.format().white_code;
+  return make_plate(capture, capture_name, {}, codes, memory, progress).picture;
+}
+
+NeedsOfFormat mask_needs_of(const MaskRequest& request) {
+  const bool needs_plate = std::ranges::any_of(request.steps, &MaskStep::needs_plate);
+  return [needs_plate, looks_at_camera = request.tells_by_rest()](const CaptureFormat& capture) {
+    MemoryNeeds needs = mask_making_needs(capture);
+    if (looks_at_camera) needs.add(camera_check_needs(capture));
+    if (needs_plate) needs.add(plate_making_needs(capture));
+    return needs;
+  };
+}
+
+}  // namespace nutik

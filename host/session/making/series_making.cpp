@@ -1,0 +1,31 @@
+#include "session/making/series_making.hpp"
+
+#include <atomic>
+#include <exception>
+#include <utility>
+
+#include "session/making/picture_queue.hpp"
+
+namespace nutik {
+
+void make_series(Session& session, ExposureRequest exposure, const std::vector<SeriesPicture>& pictures,
+                 const OutputFormat& output, const FileWishes& file, const ReportedProgress& progress,
+                 const std::function<std::string(std::uint64_t number, ExposedPicture& exposed)>& add) {
+  std::atomic<bool> has_failed = false;
+  std::exception_ptr failure;
+  PictureQueue queue([&](std::size_t, const Error&) {
+    if (!has_failed) failure = std::current_exception();
+    has_failed = true;
+  });
+  for (std::uint64_t k = 0; k < pictures.size() && !has_failed; ++k) {
+    if (progress) progress(k, pictures.size());
+    exposure.start = pictures[k].start;
+    ExposedPicture exposed = session.render(exposure, output);
+    std::string text = add(k, exposed);
+    queue.push(k, pictures[k].path, std::move(exposed.picture), std::move(text), file);
+  }
+  queue.finish();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace nutik

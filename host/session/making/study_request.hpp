@@ -1,0 +1,81 @@
+// A motion study: which moments of a subject a picture shows, and what between them; found in the capture.
+//
+//   in:      a style, how many moments or which
+//   out:     what a mask, gain functions and an exposure are asked for: requests as a person would state them, so that
+//            each can be changed by hand
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "imev/capture_source.hpp"
+#include "render/render_plan.hpp"
+#include "scene/moments.hpp"
+#include "scene/shots.hpp"
+#include "scene/subject.hpp"
+#include "session/making/mask_making.hpp"
+#include "session/memory_budget.hpp"
+#include "session/reported_progress.hpp"
+#include "session/requests/mask_request.hpp"
+#include "session/requests/stated_time.hpp"
+
+namespace nutik {
+
+enum class StudyStyle {
+  trail,         // sharp moments over the trail of the whole way
+  strobe,        // sharp moments, and nothing between them
+  rear_curtain,  // the last moment, and a trail that grows towards it
+  frozen,        // one moment in a scene that is exposed for all of the time
+  clean,         // the scene without what moves: its plate
+  slit           // columns, each at a moment later than the one to its left
+};
+enum class TrailShape { even, fade, ramp, none };
+
+struct StudyRequest {
+  StudyStyle style = StudyStyle::trail;
+  std::variant<std::uint32_t, std::vector<StatedTime>> moments = std::uint32_t{5};
+  MomentSpacing spacing = MomentSpacing::time;
+  std::optional<TrailShape> trail;  // none: what the style has
+  std::vector<Rectangle>
+      regions;  // each with a subject of its own, in pixels; none: one in all of the picture
+
+  friend bool operator==(const StudyRequest&, const StudyRequest&) = default;
+};
+
+// There is no scene that rests.
+struct EverythingMoves : InputError {
+  using InputError::InputError;
+};
+
+// What moves makes no study.
+struct NoSubject : InputError {
+  using InputError::InputError;
+};
+
+struct Study {
+  // Samples, of one subject after another: of tags 1, 2, …; what is left has tag 0. Of a slit's columns: of tags 0, 1, …
+  std::vector<std::uint64_t> moments;
+  bool are_moments_found = false;  // not stated
+  MaskRequest mask;
+  FunctionSet functions;      // as a function file has them, to be normalized by their integrals
+  double trail_strength = 1;  // how many times as strong the trail is as in a plain exposure
+  SampleRange empty;          // at which nothing is there: taken away again from where the trail is stronger
+  Picture plate;              // in codes of the capture
+  std::vector<std::string> notes;
+};
+
+// Looks at all of the capture. Throws UsageError where moments are stated that do not go together; InputError where
+// nothing moves or everything does, with what was found; MemoryTooLittle.
+[[nodiscard]] Study plan_study(CaptureSource& capture, const std::string& capture_name,
+                               const StudyRequest& request, const MemoryBudget& memory,
+                               const ReportedProgress& progress = {});
+
+// The regions of its moments, of the capture that it was planned for; takes its plate. Throws NoSubject where moments that
+// were found cover one another.
+[[nodiscard]] MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& capture_name);
+
+}  // namespace nutik

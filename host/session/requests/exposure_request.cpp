@@ -1,0 +1,84 @@
+#include "session/requests/exposure_request.hpp"
+
+#include <algorithm>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "session/text/time_text.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr const char* kPlainName = "the exposure";
+
+// Functions that no pixel uses are not checked.
+bool is_used(const ExposureRequest& request, std::uint8_t tag) {
+  return !request.mask || (*request.mask)->uses(tag);
+}
+
+GainFunction function_of(const PlainInterval& plain, const Exposure& interval, const Timeline& timeline) {
+  if (interval.start_ns >= timeline.duration_ns() || interval.end_ns <= 0) {
+    throw UsageError(format("the interval from {} on lies outside the capture, which lasts {}",
+                            duration_text(interval.start_ns), duration_text(timeline.duration_ns())));
+  }
+  return plain.shutter.function({interval.start_ns, interval.end_ns});
+}
+
+}  // namespace
+
+FunctionSet functions_of(const ExposureRequest& request, const Timeline& timeline) {
+  if (const auto* plain = std::get_if<PlainInterval>(&request.gains)) {
+    return functions_of(request, plain_interval(request.start, plain->length, timeline), timeline);
+  }
+  const std::int64_t zero_ns = moment_ns(request.start, timeline);
+  return functions_of(request, Exposure{zero_ns, zero_ns}, timeline);
+}
+
+FunctionSet functions_of(const ExposureRequest& request, const Exposure& interval, const Timeline& timeline) {
+  FunctionSet functions;
+  const auto add = [&](std::uint8_t tag, const GainFunction& function, const std::string& name) {
+    functions.emplace(tag,
+                      request.normalization.normalized(function, timeline.duration_ns(), request.gain, name));
+  };
+  if (const auto* plain = std::get_if<PlainInterval>(&request.gains)) {
+    add(0, function_of(*plain, interval, timeline), kPlainName);
+    return functions;
+  }
+  for (const auto& [tag, written] : *std::get<Shared<FunctionSet>>(request.gains)) {
+    if (!is_used(request, tag)) continue;
+    add(tag, interval.start_ns == 0 ? written : written.shifted(interval.start_ns), format("M{}", tag));
+  }
+  return functions;
+}
+
+std::int64_t functions_end_ns(const ExposureRequest& request) {
+  std::int64_t end_ns = 0;
+  for (const auto& [tag, function] : *std::get<Shared<FunctionSet>>(request.gains)) {
+    if (!is_used(request, tag)) continue;
+    const auto points = function.points();
+    const auto is_live = [](const ControlPoint& point) { return point.gain != 0.0; };
+    const auto dark =
+        std::find_if(points.rbegin(), points.rend(), is_live).base();  // behind the last live one
+    if (dark == points.begin()) continue;
+    end_ns = std::max(end_ns, dark == points.end() ? points.back().time_ns : dark->time_ns);
+  }
+  return end_ns;
+}
+
+Mask mask_of(const ExposureRequest& request, const Shape& shape) {
+  if (request.mask) return (*request.mask)->mask;
+  const auto* written = std::get_if<Shared<FunctionSet>>(&request.gains);
+  return Mask::uniform(shape.width, shape.height,
+                       written != nullptr ? (*written)->begin()->first : std::uint8_t{0});
+}
+
+PlanOptions plan_options_of(const ExposureRequest& request) {
+  PlanOptions options;
+  options.unmapped_is_zero = request.unmapped_is_zero;
+  options.live_all = request.live_all;
+  options.transfer = request.transfer;
+  if (request.is_plain()) options.function_name = kPlainName;
+  return options;
+}
+
+}  // namespace nutik

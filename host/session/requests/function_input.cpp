@@ -1,0 +1,94 @@
+#include "session/requests/function_input.hpp"
+
+#include <vector>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/function_file.hpp"
+#include "exposure/mask_check.hpp"
+#include "mask/layers.hpp"
+#include "media/input_checksum.hpp"
+#include "media/mask_reader.hpp"
+#include "media/numbered_name.hpp"
+#include "session/clips/clip_source.hpp"
+#include "session/requests/picture_input.hpp"
+#include "system/input_bytes.hpp"
+
+namespace nutik {
+
+FunctionInput read_functions(std::string_view text, const std::string& title) {
+  const FunctionFile file = parse_functions(text);
+  std::string report = file.report(title);
+  if (file.has_errors()) throw InputError(format("{} has mistakes:\n{}", title, report));
+  FunctionSet functions;
+  for (const auto& [tag, read] : file.functions) functions.emplace(tag, read.function);
+  return {Shared(std::move(functions)), std::move(report)};
+}
+
+FunctionInput read_function_input(const std::string& name) {
+  return read_functions(InputBytes(name).text(), input_title(name));
+}
+
+Mask read_mask_input(const std::string& name, const std::optional<std::string>& capture) {
+  const InputBytes input(name);
+  const auto shape = capture ? known_shape(*capture) : std::nullopt;
+  return Mask::from_picture(
+      read_mask(input.bytes(), input_title(name), [&](std::uint32_t width, std::uint32_t height) {
+        const std::string mistake = shape ? size_mistake({width, height, {}}, *shape) : std::string();
+        if (!mistake.empty()) throw InputError(mistake);
+      }));
+}
+
+namespace {
+
+std::optional<NumberedName> layers_name(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error)) return std::nullopt;  // a file of that very name
+  return NumberedName::parse(path.filename().string());
+}
+
+}  // namespace
+
+std::map<std::uint8_t, std::filesystem::path> layer_files(const std::string& name) {
+  const std::filesystem::path path = name;
+  std::map<std::uint8_t, std::filesystem::path> files;
+  const auto numbered = layers_name(path);
+  if (!numbered) return files;
+  for (std::uint32_t tag = 0; tag < kMaskValues; ++tag) {
+    const std::filesystem::path file = path.parent_path() / numbered->with(tag);
+    std::error_code error;
+    if (std::filesystem::exists(file, error)) files.emplace(static_cast<std::uint8_t>(tag), file);
+  }
+  return files;
+}
+
+Mask read_layered_mask_input(const std::string& name, std::uint8_t rest,
+                             const std::optional<std::string>& capture) {
+  if (is_standard_input(name) || !layers_name(name)) return read_mask_input(name, capture);
+  const auto files = layer_files(name);
+  if (files.empty()) {
+    const std::filesystem::path path = name;
+    const NumberedName numbered = *layers_name(path);
+    throw InputError(format("{} cannot be read: there is no layer of any mask value, {} to {}", name,
+                            (path.parent_path() / numbered.with(0)).string(),
+                            (path.parent_path() / numbered.with(kMaskValues - 1)).string()));
+  }
+  const auto shape = capture ? known_shape(*capture) : std::nullopt;
+  std::vector<MaskLayer> layers;
+  for (const auto& [tag, file] : files) {
+    layers.push_back({tag, file.string(), read_picture(file.string())});
+    const Shape& found = layers.back().picture.shape;
+    const std::string mistake = shape ? size_mistake({found.width, found.height, {}}, *shape) : std::string();
+    if (!mistake.empty()) throw InputError(format("{}: {}", file.string(), mistake));
+  }
+  return mask_of_layers(layers, rest);
+}
+
+std::string mask_checksum(const std::string& name) {
+  if (is_standard_input(name) || !layers_name(name)) return bytes_checksum(InputBytes(name).bytes());
+  std::vector<std::filesystem::path> files;
+  for (const auto& [tag, file] : layer_files(name)) files.push_back(file);
+  return files_checksum(files);
+}
+
+}  // namespace nutik

@@ -1,0 +1,91 @@
+#include "session/requests/output_request.hpp"
+
+#include "capture/format.hpp"
+
+namespace nutik {
+namespace {
+
+// Throws UsageError where codes were asked for that such values are not.
+OutputFormat format_of(const OutputRequest& request, ValueType type, const CaptureFormat& capture) {
+  OutputFormat format;
+  format.type = type;
+  format.white_code = type == ValueType::code16 ? 65'535 : 255;
+  const auto* const stated = request.transfer ? std::get_if<Transfer>(&*request.transfer) : nullptr;
+  const bool keeps_codes = request.transfer && stated == nullptr;
+  if (!holds_codes(type)) {
+    if (keeps_codes || (stated != nullptr && !stated->is_linear())) {
+      throw UsageError("floating point holds light itself, which is linear; leave out how codes are made",
+                       {Setting::out_transfer});
+    }
+    return format;
+  }
+  if (!keeps_codes) format.transfer = stated != nullptr ? *stated : Transfer::srgb();
+  if (keeps_codes && type == code_type(capture)) format.white_code = capture.white_code;
+  return format;
+}
+
+}  // namespace
+
+LightIsKept::LightIsKept(const std::filesystem::path& file)
+    : UsageError(format("{} holds floating point, which keeps light below 0", file.string())), output(file) {}
+
+std::variant<Transfer, SourceCodes> parse_out_transfer(std::string_view text) {
+  if (text == "source") return SourceCodes{};
+  const std::string choices = "choose srgb, bt709, linear, gamma:G (as in gamma:2.2) or source";
+  try {
+    const Transfer transfer = Transfer::parse(text);
+    if (transfer.reference_white() == 1.0) return transfer;
+  } catch (const UsageError&) {
+    throw UsageError(format("transfer '{}' is not known for codes that are made; {}", text, choices),
+                     {Setting::out_transfer});
+  }
+  throw UsageError(format("codes of {} are read and not made; {}", text, choices), {Setting::out_transfer});
+}
+
+FileWishes file_wishes(const OutputRequest& request) {
+  return {request.quality.value_or(FileWishes::kUsualQuality), request.depth == Depth::half};
+}
+
+void check_quality(const OutputRequest& request, const std::filesystem::path& output) {
+  if (!request.quality || is_lossy_name(output)) return;
+  throw UsageError(
+      format("{} keeps every value: a quality is one of .jpg files; leave it out", output.string()),
+      {Setting::quality});
+}
+
+OutputFormat output_format(const OutputRequest& request, const std::filesystem::path& output, ValueType type,
+                           const CaptureFormat& capture) {
+  check_quality(request, output);
+  OutputFormat chosen = format_of(request, type, capture);
+  if (request.negative && !holds_codes(type)) throw LightIsKept(output);
+  chosen.negative = request.negative.value_or(NegativeLight::saturate);
+  return chosen;
+}
+
+OutputFormat output_format(const OutputRequest& request, const std::filesystem::path& output,
+                           const CaptureFormat& capture) {
+  return output_format(request, output,
+                       value_type_for(output, request.depth, code_type(capture), capture.shape.channels),
+                       capture);
+}
+
+OutputFormat output_format(const OutputRequest& request, const CaptureFormat& capture) {
+  const ValueType type = !request.depth                   ? code_type(capture)
+                         : request.depth == Depth::bits8  ? ValueType::code8
+                         : request.depth == Depth::bits16 ? ValueType::code16
+                                                          : ValueType::light32;
+  return format_of(request, type, capture);
+}
+
+std::string codes_text(const CaptureFormat& capture, const OutputFormat& output) {
+  if (!holds_codes(output.type) || !output.transfer) return {};
+  const bool is_scaled = output.type == code_type(capture) && output.white_code != capture.white_code;
+  if (*output.transfer == capture.transfer && !is_scaled) return {};
+  const auto codes = [&](const Transfer& transfer, std::uint32_t white_code) {
+    return is_scaled ? format("{} with white {}", transfer.text(), white_code) : transfer.text();
+  };
+  return format(", codes {} (the capture's: {})", codes(*output.transfer, output.white_code),
+                codes(capture.transfer, capture.white_code));
+}
+
+}  // namespace nutik

@@ -1,0 +1,61 @@
+// What a picture file shall hold: depth, transfer function, negative light, quality.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "capture/error.hpp"
+#include "capture/picture.hpp"
+#include "media/picture_writer.hpp"
+#include "render/renderer.hpp"
+
+namespace nutik {
+
+// The codes of the capture itself, as they are: its transfer function, its white code where the depth is its own.
+struct SourceCodes {
+  friend bool operator==(const SourceCodes&, const SourceCodes&) = default;
+};
+
+struct OutputRequest {
+  std::optional<Depth> depth;             // none: the capture's own, light where the file holds no codes
+  std::optional<NegativeLight> negative;  // none: black
+  // How light becomes codes, whose white is the last one that their type holds. None: sRGB, which screens show.
+  std::optional<std::variant<Transfer, SourceCodes>> transfer = std::nullopt;
+  std::optional<int> quality = std::nullopt;  // of lossy files, 1 … 100
+
+  friend bool operator==(const OutputRequest&, const OutputRequest&) = default;
+};
+
+// Codes were to show light below 0, and the file holds floating point, which keeps it.
+struct LightIsKept : UsageError {
+  explicit LightIsKept(const std::filesystem::path& file);
+  std::filesystem::path output;
+};
+
+// `source`, or what Transfer::parse() knows, but for functions that go beyond a screen's white. Throws UsageError.
+[[nodiscard]] std::variant<Transfer, SourceCodes> parse_out_transfer(std::string_view text);
+
+// How a file is to be written, of all that.
+[[nodiscard]] FileWishes file_wishes(const OutputRequest& request);
+
+// Throws UsageError where a quality was asked for and a file of this name has none.
+void check_quality(const OutputRequest& request, const std::filesystem::path& output);
+
+// For a file of this name. Throws UsageError where it cannot hold what was asked for, LightIsKept.
+[[nodiscard]] OutputFormat output_format(const OutputRequest& request, const std::filesystem::path& output,
+                                         const CaptureFormat& capture);
+
+// The same where no file is written: the capture's own depth unless another was asked for.
+[[nodiscard]] OutputFormat output_format(const OutputRequest& request, const CaptureFormat& capture);
+
+// The same for values of a type that is known: a video's.
+[[nodiscard]] OutputFormat output_format(const OutputRequest& request, const std::filesystem::path& output,
+                                         ValueType type, const CaptureFormat& capture);
+
+// `, codes srgb with white 65535 (the capture's: linear with white 4095)`; nothing where a picture's codes are the
+// capture's, or it holds light.
+[[nodiscard]] std::string codes_text(const CaptureFormat& capture, const OutputFormat& output);
+
+}  // namespace nutik

@@ -1,0 +1,44 @@
+// A series of exposures of one capture: the same again and again, each a step later.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "session/requests/exposure_request.hpp"
+
+namespace nutik {
+
+struct SeriesRequest {
+  // More pictures than a folder is pleasant with, and than anybody means.
+  static constexpr std::uint32_t kMostExposures = 1'000'000;
+
+  StatedTime every;                    // longer than nothing; pictures are whole ones
+  std::optional<std::uint64_t> count;  // none: as many as end within the capture
+
+  friend bool operator==(const SeriesRequest&, const SeriesRequest&) = default;
+};
+
+// More exposures than kMostExposures fit in the capture, and no count was stated.
+struct SeriesTooLong : UsageError {
+  using UsageError::UsageError;
+};
+// An exposure of those that were counted would start behind the capture's end.
+struct SeriesBehindEnd : UsageError {
+  SeriesBehindEnd(const std::string& message, std::uint64_t possible)
+      : UsageError(message), possible_count(possible) {}
+  std::uint64_t possible_count;
+};
+// Not one exposure ends within the capture.
+struct NothingInCapture : UsageError {
+  using UsageError::UsageError;
+};
+
+// The start of each exposure, exactly start + k · every: no drift, and what is added to it is rounded once with it.
+// Counted in pictures where both are, else in time. Throws the errors above, or UsageError where the first
+// starts behind the capture's end.
+[[nodiscard]] std::vector<StatedTime> starts_of(const SeriesRequest& series, const ExposureRequest& request,
+                                                const Timeline& timeline);
+
+}  // namespace nutik
