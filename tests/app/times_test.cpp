@@ -51,6 +51,7 @@ TEST_F(Times, HaveOneNoteOnTheirRate) {
   };
   const std::string usual = "slow-motion files state their playback rate";
   EXPECT_NE(said_of("").find(usual), std::string::npos);
+  EXPECT_EQ(said_of("-metadata com.android.capture.fps=15"), "");
   for (const char* rate : {"60", "37", "fast"}) {
     const std::string notes = said_of("-metadata com.android.capture.fps=" + std::string(rate));
     EXPECT_EQ(notes.find(usual), std::string::npos) << notes;

@@ -3,7 +3,6 @@
 #include "app/commands/commands.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
-#include "app/text/message_text.hpp"
 #include "session/below/format.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/making/retiming.hpp"
@@ -40,7 +39,7 @@ int run_retime(const Options& options) {
              request.output.string(), shape_text(capture.shape), counted(timeline.sample_count(), "sample"),
              rate_text(timeline.rate(), "picture"), timeline.shutter_angle().text(), capture.transfer.text(),
              to_text(capture.primaries), aspect_text(capture.pixel_aspect));
-  answer.notes = note_texts(notes);
+  answer.tell_source({}, notes);
   return tell(options, request.output, answer, true);
 }
 

@@ -197,10 +197,13 @@ std::vector<Fact> ClipSource::facts(const Timeline& timeline) const {
 std::vector<Note> ClipSource::all_notes(const Timeline& timeline) const {
   std::vector<Note> all = notes;
   const double rate = timeline.rate().value();
-  const bool is_rate_told = std::ranges::any_of(notes, [](const Note& note) {
+  const auto is_of_rate = [](const Note& note) {
     return std::ranges::find(note.settings, Setting::frame_rate) != note.settings.end();
-  });
-  if (!request.clip.rate && !is_rate_told && rate >= kLowestPlaybackRate && rate <= kHighestPlaybackRate) {
+  };
+  const bool may_be_of_playing = !request.clip.rate &&
+                                 clip->info().timing.rate_from == ClipTiming().rate_from &&
+                                 std::ranges::none_of(notes, is_of_rate);
+  if (may_be_of_playing && rate >= kLowestPlaybackRate && rate <= kHighestPlaybackRate) {
     all.emplace_back(format("the rate of {} a second comes from the file; slow-motion files state their "
                             "playback rate: if it was filmed faster, say so",
                             timeline.rate().text()),
