@@ -10,9 +10,13 @@ namespace {
 
 double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) * 1e-6; }
 
+std::string amount(std::uint64_t bytes) {
+  return bytes < 100'000 ? format("{} bytes", bytes) : format("{:.4g} MB", megabytes(bytes));
+}
+
 std::string text_of(std::uint64_t allowed, const MemoryNeeds& least) {
-  std::string text = format("{:.4g} MB of memory is too little; at least {:.4g} MB is needed",
-                            megabytes(allowed), megabytes(least.bytes()));
+  std::string text =
+      format("{} of memory is too little; at least {} is needed", amount(allowed), amount(least.bytes()));
   std::vector<MemoryPart> parts = least.parts();
   std::ranges::stable_sort(parts, std::greater(), &MemoryPart::bytes);
   std::string before = ": ";

@@ -82,7 +82,8 @@ class OpenClRenderer::Implementation {
     programs_ = std::make_unique<ProgramStore>(context_, device_, options.cache_folder, [this](auto&) {
       if (announced_ || !options_.announce) return;
       announced_ = true;
-      options_.announce(format("building kernels for {}; they are kept for the next time", info_.name));
+      options_.announce(
+          format("building and testing kernels for {}; they are kept for the next time", info_.name));
     });
   }
 

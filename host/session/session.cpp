@@ -97,10 +97,19 @@ class Session::Implementation {
   std::atomic<bool> is_spent_ = false;
 };
 
+namespace {
+
+std::shared_ptr<Devices> needed(std::shared_ptr<Devices> devices) {
+  if (!devices) throw UsageError("a session needs devices");
+  return devices;
+}
+
+}  // namespace
+
 Session::Implementation::Implementation(const SourceRequest& source, std::shared_ptr<Devices> devices,
                                         const Terms& terms)
     : source_(source),
-      devices_(std::move(devices)),
+      devices_(needed(std::move(devices))),
       reading_(terms.reading),
       besides_(terms.besides),
       is_clip_(!is_tik(source.path)),
@@ -209,7 +218,7 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   Rendered rendered =
       within({{"reading the clip", stream_bytes}, {"mixed pixels", mixed_bytes}}, [&](std::uint64_t left) {
         RenderControl limited = control;
-        limited.memory_bytes = left;
+        if (limited.memory_bytes == 0 || limited.memory_bytes > left) limited.memory_bytes = left;
         return devices_->renderer().render(plan, source, output, limited);
       });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
@@ -251,6 +260,7 @@ TracedExposure Session::Implementation::trace(const ExposureRequest& request, co
 ValidatedExposure Session::Implementation::validate(const ExposureRequest& request,
                                                     const OutputFormat& output, std::uint32_t runs,
                                                     const ReportedProgress& progress) {
+  if (runs == 0) throw UsageError("a validation runs once at least");
   RenderPlan planned = plan(request);
   devices_->keep_resident(reader_.get());
   const auto ignored = [](std::uint64_t, std::uint64_t) {};

@@ -93,7 +93,7 @@ TEST_F(KernelCache, ThatIsEmptyServesTenPrograms) {
   for (const fs::path& file : kept()) {
     EXPECT_TRUE(file.extension() == ".bin" || file.extension() == ".txt") << file << " was left unfinished";
   }
-  EXPECT_EQ(expose().err.find("building kernels"), std::string::npos);
+  EXPECT_EQ(expose().err.find("testing kernels"), std::string::npos);
 }
 
 TEST_F(KernelCache, ThatIsDamagedServesTenPrograms) {

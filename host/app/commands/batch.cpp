@@ -92,9 +92,10 @@ Options line_options(const std::string& text, const Options& batch,
 
 class Batch {
  public:
-  Batch(const Options& options, std::string list_name)
+  Batch(const Options& options, const std::string& list_name)
       : options_(options),
-        list_name_(std::move(list_name)),
+        list_title_(input_title(list_name)),
+        reads_list_from_input_(is_standard_input(list_name)),
         devices_(make_devices(options)),
         pictures_([this](std::size_t line, const Error& error) { report(line, error); }) {
     devices_->start();
@@ -103,7 +104,7 @@ class Batch {
   void expose(const ListedExposure& listed, const std::optional<std::string>& capture_name) {
     try {
       Options line = line_options(listed.text, options_, capture_name);
-      if (is_standard_input(list_name_) && reads_standard_input(line)) {
+      if (reads_list_from_input_ && reads_standard_input(line)) {
         throw UsageError("standard input holds the list already; name a file for functions and mask");
       }
       const ExposureRequest request = exposure_request(line);
@@ -122,7 +123,7 @@ class Batch {
       ExposedPicture exposed = session.render(request, output_format(wishes, output, session.format()));
       tally_.add(exposed);
       for (const std::string& warning : exposure_warnings(exposed)) {
-        print_warning(format("{}:{}: {}", list_name_, listed.line, warning));
+        print_warning(format("{}:{}: {}", list_title_, listed.line, warning));
       }
       if (options_.verbose && !options_.json) print_line(format("{}: {}", output.string(), tally_.report()));
       pictures_.push(listed.line, output, std::move(exposed.picture), recipe_text(line), file_wishes(wishes));
@@ -176,11 +177,12 @@ class Batch {
   void report(std::size_t line, const Error& error) {
     const std::lock_guard lock(reporting_);
     failed_lines_.insert(line);
-    print_error(format("{}:{}: {}", list_name_, line, message_text(error)));
+    print_error(format("{}:{}: {}", list_title_, line, message_text(error)));
   }
 
   const Options& options_;
-  std::string list_name_;
+  std::string list_title_;
+  bool reads_list_from_input_;
   std::shared_ptr<Devices> devices_;
   ExposureTally tally_;
   std::optional<std::string> capture_checksum_;  // where a recipe needed it

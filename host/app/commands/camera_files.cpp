@@ -2,7 +2,7 @@
 
 #include "session/below/pictures.hpp"
 #include "session/clips/camera_record.hpp"
-#include "session/making/output_check.hpp"
+#include "session/output_check.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {

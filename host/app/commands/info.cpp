@@ -12,7 +12,7 @@
 #include "session/below/pictures.hpp"
 #include "session/clips/alignment.hpp"
 #include "session/making/capture_figures.hpp"
-#include "session/making/output_check.hpp"
+#include "session/output_check.hpp"
 #include "session/text/size_text.hpp"
 #include "session/text/time_text.hpp"
 

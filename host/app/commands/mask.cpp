@@ -14,8 +14,8 @@
 #include "session/making/mask_layers.hpp"
 #include "session/making/mask_making.hpp"
 #include "session/making/mask_preview.hpp"
-#include "session/making/output_check.hpp"
 #include "session/making/plate_request.hpp"
+#include "session/output_check.hpp"
 #include "session/requests/stated_time.hpp"
 #include "session/text/size_text.hpp"
 

@@ -6,7 +6,7 @@
 #include "session/below/pictures.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/clips/measured_noise.hpp"
-#include "session/making/output_check.hpp"
+#include "session/output_check.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {

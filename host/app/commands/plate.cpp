@@ -10,7 +10,7 @@
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/pictures.hpp"
-#include "session/making/output_check.hpp"
+#include "session/output_check.hpp"
 #include "session/text/size_text.hpp"
 
 namespace nutik::app {

@@ -12,7 +12,7 @@
 #include "app/text/shell_text.hpp"
 #include "app/text/text_table.hpp"
 #include "session/below/format.hpp"
-#include "session/making/output_check.hpp"
+#include "session/output_check.hpp"
 #include "session/text/size_text.hpp"
 #include "session/text/time_text.hpp"
 #include "system/output_file.hpp"

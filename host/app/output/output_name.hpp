@@ -10,7 +10,7 @@
 
 #include "app/command_line/options.hpp"
 #include "session/below/pictures.hpp"
-#include "session/making/output_check.hpp"
+#include "session/output_check.hpp"
 
 namespace nutik::app {
 

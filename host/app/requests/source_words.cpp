@@ -11,8 +11,6 @@
 namespace nutik::app {
 namespace {
 
-constexpr double kLeastSigmas = 0.1, kLargestSigmas = 100;
-
 RawVideo parse_raw_video(const std::string& text) {
   const auto colon = text.find(':');
   if (colon == std::string::npos || text.find('x') > colon) {
@@ -47,7 +45,8 @@ void read_noise(SourceRequest& request, const Options& options) {
         "--sigmas counts standard deviations of a camera's noise: it needs --noise FILE or --noise auto");
   }
   if (options.sigmas)
-    request.sigmas = parse_number(*options.sigmas, "--sigmas", kLeastSigmas, kLargestSigmas);
+    request.sigmas =
+        parse_number(*options.sigmas, "--sigmas", SourceRequest::kLeastSigmas, SourceRequest::kMostSigmas);
   if (options.noise == kAutomaticNoise) {
     request.noise = NoiseOfClip{};
   } else if (options.noise) {

@@ -218,6 +218,11 @@ ClipToRead ClipSource::clip_to_read() const {
 
 ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory,
                             const ReportedProgress& progress, const std::stop_token& stop) {
+  if (request.path.empty()) throw UsageError("no clip is named");
+  if (!(request.sigmas >= SourceRequest::kLeastSigmas && request.sigmas <= SourceRequest::kMostSigmas)) {
+    throw UsageError(format("{} standard deviations of noise are not within {} … {}", request.sigmas,
+                            SourceRequest::kLeastSigmas, SourceRequest::kMostSigmas));
+  }
   ClipSource source;
   source.request = request;
   refuse_streams(request.path);

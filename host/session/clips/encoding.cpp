@@ -16,6 +16,8 @@
 #include "imev/block_builder.hpp"
 #include "imev/expected_values.hpp"
 #include "media/read_ahead.hpp"
+#include "media/still_sequence.hpp"
+#include "session/output_check.hpp"
 #include "system/channel.hpp"
 #include "system/interruption.hpp"
 #include "tik/writer.hpp"
@@ -153,6 +155,10 @@ EncodedCapture encode(ClipSource source, const EncodeRequest& request, const Cli
 
 EncodedCapture encode(const SourceRequest& source, const EncodeRequest& request, const MemoryBudget& memory,
                       const ReportedProgress& progress, std::stop_token stop) {
+  std::vector<std::string> inputs{source.path.string()};
+  for (const auto& still : list_stills(source.path).value_or(std::vector<std::filesystem::path>{}))
+    inputs.push_back(still.string());
+  check_output(request.output, OutputKind::tik, inputs);
   const TwofoldProgress twofold(source, progress);
   ClipSource clip = open_clip_source(source, memory, twofold.finding, stop);
   const ClipMemory shares = memory_for_encoding(memory, clip.clip_to_read());

@@ -4,7 +4,7 @@
 #include "capture/format.hpp"
 #include "mask/layers.hpp"
 #include "media/picture_writer.hpp"
-#include "session/making/output_check.hpp"
+#include "session/output_check.hpp"
 #include "session/requests/function_input.hpp"
 
 namespace nutik {

@@ -21,7 +21,7 @@ void make_series(Session& session, ExposureRequest exposure, const std::vector<S
     if (progress) progress(k, pictures.size());
     exposure.start = pictures[k].start;
     ExposedPicture exposed = session.render(exposure, output);
-    std::string text = add(k, exposed);
+    std::string text = add ? add(k, exposed) : std::string();
     queue.push(k, pictures[k].path, std::move(exposed.picture), std::move(text), file);
   }
   queue.finish();

@@ -18,8 +18,8 @@ struct SeriesPicture {
   std::filesystem::path path;
 };
 
-// `exposure` says all but where each begins. `add` is told each picture as it was exposed, and returns the text that
-// goes into its file. Throws what Session::render() does; OutputError at the first picture that cannot be written: the
+// `exposure` says all but where each begins. `add`, which may be empty, is told each picture as it was exposed, and
+// returns the text that goes into its file. Throws what Session::render() does; OutputError at the first picture that cannot be written: the
 // next ones are not exposed.
 void make_series(Session& session, ExposureRequest exposure, const std::vector<SeriesPicture>& pictures,
                  const OutputFormat& output, const FileWishes& file, const ReportedProgress& progress,

@@ -27,7 +27,7 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
       const Exposure exposure = frames.times.exposure(made.frames);
       const FunctionSet functions = functions_of(request.exposure, exposure, session.timeline());
       ExposedPicture exposed = session.render(functions, mask, plan, frame_format);
-      std::string text = add(made.frames, exposure, exposed);
+      std::string text = add ? add(made.frames, exposure, exposed) : std::string();
       if (!queue.push(std::move(exposed.picture), std::move(text))) break;
     }
   } catch (const Interrupted& caught) {

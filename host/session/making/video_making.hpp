@@ -22,8 +22,8 @@ struct MadeVideo {
   std::vector<std::string> notes;           // of the writer: whole sentences
 };
 
-// `frames` are those of the request on the session's timeline. `add` is told each frame as it was exposed, and returns
-// the text that goes into it where frames are stills. Throws what Session::render() does, and OutputError.
+// `frames` are those of the request on the session's timeline. `add`, which may be empty, is told each frame as it
+// was exposed, and returns the text that goes into it where frames are stills. Throws what Session::render() does, and OutputError.
 [[nodiscard]] MadeVideo make_video(
     Session& session, const FramesRequest& request, const Frames& frames, const VideoOutput& output,
     const ReportedProgress& progress,

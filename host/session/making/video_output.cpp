@@ -4,7 +4,7 @@
 
 #include "capture/format.hpp"
 #include "media/numbered_name.hpp"
-#include "session/making/output_check.hpp"
+#include "session/output_check.hpp"
 
 namespace nutik {
 

@@ -11,6 +11,15 @@ namespace {
 
 constexpr const char* kPlainName = "the exposure";
 
+const FunctionSet& functions_in(const ExposureRequest& request) {
+  const FunctionSet& functions = *std::get<Shared<FunctionSet>>(request.gains);
+  if (functions.empty()) throw UsageError("an exposure needs a gain function");
+  if (!request.mask && functions.size() > 1) {
+    throw UsageError(format("there are {} gain functions; a mask says where each applies", functions.size()));
+  }
+  return functions;
+}
+
 // Functions that no pixel uses are not checked.
 bool is_used(const ExposureRequest& request, std::uint8_t tag) {
   return !request.mask || (*request.mask)->uses(tag);
@@ -44,7 +53,7 @@ FunctionSet functions_of(const ExposureRequest& request, const Exposure& interva
     add(0, function_of(*plain, interval, timeline), kPlainName);
     return functions;
   }
-  for (const auto& [tag, written] : *std::get<Shared<FunctionSet>>(request.gains)) {
+  for (const auto& [tag, written] : functions_in(request)) {
     if (!is_used(request, tag)) continue;
     add(tag, interval.start_ns == 0 ? written : written.shifted(interval.start_ns), format("M{}", tag));
   }
@@ -53,7 +62,7 @@ FunctionSet functions_of(const ExposureRequest& request, const Exposure& interva
 
 std::int64_t functions_end_ns(const ExposureRequest& request) {
   std::int64_t end_ns = 0;
-  for (const auto& [tag, function] : *std::get<Shared<FunctionSet>>(request.gains)) {
+  for (const auto& [tag, function] : functions_in(request)) {
     if (!is_used(request, tag)) continue;
     const auto points = function.points();
     const auto is_live = [](const ControlPoint& point) { return point.gain != 0.0; };
@@ -67,9 +76,8 @@ std::int64_t functions_end_ns(const ExposureRequest& request) {
 
 Mask mask_of(const ExposureRequest& request, const Shape& shape) {
   if (request.mask) return (*request.mask)->mask;
-  const auto* written = std::get_if<Shared<FunctionSet>>(&request.gains);
   return Mask::uniform(shape.width, shape.height,
-                       written != nullptr ? (*written)->begin()->first : std::uint8_t{0});
+                       request.is_plain() ? std::uint8_t{0} : functions_in(request).begin()->first);
 }
 
 PlanOptions plan_options_of(const ExposureRequest& request) {

@@ -51,6 +51,8 @@ std::vector<StatedTime> starts_of(const SeriesRequest& series, const ExposureReq
     throw UsageError(format("the series starts at {}, behind the end of the capture at {}",
                             duration_text(first_ns), duration_text(timeline.duration_ns())));
   }
+  if (series.every.number.numerator <= 0)
+    throw UsageError(format("exposures that are {} apart are no series", series.every.text()));
   std::vector<StatedTime> starts;
   for (std::uint64_t k = 0; !series.count || k < *series.count; ++k) {
     const StatedTime next = start_of(series.every, request.start, k, timeline);

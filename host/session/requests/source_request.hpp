@@ -59,6 +59,7 @@ struct SourceRequest {
   // What counts as no change.
   std::uint32_t tolerance = 0;  // codes
   std::variant<NoNoise, NoiseOfClip, StatedNoise> noise;
+  static constexpr double kLeastSigmas = 0.1, kMostSigmas = 100;
   double sigmas = NoiseModel::kUsualSigmas;  // of the camera's noise
 
   TilePolicy tiles = TilePolicy::automatic;

@@ -1,4 +1,4 @@
-#include "session/making/output_check.hpp"
+#include "session/output_check.hpp"
 
 #include <unistd.h>
 
