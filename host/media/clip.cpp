@@ -7,6 +7,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/seconds_text.hpp"
 #include "media/clip_part.hpp"
 #include "media/module.hpp"
 #include "media/photron_clip.hpp"
@@ -236,6 +237,14 @@ Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOp
   if (rate) {
     const double degrees =
         360.0 * static_cast<double>(*timing.exposed_ns) * rate->value() / static_cast<double>(kSecondNs);
+    constexpr double kRounding = 1.01;  // of times that cameras write
+    if (degrees > 360.0 * kRounding) {
+      throw InputError(
+          format("{}: at {} pictures a second each lasts {:.6g} s, and the shutter is said to "
+                 "have been open for {}; state the rate or the shutter angle that it was filmed with",
+                 name, rate->text(), 1 / rate->value(), seconds_text(*timing.exposed_ns)),
+          {Setting::frame_rate, Setting::shutter_angle});
+    }
     // As exact as anybody reads an angle; longer than a period none is.
     constexpr std::int64_t kParts = 1'000'000;
     const auto parts =

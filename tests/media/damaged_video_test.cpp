@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "support/ffmpeg.hpp"
+#include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/stills.hpp"
 
@@ -50,6 +51,27 @@ TEST_F(DamagedVideo, OfFfv1IsNeverExposedSilently) {
     }
   }
   EXPECT_GT(refused, 20);
+}
+
+// A container's reader goes on behind what it does not understand, and nobody else knows of the pictures there.
+TEST_F(DamagedVideo, WithAHoleIsRefused) {
+  NEEDS_FFMPEG();
+  make_clip("-c:v ffv1 -level 3", "whole.mkv");
+  std::string damaged = test::read_file(scratch_ / "whole.mkv");
+  const auto pictures = read_all(*open_test_clip(scratch_ / "whole.mkv"));
+  const std::size_t picture_bytes = damaged.size() / kPictures;
+  damaged.replace(damaged.size() / 2, 3 * picture_bytes, 3 * picture_bytes, '\x0f');
+  const auto path = scratch_.write("damaged.mkv", damaged);
+  const std::string said = test::message_of<InputError>([&] { read_all(*open_test_clip(path)); });
+  EXPECT_NE(said.find("pictures before it can be taken"), std::string::npos) << said;
+  ClipOptions options;
+  options.ends_at_damage = true;
+  const auto clip = open_test_clip(path, options);
+  const auto read = read_all(*clip);
+  EXPECT_TRUE(clip->ended_early());
+  ASSERT_LE(read.size(), 15u);
+  EXPECT_GE(read.size(), 10u);
+  for (std::size_t k = 0; k < read.size(); ++k) EXPECT_TRUE(read[k] == pictures[k]) << k;
 }
 
 // As far as it goes: the pictures before the damage, and why there are no more.

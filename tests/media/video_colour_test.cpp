@@ -108,6 +108,20 @@ TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
   EXPECT_EQ(other->info().format.transfer, Transfer::pq());
 }
 
+// BT.709's curve is what everyday cameras name, whatever theirs is; nobody names another by mistake.
+TEST(VideoColour, OfEightBitsIsBelievedButForTheCurveOfCameras) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const std::map<std::string, std::pair<std::string, Origin>> told{
+      {"iec61966-2-1", from_file("transfer srgb")},
+      {"linear", from_file("transfer linear")},
+      {"bt709", assumed("transfer srgb")}};
+  for (const auto& [named, taken] : told) {
+    test::make(scratch, test_picture("64x48") + "-color_trc " + named + " -y clip.mkv");
+    EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "clip.mkv"))[Setting::transfer], taken) << named;
+  }
+}
+
 // BT.2100, table 5 and 4, from their words.
 double hlg_light(double e) {
   const double a = 0.17883277, b = 1 - 4 * a, c = 0.5 - a * std::log(4 * a);

@@ -174,6 +174,12 @@ TEST(Retiming, KeepsTheTimeThatACameraWroteDown) {
     EXPECT_EQ(after.header().facts[0], "shutter " + after.timeline().shutter_angle().text() + " degrees" +
                                            (is_timed ? from : ", assumed"));
   }
+  const auto told = telling(scratch, plain, {"shutter " + before.shutter_angle().text() + " degrees" + from});
+  const Rational fast = Rational::of(1'000'000'000, exposed_ns / 2);
+  EXPECT_NE(test::message_of<InputError>([&] {
+              static_cast<void>(retime({told, told, fast, {}, {}, {}, {}}));
+            }).find("the shutter is said to have been open for"),
+            std::string::npos);
 }
 
 TEST(Retiming, RefusesWhatItCannotDo) {

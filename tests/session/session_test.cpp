@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 
+#include "session/clips/encoding.hpp"
+#include "session/requests/series_request.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
@@ -65,6 +68,46 @@ TEST_F(SessionOfClip, ReadForwardIsSpentAfterOnePicture) {
   EXPECT_THROW(static_cast<void>(once.trace(request_, TracedPixel{0, 0})), SessionIsSpent);
   EXPECT_EQ(once.render(request_, kFloats).picture.shape, (Shape{16, 16, 1}));
   EXPECT_THROW(static_cast<void>(once.render(request_, kFloats)), SessionIsSpent);
+}
+
+// Whoever made a request: what the command line refuses is refused here, and nothing is written.
+TEST_F(SessionOfClip, RefusesWhatNoRequestMayBe) {
+  Session session(source_, reference());
+  ExposureRequest functions = request_;
+  functions.gains = Shared(FunctionSet{{7, GainFunction({{0, 1.0}})}, {9, GainFunction({{0, 1.0}})}});
+  EXPECT_EQ(test::message_of<UsageError>([&] { static_cast<void>(session.render(functions, kFloats)); }),
+            "there are 2 gain functions; a mask says where each applies");
+  functions.gains = Shared(FunctionSet{});
+  EXPECT_EQ(test::message_of<UsageError>([&] { static_cast<void>(session.render(functions, kFloats)); }),
+            "an exposure needs a gain function");
+  ExposureRequest masked = request_;
+  masked.mask = Shared(MaskWithRegions(Mask{16, 16, {0, 0, 0}}));
+  EXPECT_EQ(test::message_of<InputError>([&] { static_cast<void>(session.render(masked, kFloats)); }),
+            "the mask is 16 x 16 pixels and has 3 tags; each pixel needs one");
+  for (const auto& [type, white] : {std::pair(ValueType::code8, 256u), std::pair(ValueType::code8, 0u),
+                                    std::pair(ValueType::code16, 65'536u)}) {
+    EXPECT_THROW(static_cast<void>(session.render(request_, {type, white})), UsageError) << white;
+  }
+  RenderControl narrow;
+  narrow.memory_bytes = 1;
+  EXPECT_THROW(static_cast<void>(session.render(request_, kFloats, narrow)), MemoryTooLittle);
+  EXPECT_THROW(static_cast<void>(session.validate(request_, kFloats, 0)), UsageError);
+  EXPECT_THROW(Session(source_, std::shared_ptr<Devices>()), UsageError);
+  SeriesRequest series;
+  series.every = StatedTime::parse("0s", "every");
+  EXPECT_THROW(static_cast<void>(starts_of(series, request_, session.timeline())), UsageError);
+
+  SourceRequest noisy = source_;
+  noisy.noise = NoiseOfClip();
+  noisy.sigmas = -1;
+  EXPECT_EQ(test::message_of<UsageError>([&] { static_cast<void>(Session(noisy, reference())); }),
+            "-1 standard deviations of noise are not within 0.1 … 100");
+  const std::filesystem::path still = *std::filesystem::directory_iterator(scratch_ / "frames");
+  const std::string bytes = test::read_file(still);
+  EncodeRequest onto;
+  onto.output = still;
+  EXPECT_THROW(static_cast<void>(encode(source_, onto, MemoryBudget::of_machine())), UsageError);
+  EXPECT_EQ(test::read_file(still), bytes);
 }
 
 TEST_F(SessionOfClip, IsNotOpenedWhenNobodyWantsItAnyMore) {

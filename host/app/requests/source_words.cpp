@@ -27,9 +27,11 @@ RawVideo parse_raw_video(const std::string& text) {
 void refuse_source_options(const Options& options, const std::string& capture) {
   for (const Option& option : app::options()) {
     if (!option.describes_clip() || !option.is_in(options)) continue;
-    throw UsageError(
-        format("{} describes a clip that is encoded; {} was encoded already. Encode the clip again with it",
-               option.name(), capture));
+    throw UsageError(format("{} describes a clip that is encoded; {} was encoded already. {}", option.name(),
+                            capture,
+                            option.is_of(CommandId::retime)
+                                ? format("To correct it: nutik-cl retime {} … {}", option.name(), capture)
+                                : "Encode the clip again with it"));
   }
 }
 

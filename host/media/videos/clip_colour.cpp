@@ -31,8 +31,8 @@ void describe(CaptureFormat& capture, std::vector<Fact>& facts, const Probe& pro
   // Deep grey pictures, and those of 16 bits, come from scientific cameras, which are linear; other deep colour from
   // film cameras.
   const bool is_scientific = pixels.bits > 8 && (pixels.is_grey || pixels.bits == 16);
-  // Everyday cameras name BT.709's curve whatever theirs is, and players show sRGB's. HLG and PQ are meant.
-  const bool is_meant = !pixels.is_everyday() || (probe.transfer && probe.transfer->reference_white() < 1.0);
+  // Everyday cameras name BT.709's curve whatever theirs is, and players show sRGB's. Others are meant.
+  const bool is_meant = !pixels.is_everyday() || probe.transfer != Transfer::bt709();
   const auto named = is_meant ? probe.transfer : std::nullopt;
   capture.transfer =
       settle(facts, options.transfer, named, is_scientific ? Transfer::linear() : Transfer::srgb(),

@@ -20,12 +20,13 @@ Listeners& listeners() {
   return instance;
 }
 
-// The decoder on whose behalf a context logs; null where there is none.
-const AVCodecContext* decoder_of(const void* context) {
+// The DamageLog of the decoder or the file on whose behalf a context logs; null where there is none.
+void* log_of(const void* context) {
   while (context != nullptr) {
     const AVClass* kind = *static_cast<const AVClass* const*>(context);
     if (kind == nullptr) return nullptr;
-    if (kind == avcodec_get_class()) return static_cast<const AVCodecContext*>(context);
+    if (kind == avcodec_get_class()) return static_cast<const AVCodecContext*>(context)->opaque;
+    if (kind == avformat_get_class()) return static_cast<const AVFormatContext*>(context)->opaque;
     if (kind->parent_log_context_offset == 0) return nullptr;
     context = *reinterpret_cast<const void* const*>(static_cast<const char*>(context) +
                                                     kind->parent_log_context_offset);
@@ -35,14 +36,14 @@ const AVCodecContext* decoder_of(const void* context) {
 
 void take_log(void* context, int level, const char* form, va_list values) {
   if (level > AV_LOG_ERROR) return;
-  const AVCodecContext* decoder = decoder_of(context);
-  if (decoder == nullptr || decoder->opaque == nullptr) return;
+  void* const log = log_of(context);
+  if (log == nullptr) return;
   char text[512];
   if (std::vsnprintf(text, sizeof text, form, values) <= 0) return;
   std::string said = text;
   while (!said.empty() && (said.back() == '\n' || said.back() == ' ')) said.pop_back();
   const std::scoped_lock lock(listeners().mutex);
-  if (listeners().known.contains(decoder->opaque)) static_cast<DamageLog*>(decoder->opaque)->note(said);
+  if (listeners().known.contains(log)) static_cast<DamageLog*>(log)->note(said);
 }
 
 }  // namespace
@@ -61,6 +62,12 @@ void DamageLog::listen_to(AVCodecContext& decoder) {
   const std::scoped_lock lock(listeners().mutex);
   listeners().known.insert(this);
   decoder.opaque = this;
+}
+
+void DamageLog::listen_to(AVFormatContext& file) {
+  const std::scoped_lock lock(listeners().mutex);
+  listeners().known.insert(this);
+  file.opaque = this;
 }
 
 void DamageLog::note(const std::string& text) {

@@ -1,5 +1,5 @@
-// What FFmpeg's decoders say of damage. Many only log it, conceal what is missing with what was there before, and hand
-// out a picture that seems whole.
+// What FFmpeg says of damage. Many decoders only log it, conceal what is missing with what was there before, and hand
+// out a picture that seems whole; containers' readers go on behind it, and pictures are gone.
 #pragma once
 
 #include <mutex>
@@ -7,13 +7,14 @@
 #include <string>
 
 struct AVCodecContext;
+struct AVFormatContext;
 
 namespace nutik::videos {
 
-// From now on what decoders log goes to their DamageLog, and nothing of it to standard error. Once is enough.
+// From now on what decoders and containers log goes to their DamageLog, and nothing of it to standard error. Once is enough.
 void listen_to_ffmpeg();
 
-// Of one decoder, which it outlives. Its threads write, whoever reads pictures asks.
+// Of one decoder or one opened file, which it outlives. Its threads write, whoever reads pictures asks.
 class DamageLog {
  public:
   DamageLog() = default;
@@ -23,6 +24,7 @@ class DamageLog {
 
   // Of a decoder that is not open yet: threads have copies of it.
   void listen_to(AVCodecContext& decoder);
+  void listen_to(AVFormatContext& file);
 
   void note(const std::string& text);
   // The first that was said since the start or since forget().

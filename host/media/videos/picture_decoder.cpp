@@ -22,6 +22,7 @@ PictureDecoder::PictureDecoder(OpenedVideo opened, std::string name, Wanted want
   if (wanted == Wanted::times) codec_->skip_loop_filter = codec_->skip_idct = AVDISCARD_ALL;
   codec_->pkt_timebase = stream().time_base;
   damage_->listen_to(*codec_);
+  holes_->listen_to(*opened_.format);
   const int code = avcodec_parameters_to_context(codec_.get(), &parameters);
   // Some files give the depth of what the table makes of them.
   if (is_phantom_packed(parameters)) codec_->bits_per_coded_sample = kPhantomPackedBits;
@@ -33,7 +34,15 @@ PictureDecoder::PictureDecoder(OpenedVideo opened, std::string name, Wanted want
 bool PictureDecoder::next(AVFrame& picture) {
   for (;;) {
     const int code = avcodec_receive_frame(codec_.get(), &picture);
-    if (code == AVERROR_EOF) return false;
+    if (code == AVERROR_EOF) {
+      if (has_hole_) {
+        throw InputError(
+            format("{}: pictures are missing behind picture {}, for the file is damaged there "
+                   "(FFmpeg says: {})",
+                   name_, pictures_ - 1, *holes_->said()));
+      }
+      return false;
+    }
     if (code == 0) {
       ++pictures_;
       return true;
@@ -46,6 +55,14 @@ bool PictureDecoder::next(AVFrame& picture) {
 void PictureDecoder::feed() {
   for (;;) {
     if (av_read_frame(opened_.format.get(), packet_.get()) < 0) {
+      avcodec_send_packet(codec_.get(), nullptr);
+      return;
+    }
+    // What the container's reader did not understand lies before this packet: it went on behind that. Where nothing
+    // comes any more, the clip was cut off, which its length tells.
+    has_hole_ = holes_->said() && pictures_ > 0 && wanted_ == Wanted::pictures;
+    if (has_hole_) {
+      av_packet_unref(packet_.get());
       avcodec_send_packet(codec_.get(), nullptr);
       return;
     }

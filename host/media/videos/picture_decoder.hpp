@@ -38,6 +38,7 @@ class PictureDecoder {
   [[noreturn]] void fail(int code) const;
 
   std::string name_;
+  std::unique_ptr<DamageLog> holes_ = std::make_unique<DamageLog>();  // outlives the opened file
   OpenedVideo opened_;
   std::unique_ptr<DamageLog> damage_ = std::make_unique<DamageLog>();  // outlives the decoder
   CodecPointer codec_;
@@ -45,6 +46,7 @@ class PictureDecoder {
   Wanted wanted_;
   std::uint64_t skipped_;
   std::uint64_t pictures_ = 0;
+  bool has_hole_ = false;  // and is decoded up to there
 };
 
 }  // namespace nutik::videos
