@@ -123,6 +123,26 @@ TEST(CaptureRate, KeepsTheUnevennessOfTimes) {
   }
 }
 
+// One picture that comes half a period late does not make the period half as long, and times that tremble about the
+// rate of filming are those of filming.
+TEST(CaptureRate, IsNotMistakenForSingleTimes) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const auto clip_of = [&](const std::string& times) {
+    test::make(scratch, "-f lavfi -i testsrc2=s=32x32:d=2:r=30 -vf \"settb=1/60000,setpts='" + times +
+                            "'\" -vsync vfr -enc_time_base 1:60000 -movflags use_metadata_tags "
+                            "-metadata com.android.capture.fps=240 -video_track_timescale 60000 "
+                            "-c:v mpeg4 -y clip.mp4");
+    return test::open_test_clip(scratch / "clip.mp4");
+  };
+  const auto late = clip_of("2000*N+1000*gte(N,30)");
+  EXPECT_NE(notes_of(*late).find("which the file plays as 30"), std::string::npos) << notes_of(*late);
+  EXPECT_NEAR(static_cast<double>(late->info().timing.starts_ns[29]), 29e9 / 240, 2);
+  const auto trembling = clip_of("250*N+14*mod(N*N,7)");
+  EXPECT_EQ(notes_of(*trembling).find("com.android"), std::string::npos) << notes_of(*trembling);
+  EXPECT_EQ(trembling->info().timing.rate_from, "the file, as com.android.capture.fps says");
+}
+
 // Times that follow no rate press to none.
 TEST(CaptureRate, IsOnlyNamedWhereTimesFollowNoRate) {
   NEEDS_FFMPEG();

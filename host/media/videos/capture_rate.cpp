@@ -79,24 +79,34 @@ std::optional<Rational> samsung_rate(Bytes file) {
 
 bool is_mp4(Bytes file) { return file.size() >= 8 && std::memcmp(file.data() + 4, "ftyp", 4) == 0; }
 
+double mean_rate(const std::vector<std::int64_t>& starts_ns) {
+  return static_cast<double>(starts_ns.size() - 1) * static_cast<double>(kSecondNs) /
+         static_cast<double>(starts_ns.back() - starts_ns.front());
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 // How many pictures a second times show where none is missing between them: pictures that were dropped leave gaps of
 // whole periods. 0 where times keep no such period.
 double steady_rate(const std::vector<std::int64_t>& starts_ns) {
-  constexpr int kMostParts = 6;        // of the usual difference, which is no period where most were dropped
-  constexpr double kBetter = 0.5;      // than a longer period, which fits as well by chance
-  constexpr double kMostMisfit = 0.1;  // periods, in the mean; times that keep none are 0.25 off
+  constexpr int kMostParts = 6;         // of the usual difference, which is no period where most were dropped
+  constexpr double kBetter = 0.5;       // than a longer period, which fits as well by chance
+  constexpr double kMostMisfit = 0.1;   // periods, in the mean; times that keep none are 0.25 off
+  constexpr double kFewMisfits = 0.03;  // single pictures that came late are no sign of a shorter period
   if (starts_ns.size() < 2) return 0.0;
   std::vector<double> differences;
   for (std::size_t k = 1; k < starts_ns.size(); ++k)
     differences.push_back(static_cast<double>(starts_ns[k] - starts_ns[k - 1]));
-  std::vector<double> sorted = differences;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double usual_ns = median(differences);
   const double span_ns = static_cast<double>(starts_ns.back() - starts_ns.front());
-  if (!(*middle > 0.0 && span_ns > 0.0)) return 0.0;
+  if (!(usual_ns > 0.0 && span_ns > 0.0)) return 0.0;
   double best_ns = 0.0, least = kMostMisfit / kBetter;
-  for (int parts = 1; parts <= kMostParts; ++parts) {
-    double period_ns = *middle / parts, misfit = 0.0;
+  for (int parts = 1; parts <= kMostParts && least > kFewMisfits; ++parts) {
+    double period_ns = usual_ns / parts, misfit = 0.0;
     // Once more with the mean period, for the usual difference was rounded to the container's clock.
     for (int pass = 0; pass < 2; ++pass) {
       double periods = 0.0;
@@ -157,7 +167,11 @@ void apply_capture_rate(const CaptureRate& filmed, ClipTiming& timing, std::vect
   const double played = timing.rate ? timing.rate->value() : steady_rate(timing.starts_ns);
   const std::string played_text = timing.rate ? format("{:.6g}", played) : format("{:.3g}", played);
   const double times = played > 0.0 ? filmed.rate.value() / played : 0.0;
-  if (std::fabs(times - 1.0) < kSameRate) {
+  // Of times that tremble their mean tells more than a period that fits them all.
+  constexpr double kTremble = 0.05;
+  const bool is_mean =
+      !timing.rate && std::fabs(filmed.rate.value() / mean_rate(timing.starts_ns) - 1.0) < kTremble;
+  if (std::fabs(times - 1.0) < kSameRate || is_mean) {
     timing.rate_from = format("the file, as {} says", filmed.name);
     return;
   }
