@@ -45,7 +45,7 @@ class Facts : public test::ProgramTest {
     const std::vector<std::pair<std::string, std::string>> kWords{
         {"pictures a second", "fps"}, {"shutter ", "shutter-angle"}, {"transfer ", "transfer"},
         {"matrix ", "matrix"},        {" range", "range"},           {"primaries ", "primaries"},
-        {"pixels", "pixel-aspect"},   {"pictures 0", "to"}};
+        {"pixels", "pixel-aspect"},   {"pictures 0", "to"},          {"white ", "white"}};
     for (const auto& [word, subject] : kWords) {
       if (fact.find(word) != std::string::npos) return subject;
     }
@@ -101,11 +101,11 @@ const std::vector<Recording>& recordings() {
       {"ball_12bit.cihx", {}, {}, "30000 pictures a second (from ball_12bit.cihx)"},
       {"ball_12bit_png",
        {"-f", "30000"},
-       {},
+       {"white"},
        "white is taken to be 65535; state another, 4095 for 12 bits (--white)"},
       {"cine_781.cine", {}, {}, "transfer linear (assumed)"},
       {"data_small_cine.cine", {}, {}, "transfer linear (from the file)"},
-      {"stuck.tif", {"-f", "20"}, {}, "white is taken to be 65535"},
+      {"stuck.tif", {"-f", "20"}, {"white"}, "white is taken to be 65535"},
       {"sparks_ref_480x270.yuv42010le.yuv",
        {"-f", "24", "--raw", "480x270:yuv420p10le"},
        kVideo,

@@ -13,6 +13,7 @@
 #include "media/jpeg_file.hpp"
 #include "media/netpbm.hpp"
 #include "media/png_file.hpp"
+#include "media/settled_fact.hpp"
 #include "media/stills/png_tags.hpp"
 #include "media/stills/raw_file.hpp"
 #include "media/stills/stills.hpp"
@@ -139,6 +140,10 @@ void add_tags(const std::filesystem::path& file, Still& still) {
   if (tags.has_profile) follow_profile(still, read_png_profile(mapped.bytes(), file.string()));
   if (!bytes.starts_with("\xFF\xD8")) return;
   still.pixel_aspect = jpeg_pixel_aspect(bytes);
+  const std::optional<Shape> stored = stated_size(bytes);
+  const bool is_turned = stored && stored->width == still.shape.height && stored->width != stored->height;
+  if (is_turned && still.pixel_aspect)
+    still.pixel_aspect = Rational::of(still.pixel_aspect->denominator, still.pixel_aspect->numerator);
   const std::vector<std::byte> profile = read_jpeg_profile(mapped.bytes(), file.string());
   if (!profile.empty()) follow_profile(still, profile);
 }
@@ -164,7 +169,10 @@ void check_stated_size(const std::filesystem::path& file) {
 cv::Mat decoded_by_opencv(const std::filesystem::path& file) {
   check_stated_size(file);
   try {
-    return cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+    // A JPEG is turned upright as its EXIF says; OpenCV does not do that to pictures that it leaves as they are.
+    return cv::imread(file.string(), has_extension(file, {".jpg", ".jpeg"})
+                                         ? cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH
+                                         : cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& error) {  // larger than it takes, or than there is memory for
     throw InputError(format("{} cannot be read: OpenCV says: {}", file.string(), error.err));
   }
@@ -214,8 +222,13 @@ class StillClip final : public Clip {
     CaptureFormat& capture = info_.format;
     capture.shape = first_.shape;
     capture.code_bytes = first_.code_bytes;
-    const std::uint32_t full = first_.code_bytes == 1 ? 255 : 65'535;
-    capture.white_code = options.white_code.value_or(first_.maximum.value_or(full));
+    if (first_.code_bytes == 1) {
+      capture.white_code = options.white_code.value_or(first_.maximum.value_or(255));
+    } else {
+      capture.white_code =
+          settle(info_.facts, options.white_code, first_.maximum, std::uint32_t{65'535}, Setting::white_code,
+                 [](std::uint32_t code) { return format("white {}", code); });
+    }
     const bool is_developed = is_raw(pages_.front().file);
     describe_stored_codes(info_, options,
                           {usual_transfer(first_), first_.transfer, first_.primaries, first_.colours_from,
