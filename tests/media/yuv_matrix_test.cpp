@@ -95,6 +95,44 @@ TEST(MatrixOfYuv, OfAMatrixFromPrimariesFollowsThese) {
   }
 }
 
+// Chroma that rises evenly is right between its samples, too, wherever the file says that these lie: half a pixel
+// aside is three codes of 10 bits here.
+TEST(MatrixOfYuv, TakesChromaFromWhereItLies) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  constexpr int kSide = 32, kRise = 12, kFirst = 400;
+  for (const auto& [named, across, down] : {std::tuple("left", 0.0, 0.5),
+                                            {"center", 0.5, 0.5},
+                                            {"topleft", 0.0, 0.0},
+                                            {"unspecified", 0.0, 0.5}}) {
+    for (const bool is_across : {true, false}) {
+      std::vector<std::array<int, 3>> luma(kSide * kSide, {500, 0, 0});
+      std::string raw = planes_of(luma).substr(0, std::size_t{2} * kSide * kSide);
+      for (const int rise : {kRise, 0}) {  // of U, and of V, which is grey
+        for (int i = 0; i < kSide * kSide / 4; ++i) {
+          const int code = rise == 0 ? 512 : kFirst + rise * (is_across ? i % (kSide / 2) : i / (kSide / 2));
+          raw += {static_cast<char>(code & 255), static_cast<char>(code >> 8)};
+        }
+      }
+      scratch.write("raw", raw);
+      test::make(scratch,
+                 std::string("-f rawvideo -s 32x32 -pix_fmt yuv420p10le -r 25 -i raw -c:v ffv1 -colorspace "
+                             "bt709 -color_range tv -chroma_sample_location ") +
+                     named + " -y clip.mkv");
+      const auto clip = test::open_test_clip(scratch / "clip.mkv");
+      const auto raster = test::read_all(*clip).at(0);
+      for (int at = 6; at < kSide - 6; ++at) {  // away from the borders
+        const std::size_t pixel = is_across ? std::size_t{16} * kSide + at : std::size_t(at) * kSide + 16;
+        const double u = (kFirst + kRise * (at - (is_across ? across : down)) / 2 - 512) / 896.0;
+        const double blue = (500 - 64) / 876.0 + 2 * (1 - 0.0722) * u;
+        // The scaler rounds chroma to 16 bits, in which a code of 10 bits is 64; its filter's weights are of 14 bits.
+        EXPECT_NEAR(test::code_at(clip->info().format, raster, pixel * 3 + 2), 65'535 * blue, 16)
+            << named << (is_across ? ", column " : ", row ") << at;
+      }
+    }
+  }
+}
+
 // H.273, equations of MatrixCoefficients 8, from their words: of codes whose range is that of luma.
 TEST(MatrixOfYuv, OfYCgCoIsThatOfTheStandard) {
   NEEDS_FFMPEG();

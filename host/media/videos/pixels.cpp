@@ -233,14 +233,52 @@ Upright upright(const AVStream& stream) {
   return upright;
 }
 
+namespace {
+
+// Null where such pixels cannot be converted.
+SwsContext* new_scaler(const AVFrame& frame, AVPixelFormat wanted) {
+  std::unique_ptr<SwsContext, decltype(&sws_freeContext)> scaler(sws_alloc_context(), &sws_freeContext);
+  if (!scaler) return nullptr;
+  const auto from = static_cast<AVPixelFormat>(frame.format);
+  const auto set = [&](const char* option, std::int64_t value) {
+    av_opt_set_int(scaler.get(), option, value, 0);
+  };
+  for (const char* end : {"src", "dst"}) {
+    set((end + std::string("w")).c_str(), frame.width);
+    set((end + std::string("h")).c_str(), frame.height);
+  }
+  set("src_format", from);
+  set("dst_format", wanted);
+  set("sws_flags", SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT);
+  // Where samples of chroma lie between those of luma, in 256ths of their distance. Where nothing says it they lie to
+  // the left and between two lines, as in H.264 and most that came after it.
+  constexpr int kBetween = 128;
+  const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(from);
+  const AVChromaLocation at = frame.chroma_location;
+  const bool is_centred = at == AVCHROMA_LOC_CENTER || at == AVCHROMA_LOC_TOP || at == AVCHROMA_LOC_BOTTOM;
+  const bool is_top = at == AVCHROMA_LOC_TOPLEFT || at == AVCHROMA_LOC_TOP;
+  const bool is_bottom = at == AVCHROMA_LOC_BOTTOMLEFT || at == AVCHROMA_LOC_BOTTOM;
+  const bool is_interpolated = is_yuv(from) && av_pix_fmt_desc_get(wanted)->log2_chroma_w == 0;
+  if (is_interpolated && pixels.log2_chroma_w == 1) set("src_h_chr_pos", is_centred ? kBetween : 0);
+  if (is_interpolated && pixels.log2_chroma_h == 1) {
+    set("src_v_chr_pos", is_top ? 0 : is_bottom ? 2 * kBetween : kBetween);
+  }
+  return sws_init_context(scaler.get(), nullptr, nullptr) < 0 ? nullptr : scaler.release();
+}
+
+}  // namespace
+
 void PixelConverter::scale(const AVFrame& frame, AVPixelFormat wanted, const std::string& name,
                            std::uint8_t* const* planes, const int* strides) {
   const auto from = static_cast<AVPixelFormat>(frame.format);
-  constexpr int kFlags = SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT;
-  scaler_.reset(sws_getCachedContext(scaler_.release(), frame.width, frame.height, from, frame.width,
-                                     frame.height, wanted, kFlags, nullptr, nullptr, nullptr));
-  if (!scaler_) {
-    throw InputError(format("{}: pixels of {} cannot be converted", name, av_get_pix_fmt_name(from)));
+  if (!scaler_ || scales_from_ != from || scales_to_ != wanted || chroma_at_ != frame.chroma_location) {
+    scaler_.reset(new_scaler(frame, wanted));
+    if (!scaler_) {
+      throw InputError(format("{}: pixels of {} cannot be converted", name, av_get_pix_fmt_name(from)));
+    }
+    scales_from_ = from;
+    scales_to_ = wanted;
+    chroma_at_ = frame.chroma_location;
   }
   sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, planes, strides);
 }

@@ -78,6 +78,8 @@ class PixelConverter {
   Upright upright_;
   YuvCoding coding_;
   ScalerPointer scaler_;
+  AVPixelFormat scales_from_ = AV_PIX_FMT_NONE, scales_to_ = AV_PIX_FMT_NONE;
+  AVChromaLocation chroma_at_ = AVCHROMA_LOC_UNSPECIFIED;
   FramePointer scaled_;
   FramePointer rgb_;
 };
