@@ -75,6 +75,11 @@ TEST_F(InterlacedVideo, IsTakenAsItIsWhereThatIsAsked) {
   NEEDS_FFMPEG();
   make_interlaced(scratch_, 't', "-c:v ffv1", "t.mkv");
   EXPECT_EQ(joined(read("t.mkv", Interlaced::ignored)), by_ffmpeg("t.mkv", ""));
+  ClipOptions as_they_are;
+  as_they_are.interlaced = Interlaced::ignored;
+  EXPECT_EQ(
+      test::facts_of(*test::open_test_clip(scratch_ / "t.mkv", as_they_are)).at(Setting::deinterlace).line(),
+      "interlaced frames as they are, as stated");
 }
 
 TEST_F(InterlacedVideo, BecomesWhatFfmpegMakesOfIt) {

@@ -69,6 +69,10 @@ TEST(OutputRequest, SaysHowCodesDifferFromTheCaptures) {
   EXPECT_EQ(codes_text(capture, output_format({Depth::bits8, {}}, "a.png", capture)), "");
   capture.white_code = 65'535;
   EXPECT_EQ(codes_text(capture, output_format({}, "a.png", capture)), "");
+  capture.shape.channels = 3;
+  capture.primaries = Primaries::p3;
+  EXPECT_EQ(codes_text(capture, output_format({}, "a.png", capture)),
+            ", codes srgb in bt709 (the capture's: srgb in p3)");
 }
 
 TEST(OutputRequest, AsksWhatBecomesOfLightBelowZeroOfCodesOnly) {

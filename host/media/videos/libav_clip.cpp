@@ -112,6 +112,10 @@ class LibavClip final : public Clip {
       if (auto doubt = doubt_about_fields(fields_.has_value()))
         info_.notes.emplace_back(std::move(*doubt), std::vector{Setting::deinterlace});
     }
+    if (wish == Interlaced::ignored) {
+      info_.facts.push_back({fields_ ? "interlaced frames as they are" : "frames as they are", Origin::stated,
+                             Setting::deinterlace});
+    }
     if (wish != Interlaced::frames && wish != Interlaced::fields) return;
     info_.decoder_bytes += Deinterlacer::kHeldPictures * decoded_bytes(*decoder_.stream().codecpar);
     if (wish == Interlaced::fields) info_ = of_fields(std::move(info_));
