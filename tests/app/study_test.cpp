@@ -71,6 +71,23 @@ TEST_F(Study, WritesTheCommandsThatMakeTheSame) {
   }
 }
 
+// Before the work begins, and once.
+TEST_F(Study, SaysTheLeastMemoryThatWorks) {
+  for (const char* input : {"clip.tik", "frames"}) {
+    const auto with = [&](const std::string& memory) {
+      return run({"study", "-o", "least.png", "--memory", memory.c_str(), input,
+                  std::string_view(input) == "frames" ? "--fps=100" : "--quiet"});
+    };
+    const auto refused = with("1kB");
+    const std::string start = "allow more: --memory ";
+    const auto at = refused.err.find(start);
+    ASSERT_NE(at, std::string::npos) << refused.err;
+    const auto allowed =
+        with(refused.err.substr(at + start.size(), refused.err.find('\n', at) - at - start.size()));
+    EXPECT_EQ(allowed.status, 0) << input << ": " << allowed.err;
+  }
+}
+
 TEST_F(Study, TakesTheMomentsThatAreNamed) {
   const auto named = run({"study", "clip.tik", "--moments", "2f,0.08s", "--json"});
   ASSERT_EQ(named.status, 0) << named.err;

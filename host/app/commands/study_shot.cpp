@@ -5,6 +5,8 @@
 
 #include "app/commands/opened_session.hpp"
 #include "app/output/progress.hpp"
+#include "app/requests/requests.hpp"
+#include "session/below/capture.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/clips/alignment.hpp"
@@ -26,7 +28,18 @@ MemoryNeeds study_needs(const CaptureFormat& capture) {
   return needs;
 }
 
-Session open_whole(const Options& options) { return open_session(options, {.besides = study_needs}); }
+// What rendering takes at the end is there, or is said to be missing before the work begins.
+Session open_whole(const Options& options) {
+  constexpr std::uint64_t kUsualFunctions = 8;
+  Session session = open_session(options, {.besides = study_needs});
+  const CaptureFormat& format = session.format();
+  MemoryNeeds needs = study_needs(format);
+  needs.add(rendering_needs(format, output_format(output_request(options), format).type, kUsualFunctions,
+                            kDefaultBlockSamples));
+  needs.add("a block", largest_block(session.capture()));
+  needs.rest_of(session.devices().request().memory.bytes);
+  return session;
+}
 
 // With its pictures moved onto the first one, or the one in the middle where that shows too little of what the others do.
 Session open_aligned(Options& options, std::uint64_t samples) {
