@@ -127,10 +127,6 @@ bool is_scaled(std::uint64_t width, std::uint64_t height, std::uint64_t other_wi
 }  // namespace
 
 std::string size_mistake(const Mask& mask, const Shape& capture) {
-  if (mask.tags.size() != std::size_t{mask.width} * mask.height) {
-    return format("the mask is {} x {} pixels and has {} tags; each pixel needs one", mask.width, mask.height,
-                  mask.tags.size());
-  }
   if (mask.width == capture.width && mask.height == capture.height) return {};
   const bool is_turned = is_scaled(mask.width, mask.height, capture.height, capture.width);
   std::string way_out = "both must have the same size";

@@ -74,6 +74,10 @@ RenderPlan PlanCache::plan(const CaptureSource& source, const FunctionSet& funct
   if (const std::string mistake = size_mistake(mask, plan.capture.shape); !mistake.empty()) {
     throw InputError(mistake);
   }
+  if (mask.tags.size() != std::size_t{mask.width} * mask.height) {
+    throw InputError(format("the mask is {} x {} pixels and has {} tags; each pixel needs one", mask.width,
+                            mask.height, mask.tags.size()));
+  }
   plan.map = map_of(mask);
   if (!options.unmapped_is_zero) check_mapped(functions, plan.map->regions);
   plan.layout = layout_of(source);

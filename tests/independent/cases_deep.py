@@ -143,13 +143,14 @@ def camera_times(checks, path):
 
 def ten_bits(checks, path):
     """Raw 4:2:0 video. How the halved chroma is spread is no one's standard: the ffmpeg command does
-    it here, and what follows is the script's; with chroma left out everything is."""
+    it here, from where samples lie in a file that says nothing, and what follows is the script's; with chroma left
+    out everything is."""
     width, height = 480, 270
     luma, blue, red = sources.read_yuv420p10(path, width, height)
     raw = ["--raw", f"{width}x{height}:yuv420p10le"]
     spread = subprocess.run(
         ["ffmpeg", "-v", "error", "-f", "rawvideo", "-pix_fmt", "yuv420p10le", "-s", f"{width}x{height}",
-         "-i", str(path), "-sws_flags", "bicubic+accurate_rnd+full_chroma_int",
+         "-i", str(path), "-vf", "scale=in_h_chr_pos=0:in_v_chr_pos=128:flags=bicubic+accurate_rnd+full_chroma_int",
          "-f", "rawvideo", "-pix_fmt", "yuv444p10le", "-"], capture_output=True, check=True)
     planes = np.frombuffer(spread.stdout, "<u2").reshape(-1, 3, height, width)
     checks.holds("the 10-bit clip: spreading chroma leaves luma alone",
