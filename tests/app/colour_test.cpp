@@ -119,7 +119,7 @@ TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
     const std::string said = told(transfer, {"x.png"});
     EXPECT_NE(
         said.find("note: white is " + share + " % of the light that " + transfer +
-                  " reaches, and 4096 pixels brighter come out white; expose with --ev " + stops + " shows"),
+                  " reaches, and 4096 pixels brighter come out white; --ev " + stops + " shows"),
         std::string::npos)
         << said;
     const std::string all = told(transfer, {"--ev", stops, "x.png"});

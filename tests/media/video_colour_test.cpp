@@ -63,18 +63,6 @@ TEST(VideoColour, ThatIsNotKnownIsNamed) {
   EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::primaries});
 }
 
-// A row of Y, U and V of 10 bits, each as they say.
-std::string planes_of(const std::vector<std::array<int, 3>>& yuv) {
-  std::string raw;
-  for (std::size_t plane = 0; plane < 3; ++plane) {
-    for (const auto& pixel : yuv) {
-      raw += static_cast<char>(pixel[plane] & 255);
-      raw += static_cast<char>(pixel[plane] >> 8);
-    }
-  }
-  return raw;
-}
-
 TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
   NEEDS_FFMPEG();
   const Scratch scratch;
@@ -143,7 +131,7 @@ TEST(VideoColour, OfHighDynamicRangeIsTheLightOfTheStandard) {
     yuv.push_back({static_cast<int>(random.whole(64, 940)), static_cast<int>(random.whole(400, 624)),
                    static_cast<int>(random.whole(400, 624))});
   }
-  scratch.write("raw", planes_of(yuv));
+  scratch.write("raw", test::planes_of(yuv));
   for (const bool is_hlg : {true, false}) {
     test::make(scratch,
                "-f rawvideo -s 64x64 -pix_fmt yuv444p10le -r 25 -i raw -c:v ffv1 -color_primaries bt2020 "

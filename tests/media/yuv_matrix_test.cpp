@@ -51,18 +51,6 @@ TEST(MatrixOfYuv, OfAMatrixThatIsNotKnownIsRefused) {
   EXPECT_EQ(test::read_all(*test::open_test_clip(scratch / "grey.mkv")).size(), 2u);
 }
 
-// A row of Y, U and V of 10 bits, each as they say.
-std::string planes_of(const std::vector<std::array<int, 3>>& yuv) {
-  std::string raw;
-  for (std::size_t plane = 0; plane < 3; ++plane) {
-    for (const auto& pixel : yuv) {
-      raw += static_cast<char>(pixel[plane] & 255);
-      raw += static_cast<char>(pixel[plane] >> 8);
-    }
-  }
-  return raw;
-}
-
 // Luma that weighs channels as white light is made of the file's primaries.
 TEST(MatrixOfYuv, OfAMatrixFromPrimariesFollowsThese) {
   NEEDS_FFMPEG();
@@ -78,7 +66,7 @@ TEST(MatrixOfYuv, OfAMatrixFromPrimariesFollowsThese) {
   const auto weights = test::to_xyz({{{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {0.3127, 0.3290}}})[1];
   const std::vector<std::array<int, 3>> yuv{
       {500, 600, 470}, {300, 480, 560}, {700, 512, 512}, {640, 400, 620}};
-  scratch.write("raw", planes_of(yuv));
+  scratch.write("raw", test::planes_of(yuv));
   test::make(scratch,
              "-f rawvideo -s 4x1 -pix_fmt yuv444p10le -r 25 -i raw -c:v ffv1 -colorspace chroma-derived-nc "
              "-color_primaries smpte432 -color_range tv clip.mkv");
@@ -107,7 +95,7 @@ TEST(MatrixOfYuv, TakesChromaFromWhereItLies) {
                                             {"unspecified", 0.0, 0.5}}) {
     for (const bool is_across : {true, false}) {
       std::vector<std::array<int, 3>> luma(kSide * kSide, {500, 0, 0});
-      std::string raw = planes_of(luma).substr(0, std::size_t{2} * kSide * kSide);
+      std::string raw = test::planes_of(luma).substr(0, std::size_t{2} * kSide * kSide);
       for (const int rise : {kRise, 0}) {  // of U, and of V, which is grey
         for (int i = 0; i < kSide * kSide / 4; ++i) {
           const int code = rise == 0 ? 512 : kFirst + rise * (is_across ? i % (kSide / 2) : i / (kSide / 2));

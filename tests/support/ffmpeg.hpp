@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <array>
 
 #include <filesystem>
 #include <string>
@@ -31,7 +32,19 @@ inline std::string bytes_of(const std::vector<Picture>& pictures) {
   return bytes;
 }
 
-// The words that read those bytes, from the file `raw`, 25 a second.
+// A row of Y, U and V of more than 8 bits, each as they say: plane by plane, little-endian.
+inline std::string planes_of(const std::vector<std::array<int, 3>>& yuv) {
+  std::string raw;
+  for (std::size_t plane = 0; plane < 3; ++plane) {
+    for (const auto& pixel : yuv) {
+      raw += static_cast<char>(pixel[plane] & 255);
+      raw += static_cast<char>(pixel[plane] >> 8);
+    }
+  }
+  return raw;
+}
+
+// The words that read pictures' bytes, from the file `raw`, 25 a second.
 inline std::string from_raw(Shape shape, const std::string& pixels) {
   return "-f rawvideo -s " + std::to_string(shape.width) + "x" + std::to_string(shape.height) +
          " -r 25 -pix_fmt " + pixels + " -i raw ";

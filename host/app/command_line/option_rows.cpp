@@ -54,7 +54,8 @@ constexpr Option kRows[] = {
     // A capture has one too, which a picture may be exposed without: so it is none of what only a clip has.
     {0, "transfer", "NAME", exposure, kDecodesClips | bit(Id::retime), &Options::transfer,
      "how codes stand for light: srgb, bt709, linear, gamma:G, hlg or pq (default: srgb; linear for stills "
-     "and grey video of more than 8 bits and for 16-bit colour; what deep video names; a .tik's own)",
+     "and grey video of more than 8 bits and for 16-bit colour; what a file names, but for bt709 in 8-bit "
+     "video; a .tik's own)",
      "srgb bt709 linear gamma: hlg pq"},
     {0, "matrix", "NAME", decoding, kDecodesClips, &Options::matrix,
      "how a video's YUV becomes RGB: bt601, bt709, bt2020 or ycgco (default: what the file says; else bt709 from "

@@ -37,9 +37,9 @@ bool PictureDecoder::next(AVFrame& picture) {
     if (code == AVERROR_EOF) {
       if (has_hole_) {
         throw InputError(
-            format("{}: pictures are missing behind picture {}, for the file is damaged there "
+            format("{}: pictures are missing behind the first {}, for the file is damaged there "
                    "(FFmpeg says: {})",
-                   name_, pictures_ - 1, *holes_->said()));
+                   name_, pictures_, *holes_->said()));
       }
       return false;
     }
@@ -58,9 +58,10 @@ void PictureDecoder::feed() {
       avcodec_send_packet(codec_.get(), nullptr);
       return;
     }
-    // What the container's reader did not understand lies before this packet: it went on behind that. Where nothing
-    // comes any more, the clip was cut off, which its length tells.
-    has_hole_ = holes_->said() && pictures_ > 0 && wanted_ == Wanted::pictures;
+    // What the container's reader did not understand lies before this packet: it went on behind that. If nothing comes
+    // any more the clip was cut off, which its length tells; if nothing came before, its start was.
+    if (!has_begun_) holes_->forget();
+    has_hole_ = holes_->said() && wanted_ == Wanted::pictures;
     if (has_hole_) {
       av_packet_unref(packet_.get());
       avcodec_send_packet(codec_.get(), nullptr);
@@ -70,6 +71,7 @@ void PictureDecoder::feed() {
     const bool is_wanted = is_of_stream && skipped_ == 0;
     if (is_of_stream && skipped_ > 0) --skipped_;
     const int code = is_wanted ? avcodec_send_packet(codec_.get(), packet_.get()) : 0;
+    has_begun_ |= is_wanted && code >= 0;
     av_packet_unref(packet_.get());
     // A clip that was cut starts with packets that refer to pictures before it.
     const bool is_cut = code == AVERROR_INVALIDDATA && pictures_ == 0;

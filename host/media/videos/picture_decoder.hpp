@@ -46,7 +46,8 @@ class PictureDecoder {
   Wanted wanted_;
   std::uint64_t skipped_;
   std::uint64_t pictures_ = 0;
-  bool has_hole_ = false;  // and is decoded up to there
+  bool has_begun_ = false;  // the decoder took a packet
+  bool has_hole_ = false;   // and is decoded up to there
 };
 
 }  // namespace nutik::videos
