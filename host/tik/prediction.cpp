@@ -1,35 +1,13 @@
 #include "tik/prediction.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstring>
-#include <type_traits>
 
 #include "tik/residual_packing.hpp"
-
-// Predictions are chosen in loops that are compiled for several instruction sets, of which one is taken when the
-// program starts. Sanitizers are not ready when that choice is made.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define NUTIK_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
-#else
-#define NUTIK_SIMD_CLONES
-#endif
+#include "tik/row_prediction.hpp"
 
 namespace nutik::tik {
 namespace {
-
-// How a row is predicted. The values stand in files.
-enum class Mode : std::uint8_t {
-  before,      // the row before
-  neighbours,  // the median of left, above, and left + above - left above, in the same row
-  drift        // the row before, plus that median of the differences from it
-};
-constexpr std::uint8_t kModes = 3;
-
-// Medians are decoded pixel by pixel, `before` a vector at a time: they have to save a tenth.
-constexpr std::uint32_t kMedianCost = 11;
-constexpr std::uint32_t kBeforeCost = 10;
 
 std::byte mark_of(Mode mode, Reach reach) {
   return static_cast<std::byte>(static_cast<unsigned>(reach) * kModes + static_cast<unsigned>(mode));
@@ -124,158 +102,6 @@ void read_indices(const TileGroup& group, const std::byte* from, std::span<std::
   }
 }
 
-// One channel of one row.
-template <typename Code>
-using Plane = std::array<Code, kTilePixels>;
-
-template <typename Code>
-Code median(Code left, Code above, Code corner) {
-  const Code low = std::min(left, above);
-  const Code high = std::max(left, above);
-  if (corner >= high) return low;
-  if (corner <= low) return high;
-  return static_cast<Code>(left + above - corner);
-}
-
-// What the median says of pixel (x, y) from its neighbours; `corner_guess` for the first.
-template <typename Code>
-Code guess(const Code* plane, std::uint32_t x, std::uint32_t y, Code corner_guess) {
-  const Code* at = plane + y * kTileSide + x;
-  constexpr int kAbove = kTileSide;
-  if (y == 0) return x == 0 ? corner_guess : at[-1];
-  if (x == 0) return at[-kAbove];
-  return median(at[-1], at[-kAbove], at[-kAbove - 1]);
-}
-
-template <typename Code>
-std::int16_t as_signed(Code difference) {
-  return static_cast<std::make_signed_t<Code>>(difference);
-}
-
-// A value for each pixel of a tile; compilers cut these vectors into what the machine has.
-using Lanes8 = std::uint8_t __attribute__((vector_size(kTilePixels)));
-using Lanes16 = std::uint16_t __attribute__((vector_size(2 * kTilePixels)));
-using Signed16 = std::int16_t __attribute__((vector_size(2 * kTilePixels)));
-using Signed32 = std::int32_t __attribute__((vector_size(4 * kTilePixels)));
-
-// -1 for the pixels of the first row, or of the first column.
-template <typename Value>
-constexpr std::array<Value, kTilePixels> first_pixels(bool of_rows) {
-  std::array<Value, kTilePixels> mask{};
-  for (std::size_t i = 0; i < kTileSide; ++i) mask[of_rows ? i : i * kTileSide] = -1;
-  return mask;
-}
-
-// What is left of a plane beside what guess() says of it. All of it is known here, so that pixels need not wait for each
-// other.
-template <typename Code>
-inline __attribute__((always_inline)) void subtract_medians(const Plane<Code>& plane, Code corner_guess,
-                                                            Residuals& residuals) {
-  using Value = std::conditional_t<sizeof(Code) == 1, std::int16_t, std::int32_t>;
-  using Lanes = std::conditional_t<sizeof(Code) == 1, Lanes8, Lanes16>;
-  using Wide = std::conditional_t<sizeof(Code) == 1, Signed16, Signed32>;
-  static constexpr auto kFirstRow = first_pixels<Value>(true), kFirstColumn = first_pixels<Value>(false);
-  // The plane behind so many codes that a pixel's neighbours lie in front of it.
-  constexpr std::size_t kFront = kTileSide + 1;
-  Code around[kFront + kTilePixels];
-  std::fill_n(around, kFront, corner_guess);
-  std::copy(plane.begin(), plane.end(), around + kFront);
-  Wide neighbours[3];  // left, above, corner
-  constexpr std::size_t kPlaces[] = {kFront - 1, kFront - kTileSide, 0};
-  for (std::size_t i = 0; i < 3; ++i) {
-    Lanes codes;
-    std::memcpy(&codes, around + kPlaces[i], sizeof codes);
-    neighbours[i] = __builtin_convertvector(codes, Wide);
-  }
-  // Where there is one neighbour, it stands for the others: their median is what it is.
-  Wide first_row, first_column;
-  std::memcpy(&first_row, kFirstRow.data(), sizeof first_row);
-  std::memcpy(&first_column, kFirstColumn.data(), sizeof first_column);
-  const Wide edge = first_row | first_column;
-  const Wide above = (neighbours[0] & first_row) | (neighbours[1] & ~first_row);
-  const Wide left = (above & first_column) | (neighbours[0] & ~first_column);
-  const Wide corner = (above & edge) | (neighbours[2] & ~edge);
-  const Wide low = left < above ? left : above, high = left < above ? above : left;
-  Wide median = left + above - corner;
-  median = median < low ? low : median;
-  median = median > high ? high : median;
-  Lanes codes;
-  std::memcpy(&codes, plane.data(), sizeof codes);
-  codes -= __builtin_convertvector(median, Lanes);
-  if constexpr (sizeof(Code) == 1) {
-    using Signed8 = std::int8_t __attribute__((vector_size(kTilePixels)));
-    const Signed16 wide = __builtin_convertvector(reinterpret_cast<Signed8>(codes), Signed16);
-    std::memcpy(residuals.data(), &wide, sizeof wide);
-  } else {
-    std::memcpy(residuals.data(), &codes, sizeof codes);
-  }
-}
-
-inline __attribute__((always_inline)) std::uint32_t magnitude(const Residuals& residuals) {
-  std::uint32_t sum = 0;
-  for (const std::int16_t residual : residuals) {
-    sum += static_cast<std::uint32_t>(residual < 0 ? -residual : residual);
-  }
-  return sum;
-}
-
-template <typename Code>
-inline __attribute__((always_inline)) Mode choose_mode(const Plane<Code>& now, const Plane<Code>& before,
-                                                       bool is_first, Residuals& chosen) {
-  // Differences are taken around the middle of the range, so that small ones of either sign are
-  // neighbours for the median.
-  constexpr Code kHalf = static_cast<Code>(1u << (8 * sizeof(Code) - 1));
-  subtract_medians(now, before[0], chosen);
-  if (is_first) return Mode::neighbours;  // there is nothing before
-  Mode best = Mode::neighbours;
-  std::uint32_t least = magnitude(chosen) * kMedianCost;
-  Plane<Code> drift;
-  Residuals residuals;
-  for (std::size_t i = 0; i < kTilePixels; ++i) {
-    drift[i] = static_cast<Code>(now[i] - before[i] + kHalf);
-    residuals[i] = as_signed(static_cast<Code>(now[i] - before[i]));
-  }
-  if (const std::uint32_t sum = magnitude(residuals) * kBeforeCost; sum <= least) {
-    least = sum;
-    best = Mode::before;
-    chosen = residuals;
-  }
-  subtract_medians(drift, kHalf, residuals);
-  if (magnitude(residuals) * kMedianCost < least) {
-    best = Mode::drift;
-    chosen = residuals;
-  }
-  return best;
-}
-
-NUTIK_SIMD_CLONES Mode choose(const Plane<std::uint8_t>& now, const Plane<std::uint8_t>& before,
-                              bool is_first, Residuals& chosen) {
-  return choose_mode(now, before, is_first, chosen);
-}
-NUTIK_SIMD_CLONES Mode choose(const Plane<std::uint16_t>& now, const Plane<std::uint16_t>& before,
-                              bool is_first, Residuals& chosen) {
-  return choose_mode(now, before, is_first, chosen);
-}
-
-template <typename Code>
-void add_residuals(Mode mode, const Residuals& residuals, const Plane<Code>& before, Plane<Code>& now) {
-  constexpr Code kHalf = static_cast<Code>(1u << (8 * sizeof(Code) - 1));
-  if (mode == Mode::before) {
-    for (std::size_t i = 0; i < kTilePixels; ++i) now[i] = static_cast<Code>(before[i] + residuals[i]);
-    return;
-  }
-  const Code first = mode == Mode::drift ? kHalf : before[0];
-  for (std::uint32_t y = 0; y < kTileSide; ++y) {
-    for (std::uint32_t x = 0; x < kTileSide; ++x) {
-      const std::size_t i = y * kTileSide + x;
-      now[i] = static_cast<Code>(guess(now.data(), x, y, first) + residuals[i]);
-    }
-  }
-  if (mode == Mode::drift) {
-    for (std::size_t i = 0; i < kTilePixels; ++i) now[i] = static_cast<Code>(now[i] + before[i] - kHalf);
-  }
-}
-
 template <typename Code, std::uint32_t Channels>
 class Predictor {
  public:
@@ -297,7 +123,7 @@ class Predictor {
         decorrelate(now);
         for (std::uint32_t c = 0; c < Channels; ++c) {
           Residuals residuals;
-          const Mode mode = choose(now[c], before[c], r == 0, residuals);
+          const Mode mode = choose_mode(now[c], before[c], r == 0, residuals);
           const Reach reach = reach_of(residuals);
           plain.head.push_back(mark_of(mode, reach));
           std::vector<std::byte>& part = plain.parts[part_of(c, reach)];
