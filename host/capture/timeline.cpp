@@ -1,7 +1,6 @@
 #include "capture/timeline.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -190,11 +189,6 @@ SampleRange Timeline::samples_reaching(std::int64_t begin_ns, std::int64_t end_n
   const std::uint64_t first = first_where([&](std::uint64_t k) { return reach_end_ns(k) > begin_ns; });
   const std::uint64_t last = first_where([&](std::uint64_t k) { return reach_begin_ns(k) >= end_ns; });
   return first < last ? SampleRange{first, last} : SampleRange{};
-}
-
-Timeline Timeline::with_sample_count(std::uint64_t sample_count) const {
-  if (!is_constant()) throw std::logic_error("only a constant timeline can change its length");
-  return constant(rate_, shutter_angle_, sample_count);
 }
 
 }  // namespace nutik

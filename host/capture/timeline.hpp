@@ -93,9 +93,6 @@ class Timeline {
   [[nodiscard]] Rational rate() const { return rate_; }
   [[nodiscard]] Rational shutter_angle() const { return shutter_angle_; }
 
-  // The same constant timeline with another number of samples; throws std::logic_error for a table.
-  [[nodiscard]] Timeline with_sample_count(std::uint64_t sample_count) const;
-
   friend bool operator==(const Timeline&, const Timeline&) = default;
 
  private:

@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,14 +20,6 @@
 
 namespace nutik {
 
-// How a source's blocks may be acquired.
-struct SourceAccess {
-  static constexpr std::uint32_t kAnyNumber = std::numeric_limits<std::uint32_t>::max();
-
-  std::uint32_t threads = kAnyNumber;  // that may acquire blocks, different ones or the same, at a time
-  bool is_forward_only = false;        // each block once at most, in increasing order
-};
-
 class CaptureSource {
  public:
   virtual ~CaptureSource() = default;
@@ -37,7 +28,9 @@ class CaptureSource {
   [[nodiscard]] virtual const Timeline& timeline() const = 0;
   [[nodiscard]] virtual std::uint64_t block_count() const = 0;
   [[nodiscard]] virtual BlockExtent block_extent(std::uint64_t block) const = 0;
-  [[nodiscard]] virtual SourceAccess access() const { return {}; }
+  // Whether each block is acquired once at most, in increasing order, by one thread at a time. Else by any number of
+  // threads, different ones or the same, in any order.
+  [[nodiscard]] virtual bool is_forward_only() const { return false; }
 
   // A block's payload, checked; empty only where terms.room had none. Throws InputError where it is damaged.
   [[nodiscard]] BlockLease acquire(std::uint64_t block, const LeaseTerms& terms = {}) {
@@ -113,7 +106,7 @@ class StreamingCapture final : public CaptureSource {
   [[nodiscard]] std::uint64_t block_count() const override;
   [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override;
 
-  [[nodiscard]] SourceAccess access() const override { return {1, true}; }
+  [[nodiscard]] bool is_forward_only() const override { return true; }
 
  private:
   // Memory that was lent and came back, from whatever thread.

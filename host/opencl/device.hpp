@@ -29,8 +29,8 @@ struct DeviceInfo {
 };
 
 // Every device of every platform, the ones to prefer first: GPUs, accelerators, CPUs, and of a kind those without a
-// loop_limit; the position is the index that --device takes. Throws DeviceError where there is no OpenCL platform at
-// all.
+// loop_limit; the position is the index that OpenClOptions::device takes. Throws DeviceError where there is no OpenCL
+// platform at all.
 [[nodiscard]] std::vector<DeviceInfo> list_devices();
 
 // The index of the device that a person means: a number, or part of a name or platform in any case; empty

@@ -177,7 +177,7 @@ Rendered ReferenceRenderer::render_part(const RenderPlan& plan, CaptureSource& s
                                         const OutputFormat& output, const Rectangle& rectangle,
                                         const RenderControl& control) {
   const Shape shape{rectangle.width, rectangle.height, plan.capture.shape.channels};
-  const std::uint32_t rows = source.access().is_forward_only
+  const std::uint32_t rows = source.is_forward_only()
                                  ? shape.height
                                  : rows_at_once(plan, source, shape, output.type, control.memory_bytes);
   Rendered rendered;

@@ -85,7 +85,7 @@ class HeaderParser {
   [[noreturn]] void fail_other_program() const {
     throw InputError(
         format("{} is a TIK file of another program, whose records have another layout; "
-               "encode its source clip again with nutik-cl",
+               "encode its source clip again",
                name_));
   }
 
@@ -100,9 +100,7 @@ class HeaderParser {
       const bool mentions = text_.substr(0, 512).find("TIK") != std::string_view::npos;
       if (mentions) fail_other_program();
       throw InputError(
-          format("{} is a Netpbm picture, not a .tik file; to use it as a sample, encode it: "
-                 "nutik-cl {} -o capture.tik",
-                 name_, name_));
+          format("{} is a Netpbm picture, not a .tik file; to use it as a sample, encode it", name_));
     }
     const std::string_view rest = line.substr(kComment.size());
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), version_);

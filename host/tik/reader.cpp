@@ -8,100 +8,10 @@
 #include "capture/seconds_text.hpp"
 #include "system/checksum.hpp"
 #include "system/interruption.hpp"
-#include "system/output_file.hpp"
+#include "tik/block_headers.hpp"
 #include "tik/codec.hpp"
-#include "tik/writer.hpp"
 
 namespace nutik::tik {
-namespace {
-
-template <typename T>
-T load(std::span<const std::byte> bytes, std::uint64_t offset) {
-  T value;
-  std::memcpy(&value, bytes.data() + offset, sizeof value);
-  return value;
-}
-
-// Whether [offset, offset + bytes) lies within a file of `size` bytes, without overflow.
-bool fits(std::uint64_t offset, std::uint64_t bytes, std::uint64_t size) {
-  return offset <= size && bytes <= size - offset;
-}
-
-bool is_whole(const BlockHeader& header) {
-  return std::memcmp(header.magic, kBlockMagic, sizeof header.magic) == 0 &&
-         header.header_checksum == checksum_of(header, offsetof(BlockHeader, header_checksum));
-}
-
-bool is_packed(const BlockHeader& header) {
-  return header.codec != static_cast<std::uint32_t>(CodecId::none);
-}
-
-std::uint64_t exposures_offset(std::uint64_t block_offset) { return block_offset + sizeof(BlockHeader); }
-
-std::uint64_t payload_offset(std::uint64_t block_offset, const BlockHeader& header) {
-  return align_up(exposures_offset(block_offset) + header.exposure_bytes, kAlignment);
-}
-
-// What a header has to agree with: where it stands, and what was read before it.
-struct HeaderPlace {
-  std::uint64_t offset;
-  std::uint64_t block;
-  std::uint64_t first_sample;
-  bool is_regular;  // the capture has a constant rate
-};
-
-// What a header, whose checksum may be right and the rest made up, says that cannot be; empty where all of it
-// can, and then its exposures and its payload lie within the file and none of the offsets above overflows.
-std::string flaw_of(const BlockHeader& header, const HeaderPlace& place, std::uint64_t file_bytes) {
-  if (header.block != place.block) return format("its header is that of block {}", header.block);
-  if (header.first_sample != place.first_sample) {
-    return format("its header tells of sample {} as its first", header.first_sample);
-  }
-  if (header.sample_count == 0 || header.sample_count > kLargestBlockSamples) {
-    return format("its header tells of {} samples; it can have 1 … {}", header.sample_count,
-                  kLargestBlockSamples);
-  }
-  if (header.codec > static_cast<std::uint32_t>(CodecId::zstd)) {
-    return format("its codec {} is not known", header.codec);
-  }
-  const std::uint64_t exposure_bytes = place.is_regular ? 0 : header.sample_count * sizeof(Exposure);
-  if (header.exposure_bytes != exposure_bytes) {
-    return format("its header tells of {} bytes of exposures, not {}", header.exposure_bytes, exposure_bytes);
-  }
-  if (header.payload_bytes > kLargestPayloadBytes ||
-      (!is_packed(header) && header.payload_bytes != header.stored_bytes)) {
-    return format("its header tells of {} bytes of payload", header.payload_bytes);
-  }
-  // The block's start lies in the file and exposures take a mebibyte at most: no sum comes near 2^64.
-  if (!fits(payload_offset(place.offset, header), header.stored_bytes, file_bytes)) {
-    return format("its {} bytes reach beyond the file's end", header.stored_bytes);
-  }
-  return {};
-}
-
-std::vector<Exposure> load_exposures(std::span<const std::byte> bytes) {
-  std::vector<Exposure> exposures(bytes.size() / sizeof(Exposure));
-  if (!exposures.empty()) std::memcpy(exposures.data(), bytes.data(), exposures.size() * sizeof(Exposure));
-  return exposures;
-}
-
-// Of what a file says. Throws InputError beginning with `name`, also where a person may not state such a rate either.
-Timeline timeline_of(const Header& header, std::uint64_t samples, std::vector<Exposure> exposures,
-                     std::optional<std::int64_t> duration_ns, const std::string& name) {
-  try {
-    if (header.rate) return Timeline::constant(*header.rate, header.shutter_angle, samples);
-    return duration_ns ? Timeline::stored(std::move(exposures), *duration_ns, header.shutter_angle)
-                       : Timeline::explicit_exposures(std::move(exposures));
-  } catch (const Error& error) {
-    throw InputError(nutik::format("{}: its times are damaged: {}", name, error.what()));
-  }
-}
-
-constexpr const char* kDamagedFront =
-    "the text or picture at its start is damaged, which says when and how it was filmed; encode the clip "
-    "again";
-
-}  // namespace
 
 Reader::Reader(const std::filesystem::path& path) : name_(path.string()), file_(path) {
   header_ = parse_header(file_.bytes(), name_).header;
@@ -123,22 +33,19 @@ void Reader::fail(const std::string& why) const { throw InputError(nutik::format
 
 void Reader::read_footer() {
   const std::span<const std::byte> file = file_.bytes();
-  const auto fail_cut_off = [&] {
-    fail(
-        nutik::format("it does not end as a .tik does, so it was cut off; save what is whole with: nutik-cl "
-                      "recover {} -o recovered.tik",
-                      name_));
+  const auto fail_with_way_out = [&](const std::string& why) {
+    throw Recoverable(nutik::format("{}: {}", name_, why), name_);
   };
-  if (file.size() < sizeof(Footer)) fail_cut_off();
+  const char* cut_off = "it does not end as a .tik does, so it was cut off";
+  if (file.size() < sizeof(Footer)) fail_with_way_out(cut_off);
   const auto footer = load<Footer>(file, file.size() - sizeof(Footer));
-  if (std::memcmp(footer.magic, kFooterMagic, sizeof footer.magic) != 0) fail_cut_off();
+  if (std::memcmp(footer.magic, kFooterMagic, sizeof footer.magic) != 0) fail_with_way_out(cut_off);
   const bool intact = footer.checksum == checksum_of(footer, offsetof(Footer, checksum)) &&
                       footer.block_count != 0 && footer.block_count <= file.size() / sizeof(IndexEntry) &&
                       fits(footer.index_offset, footer.block_count * sizeof(IndexEntry), file.size());
-  const std::string way_out = nutik::format("; save it with: nutik-cl recover {} -o recovered.tik", name_);
-  if (!intact) fail("its footer is damaged" + way_out);
+  if (!intact) fail_with_way_out("its footer is damaged");
   const auto index_bytes = file.subspan(footer.index_offset, footer.block_count * sizeof(IndexEntry));
-  if (footer.index_checksum != checksum(index_bytes)) fail("its index is damaged" + way_out);
+  if (footer.index_checksum != checksum(index_bytes)) fail_with_way_out("its index is damaged");
   index_.resize(footer.block_count);
   std::memcpy(index_.data(), index_bytes.data(), index_bytes.size());
 
@@ -167,7 +74,7 @@ void Reader::read_footer() {
   }
   const auto exposure_bytes = file.subspan(footer.exposures_offset, samples * sizeof(Exposure));
   if (footer.exposures_checksum != checksum(exposure_bytes))
-    fail("its list of exposures is damaged" + way_out);
+    fail_with_way_out("its list of exposures is damaged");
   timeline_ = timeline_of(header_, samples, load_exposures(exposure_bytes), footer.duration_ns, name_);
 }
 
@@ -339,69 +246,6 @@ std::vector<TileEntry> Reader::directory(std::uint64_t block) const {
   } catch (const InputError& error) {
     fail_block(block, error.what());
   }
-}
-
-namespace {
-
-bool is_readable(const std::filesystem::path& path) {
-  try {
-    Reader reader(path);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
-}  // namespace
-
-Recovery recover(const std::filesystem::path& damaged, const std::filesystem::path& whole) {
-  const std::string name = damaged.string();
-  const MappedFile mapped(damaged);
-  const std::span<const std::byte> file = mapped.bytes();
-  const ParsedHeader parsed = parse_header(file, name);
-  if (is_readable(damaged)) {
-    throw InputError(nutik::format(
-        "{}: it was not cut off: expose from it as it is; a damaged block costs its own times only", name));
-  }
-  Recovery recovery;
-  std::vector<IndexEntry> index;
-  std::vector<Exposure> exposures;
-  std::uint64_t offset = parsed.first_block_offset;
-  const std::uint64_t front_checksum = checksum(file.first(std::min<std::uint64_t>(offset, file.size())));
-  while (fits(offset, sizeof(BlockHeader), file.size())) {
-    check_interruption();
-    const auto header = load<BlockHeader>(file, offset);
-    const HeaderPlace place{offset, recovery.block_count, recovery.sample_count,
-                            parsed.header.rate.has_value()};
-    if (!is_whole(header) || !flaw_of(header, place, file.size()).empty()) break;
-    if (header.front_checksum != front_checksum) {
-      throw InputError(nutik::format("{}: {}", name, kDamagedFront));
-    }
-    const auto exposure_bytes = file.subspan(exposures_offset(offset), header.exposure_bytes);
-    const std::uint64_t payload = payload_offset(offset, header);
-    if (!fits(payload, header.stored_bytes, file.size())) break;
-    if (checksum(file.subspan(payload, header.stored_bytes)) != header.payload_checksum) break;
-    if (header.exposure_bytes != 0 && checksum(exposure_bytes) != header.exposures_checksum) break;
-    const std::vector<Exposure> block_exposures = load_exposures(exposure_bytes);
-    exposures.insert(exposures.end(), block_exposures.begin(), block_exposures.end());
-    index.push_back({offset, header.first_sample, header.sample_count, header.codec, header.stored_bytes,
-                     header.payload_bytes, header.record_count});
-    recovery.sample_count += header.sample_count;
-    ++recovery.block_count;
-    offset = align_up(payload + header.stored_bytes, kAlignment);
-  }
-  if (index.empty()) {
-    throw InputError(
-        nutik::format("{}: its first block is not whole, and blocks are saved from the front", name));
-  }
-  const std::uint64_t kept = std::min<std::uint64_t>(offset, file.size());
-  recovery.lost_bytes = file.size() - kept;
-
-  const Timeline timeline = timeline_of(parsed.header, recovery.sample_count, exposures, {}, name);
-  OutputFile out(whole);
-  out.write(file.first(kept));
-  finish_file(out, index, timeline);
-  return recovery;
 }
 
 }  // namespace nutik::tik

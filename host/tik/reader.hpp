@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture/error.hpp"
 #include "imev/capture_source.hpp"
 #include "system/mapped_file.hpp"
 #include "tik/format.hpp"
@@ -16,11 +17,19 @@
 
 namespace nutik::tik {
 
+// A .tik that cannot be read to its end, of which recover() may save the front.
+struct Recoverable : InputError {
+  Recoverable(const std::string& message, std::string file_name)
+      : InputError(message), name(std::move(file_name)) {}
+
+  std::string name;
+};
+
 // Any number of threads may acquire blocks and ask for everything else, at a time.
 class Reader final : public CaptureSource {
  public:
-  // Throws InputError where the file is no .tik, of another version, damaged at front or end, or cut
-  // off; the message names the command that recovers a cut-off file.
+  // Throws InputError where the file is no .tik, of another version, damaged at its front; Recoverable where it
+  // is damaged at its end or cut off.
   explicit Reader(const std::filesystem::path& path);
 
   [[nodiscard]] const CaptureFormat& format() const override { return header_.capture; }
@@ -100,16 +109,5 @@ class Reader final : public CaptureSource {
   std::mutex preloading_;  // guards what follows
   std::optional<Preloaded> preloaded_;
 };
-
-// What could be saved of a file that was cut off.
-struct Recovery {
-  std::uint64_t block_count = 0;
-  std::uint64_t sample_count = 0;
-  std::uint64_t lost_bytes = 0;  // after the last whole block
-};
-
-// Copies the whole blocks at the front of a cut-off .tik into a new, complete one. Throws InputError
-// where there is none, OutputError where it cannot be written.
-Recovery recover(const std::filesystem::path& damaged, const std::filesystem::path& whole);
 
 }  // namespace nutik::tik

@@ -49,7 +49,7 @@ TEST(StreamingCapture, LeavesAlonePayloadsThatAreLent) {
     const MemoryCapture whole = random.encode();
     StreamingCapture streaming(random.capture, random.timeline, {0, random.rasters.size()},
                                random.block_samples, random.policy, test::RasterStream(random.rasters));
-    EXPECT_TRUE(streaming.access().is_forward_only);
+    EXPECT_TRUE(streaming.is_forward_only());
     test::Random draw(seed);
     std::vector<BlockLease> leases;
     for (std::uint64_t block = 0; block < streaming.block_count(); ++block) {

@@ -12,6 +12,7 @@
 #include "support/tik_files.hpp"
 #include "system/checksum.hpp"
 #include "tik/reader.hpp"
+#include "tik/recovery.hpp"
 
 namespace nutik::tik {
 namespace {
@@ -108,15 +109,14 @@ TEST(TikDamage, IsRecoveredUpToItsLastWholeBlock) {
       scratch.write("cut.tik", std::string_view(bytes).substr(0, cut));
       const auto whole = static_cast<std::uint64_t>(
           std::count_if(block_ends.begin(), block_ends.end(), [&](std::uint64_t end) { return end <= cut; }));
-      const std::string message = test::message_of<InputError>([&] { Reader(scratch / "cut.tik"); });
-      EXPECT_NE(message, "");
       if (whole == 0) {
+        EXPECT_NE(test::message_of<InputError>([&] { Reader(scratch / "cut.tik"); }), "");
         EXPECT_NE(test::message_of<InputError>([&] { recover(scratch / "cut.tik", scratch / "new.tik"); }),
                   "");
         EXPECT_FALSE(std::filesystem::exists(scratch / "new.tik"));
         continue;
       }
-      EXPECT_NE(message.find("nutik-cl recover"), std::string::npos) << message;
+      EXPECT_NE(test::message_of<Recoverable>([&] { Reader(scratch / "cut.tik"); }), "");
       const Recovery recovery = recover(scratch / "cut.tik", scratch / "new.tik");
       EXPECT_EQ(recovery.block_count, whole);
       Reader reader(scratch / "new.tik");

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "app/command_line/suggestion.hpp"
+#include "app/text/shell_text.hpp"
+#include "session/below/capture.hpp"
 #include "session/below/format.hpp"
 #include "session/clips/alignment.hpp"
 #include "session/clips/clip_source.hpp"
@@ -101,6 +103,10 @@ std::string message_text(const std::exception& error) {
   if (const auto* blocks = dynamic_cast<const BlocksTooLong*>(&error)) {
     return format("{} (--memory); use fewer samples a block (--block-samples {})", message,
                   blocks->most_samples);
+  }
+  if (const auto* damaged = dynamic_cast<const tik::Recoverable*>(&error)) {
+    return format("{}; save what is whole with: nutik-cl recover {} -o recovered.tik", message,
+                  shell_word(damaged->name));
   }
   if (dynamic_cast<const ExposuresAreListed*>(&error) != nullptr) {
     return message + "; leave --shutter-angle out, or the exposure_ns column empty";

@@ -8,3 +8,4 @@
 #include "imev/expected_values.hpp"
 #include "tik/header.hpp"
 #include "tik/reader.hpp"
+#include "tik/recovery.hpp"
