@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "imev/tile.hpp"
 
@@ -46,7 +47,8 @@ namespace packing {
 template <int Base, int PerByte>
 struct Digits {
   static constexpr std::size_t kBytes = (kTilePixels + PerByte - 1) / PerByte;
-  using Group = std::array<std::int8_t, 8>;  // the first PerByte are used
+  // The first PerByte are a byte's, and 0 behind them: a vector, written whole.
+  using Group = std::array<std::int16_t, 8>;
 
   // Bytes that no packing makes give residuals of 0.
   static constexpr std::array<Group, 256> make_table() {
@@ -56,7 +58,7 @@ struct Digits {
     for (int byte = 0; byte < limit; ++byte) {
       int rest = byte;
       for (std::size_t i = 0; i < PerByte; ++i, rest /= Base) {
-        table[static_cast<std::size_t>(byte)][i] = static_cast<std::int8_t>(rest % Base - Base / 2);
+        table[static_cast<std::size_t>(byte)][i] = static_cast<std::int16_t>(rest % Base - Base / 2);
       }
     }
     return table;
@@ -75,12 +77,12 @@ struct Digits {
 
   static void unpack(const std::byte* from, Residuals& residuals) {
     static constexpr std::array<Group, 256> kTable = make_table();
+    std::array<std::int16_t, (kBytes - 1) * PerByte + sizeof(Group) / sizeof(std::int16_t)> digits;
     for (std::size_t b = 0; b < kBytes; ++b) {
       const Group& group = kTable[static_cast<std::size_t>(from[b])];
-      for (std::size_t i = 0; i < PerByte && b * PerByte + i < kTilePixels; ++i) {
-        residuals[b * PerByte + i] = group[i];
-      }
+      std::memcpy(digits.data() + b * PerByte, group.data(), sizeof group);
     }
+    std::memcpy(residuals.data(), digits.data(), sizeof residuals);
   }
 };
 
