@@ -8,7 +8,10 @@
 namespace nutik {
 
 Activity::Activity(const CaptureFormat& capture, ActivityOptions options)
-    : shape_(capture.shape), options_(std::move(options)), changes_(capture.shape.pixel_count()) {
+    : shape_(capture.shape),
+      much_(capture.white_code / 16),
+      options_(std::move(options)),
+      changes_(capture.shape.pixel_count()) {
   if (!options_.counted.empty() && options_.counted.size() != changes_.size()) {
     throw std::logic_error("the pixels that count are not those of the capture");
   }
@@ -18,12 +21,11 @@ Activity::Activity(const CaptureFormat& capture, ActivityOptions options)
   for (const std::uint8_t tag : options_.tags) changed_by_tag_[tag];
 }
 
-bool Activity::is_change(const ChangeRecord& before, const ChangeRecord& after) const {
-  for (std::uint32_t channel = 0; channel < shape_.channels; ++channel) {
-    const int difference = after.codes[channel] - before.codes[channel];
-    if (static_cast<std::uint32_t>(std::abs(difference)) > options_.ignored_codes) return true;
-  }
-  return false;
+std::uint32_t Activity::change(const ChangeRecord& before, const ChangeRecord& after) const {
+  int largest = 0;
+  for (std::uint32_t channel = 0; channel < shape_.channels; ++channel)
+    largest = std::max(largest, std::abs(after.codes[channel] - before.codes[channel]));
+  return static_cast<std::uint32_t>(largest);
 }
 
 void Activity::add(const BlockView& block) {
@@ -32,6 +34,12 @@ void Activity::add(const BlockView& block) {
   last_.resize(changes_.size());
   const std::size_t first_sample = changed_pixels_.size();
   changed_pixels_.resize(first_sample + block.extent().sample_count);
+  any_changed_pixels_.resize(changed_pixels_.size());
+  much_changed_pixels_.resize(changed_pixels_.size());
+  std::vector<bool> is_left_out(block.extent().sample_count);
+  for (const std::uint64_t sample : options_.left_out) {
+    if (sample >= first_sample && sample < changed_pixels_.size()) is_left_out[sample - first_sample] = true;
+  }
   std::array<std::uint64_t*, 256> changed_of_tag{};  // at the block's first sample
   for (auto& [tag, changed] : changed_by_tag_) {
     changed.resize(changed_pixels_.size());
@@ -41,13 +49,17 @@ void Activity::add(const BlockView& block) {
   std::uint64_t pixel = 0;
   for (std::uint32_t y = 0; y < shape_.height; ++y) {
     for (std::uint32_t x = 0; x < shape_.width; ++x, ++pixel) {
-      if (!options_.counted.empty() && options_.counted[pixel] == 0) continue;
+      const bool counts = options_.counted.empty() || options_.counted[pixel] != 0;
       block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);
       const ChangeRecord* before = is_first ? nullptr : &last_[pixel];
       for (const ChangeRecord& record : history) {
-        if (before != nullptr && is_change(*before, record)) {
+        const std::uint32_t by = before == nullptr ? 0 : change(*before, record);
+        const std::uint64_t sample = first_sample + record.sample;
+        if (by > 0) ++any_changed_pixels_[sample];
+        if (by > much_) ++much_changed_pixels_[sample];
+        if (counts && by > options_.ignored_codes && !is_left_out[record.sample]) {
           ++changes_[pixel];
-          ++changed_pixels_[first_sample + record.sample];
+          ++changed_pixels_[sample];
           if (!options_.tags.empty()) ++changed_of_tag[options_.tags[pixel]][record.sample];
         }
         before = &record;
@@ -55,6 +67,22 @@ void Activity::add(const BlockView& block) {
       last_[pixel] = history.back();
     }
   }
+}
+
+void Activity::bridge_left_out() {
+  const auto bridge = [&](std::vector<std::uint64_t>& changed) {
+    for (const std::uint64_t k : options_.left_out) {
+      std::uint64_t sum = 0, count = 0;
+      for (const std::uint64_t beside : {k - 1, k + 1}) {
+        if (beside == 0 || beside >= changed.size()) continue;  // the first sample cannot change
+        sum += changed[beside];
+        ++count;
+      }
+      changed[k] = count == 0 ? 0 : (sum + count / 2) / count;
+    }
+  };
+  bridge(changed_pixels_);
+  for (auto& [tag, changed] : changed_by_tag_) bridge(changed);
 }
 
 std::uint64_t Activity::pixel_count() const {

@@ -17,6 +17,8 @@ struct ActivityOptions {
   std::uint32_t ignored_codes = 0;
   std::vector<std::uint8_t> counted;  // a 1 for each pixel that counts, row-major; empty: all of them
   std::vector<std::uint8_t> tags;     // of each pixel, to be counted by tag too; empty: they are not
+  // Changes at these samples, in increasing order, are none (redrawn_samples.hpp).
+  std::vector<std::uint64_t> left_out = {};
 };
 
 // Counts, block after block, the samples at which a pixel holds other codes than at the sample before;
@@ -33,17 +35,22 @@ class Activity {
 
   // Besides, of so many samples: their counts, of all pixels and of those with each tag, with room that they grow by.
   [[nodiscard]] static MemoryNeeds needs_of_samples(std::uint64_t samples, std::size_t tags) {
-    return {{"changes of samples", samples * (1 + tags) * 2 * sizeof(std::uint64_t)}};
+    return {{"changes of samples", samples * (3 + tags) * 2 * sizeof(std::uint64_t)}};
   }
 
   // Adds the next block; blocks must come in order, all of them.
   void add(const BlockView& block);
+  // After the last block: samples that were left out have as many changes as those beside them have on average.
+  void bridge_left_out();
 
   // Changes of every pixel, row-major.
   [[nodiscard]] const std::vector<std::uint64_t>& changes() const { return changes_; }
   // How many pixels changed at each sample of the blocks so far; none at the first.
   [[nodiscard]] const std::vector<std::uint64_t>& changed_pixels() const { return changed_pixels_; }
-  // The same of the pixels with each tag that any pixel has.
+  // Whatever counts: how many of all pixels changed at each sample, and how many by more than a sixteenth of white.
+  [[nodiscard]] const std::vector<std::uint64_t>& any_changed_pixels() const { return any_changed_pixels_; }
+  [[nodiscard]] const std::vector<std::uint64_t>& much_changed_pixels() const { return much_changed_pixels_; }
+  // How many changed of the pixels with each tag that any pixel has.
   [[nodiscard]] const std::map<std::uint8_t, std::vector<std::uint64_t>>& changed_pixels_by_tag() const {
     return changed_by_tag_;
   }
@@ -51,12 +58,14 @@ class Activity {
   [[nodiscard]] std::uint64_t pixel_count() const;
 
  private:
-  [[nodiscard]] bool is_change(const ChangeRecord& before, const ChangeRecord& after) const;
+  // By how many codes a pixel changes, at most, in any channel.
+  [[nodiscard]] std::uint32_t change(const ChangeRecord& before, const ChangeRecord& after) const;
 
   Shape shape_;
+  std::uint32_t much_;  // codes
   ActivityOptions options_;
   std::vector<std::uint64_t> changes_;
-  std::vector<std::uint64_t> changed_pixels_;
+  std::vector<std::uint64_t> changed_pixels_, any_changed_pixels_, much_changed_pixels_;
   std::map<std::uint8_t, std::vector<std::uint64_t>> changed_by_tag_;
   std::vector<ChangeRecord> last_;  // what each pixel held at the end of the block before; empty at first
 };

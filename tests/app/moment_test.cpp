@@ -112,7 +112,7 @@ TEST_F(Moment, ActivityCountsChangesAtEachSample) {
     std::istringstream lines(result.out);
     std::string line;
     std::getline(lines, line);
-    EXPECT_EQ(line, "sample,start_ns,end_ns,changed_pixels,changed_share");
+    EXPECT_EQ(line, "sample,start_ns,end_ns,changed_pixels,changed_share,redrawn");
     for (std::size_t k = 0; k < 20; ++k) {
       const int changes = k == 0 ? 0 : changed_pixels(k, ignored);
       // Two columns in front of the square, two behind it.
@@ -127,6 +127,38 @@ TEST_F(Moment, ActivityCountsChangesAtEachSample) {
     }
     EXPECT_FALSE(std::getline(lines, line)) << line;
   }
+}
+
+// A square that moves over a still scene of much detail: at its key frames H.264 draws all of it anew.
+TEST_F(Moment, ActivityIsThatOfTheSceneNotOfTheCodec) {
+  const auto made = test::run_shell(
+      "ffmpeg -v error -y -f lavfi -i "
+      "mandelbrot=s=320x180:r=60,trim=end_frame=1,loop=59:1:0,noise=alls=4:allf=t "
+      "-f lavfi -i color=red:s=32x32:r=60 -filter_complex "
+      "'[0][1]overlay=x=10+n*4:y=70:shortest=1,format=yuv420p' -frames:v 60 -c:v libx264 -threads 1 -g 12 "
+      "-bf 0 -crf 26 "
+      "key.mp4",
+      scratch_.folder());
+  if (made.status != 0) GTEST_SKIP() << "ffmpeg cannot make the clip: " << made.err;
+  const auto scene = json_of({"activity", "key.mp4"}),
+             all = json_of({"activity", "--count-redrawn", "key.mp4"});
+  for (std::size_t k = 1; k < 60; ++k) {
+    const double share = scene["samples"][k]["changed_share"];
+    EXPECT_EQ(scene["samples"][k]["redrawn"], k % 12 == 0) << k;
+    EXPECT_EQ(all["samples"][k]["redrawn"], false) << k;
+    if (k % 12 != 0) {
+      EXPECT_EQ(share, all["samples"][k]["changed_share"]) << k;
+      continue;
+    }
+    EXPECT_GT(all["samples"][k]["changed_share"], 0.9) << k;
+    const double beside = (all["samples"][k - 1]["changed_share"].get<double>() +
+                           all["samples"][k + 1]["changed_share"].get<double>()) /
+                          2;
+    EXPECT_NEAR(share, beside, 1.0 / (320 * 180)) << k;
+  }
+  const std::string said = run({"activity", "key.mp4"}).err;
+  EXPECT_NE(said.find("at 4 samples (12f … 48f) the codec drew the whole picture anew"), std::string::npos)
+      << said;
 }
 
 TEST_F(Moment, ActivityCountsEachTagForItself) {
@@ -162,7 +194,8 @@ TEST_F(Moment, ActivityCountsEachTagForItself) {
   const ProgramResult busiest =
       run({"activity", "--by", "8", "-m", "grid.pgm", "--tag", "all", "--moment", "busiest", "clip.tik"});
   EXPECT_EQ(busiest.status, 3) << "of a tag in which nothing moves";
-  EXPECT_NE(busiest.err.find("clip.tik has no busiest moment where the mask is "), std::string::npos) << busiest.err;
+  EXPECT_NE(busiest.err.find("clip.tik has no busiest moment where the mask is "), std::string::npos)
+      << busiest.err;
   const std::string text = run({"activity", "--by", "8", "-m", "grid.pgm", "--tag", "all", "clip.tik"}).out;
   EXPECT_NE(text.find("  M7: 576 pixels, quietest "), std::string::npos) << text;
 }
@@ -177,7 +210,7 @@ TEST_F(Moment, ActivityCountsTheMemoryOfEachTag) {
   EXPECT_EQ(with_tag("3").status, 0) << with_tag("3").err;
   const ProgramResult refused = with_tag("all");
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("changes of samples 0.0822 MB"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("changes of samples 0.0829 MB"), std::string::npos) << refused.err;
 }
 
 TEST_F(Moment, ActivitySaysWhereItIsQuiet) {
@@ -323,7 +356,8 @@ TEST_F(Moment, SweepRefusesWhatMakesNoSense) {
   refused({"--shift", "0..1f/1f", "--stretch", "1..2/1", "--scale-gain", "1..2/1"},
           "three parameters do not fit a sheet");
   refused({"--shift", "0..1f/1f", "--stretch", "1..2/1", "--columns", "3"}, "leave out --columns");
-  refused({"--shift", "0..1f/1f", "--each", "same.png"}, "--each needs a number in its pictures' name, as in same-%03d.png");
+  refused({"--shift", "0..1f/1f", "--each", "same.png"},
+          "--each needs a number in its pictures' name, as in same-%03d.png");
   refused({"--shift", "0..1f/1f", "--each", "x%d.gif"}, "pictures are written as .png");
   refused({"--shift", "0..1f/1f", "--each", "x%d.pfm"}, "x0.pfm holds floating point only; write a .png");
   expect_refused({"sweep", "--shift", "0..1f/1f", "clip.tik"}, 2, "an exposure needs a plain interval");

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "imev/activity.hpp"
 #include "imev/activity_moments.hpp"
 #include "imev/capture_source.hpp"
+#include "imev/redrawn_samples.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik {
@@ -10,8 +13,8 @@ namespace {
 
 using test::RandomCase;
 
-Activity activity_of(const MemoryCapture& capture) {
-  Activity activity(capture.format());
+Activity activity_of(const MemoryCapture& capture, ActivityOptions options = {}) {
+  Activity activity(capture.format(), std::move(options));
   for (std::uint64_t block = 0; block < capture.block_count(); ++block) activity.add(capture.view(block));
   return activity;
 }
@@ -80,6 +83,70 @@ TEST(Activity, CountsThePixelsThatChangeAtASample) {
           << random.text() << ", sample " << k << ", ignored " << options.ignored_codes;
     }
   }
+}
+
+// 16 x 16 pixels of code 100, of which some have other codes at some samples.
+MemoryCapture scene(const std::function<int(std::size_t sample, std::size_t pixel)>& code,
+                    std::uint32_t block_samples) {
+  CaptureFormat capture;
+  capture.shape = {16, 16, 1};
+  std::vector<std::vector<std::byte>> rasters(20, std::vector<std::byte>(256));
+  for (std::size_t k = 0; k < rasters.size(); ++k) {
+    for (std::size_t pixel = 0; pixel < 256; ++pixel)
+      rasters[k][pixel] = static_cast<std::byte>(code(k, pixel));
+  }
+  return {capture, Timeline::constant({100, 1}, Timeline::kFullShutter, rasters.size()), rasters,
+          block_samples};
+}
+
+TEST(RedrawnSamples, AreThoseAtWhichAllChangesAtOnceAndALittle) {
+  const auto redrawn = [](const std::function<int(std::size_t, std::size_t)>& code) {
+    return redrawn_samples(activity_of(scene(code, 7)));
+  };
+  using Samples = std::vector<std::uint64_t>;
+  // Two key frames, the second where a block begins, beside an eighth of the picture that moves all the time.
+  const auto moving = [](std::size_t k, std::size_t pixel) {
+    return pixel < 32 ? static_cast<int>(k * 12) : 100;
+  };
+  EXPECT_EQ(redrawn([&](std::size_t k, std::size_t pixel) {
+              return moving(k, pixel) + (k >= 14 ? 3 : k >= 5 ? 2 : 0);
+            }),
+            (Samples{5, 14}));
+  EXPECT_EQ(redrawn(moving), Samples{});
+  // A cut, a flash, a fade over two samples, less than a quarter of the picture.
+  EXPECT_EQ(redrawn([](std::size_t k, std::size_t) { return k >= 9 ? 180 : 100; }), Samples{});
+  EXPECT_EQ(redrawn([](std::size_t k, std::size_t) { return k == 9 ? 180 : 100; }), Samples{});
+  EXPECT_EQ(redrawn([](std::size_t k, std::size_t) { return k > 9 ? 104 : k == 9 ? 102 : 100; }), Samples{});
+  EXPECT_EQ(redrawn([](std::size_t k, std::size_t pixel) { return k >= 9 && pixel < 63 ? 102 : 100; }),
+            Samples{});
+  EXPECT_EQ(redrawn([](std::size_t k, std::size_t pixel) { return k >= 9 && pixel < 64 ? 102 : 100; }),
+            Samples{9});
+  // Whatever the mask, all pixels tell.
+  ActivityOptions corner;
+  corner.counted.assign(256, 0);
+  corner.counted[0] = 1;
+  corner.ignored_codes = 9;
+  EXPECT_EQ(redrawn_samples(activity_of(
+                scene([](std::size_t k, std::size_t) { return k >= 9 ? 102 : 100; }, 64), corner)),
+            Samples{9});
+}
+
+TEST(Activity, BridgesSamplesThatAreLeftOut) {
+  // 10 pixels change with every sample, all of them at samples 6 and 19, the last.
+  const MemoryCapture capture = scene(
+      [](std::size_t k, std::size_t pixel) {
+        return 100 + (pixel < 10 ? static_cast<int>(k % 2) * 50 : k >= 19 ? 4 : k >= 6 ? 2 : 0);
+      },
+      4);
+  ActivityOptions options;
+  options.left_out = {6, 19};
+  Activity activity = activity_of(capture, options);
+  EXPECT_EQ(activity.changed_pixels()[6], 0u);
+  activity.bridge_left_out();
+  for (std::size_t k = 1; k < 20; ++k) EXPECT_EQ(activity.changed_pixels()[k], 10u) << k;
+  EXPECT_EQ(activity.changes()[0], 17u);
+  EXPECT_EQ(activity.changes()[10], 0u);
+  EXPECT_EQ(activity.any_changed_pixels()[6], 256u);
 }
 
 TEST(ActivityMoments, AreTheBusiestAndTheQuietestStretch) {

@@ -25,6 +25,7 @@ struct Options {
   Value fps, shutter_angle, white, transfer, matrix, range, primaries, pixel_aspect, raw, noise, sigmas;
   Value clip_from, clip_to, crop, scale, deinterlace;
   bool as_far_as_it_goes = false;
+  bool counts_redrawn = false;
   bool deflicker = false;
   Value tolerance, codec, tiles, block_samples;
   Value align, align_to, align_along, unseen, camera_path, camera_plot, coverage;

@@ -58,6 +58,7 @@ ActivityRequest activity_request(const Options& options) {
   request.each_tag = options.tag == "all";
   if (options.tag && !request.each_tag)
     request.tag = static_cast<std::uint8_t>(parse_whole_number(*options.tag, "tag", 0, 255));
+  request.counts_redrawn = options.counts_redrawn;
   if (options.by) request.ignored_codes = parse_whole_number(*options.by, "--by", 0, 65'535);
   return request;
 }
@@ -91,7 +92,8 @@ Json activity_json(const std::string& name, const MeasuredActivity& measured) {
                                {"start_ns", timeline.start_ns(k)},
                                {"end_ns", timeline.end_ns(k)},
                                {"changed_pixels", measured.activity.changed_pixels()[k]},
-                               {"changed_share", measured.changed_share(k)}});
+                               {"changed_share", measured.changed_share(k)},
+                               {"redrawn", measured.is_redrawn(k)}});
   }
   return json;
 }
@@ -165,6 +167,13 @@ int run_activity(const Options& options) {
     report_text(name, measured);
   }
   answer.tell_source(session);
+  if (!measured.redrawn.empty()) {
+    answer.notes.emplace_back(
+        format("at {} ({}f{}) the codec drew the whole picture anew; they count as those beside them "
+               "(--count-redrawn counts what changed)",
+               counted(measured.redrawn.size(), "sample"), measured.redrawn.front(),
+               measured.redrawn.size() > 1 ? format(" … {}f", measured.redrawn.back()) : ""));
+  }
   if (measured.moments && measured.mean_share() > 0.5) {
     answer.notes.emplace_back(
         "most pixels change at every sample, as noise does; --by CODES counts larger changes only");

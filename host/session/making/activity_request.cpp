@@ -9,6 +9,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/each_block.hpp"
+#include "imev/redrawn_samples.hpp"
 #include "session/requests/function_input.hpp"
 #include "system/input_bytes.hpp"
 
@@ -16,7 +17,7 @@ namespace nutik {
 namespace {
 
 ActivityOptions options_of(const ActivityRequest& request, const Shape& shape) {
-  ActivityOptions options{request.ignored_codes, {}, {}};
+  ActivityOptions options{request.ignored_codes, {}, {}, {}};
   if (!request.mask) return options;
   const std::string name = input_title(*request.mask);
   Mask mask = read_mask_input(*request.mask);
@@ -51,17 +52,27 @@ std::vector<TagActivity> tag_activities(const Activity& activity, const std::vec
   return activities;
 }
 
-MeasuredActivity measured(CaptureSource& capture, const ActivityOptions& options,
-                          const ReportedProgress& progress) {
-  const Timeline& timeline = capture.timeline();
+Activity activity_of(CaptureSource& capture, const ActivityOptions& options,
+                     const ReportedProgress& progress) {
   Activity activity(capture.format(), options);
   for_each_block(capture, [&](const BlockView& block) {
-    if (progress) progress(block.extent().first_sample, timeline.sample_count());
+    if (progress) progress(block.extent().first_sample, capture.timeline().sample_count());
     activity.add(block);
   });
+  activity.bridge_left_out();
+  return activity;
+}
+
+// Which samples are redrawn is known when all have been counted: if there are any, all are counted once more.
+MeasuredActivity measured(CaptureSource& capture, ActivityOptions options, bool counts_redrawn,
+                          const ReportedProgress& progress) {
+  Activity activity = activity_of(capture, options, progress);
+  if (!counts_redrawn) options.left_out = redrawn_samples(activity);
+  if (!options.left_out.empty()) activity = activity_of(capture, options, progress);
   auto moments = activity_moments(activity.changed_pixels());
   std::vector<TagActivity> tags = tag_activities(activity, options.tags);
-  return {timeline, std::move(activity), std::move(moments), std::move(tags)};
+  return {capture.timeline(), std::move(activity), std::move(options.left_out), std::move(moments),
+          std::move(tags)};
 }
 
 double ratio(std::uint64_t part, std::uint64_t whole) {
@@ -84,6 +95,10 @@ double MeasuredActivity::mean_share() const {
   return count > 1 ? ratio(changes(), activity.pixel_count()) / static_cast<double>(count - 1) : 0.0;
 }
 
+bool MeasuredActivity::is_redrawn(std::uint64_t sample) const {
+  return std::ranges::binary_search(redrawn, sample);
+}
+
 SampleRange MeasuredActivity::moment(const std::string& name, bool quietest) const {
   return moment(name, quietest, {0, activity.pixel_count(), is_still(), moments});
 }
@@ -97,17 +112,17 @@ SampleRange MeasuredActivity::moment(const std::string& name, bool quietest, con
 }
 
 std::string MeasuredActivity::table() const {
-  std::string text = "sample,start_ns,end_ns,changed_pixels,changed_share\n";
+  std::string text = "sample,start_ns,end_ns,changed_pixels,changed_share,redrawn\n";
   for (std::uint64_t k = 0; k < timeline.sample_count(); ++k) {
-    text += format("{},{},{},{},{:.9g}\n", k, timeline.start_ns(k), timeline.end_ns(k),
-                   activity.changed_pixels()[k], changed_share(k));
+    text += format("{},{},{},{},{:.9g},{}\n", k, timeline.start_ns(k), timeline.end_ns(k),
+                   activity.changed_pixels()[k], changed_share(k), is_redrawn(k) ? 1 : 0);
   }
   return text;
 }
 
 MeasuredActivity measure_activity(CaptureSource& capture, const ActivityRequest& request,
                                   const ReportedProgress& progress) {
-  return measured(capture, options_of(request, capture.format().shape), progress);
+  return measured(capture, options_of(request, capture.format().shape), request.counts_redrawn, progress);
 }
 
 MeasuredActivity measure_activity(Session& session, const ActivityRequest& request,
@@ -118,7 +133,7 @@ MeasuredActivity measure_activity(Session& session, const ActivityRequest& reque
   needs.add(Activity::needs_of_samples(session.timeline().sample_count(), tags.size()));
   needs.add("a block", largest_block(session.capture()));
   needs.rest_of(session.devices().request().memory.bytes);
-  return measured(session.capture(), options, progress);
+  return measured(session.capture(), std::move(options), request.counts_redrawn, progress);
 }
 
 }  // namespace nutik

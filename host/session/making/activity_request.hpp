@@ -21,6 +21,8 @@ struct ActivityRequest {
   std::optional<std::uint8_t> tag;
   bool each_tag = false;  // all pixels count, and those with each tag of the mask for themselves, too
   std::uint32_t ignored_codes = 0;  // changes of no more are none
+  bool counts_redrawn =
+      false;  // else samples at which a codec drew its picture anew count as those beside them
 };
 
 // Of the pixels with a tag.
@@ -34,6 +36,7 @@ struct TagActivity {
 struct MeasuredActivity {
   Timeline timeline;
   Activity activity;
+  std::vector<std::uint64_t> redrawn;  // samples that do not count
   std::optional<ActivityMoments> moments;
   std::vector<TagActivity> tags = {};  // by increasing tag, where each was asked for
 
@@ -46,7 +49,8 @@ struct MeasuredActivity {
   // changes. Throws InputError that calls the capture by its name.
   [[nodiscard]] SampleRange moment(const std::string& name, bool quietest) const;
   [[nodiscard]] SampleRange moment(const std::string& name, bool quietest, const TagActivity& of) const;
-  // A line for each sample: sample,start_ns,end_ns,changed_pixels,changed_share.
+  [[nodiscard]] bool is_redrawn(std::uint64_t sample) const;
+  // A line for each sample: sample,start_ns,end_ns,changed_pixels,changed_share,redrawn.
   [[nodiscard]] std::string table() const;
 };
 
