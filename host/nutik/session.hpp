@@ -22,6 +22,7 @@
 #include "session/clips/encoding.hpp"
 #include "session/clips/measured_noise.hpp"
 #include "session/devices.hpp"
+#include "session/live/live_pictures.hpp"
 #include "session/making/activity_request.hpp"
 #include "session/making/capture_figures.hpp"
 #include "session/making/input_check.hpp"
