@@ -10,6 +10,7 @@
 #include "session/below/format.hpp"
 #include "session/clips/alignment.hpp"
 #include "session/clips/clip_source.hpp"
+#include "session/clips/measured_noise.hpp"
 #include "session/devices.hpp"
 #include "session/making/mask_making.hpp"
 #include "session/making/picture_recipe.hpp"
@@ -116,6 +117,15 @@ std::string message_text(const std::exception& error) {
       return message + "; take a part of the clip (--from, --to), or keep the picture's size (--unseen hold)";
     return format("{}; try {}another picture to align to (--align-to), or a part of the clip (--from, --to)",
                   message, align->way_out == CannotAlign::WayOut::homography ? "--align homography, " : "");
+  }
+  if (const auto* moves = dynamic_cast<const FootageMoves*>(&error)) {
+    const char* first = "";
+    switch (moves->way_out) {
+      case FootageMoves::WayOut::align: first = "an aligned camera (--align rigid), "; break;
+      case FootageMoves::WayOut::deflicker: first = "evened brightness (--deflicker), "; break;
+      case FootageMoves::WayOut::part: break;
+    }
+    return format("{}; or {}a part that stands still (--crop, --from, --to)", message, first);
   }
   if (dynamic_cast<const EverythingMoves*>(&error) != nullptr) {
     return message + ". A camera that moved stands still with --align rigid";

@@ -35,6 +35,8 @@ CameraNoise own_noise(ClipSource& source, const OpenClip& open, const MemoryBudg
   MemoryNeeds needs{{"pictures within the decoder", source.clip->info().decoder_bytes}};
   const std::uint64_t within_decoder = needs.bytes();
   needs.add(NoiseEstimator::needs(source.capture, kSamplesOfOwnNoise));
+  const std::uint64_t watched = StillnessWatch::bytes(source.capture.shape, kSamplesOfOwnNoise);
+  needs.add("pixels that are watched for movement", watched);
   if (needs.bytes() > memory.bytes) {
     ClipToRead clip = source.clip_to_read();
     clip.capture.noise.camera.emplace();
@@ -46,20 +48,26 @@ CameraNoise own_noise(ClipSource& source, const OpenClip& open, const MemoryBudg
     needs.rest_of(memory.bytes);
   }
   const std::uint32_t threads =
-      NoiseEstimator::threads_in(memory.bytes - within_decoder, source.capture, kSamplesOfOwnNoise);
+      NoiseEstimator::threads_in(memory.bytes - within_decoder - watched, source.capture, kSamplesOfOwnNoise);
   NoiseEstimator estimator(source.capture, threads);
+  StillnessWatch watch(source.capture, kSamplesOfOwnNoise);
   estimator.add_clip(
-      source.name(), [&](std::span<std::byte> raster) { return source.clip->read(raster); },
+      source.name(),
+      [&](std::span<std::byte> raster) {
+        const bool is_read = source.clip->read(raster);
+        if (is_read) watch.add(raster);
+        return is_read;
+      },
       kSamplesOfOwnNoise);
   source.clip.reset();
   source.clip = open();
   const NoiseEstimate estimate = estimator.estimate();
   if (const std::string reason = reason_for_no_noise(estimate); !reason.empty()) {
     throw InputError(
-        format("{}: no noise can be measured on it: {}. Take the noise of a still scene, filmed with the "
-               "same settings and not compressed, or a tolerance",
-               source.name(), reason));
+        format("{}: no noise can be measured on it: {}. {}", source.name(), reason, kNoiseElsewhere));
   }
+  if (auto note = check_stillness(watch.judge(estimate.noise), source.request))
+    source.notes.push_back(std::move(*note));
   for (const std::string& note : noise_notes(estimate)) source.notes.emplace_back(note);
   return estimate.noise;
 }

@@ -6,6 +6,7 @@
 #include "capture/format.hpp"
 #include "capture/noise_file.hpp"
 #include "session/clips/clip_source.hpp"
+#include "system/input_bytes.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
@@ -91,6 +92,33 @@ std::string reason_for_no_noise(const NoiseEstimate& estimate) {
         100 * uneven);
   }
   return {};
+}
+
+std::optional<Note> check_stillness(const Stillness& stillness, const SourceRequest& request) {
+  const auto& [x, y, width, height] = stillness.region;
+  const std::string where = format("{},{} … {},{}", x, y, x + width - 1, y + height - 1);
+  const std::string when = format("pictures {} … {}", stillness.first_sample, stillness.last_sample);
+  const char* cause = stillness.is_brightness
+                          ? "the brightness of the whole picture drifts or flickers"
+                          : "the camera or the scene moves, or a codec holds what it thinks is still";
+  FootageMoves::WayOut way_out = FootageMoves::WayOut::part;
+  if (stillness.is_brightness && !request.deflickered) way_out = FootageMoves::WayOut::deflicker;
+  if (!stillness.is_brightness && !request.align) way_out = FootageMoves::WayOut::align;
+  if (stillness.stray > stillness.limit) {
+    throw FootageMoves(
+        format("{}: no noise can be measured on it: where pixels seem to stand still their light strays by "
+               "{:.2f} standard deviations of the noise around what would be held for it, and may by {:.2f} "
+               "(most at {}, by {:.2f}, and in {}): {}. {}",
+               input_title(request.path.string()), stillness.stray, stillness.limit, where,
+               stillness.most_stray, when, cause, kNoiseElsewhere),
+        way_out);
+  }
+  if (stillness.most_stray <= stillness.most_limit) return std::nullopt;
+  return Note(format("in {:.0f} % of the picture light changes by less than its noise: what is held there is "
+                     "off by up to {:.2f} standard deviations of it (at {}), where {:.2f} may be; leave that "
+                     "part out, or take a tolerance",
+                     100 * stillness.stray_share, stillness.most_stray, where, stillness.most_limit),
+              {Setting::crop, Setting::from, Setting::to});
 }
 
 std::vector<std::string> noise_notes(const NoiseEstimate& estimate) {

@@ -6,11 +6,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "capture/noise_file.hpp"
 #include "media/clip.hpp"
 #include "noise/noise_estimator.hpp"
+#include "noise/stillness.hpp"
 #include "session/memory_budget.hpp"
 #include "session/requests/source_request.hpp"
 
@@ -18,6 +20,10 @@ namespace nutik {
 
 // Samples that a clip's own noise is measured on, from its start: enough for any camera, and soon decoded.
 inline constexpr std::uint64_t kSamplesOfOwnNoise = 256;
+
+// The way out where a clip does not tell its own noise.
+inline constexpr std::string_view kNoiseElsewhere =
+    "Take the noise of a still scene, filmed with the same settings and not compressed, or a tolerance";
 
 // Throws InputError naming file, line and column of what is wrong with a noise file.
 [[nodiscard]] CameraNoise read_noise_file(const std::filesystem::path& path);
@@ -37,6 +43,18 @@ struct ClipTold {
 [[nodiscard]] NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOptions& options,
                                           std::uint64_t most_samples, const MemoryBudget& memory,
                                           ClipTold& told);
+
+// A clip whose own noise was asked for does not stand still, or its brightness does not.
+struct FootageMoves : InputError {
+  enum class WayOut { align, deflicker, part };  // beside those that the message says; part: only of the clip
+  WayOut way_out;
+
+  FootageMoves(const std::string& message, WayOut way) : InputError(message), way_out(way) {}
+};
+
+// Throws FootageMoves where light strays by more than its noise lets it be known: a capture with that noise would hold
+// light that was not there. Returns a note where only some regions of the picture stray so.
+[[nodiscard]] std::optional<Note> check_stillness(const Stillness& stillness, const SourceRequest& request);
 
 // Why it is no noise of a sensor: so much of what pixels stray by is common to those that lie apart, or at so many codes
 // some stray more than others, that something moves, or a codec took the noise away. Holding codes within it would leave
