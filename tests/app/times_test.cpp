@@ -60,6 +60,23 @@ TEST_F(Times, HaveOneNoteOnTheirRate) {
   }
 }
 
+// What is exposed before a gap is not known from times alone, and what is taken is said.
+TEST_F(Times, WithGapsAreSaid) {
+  NEEDS_FFMPEG();
+  make_uneven("eq(n,5)+eq(n,12)+eq(n,13)", "");
+  const std::string note =
+      "steps from one picture to the next are longer than the usual 33.33 ms, up to 100 ms, as where "
+      "pictures are missing: a picture before such a step counts as exposed for ";
+  EXPECT_NE(said({"clip.mp4"}).find("2 of the clip's 56 " + note + "360 of 360 degrees"), std::string::npos)
+      << said({"clip.mp4"});
+  EXPECT_NE(said({"-a", "90", "clip.mp4"}).find(note + "90 of 360 degrees"), std::string::npos);
+  EXPECT_EQ(said({"-f", "30", "clip.mp4"}).find(note), std::string::npos);
+  for (const char* name : {"a.pgm", "b.pgm", "c.pgm", "d.pgm"})
+    scratch_.write(name, "P5\n2 2\n255\n" + std::string(4, name[0]));
+  scratch_.write("listed.csv", "a.pgm,0,1000\nb.pgm,2000,1000\nc.pgm,9000,1000\nd.pgm,11000,1000\n");
+  EXPECT_EQ(said({"listed.csv"}).find("longer than the usual"), std::string::npos);
+}
+
 TEST_F(Times, OfATableThatAStatedRateMakesEvenAreSaid) {
   for (const char* name : {"a.pgm", "b.pgm", "c.pgm", "d.pgm"})
     scratch_.write(name, "P5\n2 2\n255\n" + std::string(4, name[0]));

@@ -100,6 +100,23 @@ TEST(Retiming, SaysWhichStepsItMakesEven) {
   EXPECT_TRUE(retime({path, path, Rational{50, 1}, {}, {}, {}, {}}).notes.empty()) << "it is even already";
 }
 
+TEST(GapNote, CountsStepsThatAreLongerByHalf) {
+  const auto told = [](std::vector<std::int64_t> starts) {
+    return gap_note(Timeline::irregular(std::move(starts), {180, 1}));
+  };
+  EXPECT_FALSE(told({0, 10'000'000, 24'900'000, 35'000'000, 45'000'000}));
+  EXPECT_FALSE(told({0, 10'000'000, 12'000'000, 22'000'000}));
+  EXPECT_FALSE(gap_note(Timeline::constant({100, 1}, {180, 1}, 9)));
+  const auto one = told({0, 10'000'000, 25'000'000, 35'000'000, 45'000'000});
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->text.find(
+                "1 of the clip's 4 steps from one picture to the next is longer than the usual 10 ms, up to "
+                "15 ms, as where pictures are missing: a picture before such a step counts as exposed for "
+                "180 of 360 degrees of all of it;"),
+            0U)
+      << one->text;
+}
+
 TEST(EvenedTimes, CountForWhatClocksDoNotRound) {
   EXPECT_FALSE(evened_note({0, 10}));
   const auto rounded = evened_note({0, 33'000'000, 67'000'000, 100'000'000});

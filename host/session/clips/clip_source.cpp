@@ -204,12 +204,16 @@ std::vector<Fact> ClipSource::facts(const Timeline& timeline) const {
 
 std::vector<Note> ClipSource::all_notes(const Timeline& timeline) const {
   std::vector<Note> all = notes;
+  const ClipTiming& timing = clip->info().timing;
+  const bool is_written_down = !timing.exposures.empty() || (timing.exposed_ns && !request.shutter_angle);
+  if (!is_written_down) {
+    if (auto note = gap_note(timeline)) all.push_back(std::move(*note));
+  }
   const double rate = timeline.rate().value();
   const auto is_of_rate = [](const Note& note) {
     return std::ranges::find(note.settings, Setting::frame_rate) != note.settings.end();
   };
-  const bool may_be_of_playing = !request.clip.rate &&
-                                 clip->info().timing.rate_from == ClipTiming().rate_from &&
+  const bool may_be_of_playing = !request.clip.rate && timing.rate_from == ClipTiming().rate_from &&
                                  std::ranges::none_of(notes, is_of_rate);
   if (may_be_of_playing && rate >= kLowestPlaybackRate && rate <= kHighestPlaybackRate) {
     all.emplace_back(format("the rate of {} a second comes from the file; slow-motion files state their "
