@@ -97,6 +97,35 @@ def write_stills(folder):
     yield Input(".cih", ["camera"], "camera/camera.cih")
 
 
+def packed_12(codes):
+    """Codes of 12 bits, two in three bytes, the high bits first."""
+    first, second = codes.astype(np.uint32).reshape(-1, 2).T
+    pairs = first << 12 | second
+    return np.stack([pairs >> 16, pairs >> 8 & 255, pairs & 255], 1).astype(np.uint8).tobytes()
+
+
+def write_photron(folder):
+    """A recording of each depth. Yields inputs: the pictures damaged, and what is said of them."""
+    codes = pictures(1).ravel()
+    text = ("Record Rate(fps) : 1000\nShutter Speed(s) : 1/2000\nTotal Frame : {count}\nImage Width : {width}\n"
+            "Image Height : {height}\nColor Type : Mono\nColor Bit : {bits}\nFile Format : MRaw\n"
+            "EffectiveBit Depth : {bits}\nEffectiveBit Side : Lower\nEND\n")
+    xml = ("<?xml version=\"1.0\"?><cih><imageFileInfo><fileFormat>Mraw</fileFormat></imageFileInfo><imageDataInfo>"
+           "<resolution><width>{width}</width><height>{height}</height></resolution><colorInfo><type>Mono</type><bit>{bits}"
+           "</bit></colorInfo><effectiveBit><depth>{bits}</depth><side>Lower</side></effectiveBit></imageDataInfo>"
+           "<frameInfo><totalFrame>{count}</totalFrame></frameInfo><recordInfo><recordRate>1000</recordRate>"
+           "<shutterSpeedNsec>500000</shutterSpeedNsec></recordInfo></cih>")
+    for name, bits, data, header in (
+            ("p8.cih", 8, codes.tobytes(), text), ("p12.cihx", 12, packed_12(codes.astype(np.uint16) * 16), xml),
+            ("p16.cih", 16, (codes.astype("<u2") * 257).tobytes(), text)):
+        (folder / name).write_text("#Camera Information Header\n" * (header is text) +
+                                   header.format(count=PICTURES, width=WIDTH, height=HEIGHT, bits=bits))
+        pictures_of = Path(name).with_suffix(".mraw")
+        (folder / pictures_of).write_bytes(data)
+        yield Input(f".mraw of {bits} bits", [name], str(pictures_of))
+        yield Input(f"{name[name.index('.'):]} of it", [name], name)
+
+
 def write_videos(folder):
     """A clip of each codec and container. Yields inputs."""
     grey = pictures(1)
@@ -225,7 +254,7 @@ def damaged(data, at, bit):
 
 
 def check_inputs(report, bench, flips, seed):
-    for each in [*write_stills(bench.folder), *write_videos(bench.folder)]:
+    for each in [*write_stills(bench.folder), *write_photron(bench.folder), *write_videos(bench.folder)]:
         path = bench.folder / each.damaged
         data, right, draw = path.read_bytes(), bench.right(each.words), random.Random(seed)
         wrong, came, silent = [], Counter(), 0
