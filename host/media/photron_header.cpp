@@ -89,10 +89,17 @@ std::optional<std::int64_t> nanoseconds(const std::optional<Rational>& seconds) 
   return ns > 0 ? std::optional(ns) : std::nullopt;
 }
 
-std::optional<std::int64_t> exposed_ns(std::string_view text) {
-  if (const auto ns = nanoseconds(fraction_of(text, {"Shutter Speed(s)", {}}))) return ns;
-  if (const auto ns = fraction_of(text, {{}, {"", "", "shutterSpeedNsec"}})) {
+// `rate`: of filming, not of what was saved.
+std::optional<std::int64_t> exposed_ns(std::string_view text, const std::optional<Rational>& rate) {
+  constexpr Names kSpeed{"Shutter Speed(s)", {}};
+  if (const auto ns = nanoseconds(fraction_of(text, kSpeed))) return ns;
+  if (const auto ns = fraction_of(text, {"Shutter Type2(nsec)", {"", "", "shutterSpeedNsec"}})) {
     return round_half_up(ns->numerator, ns->denominator);
+  }
+  if (rate && word_of(text, kSpeed) == "open") {
+    // Rounded up, for it never closes.
+    const int128 period = static_cast<int128>(rate->denominator) * kSecondNs + rate->numerator - 1;
+    return static_cast<std::int64_t>(period / rate->numerator);
   }
   // Exposures a second.
   const auto speed = fraction_of(text, {{}, {"", "", "shutterSpeed"}});
@@ -136,7 +143,7 @@ std::vector<fs::path> headers_of(const fs::path& pictures) {
 PhotronHeader parse_photron_header(std::string_view text) {
   PhotronHeader header;
   header.rate = fraction_of(text, {"Record Rate(fps)", {"", "", "recordRate"}});
-  header.exposed_ns = exposed_ns(text);
+  header.exposed_ns = exposed_ns(text, header.rate);
   header.step = std::max<std::uint64_t>(number_of(text, {"Save Step", {"", "frameInfo", "skipFrame"}}), 1);
   if (header.rate && header.step > 1) {
     header.rate = Rational::of(header.rate->numerator,

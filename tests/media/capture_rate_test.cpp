@@ -177,21 +177,37 @@ void add_to_moov(const std::filesystem::path& path, const std::string& boxes) {
   std::ofstream(path, std::ios::binary) << bytes.substr(0, moov) + whole;
 }
 
+std::string samsung_boxes(char mode, const std::string& fixed_point) {
+  const std::string author = "samp" + std::string("\x01\x03\x00", 3) + mode;
+  return box("udta", box("smta", std::string(4, '\0') + box("saut", author) + box("srfr", fixed_point)));
+}
+
 TEST(CaptureRate, IsSamsungsByItsRecordingMode) {
   NEEDS_FFMPEG();
   const std::string fixed_point("\x00\xF0\x80\x00", 4);  // 240.5
-  const auto smta = [&](char mode) {
-    const std::string author = "samp" + std::string("\x01\x03\x00", 3) + mode;
-    return box("udta", box("smta", std::string(4, '\0') + box("saut", author) + box("srfr", fixed_point)));
-  };
   const Scratch scratch;
   for (const auto& [mode, rate] :
        {std::pair{12, Rational{240, 1}}, {13, {120, 1}}, {21, {481, 2}}, {0, {30, 1}}}) {
     test::make(scratch, phone_clip("30", ""));
-    add_to_moov(scratch / "clip.mp4", smta(static_cast<char>(mode)));
+    add_to_moov(scratch / "clip.mp4", samsung_boxes(static_cast<char>(mode), fixed_point));
     const auto clip = test::open_test_clip(scratch / "clip.mp4");
     EXPECT_EQ(clip->info().timing.rate, rate) << mode;
     EXPECT_EQ(clip->info().notes.empty(), mode == 0);
+  }
+}
+
+// Super slow motion, and slow motion whose box of the rate holds none.
+TEST(CaptureRate, IsNotKnownOfAllOfSamsungsSlowModes) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  for (const int mode : {7, 9, 22, 23, 21}) {
+    test::make(scratch, phone_clip("30", ""));
+    add_to_moov(scratch / "clip.mp4", samsung_boxes(static_cast<char>(mode), std::string(4, '\0')));
+    const auto clip = test::open_test_clip(scratch / "clip.mp4");
+    EXPECT_EQ(clip->info().timing.rate, (Rational{30, 1})) << mode;
+    ASSERT_EQ(clip->info().notes.size(), 1u) << mode;
+    EXPECT_NE(notes_of(*clip).find("calls the recording slow motion"), std::string::npos) << notes_of(*clip);
+    EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::frame_rate});
   }
 }
 
@@ -234,6 +250,29 @@ TEST(CaptureRate, IsReadOfPhotronsHeaders) {
                               "<recordRate>fast</recordRate>", "Record Rate(fps) : 1/0"}) {
     EXPECT_EQ(parse_photron_header(nothing).rate, std::nullopt) << nothing;
   }
+}
+
+// A word, or a time that another line gives. Of what was saved the shutter was closed between the pictures.
+TEST(CaptureRate, OfPhotronsComesWithAShutterThatStaysOpen) {
+  const Scratch scratch;
+  scratch.write("raw.mraw", std::string(4 * 4 * 2 * 3, '\1'));
+  const auto angle_of = [&](const std::string& lines) {
+    scratch.write("raw.cih", lines);
+    ClipOptions raw;
+    raw.raw = RawVideo{4, 4, "gray16le"};
+    const auto clip = test::open_test_clip(scratch / "raw.mraw", raw);
+    EXPECT_TRUE(clip->info().timing.exposed_ns) << lines;
+    return timeline_of("", clip->info(), raw, 3).shutter_angle().value();
+  };
+  for (const char* word : {"OPEN", "Open", "open\r"}) {
+    const std::string lines = "Record Rate(fps) : 30000\nShutter Speed(s) : " + std::string(word) + "\n";
+    EXPECT_EQ(angle_of(lines), 360.0) << word;
+    EXPECT_NEAR(angle_of(lines + "Save Step : 4\n"), 90.0, 0.01) << word;
+    EXPECT_NEAR(angle_of(lines + "Shutter Type2(nsec) : 20000\n"), 216.0, 1e-6) << word;
+  }
+  EXPECT_EQ(parse_photron_header("Record Rate(fps) : 30000\nShutter Speed(s) : Auto\n").exposed_ns,
+            std::nullopt);
+  EXPECT_EQ(parse_photron_header("Shutter Speed(s) : OPEN\n").exposed_ns, std::nullopt);
 }
 
 TEST(CaptureRate, OfPicturesIsThatOfTheHeaderBesideThem) {

@@ -51,30 +51,37 @@ Bytes box_at(Bytes boxes, std::initializer_list<std::string_view> path) {
   return box_at(boxes, std::span(path.begin(), path.size()));
 }
 
-// smta: u32 version and flags, then boxes. saut: four letters, then pairs of a key and a value of one byte each; key
-// 0 is the recording mode. srfr: the rate as 16.16 bits.
-std::optional<Rational> samsung_rate(Bytes file) {
+// What smta says: u32 version and flags, then boxes. saut: four letters, then pairs of a key and a value of one byte
+// each; key 0 is the recording mode. srfr: the rate as 16.16 bits. As Android's player reads them, too.
+struct SamsungRecording {
+  bool is_slow = false;  // super slow motion, too, of which nothing tells the rate
+  std::optional<Rational> rate;
+};
+
+SamsungRecording samsung_recording(Bytes file) {
   constexpr std::size_t kVersionBytes = 4, kAuthorBytes = 4;
   Bytes smta = box_at(file, {"moov", "udta", "smta"});
-  if (smta.size() < kVersionBytes) return std::nullopt;
+  if (smta.size() < kVersionBytes) return {};
   smta = smta.subspan(kVersionBytes);
   const Bytes author = box_at(smta, {"saut"});
   for (std::size_t at = kAuthorBytes; at + 2 <= author.size(); at += 2) {
     if (author[at] != std::byte{0}) continue;
     switch (std::to_integer<int>(author[at + 1])) {
-      case 12: return Rational{240, 1};
-      case 13: return Rational{120, 1};
+      case 7:
+      case 9:
+      case 22:
+      case 23: return {true, std::nullopt};
+      case 12: return {true, Rational{240, 1}};
+      case 13: return {true, Rational{120, 1}};
       case 21: {
         const Bytes rate = box_at(smta, {"srfr"});
-        if (rate.size() >= 4 && big_endian(rate, 0, 2) > 0) {
-          return Rational::of(static_cast<std::int64_t>(big_endian(rate, 0, 4)), 1 << 16);
-        }
-        return std::nullopt;
+        if (rate.size() < 4 || big_endian(rate, 0, 2) == 0) return {true, std::nullopt};
+        return {true, Rational::of(static_cast<std::int64_t>(big_endian(rate, 0, 4)), 1 << 16)};
       }
-      default: return std::nullopt;
+      default: return {};
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 bool is_mp4(Bytes file) { return file.size() >= 8 && std::memcmp(file.data() + 4, "ftyp", 4) == 0; }
@@ -144,8 +151,16 @@ std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std
   }
   const MappedFile mapped(path);
   if (!is_mp4(mapped.bytes())) return std::nullopt;
-  const auto rate = samsung_rate(mapped.bytes());
-  return rate ? std::optional(CaptureRate{*rate, "Samsung's smta"}) : std::nullopt;
+  const SamsungRecording samsung = samsung_recording(mapped.bytes());
+  if (samsung.rate) return CaptureRate{*samsung.rate, "Samsung's smta"};
+  if (samsung.is_slow) {
+    notes.emplace_back(
+        "Samsung's camera calls the recording slow motion and does not say how fast it was filmed: the rate "
+        "at "
+        "which it plays is taken; state the rate of filming",
+        std::vector{Setting::frame_rate});
+  }
+  return std::nullopt;
 }
 
 bool has_slow_parts(const std::filesystem::path& path) {
