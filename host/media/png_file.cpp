@@ -127,6 +127,22 @@ void set_text(png_structp png, png_infop info, const std::string& text) {
   png_set_text(png, info, &entry, 1);
 }
 
+// Throws where a pixel is not opaque: what it shows is not in the file.
+void leave_out_alpha(std::span<const std::byte> with_alpha, Picture& picture, const std::string& name) {
+  constexpr std::byte kOpaque{255};
+  const Shape& shape = picture.shape;
+  for (std::uint64_t i = 0; i < shape.pixel_count(); ++i) {
+    const auto pixel = with_alpha.subspan(i * (shape.channels + 1), shape.channels + 1);
+    if (pixel.back() != kOpaque) {
+      throw InputError(
+          format("{} is transparent, and its pixel {},{} has alpha {} of 255; save it without transparency",
+                 name, i % shape.width, i / shape.width, std::to_integer<int>(pixel.back())));
+    }
+    std::ranges::copy(pixel.first(shape.channels),
+                      picture.bytes.begin() + static_cast<std::ptrdiff_t>(i * shape.channels));
+  }
+}
+
 }  // namespace
 
 bool is_png(std::span<const std::byte> file) {
@@ -142,12 +158,13 @@ Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
   png_read_info(read.png, read.info);
   const int colour = png_get_color_type(read.png, read.info);
   const int bits = png_get_bit_depth(read.png, read.info);
-  if ((colour != PNG_COLOR_TYPE_GRAY && colour != PNG_COLOR_TYPE_RGB) || bits != 8) {
+  if (colour == PNG_COLOR_TYPE_PALETTE || bits != 8) {
     throw InputError(
         format("{} is a PNG of {} bits, {}; it must be 8 bits, grey", name, bits, colour_name(colour)));
   }
+  const bool has_alpha = (colour & PNG_COLOR_MASK_ALPHA) != 0;
   const Shape shape{png_get_image_width(read.png, read.info), png_get_image_height(read.png, read.info),
-                    colour == PNG_COLOR_TYPE_GRAY ? 1u : 3u};
+                    (colour & PNG_COLOR_MASK_COLOR) != 0 ? 3u : 1u};
   if (check_size) check_size(shape.width, shape.height);
   if (shape.pixel_count() > file.size() * kMostExpansion) {
     throw InputError(
@@ -157,11 +174,12 @@ Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
   const int passes = png_set_interlace_handling(read.png);
   png_read_update_info(read.png, read.info);
   Picture picture(shape, ValueType::code8, 255);
-  std::vector<png_bytep> rows(picture.shape.height);
-  for (std::uint32_t y = 0; y < picture.shape.height; ++y) {
-    rows[y] = reinterpret_cast<png_bytep>(picture.bytes.data()) +
-              std::size_t{y} * picture.shape.width * picture.shape.channels;
-  }
+  const std::size_t pixel_bytes = shape.channels + (has_alpha ? 1 : 0);
+  std::vector<std::byte> with_alpha(has_alpha ? shape.pixel_count() * pixel_bytes : 0);
+  auto* const first = reinterpret_cast<png_bytep>((has_alpha ? with_alpha : picture.bytes).data());
+  std::vector<png_bytep> rows(shape.height);
+  for (std::uint32_t y = 0; y < shape.height; ++y)
+    rows[y] = first + std::size_t{y} * shape.width * pixel_bytes;
   for (int pass = 0; pass < passes; ++pass) {
     for (const png_bytep row : rows) {
       check_interruption();
@@ -169,6 +187,7 @@ Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
     }
   }
   png_read_end(read.png, nullptr);
+  if (has_alpha) leave_out_alpha(with_alpha, picture, name);
   return picture;
 }
 

@@ -15,8 +15,8 @@ namespace nutik {
 
 [[nodiscard]] bool is_png(std::span<const std::byte> file);
 
-// Reads a picture of 8 bits, grey or colour, code for code. Throws InputError naming `name`, the depth or colour
-// type found and the one wanted, where it is anything else.
+// Reads a picture of 8 bits, grey or colour, code for code; alpha is left out where it is opaque everywhere. Throws
+// InputError naming `name`, the depth or colour type found and the one wanted, where it is anything else.
 // `check_size` is told width and height first; it may be empty, and may throw.
 [[nodiscard]] Picture read_8_bit_png(
     std::span<const std::byte> file, const std::string& name,

@@ -4,6 +4,7 @@
 
 #include "capture/error.hpp"
 #include "media/mask_reader.hpp"
+#include "support/ffmpeg.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik {
@@ -51,6 +52,28 @@ TEST(Mask, ReadsColourWhoseChannelsAgree) {
   }
 }
 
+// An alpha channel that says nothing, as programs add it.
+TEST(Mask, ReadsPicturesThatAreOpaque) {
+  const Scratch scratch;
+  cv::Mat picture(5, 7, CV_8UC4);
+  for (int i = 0; i < 35; ++i) {
+    const auto value = static_cast<std::uint8_t>(i * 7);
+    picture.at<cv::Vec4b>(i / 7, i % 7) = {value, value, value, 255};
+  }
+  cv::imwrite((scratch / "mask.png").string(), picture);
+  const Picture mask = read_mask(scratch / "mask.png");
+  EXPECT_EQ(mask.shape, (Shape{7, 5, 1}));
+  for (std::size_t i = 0; i < 35; ++i) EXPECT_EQ(mask.values<std::uint8_t>()[i], i * 7);
+}
+
+TEST(Mask, ReadsGreyPicturesThatAreOpaque) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  scratch.write("raw", "\x07\xFF\xC8\xFF\x01\xFF");
+  test::make(scratch, "-f rawvideo -pix_fmt ya8 -s 3x1 -i raw mask.png");
+  EXPECT_EQ(tags_of(read_mask(scratch / "mask.png")), (std::vector<int>{7, 200, 1}));
+}
+
 std::string message_of(const std::filesystem::path& path) {
   try {
     static_cast<void>(read_mask(path));
@@ -66,7 +89,10 @@ TEST(Mask, SaysWhatIsWrong) {
   cv::Mat colour(3, 4, CV_8UC3, cv::Scalar::all(9));
   colour.at<cv::Vec3b>(1, 2) = {9, 8, 9};
   cv::imwrite((scratch / "colour.png").string(), colour);
-  cv::imwrite((scratch / "clear.png").string(), cv::Mat(2, 2, CV_8UC4, cv::Scalar::all(9)));
+  cv::Mat clear(2, 2, CV_8UC4, cv::Scalar::all(255));
+  clear.at<cv::Vec4b>(1, 0)[3] = 254;
+  cv::imwrite((scratch / "clear.png").string(), clear);
+  cv::imwrite((scratch / "deep-clear.png").string(), cv::Mat(2, 2, CV_16UC4, cv::Scalar::all(9)));
   cv::imwrite((scratch / "mask.jpg").string(), cv::Mat(2, 2, CV_8UC1, cv::Scalar(9)));
   const auto expect = [](const std::string& message, const char* part) {
     EXPECT_NE(message.find(part), std::string::npos) << message;
@@ -76,7 +102,9 @@ TEST(Mask, SaysWhatIsWrong) {
          "is a colour picture, and its pixel 2,1 is no grey: red 9, green 8, blue 9. A mask has one value "
          "for each");
   expect(message_of(scratch / "clear.png"),
-         "is a PNG of 8 bits, RGB with transparency; it must be 8 bits, grey");
+         "is transparent, and its pixel 0,1 has alpha 254 of 255; save it without transparency");
+  expect(message_of(scratch / "deep-clear.png"),
+         "is a PNG of 16 bits, RGB with transparency; it must be 8 bits, grey");
   expect(message_of(scratch / "mask.jpg"), "neither a PGM nor a PNG");
   expect(message_of(scratch / "absent.pgm"), "cannot be read: No such file");
   expect(message_of(scratch.write("rgb.ppm", "P3 1 1 255 1 2 3")),
