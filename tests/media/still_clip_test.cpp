@@ -361,6 +361,24 @@ TEST(StillClip, TakesThePixelAspectFromTheFile) {
   }
 }
 
+TEST(StillClip, OfPixelsOfOtherShapesIsRefused) {
+  const Scratch scratch;
+  const auto pictures = test::random_stills(kGrey, 255, 2, 3);
+  for (const std::string name : {"a.png", "a.tif", "a.jpg"}) {
+    const auto folder = scratch / ("of " + name);
+    std::filesystem::create_directories(folder);
+    Picture wide = pictures[0];
+    wide.pixel_aspect = {32, 27};
+    write_picture(folder / name, wide);
+    write_picture(folder / ("b" + name), pictures[1]);
+    expect_refused(folder, {"b" + name + " has square pixels, the first still, " + (folder / name).string() +
+                            ", pixels 32:27. All must be alike; state what all have"});
+    ClipOptions stated;
+    stated.pixel_aspect = Rational{4, 3};
+    EXPECT_EQ(read_all(*open_test_clip(folder, stated)).size(), 2u);
+  }
+}
+
 // As we write them ourselves; gAMA alone is written by programs that know nothing of the codes.
 TEST(StillClip, OfPngStandsForWhatItsChunksName) {
   const Scratch scratch;

@@ -258,6 +258,7 @@ class StillClip final : public Clip {
     const Still still = next_ == 0 ? std::move(first_) : read_page(page);
     check_like_first(still, page);
     check_colours(still, page);
+    check_pixel_aspect(still, page);
     std::memcpy(raster.data(), still.codes.data(), still.codes.size());
     ++next_;
     return true;
@@ -345,6 +346,15 @@ class StillClip final : public Clip {
                page.name(), transfer.text(), to_text(primaries), pages_.front().file.string(),
                capture.transfer.text(), to_text(capture.primaries)),
         {other_transfer ? Setting::transfer : Setting::primaries});
+  }
+
+  void check_pixel_aspect(const Still& still, const Page& page) const {
+    const Rational aspect = still.pixel_aspect.value_or(Rational{1, 1}), &first = info_.format.pixel_aspect;
+    if (stated_.pixel_aspect || aspect == first) return;
+    throw InputError(
+        format("{} has {}, the first still, {}, {}. All must be alike; state what all have", page.name(),
+               pixel_aspect_text(aspect), pages_.front().file.string(), pixel_aspect_text(first)),
+        {Setting::pixel_aspect});
   }
 
   void check_like_first(const Still& still, const Page& page) const {
