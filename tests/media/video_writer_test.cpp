@@ -124,6 +124,38 @@ TEST(VideoWriter, EveryCodecKeepsTheColours) {
   }
 }
 
+// All but WebM have a place for the shape of pixels.
+TEST(VideoWriter, KeepsPixelsThatAreNotSquareOrSaysWhatBecomesOfThem) {
+  use_the_programs_modules();
+  for (const auto& [name, width, aspect, kept] :
+       {std::tuple("v.mp4", 64u, Rational{32, 27}, Rational{32, 27}),
+        {"v.mov", 64u, {32, 27}, {32, 27}},
+        {"v.mkv", 64u, {32, 27}, {32, 27}},
+        {"v.avi", 64u, {32, 27}, {32, 27}},
+        {"v.webm", 54u, {32, 27}, {32, 27}},
+        {"v.webm", 64u, {32, 27}, {19, 16}},  // 75.85 columns
+        {"v.webm", 64u, {10, 11}, {29, 32}},
+        {"v.webm", 64u, {200, 199}, {1, 1}}}) {
+    SCOPED_TRACE(name + std::string(" ") + std::to_string(width));
+    const Scratch scratch;
+    const Picture picture = test::random_stills({width, 48, 3}, 255, 1, 5).front();
+    VideoFormat format = format_of(picture, {25, 1});
+    format.pixel_aspect = aspect;
+    const auto writer = open_video_writer(scratch / name, format, video_codec_for(scratch / name, {}));
+    writer->write(picture);
+    writer->finish();
+    EXPECT_EQ(test::open_test_clip(scratch / name)->info().format.pixel_aspect, kept);
+    const auto notes = writer->notes();
+    ASSERT_EQ(notes.size(), kept == aspect ? 0u : 1u);
+    if (aspect == Rational{10, 11}) {
+      EXPECT_EQ(
+          notes[0],
+          "a .webm tells players a size in whole pixels, 58 x 48 for frames of 64 x 48: pixels are shown "
+          "29:32 in the place of 10:11; other containers keep that");
+    }
+  }
+}
+
 TEST(VideoWriter, RepeatsTheLastRowAndColumnOfOddSizes) {
   const Scratch scratch;
   use_the_programs_modules();

@@ -86,6 +86,7 @@ class LibavVideoWriter final : public VideoWriter {
       encoded_ = new_frame(pixels, width_, height_);
       open_scaler();
     }
+    note_rounded_pixels();
     check(avio_open(&muxer_->pb, file_.temporary_path().c_str(), AVIO_FLAG_WRITE));
     check(avformat_write_header(muxer_.get(), nullptr));
   }
@@ -199,6 +200,19 @@ class LibavVideoWriter final : public VideoWriter {
     if (codec.name == "h265" && std::string_view(muxer_->oformat->name) != "matroska") {
       stream_->codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');
     }
+  }
+
+  // A .webm tells players how many whole pixels wide its frames are shown, and no pixel aspect.
+  void note_rounded_pixels() {
+    if (std::string_view(muxer_->oformat->name) != "webm") return;
+    const auto& [across, down] = video_.pixel_aspect;
+    const std::int64_t shown_width = av_rescale(width_, across, down);
+    const Rational shown = Rational::of(shown_width, width_);
+    if (shown == video_.pixel_aspect) return;
+    notes_.push_back(format(
+        "a .webm tells players a size in whole pixels, {} x {} for frames of {} x {}: pixels are shown "
+        "{}:{} in the place of {}:{}; other containers keep that",
+        shown_width, height_, width_, height_, shown.numerator, shown.denominator, across, down));
   }
 
   void open_scaler() {
