@@ -18,6 +18,7 @@
 #include "media/picture_text.hpp"
 #include "media/picture_writer.hpp"
 #include "support/clips.hpp"
+#include "support/ffmpeg.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
@@ -157,6 +158,34 @@ int worst_code(const Picture& picture, const std::filesystem::path& path) {
 
 // At quality 100 each of the 64 coefficients of a block is a whole number, off by a half at most: their orthonormal
 // transform moves a code by 64 · 1/2 / 8 = 4 at the very most. Full colour resolution keeps that of smooth colour.
+// It is no clip, and what its refusal advises makes it one.
+TEST(OpenExr, IsRefusedAsAClipWithAWayOut) {
+  NEEDS_FFMPEG();
+  for (const Shape& shape : {Shape{16, 8, 1}, Shape{16, 8, 3}}) {
+    const Scratch scratch;
+    Picture picture = random_light(shape, 0);
+    for (std::uint64_t i = 0; i < shape.value_count(); ++i)
+      picture.values<float>()[i] = static_cast<float>(i) / static_cast<float>(shape.value_count());
+    write_picture(scratch / "a.exr", picture);
+    const std::string refusal = message_of<InputError>([&] { test::open_test_clip(scratch / "a.exr"); });
+    const auto from = refusal.find("ffmpeg "), to = refusal.find(" makes these of its light");
+    ASSERT_NE(from, std::string::npos) << refusal;
+    ASSERT_NE(to, std::string::npos) << refusal;
+    const std::string file = "-i PICTURE ";
+    std::string words = refusal.substr(from + 7, to - from - 7);
+    ASSERT_EQ(words.find(file), 0u) << refusal;
+    test::make(scratch, "-i a.exr " + words.substr(file.size()));
+    const auto clip = test::open_test_clip(scratch / "PICTURE.png");
+    EXPECT_EQ(clip->info().format.shape, shape);
+    EXPECT_TRUE(clip->info().format.transfer.is_linear());
+    const auto codes = test::read_all(*clip).at(0);
+    // libswscale computes with 15 bits.
+    for (std::uint64_t i = 0; i < shape.value_count(); ++i)
+      EXPECT_NEAR(test::code_at(clip->info().format, codes, i), 65'535.0 * picture.values<float>()[i], 32)
+          << i;
+  }
+}
+
 TEST(Jpeg, IsThePictureAsNearAsItsQuality) {
   const Scratch scratch;
   for (const Shape& shape : {Shape{16, 8, 1}, Shape{97, 55, 1}, Shape{97, 55, 3}}) {

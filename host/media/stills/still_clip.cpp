@@ -185,7 +185,8 @@ Still read_with_opencv(const std::filesystem::path& file) {
     throw InputError(format("{} cannot be read: it is damaged or no picture", name));
   }
   if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
-    throw InputError(format("{} holds neither 8- nor 16-bit values", name));
+    throw InputError(
+        format("{} holds neither 8- nor 16-bit values; save it as a PNG or TIFF with one of these", name));
   }
   if (picture.channels() != 1 && picture.channels() != 3) {
     throw InputError(format("{} has {} channels; grey (1) and colour (3) are read, transparency is not", name,

@@ -118,10 +118,11 @@ PixelKind pixel_kind(const AVCodecParameters& codec, const std::string& name) {
         {Setting::raw_layout});
   }
   if ((pixels->flags & AV_PIX_FMT_FLAG_FLOAT) != 0) {
-    throw InputError(
-        format("{} holds floating-point pixels ({}); whole numbers of up to 16 bits are read. "
-               "Convert it, for example with ffmpeg -pix_fmt gray16le",
-               name, pixels->name));
+    // FFmpeg takes grey in floating point for that of the limited range where it is told nothing.
+    throw InputError(format(
+        "{} holds floating-point pixels ({}); whole numbers of up to 16 bits are read. ffmpeg -i PICTURE -vf "
+        "scale=in_range=full -pix_fmt {} PICTURE.png makes these of its light from black to white",
+        name, pixels->name, pixels->nb_components < 3 ? "gray16" : "rgb48"));
   }
   PixelKind kind;
   const bool is_mosaic = (pixels->flags & AV_PIX_FMT_FLAG_BAYER) != 0;
