@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -12,6 +13,7 @@ namespace nutik {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 
 class Facts : public test::ProgramTest {
  protected:
@@ -193,15 +195,51 @@ TEST_F(Facts, OfAClipAreToldToScriptsByEveryCommandThatReadsIt) {
     const auto told = run(words);
     SCOPED_TRACE(testing::PrintToString(command) + told.out + told.err);
     EXPECT_EQ(told.status, 0);
-    EXPECT_NE(told.out.find("\"facts\": ["), std::string::npos);
-    EXPECT_NE(told.out.find("\"transfer srgb, assumed\""), std::string::npos);
-    EXPECT_NE(told.out.find("\"matrix bt601, assumed\""), std::string::npos);
+    const Json json = Json::parse(told.out);
+    const Json& source = command.front() == "batch" ? json["clips"][0] : json;
+    std::map<std::string, std::string> options;
+    for (const Json& fact : source["facts"]) options[fact["fact"]] = fact["option"];
+    EXPECT_EQ(options["transfer srgb, assumed"], "--transfer");
+    EXPECT_EQ(options["matrix bt601, assumed"], "--matrix");
     EXPECT_NE(told.out.find("\"notes\": ["), std::string::npos);
     if (command.front() == "noise") continue;  // which needs no times
-    EXPECT_NE(told.out.find("\"shutter 360 degrees, assumed\""), std::string::npos);
+    EXPECT_EQ(options["shutter 360 degrees, assumed"], "--shutter-angle");
+    EXPECT_EQ(options["30 pictures a second, from the file"], "--fps");
     EXPECT_NE(told.out.find("slow-motion files state their playback rate"), std::string::npos);
     EXPECT_EQ(told.err.find("note:"), std::string::npos) << "told twice";
   }
+}
+
+// Of a capture the option is that of retime; what was decided while its clip was decoded has none.
+TEST_F(Facts, OfACaptureAreToldToScriptsWithWhatCorrectsThem) {
+  const auto made = test::run_shell(
+      "ffmpeg -v error -y -f lavfi -i testsrc=s=64x48:r=30:d=0.5 -vf \"select='not(eq(n,5))'\" -vsync vfr "
+      "-pix_fmt yuv420p -c:v ffv1 clip.mkv",
+      scratch_.folder());
+  if (made.status != 0) GTEST_SKIP() << "ffmpeg cannot make the clip: " << made.err;
+  ASSERT_EQ(run({"encode", "clip.mkv", "clip.tik"}).status, 0);
+  const auto options_of = [&](const std::vector<std::string>& words) {
+    const auto told = run(words);
+    EXPECT_EQ(told.status, 0) << told.err;
+    std::map<std::string, std::string> options;
+    const Json json = Json::parse(told.out);
+    for (const Json& fact : json["facts"]) options[fact["fact"]] = fact.value("option", "none");
+    return options;
+  };
+  auto info = options_of({"info", "--json", "clip.tik"});
+  const std::string rate = "irregular times, 27.94 pictures a second on average, from the file";
+  EXPECT_EQ(info.size(), 7u);
+  EXPECT_EQ(info[rate], "--fps");
+  EXPECT_EQ(info["transfer srgb, assumed"], "--transfer");
+  EXPECT_EQ(info["matrix bt601, assumed"], "none");
+  auto retimed = options_of({"retime", "--json", "-a", "180", "clip.tik"});
+  EXPECT_EQ(retimed.size(), 7u);
+  EXPECT_EQ(retimed[rate], "--fps");
+  EXPECT_EQ(retimed["shutter 180 degrees, as stated"], "--shutter-angle");
+  const auto told = run({"retime", "-a", "90", "clip.tik"});
+  EXPECT_NE(told.out.find("samples, irregular times, 27.94 pictures a second on average, shutter 90 degrees"),
+            std::string::npos)
+      << told.out;
 }
 
 // A check of a clip lists them, too.

@@ -15,10 +15,8 @@ namespace nutik::app {
 // What every page starts with, for people who never heard of it.
 inline constexpr std::string_view kWhatItIs =
     "nutik-cl exposes pictures after the scene was filmed. It turns a video into a capture (.tik), the "
-    "record "
-    "of when and how every pixel changed, and exposes pictures from it in which every region of a mask has "
-    "its "
-    "own gain as a function of time.";
+    "record of when and how every pixel changed, and exposes pictures from it in which every region of a "
+    "mask has its own gain as a function of time.";
 inline constexpr std::string_view kAboutFunctionFiles =
     "A function file has a line for each mask value, with times in nanoseconds:";
 inline constexpr std::string_view kFunctionFile = "M0 [0:1], [10000000:1], [10000001:0]";

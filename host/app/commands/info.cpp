@@ -80,7 +80,7 @@ int run_info(const Options& options) {
                  {"transfer", capture.transfer.text()},
                  {"primaries", to_text(capture.primaries)},
                  {"pixel_aspect", aspect_text(capture.pixel_aspect)},
-                 {"facts", reader.header().facts},
+                 {"facts", facts_json(reader.header().facts)},
                  {"alignment", alignment_json(reader.header().alignment)},
                  {"tolerance_codes", capture.noise.tolerance},
                  {"has_camera_noise", capture.noise.camera.has_value()},

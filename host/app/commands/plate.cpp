@@ -35,9 +35,8 @@ int run_plate(const Options& options) {
                  progress_bar("reading", options.quiet));
   if (!made.is_noise_known) {
     print_warning(
-        "nothing in the capture is still for long enough to tell its noise: codes that differ by up to 1/32 "
-        "of "
-        "white were taken for the same light; --by CODES states another difference");
+        "nothing in the capture is still for long enough to tell its noise: codes that differ by up to "
+        "1/32 of white were taken for the same light; --by CODES states another difference");
   }
   write_picture(output, made.picture, {}, file_wishes(output_request(options)));
   if (options.uncertain) {

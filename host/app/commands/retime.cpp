@@ -23,21 +23,23 @@ int run_retime(const Options& options) {
   if (options.pixel_aspect) request.pixel_aspect = parse_pixel_aspect(*options.pixel_aspect);
   if (output) check_output(*output, OutputKind::tik, std::array{request.capture.string()});
 
-  const auto [capture, timeline, file_bytes, notes] = retime(request);
+  const auto [capture, timeline, file_bytes, facts, notes] = retime(request);
   Answer answer{{{"capture", request.output.string()}}};
   answer.json.update(shape_json(capture.shape));
   answer.json.update({{"samples", timeline.sample_count()},
                       {"samples_a_second", timeline.rate().text()},
+                      {"is_constant_rate", timeline.is_constant()},
                       {"shutter_angle_degrees", timeline.shutter_angle().text()},
                       {"duration_ns", timeline.duration_ns()},
                       {"transfer", capture.transfer.text()},
                       {"primaries", to_text(capture.primaries)},
                       {"pixel_aspect", aspect_text(capture.pixel_aspect)},
+                      {"facts", facts_json(facts)},
                       {"file_bytes", file_bytes}});
   answer.line =
       format("{}: {}, {}, {}, shutter {} degrees, transfer {}, primaries {}, pixels {}",
              request.output.string(), shape_text(capture.shape), counted(timeline.sample_count(), "sample"),
-             rate_text(timeline.rate(), "picture"), timeline.shutter_angle().text(), capture.transfer.text(),
+             rate_text(timeline), timeline.shutter_angle().text(), capture.transfer.text(),
              to_text(capture.primaries), aspect_text(capture.pixel_aspect));
   answer.tell_source({}, notes);
   return tell(options, request.output, answer, true);

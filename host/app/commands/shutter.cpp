@@ -32,9 +32,8 @@ Timeline timeline_for(const Options& options, const StatedTime& start, const Sta
   }
   if (start.counts_samples() || length.counts_samples()) {
     throw UsageError(
-        "to count in pictures of a clip its times must be known: name the capture behind the shape, add "
-        "--fps "
-        "where its rate is constant, or write times in seconds");
+        "to count in pictures of a clip its times must be known: name the capture behind the shape, "
+        "add --fps where its rate is constant, or write times in seconds");
   }
   return Timeline::constant({1, 1}, angle, 1);
 }
@@ -52,9 +51,8 @@ std::string whole_text(const StatedTime& time) {
 int run_shutter(const Options& options) {
   if (options.operands.empty() || options.operands.size() > 2) {
     throw UsageError(
-        "shutter takes one shape, and a capture whose pictures are counted: nutik-cl shutter hann --start "
-        "32f "
-        "--exposure 3f clip.tik");
+        "shutter takes one shape, and a capture whose pictures are counted: "
+        "nutik-cl shutter hann --start 32f --exposure 3f clip.tik");
   }
   check_choice("shutter", options.operands.front(), *find_option("shutter"));
   if (!options.exposure) throw UsageError("how long is the exposure? Add --exposure 10ms");

@@ -9,6 +9,7 @@
 #include "app/text/timing_text.hpp"
 #include "session/below/format.hpp"
 #include "session/below/functions.hpp"
+#include "session/making/retiming.hpp"
 #include "session/text/size_text.hpp"
 #include "session/text/time_text.hpp"
 
@@ -43,9 +44,19 @@ Json shape_json(const Shape& shape) {
   return {{"width", shape.width}, {"height", shape.height}, {"channels", shape.channels}};
 }
 
+Json facts_json(const std::vector<std::string>& lines) {
+  Json facts = Json::array();
+  for (const std::string& line : lines) {
+    facts.push_back({{"fact", line}});
+    if (const auto setting = correction_of(line)) facts.back()["option"] = option_of(*setting);
+  }
+  return facts;
+}
+
 void Answer::tell_source(const std::vector<Fact>& facts, const std::vector<Note>& more) {
   source = fact_lines(facts);
-  for (const Fact& fact : facts) json["facts"].push_back(fact.line());
+  for (const Fact& fact : facts)
+    json["facts"].push_back({{"fact", fact.line()}, {"option", option_of(fact.setting)}});
   std::ranges::move(note_texts(more), std::back_inserter(notes));
 }
 

@@ -22,6 +22,8 @@ using Json = nlohmann::ordered_json;
 void print_json(const Json& json);
 
 [[nodiscard]] Json shape_json(const Shape& shape);  // `width`, `height`, `channels`
+// Of a capture: `fact`, and `option`, by which retime states otherwise, where it does.
+[[nodiscard]] Json facts_json(const std::vector<std::string>& lines);
 
 class Stopwatch {
  public:

@@ -25,6 +25,36 @@
 namespace nutik::app {
 namespace {
 
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+// Words of the devices' names, in small letters.
+std::vector<std::string> words_of(const std::vector<DeviceInfo>& devices) {
+  std::vector<std::string> words;
+  for (const DeviceInfo& device : devices) {
+    std::string word;
+    for (const char c : device.name + " " + device.platform + " ") {
+      if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+        word += c;
+      } else if (!word.empty()) {
+        words.push_back(lower(std::exchange(word, {})));
+      }
+    }
+  }
+  return words;
+}
+
+// `\ndid you mean oclgrind?`. Case does not count in a device's name.
+std::string device_suggestion(const DeviceNotFound& error) {
+  if (error.wanted.size() < 3) return {};
+  const std::string suggestion = did_you_mean(lower(error.wanted), words_of(error.devices));
+  return suggestion.empty() ? std::string() : "\n" + suggestion.substr(2);
+}
+
+}  // namespace
+
 std::string_view option_of(Setting setting) {
   switch (setting) {
     case Setting::automatic_noise: return "--noise auto";
@@ -58,36 +88,6 @@ std::string_view option_of(Setting setting) {
   }
   return {};
 }
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-// Words of the devices' names, in small letters.
-std::vector<std::string> words_of(const std::vector<DeviceInfo>& devices) {
-  std::vector<std::string> words;
-  for (const DeviceInfo& device : devices) {
-    std::string word;
-    for (const char c : device.name + " " + device.platform + " ") {
-      if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-        word += c;
-      } else if (!word.empty()) {
-        words.push_back(lower(std::exchange(word, {})));
-      }
-    }
-  }
-  return words;
-}
-
-// `\ndid you mean oclgrind?`. Case does not count in a device's name.
-std::string device_suggestion(const DeviceNotFound& error) {
-  if (error.wanted.size() < 3) return {};
-  const std::string suggestion = did_you_mean(lower(error.wanted), words_of(error.devices));
-  return suggestion.empty() ? std::string() : "\n" + suggestion.substr(2);
-}
-
-}  // namespace
 
 std::string options_text(const std::vector<Setting>& settings) {
   std::string text;

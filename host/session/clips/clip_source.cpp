@@ -178,12 +178,7 @@ Timeline ClipSource::timeline(std::uint64_t sample_count) const {
 std::vector<Fact> ClipSource::facts(const Timeline& timeline) const {
   const ClipTiming& timing = clip->info().timing;
   const bool is_stated = request.clip.rate.has_value();
-  const Rational mean = timeline.rate();
-  Fact rate{
-      timeline.is_constant() || mean.value() < 1
-          ? rate_text(mean, "picture") + (timeline.is_constant() ? "" : " on average, at irregular times")
-          : format("irregular times, {:.4g} pictures a second on average", mean.value()),
-      is_stated ? Origin::stated : Origin::file, Setting::frame_rate};
+  Fact rate{rate_text(timeline), is_stated ? Origin::stated : Origin::file, Setting::frame_rate};
   if (!is_stated) rate.source = timing.rate_from;
   const bool is_written_down = timing.exposed_ns || !timing.exposures.empty();
   Fact angle{format("shutter {} degrees", timeline.shutter_angle().text()),

@@ -29,9 +29,10 @@ std::string_view stated_by(std::string_view line) {
   return line;
 }
 
-// Which setting changes what a line states; none for the part of a clip, and for what codes no longer depend on.
-std::optional<Setting> setting_of(std::string_view line) {
-  const std::string_view text = stated_by(line);
+}  // namespace
+
+std::optional<Setting> correction_of(std::string_view fact) {
+  const std::string_view text = stated_by(fact);
   if (text.find("pictures a second") != text.npos || text.starts_with("a picture every "))
     return Setting::frame_rate;
   if (text.starts_with("shutter ")) return Setting::shutter_angle;
@@ -41,9 +42,11 @@ std::optional<Setting> setting_of(std::string_view line) {
   return std::nullopt;
 }
 
+namespace {
+
 // Whether a camera wrote down for how long its shutter was open: so long it was at any rate.
 bool is_timed_shutter(std::string_view line) {
-  return setting_of(line) == Setting::shutter_angle && line.find(", from ") != line.npos &&
+  return correction_of(line) == Setting::shutter_angle && line.find(", from ") != line.npos &&
          line.ends_with(" ns");
 }
 
@@ -75,7 +78,7 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
   std::vector<std::string> facts = before.facts;
   const auto state = [&](Setting setting, const std::string& text) {
     const std::string line = Fact{text, Origin::stated, setting}.line();
-    const auto corrected = std::ranges::find(facts, std::optional(setting), setting_of);
+    const auto corrected = std::ranges::find(facts, std::optional(setting), correction_of);
     if (corrected == facts.end()) {
       facts.push_back(line);
     } else {
@@ -154,7 +157,7 @@ Retimed retime(const RetimeRequest& request) {
   if (request.rate && !reader.timeline().is_constant()) {
     if (auto note = evened_note(starts_of(reader.timeline()))) notes.push_back(std::move(*note));
   }
-  return {capture, timeline, writer.bytes_written(), std::move(notes)};
+  return {capture, timeline, writer.bytes_written(), header.facts, std::move(notes)};
 }
 
 }  // namespace nutik

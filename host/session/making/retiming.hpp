@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -32,8 +34,12 @@ struct Retimed {
   CaptureFormat capture;
   Timeline timeline;
   std::uint64_t file_bytes = 0;
-  std::vector<Note> notes;  // on what was lost
+  std::vector<std::string> facts;  // as the header tells them now
+  std::vector<Note> notes;         // on what was lost
 };
+
+// What states otherwise than a fact that a capture's header tells; none where its clip has to be encoded again.
+[[nodiscard]] std::optional<Setting> correction_of(std::string_view fact);
 
 // Throws UsageError where codes of a capture `name` are means of light by its own transfer function and another is stated,
 // by which the same light has another mean: they were scaled, aligned or held within a camera's noise.

@@ -27,6 +27,13 @@ std::string rate_text(const Rational& rate, std::string_view name) {
   return format("a {} every {}", name, duration_text(period_ns));
 }
 
+std::string rate_text(const Timeline& timeline) {
+  const Rational rate = timeline.rate();
+  if (timeline.is_constant()) return rate_text(rate, "picture");
+  if (rate.value() < 1) return rate_text(rate, "picture") + " on average, at irregular times";
+  return format("irregular times, {:.4g} pictures a second on average", rate.value());
+}
+
 std::string integral_text(double nanoseconds) {
   if (nanoseconds == 0.0) return "0 s";
   const double length = std::fabs(nanoseconds);
