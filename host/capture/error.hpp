@@ -14,6 +14,7 @@ namespace nutik {
 enum class Setting {
   automatic_noise,  // measured on the clip itself
   block_samples,
+  chroma_place,
   columns,
   crop,
   deflicker,

@@ -157,11 +157,15 @@ std::unique_ptr<Clip> open_clip(const std::filesystem::path& name, const ClipOpt
                    options);
 }
 
+void refuse_yuv_options(const ClipOptions& options) {
+  if (!options.matrix && !options.range && !options.chroma_at) return;
+  throw UsageError(
+      "its pictures are RGB or grey as they are: leave matrix, range and the place of chroma out",
+      {Setting::matrix, Setting::range, Setting::chroma_place});
+}
+
 void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const StoredCodes& codes) {
-  if (options.matrix || options.range) {
-    throw UsageError("its pictures are RGB or grey as they are: leave matrix and range out",
-                     {Setting::matrix, Setting::range});
-  }
+  refuse_yuv_options(options);
   CaptureFormat& capture = info.format;
   capture.transfer = settle(info.facts, options.transfer, codes.transfer, codes.usual, Setting::transfer,
                             [](const Transfer& transfer) { return "transfer " + transfer.text(); });
@@ -203,6 +207,18 @@ std::string_view to_text(YuvMatrix matrix) {
 
 std::string_view to_text(CodeRange range) { return range == CodeRange::full ? "full" : "limited"; }
 
+std::string_view to_text(ChromaPlace place) {
+  switch (place) {
+    case ChromaPlace::left: return "left";
+    case ChromaPlace::center: return "center";
+    case ChromaPlace::topleft: return "topleft";
+    case ChromaPlace::top: return "top";
+    case ChromaPlace::bottomleft: return "bottomleft";
+    case ChromaPlace::bottom: return "bottom";
+  }
+  return {};
+}
+
 YuvMatrix parse_yuv_matrix(std::string_view text) {
   for (const YuvMatrix matrix : {YuvMatrix::bt601, YuvMatrix::bt709, YuvMatrix::bt2020, YuvMatrix::ycgco}) {
     if (text == to_text(matrix)) return matrix;
@@ -215,6 +231,15 @@ CodeRange parse_code_range(std::string_view text) {
     if (text == to_text(range)) return range;
   }
   throw UsageError(format("range '{}' is not known; choose limited or full", text));
+}
+
+ChromaPlace parse_chroma_place(std::string_view text) {
+  for (const ChromaPlace place : {ChromaPlace::left, ChromaPlace::center, ChromaPlace::topleft,
+                                  ChromaPlace::top, ChromaPlace::bottomleft, ChromaPlace::bottom}) {
+    if (text == to_text(place)) return place;
+  }
+  throw UsageError(format(
+      "place of chroma '{}' is not known; choose left, center, topleft, top, bottomleft or bottom", text));
 }
 
 Rational parse_pixel_aspect(std::string_view text) {

@@ -41,14 +41,18 @@ struct ClipInfo {
   std::vector<Fact> facts;  // what samples are taken for, each with who said it
 };
 
-// How YUV becomes RGB, and which codes stand for black and white.
+// How YUV becomes RGB, which codes stand for black and white, and where samples of chroma lie that pixels share, among
+// those of luma.
 enum class YuvMatrix { bt601, bt709, bt2020, fcc, smpte240m, p3, ycgco };
 enum class CodeRange { limited, full };
+enum class ChromaPlace { left, center, topleft, top, bottomleft, bottom };
 [[nodiscard]] std::string_view to_text(YuvMatrix matrix);
 [[nodiscard]] std::string_view to_text(CodeRange range);
-// `bt601`, `bt709`, `bt2020` or `ycgco`; `limited` or `full`. Throw UsageError listing these.
+[[nodiscard]] std::string_view to_text(ChromaPlace place);
+// `bt601`, `bt709`, `bt2020` or `ycgco`; `limited` or `full`; `left` … `bottom`. Throw UsageError listing these.
 [[nodiscard]] YuvMatrix parse_yuv_matrix(std::string_view text);
 [[nodiscard]] CodeRange parse_code_range(std::string_view text);
+[[nodiscard]] ChromaPlace parse_chroma_place(std::string_view text);
 // `32:27`, from 1:64 to 64:1. Throws UsageError.
 [[nodiscard]] Rational parse_pixel_aspect(std::string_view text);
 
@@ -93,6 +97,7 @@ struct ClipOptions {
   std::optional<RawVideo> raw;
   std::optional<YuvMatrix> matrix = std::nullopt;
   std::optional<CodeRange> range = std::nullopt;
+  std::optional<ChromaPlace> chroma_at = std::nullopt;
   std::optional<Primaries> primaries = std::nullopt;
   std::optional<Rational> pixel_aspect = std::nullopt;
   // The part that is taken: pictures that start from the one moment on and before the other, and of these a rectangle
@@ -141,6 +146,9 @@ struct StoredCodes {
   std::string unread_transfer = {}, unread_primaries = {};
   std::optional<Rational> pixel_aspect = std::nullopt;
 };
+
+// Throws UsageError where something is stated that is said of YUV only.
+void refuse_yuv_options(const ClipOptions& options);
 
 // Describes such codes, of a format whose shape and white code are known, as stated, as the files say, or as usual.
 // Throws UsageError where what is stated is said of YUV.

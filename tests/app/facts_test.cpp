@@ -46,8 +46,9 @@ class Facts : public test::ProgramTest {
   static std::string subject_of(const std::string& fact) {
     const std::vector<std::pair<std::string, std::string>> kWords{
         {"pictures a second", "fps"}, {"shutter ", "shutter-angle"}, {"transfer ", "transfer"},
-        {"matrix ", "matrix"},        {" range", "range"},           {"primaries ", "primaries"},
-        {"pixels", "pixel-aspect"},   {"pictures 0", "to"},          {"white ", "white"}};
+        {"matrix ", "matrix"},        {" range", "range"},           {"chroma at ", "chroma-at"},
+        {"primaries ", "primaries"},  {"pixels", "pixel-aspect"},    {"pictures 0", "to"},
+        {"white ", "white"}};
     for (const auto& [word, subject] : kWords) {
       if (fact.find(word) != std::string::npos) return subject;
     }
@@ -110,7 +111,7 @@ const std::vector<Recording>& recordings() {
       {"stuck.tif", {"-f", "20"}, {"white"}, "white is taken to be 65535"},
       {"sparks_ref_480x270.yuv42010le.yuv",
        {"-f", "24", "--raw", "480x270:yuv420p10le"},
-       kVideo,
+       {"matrix", "range", "chroma-at", "primaries"},
        "24 pictures a second (--fps)"}};
   return kAll;
 }

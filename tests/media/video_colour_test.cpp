@@ -84,6 +84,7 @@ TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
                             {},
                             YuvMatrix::bt2020,
                             CodeRange::limited,
+                            std::nullopt,
                             Primaries::p3,
                             parse_pixel_aspect("4:3")};
   const auto other = test::open_test_clip(scratch / "clip.mkv", options);

@@ -121,6 +121,39 @@ TEST(MatrixOfYuv, TakesChromaFromWhereItLies) {
   }
 }
 
+// What is stated goes before what the file says, and is refused where nothing depends on it.
+TEST(MatrixOfYuv, TakesChromaFromWhereItIsStatedToLie) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const auto make_clip = [&](const std::string& pixels, const std::string& named) {
+    test::make(scratch, "-f lavfi -i testsrc2=s=32x32:r=25:d=0.04 -vf format=" + pixels +
+                            " -c:v ffv1 -chroma_sample_location " + named + " -y clip.mkv");
+  };
+  const auto raster_of = [&](const ClipOptions& options, const char* fact) {
+    const auto clip = test::open_test_clip(scratch / "clip.mkv", options);
+    EXPECT_EQ(test::facts_of(*clip).at(Setting::chroma_place).line(), fact);
+    return test::read_all(*clip).at(0);
+  };
+  ClipOptions stated;
+  stated.chroma_at = ChromaPlace::center;
+  make_clip("yuv420p10", "center");
+  const auto centred = raster_of({}, "chroma at center, from the file");
+  make_clip("yuv420p10", "unspecified");
+  const auto assumed = raster_of({}, "chroma at left, assumed");
+  EXPECT_NE(assumed, centred);
+  EXPECT_EQ(raster_of(stated, "chroma at center, as stated"), centred);
+  make_clip("yuv420p10", "topleft");
+  EXPECT_EQ(raster_of(stated, "chroma at center, as stated"), centred);
+  for (const auto& [pixels, reason] :
+       {std::pair("yuv420p", "the chroma of the sample that it shares"),
+        {"yuv444p10", "has chroma of its own: leave"},
+        {"gray10", "its pictures are RGB or grey as they are: leave matrix"}}) {
+    make_clip(pixels, "unspecified");
+    EXPECT_FALSE(test::facts_of(*test::open_test_clip(scratch / "clip.mkv")).contains(Setting::chroma_place));
+    test::expect_clip_refused(scratch / "clip.mkv", stated, reason);
+  }
+}
+
 // H.273, equations of MatrixCoefficients 8, from their words: of codes whose range is that of luma.
 TEST(MatrixOfYuv, OfYCgCoIsThatOfTheStandard) {
   NEEDS_FFMPEG();

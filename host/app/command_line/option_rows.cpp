@@ -64,8 +64,13 @@ constexpr Option kRows[] = {
     {0, "range", "NAME", decoding, kDecodesClips, &Options::range,
      "which codes of YUV are black and white: limited or full (default: what the file says, else limited)",
      "limited full"},
+    {0, "chroma-at", "PLACE", decoding, kDecodesClips, &Options::chroma_at,
+     "where samples of chroma lie that pixels of deep video share: left, center, topleft, top, bottomleft or "
+     "bottom (default: what the file says, else left)",
+     "left center topleft top bottomleft bottom"},
     {0, "primaries", "NAME", decoding, kDecodesClips | bit(Id::retime), &Options::primaries,
-     "the colours of red, green and blue: bt709, bt2020 or p3 (default: what the file says, else bt709)",
+     "the colours of red, green and blue: bt709, bt2020 or p3 (default: what the file says; else bt2020 if "
+     "the matrix is, and bt709)",
      "bt709 bt2020 p3"},
     {0, "pixel-aspect", "W:H", decoding, kDecodesClips | bit(Id::retime), &Options::pixel_aspect,
      "how much wider than high a pixel is shown, as in 32:27 (default: what the file says, else 1:1)"},

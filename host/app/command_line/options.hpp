@@ -22,7 +22,8 @@ struct Options {
   std::vector<Said> said;  // every option, in the order of the command line
 
   // The source clip.
-  Value fps, shutter_angle, white, transfer, matrix, range, primaries, pixel_aspect, raw, noise, sigmas;
+  Value fps, shutter_angle, white, transfer, matrix, range, chroma_at, primaries, pixel_aspect, raw, noise,
+      sigmas;
   Value clip_from, clip_to, crop, scale, deinterlace;
   bool as_far_as_it_goes = false;
   bool counts_redrawn = false;

@@ -78,6 +78,7 @@ SourceRequest clip_request(const Options& options, const std::string& name) {
   if (options.transfer) request.clip.transfer = Transfer::parse(*options.transfer);
   if (options.matrix) request.clip.matrix = parse_yuv_matrix(*options.matrix);
   if (options.range) request.clip.range = parse_code_range(*options.range);
+  if (options.chroma_at) request.clip.chroma_at = parse_chroma_place(*options.chroma_at);
   if (options.primaries) request.clip.primaries = parse_primaries(*options.primaries);
   if (options.pixel_aspect) request.clip.pixel_aspect = parse_pixel_aspect(*options.pixel_aspect);
   if (options.clip_from)

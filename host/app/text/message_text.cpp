@@ -59,6 +59,7 @@ std::string_view option_of(Setting setting) {
   switch (setting) {
     case Setting::automatic_noise: return "--noise auto";
     case Setting::block_samples: return "--block-samples";
+    case Setting::chroma_place: return "--chroma-at";
     case Setting::columns: return "--columns";
     case Setting::crop: return "--crop";
     case Setting::deflicker: return "--deflicker";

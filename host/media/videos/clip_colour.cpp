@@ -11,9 +11,19 @@ YuvMatrix usual_matrix(const Probe& probe) {
   return probe.shape.height >= kLinesOfHighDefinition ? YuvMatrix::bt709 : YuvMatrix::bt601;
 }
 
+bool is_colour_yuv(const Probe& probe) { return is_yuv(probe.pixel_format) && !probe.pixels.is_grey; }
+
 }  // namespace
 
 YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::string& name) {
+  if (!is_colour_yuv(probe)) refuse_yuv_options(options);
+  if (options.chroma_at && !interpolates_chroma(probe.pixel_format, probe.pixels)) {
+    throw UsageError(format("each pixel of {} has {}: leave the place of chroma out", name,
+                            probe.pixels.is_everyday()
+                                ? "the chroma of the sample that it shares, as in all video of 8 bits"
+                                : "chroma of its own"),
+                     {Setting::chroma_place});
+  }
   if (!probe.unread_matrix.empty() && !options.matrix) {
     throw InputError(
         format("{} names a matrix by which no RGB is made here, {}: its colours would be wrong. Convert "
@@ -22,7 +32,7 @@ YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::
         {Setting::matrix});
   }
   return {options.matrix.value_or(probe.matrix.value_or(usual_matrix(probe))),
-          options.range.value_or(probe.range.value_or(CodeRange::limited))};
+          options.range.value_or(probe.range.value_or(CodeRange::limited)), options.chroma_at};
 }
 
 void describe(CaptureFormat& capture, std::vector<Fact>& facts, const Probe& probe,
@@ -40,11 +50,15 @@ void describe(CaptureFormat& capture, std::vector<Fact>& facts, const Probe& pro
   if (facts.back().origin == Origin::assumed && !probe.transfer_name.empty()) {
     facts.back().remark = format("the file names {}", probe.transfer_name);
   }
-  if (is_yuv(probe.pixel_format) && !pixels.is_grey) {
+  if (is_colour_yuv(probe)) {
     settle(facts, options.matrix, probe.matrix, usual_matrix(probe), Setting::matrix,
            [](YuvMatrix matrix) { return format("matrix {}", to_text(matrix)); });
     settle(facts, options.range, probe.range, CodeRange::limited, Setting::range,
            [](CodeRange range) { return format("{} range", to_text(range)); });
+  }
+  if (interpolates_chroma(probe.pixel_format, pixels)) {
+    settle(facts, options.chroma_at, probe.chroma_at, kUsualChromaPlace, Setting::chroma_place,
+           [](ChromaPlace place) { return format("chroma at {}", to_text(place)); });
   }
   if (!pixels.is_grey) {
     const bool is_wide =

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "media/videos/eight_bit_yuv.hpp"
 #include "media/videos/phantom_packing.hpp"
@@ -200,6 +201,36 @@ std::optional<CodeRange> named_range(const AVCodecParameters& codec) {
   return codec.color_range == AVCOL_RANGE_MPEG ? std::optional(CodeRange::limited) : std::nullopt;
 }
 
+namespace {
+
+constexpr std::pair<AVChromaLocation, ChromaPlace> kChromaPlaces[] = {
+    {AVCHROMA_LOC_LEFT, ChromaPlace::left},
+    {AVCHROMA_LOC_CENTER, ChromaPlace::center},
+    {AVCHROMA_LOC_TOPLEFT, ChromaPlace::topleft},
+    {AVCHROMA_LOC_TOP, ChromaPlace::top},
+    {AVCHROMA_LOC_BOTTOMLEFT, ChromaPlace::bottomleft},
+    {AVCHROMA_LOC_BOTTOM, ChromaPlace::bottom},
+};
+
+std::optional<ChromaPlace> chroma_place(AVChromaLocation location) {
+  for (const auto& [theirs, ours] : kChromaPlaces) {
+    if (theirs == location) return ours;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<ChromaPlace> named_chroma_place(const AVCodecParameters& codec) {
+  return chroma_place(codec.chroma_location);
+}
+
+bool interpolates_chroma(AVPixelFormat format, const PixelKind& pixels) {
+  const AVPixFmtDescriptor& planes = *av_pix_fmt_desc_get(format);
+  return is_yuv(format) && !pixels.is_grey && !pixels.is_everyday() &&
+         (planes.log2_chroma_w > 0 || planes.log2_chroma_h > 0);
+}
+
 Upright upright(const AVStream& stream) {
   const auto* stored = reinterpret_cast<const std::int32_t*>(
       av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr));
@@ -237,7 +268,7 @@ Upright upright(const AVStream& stream) {
 namespace {
 
 // Null where such pixels cannot be converted.
-SwsContext* new_scaler(const AVFrame& frame, AVPixelFormat wanted) {
+SwsContext* new_scaler(const AVFrame& frame, AVPixelFormat wanted, ChromaPlace at) {
   std::unique_ptr<SwsContext, decltype(&sws_freeContext)> scaler(sws_alloc_context(), &sws_freeContext);
   if (!scaler) return nullptr;
   const auto from = static_cast<AVPixelFormat>(frame.format);
@@ -251,14 +282,12 @@ SwsContext* new_scaler(const AVFrame& frame, AVPixelFormat wanted) {
   set("src_format", from);
   set("dst_format", wanted);
   set("sws_flags", SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT);
-  // Where samples of chroma lie between those of luma, in 256ths of their distance. Where nothing says it they lie to
-  // the left and between two lines, as in H.264 and most that came after it.
+  // Where samples of chroma lie between those of luma, in 256ths of their distance.
   constexpr int kBetween = 128;
   const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(from);
-  const AVChromaLocation at = frame.chroma_location;
-  const bool is_centred = at == AVCHROMA_LOC_CENTER || at == AVCHROMA_LOC_TOP || at == AVCHROMA_LOC_BOTTOM;
-  const bool is_top = at == AVCHROMA_LOC_TOPLEFT || at == AVCHROMA_LOC_TOP;
-  const bool is_bottom = at == AVCHROMA_LOC_BOTTOMLEFT || at == AVCHROMA_LOC_BOTTOM;
+  const bool is_centred = at == ChromaPlace::center || at == ChromaPlace::top || at == ChromaPlace::bottom;
+  const bool is_top = at == ChromaPlace::topleft || at == ChromaPlace::top;
+  const bool is_bottom = at == ChromaPlace::bottomleft || at == ChromaPlace::bottom;
   const bool is_interpolated = is_yuv(from) && av_pix_fmt_desc_get(wanted)->log2_chroma_w == 0;
   if (is_interpolated && pixels.log2_chroma_w == 1) set("src_h_chr_pos", is_centred ? kBetween : 0);
   if (is_interpolated && pixels.log2_chroma_h == 1) {
@@ -272,14 +301,16 @@ SwsContext* new_scaler(const AVFrame& frame, AVPixelFormat wanted) {
 void PixelConverter::scale(const AVFrame& frame, AVPixelFormat wanted, const std::string& name,
                            std::uint8_t* const* planes, const int* strides) {
   const auto from = static_cast<AVPixelFormat>(frame.format);
-  if (!scaler_ || scales_from_ != from || scales_to_ != wanted || chroma_at_ != frame.chroma_location) {
-    scaler_.reset(new_scaler(frame, wanted));
+  const ChromaPlace at =
+      coding_.chroma_at.value_or(chroma_place(frame.chroma_location).value_or(kUsualChromaPlace));
+  if (!scaler_ || scales_from_ != from || scales_to_ != wanted || chroma_at_ != at) {
+    scaler_.reset(new_scaler(frame, wanted, at));
     if (!scaler_) {
       throw InputError(format("{}: pixels of {} cannot be converted", name, av_get_pix_fmt_name(from)));
     }
     scales_from_ = from;
     scales_to_ = wanted;
-    chroma_at_ = frame.chroma_location;
+    chroma_at_ = at;
   }
   sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, planes, strides);
 }

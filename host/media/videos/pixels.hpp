@@ -38,10 +38,14 @@ struct Upright {
 };
 [[nodiscard]] Upright upright(const AVStream& stream);
 
+// Where nothing says it: to the left, and between two lines, as in H.264 and most that came after it.
+constexpr ChromaPlace kUsualChromaPlace = ChromaPlace::left;
+
 // How YUV becomes RGB.
 struct YuvCoding {
   YuvMatrix matrix = YuvMatrix::bt601;
   CodeRange range = CodeRange::limited;
+  std::optional<ChromaPlace> chroma_at = std::nullopt;  // else where each picture says
 };
 // What is added to luma for each channel, of U and V as shares of their span: how many steps of 8 bits that has in the
 // limited range. Luma has 219.
@@ -55,6 +59,9 @@ struct ChromaWeights {
 // What a stream says of its YUV; none where it does not, or names what is not known here.
 [[nodiscard]] std::optional<YuvMatrix> named_matrix(AVColorSpace space, AVColorPrimaries primaries);
 [[nodiscard]] std::optional<CodeRange> named_range(const AVCodecParameters& codec);
+[[nodiscard]] std::optional<ChromaPlace> named_chroma_place(const AVCodecParameters& codec);
+// Whether each pixel's chroma is made of samples that lie between pixels; that of everyday pixels is what they share.
+[[nodiscard]] bool interpolates_chroma(AVPixelFormat format, const PixelKind& pixels);
 
 class PixelConverter {
  public:
@@ -79,7 +86,7 @@ class PixelConverter {
   YuvCoding coding_;
   ScalerPointer scaler_;
   AVPixelFormat scales_from_ = AV_PIX_FMT_NONE, scales_to_ = AV_PIX_FMT_NONE;
-  AVChromaLocation chroma_at_ = AVCHROMA_LOC_UNSPECIFIED;
+  ChromaPlace chroma_at_ = kUsualChromaPlace;
   FramePointer scaled_;
   FramePointer rgb_;
 };

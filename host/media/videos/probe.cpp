@@ -217,6 +217,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.transfer_name = transfer_name(codec.color_trc);
   result.matrix = named_matrix(codec.color_space, codec.color_primaries);
   result.range = named_range(codec);
+  result.chroma_at = named_chroma_place(codec);
   result.primaries = primaries_of_coding_point(codec.color_primaries);
   result.pixel_aspect = pixel_aspect(opened.format.get(), stream, result.upright);
   if (!result.upright.left_out.empty()) {

@@ -24,6 +24,7 @@ struct Probe {
   std::optional<YuvMatrix> matrix;  // as the file names them
   std::string unread_matrix;        // that it names, and by which nothing here makes RGB
   std::optional<CodeRange> range;
+  std::optional<ChromaPlace> chroma_at;
   std::optional<Primaries> primaries;
   std::optional<Rational> pixel_aspect;  // of pictures that stand upright
   std::string transfer_name;  // that the file has for its function, known here or not; empty: it has none
