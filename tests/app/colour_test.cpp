@@ -117,10 +117,10 @@ TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
   for (const auto& [transfer, share, stops] :
        std::vector<std::array<std::string, 3>>{{"hlg", "26.5", "-2.0"}, {"pq", "2.03", "-5.7"}}) {
     const std::string said = told(transfer, {"x.png"});
-    EXPECT_NE(
-        said.find("note: white is " + share + " % of the light that " + transfer +
-                  " reaches, and 4096 pixels brighter come out white; --ev " + stops + " shows"),
-        std::string::npos)
+    EXPECT_NE(said.find("note: white is " + share + " % of the light that " + transfer +
+                        " reaches, and 4096 pixels brighter come out white; nutik-cl expose --ev " + stops +
+                        " shows"),
+              std::string::npos)
         << said;
     const std::string all = told(transfer, {"--ev", stops, "x.png"});
     EXPECT_EQ(all.find(kSaid), std::string::npos) << all;
@@ -245,6 +245,24 @@ TEST_F(Colour, StandsInTheFile) {
   succeed({"contact", "--every", "1f", "--columns", "1", "clip.tik", "sheet.png"});
   const cv::Mat sheet = cv::imread((scratch_ / "sheet.png").string());
   EXPECT_EQ(sheet.cols, 2 * 12 + std::max(96, static_cast<int>(std::lround(64 * 32.0 / 27))));
+}
+
+// Also of commands that have no --ev themselves.
+TEST_F(Colour, ThatIsCutOffAtWhiteIsNotedWithWhatShowsIt) {
+  NEEDS_FFMPEG();
+  test::make(scratch_,
+             "-f lavfi -i color=white:s=64x48:d=0.2:r=10 -pix_fmt yuv420p10le -color_trc smpte2084 "
+             "-color_primaries bt2020 -colorspace bt2020nc -c:v ffv1 clip.mkv");
+  const auto told = run({"contact", "clip.mkv", "sheet.png"});
+  const std::string start = "come out white; nutik-cl ";
+  const auto at = told.err.find(start);
+  ASSERT_NE(at, std::string::npos) << told.err;
+  std::istringstream advice(told.err.substr(at + start.size()));
+  std::vector<std::string> words(3);
+  for (std::string& word : words) advice >> word;
+  words.insert(words.end(), {"--start", "0f", "--exposure", "1f", "clip.mkv", "shown.png"});
+  const auto shown = run(words);
+  EXPECT_NE(shown.out.find("no pixel saturated"), std::string::npos) << shown.out << shown.err;
 }
 
 TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {

@@ -110,11 +110,11 @@ Json ExposureTally::saturation_json() const {
 std::vector<std::string> ExposureTally::notes() const {
   if (!cut_off_) return {};
   const double white = cut_off_->reference_white();
-  return {
-      format("white is {:.3g} % of the light that {} reaches, and {} brighter come out white; --ev {:.1f} "
-             "shows all that a still scene holds, and an .exr, or a .tif with --depth float, keeps it",
-             100 * white, cut_off_->text(), counted(saturation_.above, "pixel"),
-             std::floor(10 * std::log2(white)) / 10)};
+  return {format(
+      "white is {:.3g} % of the light that {} reaches, and {} brighter come out white; nutik-cl expose "
+      "--ev {:.1f} shows all that a still scene holds, and an .exr, or a .tif with --depth float, keeps it",
+      100 * white, cut_off_->text(), counted(saturation_.above, "pixel"),
+      std::floor(10 * std::log2(white)) / 10)};
 }
 
 void ExposureTally::end(Answer& answer, Session& session, bool verbose, const std::string& rate) const {
