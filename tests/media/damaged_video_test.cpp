@@ -1,6 +1,7 @@
 // Videos that were damaged or cut off: refused, the same pictures, or a note. Decoders hand out pictures all the same.
 #include <gtest/gtest.h>
 
+#include "capture/format.hpp"
 #include "support/ffmpeg.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
@@ -72,6 +73,29 @@ TEST_F(DamagedVideo, WithAHoleIsRefused) {
   ASSERT_LE(read.size(), 15u);
   EXPECT_GE(read.size(), 10u);
   for (std::size_t k = 0; k < read.size(); ++k) EXPECT_TRUE(read[k] == pictures[k]) << k;
+}
+
+// Where no picture comes before a hole it is no hole, and time 0 is that of the first picture behind it.
+TEST_F(DamagedVideo, WithoutItsStartSaysSo) {
+  NEEDS_FFMPEG();
+  make_clip("-c:v ffv1 -level 3 -g 1 -cluster_time_limit 200", "whole.mkv");
+  std::string damaged = test::read_file(scratch_ / "whole.mkv");
+  const auto pictures = read_all(*open_test_clip(scratch_ / "whole.mkv"));
+  const std::string cluster = "\x1F\x43\xB6\x75";
+  const auto first = damaged.find(cluster), later = damaged.find(cluster, damaged.size() / 3);
+  ASSERT_LT(later, damaged.size());
+  damaged.erase(first, later - first);
+  const auto clip = open_test_clip(scratch_.write("damaged.mkv", damaged));
+  const auto read = read_all(*clip);
+  ASSERT_LT(read.size(), pictures.size());
+  const std::size_t missing = pictures.size() - read.size();
+  for (std::size_t k = 0; k < read.size(); ++k) EXPECT_TRUE(read[k] == pictures[k + missing]) << k;
+  ASSERT_EQ(clip->info().notes.size(), 1u);
+  EXPECT_EQ(
+      clip->info().notes[0].text,
+      format("the file lasts {:.4g} s from its start on, and its first picture comes after {:.4g} s: those "
+             "before it were cut off, or cannot be read. Time 0 is that of the first that can",
+             kPictures / 25.0, static_cast<double>(missing) / 25.0));
 }
 
 // As far as it goes: the pictures before the damage, and why there are no more.

@@ -114,20 +114,29 @@ std::optional<double> announced_seconds(const AVFormatContext& file, const AVStr
   return static_cast<double>(file.duration) / AV_TIME_BASE;
 }
 
-// A container that was cut off is often read to its end without a word, which comes too early.
-std::optional<std::string> missing_end_note(const AVFormatContext& file, const AVStream& stream,
-                                            std::int64_t last_end, std::size_t pictures) {
+// A container that was cut off is often read to its end without a word, which comes too early; and where its start is
+// damaged, from the first picture that is found.
+std::optional<std::string> missing_part_note(const AVFormatContext& file, const AVStream& stream,
+                                             std::int64_t last_end, std::size_t pictures) {
   const auto announced = announced_seconds(file, stream);
   if (!announced || last_end == INT64_MIN || pictures < 2) return {};
   const std::int64_t start = stream.start_time == AV_NOPTS_VALUE ? 0 : stream.start_time;
   const double found =
       (static_cast<double>(last_end) - static_cast<double>(start)) * av_q2d(stream.time_base);
   constexpr double kPeriods = 2.5;  // that containers may be off by
-  if (*announced - found <= kPeriods * found / static_cast<double>(pictures)) return {};
+  const double most_off = kPeriods * found / static_cast<double>(pictures);
+  if (*announced - found <= most_off) return {};
+  const double first = static_cast<double>(start) * av_q2d(stream.time_base);
+  if (*announced - first - found <= most_off) {
+    return format(
+        "the file lasts {:.4g} s from its start on, and its first picture comes after {:.4g} s: those before "
+        "it "
+        "were cut off, or cannot be read. Time 0 is that of the first that can",
+        *announced, first);
+  }
   return format(
       "the file says that it lasts {:.4g} s, and its pictures end after {:.4g} s: it was cut off, or damaged "
-      "so "
-      "that some are missing",
+      "so that some are missing",
       *announced, found);
 }
 
@@ -272,7 +281,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
         format("the file is damaged or was cut off behind picture {}: {}", packets.size(), error_text(code)));
   }
   result.sample_count = packets.size();
-  if (auto note = missing_end_note(*opened.format, stream, last_end, packets.size())) {
+  if (auto note = missing_part_note(*opened.format, stream, last_end, packets.size())) {
     result.notes.emplace_back(std::move(*note));
   }
   if (auto note = cut_picture_note(*opened.format, last_byte, packets.size())) {
