@@ -136,7 +136,8 @@ constexpr Option kRows[] = {
      "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip; with -k the "
      "functions' time 0 (default: 0s)"},
     {0, "exposure", "TIME", exposure, kTakesIntervals, &Options::exposure,
-     "length of the plain interval: 10ms, 1/100s, 250us, or 3f, to the end of the third picture"},
+     "length of the plain interval: 10ms, 1/100s, 250us, or 3f: to the end of the third picture where --start "
+     "counts pictures, too, else three periods"},
     {0, "unmapped", "zero", exposure, kTakesFunctions, &Options::unmapped,
      "expose mask values without a function to black (default: an error)", "zero"},
     {0, "live", "all", exposure, kShapesExposures, &Options::live,
