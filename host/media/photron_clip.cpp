@@ -9,6 +9,7 @@
 #include "capture/format.hpp"
 #include "media/extension.hpp"
 #include "media/photron_header.hpp"
+#include "media/settled_fact.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
@@ -145,7 +146,12 @@ class PhotronClip final : public Clip {
     check_size(options.ends_at_damage);
     info_.format.shape = layout_.shape;
     info_.format.code_bytes = layout_.code_bytes();
-    info_.format.white_code = options.white_code.value_or((1u << layout_.depth) - 1);
+    const std::uint32_t white = (1u << layout_.depth) - 1;
+    info_.format.white_code = options.white_code.value_or(white);
+    if (layout_.code_bytes() > 1) {
+      settle_white(info_, options.white_code, white);
+      if (!options.white_code) info_.facts.back().source = header_.file.filename().string();
+    }
     // A sensor's values, of whatever depth.
     describe_stored_codes(info_, options, {Transfer::linear()});
     info_.timing.rate = header_.rate;

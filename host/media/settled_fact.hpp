@@ -1,12 +1,14 @@
 // What is taken where people and files may have said something, and who did: the fact to be told of it.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "capture/fact.hpp"
 #include "capture/format.hpp"
 #include "capture/rational.hpp"
+#include "media/clip.hpp"
 
 namespace nutik {
 
@@ -18,6 +20,20 @@ Value settle(std::vector<Fact>& facts, const std::optional<Value>& stated, const
   const Value value = stated ? *stated : named ? *named : usual;
   facts.push_back({text(value), origin, setting});
   return value;
+}
+
+// The white of codes of 16 bits; `named` where files say how many of these are used.
+inline std::uint32_t settle_white(ClipInfo& info, const std::optional<std::uint32_t>& stated,
+                                  const std::optional<std::uint32_t>& named) {
+  constexpr std::uint32_t kUsual = 65'535;
+  if (!stated && !named) {
+    info.notes.emplace_back(
+        "the files do not say how many of their 16 bits are used: white is taken to be 65535; state "
+        "another, 4095 for 12 bits",
+        std::vector{Setting::white_code});
+  }
+  return settle(info.facts, stated, named, kUsual, Setting::white_code,
+                [](std::uint32_t code) { return format("white {}", code); });
 }
 
 inline std::string pixel_aspect_text(const Rational& aspect) {

@@ -44,11 +44,17 @@ class Facts : public test::ProgramTest {
 
   // `rate`, `pixel aspect`, …, as the options call it.
   static std::string subject_of(const std::string& fact) {
-    const std::vector<std::pair<std::string, std::string>> kWords{
-        {"pictures a second", "fps"}, {"shutter ", "shutter-angle"}, {"transfer ", "transfer"},
-        {"matrix ", "matrix"},        {" range", "range"},           {"chroma at ", "chroma-at"},
-        {"primaries ", "primaries"},  {"pixels", "pixel-aspect"},    {"pictures 0", "to"},
-        {"white ", "white"}};
+    const std::vector<std::pair<std::string, std::string>> kWords{{"pictures a second", "fps"},
+                                                                  {"shutter ", "shutter-angle"},
+                                                                  {"transfer ", "transfer"},
+                                                                  {"matrix ", "matrix"},
+                                                                  {" range", "range"},
+                                                                  {"chroma at ", "chroma-at"},
+                                                                  {"primaries ", "primaries"},
+                                                                  {"pixels", "pixel-aspect"},
+                                                                  {"progressive ", "deinterlace"},
+                                                                  {"pictures 0", "to"},
+                                                                  {"white ", "white"}};
     for (const auto& [word, subject] : kWords) {
       if (fact.find(word) != std::string::npos) return subject;
     }
@@ -99,19 +105,24 @@ const std::vector<Recording>& recordings() {
       {"bulk-water.mov", {}, kVideo, "full range (from the file)"},
       {"diabolo-cm-trajectory.mp4", {}, kVideo, "matrix bt709 (assumed)"},
       {"one-by-one-person-detection.mp4", {}, kVideo, "transfer srgb (assumed: the file names smpte170m)"},
+      {"one-by-one-person-detection.mp4", {}, kVideo, "primaries bt709 (from the file: it names smpte170m)"},
       {"realshort.mp4", {}, kVideo, "matrix bt601 (assumed)"},
-      {"ball_12bit.mraw", {}, {}, "shutter 216 degrees (from ball_12bit.cihx: 20000 ns)"},
-      {"ball_12bit.cihx", {}, {}, "30000 pictures a second (from ball_12bit.cihx)"},
+      {"ball_12bit.mraw", {}, {"white"}, "shutter 216 degrees (from ball_12bit.cihx: 20000 ns)"},
+      {"ball_12bit.cihx", {}, {"white"}, "white 4095 (from ball_12bit.cihx), transfer linear (assumed)"},
+      {"ball_12bit.cihx", {}, {"white"}, "30000 pictures a second (from ball_12bit.cihx)"},
       {"ball_12bit_png",
        {"-f", "30000"},
        {"white"},
        "white is taken to be 65535; state another, 4095 for 12 bits (--white)"},
-      {"cine_781.cine", {}, {}, "transfer linear (assumed)"},
-      {"data_small_cine.cine", {}, {}, "transfer linear (from the file)"},
+      {"cine_781.cine",
+       {},
+       {"white", "deinterlace"},
+       "white 4095 (from the file), transfer linear (assumed)"},
+      {"data_small_cine.cine", {}, {"white", "deinterlace"}, "transfer linear (from the file)"},
       {"stuck.tif", {"-f", "20"}, {"white"}, "white is taken to be 65535"},
       {"sparks_ref_480x270.yuv42010le.yuv",
        {"-f", "24", "--raw", "480x270:yuv420p10le"},
-       {"matrix", "range", "chroma-at", "primaries"},
+       {"matrix", "range", "chroma-at", "primaries", "deinterlace"},
        "24 pictures a second (--fps)"}};
   return kAll;
 }

@@ -225,5 +225,53 @@ TEST(VideoColour, StandsUprightInAllEightDirections) {
   }
 }
 
+// Of grey video of more than 8 bits: what a camera put into 16 is not known.
+TEST(VideoColour, TellsWhatWhiteIsTakenToBe) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  for (const auto& [pixels, line, notes] :
+       {std::tuple("gray12le", "white 4095, from the file", 0u), {"gray16le", "white 65535, assumed", 1u}}) {
+    test::make(scratch, "-f lavfi -i testsrc2=s=32x32:r=25:d=0.1 -c:v ffv1 -pix_fmt " + std::string(pixels) +
+                            " clip.mkv");
+    const auto clip = test::open_test_clip(scratch / "clip.mkv");
+    EXPECT_EQ(test::facts_of(*clip).at(Setting::white_code).line(), line);
+    ASSERT_EQ(clip->info().notes.size(), notes) << pixels;
+    if (notes > 0) EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::white_code});
+  }
+  ClipOptions options;
+  options.white_code = 4095;
+  const auto stated = test::open_test_clip(scratch / "clip.mkv", options);
+  EXPECT_EQ(test::facts_of(*stated).at(Setting::white_code).line(), "white 4095, as stated");
+  EXPECT_TRUE(stated->info().notes.empty());
+}
+
+// Frames are whole where nothing says that they are interlaced; that something says so is no assumption.
+TEST(VideoColour, TellsThatFramesAreAssumedToBeWhole) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const auto facts = [&](const std::string& words) {
+    test::make(scratch, "-f lavfi -i testsrc2=s=32x32:r=25:d=0.1 " + words);
+    return test::facts_of(*test::open_test_clip(scratch / words.substr(words.rfind(' ') + 1)));
+  };
+  EXPECT_EQ(facts("-c:v rawvideo -pix_fmt yuv420p clip.avi").at(Setting::deinterlace).line(),
+            "progressive frames, assumed");
+  EXPECT_FALSE(facts("-c:v ffv1 -pix_fmt yuv420p clip.mkv").contains(Setting::deinterlace));
+}
+
+TEST(VideoColour, TellsWhichPrimariesCountAsOthers) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  for (const auto& [named, line] :
+       {std::pair("smpte170m", "primaries bt709, from the file; it names smpte170m"),
+        {"bt709", "primaries bt709, from the file"},
+        {"smpte432", "primaries p3, from the file"}}) {
+    test::make(scratch,
+               "-f lavfi -i testsrc2=s=32x32:r=25:d=0.1 -c:v ffv1 -pix_fmt yuv420p -color_primaries " +
+                   std::string(named) + " clip.mkv");
+    EXPECT_EQ(test::facts_of(*test::open_test_clip(scratch / "clip.mkv")).at(Setting::primaries).line(),
+              line);
+  }
+}
+
 }  // namespace
 }  // namespace nutik

@@ -16,8 +16,8 @@ About subject_of(const Fact& fact) {
     case Setting::to:
     case Setting::crop:
     case Setting::deflicker:
-    case Setting::deinterlace:
     case Setting::scale: return About::part;
+    case Setting::deinterlace: return fact.origin == Origin::assumed ? About::colour : About::part;
     default: return About::colour;
   }
 }

@@ -226,21 +226,13 @@ class StillClip final : public Clip {
     if (first_.code_bytes == 1) {
       capture.white_code = options.white_code.value_or(first_.maximum.value_or(255));
     } else {
-      capture.white_code =
-          settle(info_.facts, options.white_code, first_.maximum, std::uint32_t{65'535}, Setting::white_code,
-                 [](std::uint32_t code) { return format("white {}", code); });
+      capture.white_code = settle_white(info_, options.white_code, first_.maximum);
     }
     const bool is_developed = is_raw(pages_.front().file);
     describe_stored_codes(info_, options,
                           {usual_transfer(first_), first_.transfer, first_.primaries, first_.colours_from,
                            first_.unread_transfer, first_.unread_primaries, first_.pixel_aspect});
     add_unread_colours(options);
-    if (capture.code_bytes == 2 && !first_.maximum && !options.white_code) {
-      info_.notes.emplace_back(
-          "the files do not say how many of their 16 bits are used: white is taken to be 65535; state "
-          "another, 4095 for 12 bits",
-          std::vector{Setting::white_code});
-    }
     if (is_developed && pages_.size() > 1) {
       info_.notes.emplace_back(
           format("black level, white balance and colours of all pictures are those that {} states",

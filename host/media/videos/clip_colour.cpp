@@ -35,9 +35,15 @@ YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::
           options.range.value_or(probe.range.value_or(CodeRange::limited)), options.chroma_at};
 }
 
-void describe(CaptureFormat& capture, std::vector<Fact>& facts, const Probe& probe,
-              const ClipOptions& options) {
+void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
   const PixelKind& pixels = probe.pixels;
+  CaptureFormat& capture = info.format;
+  std::vector<Fact>& facts = info.facts;
+  if (pixels.is_grey && pixels.bits > 8) {
+    const bool fills_its_bits = pixels.bits == 16;
+    settle_white(info, options.white_code,
+                 fills_its_bits ? std::nullopt : std::optional(pixels.white_code()));
+  }
   // Deep grey pictures, and those of 16 bits, come from scientific cameras, which are linear; other deep colour from
   // film cameras.
   const bool is_scientific = pixels.bits > 8 && (pixels.is_grey || pixels.bits == 16);
@@ -66,6 +72,9 @@ void describe(CaptureFormat& capture, std::vector<Fact>& facts, const Probe& pro
     capture.primaries = settle(
         facts, options.primaries, probe.primaries, is_wide ? Primaries::bt2020 : Primaries::bt709,
         Setting::primaries, [](Primaries primaries) { return format("primaries {}", to_text(primaries)); });
+    if (facts.back().origin == Origin::file && !probe.near_primaries.empty()) {
+      facts.back().remark = format("it names {}", probe.near_primaries);
+    }
   }
   capture.pixel_aspect = settle(facts, options.pixel_aspect, probe.pixel_aspect, Rational{1, 1},
                                 Setting::pixel_aspect, pixel_aspect_text);

@@ -1,9 +1,8 @@
 // What a video's codes are taken for: as stated, else as the file says, else as most such files are.
 #pragma once
 
-#include <vector>
+#include <string>
 
-#include "capture/fact.hpp"
 #include "media/clip.hpp"
 #include "media/videos/pixels.hpp"
 #include "media/videos/probe.hpp"
@@ -15,8 +14,8 @@ namespace nutik::videos {
 // that is known here.
 [[nodiscard]] YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::string& name);
 
-// Transfer function, primaries and pixel aspect of the capture; facts on these, and on matrix and range of YUV.
-void describe(CaptureFormat& capture, std::vector<Fact>& facts, const Probe& probe,
-              const ClipOptions& options);
+// Transfer function, primaries and pixel aspect of the capture, whose white code is known; facts on all of these, and on
+// matrix, range and chroma of YUV.
+void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options);
 
 }  // namespace nutik::videos

@@ -61,7 +61,7 @@ class LibavClip final : public Clip {
     const AVCodecParameters& parameters = *decoder_.stream().codecpar;
     info_.decoder_bytes = (static_cast<std::uint64_t>(decoder_.threads()) + kept_pictures(parameters)) *
                           decoded_bytes(parameters);
-    describe(capture, info_.facts, probe, options);
+    describe(info_, probe, options);
     settle_fields(options.interlaced);
   }
 
@@ -112,6 +112,8 @@ class LibavClip final : public Clip {
       if (auto doubt = doubt_about_fields(fields_.has_value()))
         info_.notes.emplace_back(std::move(*doubt), std::vector{Setting::deinterlace});
     }
+    if (wish == Interlaced::refused && !is_told_)
+      info_.facts.push_back({"progressive frames", Origin::assumed, Setting::deinterlace});
     if (wish == Interlaced::ignored) {
       info_.facts.push_back({fields_ ? "interlaced frames as they are" : "frames as they are", Origin::stated,
                              Setting::deinterlace});

@@ -228,6 +228,8 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.range = named_range(codec);
   result.chroma_at = named_chroma_place(codec);
   result.primaries = primaries_of_coding_point(codec.color_primaries);
+  if (result.primaries == Primaries::bt709 && codec.color_primaries != AVCOL_PRI_BT709)
+    result.near_primaries = av_color_primaries_name(codec.color_primaries);
   result.pixel_aspect = pixel_aspect(opened.format.get(), stream, result.upright);
   if (!result.upright.left_out.empty()) {
     result.notes.emplace_back(

@@ -26,6 +26,7 @@ struct Probe {
   std::optional<CodeRange> range;
   std::optional<ChromaPlace> chroma_at;
   std::optional<Primaries> primaries;
+  std::string near_primaries;            // that the file names and that count as these; empty: it names these
   std::optional<Rational> pixel_aspect;  // of pictures that stand upright
   std::string transfer_name;  // that the file has for its function, known here or not; empty: it has none
   ClipTiming timing;
