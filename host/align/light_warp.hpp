@@ -29,20 +29,18 @@ class LightWarp {
   // On all cores. Throws CodeAboveWhite.
   void take(std::span<const std::byte> raster, const Warp& warp, std::span<std::byte> warped);
 
-  [[nodiscard]] static std::uint64_t bytes(const CaptureFormat& format) {
-    return format.shape.value_count() * sizeof(float);
-  }
+  [[nodiscard]] static std::uint64_t bytes(const CaptureFormat& format);
 
  private:
   template <typename Code>
   void read_light(const Code* raster);
-  template <typename Code>
+  template <typename Light, typename Code>
   void write_row(const Warp& warp, std::uint32_t row, Code* warped) const;
 
   CaptureFormat format_;
   Rectangle area_;
   LightCodes codes_;
-  std::vector<float> light_;  // of the raster
+  std::vector<float> light_;  // of the raster, pixel by pixel
 };
 
 }  // namespace nutik

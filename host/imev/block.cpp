@@ -6,6 +6,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "imev/sample_cursor.hpp"
 #include "system/parallel.hpp"
 
 namespace nutik {
@@ -180,44 +181,17 @@ void BlockView::read_history(std::uint64_t tile, std::uint32_t lane,
     }
     return;
   }
-  const std::uint64_t list_bytes = geometry_.row_index_bytes(at.rows());
-  std::uint32_t before = 0;
-  for (std::uint32_t row = 0; row < at.rows(); ++row) {
-    const std::uint32_t sample = row_sample(tile, row, before);
-    before = sample;
-    const ChangeRecord record = record_at(sample, bytes + list_bytes + row * geometry_.row_bytes(), lane);
+  for_each_row(tile, [&](std::uint32_t sample, std::uint32_t, const std::byte* codes) {
+    const ChangeRecord record = record_at(sample, codes, lane);
     if (history.empty() || history.back().codes != record.codes) history.push_back(record);
-  }
+  });
 }
 
 void BlockView::read_sample(std::uint32_t sample, std::span<std::byte> raster) const {
-  const TileGrid grid(shape_);
-  std::vector<ChangeRecord> history;
-  for (std::uint64_t tile = 0; tile < geometry_.tile_count; ++tile) {
-    const TileEntry at = entry(tile);
-    const std::byte* row_codes = nullptr;  // of the row that all pixels of the tile hold, where it has rows
-    for (std::uint32_t row = 0, before = 0; !at.is_records() && row < at.rows(); ++row) {
-      before = row_sample(tile, row, before);
-      if (before > sample) continue;
-      row_codes = body(tile).data() + geometry_.row_index_bytes(at.rows()) + row * geometry_.row_bytes();
-    }
-    grid.for_each_lane(tile, [&](std::uint32_t lane, std::uint64_t pixel) {
-      ChangeRecord held;
-      if (row_codes != nullptr) {
-        held = record_at(sample, row_codes, lane);
-      } else {
-        read_history(tile, lane, history);
-        held = *(std::upper_bound(
-                     history.begin(), history.end(), sample,
-                     [](std::uint32_t time, const ChangeRecord& record) { return time < record.sample; }) -
-                 1);
-      }
-      for (std::uint32_t channel = 0; channel < geometry_.channels; ++channel) {
-        std::byte* to = raster.data() + (pixel * geometry_.channels + channel) * geometry_.code_bytes;
-        std::memcpy(to, &held.codes[channel], geometry_.code_bytes);  // little-endian hosts
-      }
-    });
-  }
+  check_samples(0, geometry_.tile_count);
+  SampleCursor cursor(shape_, *this);
+  cursor.go_to(sample);
+  cursor.read(raster);
 }
 
 }  // namespace nutik

@@ -156,6 +156,21 @@ class BlockView {
   // those of the block and strictly increase; throws InputError where the payload's do not.
   void read_history(std::uint64_t tile, std::uint32_t lane, std::vector<ChangeRecord>& history) const;
 
+  // The rows of a tile that has some: calls visit(first, until, codes) for each, whose codes [C][64] all of its pixels
+  // hold from one sample of the block until before another. Throws as read_history() does.
+  template <typename Visit>
+  void for_each_row(std::uint64_t tile, Visit visit) const {
+    const TileEntry at = entry(tile);
+    const std::byte* const codes = body(tile).data() + geometry_.row_index_bytes(at.rows());
+    std::uint32_t first = row_sample(tile, 0, 0);
+    for (std::uint32_t row = 0; row < at.rows(); ++row) {
+      const std::uint32_t until =
+          row + 1 < at.rows() ? row_sample(tile, row + 1, first) : geometry_.sample_count;
+      visit(first, until, codes + row * geometry_.row_bytes());
+      first = until;
+    }
+  }
+
   // The codes held at a sample of the block, as an interleaved raster of CaptureFormat::sample_bytes().
   // Throws as read_history() does.
   void read_sample(std::uint32_t sample, std::span<std::byte> raster) const;

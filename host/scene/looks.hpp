@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <vector>
+#include <span>
 
 #include "imev/each_block.hpp"
+#include "imev/sample_cursor.hpp"
 
 namespace nutik {
 
@@ -13,8 +14,8 @@ class Looks {
  public:
   static constexpr std::uint64_t kMost = 256;
 
-  explicit Looks(std::uint64_t sample_count)
-      : samples_(sample_count), count_(std::min(sample_count, kMost)) {}
+  explicit Looks(std::uint64_t sample_count, std::uint64_t most = kMost)
+      : samples_(sample_count), count_(std::min(sample_count, most)) {}
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   // Increasing, from 0 on.
@@ -28,15 +29,23 @@ class Looks {
   std::uint64_t samples_, count_;
 };
 
-// Calls visit(look, raster) for each, in time order. Throws InputError where the capture is damaged.
+// A sample that is looked at.
+struct Look {
+  std::uint64_t number;
+  const SampleCursor& held;                // there
+  std::span<const std::uint32_t> changed;  // tiles that may hold others than at the look before
+};
+
+// Calls visit(Look) for each, in time order. Throws InputError where the capture is damaged.
 template <typename Visit>
 void for_each_look(CaptureSource& capture, const Looks& looks, Visit visit) {
-  std::vector<std::byte> raster(capture.format().sample_bytes());
   std::uint64_t look = 0;
   for_each_block(capture, [&](const BlockView& block) {
+    SampleCursor cursor(capture.format().shape, block);
     for (; look < looks.count() && looks.sample(look) < block.extent().range().last; ++look) {
-      block.read_sample(static_cast<std::uint32_t>(looks.sample(look) - block.extent().first_sample), raster);
-      visit(look, std::span<const std::byte>(raster));
+      const auto changed =
+          cursor.go_to(static_cast<std::uint32_t>(looks.sample(look) - block.extent().first_sample));
+      visit(Look{look, cursor, changed});
     }
   });
 }

@@ -41,27 +41,21 @@ PlaceTimes::PlaceTimes(CaptureSource& capture, const Region& uncertain, const Co
   }
   starts_ns_.push_back(timeline_.duration_ns());
 
-  const auto [width, height, channels] = capture.format().shape;
-  const std::uint32_t code_bytes = capture.format().code_bytes;
+  const std::uint32_t channels = capture.format().shape.channels;
   const std::vector<std::vector<Spot>> places = spots_of_places(uncertain);
   std::vector<std::vector<std::uint16_t>> bins(places.size());
-  for_each_look(capture, looks_,
-                [&, width = width, channels = channels](std::uint64_t, std::span<const std::byte> raster) {
-                  for (std::size_t place = 0; place < places.size(); ++place) {
-                    for (const Spot& spot : places[place]) {
-                      const std::uint64_t value = (std::uint64_t{spot.y} * width + spot.x) * channels;
-                      for (std::uint32_t channel = 0; channel < channels; ++channel) {
-                        const std::uint32_t code =
-                            code_bytes == 1
-                                ? std::to_integer<std::uint32_t>(raster[value + channel])
-                                : reinterpret_cast<const std::uint16_t*>(raster.data())[value + channel];
-                        bins[place].push_back(static_cast<std::uint16_t>(band.bin(channel, code)));
-                      }
-                    }
-                  }
-                });
+  for_each_look(capture, looks_, [&](const Look& look) {
+    for (std::size_t place = 0; place < places.size(); ++place) {
+      for (const Spot& spot : places[place]) {
+        for (std::uint32_t channel = 0; channel < channels; ++channel) {
+          const std::uint32_t code = look.held.code(spot.x, spot.y, channel);
+          bins[place].push_back(static_cast<std::uint16_t>(band.bin(channel, code)));
+        }
+      }
+    }
+  });
   clocks_.resize(places.size());
-  parallel_for(places.size(), [&, channels = channels](std::uint64_t place) {
+  parallel_for(places.size(), [&](std::uint64_t place) {
     clocks_[place] = clock_of(bins[place], channels, band.window() / 2);
   });
 }

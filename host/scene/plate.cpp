@@ -6,16 +6,11 @@
 #include <vector>
 
 #include "scene/place_times.hpp"
+#include "scene/tile_history.hpp"
 #include "system/parallel.hpp"
 
 namespace nutik {
 namespace {
-
-// The codes of a pixel from a sample on, and for how long.
-struct HeldCodes {
-  std::array<std::uint16_t, 3> codes{};
-  std::uint64_t duration_ns = 0;
-};
 
 // Finds the light that pixels hold longest, one pixel after another.
 class LongestHeld {
@@ -118,53 +113,100 @@ class PlateMaker {
 
  private:
   void make_row(const std::vector<BlockView>& blocks, std::uint32_t tile_row) {
-    const Shape& shape = capture_.format().shape;
-    LongestHeld longest(band_, shape.channels);
+    if (times_) {
+      make_uncertain(blocks, tile_row);
+    } else if (capture_.format().code_bytes == 1) {
+      make_tiles<std::uint8_t>(blocks, tile_row);
+    } else {
+      make_tiles<std::uint16_t>(blocks, tile_row);
+    }
+  }
+
+  // Where all codes of a pixel count as one light, it is the mean of all.
+  template <typename Code>
+  void make_tiles(const std::vector<BlockView>& blocks, std::uint32_t tile_row) {
+    LongestHeld longest(band_, channels());
+    TileHistory<Code> history(blocks, starts_ns_);
+    typename TileHistory<Code>::Codes least, most;
+    typename TileHistory<Code>::Light sums;
+    std::vector<HeldCodes> held;
+    const auto all_ns = static_cast<std::uint64_t>(starts_ns_.back());
+    for (std::uint32_t column = 0; column < grid_.columns(); ++column) {
+      const std::uint64_t tile = std::uint64_t{tile_row} * grid_.columns() + column;
+      history.read(tile);
+      history.find_span(least, most);
+      const auto is_one_light = [&](std::uint32_t lane) {
+        for (std::uint32_t i = lane; i < channels() * kTilePixels; i += kTilePixels) {
+          const std::uint32_t channel = i / kTilePixels;
+          if (band_.bin(channel, most[i]) - band_.bin(channel, least[i]) >= band_.window()) return false;
+        }
+        return true;
+      };
+      sums.fill(0);
+      bool has_sums = false;
+      grid_.for_each_lane(tile, [&](std::uint32_t lane, std::uint64_t pixel) {
+        if (is_one_light(lane)) {
+          if (!has_sums) history.add_light(light_of_code_, sums);
+          has_sums = true;
+          for (std::uint32_t channel = 0; channel < channels(); ++channel) {
+            light_of(pixel)[channel] = sums[channel * kTilePixels + lane] / static_cast<double>(all_ns);
+          }
+        } else {
+          history.read_lane(lane, held);
+          const std::uint64_t duration_ns = longest.keep_longest(held);
+          set(pixel, held, duration_ns);
+          plate_.uncertain.inside[pixel] = 2 * duration_ns < all_ns;
+        }
+      });
+    }
+  }
+
+  void make_uncertain(const std::vector<BlockView>& blocks, std::uint32_t tile_row) {
+    LongestHeld longest(band_, channels());
     std::vector<ChangeRecord> history;
     std::vector<HeldCodes> held;
+    const Shape& shape = capture_.format().shape;
     const std::uint32_t bottom = std::min(shape.height, (tile_row + 1) * kTileSide);
     for (std::uint32_t x = 0; x < shape.width; ++x) {
       for (std::uint32_t y = tile_row * kTileSide; y < bottom; ++y) {
         const std::uint64_t pixel = std::uint64_t{y} * shape.width + x;
-        if (times_ && plate_.uncertain.inside[pixel] == 0) continue;
+        if (plate_.uncertain.inside[pixel] == 0) continue;
         held.clear();
         for (const BlockView& block : blocks) {
           block.read_history(grid_.tile_of(x, y), TileGrid::lane_of(x, y), history);
           add(block.extent(), history, x, y, held);
         }
-        const std::uint64_t duration = longest.keep_longest(held);
-        set(pixel, held, duration);
+        const std::uint64_t duration_ns = longest.keep_longest(held);
+        set(pixel, held, duration_ns);
       }
     }
   }
 
+  // What was held while the place's clock ran.
   void add(const BlockExtent& extent, const std::vector<ChangeRecord>& history, std::uint32_t x,
            std::uint32_t y, std::vector<HeldCodes>& held) const {
-    const auto time_ns = [&](std::uint32_t sample) {
-      return times_ ? times_->clock_ns(x, y, extent.first_sample + sample)
-                    : starts_ns_[extent.first_sample + sample];
-    };
     for (std::size_t r = 0; r < history.size(); ++r) {
       const std::uint32_t until = r + 1 < history.size() ? history[r + 1].sample : extent.sample_count;
-      const std::int64_t held_ns = time_ns(until) - time_ns(history[r].sample);
+      const std::int64_t held_ns = times_->clock_ns(x, y, extent.first_sample + until) -
+                                   times_->clock_ns(x, y, extent.first_sample + history[r].sample);
       if (held_ns > 0) held.push_back({history[r].codes, static_cast<std::uint64_t>(held_ns)});
     }
   }
 
   // The mean of what was held as one light.
   void set(std::uint64_t pixel, const std::vector<HeldCodes>& held, std::uint64_t duration_ns) {
-    const std::uint32_t channels = plate_.light.shape.channels;
-    const auto light = plate_.light.values<double>().subspan(pixel * channels, channels);
-    for (std::uint32_t channel = 0; channel < channels; ++channel) {
+    for (std::uint32_t channel = 0; channel < channels(); ++channel) {
       double sum = 0;
       for (const HeldCodes& each : held) {
         sum += light_of_code_[each.codes[channel]] * static_cast<double>(each.duration_ns);
       }
-      light[channel] = sum / static_cast<double>(duration_ns);
+      light_of(pixel)[channel] = sum / static_cast<double>(duration_ns);
     }
-    if (!times_) {
-      plate_.uncertain.inside[pixel] = 2 * duration_ns < static_cast<std::uint64_t>(starts_ns_.back());
-    }
+  }
+
+  [[nodiscard]] std::uint32_t channels() const { return plate_.light.shape.channels; }
+  [[nodiscard]] std::span<double> light_of(std::uint64_t pixel) {
+    return plate_.light.values<double>().subspan(pixel * channels(), channels());
   }
 
   CaptureSource& capture_;

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "imev/each_block.hpp"
+#include "scene/looks.hpp"
+#include "scene/thin_raster.hpp"
 
 namespace nutik {
 namespace {
@@ -16,29 +17,33 @@ constexpr double kMostBeside = 0.6;        // of that, from each of the two pict
 
 using Means = std::vector<float>;
 
-// Means of channels over cells, as shares of white; of every third row, for all take long.
+// Of large cells 64 pixels are looked at, or more.
+std::uint32_t step_of(const Shape& shape) {
+  return std::max((std::max(shape.width, shape.height) - 1) / kMostCellsToASide / 8, 1u);
+}
+
+// Means of channels over cells, as shares of white.
 template <typename Code>
-Means means_of(const CaptureFormat& capture, const Code* codes) {
-  const auto [width, height, channels] = capture.shape;
+Means means_of(const CaptureFormat& format, std::span<const std::byte> raster) {
+  const auto [width, height, channels] = format.shape;
+  const auto* codes = reinterpret_cast<const Code*>(raster.data());
   const std::uint32_t side = (std::max(width, height) - 1) / kMostCellsToASide + 1;
   const std::uint32_t columns = (width - 1) / side + 1, rows = (height - 1) / side + 1;
-  const std::uint32_t step = side >= 6 ? 3 : 1;
-  std::vector<double> sums(std::size_t{columns} * rows * channels);
+  std::vector<std::uint64_t> sums(std::size_t{columns} * rows * channels);
   std::vector<std::uint32_t> counts(std::size_t{columns} * rows);
-  for (std::uint32_t y = 0; y < height; y += step) {
-    const Code* code = codes + std::size_t{y} * width * channels;
+  for (std::uint32_t y = 0; y < height; ++y) {
     const std::size_t row = std::size_t{y / side} * columns;
     for (std::uint32_t x = 0; x < width; ++x) {
       const std::size_t cell = row + x / side;
       ++counts[cell];
       for (std::uint32_t channel = 0; channel < channels; ++channel)
-        sums[cell * channels + channel] += *code++;
+        sums[cell * channels + channel] += *codes++;
     }
   }
   Means means;
   for (std::size_t i = 0; i < sums.size(); ++i) {
-    means.push_back(static_cast<float>(
-        sums[i] / (static_cast<double>(capture.white_code) * std::max(counts[i / channels], 1u))));
+    means.push_back(static_cast<float>(static_cast<double>(sums[i]) /
+                                       (static_cast<double>(format.white_code) * counts[i / channels])));
   }
   return means;
 }
@@ -82,20 +87,17 @@ double step_between(const Means& a, const Means& b, std::uint32_t channels) {
 std::vector<SampleRange> shots_of(CaptureSource& capture) {
   const CaptureFormat& format = capture.format();
   const std::uint64_t count = capture.timeline().sample_count();
-  std::vector<std::byte> raster(format.sample_bytes());
+  ThinRaster thin(format, step_of(format.shape));
   Means before, last;
   std::vector<double> steps{0}, double_steps{0};  // from one sample, and from two, before each
-  for_each_block(capture, [&](const BlockView& block) {
-    for (std::uint32_t k = 0; k < block.extent().sample_count; ++k) {
-      block.read_sample(k, raster);
-      Means means = format.code_bytes == 1
-                        ? means_of(format, reinterpret_cast<const std::uint8_t*>(raster.data()))
-                        : means_of(format, reinterpret_cast<const std::uint16_t*>(raster.data()));
-      if (!last.empty()) steps.push_back(step_between(means, last, format.shape.channels));
-      if (!before.empty()) double_steps.push_back(step_between(means, before, format.shape.channels));
-      before = std::move(last);
-      last = std::move(means);
-    }
+  for_each_look(capture, Looks(count, count), [&](const Look& look) {
+    thin.take(look.held, look.changed);
+    Means means = format.code_bytes == 1 ? means_of<std::uint8_t>(thin.format(), thin.raster())
+                                         : means_of<std::uint16_t>(thin.format(), thin.raster());
+    if (!last.empty()) steps.push_back(step_between(means, last, format.shape.channels));
+    if (!before.empty()) double_steps.push_back(step_between(means, before, format.shape.channels));
+    before = std::move(last);
+    last = std::move(means);
   });
   std::vector<SampleRange> shots;
   std::uint64_t first = 0;

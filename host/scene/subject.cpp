@@ -2,78 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <iterator>
 #include <utility>
 
+#include "scene/differing_cells.hpp"
 #include "scene/looks.hpp"
 
 namespace nutik {
 namespace {
 
-constexpr std::uint32_t kMostCellsToASide = 480;
 constexpr std::uint64_t kLeastCells = 6;  // fewer are noise
-
-// Cells that differ from the plate, in half of their pixels or more; and by how much all do, in shares of white.
-struct DifferingCells {
-  Region region;
-  std::vector<float> contrast;
-};
-
-class Difference {
- public:
-  Difference(const CaptureFormat& capture, const Picture& plate, std::uint32_t by_codes)
-      : capture_(capture),
-        plate_(plate),
-        by_codes_(by_codes),
-        side_((std::max(capture.shape.width, capture.shape.height) - 1) / kMostCellsToASide + 1),
-        columns_((capture.shape.width + side_ - 1) / side_),
-        rows_((capture.shape.height + side_ - 1) / side_) {}
-
-  [[nodiscard]] std::uint32_t side() const { return side_; }
-
-  [[nodiscard]] DifferingCells cells(std::span<const std::byte> raster) const {
-    return capture_.code_bytes == 1 ? cells(reinterpret_cast<const std::uint8_t*>(raster.data()))
-                                    : cells(reinterpret_cast<const std::uint16_t*>(raster.data()));
-  }
-
- private:
-  template <typename Code>
-  [[nodiscard]] DifferingCells cells(const Code* codes) const {
-    const auto [width, height, channels] = capture_.shape;
-    const Code* plate = plate_.values<Code>().data();
-    std::vector<std::uint32_t> counts(std::size_t{columns_} * rows_);
-    std::vector<std::uint64_t> sums(counts.size());
-    for (std::uint32_t y = 0; y < height; ++y) {
-      const std::size_t row = std::size_t{y / side_} * columns_;
-      for (std::uint32_t x = 0; x < width; ++x) {
-        std::uint32_t most = 0;
-        for (std::uint32_t channel = 0; channel < channels; ++channel, ++codes, ++plate) {
-          most = std::max(most, static_cast<std::uint32_t>(std::abs(int{*codes} - int{*plate})));
-        }
-        counts[row + x / side_] += most > by_codes_ ? 1 : 0;
-        sums[row + x / side_] += most;
-      }
-    }
-    DifferingCells cells{Region::none(columns_, rows_), std::vector<float>(counts.size())};
-    for (std::uint32_t row = 0; row < rows_; ++row) {
-      const std::uint32_t high = std::min(side_, height - row * side_);
-      for (std::uint32_t column = 0; column < columns_; ++column) {
-        const std::uint32_t wide = std::min(side_, width - column * side_);
-        const std::size_t cell = std::size_t{row} * columns_ + column;
-        cells.region.inside[cell] = 2 * counts[cell] >= wide * high;
-        cells.contrast[cell] = static_cast<float>(static_cast<double>(sums[cell]) /
-                                                  (static_cast<double>(wide) * high * capture_.white_code));
-      }
-    }
-    return cells;
-  }
-
-  const CaptureFormat& capture_;
-  const Picture& plate_;
-  std::uint32_t by_codes_, side_, columns_, rows_;
-};
 
 // What hangs together at one sample.
 SubjectPlace place_of(std::vector<std::size_t> cells, std::uint64_t sample, const DifferingCells& differing,
@@ -280,11 +219,12 @@ class Tracker {
     bottom_ = (region.y + region.height - 1) / side;
   }
 
-  void add(DifferingCells cells, std::uint64_t sample) {
-    const std::uint32_t columns = cells.region.width;
-    for (std::size_t cell = 0; cell < cells.region.inside.size(); ++cell) {
-      const std::size_t column = cell % columns, row = cell / columns;
-      if (column < left_ || column > right_ || row < top_ || row > bottom_) cells.region.inside[cell] = 0;
+  void add(const DifferingCells& all, std::uint64_t sample) {
+    const std::uint32_t columns = all.region.width;
+    DifferingCells cells{Region::none(columns, all.region.height), all.contrast};
+    for (std::size_t row = top_; row <= bottom_; ++row) {
+      const auto first = static_cast<std::ptrdiff_t>(row * columns + left_);
+      std::copy_n(all.region.inside.begin() + first, right_ - left_ + 1, cells.region.inside.begin() + first);
     }
     track_.looked_at.push_back(sample);
     track_.cell_columns = columns;
@@ -354,15 +294,15 @@ std::vector<SubjectTrack> track_subjects(CaptureSource& capture, const Picture& 
                                          const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
   const CaptureFormat& format = capture.format();
   const Looks looks(capture.timeline().sample_count());
-  const Difference difference(format, plate, by_codes);
+  Difference difference(format, plate, by_codes);
   std::vector<Tracker> trackers;
   for (const Rectangle& region : regions) {
     trackers.emplace_back(format.shape, difference.side(), region, looks.count());
   }
-  for_each_look(capture, looks, [&](std::uint64_t look, std::span<const std::byte> raster) {
-    if (progress) progress(look, looks.count());
-    const DifferingCells cells = difference.cells(raster);
-    for (Tracker& tracker : trackers) tracker.add(cells, looks.sample(look));
+  for_each_look(capture, looks, [&](const Look& look) {
+    if (progress) progress(look.number, looks.count());
+    const DifferingCells& cells = difference.at(look);
+    for (Tracker& tracker : trackers) tracker.add(cells, looks.sample(look.number));
   });
   std::vector<SubjectTrack> tracks;
   for (Tracker& tracker : trackers) tracks.push_back(std::move(tracker).track());

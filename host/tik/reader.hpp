@@ -1,6 +1,7 @@
 // Reads a .tik file: maps it, checks what it says of itself, and hands out its blocks.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
@@ -76,6 +77,7 @@ class Reader final : public CaptureSource {
                                     const LeaseTerms& terms) const;
   [[nodiscard]] BlockLease take_preloaded(std::uint64_t block);
   // Checksums, and of a block that is not packed the payload.
+  // Once for each block: check_mapped_files() tells where the file was written to since.
   void check(std::uint64_t block, const BlockHeader& header) const;
   // Whether all is well with a payload as check() looks at it, in one pass.
   [[nodiscard]] bool is_right(std::uint64_t block, const BlockHeader& header,
@@ -98,6 +100,7 @@ class Reader final : public CaptureSource {
 
   std::string name_;
   MappedFile file_;
+  mutable std::vector<std::atomic<bool>> are_right_;  // blocks that were checked
   Header header_;
   std::vector<IndexEntry> index_;
   Timeline timeline_ = Timeline::constant({1, 1}, Timeline::kFullShutter, 0);

@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/capture_source.hpp"
+#include "imev/sample_cursor.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik {
@@ -57,6 +59,40 @@ TEST(Block, HoldsWhatTheDefinitionSays) {
     const Rasters held = held_by_definition(random.capture, random.rasters);
     for (std::uint64_t k = 0; k < held.size(); ++k) {
       ASSERT_EQ(sample_of(capture, k), held[k]) << random.text() << ", sample " << k;
+    }
+  }
+}
+
+// A walk that leaves samples out, and looks at nothing that did not change.
+TEST(SampleCursor, HoldsWhatTheSamplesDo) {
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    const RandomCase random(seed);
+    const MemoryCapture capture = random.encode();
+    const Shape& shape = capture.format().shape;
+    std::vector<std::byte> held(capture.format().sample_bytes()), now(held.size());
+    Random steps(seed);
+    for (std::uint64_t block = 0; block < capture.block_count(); ++block) {
+      const BlockView view = capture.view(block);
+      SampleCursor cursor(shape, view);
+      for (std::uint32_t k = 0; k < view.extent().sample_count;
+           k += static_cast<std::uint32_t>(steps.whole(1, 3))) {
+        const auto changed = cursor.go_to(k);
+        std::vector<std::byte> walked(held.size());
+        cursor.read(walked);
+        view.read_sample(k, now);
+        ASSERT_EQ(walked, now) << random.text() << ", sample " << k;
+        for (std::uint64_t value = 0; k > 0 && value < shape.value_count(); ++value) {
+          if (code_at(capture.format(), held, value) == code_at(capture.format(), now, value)) continue;
+          const std::uint64_t pixel = value / shape.channels;
+          const auto x = static_cast<std::uint32_t>(pixel % shape.width),
+                     y = static_cast<std::uint32_t>(pixel / shape.width);
+          ASSERT_TRUE(std::ranges::binary_search(changed, TileGrid(shape).tile_of(x, y)))
+              << random.text() << ", sample " << k;
+          ASSERT_EQ(cursor.code(x, y, static_cast<std::uint32_t>(value % shape.channels)),
+                    code_at(capture.format(), now, value));
+        }
+        held = now;
+      }
     }
   }
 }

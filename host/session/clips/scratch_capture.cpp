@@ -15,6 +15,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "imev/expected_values.hpp"
 
 namespace nutik {
 namespace {
@@ -88,6 +89,18 @@ class PrivateFolder {
   std::optional<FolderLock> lock_;
 };
 
+// Whether there is plenty of room for a capture that is not packed: it is read many times, and kept for no longer than
+// that. A packed one is quick to unpack.
+bool has_room_for(const ClipSource& clip, const fs::path& folder) {
+  constexpr double kMostOfRoom = 0.25;
+  std::error_code error;
+  const fs::space_info space = fs::space(folder, error);
+  const std::uint64_t samples = clip.announced_samples();
+  return !error && samples > 0 &&
+         static_cast<double>(samples) * static_cast<double>(held_format(clip.capture).sample_bytes()) <=
+             kMostOfRoom * static_cast<double>(space.available);
+}
+
 }  // namespace
 
 ScratchCapture encode_to_scratch(const SourceRequest& source, const MemoryBudget& memory,
@@ -98,8 +111,9 @@ ScratchCapture encode_to_scratch(const SourceRequest& source, const MemoryBudget
       open_clip_source(source, memory, twofold.finding, stop);  // before a folder is made for it
   const ClipMemory shares = memory_for_encoding(memory, clip.clip_to_read(), rendering(clip.capture));
   const PrivateFolder folder;
-  // Quick to unpack: it is read many times and kept for no longer than that.
-  const EncodeRequest request{folder.path() / "capture.tik", {tik::CodecId::lz4, 0}, OutputFile::Lasting::no};
+  const EncodeRequest request{folder.path() / "capture.tik",
+                              {has_room_for(clip, folder.path()) ? tik::CodecId::none : tik::CodecId::lz4, 0},
+                              OutputFile::Lasting::no};
   EncodedCapture encoded = encode(std::move(clip), request, shares, twofold.reading, std::move(stop));
   return {std::make_unique<tik::Reader>(request.output), std::move(encoded)};
 }

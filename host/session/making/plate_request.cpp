@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/each_block.hpp"
+#include "imev/sample_cursor.hpp"
 #include "noise/noise_estimator.hpp"
 #include "render/code_scale.hpp"
 #include "scene/plate.hpp"
+#include "scene/thin_raster.hpp"
 #include "session/clips/camera_check.hpp"
 #include "session/making/mask_making.hpp"
 
@@ -18,26 +22,36 @@ namespace {
 
 // Samples that the noise is measured on: several windows of the estimator, in the middle of the capture.
 constexpr std::uint64_t kMeasuredSamples = 4 * kWindowSamples;
+constexpr std::uint64_t kMeasuredPixels = 128 * 1024;  // or fewer, spread over the picture
 
 // The noise that a capture holds; none where nothing tells it: all of it moves, or is black.
 std::optional<CameraNoise> noise_of(CaptureSource& capture) {
+  const CaptureFormat& format = capture.format();
   const std::uint64_t count = capture.timeline().sample_count();
   std::uint64_t sample = (count - std::min(count, kMeasuredSamples)) / 2;
-  std::uint64_t block = 0;
-  BlockCursor cursor(capture);
-  std::optional<BlockView> view;
-  NoiseEstimator estimator(capture.format());
+  const Shape& shape = format.shape;
+  std::uint32_t step = 1;
+  while ((shape.width / step + 1) * std::uint64_t{shape.height / step + 1} > kMeasuredPixels) ++step;
+  ThinRaster thin(format, step);
+  NoiseEstimator estimator(thin.format());
+  BlockCursor blocks(capture);
+  std::optional<BlockView> block;
+  std::optional<SampleCursor> samples;
+  std::uint64_t next_block = 0;
   try {
     estimator.add_clip(
         "the capture",
         [&](std::span<std::byte> raster) {
           if (sample == count) return false;
-          while (capture.block_extent(block).range().last <= sample) {
-            ++block;
-            view.reset();
+          while (!block || block->extent().range().last <= sample) {
+            if (capture.block_extent(next_block++).range().last <= sample) continue;
+            samples.reset();
+            block.emplace(blocks.at(next_block - 1));
+            samples.emplace(shape, *block);
           }
-          if (!view) view.emplace(cursor.at(block));
-          view->read_sample(static_cast<std::uint32_t>(sample++ - view->extent().first_sample), raster);
+          thin.take(*samples,
+                    samples->go_to(static_cast<std::uint32_t>(sample++ - block->extent().first_sample)));
+          std::ranges::copy(thin.raster(), raster.begin());
           return true;
         },
         kMeasuredSamples);
@@ -51,7 +65,8 @@ std::optional<CameraNoise> noise_of(CaptureSource& capture) {
 
 MemoryNeeds plate_making_needs(const CaptureFormat& capture) {
   MemoryNeeds needs = plate_needs(capture);
-  needs.add("noise", kWindowSamples * 2 * capture.shape.value_count());
+  needs.add("noise", kWindowSamples * 2 * capture.shape.channels *
+                         std::min(capture.shape.pixel_count(), kMeasuredPixels));
   return needs;
 }
 

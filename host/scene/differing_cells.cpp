@@ -1,0 +1,114 @@
+#include "scene/differing_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace nutik {
+namespace {
+
+constexpr std::uint32_t kMostCellsToASide = 480;
+constexpr std::uint64_t kNever = ~std::uint64_t{0};
+
+}  // namespace
+
+Difference::Difference(const CaptureFormat& capture, const Picture& plate, std::uint32_t by_codes)
+    : shape_(capture.shape),
+      grid_(shape_),
+      white_code_(capture.white_code),
+      by_codes_(by_codes),
+      side_((std::max(shape_.width, shape_.height) - 1) / kMostCellsToASide + 1),
+      columns_((shape_.width - 1) / side_ + 1),
+      rows_((shape_.height - 1) / side_ + 1),
+      plate_(grid_.tile_count() * shape_.channels * kTilePixels * capture.code_bytes),
+      difference_(shape_.pixel_count() * capture.code_bytes),
+      cells_{Region::none(columns_, rows_), std::vector<float>(std::size_t{columns_} * rows_)},
+      looked_at_(cells_.contrast.size(), kNever) {
+  const std::size_t bytes = capture.code_bytes;
+  for (std::uint64_t tile = 0; tile < grid_.tile_count(); ++tile) {
+    grid_.for_each_lane(tile, [&](std::uint32_t lane, std::uint64_t pixel) {
+      for (std::uint32_t channel = 0; channel < shape_.channels; ++channel) {
+        std::memcpy(&plate_[((tile * shape_.channels + channel) * kTilePixels + lane) * bytes],
+                    &plate.bytes[(pixel * shape_.channels + channel) * bytes], bytes);
+      }
+    });
+  }
+}
+
+const DifferingCells& Difference::at(const Look& look) {
+  if (plate_.size() == grid_.tile_count() * shape_.channels * kTilePixels) {
+    update<std::uint8_t>(look);
+  } else {
+    update<std::uint16_t>(look);
+  }
+  return cells_;
+}
+
+template <typename Code>
+void Difference::update(const Look& look) {
+  for (const std::uint32_t tile : look.changed) {
+    update_tile(tile, reinterpret_cast<const Code*>(look.held.codes(tile)));
+  }
+  for (const std::uint32_t tile : look.changed) {
+    const std::uint32_t left = tile % grid_.columns() * kTileSide, top = tile / grid_.columns() * kTileSide;
+    const std::uint32_t right = std::min(left + kTileSide, shape_.width) - 1;
+    const std::uint32_t bottom = std::min(top + kTileSide, shape_.height) - 1;
+    for (std::uint32_t row = top / side_; row <= bottom / side_; ++row) {
+      for (std::uint32_t column = left / side_; column <= right / side_; ++column) {
+        const std::size_t cell = std::size_t{row} * columns_ + column;
+        if (looked_at_[cell] == look.number) continue;
+        looked_at_[cell] = look.number;
+        update_cell<Code>(row, column);
+      }
+    }
+  }
+}
+
+template <typename Code>
+void Difference::update_tile(std::uint32_t tile, const Code* codes) {
+  const std::size_t values = std::size_t{shape_.channels} * kTilePixels;
+  const Code* const plate = reinterpret_cast<const Code*>(plate_.data()) + tile * values;
+  std::array<Code, kTilePixels> most{};
+  for (std::size_t first = 0; first < values; first += kTilePixels) {
+    for (std::size_t lane = 0; lane < kTilePixels; ++lane) {
+      const Code a = codes[first + lane], b = plate[first + lane];
+      const auto apart = static_cast<Code>(std::max(a, b) - std::min(a, b));
+      most[lane] = std::max(most[lane], apart);
+    }
+  }
+  const std::uint32_t left = tile % grid_.columns() * kTileSide, top = tile / grid_.columns() * kTileSide;
+  const std::uint32_t wide = std::min(kTileSide, shape_.width - left);
+  const std::uint32_t high = std::min(kTileSide, shape_.height - top);
+  Code* to = reinterpret_cast<Code*>(difference_.data()) + std::size_t{top} * shape_.width + left;
+  for (std::uint32_t y = 0; y < high; ++y, to += shape_.width) {
+    const Code* const from = most.data() + y * kTileSide;
+    if (wide == kTileSide) {
+      std::memcpy(to, from, kTileSide * sizeof(Code));  // of a size that is known
+    } else {
+      std::copy_n(from, wide, to);
+    }
+  }
+}
+
+template <typename Code>
+void Difference::update_cell(std::uint32_t row, std::uint32_t column) {
+  const std::uint32_t left = column * side_, top = row * side_;
+  const std::uint32_t wide = std::min(side_, shape_.width - left),
+                      high = std::min(side_, shape_.height - top);
+  std::uint32_t count = 0;
+  std::uint64_t sum = 0;
+  for (std::uint32_t y = top; y < top + high; ++y) {
+    const Code* const apart =
+        reinterpret_cast<const Code*>(difference_.data()) + std::size_t{y} * shape_.width + left;
+    for (std::uint32_t x = 0; x < wide; ++x) {
+      count += apart[x] > by_codes_ ? 1 : 0;
+      sum += apart[x];
+    }
+  }
+  const std::size_t cell = std::size_t{row} * columns_ + column;
+  cells_.region.inside[cell] = 2 * count >= wide * high;
+  cells_.contrast[cell] =
+      static_cast<float>(static_cast<double>(sum) / (static_cast<double>(wide) * high * white_code_));
+}
+
+}  // namespace nutik

@@ -1,0 +1,47 @@
+// Where samples differ from the plate, in cells of several pixels, so that large pictures take no longer.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "capture/picture.hpp"
+#include "mask/region.hpp"
+#include "scene/looks.hpp"
+
+namespace nutik {
+
+// Cells that differ from the plate, in half of their pixels or more; and by how much all do, in shares of white.
+struct DifferingCells {
+  Region region;
+  std::vector<float> contrast;
+};
+
+// Of one look after another: only where something changed since the one before is it looked at again.
+class Difference {
+ public:
+  // A pixel differs where a channel does by more than `by_codes`.
+  Difference(const CaptureFormat& capture, const Picture& plate, std::uint32_t by_codes);
+
+  [[nodiscard]] std::uint32_t side() const { return side_; }  // of a cell, in pixels
+
+  const DifferingCells& at(const Look& look);
+
+ private:
+  template <typename Code>
+  void update(const Look& look);
+  template <typename Code>
+  void update_tile(std::uint32_t tile, const Code* codes);
+  template <typename Code>
+  void update_cell(std::uint32_t row, std::uint32_t column);
+
+  Shape shape_;
+  TileGrid grid_;
+  std::uint32_t white_code_, by_codes_;
+  std::uint32_t side_, columns_, rows_;
+  std::vector<std::byte> plate_;       // [tile][channel][lane]
+  std::vector<std::byte> difference_;  // of each pixel's channel that differs most, row by row
+  DifferingCells cells_;
+  std::vector<std::uint64_t> looked_at_;  // the last look at each cell
+};
+
+}  // namespace nutik
