@@ -222,7 +222,8 @@ TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
   EXPECT_NE(bytes("s2.txt").find(" --align rigid "), std::string::npos) << bytes("s2.txt");
   ASSERT_EQ(run(encoding({"far", "far.tik"})).status, 0);
   expect_refused({"study", "far.tik", "-o", "s3.png"}, 3,
-                 "A study needs a camera that stands still: encode the clip again with --align rigid");
+                 "A study needs pictures that lie on each other: encode the clip again. A camera that moved stands "
+                 "still with --align rigid");
 }
 
 TEST_F(Aligning, IsNotLookedForWithoutItsModule) {

@@ -1,24 +1,22 @@
-#include "session/clips/clip_source.hpp"
-#include "session/making/study_request.hpp"
-
 #include <algorithm>
 #include <iterator>
 
-#include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
-#include "app/commands/study_shot.hpp"
+#include "app/output/console.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/number_text.hpp"
+#include "app/text/message_text.hpp"
 #include "app/text/shell_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/functions.hpp"
 #include "session/below/pictures.hpp"
+#include "session/clips/clip_source.hpp"
 #include "session/making/plate_request.hpp"
+#include "session/making/study_shot.hpp"
 #include "session/text/size_text.hpp"
 #include "session/text/time_text.hpp"
 #include "system/output_file.hpp"
@@ -52,18 +50,6 @@ std::string functions_text(const FunctionSet& functions) {
   std::string text;
   for (const auto& [tag, function] : functions) text += function_text(tag, function) + "\n";
   return text;
-}
-
-// What was stated of the clip and of the picture, as far as another command knows it: as words of that.
-std::string stated_words(const Options& options, CommandId command) {
-  std::string words;
-  for (const Option& option : app::options()) {
-    const bool counts = option.makes_picture() || option.scope == Scope::computing;
-    if (!counts || !option.is_of(command) || !option.is_in(options)) continue;
-    words += " " + option.name();
-    if (const std::string* const value = option.stated(options)) words += " " + shell_word(*value);
-  }
-  return words;
 }
 
 // The exposure by hand.
@@ -109,11 +95,31 @@ void check_text(const std::filesystem::path& file, std::string_view begins,
                           is_input ? "is also an input" : "exists and is of no study"));
 }
 
-void add_notes(Answer& answer, const Session& session, const std::optional<MovedCamera>& moved,
-               const Study& study) {
-  answer.tell_source(session);
-  std::ranges::move(camera_notes(moved), std::back_inserter(answer.notes));
-  std::ranges::copy(study.notes, std::back_inserter(answer.notes));
+void add_notes(Answer& answer, const PlannedStudy& planned) {
+  answer.tell_source(planned.session);
+  std::ranges::move(camera_notes(planned.moved), std::back_inserter(answer.notes));
+  std::ranges::copy(planned.study.notes, std::back_inserter(answer.notes));
+  std::ranges::move(note_texts(planned.notes), std::back_inserter(answer.notes));
+}
+
+// `options` get what the clip is read with beside what was stated.
+PlannedStudy planned_study(Options& options, const StudyRequest& request) {
+  const std::shared_ptr<Devices> devices = make_devices(options);
+  devices->start();
+  PlannedStudy planned = plan_study(source_request(options, options.operands.front()), request,
+                                    {devices, output_request(options), [&](std::string what) {
+                                       return progress_bar(std::move(what), options.quiet);
+                                     }});
+  print_warnings(planned.session.warnings());
+  if (planned.shot) {
+    options.clip_from = format("{}f", planned.shot->first);
+    options.clip_to = format("{}f", planned.shot->last);
+  }
+  if (planned.aligned_to) {
+    options.align = to_text(kStudyMotion);
+    if (*planned.aligned_to > 0) options.align_to = format("{}f", *planned.aligned_to);
+  }
+  return planned;
 }
 
 }  // namespace
@@ -133,7 +139,9 @@ int run_study(const Options& stated) {
   const std::string capture_name = options.operands.front();
   // A camera that corrects its exposure changes the whole scene, and nothing of it rests.
   options.deflicker |= !is_tik(capture_name);
-  auto [session, study, moved] = plan_study(options, request);
+  PlannedStudy planned = planned_study(options, request);
+  Session& session = planned.session;
+  Study& study = planned.study;
   if (request.style == StudyStyle::clean) {
     const MadePlate plate =
         make_plate(session.capture(), capture_name, {},
@@ -144,7 +152,7 @@ int run_study(const Options& stated) {
     Answer answer{{{"picture", files.picture.string()}, {"commands", files.commands.string()}}};
     answer.line = format("{}: {}, the scene without what moves; {}: the command", files.picture.string(),
                          shape_text(plate.picture.shape), files.commands.string());
-    add_notes(answer, session, moved, study);
+    add_notes(answer, planned);
     return tell(options, files.picture, answer);
   }
   const MadeMask made = make_regions(study, session.capture(), capture_name);
@@ -158,7 +166,6 @@ int run_study(const Options& stated) {
       session.render(exposure, output_format(output_request(options), files.picture, session.format()));
   tally.add(exposed);
   print_warnings(exposure_warnings(exposed));
-
   write_picture(files.mask, made.mask.to_picture());
   write_text(files.functions, format("{}\n{}", kAboutFunctions, functions_text(study.functions)));
   write_text(files.commands, commands_text(options, files, study, request.style));
@@ -186,7 +193,7 @@ int run_study(const Options& stated) {
       format("  {}, {}: the mask and the functions, to be changed by hand; {}: the commands",
              files.mask.string(), files.functions.string(), files.commands.string()));
   tally.end(answer, session, options.verbose);
-  add_notes(answer, session, moved, study);
+  add_notes(answer, planned);
   return tell(options, files.picture, answer);
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/command_line/command_table.hpp"
 #include "app/command_line/options.hpp"
 #include "session/below/sheets.hpp"
 #include "session/devices.hpp"
@@ -64,6 +65,8 @@ inline constexpr std::string_view kAutomaticNoise = "auto";
 
 // Which moments of what moves are shown, and what between them.
 [[nodiscard]] StudyRequest study_request(const Options& options);
+// What was stated of the clip and of the picture, as far as another command knows it: as words of that.
+[[nodiscard]] std::string stated_words(const Options& options, CommandId command);
 
 // What gains and times are to be found for.
 [[nodiscard]] SolveRequest solve_request(const Options& options);

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <utility>
 
+#include "app/command_line/option_table.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
+#include "app/text/shell_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 
@@ -111,6 +113,17 @@ StudyRequest study_request(const Options& options) {
         format("--style {} shows a single moment; leave --moments out, or name one time", *options.style));
   }
   return request;
+}
+
+std::string stated_words(const Options& options, CommandId command) {
+  std::string words;
+  for (const Option& option : app::options()) {
+    const bool counts = option.makes_picture() || option.scope == Scope::computing;
+    if (!counts || !option.is_of(command) || !option.is_in(options)) continue;
+    words += " " + option.name();
+    if (const std::string* const value = option.stated(options)) words += " " + shell_word(*value);
+  }
+  return words;
 }
 
 }  // namespace nutik::app
