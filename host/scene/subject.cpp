@@ -34,6 +34,8 @@ SubjectPlace place_of(std::vector<std::size_t> cells, std::uint64_t sample, cons
   const std::size_t top = cells.front() / grid.width, bottom = cells.back() / grid.width;
   place.is_cut_off = left == 0 || top == 0 || right + 1 == grid.width || bottom + 1 == grid.height;
   const auto count = static_cast<double>(cells.size());
+  place.share = count / static_cast<double>(grid.pixel_count());
+  place.fill = count / (static_cast<double>(right - left + 1) * static_cast<double>(bottom - top + 1));
   place.centre = {side * sum_x / count, side * sum_y / count};
   const auto pixels = [&](std::size_t cell) { return static_cast<std::uint32_t>(cell) * side; };
   const std::uint32_t border = 2 * side + 2;
@@ -207,6 +209,15 @@ std::vector<SampleRange> rests_of(const std::vector<SubjectPlace>& places, std::
   return rests;
 }
 
+double middle_of(const std::vector<SubjectPlace>& places, double SubjectPlace::*value) {
+  std::vector<double> values;
+  for (const SubjectPlace& place : places) values.push_back(place.*value);
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 // Finds the subject of a region.
 class Tracker {
  public:
@@ -244,7 +255,10 @@ class Tracker {
     const Way way(track_.places);
     track_.extent = way.extent();
     // A pendulum turns often on its long way; who stands for a while stirs, and yet goes somewhere.
+    constexpr double kLeastOfBoxOrOfAll = 0.25;
     constexpr double kMostTurnsOfLength = 1.3, kMostTurnsOfExtent = 2;
+    track_.is_scraps = middle_of(track_.places, &SubjectPlace::fill) < kLeastOfBoxOrOfAll &&
+                       middle_of(track_.places, &SubjectPlace::share) < kLeastOfBoxOrOfAll;
     track_.flickers =
         way.turns_of_length() > kMostTurnsOfLength && way.turns_of_extent() > kMostTurnsOfExtent;
     return std::move(track_);

@@ -21,6 +21,8 @@ struct SubjectPlace {
   Point centre;                    // of gravity
   Rectangle box;                   // that holds it, with a border
   bool is_cut_off = false;         // by the picture's border
+  double share = 0;                // of all that differs from the plate then
+  double fill = 0;                 // of the least box that holds it
   double contrast = 0;             // how far it differs from the plate on average, as a share of white
   std::vector<std::size_t> cells;  // that it covers, increasing
 };
@@ -33,8 +35,9 @@ struct SubjectTrack {
   SampleRange empty;  // the longest stretch of them at which nothing at all differs from the plate
   std::vector<SampleRange> rests;  // where it stays in its place for a good part of the time
   double extent = 0;               // in pixels, from where its centre is furthest to one side to the other
-  bool flickers = false;           // its places lie here and there, as if it were no single thing
-  double moving_share = 0;         // of the picture, that differs from the plate on average
+  bool is_scraps = false;   // thin, and little of what differs: edges of something that shakes or grows
+  bool flickers = false;    // its places lie here and there, as if it were no single thing
+  double moving_share = 0;  // of the picture, that differs from the plate on average
 
   // In pixels: the root of the area that it usually covers. 0 where there is none.
   [[nodiscard]] double size() const;

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <sstream>
 
 #include "support/moving_square_test.hpp"
@@ -239,6 +240,35 @@ TEST_F(Study, RefusesWhatFlickersHereAndThere) {
   const auto result = run({"study", "-f", "100", "flickers", "-o", "flickers.png"});
   EXPECT_EQ(result.status, 3);
   EXPECT_NE(result.err.find("nothing of it goes its way as one thing"), std::string::npos) << result.err;
+}
+
+// A pot plant by a window, filmed by somebody who walks round it.
+TEST_F(Study, RefusesTheParallaxOfAMovingCamera) {
+  const std::filesystem::path clip = std::filesystem::path(NUTIK_TEST_MEDIA) / "realshort.mp4";
+  if (!std::filesystem::exists(clip)) GTEST_SKIP() << clip << " is not there";
+  const auto result = run({"study", clip.c_str(), "-o", "parallax.png"});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_NE(result.err.find("one motion of the camera does not explain the pictures"), std::string::npos)
+      << result.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "parallax.png"));
+}
+
+// A thin line crosses the picture while a much larger place lights up and darkens.
+TEST_F(Study, RefusesThinScrapsOfWhatMoves) {
+  for (const bool has_lights : {false, true}) {
+    DrawnClip clip(scratch_ / "thin");
+    for (int k = 0; k < 24; ++k) {
+      cv::Mat frame = ground_of(7);
+      if (has_lights) frame(cv::Rect(60, 60, 28, 28)) = 60 + 90 * (k % 3);
+      cv::line(frame, {4 + 5 * k, 10}, {34 + 5 * k, 40}, cv::Scalar(250), 2);
+      clip.add(frame);
+    }
+    const auto result = run({"study", "-f", "100", "thin", "--moments", "2", "-o", "thin.png"});
+    EXPECT_EQ(result.status, has_lights ? 3 : 0) << result.err;
+    EXPECT_EQ(result.err.find("what goes furthest are thin scraps") != std::string::npos, has_lights)
+        << result.err;
+  }
+  EXPECT_EQ(run({"study", "-f", "100", "thin", "--moments", "4f,16f", "-o", "named.png"}).status, 0);
 }
 
 // A square that comes, rests for four fifths of its time, and goes on.

@@ -287,6 +287,13 @@ void check_track(const SubjectTrack& track, const std::string& where, std::uint3
                "large. Take a part of the picture, or name the moments to show",
                where, track.extent, side, track.size()));
   }
+  if (track.is_scraps) {
+    throw NoSubject(format(
+        "{}: what goes furthest are thin scraps, and most of what differs from the scene at rest lies "
+        "elsewhere: edges of something that shakes, grows or shines, and no thing that goes its way. Name a "
+        "region with a single subject, or the moments to show",
+        where));
+  }
   if (track.flickers) {
     throw NoSubject(format(
         "{}: what differs from the scene at rest flickers here and there over {:.0f} pixels, and nothing "

@@ -15,6 +15,8 @@ namespace {
 
 // What regions are grown by, and the soft edge of them: less hides in these.
 constexpr double kMostCameraPixels = 4;
+// Of half the texture, from where one motion would have it: less is noise and compression.
+constexpr double kMostResidualPixels = 0.75;
 // Shorter shots show nothing that goes anywhere.
 constexpr std::uint64_t kLeastSamples = 8;
 
@@ -82,7 +84,23 @@ class ShotPlanner {
     return terms_.progress ? terms_.progress(what) : ReportedProgress();
   }
 
+  // Things far behind one another do not lie on each other whatever the motion: near ones would be taken for what moves.
+  void check_alignment(tik::Reader& capture) const {
+    const std::optional<tik::Alignment>& aligned = capture.header().alignment;
+    const bool looks_for_subject = request_.style != StudyStyle::slit &&
+                                   request_.style != StudyStyle::clean &&
+                                   std::holds_alternative<std::uint32_t>(request_.moments);
+    if (!aligned || !looks_for_subject || aligned->residual_pixels <= kMostResidualPixels) return;
+    throw NoSubject(format(
+        "{}: one motion of the camera does not explain the pictures: moved back, half of the "
+        "texture of one lies {:.2f} pixels or more from its place, and {:.2f} may be. Near things move "
+        "against far ones where a camera is carried on, and would be taken for what moves. Film from "
+        "one place, take a shorter part of the time, or name the moments to show",
+        name_, aligned->residual_pixels, kMostResidualPixels));
+  }
+
   [[nodiscard]] PlannedStudy plan_as_it_is(Session session, std::optional<MovedCamera> moved) const {
+    check_alignment(session.capture());
     Study study = plan_study(session.capture(), name_, request_, terms_.devices->request().memory,
                              progress("looking for the subject"));
     return {std::move(session), std::move(study), std::move(moved)};
