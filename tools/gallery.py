@@ -3,7 +3,8 @@
 
 Each recipe runs in a folder of its own, where its scene's clip.mkv lies, with nutik-cl and FnPlotter.py in PATH. It
 makes picture.png and plot.png. --publish FOLDER writes the pictures of the page there:
-NAME.jpg, NAME-scene.jpg (the clip's picture at one moment), NAME-plot.png and strip.jpg.
+NAME.jpg, NAME-scene.jpg (the clip's picture at one moment), NAME-plot.png and strip.jpg. With --recordings FOLDER it
+makes NAME-real.jpg instead, from real recordings that lie in that folder.
 """
 
 import argparse
@@ -27,6 +28,12 @@ RECIPES = {
     "empty-street": ("street", 2.0),
     "strobe": ("golfer", 0.58),
     "slit-scan": ("windmill", 0.5),
+}
+# Recipes that a real recording shows too, and its file: tools/gallery/real/RECIPE.sh runs beside it.
+REAL = {
+    "motion-study": "one-by-one-person-detection.mp4",
+    "rear-curtain": "one-by-one-person-detection.mp4",
+    "empty-street": "one-by-one-person-detection.mp4",
 }
 JPEG_QUALITY = 88
 SCENE_SIZE = (512, 288)
@@ -69,6 +76,21 @@ def make(recipe, program, work, size, plots=True):
     return folder
 
 
+def make_real(recipe, program, work, recordings):
+    """Runs the recipe on its recording; the folder with picture.png."""
+    recording = recordings.resolve() / REAL[recipe]
+    if not recording.exists():
+        raise OSError(f"{recording} is not there; docs/gallery.md says where it is from")
+    folder = work / f"{recipe}-real"
+    folder.mkdir(parents=True, exist_ok=True)
+    link = folder / recording.name
+    link.unlink(missing_ok=True)
+    link.symlink_to(recording)
+    environment = os.environ | {"PATH": commands_in_path(program, work / "bin", plots=False)}
+    run(["bash", "-euo", "pipefail", TOOLS / "gallery" / "real" / f"{recipe}.sh"], cwd=folder, env=environment)
+    return folder
+
+
 def read(path):
     picture = cv2.imread(str(path))
     if picture is None:
@@ -102,15 +124,21 @@ def main():
     parser.add_argument("--size", default="768x432", help="of the scenes (default: 768x432)")
     parser.add_argument("--only", choices=RECIPES, action="append", help="this recipe; may be repeated")
     parser.add_argument("--publish", type=Path, metavar="FOLDER", help="write the pictures of docs/gallery.md")
+    parser.add_argument("--recordings", type=Path, metavar="FOLDER", help="make the pictures of real recordings, which lie there")
     options = parser.parse_args()
     program, work = options.program.resolve(), options.work.resolve()
-    recipes = options.only or list(RECIPES)
+    if options.publish:
+        options.publish.mkdir(parents=True, exist_ok=True)
+    for recipe in [recipe for recipe in options.only or REAL if options.recordings and recipe in REAL]:
+        folder = make_real(recipe, program, work, options.recordings)
+        if options.publish:
+            write(options.publish / f"{recipe}-real.jpg", read(folder / "picture.png"))
+    recipes = [] if options.recordings else options.only or list(RECIPES)
     for recipe in recipes:
         folder = make(recipe, program, work, options.size)
         if options.publish:
-            options.publish.mkdir(parents=True, exist_ok=True)
             publish(recipe, folder, options.publish)
-    if options.publish and all((work / recipe / "picture.png").exists() for recipe in RECIPES):
+    if options.publish and recipes and all((work / recipe / "picture.png").exists() for recipe in RECIPES):
         publish_strip(work, options.publish)
 
 

@@ -37,7 +37,13 @@ def check_page(report):
     report.hold(set(scripts) == set(gallery.RECIPES), f"a script for each recipe: {', '.join(sorted(scripts))}")
     for name, text in scripts.items():
         report.hold(text in blocks, f"docs/gallery.md prints tools/gallery/{name}.sh as it is run")
-    report.hold(len(blocks) == len(scripts), f"the page has {len(blocks)} scripts for {len(scripts)} recipes")
+    real = {path.stem: path.read_text() for path in (ROOT / "tools" / "gallery" / "real").glob("*.sh")}
+    report.hold(set(real) == set(gallery.REAL), f"a script for each real recording: {', '.join(sorted(real))}")
+    for name, text in real.items():
+        report.hold(text in blocks, f"docs/gallery.md prints tools/gallery/real/{name}.sh as it is run")
+        link = f"images/gallery/{name}-real.jpg"
+        report.hold(f"]({link})" in page and (ROOT / "docs" / link).exists(), f"the page shows {link}")
+    report.hold(len(blocks) == len(scripts) + len(real), f"the page has {len(blocks)} scripts for {len(scripts)} recipes and {len(real)} recordings")
     pictures = ROOT / "docs" / "images" / "gallery"
     for name in scripts:
         for ending in (".jpg", "-scene.jpg", "-plot.png"):

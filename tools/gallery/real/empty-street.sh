@@ -1,0 +1,1 @@
+nutik-cl plate --deflicker one-by-one-person-detection.mp4 picture.png

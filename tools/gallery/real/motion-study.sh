@@ -1,0 +1,1 @@
+nutik-cl study one-by-one-person-detection.mp4 picture.png
