@@ -1,6 +1,8 @@
 #include "mask/distance.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "system/interruption.hpp"
 
@@ -55,6 +57,52 @@ class Envelope {
   std::vector<std::int64_t> starts_;
 };
 
+Region grown_whole(const Region& region, double radius) {
+  const std::vector<std::uint64_t> distances = squared_distances(region);
+  Region result = Region::none(region.width, region.height);
+  for (std::size_t pixel = 0; pixel < distances.size(); ++pixel) {
+    result.inside[pixel] = static_cast<double>(distances[pixel]) <= radius * radius ? 1 : 0;
+  }
+  return result;
+}
+
+// A region of which no pixel changes further than `reach` from one inside: looks at the least box with all of these.
+template <typename Change>
+Region changed_near(const Region& region, double reach, Change change) {
+  const std::size_t width = region.width, height = region.height;
+  std::size_t left = width, right = 0, top = height, bottom = 0;  // right and bottom lie behind it
+  for (std::size_t y = 0; y < height; ++y) {
+    const auto row = region.inside.begin() + static_cast<std::ptrdiff_t>(y * width);
+    const auto end = row + static_cast<std::ptrdiff_t>(width);
+    const auto first = std::find(row, end, std::uint8_t{1});
+    if (first == end) continue;
+    const auto last =
+        std::find(std::make_reverse_iterator(end), std::make_reverse_iterator(row), std::uint8_t{1});
+    left = std::min(left, static_cast<std::size_t>(first - row));
+    right = std::max(right, static_cast<std::size_t>(last.base() - row));
+    top = std::min(top, y);
+    bottom = y + 1;
+  }
+  if (bottom == 0) return region;
+  const auto margin =
+      static_cast<std::size_t>(std::min(std::ceil(reach), static_cast<double>(width + height)));
+  left -= std::min(left, margin);
+  top -= std::min(top, margin);
+  right = std::min(right + margin, width);
+  bottom = std::min(bottom + margin, height);
+  Region part =
+      Region::none(static_cast<std::uint32_t>(right - left), static_cast<std::uint32_t>(bottom - top));
+  for (std::size_t y = top; y < bottom; ++y) {
+    std::copy_n(&region.inside[y * width + left], part.width, &part.inside[(y - top) * part.width]);
+  }
+  part = change(part);
+  Region result = Region::none(region.width, region.height);
+  for (std::size_t y = top; y < bottom; ++y) {
+    std::copy_n(&part.inside[(y - top) * part.width], part.width, &result.inside[y * width + left]);
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<std::uint64_t> squared_distances(const Region& region) {
@@ -78,15 +126,13 @@ std::vector<std::uint64_t> squared_distances(const Region& region) {
 }
 
 Region grown(const Region& region, double radius) {
-  const std::vector<std::uint64_t> distances = squared_distances(region);
-  Region result = Region::none(region.width, region.height);
-  for (std::size_t pixel = 0; pixel < distances.size(); ++pixel) {
-    result.inside[pixel] = static_cast<double>(distances[pixel]) <= radius * radius ? 1 : 0;
-  }
-  return result;
+  return changed_near(region, radius, [&](const Region& part) { return grown_whole(part, radius); });
 }
 
-Region shrunk(const Region& region, double radius) { return inverted(grown(inverted(region), radius)); }
+Region shrunk(const Region& region, double radius) {
+  return changed_near(region, 1,
+                      [&](const Region& part) { return inverted(grown_whole(inverted(part), radius)); });
+}
 
 Region smoothed(const Region& region, double radius) {
   const Region opened = grown(shrunk(region, radius), radius);
