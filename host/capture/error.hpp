@@ -16,6 +16,7 @@ enum class Setting {
   block_samples,
   chroma_place,
   columns,
+  count_redrawn,
   crop,
   deflicker,
   deinterlace,

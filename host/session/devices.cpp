@@ -1,5 +1,6 @@
 #include "session/devices.hpp"
 
+#include <cctype>
 #include <chrono>
 #include <utility>
 
@@ -35,6 +36,21 @@ std::shared_ptr<Renderer> made(const ComputingRequest& request, Devices::Announc
 }
 
 }  // namespace
+
+std::vector<std::string> DeviceNotFound::words() const {
+  std::vector<std::string> words;
+  for (const DeviceInfo& device : devices) {
+    std::string word;
+    for (const char c : device.name + " " + device.platform + " ") {
+      if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+        word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      } else if (!word.empty()) {
+        words.push_back(std::exchange(word, {}));
+      }
+    }
+  }
+  return words;
+}
 
 std::map<Precision, Verdict> known_verdicts(std::size_t device) {
   const std::filesystem::path folder = default_cache_folder();

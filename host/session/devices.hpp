@@ -27,6 +27,9 @@ struct DeviceNotFound : DeviceError {
 
   DeviceNotFound(const DeviceError& error, std::string stated, std::vector<DeviceInfo> found)
       : DeviceError(error), wanted(std::move(stated)), devices(std::move(found)) {}
+
+  // Of the devices' and platforms' names, in small letters: what might have been meant.
+  [[nodiscard]] std::vector<std::string> words() const;
 };
 
 // For each arithmetic that was tested on a device, its worst verdict (opencl/self_test.hpp).

@@ -236,7 +236,7 @@ TEST(VideoColour, TellsWhatWhiteIsTakenToBe) {
     const auto clip = test::open_test_clip(scratch / "clip.mkv");
     EXPECT_EQ(test::facts_of(*clip).at(Setting::white_code).line(), line);
     ASSERT_EQ(clip->info().notes.size(), notes) << pixels;
-    if (notes > 0) EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::white_code});
+    for (const Note& note : clip->info().notes) EXPECT_EQ(note.settings, std::vector{Setting::white_code});
   }
   ClipOptions options;
   options.white_code = 4095;

@@ -1,6 +1,7 @@
 #include "app/command_line/suggestion.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 #include <vector>
 
@@ -65,6 +66,11 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> kno
     text += (i == 0 ? "" : i + 1 == meant.size() ? " or " : ", ") + meant[i];
   }
   return format("; did you mean {}?", text);
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
 }
 
 }  // namespace nutik::app

@@ -37,9 +37,7 @@ void check_choice(std::string_view what, const std::string& value, const Option&
   // A number is another number, not a mistyped one.
   if (std::ranges::count_if(value, is_letter) < 2) return;
   std::vector<std::string> known = option.choices();
-  std::string lower = value;  // no choice has capitals
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const std::string suggestion = did_you_mean(lower, known);
+  const std::string suggestion = did_you_mean(lower_case(value), known);  // no choice has capitals
   if (suggestion.empty()) return;
   for (std::string& choice : known) choice += choice.ends_with(':') ? "…" : "";
   throw UsageError(format("{} {} is not known{} It is one of: {}", what, value, suggestion, joined(known)));

@@ -6,6 +6,7 @@
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
+#include "app/text/message_text.hpp"
 #include "app/text/number_text.hpp"
 #include "app/text/shell_text.hpp"
 #include "app/text/text_table.hpp"
@@ -167,13 +168,7 @@ int run_activity(const Options& options) {
     report_text(name, measured);
   }
   answer.tell_source(session);
-  if (!measured.redrawn.empty()) {
-    answer.notes.emplace_back(
-        format("at {} ({}f{}) the codec drew the whole picture anew; they count as those beside them "
-               "(--count-redrawn counts what changed)",
-               counted(measured.redrawn.size(), "sample"), measured.redrawn.front(),
-               measured.redrawn.size() > 1 ? format(" … {}f", measured.redrawn.back()) : ""));
-  }
+  for (std::string& note : note_texts(measured.notes())) answer.notes.push_back(std::move(note));
   if (measured.moments && measured.mean_share() > 0.5) {
     answer.notes.emplace_back(
         "most pixels change at every sample, as noise does; --by CODES counts larger changes only");

@@ -10,7 +10,6 @@
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/requests/function_input.hpp"
-#include "session/requests/picture_input.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {
@@ -211,13 +210,6 @@ MaskSize parse_mask_size(const std::string& text) {
   return {width, height};
 }
 
-// Reads the picture of a source, where it is one.
-void read(PictureSource& source) {
-  if (auto* picture = std::get_if<NamedPicture>(&source)) {
-    picture->picture = Shared(read_picture(picture->name.text));
-  }
-}
-
 }  // namespace
 
 MaskRequest mask_request(const Options& options) {
@@ -231,13 +223,7 @@ void read_inputs(MaskRequest& request, const Options& options) {
   if (options.base) {
     request.base = NamedMask{{input_title(*options.base)}, Shared(read_mask_input(*options.base))};
   }
-  for (MaskStep& step : request.steps) {
-    if (auto* threshold = std::get_if<select::Threshold>(&step.selection)) read(threshold->picture);
-    if (auto* difference = std::get_if<select::Difference>(&step.selection)) {
-      read(difference->before);
-      read(difference->after);
-    }
-  }
+  read_named_pictures(request);
 }
 
 }  // namespace nutik::app

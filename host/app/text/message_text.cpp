@@ -1,7 +1,5 @@
 #include "app/text/message_text.hpp"
 
-#include <cctype>
-#include <utility>
 #include <vector>
 
 #include "app/command_line/suggestion.hpp"
@@ -25,31 +23,10 @@
 namespace nutik::app {
 namespace {
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-// Words of the devices' names, in small letters.
-std::vector<std::string> words_of(const std::vector<DeviceInfo>& devices) {
-  std::vector<std::string> words;
-  for (const DeviceInfo& device : devices) {
-    std::string word;
-    for (const char c : device.name + " " + device.platform + " ") {
-      if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-        word += c;
-      } else if (!word.empty()) {
-        words.push_back(lower(std::exchange(word, {})));
-      }
-    }
-  }
-  return words;
-}
-
 // `\ndid you mean oclgrind?`. Case does not count in a device's name.
 std::string device_suggestion(const DeviceNotFound& error) {
   if (error.wanted.size() < 3) return {};
-  const std::string suggestion = did_you_mean(lower(error.wanted), words_of(error.devices));
+  const std::string suggestion = did_you_mean(lower_case(error.wanted), error.words());
   return suggestion.empty() ? std::string() : "\n" + suggestion.substr(2);
 }
 
@@ -61,6 +38,7 @@ std::string_view option_of(Setting setting) {
     case Setting::block_samples: return "--block-samples";
     case Setting::chroma_place: return "--chroma-at";
     case Setting::columns: return "--columns";
+    case Setting::count_redrawn: return "--count-redrawn";
     case Setting::crop: return "--crop";
     case Setting::deflicker: return "--deflicker";
     case Setting::deinterlace: return "--deinterlace";

@@ -11,6 +11,7 @@
 #include "imev/each_block.hpp"
 #include "imev/redrawn_samples.hpp"
 #include "session/requests/function_input.hpp"
+#include "session/text/size_text.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik {
@@ -97,6 +98,14 @@ double MeasuredActivity::mean_share() const {
 
 bool MeasuredActivity::is_redrawn(std::uint64_t sample) const {
   return std::ranges::binary_search(redrawn, sample);
+}
+
+std::vector<Note> MeasuredActivity::notes() const {
+  if (redrawn.empty()) return {};
+  return {{format("at {} ({}f{}) the codec drew the whole picture anew; they count as those beside them",
+                  counted(redrawn.size(), "sample"), redrawn.front(),
+                  redrawn.size() > 1 ? format(" … {}f", redrawn.back()) : ""),
+           {Setting::count_redrawn}}};
 }
 
 SampleRange MeasuredActivity::moment(const std::string& name, bool quietest) const {

@@ -50,6 +50,7 @@ struct MeasuredActivity {
   [[nodiscard]] SampleRange moment(const std::string& name, bool quietest) const;
   [[nodiscard]] SampleRange moment(const std::string& name, bool quietest, const TagActivity& of) const;
   [[nodiscard]] bool is_redrawn(std::uint64_t sample) const;
+  [[nodiscard]] std::vector<Note> notes() const;
   // A line for each sample: sample,start_ns,end_ns,changed_pixels,changed_share,redrawn.
   [[nodiscard]] std::string table() const;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "session/requests/picture_input.hpp"
+
 namespace nutik {
 namespace {
 
@@ -38,6 +40,20 @@ std::vector<const NamedPicture*> MaskStep::pictures() const {
     if (const auto* picture = std::get_if<NamedPicture>(source)) pictures.push_back(picture);
   }
   return pictures;
+}
+
+void read_named_pictures(MaskRequest& request) {
+  const auto read = [](PictureSource& source) {
+    if (auto* picture = std::get_if<NamedPicture>(&source))
+      picture->picture = Shared(read_picture(picture->name.text));
+  };
+  for (MaskStep& step : request.steps) {
+    if (auto* threshold = std::get_if<select::Threshold>(&step.selection)) read(threshold->picture);
+    if (auto* difference = std::get_if<select::Difference>(&step.selection)) {
+      read(difference->before);
+      read(difference->after);
+    }
+  }
 }
 
 bool MaskRequest::tells_by_rest() const {

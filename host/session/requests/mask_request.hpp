@@ -146,4 +146,7 @@ struct MaskRequest {
   friend bool operator==(const MaskRequest&, const MaskRequest&) = default;
 };
 
+// Reads the pictures that the steps name, codes as they stand. Throws as read_picture() does.
+void read_named_pictures(MaskRequest& request);
+
 }  // namespace nutik
