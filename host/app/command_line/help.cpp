@@ -87,7 +87,7 @@ void print_version() { print_line("nutik-cl " NUTIK_VERSION); }
 void print_help() {
   std::string text = wrapped(kWhatItIs, 0) +
                      "\n\n"
-                     "  nutik-cl study clip.mp4                                    a motion study by itself\n"
+                     "  nutik-cl study clip.mp4                                    a motion study\n"
                      "  nutik-cl clip.mp4 clip.tik                                 encode a clip\n"
                      "  nutik-cl --start 0.4s --exposure 10ms clip.tik moment.png  expose an interval\n"
                      "  nutik-cl -m mask.pgm -k functions.fn clip.tik out.png      expose by functions\n"
