@@ -282,6 +282,9 @@ TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
     scratch.write(path(1).filename().string(), "no picture at all");
     expect_refused(scratch / (std::string("f%d") + extension), {path(1).string() + " cannot be read"});
   }
+  // OpenCV would take it for DICOM, whose decoder ends the program.
+  expect_refused(scratch.write("medical.png", std::string(128, '\0') + "DICM and more"),
+                 {"medical.png cannot be read", "neither a PNG nor a JPEG begins like that"});
   cv::imwrite((scratch / "alpha.png").string(), cv::Mat::zeros(9, 9, CV_8UC4));
   expect_refused(scratch / "alpha.png", {"alpha.png has 4 channels", "transparency is not"});
   TiffOptions signed_values;

@@ -148,12 +148,18 @@ void add_tags(const std::filesystem::path& file, Still& still) {
   if (!profile.empty()) follow_profile(still, profile);
 }
 
-// Before OpenCV allocates what a file says: Deflate makes 1032 bytes of one at most, which may be 8 pixels each, and a
-// JPEG's block of 64 pixels takes more than that.
-void check_stated_size(const std::filesystem::path& file) {
+// Before OpenCV looks for a decoder, of which some end the program on what they do not expect (DICM), and before it
+// allocates what a file says: Deflate makes 1032 bytes of one at most, which may be 8 pixels each, and a JPEG's block of
+// 64 pixels takes more than that.
+void check_front(const std::filesystem::path& file) {
   constexpr std::uint64_t kMostPixelsAByte = 1032 * 8, kSmallPixels = 16 << 20;
   const MappedFile mapped(file);
   const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
+  if (!bytes.starts_with("\x89PNG\r\n\x1A\n") && !bytes.starts_with("\xFF\xD8\xFF")) {
+    throw InputError(
+        format("{} cannot be read: it is damaged or no picture: neither a PNG nor a JPEG begins like that",
+               file.string()));
+  }
   const auto size = stated_size(bytes);
   // Its decoder looks for the next segment behind what is none, and may find another size there.
   if (!size && bytes.starts_with("\xFF\xD8")) {
@@ -167,7 +173,7 @@ void check_stated_size(const std::filesystem::path& file) {
 }
 
 cv::Mat decoded_by_opencv(const std::filesystem::path& file) {
-  check_stated_size(file);
+  check_front(file);
   try {
     // A JPEG is turned upright as its EXIF says; OpenCV does not do that to pictures that it leaves as they are.
     return cv::imread(file.string(), has_extension(file, {".jpg", ".jpeg"})

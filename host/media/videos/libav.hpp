@@ -18,6 +18,7 @@ extern "C" {
 }
 #pragma GCC diagnostic pop
 
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <new>
@@ -78,6 +79,16 @@ inline FramePointer new_frame(AVPixelFormat pixels, int width, int height) {
   frame->height = height;
   if (av_frame_get_buffer(frame.get(), 0) < 0) throw std::bad_alloc();
   return frame;
+}
+
+// A number as the file has it, of what FFmpeg has an enumeration for: it keeps numbers that are none of its own, which
+// must not be read as such.
+template <typename Enumeration>
+[[nodiscard]] unsigned number_of(const Enumeration& value) {
+  unsigned number;
+  static_assert(sizeof value == sizeof number);
+  std::memcpy(&number, &value, sizeof number);
+  return number;
 }
 
 // An opened file and the index of its picture stream.

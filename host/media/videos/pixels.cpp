@@ -172,7 +172,7 @@ ChromaWeights chroma_weights(YuvMatrix matrix) {
   return {};
 }
 
-std::optional<YuvMatrix> named_matrix(AVColorSpace space, AVColorPrimaries primaries) {
+std::optional<YuvMatrix> named_matrix(unsigned space, unsigned primaries) {
   // What these primaries' light weighs in luma.
   if (space == AVCOL_SPC_CHROMA_DERIVED_NCL) {
     switch (primaries) {
@@ -195,15 +195,16 @@ std::optional<YuvMatrix> named_matrix(AVColorSpace space, AVColorPrimaries prima
 }
 
 std::optional<CodeRange> named_range(const AVCodecParameters& codec) {
-  if (codec.color_range == AVCOL_RANGE_JPEG || has_j_name(static_cast<AVPixelFormat>(codec.format))) {
+  const unsigned range = number_of(codec.color_range);
+  if (range == AVCOL_RANGE_JPEG || has_j_name(static_cast<AVPixelFormat>(codec.format))) {
     return CodeRange::full;
   }
-  return codec.color_range == AVCOL_RANGE_MPEG ? std::optional(CodeRange::limited) : std::nullopt;
+  return range == AVCOL_RANGE_MPEG ? std::optional(CodeRange::limited) : std::nullopt;
 }
 
 namespace {
 
-constexpr std::pair<AVChromaLocation, ChromaPlace> kChromaPlaces[] = {
+constexpr std::pair<unsigned, ChromaPlace> kChromaPlaces[] = {
     {AVCHROMA_LOC_LEFT, ChromaPlace::left},
     {AVCHROMA_LOC_CENTER, ChromaPlace::center},
     {AVCHROMA_LOC_TOPLEFT, ChromaPlace::topleft},
@@ -212,7 +213,7 @@ constexpr std::pair<AVChromaLocation, ChromaPlace> kChromaPlaces[] = {
     {AVCHROMA_LOC_BOTTOM, ChromaPlace::bottom},
 };
 
-std::optional<ChromaPlace> chroma_place(AVChromaLocation location) {
+std::optional<ChromaPlace> chroma_place(unsigned location) {
   for (const auto& [theirs, ours] : kChromaPlaces) {
     if (theirs == location) return ours;
   }
@@ -222,7 +223,7 @@ std::optional<ChromaPlace> chroma_place(AVChromaLocation location) {
 }  // namespace
 
 std::optional<ChromaPlace> named_chroma_place(const AVCodecParameters& codec) {
-  return chroma_place(codec.chroma_location);
+  return chroma_place(number_of(codec.chroma_location));
 }
 
 bool interpolates_chroma(AVPixelFormat format, const PixelKind& pixels) {
@@ -302,7 +303,7 @@ void PixelConverter::scale(const AVFrame& frame, AVPixelFormat wanted, const std
                            std::uint8_t* const* planes, const int* strides) {
   const auto from = static_cast<AVPixelFormat>(frame.format);
   const ChromaPlace at =
-      coding_.chroma_at.value_or(chroma_place(frame.chroma_location).value_or(kUsualChromaPlace));
+      coding_.chroma_at.value_or(chroma_place(number_of(frame.chroma_location)).value_or(kUsualChromaPlace));
   if (!scaler_ || scales_from_ != from || scales_to_ != wanted || chroma_at_ != at) {
     scaler_.reset(new_scaler(frame, wanted, at));
     if (!scaler_) {

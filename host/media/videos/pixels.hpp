@@ -57,7 +57,7 @@ struct ChromaWeights {
 // Whether the pixels of a stream are YUV of three components.
 [[nodiscard]] bool is_yuv(AVPixelFormat format);
 // What a stream says of its YUV; none where it does not, or names what is not known here.
-[[nodiscard]] std::optional<YuvMatrix> named_matrix(AVColorSpace space, AVColorPrimaries primaries);
+[[nodiscard]] std::optional<YuvMatrix> named_matrix(unsigned space, unsigned primaries);
 [[nodiscard]] std::optional<CodeRange> named_range(const AVCodecParameters& codec);
 [[nodiscard]] std::optional<ChromaPlace> named_chroma_place(const AVCodecParameters& codec);
 // Whether each pixel's chroma is made of samples that lie between pixels; that of everyday pixels is what they share.

@@ -16,13 +16,22 @@ namespace nutik::videos {
 namespace {
 
 // What the file calls its transfer function; empty where it names none.
-std::string transfer_name(AVColorTransferCharacteristic characteristic) {
-  if (characteristic == AVCOL_TRC_UNSPECIFIED || characteristic == AVCOL_TRC_RESERVED0 ||
-      characteristic == AVCOL_TRC_RESERVED) {
+std::string transfer_name(unsigned number) {
+  if (number == AVCOL_TRC_UNSPECIFIED || number == AVCOL_TRC_RESERVED0 || number == AVCOL_TRC_RESERVED) {
     return {};
   }
-  const char* name = av_color_transfer_name(characteristic);
-  return name == nullptr ? std::to_string(characteristic) : name;
+  const char* const name = number < AVCOL_TRC_NB
+                               ? av_color_transfer_name(static_cast<AVColorTransferCharacteristic>(number))
+                               : nullptr;
+  return name == nullptr ? std::to_string(number) : name;
+}
+
+// Null where FFmpeg knows none.
+const char* matrix_name(unsigned number) {
+  return number < AVCOL_SPC_NB ? av_color_space_name(static_cast<AVColorSpace>(number)) : nullptr;
+}
+const char* primaries_name(unsigned number) {
+  return number < AVCOL_PRI_NB ? av_color_primaries_name(static_cast<AVColorPrimaries>(number)) : nullptr;
 }
 
 std::optional<Rational> pixel_aspect(AVFormatContext* format, AVStream& stream, const Upright& upright) {
@@ -222,14 +231,16 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.pixels = pixel_kind(codec, input_title(path.string()));
   result.pixel_format = static_cast<AVPixelFormat>(codec.format);
   result.upright = upright(stream);
-  result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of_coding_point(codec.color_trc);
-  result.transfer_name = transfer_name(codec.color_trc);
-  result.matrix = named_matrix(codec.color_space, codec.color_primaries);
+  const unsigned curve = number_of(codec.color_trc), matrix = number_of(codec.color_space),
+                 primaries = number_of(codec.color_primaries);
+  result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of_coding_point(curve);
+  result.transfer_name = transfer_name(curve);
+  result.matrix = named_matrix(matrix, primaries);
   result.range = named_range(codec);
   result.chroma_at = named_chroma_place(codec);
-  result.primaries = primaries_of_coding_point(codec.color_primaries);
-  if (result.primaries == Primaries::bt709 && codec.color_primaries != AVCOL_PRI_BT709)
-    result.near_primaries = av_color_primaries_name(codec.color_primaries);
+  result.primaries = primaries_of_coding_point(primaries);
+  if (result.primaries == Primaries::bt709 && primaries != AVCOL_PRI_BT709)
+    result.near_primaries = primaries_name(primaries);
   result.pixel_aspect = pixel_aspect(opened.format.get(), stream, result.upright);
   if (!result.upright.left_out.empty()) {
     result.notes.emplace_back(
@@ -244,15 +255,17 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   };
   note_unknown(result.transfer.has_value(), "transfer function", result.transfer_name.c_str(),
                Setting::transfer);
-  if (codec.color_space != AVCOL_SPC_UNSPECIFIED && codec.color_space != AVCOL_SPC_RESERVED &&
-      is_yuv(result.pixel_format) && !result.pixels.is_grey && !result.matrix) {
-    const char* name = av_color_space_name(codec.color_space);
-    result.unread_matrix = name != nullptr ? name : format("number {} of H.273", int{codec.color_space});
+  if (matrix != AVCOL_SPC_UNSPECIFIED && matrix != AVCOL_SPC_RESERVED && is_yuv(result.pixel_format) &&
+      !result.pixels.is_grey && !result.matrix) {
+    const char* const name = matrix_name(matrix);
+    result.unread_matrix = name != nullptr ? name : format("number {} of H.273", matrix);
   }
-  if (codec.color_primaries != AVCOL_PRI_UNSPECIFIED && codec.color_primaries != AVCOL_PRI_RESERVED &&
-      codec.color_primaries != AVCOL_PRI_RESERVED0) {
+  if (primaries != AVCOL_PRI_UNSPECIFIED && primaries != AVCOL_PRI_RESERVED &&
+      primaries != AVCOL_PRI_RESERVED0) {
+    const char* const name = primaries_name(primaries);
     note_unknown(result.primaries.has_value(), "set of primaries",
-                 av_color_primaries_name(codec.color_primaries), Setting::primaries);
+                 name != nullptr ? name : format("number {} of H.273", primaries).c_str(),
+                 Setting::primaries);
   }
   if ((av_pix_fmt_desc_get(static_cast<AVPixelFormat>(codec.format))->flags & AV_PIX_FMT_FLAG_ALPHA) != 0) {
     result.notes.emplace_back("the file's transparency is left out");
