@@ -6,15 +6,10 @@
 #include <limits>
 #include <type_traits>
 
-// The innermost loops are compiled for several instruction sets and chosen when the program starts:
-// without it the transposition of a frame takes longer than decoding it. Sanitizers are not ready when that choice is
-// made.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define NUTIK_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
-#else
-#define NUTIK_SIMD_CLONES
-#endif
+#include "system/simd_clones.hpp"
+
+// The innermost loops are clones for several instruction sets: else the transposition of a frame takes longer than
+// decoding it.
 
 namespace nutik {
 namespace {

@@ -15,6 +15,7 @@ namespace nutik {
 namespace {
 
 using test::film;
+using test::interpolate_mosaic;
 using test::Light;
 using test::NoisyCamera;
 using test::Rasters;
@@ -196,20 +197,8 @@ TEST(NoiseEstimator, SharesNothingInNoise) {
 // What a camera interpolates of a mosaic is common to pixels up to two apart, and is noise all the same.
 TEST(NoiseEstimator, SharesNothingInInterpolatedNoise) {
   const NoisyCamera camera = camera_of(1, 65'535, Transfer::linear());
-  const Shape& shape = camera.format.shape;
   Rasters rasters = film(camera, 32, 11, still_wedge(camera, 0.1, 0.9));
-  for (auto& raster : rasters) {
-    auto* codes = reinterpret_cast<std::uint16_t*>(raster.data());
-    const std::vector<std::uint16_t> mosaic(codes, codes + shape.pixel_count());
-    for (std::uint32_t y = 1; y + 1 < shape.height; ++y) {
-      for (std::uint32_t x = 1; x + 1 < shape.width; ++x) {
-        if ((x + y) % 2 == 0) continue;  // measured
-        const std::size_t i = std::size_t{y} * shape.width + x;
-        codes[i] = static_cast<std::uint16_t>(
-            (mosaic[i - 1] + mosaic[i + 1] + mosaic[i - shape.width] + mosaic[i + shape.width] + 2) / 4);
-      }
-    }
-  }
+  interpolate_mosaic(rasters, camera.format.shape);
   const NoiseEstimate::Channel measured = estimate(camera, rasters).channels[0];
   EXPECT_LT(measured.shared, 0.05);
   EXPECT_LT(measured.uneven, 0.1);

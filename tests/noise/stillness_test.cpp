@@ -15,6 +15,7 @@ namespace nutik {
 namespace {
 
 using test::film;
+using test::interpolate_mosaic;
 using test::Light;
 using test::NoisyCamera;
 using test::Rasters;
@@ -133,20 +134,8 @@ TEST(Stillness, IsSeenInPicturesOfAnySize) {
 // What a camera interpolates of a mosaic is common to neighbours, and noise all the same.
 TEST(Stillness, IsSeenInInterpolatedNoise) {
   const NoisyCamera camera = deep_camera();
-  const Shape& shape = camera.format.shape;
   Rasters rasters = film(camera, 64, 11, scene(camera, [](Place at, double) { return textured(at); }));
-  for (auto& raster : rasters) {
-    auto* codes = reinterpret_cast<std::uint16_t*>(raster.data());
-    const std::vector<std::uint16_t> mosaic(codes, codes + shape.pixel_count());
-    for (std::uint32_t y = 1; y + 1 < shape.height; ++y) {
-      for (std::uint32_t x = 1; x + 1 < shape.width; ++x) {
-        if ((x + y) % 2 == 0) continue;  // measured
-        const std::size_t i = std::size_t{y} * shape.width + x;
-        codes[i] = static_cast<std::uint16_t>(
-            (mosaic[i - 1] + mosaic[i + 1] + mosaic[i - shape.width] + mosaic[i + shape.width] + 2) / 4);
-      }
-    }
-  }
+  interpolate_mosaic(rasters, camera.format.shape);
   EXPECT_TRUE(stands_still(judged(camera, rasters)));
 }
 

@@ -67,4 +67,19 @@ Light still_wedge(const NoisyCamera& camera, double darkest, double brightest) {
   };
 }
 
+void interpolate_mosaic(Rasters& rasters, const Shape& shape) {
+  for (auto& raster : rasters) {
+    auto* codes = reinterpret_cast<std::uint16_t*>(raster.data());
+    const std::vector<std::uint16_t> mosaic(codes, codes + shape.pixel_count());
+    for (std::uint32_t y = 1; y + 1 < shape.height; ++y) {
+      for (std::uint32_t x = 1; x + 1 < shape.width; ++x) {
+        if ((x + y) % 2 == 0) continue;  // measured
+        const std::size_t i = std::size_t{y} * shape.width + x;
+        codes[i] = static_cast<std::uint16_t>(
+            (mosaic[i - 1] + mosaic[i + 1] + mosaic[i - shape.width] + mosaic[i + shape.width] + 2) / 4);
+      }
+    }
+  }
+}
+
 }  // namespace nutik::test
