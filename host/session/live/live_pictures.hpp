@@ -24,8 +24,8 @@
 namespace nutik {
 
 struct LivePart {
-  Session*
-      session;  // read whole; of a reduced capture for a preview that is zoomed out. Outlives the LivePictures
+  // Read whole; of a reduced capture for a preview that is zoomed out. Outlives the LivePictures.
+  Session* session;
   ExposureRequest exposure;
   OutputFormat output;
   Rectangle rectangle;  // of the session's picture
@@ -39,9 +39,9 @@ struct LiveRequest {
 struct LiveAnswer {
   std::uint64_t request = 0;  // as ask() numbered it
   bool is_preview = false;
-  std::optional<ExposedPicture>
-      exposed;               // of the rectangle; the bytes of a full one are those of Session::render()
-  std::exception_ptr error;  // or what that threw
+  // Of the rectangle; the bytes of a full one are those of Session::render(). Or what that threw.
+  std::optional<ExposedPicture> exposed;
+  std::exception_ptr error;
 };
 
 class LivePictures {

@@ -67,9 +67,13 @@ Activity activity_of(CaptureSource& capture, const ActivityOptions& options,
 // Which samples are redrawn is known when all have been counted: if there are any, all are counted once more.
 MeasuredActivity measured(CaptureSource& capture, ActivityOptions options, bool counts_redrawn,
                           const ReportedProgress& progress) {
-  Activity activity = activity_of(capture, options, progress);
-  if (!counts_redrawn) options.left_out = redrawn_samples(activity);
-  if (!options.left_out.empty()) activity = activity_of(capture, options, progress);
+  std::optional<Activity> first = activity_of(capture, options, progress);
+  if (!counts_redrawn) options.left_out = redrawn_samples(*first);
+  if (!options.left_out.empty()) {
+    first.reset();  // before the other is there: needs() are those of one
+    first = activity_of(capture, options, progress);
+  }
+  Activity activity = std::move(*first);
   auto moments = activity_moments(activity.changed_pixels());
   std::vector<TagActivity> tags = tag_activities(activity, options.tags);
   return {capture.timeline(), std::move(activity), std::move(options.left_out), std::move(moments),

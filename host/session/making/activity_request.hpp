@@ -21,8 +21,8 @@ struct ActivityRequest {
   std::optional<std::uint8_t> tag;
   bool each_tag = false;  // all pixels count, and those with each tag of the mask for themselves, too
   std::uint32_t ignored_codes = 0;  // changes of no more are none
-  bool counts_redrawn =
-      false;  // else samples at which a codec drew its picture anew count as those beside them
+  // Else samples at which a codec drew its picture anew count as those beside them.
+  bool counts_redrawn = false;
 };
 
 // Of the pixels with a tag.
