@@ -1,15 +1,18 @@
 // Exposes pixels: the integral of light times gain, from change records and boundary tables.
 //
-//   in:    a chunk of blocks (layout: host/imev/block.hpp), the packed tables; of a band of the picture its tiles, each
+//   in:      a chunk of blocks (layout: host/imev/block.hpp), the packed tables; of a band of the picture its tiles, each
 //          with its number in the picture, and each pixel's function. A tile whose pixels several functions share is
-//          there once for each of them
+//          there once for each of them. Sums of blocks and bundles that were made before, [kept][tile][channel][plane][64]
 //   out:   sums [tile][channel][plane][64]: Σ_k v_k w_k so far, in scaled gain; added to what is there,
-//          or stored where `first` is set
+//          or stored where `first` is set. Those of bundles so far, likewise
 //   items: see items.clh
+//
+// Where a function's gain is steady, a block's sum is that of light · ns, the same for every such function, and is
+// multiplied by the gain afterwards (docs/model.md, "Steady gain"): whether it is made here or was kept, to the same bits.
 #include "items.clh"
 #include "tiles.clh"
 
-// Adds a block's sums to the picture's, which start with the first block.
+// Adds the sums of a block or a bundle to the picture's, which start with the first entry.
 NUTIK_INLINE void add_sums(global Sum* restrict sums, const size_t tile, const uint lane,
                            const Sums* block_sums, const bool is_start) {
 #pragma unroll
@@ -23,13 +26,48 @@ NUTIK_INLINE void add_sums(global Sum* restrict sums, const size_t tile, const u
   }
 }
 
+NUTIK_INLINE void load_tile(global const Sum* restrict from, const size_t tile, const uint lane, Sums* sums) {
+#pragma unroll
+  for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
+#pragma unroll
+    for (uint group = 0; group < NUTIK_GROUPS; ++group) {
+      sums[channel * NUTIK_GROUPS + group] =
+          load_sums(from + sums_at(tile, NUTIK_CHANNELS, channel, lane + group * NUTIK_LANES));
+    }
+  }
+}
+
+NUTIK_INLINE void clear(Sums* sums) {
+#pragma unroll
+  for (uint i = 0; i < NUTIK_ITEM_VECTORS; ++i) sums[i] = zero();
+}
+
+// Times the gain of one function.
+NUTIK_INLINE void scale(const Weight gain, Sums* sums) {
+#pragma unroll
+  for (uint i = 0; i < NUTIK_ITEM_VECTORS; ++i) sums[i] = times(same_weights(gain), sums[i]);
+}
+
+// Times the gain of each pixel's function: exactly 1 where it is not steady.
+NUTIK_INLINE void scale_each(global const Weight* restrict gains, global const uchar* restrict functions, Sums* sums) {
+#pragma unroll
+  for (uint group = 0; group < NUTIK_GROUPS; ++group) {
+    const Weights gain = pick_weights(gains, functions + group * NUTIK_LANES);
+#pragma unroll
+    for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
+      sums[channel * NUTIK_GROUPS + group] = times(gain, sums[channel * NUTIK_GROUPS + group]);
+    }
+  }
+}
+
 kernel void expose(global const uchar* restrict chunk, global const BlockEntry* restrict blocks,
-                   const uint block_count, global const SampleSpan* restrict spans,
-                   global const Weight* restrict weights, global const Weight* restrict boundaries,
-                   const uint function_count, global const uint* restrict tiles,
-                   global const ushort* restrict function_of_tile,
+                   const uint block_count, global const BlockPart* restrict parts,
+                   global const Weight* restrict gains, global const Weight* restrict weights,
+                   global const Weight* restrict boundaries, const uint function_count,
+                   global const uint* restrict tiles, global const ushort* restrict function_of_tile,
                    global const uchar* restrict function_of_lane,
-                   global const Light* restrict transfer, global Sum* restrict sums,
+                   global const Light* restrict transfer, global const Sum* restrict kept,
+                   global Sum* restrict bundles, global Sum* restrict sums,
                    const ulong tile_count, const uint first) {
   const Item item = item_of(get_global_id(0), tile_count);
   const uint lane = item.lane;
@@ -40,9 +78,11 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
   for (uint b = 0; b < block_count; ++b) {
     const BlockEntry entry = blocks[b];
     const bool is_start = first && b == 0;
-    global const uchar* payload = chunk + entry.payload_offset;
+    const bool is_kept = entry.kept & NUTIK_IS_KEPT;
+    global const uchar* payload = chunk + (is_kept ? 0 : entry.payload_offset);
     global const TileEntry* directory = (global const TileEntry*)payload;
-    global const SampleSpan* block_spans = spans + entry.span_row * function_count;
+    global const BlockPart* block_parts = parts + entry.part_row * function_count;
+    global const Weight* block_gains = gains + entry.part_row * function_count;
     Block block;
     block.sample_count = entry.sample_count;
     block.function_count = function_count;
@@ -59,24 +99,39 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
       region.is_uniform = region.function != NUTIK_MIXED_FUNCTIONS;
 #endif
       Sums sums_of_block[NUTIK_ITEM_VECTORS];
-#pragma unroll
-      for (uint i = 0; i < NUTIK_ITEM_VECTORS; ++i) sums_of_block[i] = zero();
+      clear(sums_of_block);
       // Written twice so that the compiler sees which one it compiles.
       if (region.is_uniform) {
         region.is_uniform = true;
-        block.first = block_spans[region.function].first;
-        block.last = block_spans[region.function].last;
-        if (block.first < block.last) {
+        const BlockPart part = block_parts[region.function];
+        const uint kept_as = part.steady & NUTIK_IN_BUNDLE ? NUTIK_BUNDLE_KEPT : part.steady ? NUTIK_BLOCK_KEPT : 0;
+        const bool is_of_kept = entry.kept & kept_as;
+        bool adds = part.first < part.last && is_kept == is_of_kept;
+        if (adds && is_kept) {
+          load_tile(kept + entry.payload_offset, tiles[tile], lane, sums_of_block);
+        } else if (adds) {
+          block.first = part.first;
+          block.last = part.last;
           expose_tile(payload, directory[tiles[tile]], lane, &block, &region, transfer, sums_of_block);
-        } else if (!is_start) {
-          continue;
+          if (part.steady & NUTIK_IN_BUNDLE) {
+            add_sums(bundles, tile, lane, sums_of_block, part.steady & NUTIK_BUNDLE_START);
+            adds = part.steady & NUTIK_BUNDLE_END;
+            if (adds) load_tile(bundles, tile, lane, sums_of_block);
+            else clear(sums_of_block);
+          }
         }
+        if (!adds && !is_start) continue;
+        if (part.steady) scale(block_gains[region.function], sums_of_block);
       } else {
-        region.is_uniform = false;
-        block.first = 0;
-        block.last = entry.sample_count;
-        region.functions = function_of_lane + tile * NUTIK_TILE_PIXELS + lane;
-        expose_tile(payload, directory[tiles[tile]], lane, &block, &region, transfer, sums_of_block);
+        if (is_kept && !is_start) continue;
+        if (!is_kept) {
+          region.is_uniform = false;
+          block.first = 0;
+          block.last = entry.sample_count;
+          region.functions = function_of_lane + tile * NUTIK_TILE_PIXELS + lane;
+          expose_tile(payload, directory[tiles[tile]], lane, &block, &region, transfer, sums_of_block);
+          scale_each(block_gains, region.functions, sums_of_block);
+        }
       }
       add_sums(sums, tile, lane, sums_of_block, is_start);
     }

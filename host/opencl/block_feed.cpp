@@ -32,7 +32,7 @@ void BlockFeed::stop() {
 }
 
 void BlockFeed::start(const RenderPlan& plan, std::span<const TableSlice> slices, CaptureSource& source,
-                      const NeededTiles& tiles, const FeedLimits& limits) {
+                      const NeededTiles& tiles, const FeedLimits& limits, std::vector<bool> skipped) {
   stop();
   plan_ = &plan;
   slices_ = slices;
@@ -41,7 +41,9 @@ void BlockFeed::start(const RenderPlan& plan, std::span<const TableSlice> slices
   limits_ = limits;
   limits_.chunk_bytes = std::min(limits_.chunk_bytes, info_.largest_allocation_bytes);
   slice_ = 0;
+  skipped_ = std::move(skipped);
   next_ = 0;
+  if (!skipped_.empty() && skipped_.front()) advance();
   in_place_bytes_ = 0;
   is_read_by_kernel_ = false;
   for (Slab& slab : passing_) slab.used = 0;
@@ -60,8 +62,14 @@ BlockFeed::Chunk BlockFeed::next() {
 }
 
 BlockFeed::Chunk BlockFeed::next_chunk() {
-  if (next_ == slice().last_block) ++slice_;
+  while (ends_slice()) ++slice_;
   return resident_place(plan_->blocks[next_]) != nullptr ? resident_chunk() : filled_chunk();
+}
+
+void BlockFeed::advance() {
+  do {
+    ++next_;
+  } while (next_ < skipped_.size() && skipped_[next_]);
 }
 
 const BlockPlace* BlockFeed::resident_place(const PlannedBlock& planned) const {
@@ -85,7 +93,7 @@ void BlockFeed::check_size(const PlannedBlock& planned, std::uint64_t bytes) con
 BlockFeed::Chunk BlockFeed::resident_chunk() {
   Chunk chunk;
   Slab* slab = resident_place(plan_->blocks[next_])->slab;
-  for (; next_ < slice().last_block; ++next_) {
+  for (; !ends_slice(); advance()) {
     const BlockPlace* place = resident_place(plan_->blocks[next_]);
     if (place == nullptr || place->slab != slab) break;
     chunk.entries.push_back(entry(place->offset));
@@ -113,7 +121,8 @@ BlockFeed::Chunk BlockFeed::in_place_chunk(BlockLease lease) {
     chunk.payload_bytes += lease.bytes();
     bytes = end;
     lease = {};
-    if (++next_ == slice().last_block) break;
+    advance();
+    if (ends_slice()) break;
     lease = source_->acquire(plan_->blocks[next_].block,
                              {[](std::uint64_t) -> std::span<std::byte> { return {}; }});
   }
@@ -135,7 +144,7 @@ BlockFeed::Chunk BlockFeed::lent_chunk(BlockLease lease) {
   chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, chunk.host_bytes,
                              const_cast<std::byte*>(lease.payload().data()));
   chunk.leases.push_back(std::move(lease));
-  ++next_;
+  advance();
   return chunk;
 }
 
@@ -143,7 +152,7 @@ BlockFeed::Chunk BlockFeed::lent_chunk(BlockLease lease) {
 BlockFeed::Chunk BlockFeed::filled_chunk() {
   Chunk chunk;
   Filling filling;
-  for (; next_ < slice().last_block; ++next_) {
+  for (; !ends_slice(); advance()) {
     const PlannedBlock& planned = plan_->blocks[next_];
     if (resident_place(planned) != nullptr) break;
     BlockLease lease = lease_next(filling);

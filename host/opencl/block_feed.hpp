@@ -49,9 +49,10 @@ class BlockFeed {
   // live that long.
   void keep_resident(const CaptureSource* source);
 
-  // All four must live until the last chunk has been taken, or stop().
+  // All four must live until the last chunk has been taken, or stop(). `skipped` planned blocks are left out; empty:
+  // none.
   void start(const RenderPlan& plan, std::span<const TableSlice> slices, CaptureSource& source,
-             const NeededTiles& tiles, const FeedLimits& limits);
+             const NeededTiles& tiles, const FeedLimits& limits, std::vector<bool> skipped = {});
 
   // The next chunk, in time order; not to be called after the last block. Whoever asks has given the chunk before
   // back, unless it stays. Throws InputError for a damaged block, DeviceError for one that the device cannot hold.
@@ -79,6 +80,8 @@ class BlockFeed {
   void check_size(const PlannedBlock& planned, std::uint64_t bytes) const;
   BlockEntry entry(std::uint64_t offset) const;
   [[nodiscard]] const TableSlice& slice() const { return slices_[slice_]; }
+  [[nodiscard]] bool ends_slice() const { return next_ >= slice().last_block; }
+  void advance();
 
   Chunk next_chunk();
   Chunk resident_chunk();
@@ -104,8 +107,9 @@ class BlockFeed {
   const NeededTiles* tiles_ = nullptr;
   std::span<const TableSlice> slices_;
   std::size_t slice_ = 0;  // that the next planned block is part of
-  std::size_t next_ = 0;   // planned block
-  BlockLease pending_;     // of that block, where it did not fit the chunk before
+  std::size_t next_ = 0;   // planned block that is not skipped
+  std::vector<bool> skipped_;
+  BlockLease pending_;  // of that block, where it did not fit the chunk before
   std::uint64_t in_place_bytes_ = 0;
   std::uint64_t bytes_ = 0;
 

@@ -25,6 +25,7 @@ struct ExposedBand {
   Band band;
   DeviceMap map;
   cl::Buffer sums;  // Σ_k v_k w_k of every pixel, tile by tile as in the map; none until the band is exposed
+  cl::Buffer bundles;  // likewise, of the bundle that is being added up, where there are any
 };
 
 class Developer {

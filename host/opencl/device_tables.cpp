@@ -1,6 +1,7 @@
 #include "opencl/device_tables.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "render/fixed_scale.hpp"
 #include "system/parallel.hpp"
@@ -10,14 +11,6 @@ namespace {
 
 // From how many numbers on several threads pack them.
 constexpr std::uint64_t kManyNumbers = 1u << 17;
-
-std::vector<SampleSpan> spans_of(const GainTable& table, const RenderPlan& plan, const TableSlice& slice) {
-  std::vector<SampleSpan> spans;
-  for (std::size_t b = slice.first_block; b < slice.last_block; ++b) {
-    spans.push_back(table.span_in(plan.blocks[b].extent));
-  }
-  return spans;
-}
 
 bool is_of(const std::vector<std::uint64_t>& blocks, const RenderPlan& plan, const TableSlice& slice) {
   return std::equal(blocks.begin(), blocks.end(),
@@ -41,7 +34,8 @@ void write_in_order(const cl::CommandQueue& queue, Writes writes) {
 }  // namespace
 
 std::uint64_t DeviceTables::Slice::bytes() const {
-  return columns.size() * (2 * row_count * weight_bytes(precision) + blocks.size() * sizeof(SampleSpan));
+  return columns.size() * (2 * row_count * weight_bytes(precision) +
+                           blocks.size() * (sizeof(BlockPart) + weight_bytes(precision)));
 }
 
 std::vector<DeviceTables::Column> DeviceTables::columns_of(const RenderPlan& plan, Precision precision) {
@@ -96,7 +90,9 @@ DeviceTables::Slice& DeviceTables::slice_for(const RenderPlan& plan, const Table
   const std::uint64_t bytes = made.row_count * functions * weight_bytes(precision);
   made.tables.weights = memory.allocate(bytes, CL_MEM_READ_ONLY);
   made.tables.boundaries = memory.allocate(bytes, CL_MEM_READ_ONLY);
-  made.tables.spans = memory.allocate(made.blocks.size() * functions * sizeof(SampleSpan), CL_MEM_READ_ONLY);
+  made.tables.parts = memory.allocate(made.blocks.size() * functions * sizeof(BlockPart), CL_MEM_READ_ONLY);
+  made.tables.gains =
+      memory.allocate(made.blocks.size() * functions * weight_bytes(precision), CL_MEM_READ_ONLY);
   return recent_.keep(std::move(made));
 }
 
@@ -105,12 +101,16 @@ void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice, st
   const std::uint64_t functions = plan.function_count();
   const std::size_t number = weight_bytes(to.precision);
   Bytes weights(to.row_count * functions * number), boundaries(weights.size());
-  std::vector<SampleSpan> spans(to.blocks.size() * functions);
+  std::vector<BlockPart> parts(to.blocks.size() * functions);
+  Bytes gains(parts.size() * number);
   const auto pack = [&](std::uint64_t f) {
     pack_column(*columns[f].table, plan, slice, to.precision, columns[f].exponent,
                 {weights.data() + f * number, boundaries.data() + f * number, functions * number});
-    const std::vector<SampleSpan> of_function = spans_of(*columns[f].table, plan, slice);
-    for (std::size_t b = 0; b < of_function.size(); ++b) spans[b * functions + f] = of_function[b];
+    const PartColumn of_function = part_column(*columns[f].table, plan, slice, to.precision);
+    for (std::size_t b = 0; b < of_function.parts.size(); ++b) {
+      parts[b * functions + f] = of_function.parts[b];
+      std::memcpy(gains.data() + (b * functions + f) * number, of_function.gains.data() + b * number, number);
+    }
   };
   if (to.row_count * functions >= kManyNumbers) {
     parallel_for(functions, pack);
@@ -120,7 +120,8 @@ void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice, st
   write_in_order(queue_, [&] {
     queue_.enqueueWriteBuffer(to.tables.weights, CL_FALSE, 0, weights.size(), weights.data());
     queue_.enqueueWriteBuffer(to.tables.boundaries, CL_FALSE, 0, boundaries.size(), boundaries.data());
-    queue_.enqueueWriteBuffer(to.tables.spans, CL_TRUE, 0, spans.size() * sizeof(SampleSpan), spans.data());
+    queue_.enqueueWriteBuffer(to.tables.gains, CL_FALSE, 0, gains.size(), gains.data());
+    queue_.enqueueWriteBuffer(to.tables.parts, CL_TRUE, 0, parts.size() * sizeof(BlockPart), parts.data());
   });
 }
 
@@ -130,7 +131,7 @@ void DeviceTables::write_column(const RenderPlan& plan, const TableSlice& slice,
   Bytes weights(to.row_count * number), boundaries(weights.size());
   pack_column(*column.table, plan, slice, to.precision, column.exponent,
               {weights.data(), boundaries.data(), number});
-  const std::vector<SampleSpan> spans = spans_of(*column.table, plan, slice);
+  const PartColumn of_function = part_column(*column.table, plan, slice, to.precision);
   const auto write = [&](const cl::Buffer& buffer, std::size_t element, std::uint64_t rows, const void* from,
                          bool waits) {
     queue_.enqueueWriteBufferRect(buffer, waits ? CL_TRUE : CL_FALSE, {function * element, 0, 0}, {0, 0, 0},
@@ -139,7 +140,8 @@ void DeviceTables::write_column(const RenderPlan& plan, const TableSlice& slice,
   write_in_order(queue_, [&] {
     write(to.tables.weights, number, to.row_count, weights.data(), false);
     write(to.tables.boundaries, number, to.row_count, boundaries.data(), false);
-    write(to.tables.spans, sizeof(SampleSpan), to.blocks.size(), spans.data(), true);
+    write(to.tables.gains, number, to.blocks.size(), of_function.gains.data(), false);
+    write(to.tables.parts, sizeof(BlockPart), to.blocks.size(), of_function.parts.data(), true);
   });
 }
 

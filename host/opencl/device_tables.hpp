@@ -1,7 +1,7 @@
 // The tables of gain functions that kernels read, on the device from one exposure to the next.
 //
 //   in:      a plan, a slice of it, an arithmetic
-//   out:     buffers of weights and boundaries [row][function] and of spans [block][function]
+//   out:     buffers of weights and boundaries [row][function], of parts and gains [block][function]
 //   always:  what a buffer holds already is not written again: a function that changed costs its own column
 //
 // Rows of functions side by side suit pixels that have many functions among them (docs/performance.md): a column is
@@ -25,7 +25,8 @@ namespace nutik {
 struct SliceTables {
   cl::Buffer weights;
   cl::Buffer boundaries;
-  cl::Buffer spans;
+  cl::Buffer parts;
+  cl::Buffer gains;
 };
 
 class DeviceTables {

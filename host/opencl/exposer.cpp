@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "opencl/launch.hpp"
 #include "opencl/needed_tiles.hpp"
 
 namespace nutik {
 namespace {
-
-using ExposeKernel =
-    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint,
-                      cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong, cl_uint>;
 
 // Nothing is read from a capture any more when its exposure ends, however it does.
 class StoppedAtEnd {
@@ -49,18 +46,21 @@ void Exposer::expose(std::span<ExposedBand> bands, const RenderControl& control,
   const std::vector<TableSlice> slices =
       cut_tables(plan_, work_.precision, device_.info, shares_.slice_bytes);
   const NeededTiles tiles(plan_, bands);
-  device_.feed.start(plan_, slices, source_, tiles, shares_.feed);
+  device_.feed.start(plan_, slices, source_, tiles, shares_.feed, kept_.skipped);
   const StoppedAtEnd stopped(device_.feed);
   const DeviceMemory::Scope scope(memory_);
   // Tables of several slices would have to be written anew for each band.
+  const bool has_bundles = work_.precision != Precision::fixed && plan_.has_bundles();
   const bool are_all_there = bands.size() > 1 && slices.size() == 1 && fetch_all();
   const std::size_t bands_at_once = are_all_there ? 1 : bands.size();
   for (std::size_t first = 0; first < bands.size(); first += bands_at_once) {
     const std::span<ExposedBand> exposed = bands.subspan(first, bands_at_once);
     const DeviceMemory::Scope sums_scope(memory_);
     for (ExposedBand& each : exposed) {
-      each.sums = memory_.allocate(
-          sums_bytes(each.band.sum_tiles, plan_.capture.shape.channels, work_.precision), CL_MEM_READ_WRITE);
+      const std::uint64_t bytes =
+          sums_bytes(each.band.sum_tiles, plan_.capture.shape.channels, work_.precision);
+      each.sums = memory_.allocate(bytes, CL_MEM_READ_WRITE);
+      each.bundles = has_bundles ? memory_.allocate(bytes, CL_MEM_READ_WRITE) : each.sums;
     }
     sum_up(exposed, slices, control);
     throw_if_cancelled(control);
@@ -68,34 +68,52 @@ void Exposer::expose(std::span<ExposedBand> bands, const RenderControl& control,
     for (ExposedBand& each : exposed) {
       develop(each);
       each.sums = {};
+      each.bundles = {};
     }
   }
 }
 
 bool Exposer::fetch_all() {
   std::uint64_t bytes = 0;
-  for (std::size_t blocks = 0; blocks < plan_.blocks.size();) {
+  const std::size_t all_blocks = read_blocks(0, plan_.blocks.size());
+  for (std::size_t blocks = 0; blocks < all_blocks;) {
     const BlockFeed::Chunk& chunk = fetched_.emplace_back(next_chunk());
     blocks += chunk.entries.size();
     memory_.count(chunk.host_bytes);
     bytes += chunk.payload_bytes;
     // More than may stay is more than the system may hold of a file: each band would read it again.
-    if (!chunk.stays || bytes > shares_.feed.resident_bytes)
-      return blocks == plan_.blocks.size() && chunk.stays;
+    if (!chunk.stays || bytes > shares_.feed.resident_bytes) return blocks == all_blocks && chunk.stays;
   }
   return true;
 }
 
-// Σ_k v_k w_k of every pixel of the bands, slice by slice, chunk by chunk.
+std::size_t Exposer::read_blocks(std::size_t first, std::size_t last) const {
+  if (kept_.skipped.empty()) return last - first;
+  const auto skipped = kept_.skipped.begin();
+  return static_cast<std::size_t>(std::count(skipped + static_cast<std::ptrdiff_t>(first),
+                                             skipped + static_cast<std::ptrdiff_t>(last), false));
+}
+
+void Exposer::add_kept(const TableSlice& slice, std::size_t last, std::size_t& next,
+                       std::vector<BlockEntry>& entries) const {
+  for (; next < kept_.entries.size() && kept_.entries[next].planned <= last; ++next) {
+    const SumsInUse::Entry& kept = kept_.entries[next];
+    entries.push_back({kept.offset, 0, kept.planned - slice.first_block, 1, kept.kept});
+  }
+}
+
+// Σ_k v_k w_k of every pixel of the bands, slice by slice, chunk by chunk. Kept sums stand between the blocks around
+// them: each pixel's are added in time order.
 void Exposer::sum_up(std::span<const ExposedBand> bands, std::span<const TableSlice> slices,
                      const RenderControl& control) {
   auto fetched = fetched_.begin();
-  std::size_t block = 0;
+  std::size_t next_kept = 0;
+  bool is_first = true;
   for (const TableSlice& slice : slices) {
     const DeviceMemory::Scope slice_scope(memory_);
     const SliceTables tables =
         device_.tables.slice(plan_, slice, work_.precision, memory_, statistics_.table_bytes_written);
-    while (block < slice.last_block) {
+    for (std::size_t blocks = read_blocks(slice.first_block, slice.last_block); blocks > 0;) {
       throw_if_cancelled(control);
       const DeviceMemory::Scope chunk_scope(memory_);
       BlockFeed::Chunk fresh;
@@ -105,25 +123,38 @@ void Exposer::sum_up(std::span<const ExposedBand> bands, std::span<const TableSl
       }
       const BlockFeed::Chunk& chunk = fetched == fetched_.end() ? fresh : *fetched++;
       memory_.count(device_.feed.bytes());
-      launch(chunk, tables, bands, block == 0);
-      block += chunk.entries.size();
+      std::vector<BlockEntry> entries;
+      for (BlockEntry entry : chunk.entries) {
+        const std::size_t planned = slice.first_block + entry.part_row;
+        add_kept(slice, planned, next_kept, entries);
+        if (!kept_.kept.empty()) entry.kept = kept_.kept[planned];
+        entries.push_back(entry);
+      }
+      launch(chunk.payload, entries, tables, bands, std::exchange(is_first, false));
+      blocks -= chunk.entries.size();
     }
+    std::vector<BlockEntry> entries;
+    add_kept(slice, slice.last_block - 1, next_kept, entries);
+    if (!entries.empty()) launch(kept_.sums, entries, tables, bands, std::exchange(is_first, false));
   }
 }
 
-void Exposer::launch(const BlockFeed::Chunk& chunk, const SliceTables& tables,
-                     std::span<const ExposedBand> bands, bool is_first) {
+void Exposer::launch(const cl::Buffer& payload, std::span<const BlockEntry> entries,
+                     const SliceTables& tables, std::span<const ExposedBand> bands, bool is_first) {
   ExposeKernel kernel(kernel_);
   const std::uint64_t most_samples = most_samples_a_launch(device_.info, work_.shape);
-  for (const std::span<const BlockEntry> part : launches_of(chunk.entries, most_samples)) {
-    const cl::Buffer entries = memory_.upload(part);
+  // Every argument is a buffer, though it may not be read.
+  const cl::Buffer& kept = kept_.entries.empty() ? light_ : kept_.sums;
+  for (const std::span<const BlockEntry> part : launches_of(entries, most_samples)) {
+    const cl::Buffer entries_of_part = memory_.upload(part);
     for (const ExposedBand& exposed : bands) {
       const Band& band = exposed.band;
       const cl::Event event =
-          kernel(items(device_.queue, work_.shape, band.sum_tiles), chunk.payload, entries,
-                 static_cast<cl_uint>(part.size()), tables.spans, tables.weights, tables.boundaries,
-                 static_cast<cl_uint>(plan_.function_count()), exposed.map.tiles, exposed.map.of_tile,
-                 exposed.map.of_lane, light_, exposed.sums, band.sum_tiles, is_first ? 1u : 0u);
+          kernel(items(device_.queue, work_.shape, band.sum_tiles), payload, entries_of_part,
+                 static_cast<cl_uint>(part.size()), tables.parts, tables.gains, tables.weights,
+                 tables.boundaries, static_cast<cl_uint>(plan_.function_count()), exposed.map.tiles,
+                 exposed.map.of_tile, exposed.map.of_lane, light_, kept, exposed.bundles, exposed.sums,
+                 band.sum_tiles, is_first ? 1u : 0u);
       event.wait();
       const std::optional<double> took_ms = milliseconds(event);
       statistics_.expose_ms += took_ms.value_or(0.0);

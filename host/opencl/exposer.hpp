@@ -15,6 +15,7 @@
 #include "opencl/block_feed.hpp"
 #include "opencl/developer.hpp"
 #include "opencl/device_tables.hpp"
+#include "opencl/kept_sums.hpp"
 #include "opencl/render_memory.hpp"
 
 namespace nutik {
@@ -33,13 +34,14 @@ class Exposer {
   // `kernel` is that of kernels/expose.cl, built for the picture, `light` the values of its codes. The plan has blocks.
   // All that is given must live as long.
   Exposer(const ExposingDevice& device, const Work& work, const RenderPlan& plan, CaptureSource& source,
-          const RenderMemory& shares, cl::Kernel kernel, cl::Buffer light, DeviceMemory& memory,
-          RenderStatistics& statistics)
+          const RenderMemory& shares, const SumsInUse& kept, cl::Kernel kernel, cl::Buffer light,
+          DeviceMemory& memory, RenderStatistics& statistics)
       : device_(device),
         work_(work),
         plan_(plan),
         source_(source),
         shares_(shares),
+        kept_(kept),
         kernel_(std::move(kernel)),
         light_(std::move(light)),
         memory_(memory),
@@ -55,8 +57,13 @@ class Exposer {
   bool fetch_all();
   void sum_up(std::span<const ExposedBand> bands, std::span<const TableSlice> slices,
               const RenderControl& control);
-  void launch(const BlockFeed::Chunk& chunk, const SliceTables& tables, std::span<const ExposedBand> bands,
-              bool is_first);
+  void launch(const cl::Buffer& payload, std::span<const BlockEntry> entries, const SliceTables& tables,
+              std::span<const ExposedBand> bands, bool is_first);
+  // Planned blocks [first, last) that are read.
+  [[nodiscard]] std::size_t read_blocks(std::size_t first, std::size_t last) const;
+  // Those of a slice whose blocks are not behind planned block `last`, from `next` on.
+  void add_kept(const TableSlice& slice, std::size_t last, std::size_t& next,
+                std::vector<BlockEntry>& entries) const;
   BlockFeed::Chunk next_chunk();
 
   const ExposingDevice& device_;
@@ -64,6 +71,7 @@ class Exposer {
   const RenderPlan& plan_;
   CaptureSource& source_;
   const RenderMemory& shares_;
+  const SumsInUse& kept_;
   cl::Kernel kernel_;
   cl::Buffer light_;
   DeviceMemory& memory_;

@@ -9,15 +9,26 @@
 
 namespace nutik {
 
-// A block within a chunk. Mirrors BlockEntry in kernels/layout.clh.
-struct BlockEntry {
-  std::uint64_t payload_offset;  // bytes from the chunk's start
-  std::uint64_t table_row;       // of its first sample in the tables of its slice
-  std::uint64_t span_row;        // in the spans of its slice
-  std::uint32_t sample_count;
-  std::uint32_t unused;
+// What a function makes of a block. Mirrors BlockPart in kernels/layout.clh.
+struct BlockPart {
+  static constexpr std::uint32_t kSteady = 1, kInBundle = 2, kBundleStart = 4, kBundleEnd = 8;
+
+  SampleSpan span;
+  std::uint32_t steady;
 };
-static_assert(sizeof(BlockEntry) == 32 && offsetof(BlockEntry, sample_count) == 24);
+static_assert(sizeof(BlockPart) == 8 && offsetof(BlockPart, steady) == 4);
+
+// A block within a chunk, or kept sums. Mirrors BlockEntry in kernels/layout.clh.
+struct BlockEntry {
+  static constexpr std::uint32_t kBlockKept = 1, kBundleKept = 2, kIsKept = 4;
+
+  std::uint64_t payload_offset;  // bytes from the chunk's start; of kept sums the place of the first, in sums
+  std::uint64_t table_row;       // of its first sample in the tables of its slice
+  std::uint64_t part_row;        // in the parts of its slice
+  std::uint32_t sample_count;
+  std::uint32_t kept;
+};
+static_assert(sizeof(BlockEntry) == 32 && offsetof(BlockEntry, kept) == 28);
 static_assert(sizeof(TileEntry) == 8 && sizeof(SampleSpan) == 4);
 static_assert(kBlockAlignment == 64 && kTilePixels == 64);
 

@@ -1,13 +1,13 @@
 #include "opencl/kernel_tables.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
 #include <limits>
 
 #include "opencl/code_search.hpp"
-#include "opencl/kernel_layout.hpp"
 #include "render/fixed_scale.hpp"
 #include "system/parallel.hpp"
 
@@ -121,6 +121,33 @@ void write_block(const Values& weights, const Values& boundaries, std::uint32_t 
     put(column.weights, row, is_live ? convert(weights[i]) : Number{});
     put(column.boundaries, row, boundaries.empty() ? Number{} : convert(boundaries[i]));
   }
+}
+
+// ∫φ of a block's samples in ns, and their sums from its first one on. All are whole halves of nanoseconds.
+struct HatNumbers {
+  std::vector<double> weights;
+  std::vector<double> boundaries;
+};
+
+HatNumbers hats_of(const PlannedBlock& planned, const Timeline& timeline) {
+  HatNumbers hats{{}, {0.0}};
+  std::uint64_t halves = 0;
+  for (const SampleTimes& sample : timeline.times(planned.extent.range())) {
+    const auto exposed = static_cast<std::uint64_t>(sample.end_ns - sample.start_ns);
+    const auto before = static_cast<std::uint64_t>(sample.start_ns - sample.before_ns);
+    const auto after = static_cast<std::uint64_t>(sample.after_ns - sample.end_ns);
+    const bool holds_to_the_end = sample.after_ns == timeline.duration_ns();
+    const std::uint64_t hat = 2 * exposed + before + (holds_to_the_end ? 2 : 1) * after;
+    halves += hat;
+    hats.weights.push_back(static_cast<double>(hat) / 2);
+    hats.boundaries.push_back(static_cast<double>(halves) / 2);
+  }
+  return hats;
+}
+
+Bytes one_in(Precision precision) {
+  return precision == Precision::fixed ? bytes_of(std::array<std::uint64_t, 1>{1})
+                                       : numbers_of(std::array{1.0}, precision);
 }
 
 FixedScale scale_of(const RenderPlan& plan, Precision precision) {
@@ -238,26 +265,56 @@ void pack_column(const GainTable& table, const RenderPlan& plan, const TableSlic
     const std::uint32_t samples = planned.extent.sample_count;
     const std::size_t offset = (planned.table_row - slice.first_row) * column.stride;
     const TableColumn to{column.weights + offset, column.boundaries + offset, column.stride};
-    const BlockTable from = reader.block(planned.block);
-    switch (precision) {
-      case Precision::single_:
-        write_block<float>(from.weights, from.boundaries, from.span.first, samples, to,
-                           [](double number) { return static_cast<float>(number); });
-        break;
-      case Precision::compensated:
-        write_block<FloatPair>(from.weights, from.boundaries, from.span.first, samples, to, pair_of);
-        break;
-      case Precision::double_:
-        write_block<double>(from.weights, from.boundaries, from.span.first, samples, to, std::identity{});
-        break;
-      case Precision::fixed: {
-        const FixedBlock fixed = fixed_block(from, exponent);
-        write_block<std::int64_t>(fixed.weights, fixed.boundaries, from.span.first, samples, to,
-                                  std::identity{});
-        break;
+    const auto write = [&](std::span<const double> weights, std::span<const double> boundaries,
+                           std::uint32_t first) {
+      switch (precision) {
+        case Precision::single_:
+          write_block<float>(weights, boundaries, first, samples, to,
+                             [](double number) { return static_cast<float>(number); });
+          break;
+        case Precision::compensated:
+          write_block<FloatPair>(weights, boundaries, first, samples, to, pair_of);
+          break;
+        case Precision::double_:
+        case Precision::fixed:
+          write_block<double>(weights, boundaries, first, samples, to, std::identity{});
+          break;
       }
+    };
+    if (precision == Precision::fixed) {
+      const BlockTable from = reader.block(planned.block);
+      const FixedBlock whole = fixed_block(from, exponent);
+      write_block<std::int64_t>(whole.weights, whole.boundaries, from.span.first, samples, to,
+                                std::identity{});
+    } else if (table.steady_in(planned.block).is_steady()) {
+      const HatNumbers hats = hats_of(planned, plan.layout->timeline);
+      write(hats.weights, hats.boundaries, 0);
+    } else {
+      const BlockTable from = reader.block(planned.block);
+      write(from.weights, from.boundaries, from.span.first);
     }
   }
+}
+
+PartColumn part_column(const GainTable& table, const RenderPlan& plan, const TableSlice& slice,
+                       Precision precision) {
+  PartColumn column;
+  const Bytes one = one_in(precision);
+  for (std::size_t b = slice.first_block; b < slice.last_block; ++b) {
+    const PlannedBlock& planned = plan.blocks[b];
+    const SteadyGain steady = precision == Precision::fixed ? SteadyGain{} : table.steady_in(planned.block);
+    const bool is_multiplied = steady.is_steady() && !plan.sums_light;
+    BlockPart part{table.span_in(planned.extent), is_multiplied ? BlockPart::kSteady : 0};
+    if (is_multiplied && steady.in_bundle) {
+      const std::uint64_t at = planned.block % kBundleBlocks;
+      part.steady |= BlockPart::kInBundle | (at == 0 ? BlockPart::kBundleStart : 0) |
+                     (at + 1 == kBundleBlocks ? BlockPart::kBundleEnd : 0);
+    }
+    column.parts.push_back(part);
+    const Bytes gain = is_multiplied ? numbers_of(std::array{steady.per_ns}, precision) : one;
+    column.gains.insert(column.gains.end(), gain.begin(), gain.end());
+  }
+  return column;
 }
 
 Bytes light_values(const LightSource& light, Precision precision, std::uint64_t white_light) {

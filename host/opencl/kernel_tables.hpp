@@ -10,6 +10,7 @@
 
 #include "opencl/allocation_cuts.hpp"
 #include "opencl/function_map.hpp"
+#include "opencl/kernel_layout.hpp"
 #include "opencl/light_source.hpp"
 #include "render/fixed_scale.hpp"
 #include "render/output_format.hpp"
@@ -34,10 +35,18 @@ struct TableColumn {
   std::size_t stride;
 };
 
-// Writes a function's numbers for the rows of a slice, every byte of them. `exponent` is the function's of FixedScale,
-// for whole numbers.
+// Writes a function's numbers for the rows of a slice, every byte of them: in steady blocks those of light · ns, unless
+// numbers are whole. `exponent` is the function's of FixedScale, for whole numbers.
 void pack_column(const GainTable& table, const RenderPlan& plan, const TableSlice& slice, Precision precision,
                  int exponent, const TableColumn& column);
+
+// What a function makes of the blocks of a slice, and the gains of those that are steady, 1 of all others.
+struct PartColumn {
+  std::vector<BlockPart> parts;
+  Bytes gains;
+};
+[[nodiscard]] PartColumn part_column(const GainTable& table, const RenderPlan& plan, const TableSlice& slice,
+                                     Precision precision);
 
 // Light of every code, or a curve. `white_light` is FixedScale's, for whole numbers.
 [[nodiscard]] Bytes light_values(const LightSource& light, Precision precision, std::uint64_t white_light);

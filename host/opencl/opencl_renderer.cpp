@@ -14,6 +14,7 @@
 #include "opencl/device_memory.hpp"
 #include "opencl/device_tables.hpp"
 #include "opencl/exposer.hpp"
+#include "opencl/kept_sums.hpp"
 #include "opencl/kernel_constants.hpp"
 #include "opencl/kernel_sources.hpp"
 #include "opencl/light_pieces.hpp"
@@ -93,6 +94,8 @@ class OpenClRenderer::Implementation {
   void keep_resident(const CaptureSource* source) {
     const std::scoped_lock turn(turn_);
     feed_->keep_resident(source);
+    resident_ = source;
+    kept_sums_.clear();
   }
 
   void prepare(const RenderPlan& plan, const OutputFormat& output) {
@@ -237,16 +240,55 @@ class OpenClRenderer::Implementation {
     } else {
       const DeviceLight& light = light_of(work, plan, memory);
       const RenderMemory shares = memory_for(request, work.precision);
-      const ExposingDevice device{info_, queue_, *feed_, *tables_, options_.last_block_first};
-      Exposer(device, work, plan, request.source, shares,
-              cl::Kernel(expose_program(work, plan, light), "expose"), light.values, memory,
-              rendered.statistics)
-          .expose(bands, request.control, develop_band);
+      const Exposing exposing{work, request, light, shares, memory, rendered.statistics};
+      expose(exposing, plan, sums_in_use(exposing, bands), bands, develop_band);
     }
     rendered.picture = developer.take_picture();
     rendered.saturation = developer.saturation();
     rendered.statistics.develop_ms = developer.develop_ms();
     rendered.statistics.device_bytes = memory.most_bytes();
+  }
+
+  // What all that is exposed for one picture has in common.
+  struct Exposing {
+    const Work& work;
+    const Request& request;
+    const DeviceLight& light;
+    const RenderMemory& shares;
+    DeviceMemory& memory;
+    RenderStatistics& statistics;
+  };
+
+  void expose(const Exposing& exposing, const RenderPlan& plan, const SumsInUse& kept,
+              std::span<ExposedBand> bands, const Exposer::Develop& develop) {
+    const ExposingDevice device{info_, queue_, *feed_, *tables_, options_.last_block_first};
+    Exposer(device, exposing.work, plan, exposing.request.source, exposing.shares, kept,
+            cl::Kernel(expose_program(exposing.work, plan, exposing.light), "expose"), exposing.light.values,
+            exposing.memory, exposing.statistics)
+        .expose(bands, exposing.request.control, develop);
+  }
+
+  // The kept sums of an exposure, some of which it makes first.
+  SumsInUse sums_in_use(const Exposing& exposing, std::span<const ExposedBand> bands) {
+    const auto& [work, request, light, shares, memory, statistics] = exposing;
+    if (&request.source != resident_ || work.precision == Precision::fixed) return {};
+    for (const SummedBlocks& blocks :
+         kept_sums_.worth_making(request.plan, work.precision, shares.kept_bytes, info_)) {
+      const RenderPlan& plan = kept_sums_.plan_for(blocks, request.plan, request.source);
+      const std::size_t slot = kept_sums_.slot_for(memory);
+      const DeviceMemory::Scope scope(memory);
+      const Rectangle whole = Rectangle::whole(plan.capture.shape);
+      std::vector<ExposedBand> all =
+          bands_of(work, {plan, request.source, request.output, whole, request.control}, memory, statistics);
+      expose(exposing, plan, {}, all,
+             [&](const ExposedBand& exposed) { kept_sums_.store(slot, exposed, queue_); });
+      kept_sums_.keep(slot, blocks);
+      ++statistics.made_sums;
+    }
+    memory.count(kept_sums_.bytes());
+    SumsInUse used = kept_sums_.in_use(request.plan, bands);
+    statistics.kept_sums += used.entries.size();
+    return used;
   }
 
   // Sums of nothing are 0 in every arithmetic.
@@ -312,7 +354,7 @@ class OpenClRenderer::Implementation {
     for (const Band& band : cut_picture(request.plan.capture.shape, request.rectangle, work.precision, info_,
                                         kBandBytes, request.plan.map->mixed_tiles)) {
       const DeviceMap& map = constants_->map(request.plan.map, band, memory, statistics.map_bytes_written);
-      bands.push_back({band, map, {}});
+      bands.push_back({band, map, {}, {}});
     }
     return bands;
   }
@@ -327,6 +369,8 @@ class OpenClRenderer::Implementation {
   std::map<std::string, Verdict> verdict_on_;  // by TestedPrograms::text()
   bool announced_ = false;
   std::unique_ptr<BlockFeed> feed_;
+  const CaptureSource* resident_ = nullptr;
+  KeptSums kept_sums_;
   std::unique_ptr<DeviceTables> tables_;
   std::unique_ptr<KernelConstants> constants_;
   std::mutex turn_;  // at the device: all that follows from a plan's choice of arithmetic on

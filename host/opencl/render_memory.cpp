@@ -20,7 +20,10 @@ std::uint64_t row_bytes(const RenderPlan& plan, Precision precision) {
 }  // namespace
 
 RenderMemory memory_for_blocks(std::uint64_t memory_bytes) {
-  return {{std::min(kChunkBytes, memory_bytes / 4), memory_bytes / 2, true}, memory_bytes / 32};
+  const std::uint64_t chunk_bytes = std::min(kChunkBytes, memory_bytes / 4);
+  // Of what chunks leave of their half.
+  const std::uint64_t kept_bytes = (memory_bytes / 2 - 2 * chunk_bytes) / 4;
+  return {{chunk_bytes, memory_bytes / 2, true}, kept_bytes, memory_bytes / 32};
 }
 
 RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, const CaptureSource& source,
@@ -30,7 +33,8 @@ RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, co
     block_bytes = std::max(block_bytes, align_up(source.lent_bytes(planned.block), kBlockAlignment));
     block_rows = std::max(block_rows, planned.row_count());
   }
-  MemoryNeeds needs = picture_needs(picture, type, sum_bytes(precision));
+  const bool has_bundles = precision != Precision::fixed && plan.has_bundles();
+  MemoryNeeds needs = picture_needs(picture, type, (has_bundles ? 2 : 1) * sum_bytes(precision));
   if (const MaskMap& map = *plan.map; !map.mixed.empty()) {
     // Sums of a tile for each of its functions but one, which counts above, on the device and where they are blended;
     // functions and shares of pixels here and there.
@@ -58,6 +62,8 @@ RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, co
   const std::uint64_t passing =
       (memory.feed.reads_ahead ? 2 : 1) * std::max(block_bytes, memory.feed.chunk_bytes);
   memory.feed.resident_bytes = blocks - std::min(blocks, passing);
+  memory.kept_bytes = memory.feed.resident_bytes / 4;
+  memory.feed.resident_bytes -= memory.kept_bytes;
   return memory;
 }
 

@@ -32,6 +32,7 @@ struct Roundings {
   double unit;    // what one rounding errs by
   double of_sum;  // each term added to others, or block to those before, of the largest that the sum can be
   double of_weight;    // each weight: rounding it, or a difference of boundaries, the product, adding it
+  double of_steady;    // each weight of a steady block besides: the gain, its product; bundles that are added
   double of_boundary;  // each boundary that a difference is made of
   double of_share;     // each share of a light: making it a number, the product, adding it
   double light;        // codes to light, absolute
@@ -46,23 +47,24 @@ Roundings roundings_of(Precision precision, const Transfer& transfer) {
   switch (precision) {
     case Precision::single_: {
       const double light = transfer.toe() ? kCurveLight : has_table ? kRoundoff32 : 0.0;
-      return {kRoundoff32, 1, 2, 0, 3, light, kRoundoff32, 0x1p-122, kRoundoff32};
+      return {kRoundoff32, 1, 2, 2, 0, 3, light, kRoundoff32, 0x1p-122, kRoundoff32};
     }
     case Precision::compensated:
-      return {kPair, 3, 17, 4, 20, has_table ? kPair : 0.0, kPair, 0x1p-122, kRoundoff32};
+      return {kPair, 3, 17, 17, 4, 20, has_table ? kPair : 0.0, kPair, 0x1p-122, kRoundoff32};
     case Precision::double_:
     case Precision::fixed: break;
   }
-  return {kRoundoff64, 1, 2, 0, 3, 0.0, kRoundoff64, 0.0, kRoundoff64};
+  return {kRoundoff64, 1, 2, 2, 0, 3, 0.0, kRoundoff64, 0.0, kRoundoff64};
 }
 
 double floating_error(const FunctionCourse& course, Precision precision, const Roundings& roundings) {
-  const double first_order =
-      roundings.unit * (roundings.of_sum * (course.partial_sums + course.block_sums) +
-                        roundings.of_weight * course.magnitude + roundings.of_boundary * course.boundaries) +
-      course.boundary_errors(precision) + roundings.light * course.magnitude +
-      roundings.unnormal * (course.sample_count + course.block_count);
-  const double growth = roundings.growth * (course.longest_block + course.block_count + 8);
+  const double first_order = roundings.unit * (roundings.of_sum * (course.partial_sums + course.block_sums) +
+                                               roundings.of_weight * course.magnitude +
+                                               roundings.of_steady * course.steady_magnitude +
+                                               roundings.of_boundary * course.boundaries) +
+                             course.boundary_errors(precision) + roundings.light * course.magnitude +
+                             roundings.unnormal * (course.sample_count + course.block_count);
+  const double growth = roundings.growth * (course.longest_block + course.block_count + 10);
   return growth < 0.5 ? first_order / (1 - growth) : kInfinite;
 }
 

@@ -28,8 +28,12 @@ double FunctionCourse::boundary_errors(Precision precision) const {
 void CourseMeter::Extent::add(double weight) { (weight > 0.0 ? above : below) += std::fabs(weight); }
 double CourseMeter::Extent::largest() const { return std::max(above, below); }
 
-void CourseMeter::add(const BlockTable& table) {
+void CourseMeter::add(const BlockTable& table, const SteadyGain& steady) {
   if (table.weights.empty()) return;
+  // A steady block's table holds what the gain is multiplied to. What a number loses changes by no more than the number
+  // does, which is known to so many roundings here.
+  const double factor = steady.is_steady() ? std::fabs(steady.per_ns) : 1.0;
+  const double known_to = steady.is_steady() ? 15 * 0x1p-53 : 0.0;
   Extent block;
   for (std::size_t i = 0; i < table.weights.size(); ++i) {
     const double weight = table.weights[i];
@@ -38,10 +42,13 @@ void CourseMeter::add(const BlockTable& table) {
     magnitude_.add(std::fabs(weight));
     if (i > 0) course_.partial_sums += block.largest();
     course_.boundaries += std::fabs(boundary);
-    course_.single_boundary_errors += std::fabs(boundary - as_single(boundary));
-    course_.pair_boundary_errors += std::fabs(boundary - as_pair(boundary));
+    const double stored = boundary / factor;
+    const double unknown = known_to * std::fabs(stored);
+    course_.single_boundary_errors += factor * (std::fabs(stored - as_single(stored)) + unknown);
+    course_.pair_boundary_errors += factor * (std::fabs(stored - as_pair(stored)) + unknown);
     course_.weight_count += weight != 0.0;
   }
+  if (steady.is_steady()) course_.steady_magnitude += block.above + block.below;
   capture_.above += block.above;
   capture_.below += block.below;
   if (course_.block_count > 0) course_.block_sums += capture_.largest();

@@ -12,9 +12,10 @@ namespace nutik {
 
 // Sums are of light · weight, over all light in [0, 1].
 struct FunctionCourse {
-  double magnitude = 0.0;              // Σ|w|
-  double extent = 0.0;                 // the largest that the whole sum can be
-  double partial_sums = 0.0;           // Σ over samples but the first of a block: the same of their block's sum up to them
+  double magnitude = 0.0;  // Σ|w|
+  double extent = 0.0;     // the largest that the whole sum can be
+  double partial_sums =
+      0.0;  // Σ over samples but the first of a block: the same of their block's sum up to them
   double block_sums = 0.0;             // Σ over blocks but the first: the same of all up to their ends
   double boundaries = 0.0;             // Σ|B|
   double longest_block = 0.0;          // in live samples
@@ -22,6 +23,7 @@ struct FunctionCourse {
   double sample_count = 0.0;           // live
   std::uint64_t weight_count = 0;      // that are not 0
   double compensated_magnitude = 0.0;  // Σ|w|, without the error of a running sum
+  double steady_magnitude = 0.0;       // Σ|w| of steady blocks
 
   // Σ of what the kernel's table misses of each boundary.
   [[nodiscard]] double boundary_errors(Precision precision) const;
@@ -33,7 +35,7 @@ struct FunctionCourse {
 // Goes through a table, block by block in time order.
 class CourseMeter {
  public:
-  void add(const BlockTable& table);
+  void add(const BlockTable& table, const SteadyGain& steady);
   [[nodiscard]] FunctionCourse course() const;
 
  private:

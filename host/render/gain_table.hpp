@@ -35,6 +35,21 @@ struct SampleSpan {
 };
 static_assert(sizeof(SampleSpan) == 4);
 
+// What a block's light · ns is multiplied by where a function's gain is steady: the same over the whole reach of all
+// its samples, and not 0 (docs/model.md, "Steady gain").
+struct SteadyGain {
+  double per_ns = 0.0;     // scaled gain / D; 0: the block is not steady
+  bool in_bundle = false;  // so are all blocks of its bundle
+
+  [[nodiscard]] bool is_steady() const { return per_ns != 0.0; }
+};
+
+// Shorter blocks are not called steady: nothing is gained by what their sums have in common.
+inline constexpr std::uint32_t kLeastSteadySamples = 16;
+
+// Blocks b with the same b / kBundleBlocks are a bundle. The capture's last ones are none where some are missing.
+inline constexpr std::uint64_t kBundleBlocks = 8;
+
 // The samples that a function needs: whose reach meets its live interval, or all of them.
 [[nodiscard]] SampleRange live_samples(const GainSummary& summary, const Timeline& timeline, bool live_all);
 
@@ -81,6 +96,7 @@ class GainTable {
   // The samples that it needs, in the capture and in a block.
   [[nodiscard]] const SampleRange& live() const { return live_; }
   [[nodiscard]] SampleSpan span_in(const BlockExtent& block) const;
+  [[nodiscard]] SteadyGain steady_in(std::uint64_t block) const;
 
   // Goes through the whole table the first time.
   [[nodiscard]] const FunctionCourse& course() const;
@@ -99,6 +115,16 @@ class GainTable {
   };
 
  private:
+  // Where the gain is the same, longer than a piece perhaps.
+  struct SteadyStretch {
+    std::int64_t begin_ns;
+    std::int64_t end_ns;
+    double gain_per_ns;
+  };
+
+  [[nodiscard]] std::vector<SteadyStretch> steady_stretches() const;
+  // That holds the reach of these blocks' samples; null where none does.
+  [[nodiscard]] const SteadyStretch* stretch_of(std::uint64_t first_block, std::uint64_t last_block) const;
   void measure() const;
   [[nodiscard]] bool touches(std::size_t run) const;
   [[nodiscard]] std::shared_ptr<const TableRun> run(std::size_t run) const;
@@ -112,6 +138,7 @@ class GainTable {
   GainSummary summary_;
   std::vector<FunctionFinding> findings_;
   SampleRange live_;
+  std::vector<SteadyStretch> steady_;  // in time order
 
   mutable std::once_flag measured_;
   mutable std::atomic<bool> is_measured_{false};

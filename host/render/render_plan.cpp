@@ -11,6 +11,14 @@ std::uint64_t RenderPlan::row_count() const {
   return blocks.empty() ? 0 : blocks.back().table_row + blocks.back().row_count();
 }
 
+bool RenderPlan::has_bundles() const {
+  return std::ranges::any_of(blocks, [this](const PlannedBlock& planned) {
+    return std::ranges::any_of(functions, [&](const PlannedFunction& function) {
+      return function.table->steady_in(planned.block).in_bundle;
+    });
+  });
+}
+
 double RenderPlan::error_scale(std::uint64_t pixel) const {
   const std::span<const Share> shares = shares_of(pixel);
   if (shares.empty()) return functions[function_of(pixel)].summary.error_scale();

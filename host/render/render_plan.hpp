@@ -62,6 +62,9 @@ struct RenderPlan {
   std::vector<PlannedBlock> blocks;   // in time order
   std::vector<std::string> warnings;  // whole sentences
 
+  // Kernels add up light · ns of its blocks, all steady: what exposures of other gains have in common.
+  bool sums_light = false;
+
   [[nodiscard]] std::uint64_t function_count() const { return functions.size(); }
   // Index into functions; of a mixed pixel the one with the largest share.
   [[nodiscard]] std::uint8_t function_of(std::uint64_t pixel) const { return map->region_of_pixel[pixel]; }
@@ -71,6 +74,8 @@ struct RenderPlan {
   [[nodiscard]] double error_scale(std::uint64_t pixel) const;
   // Of the tables of all functions for the planned blocks.
   [[nodiscard]] std::uint64_t row_count() const;
+  // Whether some function's gain is steady over a bundle of blocks.
+  [[nodiscard]] bool has_bundles() const;
   // The samples that some function exposes.
   [[nodiscard]] std::uint64_t exposed_sample_count() const;
 };

@@ -9,6 +9,7 @@
 #include "opencl/build_options.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "opencl/kernel_sources.hpp"
+#include "opencl/launch.hpp"
 #include "opencl/opencl_api.hpp"
 
 namespace nutik {
@@ -55,7 +56,8 @@ class OneTile {
     for (std::size_t k = sample_count_; k < weights.size(); ++k) weights[k] = kBehindTheTable;
 
     std::vector<BlockEntry> blocks{{0, 0, 0, sample_count_, 0}};
-    std::vector<SampleSpan> spans{{0, static_cast<std::uint16_t>(sample_count_)}};
+    std::vector<BlockPart> parts{{{0, static_cast<std::uint16_t>(sample_count_)}, 0}};
+    std::vector<std::uint64_t> gains{1}, kept{0}, bundles{0};
     std::vector<std::uint32_t> tiles{0};
     std::vector<std::uint16_t> of_tile{0};
     std::vector<std::uint8_t> of_lane(kTilePixels, 0);
@@ -64,12 +66,10 @@ class OneTile {
       return cl::Buffer(context_, values.begin(), values.end(), false);
     };
     const cl::Buffer result = buffer(sums);
-    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint,
-                      cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong, cl_uint>
-        kernel(program_, "expose");
-    kernel(cl::EnqueueArgs(queue_, cl::NDRange(8)), buffer(payload), buffer(blocks), 1, buffer(spans),
-           buffer(weights), buffer(boundaries), 1, buffer(tiles), buffer(of_tile), buffer(of_lane),
-           buffer(sums), result, 1, 1);
+    ExposeKernel kernel(program_, "expose");
+    kernel(cl::EnqueueArgs(queue_, cl::NDRange(8)), buffer(payload), buffer(blocks), 1, buffer(parts),
+           buffer(gains), buffer(weights), buffer(boundaries), 1, buffer(tiles), buffer(of_tile),
+           buffer(of_lane), buffer(sums), buffer(kept), buffer(bundles), result, 1, 1);
     queue_.enqueueReadBuffer(result, CL_TRUE, 0, sums.size() * sizeof(std::uint64_t), sums.data());
     return sums;
   }

@@ -59,9 +59,10 @@ class Incremental : public testing::TestWithParam<Precision> {
   PlanCache cache_;
   OpenClRenderer renderer_{test::renderer_options(GetParam())};
 
-  // Of one function: a row for each sample and one more for each block, twice; a span for each block.
+  // Of one function: a row for each sample and one more for each block, twice; a part and a gain for each block.
   const std::uint64_t column_bytes_ =
-      2 * (kSamples + kSamples / kBlockSamples) * weight_bytes(GetParam()) + kSamples / kBlockSamples * 4;
+      2 * (kSamples + kSamples / kBlockSamples) * weight_bytes(GetParam()) +
+      kSamples / kBlockSamples * (sizeof(BlockPart) + weight_bytes(GetParam()));
 };
 
 TEST_P(Incremental, AMovedPointWritesOneColumn) {

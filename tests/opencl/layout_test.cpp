@@ -12,18 +12,27 @@ TEST(KernelLayout, IsTheHosts) {
   const std::vector<cl_uint> expected{sizeof(TileEntry),
                                       offsetof(TileEntry, offset),
                                       offsetof(TileEntry, count),
-                                      sizeof(SampleSpan),
-                                      offsetof(SampleSpan, first),
-                                      offsetof(SampleSpan, last),
+                                      sizeof(BlockPart),
+                                      offsetof(BlockPart, span) + offsetof(SampleSpan, first),
+                                      offsetof(BlockPart, span) + offsetof(SampleSpan, last),
+                                      offsetof(BlockPart, steady),
                                       sizeof(BlockEntry),
                                       offsetof(BlockEntry, payload_offset),
                                       offsetof(BlockEntry, table_row),
-                                      offsetof(BlockEntry, span_row),
+                                      offsetof(BlockEntry, part_row),
                                       offsetof(BlockEntry, sample_count),
+                                      offsetof(BlockEntry, kept),
                                       kTilePixels,
                                       kBlockAlignment,
                                       TileEntry::kRecordsFlag,
-                                      kMixedFunctions};
+                                      kMixedFunctions,
+                                      BlockPart::kSteady,
+                                      BlockPart::kInBundle,
+                                      BlockPart::kBundleStart,
+                                      BlockPart::kBundleEnd,
+                                      BlockEntry::kBlockKept,
+                                      BlockEntry::kBundleKept,
+                                      BlockEntry::kIsKept};
   for (const cl::Device& device : all_devices()) {
     const cl::Context context(device);
     cl::CommandQueue queue(context, device);

@@ -1,0 +1,153 @@
+#include "opencl/kept_sums.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "opencl/kernel_tables.hpp"
+
+namespace nutik {
+namespace {
+
+// A sum is of the whole picture: not worth it where less of it than this is exposed with a steady gain there.
+constexpr double kLeastShare = 0.25;
+
+// Exposures for which a sum that nobody wants stays all the same: where more are wanted than there is room for, some
+// stay rather than all go by turns.
+constexpr std::uint64_t kIdleExposures = 64;
+
+// Of one function in one planned block.
+struct Part {
+  bool is_live;
+  std::optional<SummedBlocks> sum;  // none where its gain is not steady
+};
+
+Part part_of(const PlannedFunction& function, const PlannedBlock& planned) {
+  if (function.table->span_in(planned.extent).empty()) return {false, {}};
+  const SteadyGain steady = function.table->steady_in(planned.block);
+  if (!steady.is_steady()) return {true, {}};
+  if (!steady.in_bundle) return {true, SummedBlocks{planned.block, 1}};
+  return {true, SummedBlocks{planned.block / kBundleBlocks * kBundleBlocks, kBundleBlocks}};
+}
+
+std::uint32_t kept_as(const SummedBlocks& blocks) {
+  return blocks.count == 1 ? BlockEntry::kBlockKept : BlockEntry::kBundleKept;
+}
+
+bool has_mixed_tiles(std::span<const ExposedBand> bands) {
+  return std::ranges::any_of(bands, [](const ExposedBand& exposed) {
+    return std::ranges::find(exposed.map.host->of_tile, kMixedFunctions) != exposed.map.host->of_tile.end();
+  });
+}
+
+}  // namespace
+
+void KeptSums::clear() { *this = KeptSums(); }
+
+std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan, Precision precision,
+                                                 std::uint64_t most_bytes, const DeviceInfo& device) {
+  const std::uint64_t slot_bytes =
+      sums_bytes(TileGrid(plan.capture.shape).tile_count(), plan.capture.shape.channels, precision);
+  const std::uint64_t room = std::min(most_bytes, device.largest_allocation_bytes) / slot_bytes;
+  if (precision != precision_ || plan.capture.transfer != transfer_ || room < slots_.size()) clear();
+  precision_ = precision;
+  transfer_ = plan.capture.transfer;
+  slot_bytes_ = slot_bytes;
+  const std::uint64_t blocks = plan.layout->blocks.size();
+  if (capacity_ == 0) capacity_ = std::min(room, blocks + blocks / kBundleBlocks);
+  ++exposure_;
+
+  std::map<SummedBlocks, std::uint64_t> pixels;  // that want it
+  for (const PlannedFunction& function : plan.functions) {
+    for (const PlannedBlock& planned : plan.blocks) {
+      const Part part = part_of(function, planned);
+      if (part.sum && part.sum->first == planned.block) pixels[*part.sum] += function.pixel_count;
+    }
+  }
+  std::vector<SummedBlocks> worth;
+  const double least = kLeastShare * static_cast<double>(plan.capture.shape.pixel_count());
+  for (const auto& [sum, count] : pixels) {
+    if (const auto slot = slot_of_.find(sum); slot != slot_of_.end()) {
+      slots_[slot->second].exposure = exposure_;
+    } else if (static_cast<double>(count) >= least && !was_wanted_.insert(sum).second) {
+      worth.push_back(sum);
+    }
+  }
+  std::uint64_t rooms = capacity_ - slots_.size();
+  for (const Slot& slot : slots_) rooms += is_idle(slot);
+  if (worth.size() > rooms) worth.resize(rooms);
+  return worth;
+}
+
+bool KeptSums::is_idle(const Slot& slot) const { return slot.exposure + kIdleExposures < exposure_; }
+
+std::size_t KeptSums::slot_for(DeviceMemory& memory) {
+  if (sums_() == nullptr) sums_ = memory.allocate(capacity_ * slot_bytes_, CL_MEM_READ_WRITE);
+  if (slots_.size() < capacity_) {
+    slots_.push_back({{}, 0});
+    return slots_.size() - 1;
+  }
+  const auto oldest = std::ranges::min_element(slots_, {}, &Slot::exposure);
+  slot_of_.erase(oldest->blocks);
+  *oldest = {{}, 0};
+  return static_cast<std::size_t>(oldest - slots_.begin());
+}
+
+const RenderPlan& KeptSums::plan_for(const SummedBlocks& blocks, const RenderPlan& plan,
+                                     const CaptureSource& source) {
+  if (!light_) {
+    const Shape& shape = plan.capture.shape;
+    light_ =
+        make_plan(source, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(shape.width, shape.height, 0), {});
+    light_->capture = plan.capture;
+    light_->sums_light = true;
+  }
+  light_->blocks.clear();
+  std::uint64_t row = 0;
+  for (std::uint64_t block = blocks.first; block < blocks.first + blocks.count; ++block) {
+    light_->blocks.push_back({block, light_->layout->blocks[block], row});
+    row += light_->blocks.back().row_count();
+  }
+  return *light_;
+}
+
+void KeptSums::store(std::size_t slot, const ExposedBand& exposed, cl::CommandQueue& queue) const {
+  const std::uint64_t tile_bytes = slot_bytes_ / TileGrid(light_->capture.shape).tile_count();
+  queue.enqueueCopyBuffer(exposed.sums, sums_, 0, slot * slot_bytes_ + exposed.band.first_tile * tile_bytes,
+                          exposed.band.tile_count * tile_bytes);
+  queue.finish();
+}
+
+void KeptSums::keep(std::size_t slot, const SummedBlocks& blocks) {
+  slots_[slot] = {blocks, exposure_};
+  slot_of_[blocks] = slot;
+}
+
+SumsInUse KeptSums::in_use(const RenderPlan& plan, std::span<const ExposedBand> bands) const {
+  if (slot_of_.empty()) return {};
+  SumsInUse used{
+      sums_, {}, std::vector<std::uint32_t>(plan.blocks.size()), std::vector<bool>(plan.blocks.size())};
+  const bool reads_all = has_mixed_tiles(bands);
+  const std::uint64_t slot_sums =
+      slot_bytes_ / (precision_ == Precision::double_ ? sizeof(double) : sizeof(float));
+  for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
+    bool is_read = reads_all;
+    for (const PlannedFunction& function : plan.functions) {
+      const Part part = part_of(function, plan.blocks[b]);
+      if (!part.is_live) continue;
+      const auto slot = part.sum ? slot_of_.find(*part.sum) : slot_of_.end();
+      if (slot == slot_of_.end()) {
+        is_read = true;
+        continue;
+      }
+      const std::uint32_t as = kept_as(*part.sum);
+      if ((used.kept[b] & as) == 0 && part.sum->first == plan.blocks[b].block) {
+        used.entries.push_back({b, as | BlockEntry::kIsKept, slot->second * slot_sums});
+      }
+      used.kept[b] |= as;
+    }
+    used.skipped[b] = !is_read && used.kept[b] != 0;
+  }
+  return used;
+}
+
+}  // namespace nutik

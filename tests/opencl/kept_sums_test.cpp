@@ -1,0 +1,192 @@
+// Steady gains: exposures are within their bound, and the same to the last bit whether sums of blocks and bundles were
+// kept or are made.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "capture/format.hpp"
+#include "render/picture_errors.hpp"
+#include "render/plan_cache.hpp"
+#include "render/reference_renderer.hpp"
+#include "support/random_case.hpp"
+#include "support/rendering.hpp"
+#include "support/seeds.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr OutputFormat kLight{ValueType::light64, 0};
+
+// A boxcar, or steps of several gains: from and to edges of blocks and samples, a nanosecond beside them, or anywhere.
+GainFunction random_steps(test::Random& random, const MemoryCapture& capture) {
+  const Timeline& timeline = capture.timeline();
+  const auto random_time = [&] {
+    const auto block =
+        static_cast<std::uint64_t>(random.whole(0, static_cast<std::int64_t>(capture.block_count()) - 1));
+    const SampleRange samples = capture.block_extent(block).range();
+    std::int64_t time_ns = 0;
+    switch (random.whole(0, 3)) {
+      case 0: time_ns = timeline.reach_begin_ns(samples.first); break;
+      case 1: time_ns = timeline.end_ns(samples.last - 1); break;
+      case 2: time_ns = timeline.start_ns(samples.first) + random.whole(-1, 1); break;
+      default: return random.whole(0, timeline.duration_ns());
+    }
+    return std::clamp<std::int64_t>(time_ns, 0, timeline.duration_ns());
+  };
+  std::vector<std::int64_t> times(static_cast<std::size_t>(random.whole(1, 3)));
+  for (std::int64_t& time : times) time = random_time();
+  std::ranges::sort(times);
+  times.erase(std::ranges::unique(times).begin(), times.end());
+  double gain = random.chance(0.5) ? 0.0 : random.real(-2, 2);
+  std::vector<ControlPoint> points;
+  for (const std::int64_t time : times) {
+    points.push_back({time, gain});
+    gain = random.chance(0.2) ? 0.0 : random.real(-2, 2);
+    points.push_back({time, gain});
+  }
+  if (random.chance(0.2)) points.push_back({times.back() + timeline.duration_ns() / 3, random.real(-1, 1)});
+  return GainFunction(std::move(points));
+}
+
+struct SteadyCase {
+  std::optional<MemoryCapture> capture;
+  FunctionSet functions;
+  Mask mask;
+
+  explicit SteadyCase(std::uint64_t seed) {
+    test::Random random(seed);
+    CaptureFormat format = test::random_format(random);
+    // Few kernels, and tiles enough for regions.
+    format.shape = {static_cast<std::uint32_t>(random.whole(9, 40)), 17, 1};
+    format.code_bytes = 1;
+    format.white_code = 255;
+    format.transfer = random.chance(0.5) ? Transfer::srgb() : Transfer::linear();
+    const auto samples = static_cast<std::uint64_t>(random.whole(150, 500));
+    const auto block_samples = static_cast<std::uint32_t>(random.whole(16, 24));
+    capture.emplace(format, test::random_timeline(random, samples),
+                    test::random_rasters(random, format, samples), block_samples,
+                    random.chance(0.3) ? TilePolicy::dense : TilePolicy::automatic);
+    for (std::uint8_t tag = 0; tag < 3; ++tag) functions.emplace(tag, random_steps(random, *capture));
+    mask = Mask::uniform(format.shape.width, format.shape.height, 0);
+    const std::int64_t kind = random.whole(0, 2);  // one function; whole tiles of each; pixels
+    for (std::size_t pixel = 0; pixel < mask.tags.size() && kind > 0; ++pixel) {
+      const std::size_t x = pixel % format.shape.width;
+      mask.tags[pixel] = static_cast<std::uint8_t>(kind == 1 ? x / kTileSide % 3 : x % 3);
+    }
+  }
+
+  [[nodiscard]] RenderPlan plan() const { return make_plan(*capture, functions, mask, {}); }
+};
+
+class KeptSumsOf : public testing::TestWithParam<Precision> {
+ protected:
+  void SetUp() override {
+    const auto has = precisions_of(list_devices().front());
+    if (std::ranges::find(has, GetParam()) == has.end()) GTEST_SKIP() << "the device has no double";
+  }
+  OpenClRenderer fresh_{test::renderer_options(GetParam())};
+  OpenClRenderer renderer_{test::renderer_options(GetParam())};
+};
+
+// NUTIK_TEST_CASES=10000 is the full run.
+TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
+  const test::Seeds seeds = test::seeds(0, 60);
+  std::uint64_t kept = 0, bundles = 0;
+  double worst = 0.0;
+  ReferenceRenderer reference;
+  for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
+    SteadyCase random(seed);
+    const RenderPlan plan = random.plan();
+    bundles += plan.has_bundles();
+    const Picture expected = reference.render(plan, *random.capture, kLight).picture;
+    const Picture made = fresh_.render(plan, *random.capture, kLight).picture;
+    const LightErrors errors = light_errors(plan, error_bound(plan, GetParam(), kLight), expected, made);
+    ASSERT_LE(errors.share_of_bound, 1.0) << test::rerun(seed);
+    worst = std::max(worst, errors.share_of_bound);
+    renderer_.keep_resident(&*random.capture);
+    for (int time = 0; time < 3; ++time) {
+      const Rendered again = renderer_.render(plan, *random.capture, kLight);
+      ASSERT_EQ(again.picture.bytes, made.bytes) << test::rerun(seed);
+      kept += again.statistics.kept_sums;
+      if (time == 0) {
+        ASSERT_EQ(again.statistics.kept_sums, 0u);
+      }
+      if (time == 2) {
+        ASSERT_EQ(again.statistics.made_sums, 0u) << test::rerun(seed);
+      }
+    }
+    // What another function wants of the same sums.
+    random.functions.at(0) = GainFunction({{0, 0.7}});
+    const RenderPlan other = random.plan();
+    ASSERT_EQ(renderer_.render(other, *random.capture, kLight).picture.bytes,
+              fresh_.render(other, *random.capture, kLight).picture.bytes)
+        << test::rerun(seed);
+  }
+  renderer_.keep_resident(nullptr);
+  std::printf("%s: %llu sums kept, %llu cases with bundles, worst error %.2f of its bound\n",
+              to_text(GetParam()).c_str(), static_cast<unsigned long long>(kept),
+              static_cast<unsigned long long>(bundles), worst);
+  if (seeds.last - seeds.first >= 60) {
+    EXPECT_EQ(kept > 0, GetParam() != Precision::fixed);
+    EXPECT_GT(bundles, 0u);
+  }
+}
+
+// A long boxcar that is moved reads the blocks at its ends alone, once sums are kept.
+TEST_P(KeptSumsOf, AMovedBoxcarReadsItsEnds) {
+  CaptureFormat format;
+  format.shape = {24, 16, 1};
+  constexpr std::uint64_t kSamples = 100 * 16;
+  test::Random random(3);
+  MemoryCapture capture(format, Timeline::constant({1000, 1}, {180, 1}, kSamples),
+                        test::random_rasters(random, format, kSamples), 16);
+  renderer_.keep_resident(&capture);
+  PlanCache plans;
+  std::vector<RenderStatistics> all;
+  for (const std::int64_t start_ms : {100, 100, 103, 120}) {
+    const GainFunction boxcar = GainFunction::boxcar(start_ms * 1'000'000, (start_ms + 1234) * 1'000'000);
+    const RenderPlan plan = plans.plan(capture, {{0, boxcar}}, Mask::uniform(24, 16, 0), {});
+    const Rendered rendered = renderer_.render(plan, capture, kLight);
+    EXPECT_EQ(rendered.picture.bytes, fresh_.render(plan, capture, kLight).picture.bytes);
+    all.push_back(rendered.statistics);
+  }
+  renderer_.keep_resident(nullptr);
+  if (GetParam() == Precision::fixed) {
+    for (const RenderStatistics& each : all) EXPECT_EQ(each.kept_sums + each.made_sums, 0u);
+    return;
+  }
+  EXPECT_EQ(all[0].made_sums, 0u);
+  EXPECT_GT(all[0].blocks, 70u);
+  EXPECT_GT(all[1].made_sums, 8u);
+  EXPECT_EQ(all[1].kept_sums, all[1].made_sums);
+  EXPECT_EQ(all[2].made_sums, 0u);
+  EXPECT_EQ(all[2].blocks, 2u);  // the ends
+  EXPECT_LE(all[3].blocks, 2u + 1u);
+}
+
+// A budget that holds few sums, and one that holds none, change no bit.
+TEST_P(KeptSumsOf, AnyMemoryHasTheSamePictures) {
+  const SteadyCase random(11);
+  MemoryCapture& capture = const_cast<MemoryCapture&>(*random.capture);
+  const RenderPlan plan = make_plan(capture, {{0, GainFunction({{0, 0.5}})}},
+                                    Mask::uniform(random.mask.width, random.mask.height, 0), {});
+  const std::vector<std::byte> expected = fresh_.render(plan, capture, kLight).picture.bytes;
+  for (const std::uint64_t bytes : {std::uint64_t{1} << 17, std::uint64_t{1} << 18, std::uint64_t{1} << 30}) {
+    OpenClOptions options = test::renderer_options(GetParam());
+    options.memory_bytes = bytes;
+    options.chunk_bytes = 4096;
+    OpenClRenderer renderer(options);
+    renderer.keep_resident(&capture);
+    for (int time = 0; time < 3; ++time) {
+      ASSERT_EQ(renderer.render(plan, capture, kLight).picture.bytes, expected) << bytes;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, KeptSumsOf,
+                         testing::Values(Precision::single_, Precision::compensated, Precision::double_,
+                                         Precision::fixed),
+                         [](const auto& test) { return to_text(test.param); });
+
+}  // namespace
+}  // namespace nutik
