@@ -8,8 +8,11 @@
 namespace nutik {
 namespace {
 
-// A sum is of the whole picture: not worth it where less of it than this is exposed with a steady gain there.
-constexpr double kLeastShare = 0.25;
+// A sum is of the whole picture. Where most of it is exposed with a steady gain there, making it takes as long as
+// reading rows; it is worth it at once, but for the first exposure, which may be the last. Where less is, it is worth it
+// when it is wanted again.
+constexpr double kMost = 0.75;
+constexpr double kLeast = 0.25;
 
 // Exposures for which a sum that nobody wants stays all the same: where more are wanted than there is room for, some
 // stay rather than all go by turns.
@@ -21,11 +24,11 @@ struct Part {
   std::optional<SummedBlocks> sum;  // none where its gain is not steady
 };
 
-Part part_of(const PlannedFunction& function, const PlannedBlock& planned) {
+Part part_of(const RenderPlan& plan, const PlannedFunction& function, const PlannedBlock& planned) {
   if (function.table->span_in(planned.extent).empty()) return {false, {}};
   const SteadyGain steady = function.table->steady_in(planned.block);
   if (!steady.is_steady()) return {true, {}};
-  if (!steady.in_bundle) return {true, SummedBlocks{planned.block, 1}};
+  if (!steady.in_bundle || plan.sums_light) return {true, SummedBlocks{planned.block, 1}};
   return {true, SummedBlocks{planned.block / kBundleBlocks * kBundleBlocks, kBundleBlocks}};
 }
 
@@ -59,18 +62,20 @@ std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan, Precisi
   std::map<SummedBlocks, std::uint64_t> pixels;  // that want it
   for (const PlannedFunction& function : plan.functions) {
     for (const PlannedBlock& planned : plan.blocks) {
-      const Part part = part_of(function, planned);
+      const Part part = part_of(plan, function, planned);
       if (part.sum && part.sum->first == planned.block) pixels[*part.sum] += function.pixel_count;
     }
   }
   std::vector<SummedBlocks> worth;
-  const double least = kLeastShare * static_cast<double>(plan.capture.shape.pixel_count());
+  const auto all = static_cast<double>(plan.capture.shape.pixel_count());
   for (const auto& [sum, count] : pixels) {
     if (const auto slot = slot_of_.find(sum); slot != slot_of_.end()) {
       slots_[slot->second].exposure = exposure_;
-    } else if (static_cast<double>(count) >= least && !was_wanted_.insert(sum).second) {
-      worth.push_back(sum);
+      continue;
     }
+    const double share = static_cast<double>(count) / all;
+    const bool was_wanted = !was_wanted_.insert(sum).second;
+    if (share >= (was_wanted ? kLeast : kMost) && exposure_ > 1) worth.push_back(sum);
   }
   std::uint64_t rooms = capacity_ - slots_.size();
   for (const Slot& slot : slots_) rooms += is_idle(slot);
@@ -132,7 +137,7 @@ SumsInUse KeptSums::in_use(const RenderPlan& plan, std::span<const ExposedBand> 
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     bool is_read = reads_all;
     for (const PlannedFunction& function : plan.functions) {
-      const Part part = part_of(function, plan.blocks[b]);
+      const Part part = part_of(plan, function, plan.blocks[b]);
       if (!part.is_live) continue;
       const auto slot = part.sum ? slot_of_.find(*part.sum) : slot_of_.end();
       if (slot == slot_of_.end()) {

@@ -2,8 +2,7 @@
 // what exposures have in common wherever gains are steady (docs/model.md, "Steady gain").
 //
 //   in:      plans, one exposure after another
-//   out:     of each the sums that need not be made, and which it is worth to make now: those that a large part of the
-//            picture wants for the second time
+//   out:     of each the sums that need not be made, and which it is worth to make now
 //   always:  a picture is the same to the last bit, whether sums were kept or not. They take no more than a limit; what
 //            was used longest ago goes first
 #pragma once

@@ -303,15 +303,15 @@ PartColumn part_column(const GainTable& table, const RenderPlan& plan, const Tab
   for (std::size_t b = slice.first_block; b < slice.last_block; ++b) {
     const PlannedBlock& planned = plan.blocks[b];
     const SteadyGain steady = precision == Precision::fixed ? SteadyGain{} : table.steady_in(planned.block);
-    const bool is_multiplied = steady.is_steady() && !plan.sums_light;
-    BlockPart part{table.span_in(planned.extent), is_multiplied ? BlockPart::kSteady : 0};
-    if (is_multiplied && steady.in_bundle) {
+    BlockPart part{table.span_in(planned.extent), steady.is_steady() ? BlockPart::kSteady : 0};
+    if (steady.in_bundle && !plan.sums_light) {
       const std::uint64_t at = planned.block % kBundleBlocks;
       part.steady |= BlockPart::kInBundle | (at == 0 ? BlockPart::kBundleStart : 0) |
                      (at + 1 == kBundleBlocks ? BlockPart::kBundleEnd : 0);
     }
     column.parts.push_back(part);
-    const Bytes gain = is_multiplied ? numbers_of(std::array{steady.per_ns}, precision) : one;
+    const Bytes gain =
+        steady.is_steady() && !plan.sums_light ? numbers_of(std::array{steady.per_ns}, precision) : one;
     column.gains.insert(column.gains.end(), gain.begin(), gain.end());
   }
   return column;

@@ -280,7 +280,7 @@ class OpenClRenderer::Implementation {
       const Rectangle whole = Rectangle::whole(plan.capture.shape);
       std::vector<ExposedBand> all =
           bands_of(work, {plan, request.source, request.output, whole, request.control}, memory, statistics);
-      expose(exposing, plan, {}, all,
+      expose(exposing, plan, kept_sums_.in_use(plan, all), all,
              [&](const ExposedBand& exposed) { kept_sums_.store(slot, exposed, queue_); });
       kept_sums_.keep(slot, blocks);
       ++statistics.made_sums;

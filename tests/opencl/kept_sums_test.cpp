@@ -140,17 +140,19 @@ TEST_P(KeptSumsOf, AMovedBoxcarReadsItsEnds) {
   test::Random random(3);
   MemoryCapture capture(format, Timeline::constant({1000, 1}, {180, 1}, kSamples),
                         test::random_rasters(random, format, kSamples), 16);
-  renderer_.keep_resident(&capture);
+  OpenClOptions options = test::renderer_options(GetParam());
+  options.allocation_bytes = 0;  // that all sums have room
+  OpenClRenderer renderer(options);
+  renderer.keep_resident(&capture);
   PlanCache plans;
   std::vector<RenderStatistics> all;
   for (const std::int64_t start_ms : {100, 100, 103, 120}) {
     const GainFunction boxcar = GainFunction::boxcar(start_ms * 1'000'000, (start_ms + 1234) * 1'000'000);
     const RenderPlan plan = plans.plan(capture, {{0, boxcar}}, Mask::uniform(24, 16, 0), {});
-    const Rendered rendered = renderer_.render(plan, capture, kLight);
+    const Rendered rendered = renderer.render(plan, capture, kLight);
     EXPECT_EQ(rendered.picture.bytes, fresh_.render(plan, capture, kLight).picture.bytes);
     all.push_back(rendered.statistics);
   }
-  renderer_.keep_resident(nullptr);
   if (GetParam() == Precision::fixed) {
     for (const RenderStatistics& each : all) EXPECT_EQ(each.kept_sums + each.made_sums, 0u);
     return;

@@ -1,15 +1,23 @@
-// What a moved control point costs beside a first render, and beside the kernels' own time.
+// What a change costs that somebody waits for, against what a window that answers in time may take.
 //
-//   bench_live [--width N] [--height N] [--samples N] [--functions N] [--runs N] [--device I] [--precision P]
+//   bench_live [--part edits|drag|scrub|long] [--width N] [--height N] [--samples N] [--runs N] [--device I]
+//              [--precision P]
 //
-// One capture stays where kernels read it, as in a window: 1280 x 720, 240 samples of 8 bits, each pixel's changes a
-// tenth of them, 64 functions in squares of the picture. Each run renders with a point moved, with the mask painted,
-// and as it was: all in turns, so that what else the machine does hits them alike. A render is a plan and its
-// picture, by the host's clock; the kernels by the device's own. Prints medians, and of each run the ratio of both.
+//   edits   64 functions in squares of the picture, a tenth of all samples: a point moved, the mask painted, the same
+//           again, all made anew. Beside the kernels' own time, which nothing else should exceed
+//   drag    five functions in columns, everything changes all the time: the control point with the longest neighbours
+//           is moved (target: 40 ms in the median, 60 ms at the 95th percentile)
+//   scrub   the same capture: a boxcar of 10 ms is moved (20 ms)
+//   long    10 000 samples at 1000 a second: boxcars of 5 s beside some of 10 ms, in turns (twice as long; 1.6 times
+//           with --width 480 --height 270)
+//
+// The first three have 240 samples of 1280 x 720, the last 640 x 360, all 8 bits, srgb, kept where kernels read them. A
+// time is that of a plan and its whole picture, by the host's clock; kernels' are by the device's own.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,12 +31,14 @@
 namespace nutik::bench {
 namespace {
 
+constexpr std::int64_t kMs = 1'000'000;
+constexpr std::uint32_t kRate = 1000;
+
 struct Settings {
-  std::uint32_t width = 1280;
-  std::uint32_t height = 720;
-  std::uint64_t samples = 240;
-  std::uint32_t functions = 64;
-  int runs = 25;
+  std::string part;  // all if empty
+  std::uint32_t width = 0, height = 0;
+  std::uint64_t samples = 0;
+  int runs = 40;
   OpenClOptions options;
 };
 
@@ -36,104 +46,198 @@ Settings parse(int argc, char** argv) {
   Settings settings;
   std::string precision;
   read_options(argc, argv, "live.cpp",
-               {{"--width", &settings.width},
+               {{"--part", &settings.part},
+                {"--width", &settings.width},
                 {"--height", &settings.height},
                 {"--samples", &settings.samples},
-                {"--functions", &settings.functions},
                 {"--runs", &settings.runs},
                 {"--device", &settings.options.device},
                 {"--precision", &precision}});
-  settings.functions = std::clamp(settings.functions, 1u, kMaskValues);
   settings.runs = std::max(settings.runs, 1);
   if (!precision.empty()) settings.options.precision = parse_precision(precision);
   return settings;
 }
 
-// Squares of 64 pixels, each a function's; `shift` moves them.
-Mask squares(const Settings& settings, std::uint32_t shift) {
-  Mask mask = Mask::uniform(settings.width, settings.height, 0);
-  for (std::uint32_t y = 0; y < settings.height; ++y) {
-    for (std::uint32_t x = 0; x < settings.width; ++x) {
-      mask.tags[std::size_t{y} * settings.width + x] =
-          static_cast<std::uint8_t>((x / 64 + y / 64 * 20 + shift) % settings.functions);
+// Renders of one kind.
+struct Times {
+  std::vector<double> wall_ms, kernel_ms;
+  RenderStatistics last;
+
+  void print(const char* name) const {
+    std::vector<double> sorted = wall_ms;
+    std::ranges::sort(sorted);
+    std::printf(
+        "  %-26s %8.2f ms, %8.2f at the 95th percentile; kernels %8.2f; %llu blocks read, %llu sums kept\n",
+        name, median(wall_ms), sorted[sorted.size() * 95 / 100], median(kernel_ms),
+        static_cast<unsigned long long>(last.blocks), static_cast<unsigned long long>(last.kept_sums));
+  }
+};
+
+// A capture that stays where kernels read it, as in a window.
+class Scene {
+ public:
+  Scene(const Settings& settings, const char* part, const Shape& shape, std::uint64_t samples,
+        Content content)
+      : settings_(settings),
+        capture_(format_of(settings, shape), settings.samples != 0 ? settings.samples : samples, 64, content,
+                 kRate),
+        renderer_(settings.options) {
+    renderer_.keep_resident(&capture_);
+    const Shape& made = capture_.format().shape;
+    std::printf("%s: %u x %u x %u, %llu samples, %.0f MB; %s, medians of %d\n", part, made.width, made.height,
+                made.channels, static_cast<unsigned long long>(capture_.timeline().sample_count()),
+                static_cast<double>(capture_.memory().size()) * 1e-6, renderer_.name().c_str(),
+                settings.runs);
+  }
+  ~Scene() { renderer_.keep_resident(nullptr); }
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  void render(Times* times = nullptr) {
+    const auto start = std::chrono::steady_clock::now();
+    const Rendered rendered =
+        renderer_.render(plans_->plan(capture_, functions, mask, {}), capture_, {ValueType::code8, 255});
+    if (times == nullptr) return;
+    times->wall_ms.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    times->kernel_ms.push_back(rendered.statistics.expose_ms + rendered.statistics.develop_ms);
+    times->last = rendered.statistics;
+  }
+  void forget_plans() { plans_.emplace(); }
+
+  [[nodiscard]] std::uint32_t width() const { return capture_.format().shape.width; }
+  [[nodiscard]] std::uint32_t height() const { return capture_.format().shape.height; }
+  [[nodiscard]] std::int64_t duration_ns() const { return capture_.timeline().duration_ns(); }
+  [[nodiscard]] int runs() const { return settings_.runs; }
+
+  // Each pixel's tag.
+  void paint(const std::function<std::uint32_t(std::uint32_t x, std::uint32_t y)>& tag) {
+    mask = Mask::uniform(width(), height(), 0);
+    for (std::uint32_t y = 0; y < height(); ++y) {
+      for (std::uint32_t x = 0; x < width(); ++x) {
+        mask.tags[std::size_t{y} * width() + x] = static_cast<std::uint8_t>(tag(x, y));
+      }
     }
   }
-  return mask;
-}
 
-GainFunction ramp(const Timeline& timeline, std::uint32_t tag, std::uint32_t moved) {
-  const std::int64_t duration_ns = timeline.duration_ns();
+  FunctionSet functions;
+  Mask mask;
+
+ private:
+  static CaptureFormat format_of(const Settings& settings, const Shape& shape) {
+    CaptureFormat format;
+    format.shape = {settings.width != 0 ? settings.width : shape.width,
+                    settings.height != 0 ? settings.height : shape.height, 3};
+    return format;
+  }
+
+  const Settings& settings_;
+  SyntheticCapture capture_;
+  OpenClRenderer renderer_;
+  std::optional<PlanCache> plans_{std::in_place};
+};
+
+GainFunction ramp(std::int64_t duration_ns, std::uint32_t tag, std::uint32_t moved) {
   return GainFunction({{0, 0.2},
-                       {duration_ns / 3 + moved * 1'000'000, 0.5 + 0.005 * tag},
+                       {duration_ns / 3 + moved * kMs, 0.5 + 0.005 * tag},
                        {duration_ns / 2, 0.9},
                        {duration_ns * 3 / 4, 0.1},
                        {duration_ns, 0.6}});
 }
 
-struct Times {
-  std::vector<double> wall_ms, kernel_ms, share;
-  RenderStatistics last;
-};
+void edits(const Settings& settings) {
+  constexpr std::uint32_t kFunctions = 64;
+  Scene scene(settings, "edits", {1280, 720, 3}, 240, Content::records);
+  for (std::uint32_t tag = 0; tag < kFunctions; ++tag) {
+    scene.functions.emplace(static_cast<std::uint8_t>(tag), ramp(scene.duration_ns(), tag, 0));
+  }
+  const auto paint = [&](std::uint32_t shift) {
+    scene.paint([&](auto x, auto y) { return (x / 64 + y / 64 * 20 + shift) % kFunctions; });
+  };
+  paint(0);
+  scene.render();
+  Times cold, moved, painted, again;
+  for (int run = 0; run < scene.runs(); ++run) {
+    const auto move = static_cast<std::uint32_t>(run + 1);
+    const auto tag = static_cast<std::uint8_t>(move % kFunctions);
+    scene.functions.at(tag) = ramp(scene.duration_ns(), tag, move);
+    scene.render(&moved);
+    paint(move);
+    scene.render(&painted);
+    scene.render(&again);
+    scene.forget_plans();  // as if nothing had been rendered before, but for the kernels
+    scene.render(&cold);
+  }
+  cold.print("a new plan");
+  moved.print("a moved control point");
+  painted.print("a painted mask");
+  again.print("the same again");
+}
+
+void drag(const Settings& settings) {
+  Scene scene(settings, "drag", {1280, 720, 3}, 240, Content::dense);
+  scene.paint([&](auto x, auto) { return x * 5 / scene.width(); });
+  for (std::uint32_t tag = 0; tag < 5; ++tag) {
+    scene.functions.emplace(static_cast<std::uint8_t>(tag), ramp(scene.duration_ns(), tag, 0));
+  }
+  scene.render();
+  scene.render();
+  Times moved;
+  for (int run = 1; run <= scene.runs(); ++run) {
+    scene.functions.at(2) = ramp(scene.duration_ns(), 2, static_cast<std::uint32_t>(run % 40));
+    scene.render(&moved);
+  }
+  moved.print("a dragged control point");
+}
+
+// Boxcars of one length, each a little later.
+void move_boxcar(Scene& scene, std::int64_t length_ns, int run, Times* times) {
+  const std::int64_t start_ns = (scene.duration_ns() - length_ns) * run / (2 * scene.runs());
+  scene.functions.insert_or_assign(0, GainFunction::boxcar(start_ns, start_ns + length_ns));
+  scene.render(times);
+}
+
+void scrub(const Settings& settings) {
+  Scene scene(settings, "scrub", {1280, 720, 3}, 240, Content::dense);
+  scene.paint([](auto, auto) { return 0; });
+  move_boxcar(scene, 10 * kMs, 0, nullptr);
+  Times times;
+  for (int run = 1; run <= scene.runs(); ++run) move_boxcar(scene, 10 * kMs, run, &times);
+  times.print("a boxcar of 10 ms");
+}
+
+void long_boxcars(const Settings& settings) {
+  Scene scene(settings, "long", {640, 360, 3}, 10'000, Content::dense);
+  scene.paint([](auto, auto) { return 0; });
+  move_boxcar(scene, 10 * kMs, 0, nullptr);
+  Times first, second, brief, lasting;
+  move_boxcar(scene, scene.duration_ns() / 2, 0, &first);
+  move_boxcar(scene, scene.duration_ns() / 2, 1, &second);
+  for (int run = 2; run <= scene.runs() + 1; ++run) {
+    move_boxcar(scene, 10 * kMs, run, &brief);
+    move_boxcar(scene, scene.duration_ns() / 2, run, &lasting);
+  }
+  first.print("half of it, for once");
+  second.print("and again: sums are made");
+  brief.print("a boxcar of 10 ms");
+  lasting.print("half of it");
+  double all_brief = 0.0, all_lasting = first.wall_ms[0] + second.wall_ms[0];
+  for (const double ms : brief.wall_ms) all_brief += ms;
+  for (const double ms : lasting.wall_ms) all_lasting += ms;
+  std::printf("  half of it beside 10 ms: %.2f in the median, %.2f of all %d with the sums that were made\n",
+              median(lasting.wall_ms) / median(brief.wall_ms), all_lasting / all_brief, settings.runs);
+}
 
 int run(const Settings& settings) {
-  CaptureFormat format;
-  format.shape = {settings.width, settings.height, 3};
-  SyntheticCapture capture(format, settings.samples, 64, Content::records);
-  const OutputFormat output{ValueType::code8, 255};
-  OpenClRenderer renderer(settings.options);
-  renderer.keep_resident(&capture);
-  std::optional<PlanCache> plans(std::in_place);
-  FunctionSet functions;
-  for (std::uint32_t tag = 0; tag < settings.functions; ++tag) {
-    functions.emplace(static_cast<std::uint8_t>(tag), ramp(capture.timeline(), tag, 0));
+  const std::pair<const char*, void (*)(const Settings&)> parts[]{
+      {"edits", edits}, {"drag", drag}, {"scrub", scrub}, {"long", long_boxcars}};
+  bool is_known = settings.part.empty();
+  for (const auto& [name, part] : parts) {
+    if (!settings.part.empty() && settings.part != name) continue;
+    is_known = true;
+    part(settings);
   }
-  Mask mask = squares(settings, 0);
-  Precision precision{};
-  const auto render = [&](Times& times) {
-    const auto start = std::chrono::steady_clock::now();
-    const Rendered rendered = renderer.render(plans->plan(capture, functions, mask, {}), capture, output);
-    const double wall_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    const double kernel_ms = rendered.statistics.expose_ms + rendered.statistics.develop_ms;
-    times.wall_ms.push_back(wall_ms);
-    times.kernel_ms.push_back(kernel_ms);
-    if (kernel_ms > 0) times.share.push_back(wall_ms / kernel_ms);
-    times.last = rendered.statistics;
-    precision = rendered.precision;
-  };
-  const auto print = [](const char* name, const Times& times) {
-    std::printf("%-28s %9.2f ms, ", name, median(times.wall_ms));
-    if (times.share.empty()) {
-      std::printf("kernels not timed by the driver");
-    } else {
-      std::printf("kernels %9.2f ms, %6.3f x", median(times.kernel_ms), median(times.share));
-    }
-    std::printf("; wrote %llu bytes of tables, %llu of the map\n",
-                static_cast<unsigned long long>(times.last.table_bytes_written),
-                static_cast<unsigned long long>(times.last.map_bytes_written));
-  };
-  Times first, cold, moved, painted, again;
-  render(first);
-  for (int run = 0; run < settings.runs; ++run) {
-    const auto move = static_cast<std::uint32_t>(run + 1);
-    const auto tag = static_cast<std::uint8_t>(move % settings.functions);
-    functions.at(tag) = ramp(capture.timeline(), tag, move);
-    render(moved);
-    mask = squares(settings, move);
-    render(painted);
-    render(again);
-    plans.emplace();  // as if nothing had been rendered before, but for the kernels
-    render(cold);
-  }
-  std::printf("%s, %s precision, %u x %u x 3, %llu samples (%.1f MB read), %u functions; medians of %d\n",
-              renderer.name().c_str(), to_text(precision).c_str(), settings.width, settings.height,
-              static_cast<unsigned long long>(settings.samples),
-              static_cast<double>(first.last.payload_bytes) * 1e-6, settings.functions, settings.runs);
-  print("first, with its kernels", first);
-  print("a new plan", cold);
-  print("a moved control point", moved);
-  print("a painted mask", painted);
-  print("the same again", again);
+  if (!is_known) refuse(settings.part, "is no part", "live.cpp");
   return 0;
 }
 

@@ -27,8 +27,8 @@ void write_index(std::byte* list, std::uint64_t at, std::uint32_t bytes, std::ui
 }  // namespace
 
 SyntheticCapture::SyntheticCapture(const CaptureFormat& capture, std::uint64_t sample_count,
-                                   std::uint32_t block_samples, Content content)
-    : capture_(capture), timeline_(Timeline::constant({240, 1}, Timeline::kFullShutter, sample_count)) {
+                                   std::uint32_t block_samples, Content content, std::uint32_t rate)
+    : capture_(capture), timeline_(Timeline::constant({rate, 1}, Timeline::kFullShutter, sample_count)) {
   for (std::uint64_t first = 0; first < sample_count; first += block_samples) {
     const auto count =
         static_cast<std::uint32_t>(std::min<std::uint64_t>(block_samples, sample_count - first));

@@ -18,7 +18,7 @@ enum class Content {
 class SyntheticCapture final : public CaptureSource {
  public:
   SyntheticCapture(const CaptureFormat& capture, std::uint64_t sample_count, std::uint32_t block_samples,
-                   Content content);
+                   Content content, std::uint32_t rate = 240);
 
   [[nodiscard]] const CaptureFormat& format() const override { return capture_; }
   [[nodiscard]] const Timeline& timeline() const override { return timeline_; }
