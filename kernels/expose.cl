@@ -2,7 +2,7 @@
 //
 //   in:      a chunk of blocks (layout: host/imev/block.hpp), the packed tables; of a band of the picture its tiles, each
 //          with its number in the picture, and each pixel's function. A tile whose pixels several functions share is
-//          there once for each of them. Sums of blocks and bundles that were made before, [kept][tile][channel][plane][64]
+//          there once for each of them. By function, whether it is exposed: of others the sums are there. Sums of blocks and bundles that were made before, [kept][tile][channel][plane][64]
 //   out:   sums [tile][channel][plane][64]: Σ_k v_k w_k so far, in scaled gain; added to what is there,
 //          or stored where `first` is set. Those of bundles so far, likewise
 //   items: see items.clh
@@ -12,7 +12,8 @@
 #include "items.clh"
 #include "tiles.clh"
 
-// Adds the sums of a block or a bundle to the picture's, which start with the first entry.
+// Adds the sums of a block or a bundle to the picture's, which start with the first entry: with 0, for which entry comes
+// first depends on what is kept, and 0 + -0 is 0.
 NUTIK_INLINE void add_sums(global Sum* restrict sums, const size_t tile, const uint lane,
                            const Sums* block_sums, const bool is_start) {
 #pragma unroll
@@ -21,7 +22,7 @@ NUTIK_INLINE void add_sums(global Sum* restrict sums, const size_t tile, const u
     for (uint group = 0; group < NUTIK_GROUPS; ++group) {
       global Sum* to = sums + sums_at(tile, NUTIK_CHANNELS, channel, lane + group * NUTIK_LANES);
       const Sums sum = block_sums[channel * NUTIK_GROUPS + group];
-      store_sums(is_start ? sum : add(load_sums(to), sum), to);
+      store_sums(add(is_start ? zero() : load_sums(to), sum), to);
     }
   }
 }
@@ -65,7 +66,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
                    global const Weight* restrict gains, global const Weight* restrict weights,
                    global const Weight* restrict boundaries, const uint function_count,
                    global const uint* restrict tiles, global const ushort* restrict function_of_tile,
-                   global const uchar* restrict function_of_lane,
+                   global const uchar* restrict function_of_lane, global const uchar* restrict exposes,
                    global const Light* restrict transfer, global const Sum* restrict kept,
                    global Sum* restrict bundles, global Sum* restrict sums,
                    const ulong tile_count, const uint first) {
@@ -98,6 +99,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
       region.function = function_of_tile[tile];
       region.is_uniform = region.function != NUTIK_MIXED_FUNCTIONS;
 #endif
+      if (region.is_uniform && !exposes[region.function]) continue;
       Sums sums_of_block[NUTIK_ITEM_VECTORS];
       clear(sums_of_block);
       // Written twice so that the compiler sees which one it compiles.

@@ -33,25 +33,28 @@ void write_in_order(const cl::CommandQueue& queue, Writes writes) {
 
 }  // namespace
 
+std::vector<TableColumnSource> column_sources(const RenderPlan& plan, Precision precision) {
+  std::vector<TableColumnSource> columns;
+  for (const PlannedFunction& function : plan.functions) columns.push_back({function.table, 0, 0});
+  if (precision == Precision::fixed) {
+    const FixedScale scale = fixed_scale(plan);
+    for (std::size_t f = 0; f < columns.size(); ++f) {
+      columns[f].exponent = scale.exponents[f];
+      columns[f].light_bits = scale.light_bits;
+    }
+  }
+  return columns;
+}
+
 std::uint64_t DeviceTables::Slice::bytes() const {
   return columns.size() * (2 * row_count * weight_bytes(precision) +
                            blocks.size() * (sizeof(BlockPart) + weight_bytes(precision)));
 }
 
-std::vector<DeviceTables::Column> DeviceTables::columns_of(const RenderPlan& plan, Precision precision) {
-  std::vector<Column> columns;
-  for (const PlannedFunction& function : plan.functions) columns.push_back({function.table, 0});
-  if (precision == Precision::fixed) {
-    const FixedScale scale = fixed_scale(plan);
-    for (std::size_t f = 0; f < columns.size(); ++f) columns[f].exponent = scale.exponents[f];
-  }
-  return columns;
-}
-
 SliceTables DeviceTables::slice(const RenderPlan& plan, const TableSlice& slice, Precision precision,
                                 DeviceMemory& memory, std::uint64_t& written_bytes) {
   Slice& kept = slice_for(plan, slice, precision, memory);
-  std::vector<Column> wanted = columns_of(plan, precision);
+  std::vector<TableColumnSource> wanted = column_sources(plan, precision);
   std::vector<std::size_t> stale;
   for (std::size_t f = 0; f < wanted.size(); ++f) {
     if (kept.columns[f] != wanted[f]) stale.push_back(f);
@@ -96,8 +99,8 @@ DeviceTables::Slice& DeviceTables::slice_for(const RenderPlan& plan, const Table
   return recent_.keep(std::move(made));
 }
 
-void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice, std::span<const Column> columns,
-                             Slice& to) {
+void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice,
+                             std::span<const TableColumnSource> columns, Slice& to) {
   const std::uint64_t functions = plan.function_count();
   const std::size_t number = weight_bytes(to.precision);
   Bytes weights(to.row_count * functions * number), boundaries(weights.size());
@@ -126,7 +129,7 @@ void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice, st
 }
 
 void DeviceTables::write_column(const RenderPlan& plan, const TableSlice& slice, std::size_t function,
-                                const Column& column, Slice& to) {
+                                const TableColumnSource& column, Slice& to) {
   const std::size_t number = weight_bytes(to.precision);
   Bytes weights(to.row_count * number), boundaries(weights.size());
   pack_column(*column.table, plan, slice, to.precision, column.exponent,

@@ -29,6 +29,16 @@ struct SliceTables {
   cl::Buffer gains;
 };
 
+// What the numbers of a function were made from: where it is the same, so are they, and sums of them.
+struct TableColumnSource {
+  std::shared_ptr<const GainTable> table;
+  int exponent = 0;    // of whole numbers,
+  int light_bits = 0;  // and of their light
+  friend bool operator==(const TableColumnSource&, const TableColumnSource&) = default;
+};
+// By function of a plan.
+[[nodiscard]] std::vector<TableColumnSource> column_sources(const RenderPlan& plan, Precision precision);
+
 class DeviceTables {
  public:
   // `most_bytes` are kept; a slice that is in use counts as one of them.
@@ -41,17 +51,11 @@ class DeviceTables {
                                   DeviceMemory& memory, std::uint64_t& written_bytes);
 
  private:
-  // What a column was made from.
-  struct Column {
-    std::shared_ptr<const GainTable> table;
-    int exponent = 0;  // of whole numbers
-    friend bool operator==(const Column&, const Column&) = default;
-  };
   struct Slice {
     Precision precision;
     std::vector<std::uint64_t> blocks;  // of the capture
     std::uint64_t row_count;
-    std::vector<Column> columns;
+    std::vector<TableColumnSource> columns;
     SliceTables tables;
 
     [[nodiscard]] std::uint64_t bytes() const;
@@ -59,10 +63,10 @@ class DeviceTables {
 
   Slice& slice_for(const RenderPlan& plan, const TableSlice& slice, Precision precision,
                    DeviceMemory& memory);
-  static std::vector<Column> columns_of(const RenderPlan& plan, Precision precision);
-  void write_all(const RenderPlan& plan, const TableSlice& slice, std::span<const Column> columns, Slice& to);
+  void write_all(const RenderPlan& plan, const TableSlice& slice, std::span<const TableColumnSource> columns,
+                 Slice& to);
   void write_column(const RenderPlan& plan, const TableSlice& slice, std::size_t function,
-                    const Column& column, Slice& to);
+                    const TableColumnSource& column, Slice& to);
 
   cl::CommandQueue queue_;
   Recent<Slice> recent_;

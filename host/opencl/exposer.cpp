@@ -59,7 +59,11 @@ void Exposer::expose(std::span<ExposedBand> bands, const RenderControl& control,
     for (ExposedBand& each : exposed) {
       const std::uint64_t bytes =
           sums_bytes(each.band.sum_tiles, plan_.capture.shape.channels, work_.precision);
-      each.sums = memory_.allocate(bytes, CL_MEM_READ_WRITE);
+      if (each.sums() == nullptr) {
+        each.sums = memory_.allocate(bytes, CL_MEM_READ_WRITE);
+      } else {
+        memory_.count(bytes);
+      }
       each.bundles = has_bundles ? memory_.allocate(bytes, CL_MEM_READ_WRITE) : each.sums;
     }
     sum_up(exposed, slices, control);
@@ -144,6 +148,7 @@ void Exposer::launch(const cl::Buffer& payload, std::span<const BlockEntry> entr
   ExposeKernel kernel(kernel_);
   const std::uint64_t most_samples = most_samples_a_launch(device_.info, work_.shape);
   // Every argument is a buffer, though it may not be read.
+  const cl::Buffer exposes = memory_.upload(exposes_);
   const cl::Buffer& kept = kept_.entries.empty() ? light_ : kept_.sums;
   for (const std::span<const BlockEntry> part : launches_of(entries, most_samples)) {
     const cl::Buffer entries_of_part = memory_.upload(part);
@@ -153,8 +158,8 @@ void Exposer::launch(const cl::Buffer& payload, std::span<const BlockEntry> entr
           kernel(items(device_.queue, work_.shape, band.sum_tiles), payload, entries_of_part,
                  static_cast<cl_uint>(part.size()), tables.parts, tables.gains, tables.weights,
                  tables.boundaries, static_cast<cl_uint>(plan_.function_count()), exposed.map.tiles,
-                 exposed.map.of_tile, exposed.map.of_lane, light_, kept, exposed.bundles, exposed.sums,
-                 band.sum_tiles, is_first ? 1u : 0u);
+                 exposed.map.of_tile, exposed.map.of_lane, exposes, light_, kept, exposed.bundles,
+                 exposed.sums, band.sum_tiles, is_first ? 1u : 0u);
       event.wait();
       const std::optional<double> took_ms = milliseconds(event);
       statistics_.expose_ms += took_ms.value_or(0.0);

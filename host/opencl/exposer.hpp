@@ -31,17 +31,19 @@ struct ExposingDevice {
 
 class Exposer {
  public:
+  // `exposes` says of each function whether its pixels are exposed; of others the bands have the sums.
   // `kernel` is that of kernels/expose.cl, built for the picture, `light` the values of its codes. The plan has blocks.
   // All that is given must live as long.
   Exposer(const ExposingDevice& device, const Work& work, const RenderPlan& plan, CaptureSource& source,
-          const RenderMemory& shares, const SumsInUse& kept, cl::Kernel kernel, cl::Buffer light,
-          DeviceMemory& memory, RenderStatistics& statistics)
+          const RenderMemory& shares, const SumsInUse& kept, std::span<const std::uint8_t> exposes,
+          cl::Kernel kernel, cl::Buffer light, DeviceMemory& memory, RenderStatistics& statistics)
       : device_(device),
         work_(work),
         plan_(plan),
         source_(source),
         shares_(shares),
         kept_(kept),
+        exposes_(exposes),
         kernel_(std::move(kernel)),
         light_(std::move(light)),
         memory_(memory),
@@ -72,6 +74,7 @@ class Exposer {
   CaptureSource& source_;
   const RenderMemory& shares_;
   const SumsInUse& kept_;
+  std::span<const std::uint8_t> exposes_;
   cl::Kernel kernel_;
   cl::Buffer light_;
   DeviceMemory& memory_;

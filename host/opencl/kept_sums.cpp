@@ -46,7 +46,8 @@ bool has_mixed_tiles(std::span<const ExposedBand> bands) {
 
 void KeptSums::clear() { *this = KeptSums(); }
 
-std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan, Precision precision,
+std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
+                                                 std::span<const std::uint8_t> exposes, Precision precision,
                                                  std::uint64_t most_bytes, const DeviceInfo& device) {
   const std::uint64_t slot_bytes =
       sums_bytes(TileGrid(plan.capture.shape).tile_count(), plan.capture.shape.channels, precision);
@@ -56,14 +57,16 @@ std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan, Precisi
   transfer_ = plan.capture.transfer;
   slot_bytes_ = slot_bytes;
   const std::uint64_t blocks = plan.layout->blocks.size();
+  if (precision == Precision::fixed) return {};
   if (capacity_ == 0) capacity_ = std::min(room, blocks + blocks / kBundleBlocks);
   ++exposure_;
 
   std::map<SummedBlocks, std::uint64_t> pixels;  // that want it
-  for (const PlannedFunction& function : plan.functions) {
+  for (std::size_t f = 0; f < plan.functions.size(); ++f) {
+    if (!exposes[f]) continue;
     for (const PlannedBlock& planned : plan.blocks) {
-      const Part part = part_of(plan, function, planned);
-      if (part.sum && part.sum->first == planned.block) pixels[*part.sum] += function.pixel_count;
+      const Part part = part_of(plan, plan.functions[f], planned);
+      if (part.sum && part.sum->first == planned.block) pixels[*part.sum] += plan.functions[f].pixel_count;
     }
   }
   std::vector<SummedBlocks> worth;
@@ -127,17 +130,19 @@ void KeptSums::keep(std::size_t slot, const SummedBlocks& blocks) {
   slot_of_[blocks] = slot;
 }
 
-SumsInUse KeptSums::in_use(const RenderPlan& plan, std::span<const ExposedBand> bands) const {
-  if (slot_of_.empty()) return {};
+SumsInUse KeptSums::in_use(const RenderPlan& plan, std::span<const std::uint8_t> exposes,
+                           std::span<const ExposedBand> bands) const {
+  if (slot_of_.empty() && std::ranges::find(exposes, 0) == exposes.end()) return {};
   SumsInUse used{
       sums_, {}, std::vector<std::uint32_t>(plan.blocks.size()), std::vector<bool>(plan.blocks.size())};
-  const bool reads_all = has_mixed_tiles(bands);
+  const bool exposes_any = std::ranges::find(exposes, 1) != exposes.end();
+  const bool reads_all = exposes_any && has_mixed_tiles(bands);
   const std::uint64_t slot_sums =
       slot_bytes_ / (precision_ == Precision::double_ ? sizeof(double) : sizeof(float));
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     bool is_read = reads_all;
-    for (const PlannedFunction& function : plan.functions) {
-      const Part part = part_of(plan, function, plan.blocks[b]);
+    for (std::size_t f = 0; f < plan.functions.size(); ++f) {
+      const Part part = exposes[f] ? part_of(plan, plan.functions[f], plan.blocks[b]) : Part{false, {}};
       if (!part.is_live) continue;
       const auto slot = part.sum ? slot_of_.find(*part.sum) : slot_of_.end();
       if (slot == slot_of_.end()) {
@@ -150,7 +155,11 @@ SumsInUse KeptSums::in_use(const RenderPlan& plan, std::span<const ExposedBand> 
       }
       used.kept[b] |= as;
     }
-    used.skipped[b] = !is_read && used.kept[b] != 0;
+    used.skipped[b] = !is_read;
+  }
+  // Sums of functions that need no block begin with one all the same: with 0.
+  if (exposes_any && used.entries.empty() && std::ranges::find(used.skipped, false) == used.skipped.end()) {
+    used.skipped.front() = false;
   }
   return used;
 }

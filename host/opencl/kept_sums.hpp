@@ -48,8 +48,10 @@ class KeptSums {
 
   // An exposure of the resident capture begins. The sums that it is worth to make before it, for which there is room
   // within `most_bytes`.
-  [[nodiscard]] std::vector<SummedBlocks> worth_making(const RenderPlan& plan, Precision precision,
-                                                       std::uint64_t most_bytes, const DeviceInfo& device);
+  [[nodiscard]] std::vector<SummedBlocks> worth_making(const RenderPlan& plan,
+                                                       std::span<const std::uint8_t> exposes,
+                                                       Precision precision, std::uint64_t most_bytes,
+                                                       const DeviceInfo& device);
 
   // Makes room for one of them. It is kept once all bands of the picture are stored, whole rows of it.
   [[nodiscard]] std::size_t slot_for(DeviceMemory& memory);
@@ -60,8 +62,9 @@ class KeptSums {
   [[nodiscard]] const RenderPlan& plan_for(const SummedBlocks& blocks, const RenderPlan& plan,
                                            const CaptureSource& source);
 
-  // Of an exposure whose worth_making() was asked for.
-  [[nodiscard]] SumsInUse in_use(const RenderPlan& plan, std::span<const ExposedBand> bands) const;
+  // Of an exposure whose worth_making() was asked for, of the functions that it exposes.
+  [[nodiscard]] SumsInUse in_use(const RenderPlan& plan, std::span<const std::uint8_t> exposes,
+                                 std::span<const ExposedBand> bands) const;
 
   [[nodiscard]] std::uint64_t bytes() const { return slots_.size() * slot_bytes_; }
 

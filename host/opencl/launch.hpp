@@ -11,7 +11,7 @@ namespace nutik {
 // kernels/expose.cl.
 using ExposeKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer,
                                        cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer,
-                                       cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong, cl_uint>;
+                                       cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong, cl_uint>;
 
 // The work-items for so many tiles, in whole work-groups.
 [[nodiscard]] inline cl::EnqueueArgs items(cl::CommandQueue& queue, const WorkShape& shape,

@@ -17,6 +17,7 @@
 #include "opencl/kept_sums.hpp"
 #include "opencl/kernel_constants.hpp"
 #include "opencl/kernel_sources.hpp"
+#include "opencl/last_exposure.hpp"
 #include "opencl/light_pieces.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
@@ -96,6 +97,7 @@ class OpenClRenderer::Implementation {
     feed_->keep_resident(source);
     resident_ = source;
     kept_sums_.clear();
+    last_.clear();
   }
 
   void prepare(const RenderPlan& plan, const OutputFormat& output) {
@@ -241,7 +243,11 @@ class OpenClRenderer::Implementation {
       const DeviceLight& light = light_of(work, plan, memory);
       const RenderMemory shares = memory_for(request, work.precision);
       const Exposing exposing{work, request, light, shares, memory, rendered.statistics};
-      expose(exposing, plan, sums_in_use(exposing, bands), bands, develop_band);
+      if (&request.source != resident_) {
+        expose(exposing, plan, {}, every_function(plan), bands, develop_band);
+      } else {
+        expose_what_changed(exposing, bands, develop_band);
+      }
     }
     rendered.picture = developer.take_picture();
     rendered.saturation = developer.saturation();
@@ -259,34 +265,58 @@ class OpenClRenderer::Implementation {
     RenderStatistics& statistics;
   };
 
+  using ByFunction = std::vector<std::uint8_t>;
+  static ByFunction every_function(const RenderPlan& plan) { return ByFunction(plan.function_count(), 1); }
+
   void expose(const Exposing& exposing, const RenderPlan& plan, const SumsInUse& kept,
-              std::span<ExposedBand> bands, const Exposer::Develop& develop) {
+              const ByFunction& exposes, std::span<ExposedBand> bands, const Exposer::Develop& develop) {
     const ExposingDevice device{info_, queue_, *feed_, *tables_, options_.last_block_first};
-    Exposer(device, exposing.work, plan, exposing.request.source, exposing.shares, kept,
+    Exposer(device, exposing.work, plan, exposing.request.source, exposing.shares, kept, exposes,
             cl::Kernel(expose_program(exposing.work, plan, exposing.light), "expose"), exposing.light.values,
             exposing.memory, exposing.statistics)
         .expose(bands, exposing.request.control, develop);
   }
 
+  // Of the resident capture: the pixels of functions that are not those of the exposure before, with sums that are kept.
+  void expose_what_changed(const Exposing& exposing, std::span<ExposedBand> bands,
+                           const Exposer::Develop& develop) {
+    const RenderPlan& plan = exposing.request.plan;
+    const Precision precision = exposing.work.precision;
+    std::uint64_t held_bytes = 0;
+    for (const ExposedBand& each : bands) {
+      held_bytes += sums_bytes(each.band.sum_tiles, plan.capture.shape.channels, precision);
+    }
+    const ByFunction exposes = last_.take(plan, precision, bands);
+    exposing.statistics.exposed_functions = static_cast<std::uint64_t>(std::ranges::count(exposes, 1));
+    const bool holds = held_bytes <= exposing.shares.held_bytes;
+    expose(exposing, plan, sums_in_use(exposing, exposes, bands), exposes, bands,
+           [&](const ExposedBand& exposed) {
+             develop(exposed);
+             if (holds) last_.hold(exposed);
+           });
+    if (holds) last_.complete(plan, precision);
+  }
+
   // The kept sums of an exposure, some of which it makes first.
-  SumsInUse sums_in_use(const Exposing& exposing, std::span<const ExposedBand> bands) {
+  SumsInUse sums_in_use(const Exposing& exposing, const ByFunction& exposes,
+                        std::span<const ExposedBand> bands) {
     const auto& [work, request, light, shares, memory, statistics] = exposing;
-    if (&request.source != resident_ || work.precision == Precision::fixed) return {};
     for (const SummedBlocks& blocks :
-         kept_sums_.worth_making(request.plan, work.precision, shares.kept_bytes, info_)) {
+         kept_sums_.worth_making(request.plan, exposes, work.precision, shares.kept_bytes, info_)) {
       const RenderPlan& plan = kept_sums_.plan_for(blocks, request.plan, request.source);
       const std::size_t slot = kept_sums_.slot_for(memory);
       const DeviceMemory::Scope scope(memory);
       const Rectangle whole = Rectangle::whole(plan.capture.shape);
       std::vector<ExposedBand> all =
           bands_of(work, {plan, request.source, request.output, whole, request.control}, memory, statistics);
-      expose(exposing, plan, kept_sums_.in_use(plan, all), all,
+      const ByFunction every = every_function(plan);
+      expose(exposing, plan, kept_sums_.in_use(plan, every, all), every, all,
              [&](const ExposedBand& exposed) { kept_sums_.store(slot, exposed, queue_); });
       kept_sums_.keep(slot, blocks);
       ++statistics.made_sums;
     }
     memory.count(kept_sums_.bytes());
-    SumsInUse used = kept_sums_.in_use(request.plan, bands);
+    SumsInUse used = kept_sums_.in_use(request.plan, exposes, bands);
     statistics.kept_sums += used.entries.size();
     return used;
   }
@@ -371,6 +401,7 @@ class OpenClRenderer::Implementation {
   std::unique_ptr<BlockFeed> feed_;
   const CaptureSource* resident_ = nullptr;
   KeptSums kept_sums_;
+  LastExposure last_;
   std::unique_ptr<DeviceTables> tables_;
   std::unique_ptr<KernelConstants> constants_;
   std::mutex turn_;  // at the device: all that follows from a plan's choice of arithmetic on

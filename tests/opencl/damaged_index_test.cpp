@@ -57,6 +57,7 @@ class OneTile {
 
     std::vector<BlockEntry> blocks{{0, 0, 0, sample_count_, 0}};
     std::vector<BlockPart> parts{{{0, static_cast<std::uint16_t>(sample_count_)}, 0}};
+    std::vector<std::uint8_t> exposes{1};
     std::vector<std::uint64_t> gains{1}, kept{0}, bundles{0};
     std::vector<std::uint32_t> tiles{0};
     std::vector<std::uint16_t> of_tile{0};
@@ -69,7 +70,7 @@ class OneTile {
     ExposeKernel kernel(program_, "expose");
     kernel(cl::EnqueueArgs(queue_, cl::NDRange(8)), buffer(payload), buffer(blocks), 1, buffer(parts),
            buffer(gains), buffer(weights), buffer(boundaries), 1, buffer(tiles), buffer(of_tile),
-           buffer(of_lane), buffer(sums), buffer(kept), buffer(bundles), result, 1, 1);
+           buffer(of_lane), buffer(exposes), buffer(sums), buffer(kept), buffer(bundles), result, 1, 1);
     queue_.enqueueReadBuffer(result, CL_TRUE, 0, sums.size() * sizeof(std::uint64_t), sums.data());
     return sums;
   }
