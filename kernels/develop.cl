@@ -174,4 +174,41 @@ kernel void develop_codes(global const Sum* restrict sums, global const LightSca
     }
   }
 }
+
+// Adds to counts[0] the pixels of a part of the picture that have a channel below limits[0], to counts[1] those with one
+// from limits[1] on: lights, on the scale on which they are blended, that have no code.
+kernel void count_saturated(global const Sum* restrict sums, global const LightScale* restrict blend_scales,
+                            global const uchar* restrict function_of_lane, const uint width, const uint height,
+                            const ulong tile_count, const uint left, const uint top, const uint right,
+                            const uint bottom, global const Threshold* restrict limits,
+                            global uint* restrict counts) {
+  const Item item = item_of(get_global_id(0), tile_count);
+  uint below = 0, above = 0;
+  for (size_t tile = item.first_tile; tile < item.last_tile; ++tile) {
+    for (uint lane = item.lane; lane < item.lane + NUTIK_ITEM_PIXELS; lane += NUTIK_LANES) {
+      const Pixels pixels = pixels_at(tile, lane, width, height);
+      const uints functions = functions_of(function_of_lane, tile, lane);
+      uints are_below = (uints)(0), are_above = (uints)(0);
+#pragma unroll
+      for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
+        const Sums sum = load_sums(sums + sums_at(tile, NUTIK_CHANNELS, channel, lane));
+        const Lights light = unbounded(sum, blend_scales, functions);
+        are_below |= one_where_less(light, limits[0]);
+        are_above |= (uints)(1) - one_where_less(light, limits[1]);
+      }
+      uint is_below[NUTIK_LANES], is_above[NUTIK_LANES];
+      NUTIK_STORE(are_below, is_below);
+      NUTIK_STORE(are_above, is_above);
+      const uint x = (uint)(pixels.raster % width), y = (uint)(pixels.raster / width);
+      if (y < top || y >= bottom) continue;
+      for (uint i = 0; i < pixels.count; ++i) {
+        if (x + i < left || x + i >= right) continue;
+        below += is_below[i];
+        above += is_above[i];
+      }
+    }
+  }
+  if (below > 0) atomic_add(counts, below);
+  if (above > 0) atomic_add(counts + 1, above);
+}
 #endif

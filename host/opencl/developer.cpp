@@ -1,6 +1,7 @@
 #include "opencl/developer.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "opencl/kernel_tables.hpp"
 #include "opencl/launch.hpp"
@@ -15,6 +16,9 @@ using DevelopCodesKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer,
 using BlendCodesKernel =
     cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint,
                       cl_uint, cl_uint, cl_ulong, cl::Buffer, cl::Buffer, cl_uint, cl::Buffer>;
+
+using CountSaturatedKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_ulong,
+                                               cl_uint, cl_uint, cl_uint, cl_uint, cl::Buffer, cl::Buffer>;
 
 // Of sums that are developed at a time where they become light. So many rows of tiles begin where devices let a part
 // of a buffer begin: at a multiple of 4096 bytes.
@@ -46,9 +50,9 @@ void Developer::develop(const ExposedBand& exposed) {
   });
 }
 
-// Codes, and how many pixels saturate. The kernel knows neither negative codes nor primaries, and counts nothing: where
-// these are asked for, codes lie too close together to be searched, or a plan's functions can saturate, the sums are
-// read and turned into light here.
+// Codes, and how many pixels saturate. The kernels know neither negative codes nor primaries, and do not count what is
+// blended: where these are asked for, codes lie too close together to be searched, or mixed pixels can saturate, the sums
+// are read and turned into light here.
 void Developer::counted_codes(const ExposedBand& exposed) {
   const CodeMaking making = CodeMaking::of(plan_.capture, output_);
   const CodeScale scale(making.transfer, output_);
@@ -62,6 +66,10 @@ void Developer::counted_codes(const ExposedBand& exposed) {
     const auto of_band = rows_of(part_in(exposed.band));
     if (!can_saturate(plan_, making, scale) || !has_end_code(of_band, output_.type, output_.white_code))
       return;
+    if (!exposed.map.host->is_mixed()) {
+      saturation_ += saturated(exposed, scale);
+      return;
+    }
   }
   for_each_part(exposed, ValueType::light64, [&](const Rectangle& part, Picture& seen) {
     to_shown_light(seen, making);
@@ -148,6 +156,26 @@ void Developer::codes(const ExposedBand& exposed, const DeviceCodes& tables) {
     return kernel(tiles, exposed.sums, scales, exposed.map.of_lane, band.shape.width, band.shape.height,
                   band.tile_count, tables.thresholds, tables.guesses, tables.guess_count, raster);
   });
+}
+
+Saturation Developer::saturated(const ExposedBand& exposed, const CodeScale& scale) {
+  const DeviceMemory::Scope scope(memory_);
+  const Band& band = exposed.band;
+  const Rectangle part = part_in(band);
+  const std::uint32_t left = part.x - band.first_column, top = part.y - band.first_row;
+  const cl::Buffer limits =
+      memory_.upload(code_limits(CodeKey::of(plan_, work_.precision, output_), scale, plan_));
+  const cl::Buffer counts = memory_.allocate(2 * sizeof(cl_uint), CL_MEM_READ_WRITE);
+  queue_.enqueueFillBuffer(counts, cl_uint{0}, 0, 2 * sizeof(cl_uint));
+  CountSaturatedKernel kernel(program_, "count_saturated");
+  const cl::Event event = kernel(items(queue_, work_.shape, band.tile_count), exposed.sums,
+                                 memory_.upload(blend_scales(plan_, work_.precision)), exposed.map.of_lane,
+                                 band.shape.width, band.shape.height, band.tile_count, left, top,
+                                 left + part.width, top + part.height, limits, counts);
+  std::array<cl_uint, 2> found{};
+  queue_.enqueueReadBuffer(counts, CL_TRUE, 0, sizeof found, found.data());
+  develop_ms_ += milliseconds(event).value_or(0.0);
+  return {found[0], found[1]};
 }
 
 // Where a part, which has the rectangle's width, lies in its picture.

@@ -57,6 +57,7 @@ class Developer {
  private:
   void counted_codes(const ExposedBand& exposed);
   void codes(const ExposedBand& exposed, const DeviceCodes& tables);
+  [[nodiscard]] Saturation saturated(const ExposedBand& exposed, const CodeScale& scale);
   template <typename Visit>
   void for_each_part(const ExposedBand& exposed, ValueType type, Visit visit);
   void develop_rows(const ExposedBand& exposed, const Band& rows, const Rectangle& part, Picture& picture);

@@ -95,7 +95,7 @@ std::size_t KeptSums::slot_for(DeviceMemory& memory) {
     return slots_.size() - 1;
   }
   const auto oldest = std::ranges::min_element(slots_, {}, &Slot::exposure);
-  slot_of_.erase(oldest->blocks);
+  if (oldest->blocks) slot_of_.erase(*oldest->blocks);
   *oldest = {{}, 0};
   return static_cast<std::size_t>(oldest - slots_.begin());
 }

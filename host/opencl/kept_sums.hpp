@@ -70,8 +70,8 @@ class KeptSums {
 
  private:
   struct Slot {
-    SummedBlocks blocks;
-    std::uint64_t exposure = 0;  // the last one that wanted it
+    std::optional<SummedBlocks> blocks;  // none until they are kept
+    std::uint64_t exposure = 0;          // the last one that wanted it
   };
 
   // Whether it may go.

@@ -358,6 +358,27 @@ std::optional<CodeTables> code_tables(const CodeKey& key) {
   return key.precision == Precision::fixed ? fixed_code_tables(key) : floating_code_tables(key);
 }
 
+Bytes code_limits(const CodeKey& key, const CodeScale& scale, const RenderPlan& plan) {
+  const auto [lowest, highest] = scale.limits();
+  std::array limits{lowest * key.white_light, highest * key.white_light};
+  if (key.precision == Precision::fixed) {
+    const int shift = fixed_scale(plan).blend_shift;
+    std::array<std::int64_t, 2> whole{};
+    std::ranges::transform(limits, whole.begin(), [&](double limit) {
+      return static_cast<std::int64_t>(std::ceil(std::scalbn(limit, -shift)));
+    });
+    return bytes_of(whole);
+  }
+  if (key.precision == Precision::single_) {
+    // Less than a number is less than the next float from it on, and nothing else.
+    for (double& limit : limits) {
+      const auto near = static_cast<float>(limit);
+      limit = near < limit ? std::nextafter(near, std::numeric_limits<float>::infinity()) : near;
+    }
+  }
+  return numbers_of(limits, key.precision);
+}
+
 void store_light(const RenderPlan& plan, const Rectangle& rectangle, Precision precision,
                  std::span<const std::byte> raster, Picture& picture) {
   if (picture.type == ValueType::light32) {

@@ -12,6 +12,7 @@
 #include "opencl/function_map.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "opencl/light_source.hpp"
+#include "render/code_scale.hpp"
 #include "render/fixed_scale.hpp"
 #include "render/output_format.hpp"
 #include "render/precision.hpp"
@@ -82,6 +83,9 @@ struct CodeTables {
 };
 // None where the codes lie too close together (code_search.hpp).
 [[nodiscard]] std::optional<CodeTables> code_tables(const CodeKey& key);
+
+// The two limits of light between which it has a code, on the scale on which kernels blend: Threshold [2].
+[[nodiscard]] Bytes code_limits(const CodeKey& key, const CodeScale& scale, const RenderPlan& plan);
 
 // The light of `raster`, sums [pixel][channel][plane] of a rectangle as develop_sums writes them, into a picture of
 // light32 or light64. Done by the host in double, so that it is the same for every device.

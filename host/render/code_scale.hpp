@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "capture/picture.hpp"
 #include "render/output_format.hpp"
@@ -27,6 +28,8 @@ class CodeScale {
   [[nodiscard]] bool saturates_above(double light) const {
     return light >= highest_ || (folds_ && -light >= highest_);
   }
+  // Light below the first saturates below, light from the second on above.
+  [[nodiscard]] std::pair<double, double> limits() const { return {lowest_, highest_}; }
 
  private:
   Transfer transfer_;
