@@ -52,7 +52,7 @@ std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
   const std::uint64_t slot_bytes =
       sums_bytes(TileGrid(plan.capture.shape).tile_count(), plan.capture.shape.channels, precision);
   const std::uint64_t room = std::min(most_bytes, device.largest_allocation_bytes) / slot_bytes;
-  if (precision != precision_ || plan.capture.transfer != transfer_ || room < slots_.size()) clear();
+  if (plan.capture.transfer != transfer_ || room < slots_.size()) clear();
   precision_ = precision;
   transfer_ = plan.capture.transfer;
   slot_bytes_ = slot_bytes;

@@ -1,4 +1,4 @@
-// Sums of light · ns over whole blocks and bundles of the resident capture, on the device from one exposure to the next:
+// Sums of light · ns over whole blocks and bundles of the resident capture, in one arithmetic, on the device from one exposure to the next:
 // what exposures have in common wherever gains are steady (docs/model.md, "Steady gain").
 //
 //   in:      plans, one exposure after another
@@ -77,7 +77,7 @@ class KeptSums {
   // Whether it may go.
   [[nodiscard]] bool is_idle(const Slot& slot) const;
 
-  Precision precision_ = Precision::single_;
+  Precision precision_ = Precision::single_;  // always the same
   std::optional<Transfer> transfer_;
   std::uint64_t slot_bytes_ = 0;
   std::uint64_t capacity_ = 0;  // in slots

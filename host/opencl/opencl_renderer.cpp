@@ -301,22 +301,23 @@ class OpenClRenderer::Implementation {
   SumsInUse sums_in_use(const Exposing& exposing, const ByFunction& exposes,
                         std::span<const ExposedBand> bands) {
     const auto& [work, request, light, shares, memory, statistics] = exposing;
+    KeptSums& sums = kept_sums_[work.precision];
     for (const SummedBlocks& blocks :
-         kept_sums_.worth_making(request.plan, exposes, work.precision, shares.kept_bytes, info_)) {
-      const RenderPlan& plan = kept_sums_.plan_for(blocks, request.plan, request.source);
-      const std::size_t slot = kept_sums_.slot_for(memory);
+         sums.worth_making(request.plan, exposes, work.precision, shares.kept_bytes, info_)) {
+      const RenderPlan& plan = sums.plan_for(blocks, request.plan, request.source);
+      const std::size_t slot = sums.slot_for(memory);
       const DeviceMemory::Scope scope(memory);
       const Rectangle whole = Rectangle::whole(plan.capture.shape);
       std::vector<ExposedBand> all =
           bands_of(work, {plan, request.source, request.output, whole, request.control}, memory, statistics);
       const ByFunction every = every_function(plan);
-      expose(exposing, plan, kept_sums_.in_use(plan, every, all), every, all,
-             [&](const ExposedBand& exposed) { kept_sums_.store(slot, exposed, queue_); });
-      kept_sums_.keep(slot, blocks);
+      expose(exposing, plan, sums.in_use(plan, every, all), every, all,
+             [&](const ExposedBand& exposed) { sums.store(slot, exposed, queue_); });
+      sums.keep(slot, blocks);
       ++statistics.made_sums;
     }
-    memory.count(kept_sums_.bytes());
-    SumsInUse used = kept_sums_.in_use(request.plan, exposes, bands);
+    memory.count(sums.bytes());
+    SumsInUse used = sums.in_use(request.plan, exposes, bands);
     statistics.kept_sums += used.entries.size();
     return used;
   }
@@ -400,7 +401,7 @@ class OpenClRenderer::Implementation {
   bool announced_ = false;
   std::unique_ptr<BlockFeed> feed_;
   const CaptureSource* resident_ = nullptr;
-  KeptSums kept_sums_;
+  std::map<Precision, KeptSums> kept_sums_;
   LastExposure last_;
   std::unique_ptr<DeviceTables> tables_;
   std::unique_ptr<KernelConstants> constants_;

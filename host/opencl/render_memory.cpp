@@ -21,9 +21,9 @@ std::uint64_t row_bytes(const RenderPlan& plan, Precision precision) {
 
 RenderMemory memory_for_blocks(std::uint64_t memory_bytes) {
   const std::uint64_t chunk_bytes = std::min(kChunkBytes, memory_bytes / 4);
-  // Of what chunks leave of their half.
+  // Of what chunks leave of their half. Pictures to be seen and pictures to be kept may take two arithmetics.
   const std::uint64_t rest = memory_bytes / 2 - 2 * chunk_bytes;
-  return {{chunk_bytes, memory_bytes / 2, true}, rest / 4, rest / 8, memory_bytes / 32};
+  return {{chunk_bytes, memory_bytes / 2, true}, rest / 6, rest / 8, memory_bytes / 32};
 }
 
 RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, const CaptureSource& source,
@@ -62,9 +62,9 @@ RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, co
   const std::uint64_t passing =
       (memory.feed.reads_ahead ? 2 : 1) * std::max(block_bytes, memory.feed.chunk_bytes);
   memory.feed.resident_bytes = blocks - std::min(blocks, passing);
-  memory.kept_bytes = memory.feed.resident_bytes / 4;
+  memory.kept_bytes = memory.feed.resident_bytes / 8;
   memory.held_bytes = memory.feed.resident_bytes / 8;
-  memory.feed.resident_bytes -= memory.kept_bytes + memory.held_bytes;
+  memory.feed.resident_bytes -= 2 * memory.kept_bytes + memory.held_bytes;
   return memory;
 }
 

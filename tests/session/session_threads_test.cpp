@@ -137,6 +137,17 @@ TEST(SessionThreads, GetWhatOneThreadGetsOfColourThatIsNotPacked) {
                               computing(RendererKind::opencl));
 }
 
+// Whose sums of blocks and bundles are kept, and used by whoever comes next.
+TEST(SessionThreads, GetWhatOneThreadGetsOfSteadyGains) {
+  std::uint64_t seed = 40;
+  while (RandomCase(seed, {1, 1, 255, Transfer::srgb()}).timeline.sample_count() < 8 * 16) ++seed;
+  RandomCase random(seed, {1, 1, 255, Transfer::srgb()});
+  random.block_samples = 16;
+  for (auto& [tag, function] : random.functions) function = GainFunction({{0, 0.5 + 0.1 * tag}});
+  std::ranges::fill(random.mask.tags, random.mask.tags.front());
+  expect_threads_get_the_same(random, {tik::CodecId::zstd, 0}, computing(RendererKind::opencl));
+}
+
 TEST(SessionThreads, GetWhatOneThreadGetsFromTheReference) {
   expect_threads_get_the_same(RandomCase(33), {tik::CodecId::lz4, 0}, computing(RendererKind::reference));
 }
