@@ -11,6 +11,8 @@ std::string rendering_report(const Rendered& rendered, const OutputFormat& outpu
   std::string text =
       format("{} precision; {} block{} of {:.1f} MB made ready in {:.1f} ms, ", to_text(rendered.precision),
              took.blocks, took.blocks == 1 ? "" : "s", megabytes, took.read_ms);
+  if (took.kept_sums > 0)
+    text += format("{} sum{} of others kept, ", took.kept_sums, took.kept_sums == 1 ? "" : "s");
   text += took.is_timed
               ? format("read by the kernel in {:.1f} ms ({:.1f} GB/s); codes or light in {:.1f} ms",
                        took.expose_ms, took.expose_ms > 0 ? megabytes / took.expose_ms : 0.0, took.develop_ms)
