@@ -16,9 +16,9 @@
 
 #include "opencl/allocation_cuts.hpp"
 #include "opencl/device_memory.hpp"
-#include "opencl/kernel_tables.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/recent.hpp"
+#include "opencl/table_columns.hpp"
 
 namespace nutik {
 

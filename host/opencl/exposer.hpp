@@ -29,21 +29,27 @@ struct ExposingDevice {
   bool last_block_first;  // OpenClOptions
 };
 
+// What is exposed: of a plan the pixels of some functions (of others the bands have the sums), and what need not be read.
+struct ExposedPlan {
+  const RenderPlan& plan;
+  const SumsInUse& kept;
+  std::span<const std::uint8_t> exposes;  // by function
+};
+
 class Exposer {
  public:
-  // `exposes` says of each function whether its pixels are exposed; of others the bands have the sums.
   // `kernel` is that of kernels/expose.cl, built for the picture, `light` the values of its codes. The plan has blocks.
   // All that is given must live as long.
-  Exposer(const ExposingDevice& device, const Work& work, const RenderPlan& plan, CaptureSource& source,
-          const RenderMemory& shares, const SumsInUse& kept, std::span<const std::uint8_t> exposes,
-          cl::Kernel kernel, cl::Buffer light, DeviceMemory& memory, RenderStatistics& statistics)
+  Exposer(const ExposingDevice& device, const Work& work, const ExposedPlan& what, CaptureSource& source,
+          const RenderMemory& shares, cl::Kernel kernel, cl::Buffer light, DeviceMemory& memory,
+          RenderStatistics& statistics)
       : device_(device),
         work_(work),
-        plan_(plan),
+        plan_(what.plan),
         source_(source),
         shares_(shares),
-        kept_(kept),
-        exposes_(exposes),
+        kept_(what.kept),
+        exposes_(what.exposes),
         kernel_(std::move(kernel)),
         light_(std::move(light)),
         memory_(memory),

@@ -29,25 +29,9 @@ inline constexpr std::size_t sum_bytes(Precision precision) {
 // Of one weight or boundary: as wide as the sums that it goes into.
 inline constexpr std::size_t weight_bytes(Precision precision) { return sum_bytes(precision); }
 
-// Where the numbers of one function go: a row after another, `stride` bytes apart.
-struct TableColumn {
-  std::byte* weights;
-  std::byte* boundaries;
-  std::size_t stride;
-};
-
-// Writes a function's numbers for the rows of a slice, every byte of them: in steady blocks those of light · ns, unless
-// numbers are whole. `exponent` is the function's of FixedScale, for whole numbers.
-void pack_column(const GainTable& table, const RenderPlan& plan, const TableSlice& slice, Precision precision,
-                 int exponent, const TableColumn& column);
-
-// What a function makes of the blocks of a slice, and the gains of those that are steady, 1 of all others.
-struct PartColumn {
-  std::vector<BlockPart> parts;
-  Bytes gains;
-};
-[[nodiscard]] PartColumn part_column(const GainTable& table, const RenderPlan& plan, const TableSlice& slice,
-                                     Precision precision);
+// A number as two floats, and numbers as an arithmetic in floating point holds them (doubles if it is of whole ones).
+[[nodiscard]] FloatPair pair_of(double number);
+[[nodiscard]] Bytes numbers_of(std::span<const double> values, Precision precision);
 
 // Light of every code, or a curve. `white_light` is FixedScale's, for whole numbers.
 [[nodiscard]] Bytes light_values(const LightSource& light, Precision precision, std::uint64_t white_light);

@@ -14,10 +14,9 @@
 #include "opencl/device_memory.hpp"
 #include "opencl/device_tables.hpp"
 #include "opencl/exposer.hpp"
-#include "opencl/kept_sums.hpp"
+#include "opencl/incremental_exposer.hpp"
 #include "opencl/kernel_constants.hpp"
 #include "opencl/kernel_sources.hpp"
-#include "opencl/last_exposure.hpp"
 #include "opencl/light_pieces.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
@@ -96,8 +95,7 @@ class OpenClRenderer::Implementation {
     const std::scoped_lock turn(turn_);
     feed_->keep_resident(source);
     resident_ = source;
-    kept_sums_.clear();
-    last_.clear();
+    incremental_.clear();
   }
 
   void prepare(const RenderPlan& plan, const OutputFormat& output) {
@@ -242,84 +240,30 @@ class OpenClRenderer::Implementation {
     } else {
       const DeviceLight& light = light_of(work, plan, memory);
       const RenderMemory shares = memory_for(request, work.precision);
-      const Exposing exposing{work, request, light, shares, memory, rendered.statistics};
-      if (&request.source != resident_) {
-        expose(exposing, plan, {}, every_function(plan), bands, develop_band);
+      const ExposingDevice device{info_, queue_, *feed_, *tables_, options_.last_block_first};
+      const auto expose = [&](const ExposedPlan& what, std::span<ExposedBand> exposed,
+                              const Exposer::Develop& done) {
+        Exposer(device, work, what, request.source, shares,
+                cl::Kernel(expose_program(work, what.plan, light), "expose"), light.values, memory,
+                rendered.statistics)
+            .expose(exposed, request.control, done);
+      };
+      if (&request.source == resident_) {
+        const auto whole_picture = [&](const RenderPlan& of_light) {
+          const Rectangle whole = Rectangle::whole(of_light.capture.shape);
+          return bands_of(work, {of_light, request.source, request.output, whole, request.control}, memory,
+                          rendered.statistics);
+        };
+        incremental_.expose({expose, whole_picture, info_, queue_, memory, rendered.statistics}, plan,
+                            request.source, work.precision, shares, bands, develop_band);
       } else {
-        expose_what_changed(exposing, bands, develop_band);
+        expose({plan, {}, every_function(plan)}, bands, develop_band);
       }
     }
     rendered.picture = developer.take_picture();
     rendered.saturation = developer.saturation();
     rendered.statistics.develop_ms = developer.develop_ms();
     rendered.statistics.device_bytes = memory.most_bytes();
-  }
-
-  // What all that is exposed for one picture has in common.
-  struct Exposing {
-    const Work& work;
-    const Request& request;
-    const DeviceLight& light;
-    const RenderMemory& shares;
-    DeviceMemory& memory;
-    RenderStatistics& statistics;
-  };
-
-  using ByFunction = std::vector<std::uint8_t>;
-  static ByFunction every_function(const RenderPlan& plan) { return ByFunction(plan.function_count(), 1); }
-
-  void expose(const Exposing& exposing, const RenderPlan& plan, const SumsInUse& kept,
-              const ByFunction& exposes, std::span<ExposedBand> bands, const Exposer::Develop& develop) {
-    const ExposingDevice device{info_, queue_, *feed_, *tables_, options_.last_block_first};
-    Exposer(device, exposing.work, plan, exposing.request.source, exposing.shares, kept, exposes,
-            cl::Kernel(expose_program(exposing.work, plan, exposing.light), "expose"), exposing.light.values,
-            exposing.memory, exposing.statistics)
-        .expose(bands, exposing.request.control, develop);
-  }
-
-  // Of the resident capture: the pixels of functions that are not those of the exposure before, with sums that are kept.
-  void expose_what_changed(const Exposing& exposing, std::span<ExposedBand> bands,
-                           const Exposer::Develop& develop) {
-    const RenderPlan& plan = exposing.request.plan;
-    const Precision precision = exposing.work.precision;
-    std::uint64_t held_bytes = 0;
-    for (const ExposedBand& each : bands) {
-      held_bytes += sums_bytes(each.band.sum_tiles, plan.capture.shape.channels, precision);
-    }
-    const ByFunction exposes = last_.take(plan, precision, bands);
-    exposing.statistics.exposed_functions = static_cast<std::uint64_t>(std::ranges::count(exposes, 1));
-    const bool holds = held_bytes <= exposing.shares.held_bytes;
-    expose(exposing, plan, sums_in_use(exposing, exposes, bands), exposes, bands,
-           [&](const ExposedBand& exposed) {
-             develop(exposed);
-             if (holds) last_.hold(exposed);
-           });
-    if (holds) last_.complete(plan, precision);
-  }
-
-  // The kept sums of an exposure, some of which it makes first.
-  SumsInUse sums_in_use(const Exposing& exposing, const ByFunction& exposes,
-                        std::span<const ExposedBand> bands) {
-    const auto& [work, request, light, shares, memory, statistics] = exposing;
-    KeptSums& sums = kept_sums_[work.precision];
-    for (const SummedBlocks& blocks :
-         sums.worth_making(request.plan, exposes, work.precision, shares.kept_bytes, info_)) {
-      const RenderPlan& plan = sums.plan_for(blocks, request.plan, request.source);
-      const std::size_t slot = sums.slot_for(memory);
-      const DeviceMemory::Scope scope(memory);
-      const Rectangle whole = Rectangle::whole(plan.capture.shape);
-      std::vector<ExposedBand> all =
-          bands_of(work, {plan, request.source, request.output, whole, request.control}, memory, statistics);
-      const ByFunction every = every_function(plan);
-      expose(exposing, plan, sums.in_use(plan, every, all), every, all,
-             [&](const ExposedBand& exposed) { sums.store(slot, exposed, queue_); });
-      sums.keep(slot, blocks);
-      ++statistics.made_sums;
-    }
-    memory.count(sums.bytes());
-    SumsInUse used = sums.in_use(request.plan, exposes, bands);
-    statistics.kept_sums += used.entries.size();
-    return used;
   }
 
   // Sums of nothing are 0 in every arithmetic.
@@ -401,8 +345,7 @@ class OpenClRenderer::Implementation {
   bool announced_ = false;
   std::unique_ptr<BlockFeed> feed_;
   const CaptureSource* resident_ = nullptr;
-  std::map<Precision, KeptSums> kept_sums_;
-  LastExposure last_;
+  IncrementalExposer incremental_;
   std::unique_ptr<DeviceTables> tables_;
   std::unique_ptr<KernelConstants> constants_;
   std::mutex turn_;  // at the device: all that follows from a plan's choice of arithmetic on
