@@ -137,16 +137,22 @@ void SampleCursor::gather_records(std::uint32_t tile, std::uint32_t sample) {
   }
   tiles_[tile].next = next < geometry.sample_count ? std::uint32_t{next} : kNever;
   std::byte* const to = gathered_.data() + (tiles_[tile].codes - gathered_.data());
-  const std::size_t bytes = geometry.code_bytes;
-  for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
-    const std::byte* from = body;
-    if (passed[lane] > 0) {
-      from += geometry.row_bytes() + (passed[lane] - 1u) * geometry.slot_bytes() + sizeof indices;
+  const auto gather = [&](auto* codes) {
+    for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
+      const std::byte* from = body;
+      if (passed[lane] > 0) {
+        from += geometry.row_bytes() + (passed[lane] - 1u) * geometry.slot_bytes() + sizeof indices;
+      }
+      for (std::uint32_t channel = 0; channel < geometry.channels; ++channel) {
+        const std::size_t at = channel * kTilePixels + lane;
+        std::memcpy(codes + at, from + at * sizeof *codes, sizeof *codes);
+      }
     }
-    for (std::uint32_t channel = 0; channel < geometry.channels; ++channel) {
-      const std::size_t at = (channel * kTilePixels + lane) * bytes;
-      std::memcpy(to + at, from + at, bytes);
-    }
+  };
+  if (geometry.code_bytes == 1) {
+    gather(reinterpret_cast<std::uint8_t*>(to));
+  } else {
+    gather(reinterpret_cast<std::uint16_t*>(to));
   }
 }
 

@@ -103,10 +103,13 @@ class DeflickeredClip final : public Clip {
     if (!follow(means)) ++untold_;
     if (!is_shifted_) return true;
     ++corrected_;
+    const bool is_grey = info_.format.shape.channels == 1;
     if (info_.format.code_bytes == 1) {
-      correct(reinterpret_cast<std::uint8_t*>(raster.data()));
+      auto* const codes = reinterpret_cast<std::uint8_t*>(raster.data());
+      is_grey ? correct<1>(codes) : correct<3>(codes);
     } else {
-      correct(reinterpret_cast<std::uint16_t*>(raster.data()));
+      auto* const codes = reinterpret_cast<std::uint16_t*>(raster.data());
+      is_grey ? correct<1>(codes) : correct<3>(codes);
     }
     return true;
   }
@@ -167,13 +170,14 @@ class DeflickeredClip final : public Clip {
     }
   }
 
-  template <typename Code>
+  template <std::size_t kChannels, typename Code>
   void correct(Code* codes) const {
-    const std::uint32_t channels = info_.format.shape.channels;
+    std::array<const std::uint16_t*, kChannels> tables;
+    for (std::size_t channel = 0; channel < kChannels; ++channel) tables[channel] = tables_[channel].data();
     const Code* const end = codes + info_.format.shape.value_count();
-    while (codes != end) {
-      for (std::uint32_t channel = 0; channel < channels; ++channel, ++codes) {
-        *codes = static_cast<Code>(tables_[channel][*codes]);
+    for (; codes != end; codes += kChannels) {
+      for (std::size_t channel = 0; channel < kChannels; ++channel) {
+        codes[channel] = static_cast<Code>(tables[channel][codes[channel]]);
       }
     }
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 
 namespace nutik {
@@ -53,16 +52,21 @@ StillWindow::StillWindow(const CaptureFormat& capture) : format_(capture) {
 
 void StillWindow::add(std::span<const std::byte> raster) {
   if (is_full()) throw std::logic_error("a full window was given another sample");
+  if (format_.code_bytes == 1) {
+    add(reinterpret_cast<const std::uint8_t*>(raster.data()));
+  } else {
+    add(reinterpret_cast<const std::uint16_t*>(raster.data()));
+  }
+  ++samples_;
+}
+
+template <typename Code>
+void StillWindow::add(const Code* raster) {
   const std::uint32_t channels = format_.shape.channels;
   for (std::uint32_t channel = 0; channel < channels; ++channel) {
     std::uint16_t* to = codes_.data() + (std::size_t{samples_} * channels + channel) * pixels_.size();
-    for (std::size_t i = 0; i < pixels_.size(); ++i) {
-      const std::uint64_t value = pixels_[i] * channels + channel;
-      to[i] = 0;
-      std::memcpy(&to[i], raster.data() + value * format_.code_bytes, format_.code_bytes);
-    }
+    for (std::size_t i = 0; i < pixels_.size(); ++i) to[i] = raster[pixels_[i] * channels + channel];
   }
-  ++samples_;
 }
 
 // A line through the differences from the means, over the means; fitted again without the pixels that are

@@ -61,6 +61,9 @@ class StillWindow {
   void clear() { samples_ = 0; }
 
  private:
+  template <typename Code>
+  void add(const Code* raster);
+
   // Sample k of a pixel whose mean is m is too large by offset + gain · m.
   struct Flicker {
     double offset = 0;

@@ -22,6 +22,9 @@ class ThinRaster {
   void take(const SampleCursor& held, std::span<const std::uint32_t> tiles);
 
  private:
+  template <typename Code, std::size_t kChannels>
+  void take(const SampleCursor& held, std::span<const std::uint32_t> tiles);
+
   CaptureFormat thin_;
   Shape shape_;  // of the capture
   TileGrid grid_;

@@ -1,6 +1,7 @@
 // What the pixels of a tile held, over all blocks of a capture.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -44,11 +45,17 @@ class TileHistory {
   void find_span(Codes& least, Codes& most) const {
     least.fill(static_cast<Code>(~Code{0}));
     most.fill(0);
+    // Channel by channel, in arrays that nothing else points into: so it is done in vectors.
     const auto take = [&](const std::byte* from) {
       const auto* const codes = reinterpret_cast<const Code*>(from);
-      for (std::size_t i = 0; i < value_count(); ++i) {
-        least[i] = codes[i] < least[i] ? codes[i] : least[i];
-        most[i] = codes[i] > most[i] ? codes[i] : most[i];
+      for (std::size_t first = 0; first < value_count(); first += kTilePixels) {
+        Code* __restrict const low = least.data() + first;
+        Code* __restrict const high = most.data() + first;
+        const Code* __restrict const row = codes + first;
+        for (std::size_t lane = 0; lane < kTilePixels; ++lane) {
+          low[lane] = std::min(low[lane], row[lane]);
+          high[lane] = std::max(high[lane], row[lane]);
+        }
       }
     };
     for (const Row& row : rows_) take(row.codes);
@@ -83,16 +90,7 @@ class TileHistory {
 
   // What a lane held, one after another where all blocks have rows.
   void read_lane(std::uint32_t lane, std::vector<HeldCodes>& held) {
-    held.clear();
-    for (const Row& row : rows_) {
-      const auto* const codes = reinterpret_cast<const Code*>(row.codes);
-      HeldCodes now;
-      for (std::uint32_t channel = 0; channel < channels(); ++channel) {
-        now.codes[channel] = codes[channel * kTilePixels + lane];
-      }
-      if (held.empty() || !is_same(held.back(), now)) held.push_back(now);
-      held.back().duration_ns += static_cast<std::uint64_t>(row.held_ns);
-    }
+    channels() == 1 ? read_rows<1>(lane, held) : read_rows<3>(lane, held);
     for_each_record(lane, [&](const ChangeRecord& record, std::int64_t held_ns) {
       held.push_back({record.codes, static_cast<std::uint64_t>(held_ns)});
     });
@@ -104,9 +102,28 @@ class TileHistory {
     std::int64_t held_ns;
   };
 
-  // Arrays are compared by a call, which takes longer than all else here.
-  [[nodiscard]] static bool is_same(const HeldCodes& a, const HeldCodes& b) {
-    return a.codes[0] == b.codes[0] && a.codes[1] == b.codes[1] && a.codes[2] == b.codes[2];
+  // What a lane's rows held. Codes are compared in registers and written where they stay: read again as a whole right
+  // after they were written one by one, processors would wait for them.
+  template <std::size_t kChannels>
+  void read_rows(std::uint32_t lane, std::vector<HeldCodes>& held) const {
+    held.resize(rows_.size());
+    HeldCodes* to = held.data();
+    std::array<std::uint16_t, 3> last{};
+    for (const Row& row : rows_) {
+      const auto* const codes = reinterpret_cast<const Code*>(row.codes) + lane;
+      std::array<std::uint16_t, 3> now{};
+      for (std::size_t channel = 0; channel < kChannels; ++channel)
+        now[channel] = codes[channel * kTilePixels];
+      const auto held_ns = static_cast<std::uint64_t>(row.held_ns);
+      if (to != held.data() && now[0] == last[0] && now[1] == last[1] && now[2] == last[2]) {
+        to[-1].duration_ns += held_ns;
+        continue;
+      }
+      for (std::size_t channel = 0; channel < 3; ++channel) to->codes[channel] = last[channel] = now[channel];
+      to->duration_ns = held_ns;
+      ++to;
+    }
+    held.resize(static_cast<std::size_t>(to - held.data()));
   }
 
   [[nodiscard]] std::uint32_t channels() const { return blocks_.front().geometry().channels; }
