@@ -15,11 +15,11 @@ constexpr double kMostOfAPlace = 0.6;         // looks the same at two looks
 // A place that never looks the same for so much of the time has no look of its own: leaves, or noise.
 constexpr double kLeastAlike = 1.0 / 8;
 
-std::uint32_t cell_side(const Shape& shape) {
+}  // namespace
+
+std::uint32_t PlaceTimes::cell_side(const Shape& shape) {
   return (std::max(shape.width, shape.height) - 1) / kCellsToASide + 1;
 }
-
-}  // namespace
 
 MemoryNeeds PlaceTimes::needs(const CaptureFormat& capture) {
   const std::uint64_t side = cell_side(capture.shape);
@@ -150,7 +150,7 @@ PlaceTimes::Clock PlaceTimes::clock_of(const std::vector<std::uint16_t>& bins, s
 }
 
 std::int64_t PlaceTimes::clock_ns(std::uint32_t x, std::uint32_t y, std::uint64_t sample) const {
-  const Clock& clock = clocks_[clock_of_cell_[std::size_t{y / side_} * columns_ + x / side_]];
+  const Clock& clock = clock_of(x, y);
   if (sample == timeline_.sample_count()) return clock.before_ns.back();
   const std::uint64_t look = looks_.before(sample);
   const std::int64_t within = clock.runs[look] != 0 ? timeline_.start_ns(sample) - starts_ns_[look] : 0;

@@ -26,6 +26,13 @@ class PlaceTimes {
   // For how long the clock at an uncertain pixel ran until a sample began; sample_count() is the capture's end.
   [[nodiscard]] std::int64_t clock_ns(std::uint32_t x, std::uint32_t y, std::uint64_t sample) const;
 
+  // Whether the place of an uncertain pixel looks alike for long enough to be told by that: else its clock always runs.
+  [[nodiscard]] bool has_look(std::uint32_t x, std::uint32_t y) const {
+    return clock_of(x, y).before_ns.back() < timeline_.duration_ns();
+  }
+
+  // In pixels. What lies closer together is one place.
+  [[nodiscard]] static std::uint32_t cell_side(const Shape& shape);
   [[nodiscard]] static MemoryNeeds needs(const CaptureFormat& capture);
 
  private:
@@ -38,6 +45,9 @@ class PlaceTimes {
     std::uint32_t x, y;
   };
 
+  [[nodiscard]] const Clock& clock_of(std::uint32_t x, std::uint32_t y) const {
+    return clocks_[clock_of_cell_[std::size_t{y / side_} * columns_ + x / side_]];
+  }
   // Finds places, and returns spots of each.
   std::vector<std::vector<Spot>> spots_of_places(const Region& uncertain);
   // `bins` are those of a place's spots, look by look.

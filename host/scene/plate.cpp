@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/place_times.hpp"
+#include "scene/small_holes.hpp"
 #include "scene/tile_history.hpp"
 #include "system/parallel.hpp"
 
@@ -106,7 +107,19 @@ class PlateMaker {
   }
 
   // From here on only what is uncertain is made, again: of what it held while its whole place looked as it mostly does.
-  void look_at_places() { times_.emplace(capture_, plate_.uncertain, band_); }
+  // A few pixels amid such a place are part of it: all that stood there may have been as dark at them.
+  void look_at_places() {
+    const std::size_t side = PlaceTimes::cell_side(capture_.format().shape);
+    Region places = plate_.uncertain;
+    fill_small_holes(places, side * side);
+    times_.emplace(capture_, places, band_);
+    std::size_t pixel = 0;
+    for (std::uint32_t y = 0; y < places.height; ++y) {
+      for (std::uint32_t x = 0; x < places.width; ++x, ++pixel) {
+        if (places.inside[pixel] != 0 && times_->has_look(x, y)) plate_.uncertain.inside[pixel] = 1;
+      }
+    }
+  }
 
   [[nodiscard]] const Region& uncertain() const { return plate_.uncertain; }
   [[nodiscard]] Plate finished() && { return std::move(plate_); }
@@ -223,7 +236,7 @@ class PlateMaker {
 
 MemoryNeeds plate_needs(const CaptureFormat& capture) {
   MemoryNeeds needs = PlaceTimes::needs(capture);
-  needs.add("the plate", capture.shape.pixel_count() * (capture.shape.channels * sizeof(double) + 1));
+  needs.add("the plate", capture.shape.pixel_count() * (capture.shape.channels * sizeof(double) + 3));
   return needs;
 }
 

@@ -24,7 +24,7 @@ namespace nutik {
 
 struct Plate {
   Picture light;     // light64, in the capture's primaries
-  Region uncertain;  // held for less than half of the time
+  Region uncertain;  // held for less than half of the time; small holes amid these that are told with them
 };
 
 // What a plate takes, beside blocks of the capture.

@@ -25,7 +25,7 @@ struct PlateRequest {
 
 struct MadePlate {
   Picture picture;
-  Region uncertain;            // pixels that hold their light for less than half of the time
+  Region uncertain;            // as the scene's Plate has it
   bool is_noise_known = true;  // false: nothing was stated, and the noise cannot be measured. 1/32 was taken
   Saturation saturation = {};  // of its codes
 };
