@@ -12,12 +12,16 @@ constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
 }  // namespace
 
+std::uint32_t Difference::side(const Shape& shape) {
+  return (std::max(shape.width, shape.height) - 1) / kMostCellsToASide + 1;
+}
+
 Difference::Difference(const CaptureFormat& capture, const Picture& plate, std::uint32_t by_codes)
     : shape_(capture.shape),
       grid_(shape_),
       white_code_(capture.white_code),
       by_codes_(by_codes),
-      side_((std::max(shape_.width, shape_.height) - 1) / kMostCellsToASide + 1),
+      side_(side(shape_)),
       columns_((shape_.width - 1) / side_ + 1),
       rows_((shape_.height - 1) / side_ + 1),
       plate_(grid_.tile_count() * shape_.channels * kTilePixels * capture.code_bytes),

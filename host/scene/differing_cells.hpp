@@ -22,7 +22,8 @@ class Difference {
   // A pixel differs where a channel does by more than `by_codes`.
   Difference(const CaptureFormat& capture, const Picture& plate, std::uint32_t by_codes);
 
-  [[nodiscard]] std::uint32_t side() const { return side_; }  // of a cell, in pixels
+  // Of a cell, in pixels.
+  [[nodiscard]] static std::uint32_t side(const Shape& shape);
 
   const DifferingCells& at(const Look& look);
 

@@ -255,10 +255,9 @@ class Tracker {
     const Way way(track_.places);
     track_.extent = way.extent();
     // A pendulum turns often on its long way; who stands for a while stirs, and yet goes somewhere.
-    constexpr double kLeastOfBoxOrOfAll = 0.25;
     constexpr double kMostTurnsOfLength = 1.3, kMostTurnsOfExtent = 2;
-    track_.is_scraps = middle_of(track_.places, &SubjectPlace::fill) < kLeastOfBoxOrOfAll &&
-                       middle_of(track_.places, &SubjectPlace::share) < kLeastOfBoxOrOfAll;
+    track_.fill = middle_of(track_.places, &SubjectPlace::fill);
+    track_.share = middle_of(track_.places, &SubjectPlace::share);
     track_.flickers =
         way.turns_of_length() > kMostTurnsOfLength && way.turns_of_extent() > kMostTurnsOfExtent;
     return std::move(track_);
@@ -273,6 +272,8 @@ class Tracker {
 };
 
 }  // namespace
+
+double least_misplaced_pixels(const Shape& shape) { return Difference::side(shape) / 2.0; }
 
 double SubjectTrack::size() const {
   std::vector<std::size_t> sizes;
@@ -311,7 +312,7 @@ std::vector<SubjectTrack> track_subjects(CaptureSource& capture, const Picture& 
   Difference difference(format, plate, by_codes);
   std::vector<Tracker> trackers;
   for (const Rectangle& region : regions) {
-    trackers.emplace_back(format.shape, difference.side(), region, looks.count());
+    trackers.emplace_back(format.shape, Difference::side(format.shape), region, looks.count());
   }
   for_each_look(capture, looks, [&](const Look& look) {
     if (progress) progress(look.number, looks.count());

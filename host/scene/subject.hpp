@@ -35,16 +35,24 @@ struct SubjectTrack {
   SampleRange empty;  // the longest stretch of them at which nothing at all differs from the plate
   std::vector<SampleRange> rests;  // where it stays in its place for a good part of the time
   double extent = 0;               // in pixels, from where its centre is furthest to one side to the other
-  bool is_scraps = false;   // thin, and little of what differs: edges of something that shakes or grows
-  bool flickers = false;    // its places lie here and there, as if it were no single thing
-  double moving_share = 0;  // of the picture, that differs from the plate on average
+  double fill = 1;                 // of its places' boxes; a median
+  double share = 1;                // of all that differs from the plate when it is there; a median
+  bool flickers = false;           // its places lie here and there, as if it were no single thing
+  double moving_share = 0;         // of the picture, that differs from the plate on average
 
   // In pixels: the root of the area that it usually covers. 0 where there is none.
   [[nodiscard]] double size() const;
+  // Less than half of its boxes, and less than half of what differs: most of what is seen there is the plate, and most of
+  // what moves is elsewhere. So are edges of something that shakes or grows.
+  [[nodiscard]] bool is_scraps() const { return fill < 0.5 && share < 0.5; }
   // For how much of the time from the first place to the last, without rests, a cell that is covered at all is covered,
   // on average.
   [[nodiscard]] double covered_share() const;
 };
+
+// Still things that lie so many pixels from where the plate has them, or more, are taken for what moves: half of a cell
+// along their edges differs.
+[[nodiscard]] double least_misplaced_pixels(const Shape& shape);
 
 // One in each region, of the pixels there. A pixel is not the plate's where a channel differs from it by more than
 // `by_codes`. What hangs together at a sample is taken for the same as what lay nearest where that went at the samples

@@ -287,12 +287,13 @@ void check_track(const SubjectTrack& track, const std::string& where, std::uint3
                "large. Take a part of the picture, or name the moments to show",
                where, track.extent, side, track.size()));
   }
-  if (track.is_scraps) {
+  if (track.is_scraps()) {
     throw NoSubject(format(
-        "{}: what goes furthest are thin scraps, and most of what differs from the scene at rest lies "
-        "elsewhere: edges of something that shakes, grows or shines, and no thing that goes its way. Name a "
-        "region with a single subject, or the moments to show",
-        where));
+        "{}: what goes furthest are scraps: they fill {:.0f} % of their box and are {:.0f} % of what differs "
+        "from the scene at rest, and a thing that goes its way is at least half of one of these. Edges of "
+        "something that shakes, grows or shines look so. Name a region with a single subject, or the moments "
+        "to show",
+        where, 100 * track.fill, 100 * track.share));
   }
   if (track.flickers) {
     throw NoSubject(format(

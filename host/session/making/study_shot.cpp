@@ -15,8 +15,6 @@ namespace {
 
 // What regions are grown by, and the soft edge of them: less hides in these.
 constexpr double kMostCameraPixels = 4;
-// Of half the texture, from where one motion would have it: less is noise and compression.
-constexpr double kMostResidualPixels = 0.75;
 // Shorter shots show nothing that goes anywhere.
 constexpr std::uint64_t kLeastSamples = 8;
 
@@ -90,13 +88,14 @@ class ShotPlanner {
     const bool looks_for_subject = request_.style != StudyStyle::slit &&
                                    request_.style != StudyStyle::clean &&
                                    std::holds_alternative<std::uint32_t>(request_.moments);
-    if (!aligned || !looks_for_subject || aligned->residual_pixels <= kMostResidualPixels) return;
+    const double most = least_misplaced_pixels(capture.format().shape);
+    if (!aligned || !looks_for_subject || aligned->residual_pixels < most) return;
     throw NoSubject(format(
         "{}: one motion of the camera does not explain the pictures: moved back, half of the "
-        "texture of one lies {:.2f} pixels or more from its place, and {:.2f} may be. Near things move "
-        "against far ones where a camera is carried on, and would be taken for what moves. Film from "
-        "one place, take a shorter part of the time, or name the moments to show",
-        name_, aligned->residual_pixels, kMostResidualPixels));
+        "texture of one lies {:.2f} pixels or more from its place, and from {:.1f} on it is taken for what "
+        "moves. Near things move against far ones where a camera is carried on. Film from one place, take a "
+        "shorter part of the time, or name the moments to show",
+        name_, aligned->residual_pixels, most));
   }
 
   [[nodiscard]] PlannedStudy plan_as_it_is(Session session, std::optional<MovedCamera> moved) const {
