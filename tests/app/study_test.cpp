@@ -51,10 +51,13 @@ TEST_F(Study, ShowsTheSubjectAsItWasAtEachMoment) {
 }
 
 TEST_F(Study, WritesTheCommandsThatMakeTheSame) {
-  for (const char* style : {"trail", "strobe", "rear-curtain", "frozen", "slit", "clean"}) {
+  for (const char* style : {"trail", "strobe", "rear-curtain", "frozen", "slit", "slit bottom", "clean"}) {
     std::filesystem::remove(scratch_ / "study.pgm");
-    ASSERT_EQ(run({"study", "clip.tik", "--style", style, "--depth", "16", "-o", "study.png"}).status, 0)
-        << style;
+    const std::string_view all = style;
+    const std::string name(all.substr(0, all.find(' ')));
+    std::vector<std::string> words{"study", "clip.tik", "--style", name, "--depth", "16", "-o", "study.png"};
+    if (name != style) words.insert(words.end(), {"--slit-from", "bottom"});
+    ASSERT_EQ(run(words).status, 0) << style;
     const bool has_mask = std::string_view(style) != "clean";
     ASSERT_EQ(std::filesystem::exists(scratch_ / "study.pgm"), has_mask) << style;
     const std::string picture = test::read_file(scratch_ / "study.png"),
@@ -334,22 +337,38 @@ TEST_F(Study, FollowsASubjectInEachRegion) {
   EXPECT_NE(empty.err.find("two, region 0,84,160,12: nothing moves"), std::string::npos) << empty.err;
 }
 
-TEST_F(Study, ShowsEachColumnAtItsOwnMoment) {
-  const auto result =
-      run({"study", "clip.tik", "--style", "slit", "--moments", "4", "--json", "-o", "slit.png"});
-  ASSERT_EQ(result.status, 0) << result.err;
-  const auto json = nlohmann::json::parse(result.out);
-  ASSERT_EQ(json["moments"].size(), 4u);
-  const cv::Mat slit = picture("slit.png");
-  for (int x = 0; x < slit.cols; ++x) {
-    const auto column = static_cast<std::size_t>(x * 4 / slit.cols);
-    const auto sample = json["moments"][column]["sample"].get<std::size_t>();
-    for (int y = 0; y < slit.rows; ++y) {
-      ASSERT_EQ(slit.at<std::uint8_t>(y, x),
-                scene_.pictures[sample][static_cast<std::size_t>(y * slit.cols + x)])
-          << x << ", " << y;
+TEST_F(Study, ShowsEachStripOfASlitAtItsOwnMoment) {
+  for (const std::string from : {"", "left", "right", "top", "bottom"}) {
+    std::vector<std::string> words{"study", "clip.tik", "--style", "slit",    "--moments",
+                                   "4",     "--json",   "-o",      "slit.png"};
+    if (!from.empty()) words.insert(words.end(), {"--slit-from", from});
+    const auto result = run(words);
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    ASSERT_EQ(json["moments"].size(), 4u);
+    std::vector<std::size_t> samples;
+    for (const auto& moment : json["moments"]) samples.push_back(moment["sample"].get<std::size_t>());
+    const bool are_rows = from == "top" || from == "bottom", is_back = from == "right" || from == "bottom";
+    EXPECT_EQ(samples[is_back ? 3 : 0], 0u) << from;
+    EXPECT_EQ(samples[is_back ? 0 : 3], scene_.pictures.size() - 1) << from;
+    const cv::Mat slit = picture("slit.png");
+    for (int x = 0; x < slit.cols; ++x) {
+      for (int y = 0; y < slit.rows; ++y) {
+        const auto strip = static_cast<std::size_t>(are_rows ? y * 4 / slit.rows : x * 4 / slit.cols);
+        ASSERT_EQ(slit.at<std::uint8_t>(y, x),
+                  scene_.pictures[samples[strip]][static_cast<std::size_t>(y * slit.cols + x)])
+            << from << ": " << x << ", " << y;
+      }
     }
   }
+  const auto side = run({"study", "clip.tik", "--style", "slit", "--slit-from", "above"});
+  EXPECT_EQ(side.status, 2);
+  EXPECT_NE(side.err.find("--slit-from 'above' is unknown; there are left, right, top, bottom"),
+            std::string::npos)
+      << side.err;
+  const auto none = run({"study", "clip.tik", "--slit-from", "top"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("leave it out, or state that style"), std::string::npos) << none.err;
   const auto which = run({"study", "clip.tik", "--style", "slit", "--moments", "1f,3f"});
   EXPECT_EQ(which.status, 2);
   EXPECT_NE(which.err.find("how many there are, not which"), std::string::npos) << which.err;

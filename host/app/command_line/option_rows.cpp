@@ -263,11 +263,11 @@ constexpr Option kRows[] = {
     {0, "style", "NAME", subject, bit(Id::study), &Options::style,
      "trail (sharp moments over the whole way), strobe (moments alone), rear-curtain (the last moment, and "
      "a trail that grows towards it), frozen (one moment in a scene exposed for all of the time), clean (the "
-     "scene without what moves) or slit (columns, each later than the one to its left) (default: trail)",
+     "scene without what moves) or slit (strips, each later than the one before it) (default: trail)",
      "trail strobe rear-curtain frozen clean slit"},
     {0, "moments", "N|TIMES", subject, bit(Id::study), &Options::moments,
      "how many moments, or which: 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen 1); of slit "
-     "how many columns (default: 256)"},
+     "how many strips (default: 256)"},
     step("region", "X,Y,W,H",
          "look for a subject in this rectangle only; several times for as many subjects, each in its own",
          Id::study),
@@ -276,6 +276,9 @@ constexpr Option kRows[] = {
     {0, "trail", "SHAPE", subject, bit(Id::study), &Options::trail,
      "even, fade (ends at nothing), ramp (begins at nothing) or none (default: what the style has)",
      "even fade ramp none"},
+    {0, "slit-from", "SIDE", subject, bit(Id::study), &Options::slit_from,
+     "where the first moment of slit lies: left or right, for columns, top or bottom, for rows (default: left)",
+     "left right top bottom"},
 
     heading("What is solved for"),
     step("wish", "WISH",

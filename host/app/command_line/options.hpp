@@ -43,7 +43,7 @@ struct Options {
   Value renderer, device, precision, memory, source, runs;
 
   // A study; what is solved for.
-  Value style, moments, spacing, trail, regions;
+  Value style, moments, spacing, trail, slit_from, regions;
 
   // Masks, plates, and changes over time.
   Value by, base, size, preview, uncertain, csv, moment, map;

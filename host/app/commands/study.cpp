@@ -73,8 +73,8 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
   }
   std::string regions;
   for (const MaskStep& step : study.mask.steps) {
-    if (style == StudyStyle::slit) {
-      regions += format(" --grid {}x1", study.moments.size());
+    if (const auto* grid = std::get_if<select::Grid>(&step.selection)) {
+      regions += format(" --grid {}x{}", grid->columns, grid->rows);
     } else {
       regions += format(" \\\n  --tag {} --subject {}f", step.tag, study.moments[step.tag - 1U]);
     }
@@ -186,7 +186,7 @@ int run_study(const Options& stated) {
     moments +=
         format("{} {} ({}f)", moments.empty() ? "" : ",", duration_text(timeline.start_ns(sample)), sample);
   }
-  if (is_slit) moments = format(" {} moments, one in each column", study.moments.size());
+  if (is_slit) moments = format(" {} moments, one in each strip", study.moments.size());
   answer.line = format("{}: {}, {}{}", files.picture.string(), shape_text(exposed.picture.shape),
                        is_slit ? "the scene at" : "the subject at", moments);
   answer.details.push_back(

@@ -14,7 +14,7 @@ namespace nutik::app {
 namespace {
 
 constexpr std::uint32_t kMostMoments = 50;
-constexpr std::uint32_t kMostColumns = 256;  // of a slit: a mask has no more values
+constexpr std::uint32_t kMostStrips = 256;  // of a slit: a mask has no more values
 
 // The value that a name stands for; `usual` where nothing was said.
 template <typename Value, std::size_t count>
@@ -48,15 +48,22 @@ constexpr std::array kTrails{
     std::pair<std::string_view, std::optional<TrailShape>>("none", TrailShape::none),
 };
 
+constexpr std::array kSides{
+    std::pair<std::string_view, SlitFrom>("left", SlitFrom::left),
+    std::pair<std::string_view, SlitFrom>("right", SlitFrom::right),
+    std::pair<std::string_view, SlitFrom>("top", SlitFrom::top),
+    std::pair<std::string_view, SlitFrom>("bottom", SlitFrom::bottom),
+};
+
 std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(const std::string& text,
                                                                    StudyStyle style) {
   if (text.find_first_not_of("0123456789") == std::string::npos) {
-    return style == StudyStyle::slit ? parse_whole_number(text, "--moments", 2, kMostColumns)
+    return style == StudyStyle::slit ? parse_whole_number(text, "--moments", 2, kMostStrips)
                                      : parse_whole_number(text, "--moments", 1, kMostMoments);
   }
   if (style == StudyStyle::slit) {
     throw UsageError(
-        "--style slit shows a moment in each column; say with --moments how many there are, not which");
+        "--style slit shows a moment in each strip; say with --moments how many there are, not which");
   }
   std::vector<StatedTime> times;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -87,13 +94,16 @@ StudyRequest study_request(const Options& options) {
   request.style = named(options.style, "--style", kStyles, request.style);
   request.spacing = named(options.spacing, "--spacing", kSpacings, request.spacing);
   request.trail = named(options.trail, "--trail", kTrails, request.trail);
+  request.slit_from = named(options.slit_from, "--slit-from", kSides, request.slit_from);
   const bool is_slit = request.style == StudyStyle::slit, is_clean = request.style == StudyStyle::clean;
+  if (options.slit_from && !is_slit)
+    throw UsageError("--slit-from says nothing without --style slit; leave it out, or state that style");
   for (const auto& [said, name] : {std::pair(options.moments.has_value() && !is_slit, "--moments"),
                                    std::pair(options.spacing.has_value(), "--spacing"),
                                    std::pair(options.trail.has_value(), "--trail")}) {
     if ((is_slit || is_clean) && said) {
       throw UsageError(format("{} says nothing to --style {}, which shows {}; leave it out", name,
-                              *options.style, is_slit ? "a moment in each column" : "no subject"));
+                              *options.style, is_slit ? "a moment in each strip" : "no subject"));
     }
   }
   for (const Said& said : options.said) {
@@ -104,7 +114,7 @@ StudyRequest study_request(const Options& options) {
                               *options.style));
     }
   }
-  if (is_slit) request.moments = kMostColumns;
+  if (is_slit) request.moments = kMostStrips;
   if (options.moments) request.moments = parse_moments(*options.moments, request.style);
   const bool shows_one = request.style == StudyStyle::rear_curtain || request.style == StudyStyle::frozen;
   const auto* times = std::get_if<std::vector<StatedTime>>(&request.moments);

@@ -325,7 +325,7 @@ MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& c
 Study plan_study(CaptureSource& capture, const std::string& capture_name, const StudyRequest& request,
                  const MemoryBudget& memory, const ReportedProgress& progress) {
   if (request.style == StudyStyle::slit) {
-    return slit_study(capture, capture_name, std::get<std::uint32_t>(request.moments));
+    return slit_study(capture, capture_name, std::get<std::uint32_t>(request.moments), request.slit_from);
   }
   const CaptureFormat& format = capture.format();
   const std::vector<Rectangle> regions = regions_of(request, capture_name, format.shape);

@@ -31,8 +31,10 @@ enum class StudyStyle {
   rear_curtain,  // the last moment, and a trail that grows towards it
   frozen,        // one moment in a scene that is exposed for all of the time
   clean,         // the scene without what moves: its plate
-  slit           // columns, each at a moment later than the one to its left
+  slit           // strips side by side, each at a moment of its own
 };
+// Where a slit's first moment lies: its strips are columns, or rows.
+enum class SlitFrom { left, right, top, bottom };
 enum class TrailShape { even, fade, ramp, none };
 
 struct StudyRequest {
@@ -40,6 +42,7 @@ struct StudyRequest {
   std::variant<std::uint32_t, std::vector<StatedTime>> moments = std::uint32_t{5};
   MomentSpacing spacing = MomentSpacing::time;
   std::optional<TrailShape> trail;  // none: what the style has
+  SlitFrom slit_from = SlitFrom::left;
   std::vector<Rectangle>
       regions;  // each with a subject of its own, in pixels; none: one in all of the picture
 
@@ -57,7 +60,7 @@ struct NoSubject : InputError {
 };
 
 struct Study {
-  // Samples, of one subject after another: of tags 1, 2, …; what is left has tag 0. Of a slit's columns: of tags 0, 1, …
+  // Samples, of one subject after another: of tags 1, 2, …; what is left has tag 0. Of a slit's strips: of tags 0, 1, …
   std::vector<std::uint64_t> moments;
   bool are_moments_found = false;  // not stated
   MaskRequest mask;

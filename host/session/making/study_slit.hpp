@@ -1,4 +1,4 @@
-// A slit-scan: columns of a picture, each exposed later than the one to its left.
+// A slit-scan: strips of a picture side by side, each exposed later than the one before it.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,9 @@
 
 namespace nutik {
 
-// As many columns as are wanted, as pictures, or as pixels in a row, whichever is least, at moments spread over all of the
-// time. Throws InputError where that is a single one.
-[[nodiscard]] Study slit_study(CaptureSource& capture, const std::string& name, std::uint32_t wanted);
+// As many strips as are wanted, as pictures, or as pixels from side to side, whichever is least, at moments spread over all
+// of the time. Throws InputError where that is a single one.
+[[nodiscard]] Study slit_study(CaptureSource& capture, const std::string& name, std::uint32_t wanted,
+                               SlitFrom from);
 
 }  // namespace nutik
