@@ -173,6 +173,8 @@ TEST_F(SoftMaskCommand, IsKnownToOtherCommands) {
   done(with({"sweep", "--scale-gain", "1..2/1", "--each", "each-%d.pgm", "--out-transfer", "source"},
             {"clip.tik", "sheet.png"}));
   EXPECT_EQ(codes("each-0.pgm"), (std::vector<int>{51, 70, 102, 153, 185, 204}));
+  done(with({"video", "--out-fps", "50", "--out-transfer", "source"}, {"clip.tik", "filmed-%d.pgm"}));
+  EXPECT_EQ(codes("filmed-0.pgm"), codes("each-0.pgm"));
   scratch_.write("list.txt", "-k f.fn -m mask.pgm --feather 2px --out-transfer source listed.pgm\n");
   done({"batch", "list.txt", "clip.tik"});
   EXPECT_EQ(codes("listed.pgm"), codes("each-0.pgm"));
