@@ -1,7 +1,11 @@
 """Changes of host/ and kernels/ for the worse, drawn by a seed and spread over all rooms: do the tests notice?
 
 Each is made in a copy of the tree, built, and tested by the tests of its room, then by those of the rooms that use it,
-then by those of the whole program, until one fails. What a build refuses is replaced by the next one.
+until one fails. What passes all these goes through the tests of the whole program, in a second round: they take the
+longest. What a build refuses is replaced by the next one.
+
+Where build-coverage/reach.json (of tools/coverage) says which tests run the changed line, only these are run, the
+quickest first. A test counts where it fails twice, and passes without the mutation.
 """
 
 import json
@@ -13,14 +17,22 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
+import time
 from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
+
+from mutation.reach import Reach
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 EXPLAINED = Path(__file__).resolve().parent / "explained.txt"
 MOST_BYTES = 6 << 30  # that a test may take: more is noticed, too
 LONGEST_S = 1200  # that the tests of a room may take: a loop that never ends is noticed, too
+LONGEST_CPU_S = 300  # the same for each process, so that it does not take the whole while
+SLOW_S = 2  # a test that takes longer runs after the others
+WHOLE_PROGRAM = ("app_tests", "faults_tests")
+SURVIVED_ROOMS = "?"  # the outcome of what has its second round before it
 
 # Name, what a line has, what it gets instead.
 OPERATORS = (
@@ -105,17 +117,40 @@ def users():
 
 
 def tests_of(room):
-    """Targets of tests that can see a room, the nearest first."""
+    """Targets of tests that can see a room, the nearest first, without those of the whole program."""
     known = set(re.findall(r"^nutik_test\((\w+)", (ROOT / "tests/CMakeLists.txt").read_text(), re.MULTILINE))
     of_room, order, reached = users(), [], [room]
     for each in reached:
         order += [each] if each in known else []
         reached += [user for user in sorted(of_room.get(each, ())) if user not in reached]
-    return [f"{each}_tests" for each in dict.fromkeys([*(one for one in order if one != "app"), "app", "faults"])]
+    return [target for each in order if (target := f"{each}_tests") not in WHOLE_PROGRAM]
 
 
-def limit_memory():
+def limit():
     resource.setrlimit(resource.RLIMIT_DATA, (MOST_BYTES, MOST_BYTES))
+    resource.setrlimit(resource.RLIMIT_CPU, (LONGEST_CPU_S, LONGEST_CPU_S))
+
+
+class Selection:
+    """Which tests of a target are worth running for a mutation."""
+
+    def __init__(self, path):
+        self.reach = Reach(path, ROOT) if path.exists() else None
+        if not self.reach:
+            print(f"{path} is missing: every test runs for every mutation; tools/coverage makes it")
+
+    def filters(self, mutation, target):
+        """GoogleTest's filters, each for a run of its own; none where no test of the target runs the line."""
+        names = self.reach.tests_of(mutation.path, mutation.line) if self.reach else None
+        if names is None:
+            return ["*"]
+        quick, slow = [], []
+        for name in sorted(names):
+            program, *words = self.reach.tests[name]["command"]
+            chosen = [word.removeprefix("--gtest_filter=") for word in words if word.startswith("--gtest_filter=")]
+            if Path(program).name == target and chosen:
+                (slow if self.reach.tests[name]["seconds"] > SLOW_S else quick).append(chosen[0])
+        return [":".join(each) for each in (quick, slow) if each]
 
 
 class Copy:
@@ -155,38 +190,79 @@ class Copy:
         self.write(mutation.path, (ROOT / mutation.path).read_bytes())
 
     def builds(self, target):
-        # What is mutated is built once.
-        done = subprocess.run(["cmake", "--build", self.build, "--target", target], capture_output=True, check=False,
-                              env=os.environ | {"CCACHE_READONLY": "1"})
-        return done.returncode == 0
+        return subprocess.run(["cmake", "--build", self.build, "--target", target], capture_output=True,
+                              check=False).returncode == 0
 
-    def failing_test(self, target):
-        """The first test that fails, by name; None where all pass."""
-        settings = os.environ | {"GTEST_FAIL_FAST": "1", "GTEST_BRIEF": "1"}
-        with subprocess.Popen([self.build / "tests" / target], env=settings, stdout=subprocess.PIPE,
-                              stderr=subprocess.DEVNULL, start_new_session=True, preexec_fn=limit_memory) as tests:
-            try:
-                out = tests.communicate(timeout=LONGEST_S)[0].decode(errors="replace")
-            except subprocess.TimeoutExpired:
-                os.killpg(tests.pid, signal.SIGKILL)  # with the programs that it runs
-                return f"{target} does not end"
-        if tests.returncode == 0:
+    def first_failure(self, target, chosen, shards):
+        """The first test that fails, by name; None where all pass. Shards run side by side."""
+        running, end = {}, time.monotonic() + LONGEST_S
+        for shard in range(shards):
+            settings = {"GTEST_FAIL_FAST": "1", "GTEST_FILTER": chosen, "GTEST_SHARD_INDEX": str(shard),
+                        "GTEST_TOTAL_SHARDS": str(shards)}
+            out = tempfile.TemporaryFile()
+            running[subprocess.Popen([self.build / "tests" / target], env=os.environ | settings, stdout=out,
+                                     stderr=subprocess.DEVNULL, start_new_session=True, preexec_fn=limit)] = out
+        try:
+            while running:
+                for tests in [tests for tests in running if tests.poll() is not None]:
+                    out = running.pop(tests)
+                    if tests.returncode != 0:
+                        return failed_test(out) or f"ends with {tests.returncode}"
+                if time.monotonic() > end:
+                    return failed_test(next(iter(running.values()))) or "does not end"
+                time.sleep(0.05)
             return None
-        failed = re.search(r"^\[  FAILED  \] (\S+?),? ", out, re.MULTILINE)
-        return failed[1] if failed else f"{target} ended with {tests.returncode}"
+        finally:
+            for tests in running:
+                os.killpg(tests.pid, signal.SIGKILL)  # with the programs that it runs
+                tests.wait()
 
-    def outcome(self, mutation):
+    def failing_test(self, target, chosen="*"):
+        """A test that fails twice, the second time alone, as TARGET NAME; None where there is none."""
+        passed_over = []
+        while failed := self.first_failure(target, ":".join([chosen, *passed_over]), os.cpu_count()):
+            if " " in failed or self.first_failure(target, failed, 1):
+                return f"{target} {failed}"
+            print(f"{target} {failed}: fails at times", flush=True)
+            passed_over += [failed] if passed_over or "-" in chosen else [f"-{failed}"]
+        return None
+
+    def outcome(self, mutation, targets, selection):
         """A test that notices it, "" where none does, None where it does not build."""
         self.apply(mutation)
         try:
-            for target in tests_of(mutation.room):
-                if not self.builds(target):
+            if not self.builds("nutik-cl"):
+                return None
+            for target in targets:
+                filters = selection.filters(mutation, target)
+                if filters and not self.builds(target):
                     return None
-                if failed := self.failing_test(target):
-                    return failed
+                for chosen in filters:
+                    if failed := self.failing_test(target, chosen):
+                        return failed
             return ""
         finally:
             self.restore(mutation)
+
+    def false_alarms(self, noticed_by):
+        """Those of the tests that fail without a mutation."""
+        found = []
+        for each in sorted(noticed_by):
+            target, name = each.split(" ", 1)
+            if not self.builds(target):
+                sys.exit("the tree does not build without a mutation")
+            if self.first_failure(target, "*" if " " in name else name, 1):
+                found.append(each)
+        return found
+
+
+def failed_test(out):
+    """The test that failed, or that was running when its program ended."""
+    out.seek(0)
+    text = out.read().decode(errors="replace")
+    failed = re.search(r"^\[  FAILED  \] (\S+?),? ", text, re.MULTILINE)
+    started = re.findall(r"^\[ RUN      \] (\S+)", text, re.MULTILINE)
+    return failed[1] if failed else started[-1] if started else None
 
 
 def explained():
@@ -217,25 +293,64 @@ def print_table(results):
     return missed.total()
 
 
+class Campaign:
+    """The mutations that are drawn, and what is known of them."""
+
+    def __init__(self, arguments):
+        self.folder, self.count = arguments.work.resolve(), arguments.count
+        self.folder.mkdir(parents=True, exist_ok=True)
+        self.kept = self.folder / "outcomes.jsonl"
+        lines = self.kept.read_text().splitlines() if self.kept.exists() else []
+        self.known = dict(json.loads(line) for line in lines)
+        self.drawn = drawn(arguments.seed)
+        self.selection, self.copy = None, None
+
+    def keep(self, mutation, outcome):
+        self.known[mutation.key] = outcome
+        with self.kept.open("a") as out:
+            out.write(json.dumps([mutation.key, outcome]) + "\n")
+        told = {None: "does not build", "": "UNNOTICED", SURVIVED_ROOMS: "goes on"}.get(outcome, outcome)
+        print(f"{mutation.path}:{mutation.line} ({mutation.operator}): {told}", flush=True)
+
+    def prepare(self):
+        self.selection = Selection(ROOT / "build-coverage/reach.json")
+        self.copy = Copy(self.folder)
+        if not self.copy.builds("all"):
+            sys.exit("the tree does not build without a mutation")
+
+    def first_round(self):
+        """The mutations that count: those that build."""
+        taken = []
+        for mutation in self.drawn:
+            if len(taken) == self.count:
+                break
+            if mutation.key not in self.known:
+                outcome = self.copy.outcome(mutation, tests_of(mutation.room), self.selection)
+                self.keep(mutation, SURVIVED_ROOMS if outcome == "" else outcome)
+            if self.known[mutation.key] is not None:
+                taken.append(mutation)
+        return taken
+
+    def second_round(self, taken):
+        for mutation in taken:
+            if self.known[mutation.key] == SURVIVED_ROOMS:
+                self.keep(mutation, self.copy.outcome(mutation, WHOLE_PROGRAM, self.selection))
+
+    def results(self):
+        known = [(mutation, self.known[mutation.key]) for mutation in self.drawn
+                 if self.known.get(mutation.key, SURVIVED_ROOMS) not in (None, SURVIVED_ROOMS)]
+        return known[:self.count]
+
+
 def run(arguments):
-    folder = arguments.work.resolve()
-    folder.mkdir(parents=True, exist_ok=True)
-    kept = folder / "outcomes.jsonl"
-    known = dict(json.loads(line) for line in kept.read_text().splitlines()) if kept.exists() else {}
-    copy, results = None, []
-    for mutation in drawn(arguments.seed):
-        if len(results) == arguments.count:
-            break
-        if mutation.key not in known and not arguments.table:
-            if copy is None:
-                copy = Copy(folder)
-                if not copy.builds("all"):
-                    sys.exit("the tree does not build without a mutation")
-            known[mutation.key] = copy.outcome(mutation)
-            with kept.open("a") as out:
-                out.write(json.dumps([mutation.key, known[mutation.key]]) + "\n")
-            told = {None: "does not build", "": "UNNOTICED"}.get(known[mutation.key], known[mutation.key])
-            print(f"{mutation.path}:{mutation.line} ({mutation.operator}): {told}", flush=True)
-        if known.get(mutation.key) is not None:
-            results.append((mutation, known[mutation.key]))
-    return 1 if print_table(results) else 0
+    campaign = Campaign(arguments)
+    if not arguments.table:
+        campaign.prepare()
+        taken = campaign.first_round()
+        campaign.second_round(taken)
+        for test in campaign.copy.false_alarms({campaign.known[mutation.key] for mutation in taken} - {""}):
+            print(f"{test}: fails without a mutation, too; what it noticed counts for nothing until it is mended")
+            for mutation in taken:
+                if campaign.known[mutation.key] == test:
+                    campaign.keep(mutation, "")
+    return 1 if print_table(campaign.results()) else 0
