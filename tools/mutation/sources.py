@@ -1,13 +1,14 @@
 """Changes of host/ and kernels/ for the worse, drawn by a seed and spread over all rooms: do the tests notice?
 
-Each is made in a copy of the tree, built, and tested by the tests of its room, then by those of the rooms that use it,
-until one fails. What passes all these goes through the tests of the whole program, in a second round: they take the
-longest. What a build refuses is replaced by the next one.
+Each is made in a copy of the tree, built, and tested by the tests of its room. What passes them goes, in a second round,
+through those of the rooms that use it and of the whole program, until one fails. What a build refuses is replaced by
+the next one.
 
 Where build-coverage/reach.json (of tools/coverage) says which tests run the changed line, only these are run, the
 quickest first. A test counts where it fails twice, and passes without the mutation.
 """
 
+import itertools
 import json
 import os
 import random
@@ -32,7 +33,7 @@ LONGEST_S = 1200  # that the tests of a room may take: a loop that never ends is
 LONGEST_CPU_S = 300  # the same for each process, so that it does not take the whole while
 SLOW_S = 2  # a test that takes longer runs after the others
 WHOLE_PROGRAM = ("app_tests", "faults_tests")
-SURVIVED_ROOMS = "?"  # the outcome of what has its second round before it
+SURVIVED_ROOM = "?"  # the outcome of what has its second round before it
 
 # Name, what a line has, what it gets instead.
 OPERATORS = (
@@ -117,13 +118,14 @@ def users():
 
 
 def tests_of(room):
-    """Targets of tests that can see a room, the nearest first, without those of the whole program."""
+    """Targets of tests that can see a room: its own, which there may be none of, and the others, the nearest first."""
     known = set(re.findall(r"^nutik_test\((\w+)", (ROOT / "tests/CMakeLists.txt").read_text(), re.MULTILINE))
-    of_room, order, reached = users(), [], [room]
+    of_room, reached = users(), [room]
     for each in reached:
-        order += [each] if each in known else []
         reached += [user for user in sorted(of_room.get(each, ())) if user not in reached]
-    return [target for each in order if (target := f"{each}_tests") not in WHOLE_PROGRAM]
+    nearest, *others = [[f"{each}_tests"] if each in known and f"{each}_tests" not in WHOLE_PROGRAM else []
+                        for each in reached]
+    return nearest, [*itertools.chain(*others), *WHOLE_PROGRAM]
 
 
 def limit():
@@ -309,7 +311,7 @@ class Campaign:
         self.known[mutation.key] = outcome
         with self.kept.open("a") as out:
             out.write(json.dumps([mutation.key, outcome]) + "\n")
-        told = {None: "does not build", "": "UNNOTICED", SURVIVED_ROOMS: "goes on"}.get(outcome, outcome)
+        told = {None: "does not build", "": "UNNOTICED", SURVIVED_ROOM: "goes on"}.get(outcome, outcome)
         print(f"{mutation.path}:{mutation.line} ({mutation.operator}): {told}", flush=True)
 
     def prepare(self):
@@ -325,20 +327,20 @@ class Campaign:
             if len(taken) == self.count:
                 break
             if mutation.key not in self.known:
-                outcome = self.copy.outcome(mutation, tests_of(mutation.room), self.selection)
-                self.keep(mutation, SURVIVED_ROOMS if outcome == "" else outcome)
+                outcome = self.copy.outcome(mutation, tests_of(mutation.room)[0], self.selection)
+                self.keep(mutation, SURVIVED_ROOM if outcome == "" else outcome)
             if self.known[mutation.key] is not None:
                 taken.append(mutation)
         return taken
 
     def second_round(self, taken):
         for mutation in taken:
-            if self.known[mutation.key] == SURVIVED_ROOMS:
-                self.keep(mutation, self.copy.outcome(mutation, WHOLE_PROGRAM, self.selection))
+            if self.known[mutation.key] == SURVIVED_ROOM:
+                self.keep(mutation, self.copy.outcome(mutation, tests_of(mutation.room)[1], self.selection))
 
     def results(self):
         known = [(mutation, self.known[mutation.key]) for mutation in self.drawn
-                 if self.known.get(mutation.key, SURVIVED_ROOMS) not in (None, SURVIVED_ROOMS)]
+                 if self.known.get(mutation.key, SURVIVED_ROOM) not in (None, SURVIVED_ROOM)]
         return known[:self.count]
 
 
