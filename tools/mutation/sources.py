@@ -1,13 +1,14 @@
 """Changes of host/ and kernels/ for the worse, drawn by a seed and spread over all rooms: do the tests notice?
 
-Each is made in a copy of the tree, built, and tested by the tests of its room. What passes them goes, in a second round,
-through those of the rooms that use it and of the whole program, until one fails. What a build refuses is replaced by
+Each is made in a copy of the tree, built, and tested by the tests of its room. What passes them goes through those of
+the rooms that use it and of the whole program in a second round, until one fails. What a build refuses is replaced by
 the next one.
 
 Where build-coverage/reach.json (of tools/coverage) says which tests run the changed line, only these are run, the
 quickest first. A test counts where it fails twice, and passes without the mutation.
 """
 
+import contextlib
 import itertools
 import json
 import os
@@ -216,7 +217,8 @@ class Copy:
             return None
         finally:
             for tests in running:
-                os.killpg(tests.pid, signal.SIGKILL)  # with the programs that it runs
+                with contextlib.suppress(ProcessLookupError):  # it may just have ended
+                    os.killpg(tests.pid, signal.SIGKILL)  # with the programs that it runs
                 tests.wait()
 
     def failing_test(self, target, chosen="*"):
