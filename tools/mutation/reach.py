@@ -98,14 +98,19 @@ class Worker:
                 counters = pathlib.Path("/", path.relative_to(self.folder))
                 ran.update((counters, ident) for ident, count in now.items() if count != sums.get(ident, 0))
                 self.before[path] = data, now
-        return {"command": test["command"], "seconds": round(seconds, 1), "status": status}, ran
+        return {"seconds": round(seconds, 1), "status": status}, ran
+
+
+def listed_tests(build, options=()):
+    """CTest's tests: their names, commands and properties."""
+    listed = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1", *options], capture_output=True,
+                            check=True)
+    return [test for test in json.loads(listed.stdout)["tests"] if test.get("command")]
 
 
 def measure(root, build, folders, options):
     """Runs CTest's tests, and says of each what it ran; counters are left in the folders, one for each worker."""
-    listed = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1", *options], capture_output=True,
-                            check=True)
-    tests = [test for test in json.loads(listed.stdout)["tests"] if test.get("command")]
+    tests = listed_tests(build, options)
     idle = [Worker(build, folder) for folder in folders]
 
     def run(test):
@@ -136,7 +141,7 @@ def measure(root, build, folders, options):
             print(f"{test['name']}: {outcome['seconds']} s"
                   + ("" if outcome["status"] == 0 else f", ended with {outcome['status']}"), flush=True)
     sources = {file for each in functions for file in each}
-    return {"root": str(root), "build": str(build), "tests": found, "functions": functions,
+    return {"tests": found, "functions": functions,
             "sources": {file: checksum(root / file) for file in sorted(sources)}}
 
 
@@ -156,9 +161,12 @@ class Reach:
                 for line in each:
                     self.functions_of[file, line].add(number)
 
-    def tests_of(self, file, line):
-        """Names of the tests that run a line, or None where that is not known."""
+    def may_run(self, test, file, line):
+        """Whether a test may run a line: also where it is not known."""
         functions = self.functions_of.get((file, line))
-        if functions is None or self.sources.get(file) != checksum(self.root / file):
-            return None
-        return {name for name, test in self.tests.items() if not functions.isdisjoint(test["functions"])}
+        if functions is None or test not in self.tests or self.sources[file] != checksum(self.root / file):
+            return True
+        return not functions.isdisjoint(self.tests[test]["functions"])
+
+    def seconds(self, test):
+        return self.tests[test]["seconds"] if test in self.tests else 0.0

@@ -25,7 +25,7 @@ from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
-from mutation.reach import Reach
+from mutation.reach import Reach, listed_tests
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 EXPLAINED = Path(__file__).resolve().parent / "explained.txt"
@@ -135,24 +135,27 @@ def limit():
 
 
 class Selection:
-    """Which tests of a target are worth running for a mutation."""
+    """Which tests are worth running for a mutation."""
 
-    def __init__(self, path):
+    def __init__(self, path, build):
         self.reach = Reach(path, ROOT) if path.exists() else None
         if not self.reach:
             print(f"{path} is missing: every test runs for every mutation; tools/coverage makes it")
+        self.filters_of = {}  # of each target's tests, by name
+        for test in listed_tests(build):
+            for word in test["command"][1:]:
+                if word.startswith("--gtest_filter="):
+                    target = self.filters_of.setdefault(Path(test["command"][0]).name, {})
+                    target[test["name"]] = word.removeprefix("--gtest_filter=")
 
     def filters(self, mutation, target):
         """GoogleTest's filters, each for a run of its own; none where no test of the target runs the line."""
-        names = self.reach.tests_of(mutation.path, mutation.line) if self.reach else None
-        if names is None:
+        if not self.reach:
             return ["*"]
         quick, slow = [], []
-        for name in sorted(names):
-            program, *words = self.reach.tests[name]["command"]
-            chosen = [word.removeprefix("--gtest_filter=") for word in words if word.startswith("--gtest_filter=")]
-            if Path(program).name == target and chosen:
-                (slow if self.reach.tests[name]["seconds"] > SLOW_S else quick).append(chosen[0])
+        for name, chosen in self.filters_of[target].items():
+            if self.reach.may_run(name, mutation.path, mutation.line):
+                (slow if self.reach.seconds(name) > SLOW_S else quick).append(chosen)
         return [":".join(each) for each in (quick, slow) if each]
 
 
@@ -317,10 +320,10 @@ class Campaign:
         print(f"{mutation.path}:{mutation.line} ({mutation.operator}): {told}", flush=True)
 
     def prepare(self):
-        self.selection = Selection(ROOT / "build-coverage/reach.json")
         self.copy = Copy(self.folder)
         if not self.copy.builds("all"):
             sys.exit("the tree does not build without a mutation")
+        self.selection = Selection(ROOT / "build-coverage/reach.json", self.copy.build)
 
     def first_round(self):
         """The mutations that count: those that build."""
