@@ -155,17 +155,21 @@ class Reach:
     def __init__(self, path, root):
         known = json.loads(path.read_text())
         self.tests, self.sources, self.root = known["tests"], known["sources"], root
-        self.functions_of = defaultdict(set)
+        self.functions_of = defaultdict(lambda: defaultdict(set))  # each file's lines
         for number, lines in enumerate(known["functions"]):
             for file, each in lines.items():
                 for line in each:
-                    self.functions_of[file, line].add(number)
+                    self.functions_of[file][line].add(number)
 
     def may_run(self, test, file, line):
         """Whether a test may run a line: also where it is not known."""
-        functions = self.functions_of.get((file, line))
-        if functions is None or test not in self.tests or self.sources[file] != checksum(self.root / file):
+        if test not in self.tests or self.sources.get(file) != checksum(self.root / file):
             return True
+        lines = self.functions_of[file]
+        # The middle of a statement may have no counter: what is above and below it has.
+        above = max((each for each in lines if each <= line), default=None)
+        below = min((each for each in lines if each >= line), default=None)
+        functions = lines.get(above, set()) | lines.get(below, set())
         return not functions.isdisjoint(self.tests[test]["functions"])
 
     def seconds(self, test):
