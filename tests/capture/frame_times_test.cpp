@@ -49,6 +49,22 @@ TEST(FrameTimes, ACapturesOwnRateAndAngleGiveItsOwnExposures) {
   }
 }
 
+// A third and a quarter are seven twelfths; what has a longer denominator than 10^15 is the nearest that has not.
+TEST(ExactTimes, AddUpInLowestTerms) {
+  const auto sum = [](ExactTime a, ExactTime b) {
+    const ExactTime found = a + b;
+    return cpp_rational(cpp_int(static_cast<std::int64_t>(found.numerator)),
+                        cpp_int(static_cast<std::int64_t>(found.denominator)));
+  };
+  EXPECT_EQ(sum({1, 3}, {1, 4}), cpp_rational(7, 12));
+  EXPECT_EQ(sum({-5, 6}, {22, 6}), cpp_rational(17, 6));
+  EXPECT_EQ((ExactTime{1, 6} + ExactTime{1, 3}).denominator, 2);
+  EXPECT_EQ(sum({7, 1}, {-9, 1}), -2);
+  const ExactTime fine = ExactTime{1, 999'999'937} + ExactTime{1, 999'999'893};
+  EXPECT_EQ(fine.denominator, 1'000'000'000'000'000);
+  EXPECT_EQ(fine.numerator, 2'000'000);
+}
+
 TEST(FrameTimes, AreExactForAnyRateSpeedAngleAndStart) {
   test::Random random(20);
   for (int i = 0; i < 3000; ++i) {
