@@ -114,6 +114,13 @@ TEST_F(Solve, ExposesRegionsAsTheyAreWished) {
   EXPECT_NEAR(answer["wishes"][0]["reached"][0].get<double>(), 0.25, 1e-6);
 }
 
+TEST_F(Solve, ComparesWithAnIntervalUpToTheCapturesEnd) {
+  const json answer =
+      solved({"-k", "figure14.fn", "--wish", "72,22,6,6 like 0.9s..1.2s", "clip.tik", "-o", "solved.fn"});
+  ASSERT_EQ(run({"--start", "0.9s", "--exposure", "0.3s", "clip.tik", "rest.pfm"}).status, 0);
+  EXPECT_NEAR(mean_light(answer), mean("rest.pfm", {72, 22, 6, 6}), 1e-6);
+}
+
 TEST_F(Solve, LooksForTimes) {
   // When 10 ms show the ball within its place at rest, and not elsewhere.
   scratch_.write("moved.fn", "M0{[when-1:0], [when:1], [when+10000000:1], [when+10000001:0]}");
@@ -180,6 +187,10 @@ TEST_F(Solve, SaysWhatMakesNoSense) {
   refused({"-k", "figure14.fn", "--wish", "90,20,10,10 gone"}, 2,
           "90,20,10,10 does not lie in the picture, which has 96 x 48");
   refused({"-k", "figure14.fn", "--wish", "all like 2s"}, 2, "lies outside the capture, which lasts 1.2 s");
+  for (const char* interval : {"0.5s..1.3s", "0.6s..0.5s", "0.9s..0.9s"}) {
+    refused({"-k", "figure14.fn", "--wish", std::string("all like ") + interval}, 2,
+            interval + std::string(" is no interval of the capture, which lasts 1.2 s"));
+  }
   refused({"-k", "figure14.fn", "--wish", "all = 1", "--free", "best=0..1"}, 2,
           "no function has the name 'best'; there are rest");
   refused({"-k", "figure14.fn", "--wish", "all = 1", "--free", "rest=1..0"}, 2, "FROM must not be above TO");
