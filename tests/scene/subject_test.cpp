@@ -1,0 +1,97 @@
+// What is found to move before an empty scene, where one knows what does.
+#include "scene/subject.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "imev/capture_source.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr Shape kShape{160, 120, 1};
+constexpr std::uint64_t kSamples = 40;
+constexpr int kWidth = 24, kHeight = 16, kTop = 60;
+
+int left_at(std::uint64_t sample) { return 10 + 3 * static_cast<int>(sample); }
+
+// Grey but where `differs(x, y, sample)`.
+std::vector<SubjectTrack> tracked(const std::function<bool(int, int, std::uint64_t)>& differs) {
+  CaptureFormat format;
+  format.shape = kShape;
+  std::vector<std::vector<std::byte>> rasters;
+  for (std::uint64_t k = 0; k < kSamples; ++k) {
+    std::vector<std::byte>& raster = rasters.emplace_back(format.sample_bytes(), std::byte{100});
+    for (int y = 0; y < static_cast<int>(kShape.height); ++y) {
+      for (int x = 0; x < static_cast<int>(kShape.width); ++x) {
+        if (differs(x, y, k))
+          raster[static_cast<std::size_t>(y) * kShape.width + static_cast<std::size_t>(x)] = std::byte{200};
+      }
+    }
+  }
+  MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, kSamples), rasters, 16);
+  Picture plate(kShape, ValueType::code8, 255);
+  std::fill(plate.bytes.begin(), plate.bytes.end(), std::byte{100});
+  return track_subjects(capture, plate, 8, {Rectangle::whole(kShape)});
+}
+
+TEST(Subject, IsFollowedWhereItGoes) {
+  const auto tracks = tracked([](int x, int y, std::uint64_t sample) {
+    return x >= left_at(sample) && x < left_at(sample) + kWidth && y >= kTop && y < kTop + kHeight;
+  });
+  ASSERT_EQ(tracks.size(), 1u);
+  const SubjectTrack& track = tracks[0];
+  ASSERT_EQ(track.places.size(), kSamples);
+  const double side = track.cell_side;
+  for (const SubjectPlace& place : track.places) {
+    EXPECT_NEAR(place.centre.x, left_at(place.sample) + kWidth / 2.0, side) << place.sample;
+    EXPECT_NEAR(place.centre.y, kTop + kHeight / 2.0, side) << place.sample;
+    EXPECT_LE(place.box.x, static_cast<std::uint32_t>(left_at(place.sample)));
+    EXPECT_LE(place.box.y, static_cast<std::uint32_t>(kTop));
+    EXPECT_GE(place.box.x + place.box.width, static_cast<std::uint32_t>(left_at(place.sample) + kWidth));
+    EXPECT_GE(place.box.y + place.box.height, static_cast<std::uint32_t>(kTop + kHeight));
+    EXPECT_EQ(place.share, 1) << "nothing else differs";
+    EXPECT_EQ(place.fill, 1) << "a rectangle fills its box";
+    EXPECT_NEAR(place.contrast, 100.0 / 255, 0.1);
+    EXPECT_FALSE(place.is_cut_off);
+  }
+  EXPECT_NEAR(track.extent, left_at(kSamples - 1) - left_at(0), 2 * side);
+  EXPECT_NEAR(track.size(), std::sqrt(kWidth * kHeight), 2 * side);
+  EXPECT_FALSE(track.is_scraps);
+  EXPECT_FALSE(track.flickers);
+  EXPECT_TRUE(track.rests.empty());
+  std::size_t sum = 0;
+  std::set<std::size_t> swept;
+  for (const SubjectPlace& place : track.places) {
+    sum += place.cells.size();
+    swept.insert(place.cells.begin(), place.cells.end());
+  }
+  EXPECT_DOUBLE_EQ(track.covered_share(),
+                   static_cast<double>(sum) / static_cast<double>(swept.size() * kSamples));
+}
+
+TEST(Subject, IsCutOffAtTheBorder) {
+  const auto tracks = tracked([](int x, int y, std::uint64_t sample) {
+    return x >= left_at(sample) - 10 && x < left_at(sample) + kWidth && y >= 0 && y < kHeight;
+  });
+  ASSERT_EQ(tracks.size(), 1u);
+  for (const SubjectPlace& place : tracks[0].places) EXPECT_TRUE(place.is_cut_off);
+}
+
+// A slanted line, beside something large that stays where it is.
+TEST(Subject, IsScrapsWhereItIsThinAndLittleOfWhatDiffers) {
+  const auto tracks = tracked([](int x, int y, std::uint64_t sample) {
+    const int along = x - left_at(sample);
+    const bool is_line = along >= 0 && along < 24 && std::abs(y - 20 - along) < 2;
+    return is_line || (x >= 40 && x < 120 && y >= 70 && y < 110);
+  });
+  ASSERT_EQ(tracks.size(), 1u);
+  EXPECT_GT(tracks[0].extent, 60);
+  EXPECT_TRUE(tracks[0].is_scraps);
+}
+
+}  // namespace
+}  // namespace nutik
