@@ -118,6 +118,11 @@ TEST(Graph, AnAxisHasZeroAndIsNeverEmpty) {
     EXPECT_LE(extent.low, std::min(low, 0.0));
     EXPECT_GE(extent.high, std::max(high, 0.0));
   }
+  // A twentieth of room where the values end, none behind zero.
+  EXPECT_DOUBLE_EQ(extent_with_zero(3, 5).high, 5.25);
+  EXPECT_EQ(extent_with_zero(3, 5).low, 0);
+  EXPECT_DOUBLE_EQ(extent_with_zero(-1, 2).low, -1.15);
+  EXPECT_DOUBLE_EQ(extent_with_zero(-1, 2).high, 2.15);
 }
 
 }  // namespace

@@ -32,7 +32,8 @@ TEST(MaskOverlay, ShowsEveryTagInAColourAndTagZeroAsItIs) {
   const Picture overlay = mask_overlay(mask, grey(600, 300, 77));
   EXPECT_EQ(overlay.shape.width, 600u);
   EXPECT_GT(overlay.shape.height, 300u);  // the legend
-  EXPECT_EQ(at(overlay, 50, 50), (Rgb{77, 77, 77}));
+  for (const std::uint32_t x : {0u, 50u, 599u}) EXPECT_EQ(at(overlay, x, 50), (Rgb{77, 77, 77}));
+  EXPECT_EQ(at(overlay, 0, 0), (Rgb{77, 77, 77}));
   std::set<Rgb> colours;
   for (std::uint32_t i = 0; i < 6; ++i) {
     colours.insert(at(overlay, i * 100 + 20, 120));
