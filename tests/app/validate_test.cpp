@@ -1,7 +1,9 @@
 // nutik-cl validate as a user meets it: the table, JSON, the source, exit status 1 where a device computes wrongly.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -115,6 +117,22 @@ TEST_F(Validate, ComparesWithTheSource) {
   EXPECT_TRUE(json_of({"exact.tik", "--source", "frames"})["source"]["psnr_db"].is_null());
   EXPECT_NE(validate({"exact.tik", "--source", "frames"}).out.find("frames: held exactly; "),
             std::string::npos);
+}
+
+TEST_F(Validate, SaysWhereTheSourceIsFurthestOff) {
+  ASSERT_EQ(run({"-q", "encode", "-f", "100", "frames", "exact.tik"}).status, 0);
+  std::vector<std::filesystem::path> pictures;
+  for (const auto& entry : std::filesystem::directory_iterator(scratch_ / "frames"))
+    pictures.push_back(entry.path());
+  std::ranges::sort(pictures);
+  std::string bytes = test::read_file(pictures[7]);
+  char& pixel = bytes[bytes.size() - 24 * 24 + 3 * 24 + 5];
+  pixel = static_cast<char>(static_cast<unsigned char>(pixel) ^ 64);
+  std::ofstream(pictures[7], std::ios::binary) << bytes;
+  const ProgramResult result = validate({"exact.tik", "--source", "frames"});
+  EXPECT_NE(result.out.find("worst error 64 codes at sample 7, pixel 5,3; 1 of 11520 values further off"),
+            std::string::npos)
+      << result.out;
 }
 
 TEST_F(Validate, AnotherSourceIsNoSource) {
