@@ -1,8 +1,7 @@
 """Changes of host/ and kernels/ for the worse, drawn by a seed and spread over all rooms: do the tests notice?
 
-Each is made in a copy of the tree, built, and tested by the tests of its room. What passes them goes through those of
-the rooms that use it and of the whole program in a second round, until one fails. What a build refuses is replaced by
-the next one.
+Each is made in a copy of the tree, built, and tested by the tests of its room. What passes them goes, in a second round,
+through all tests that can see it until one fails. What a build refuses is replaced by the next one.
 
 Where build-coverage/reach.json (of tools/coverage) says which tests run the changed line, only these are run, the
 quickest first. A test counts where it fails twice, and passes without the mutation.
@@ -341,7 +340,8 @@ class Campaign:
     def second_round(self, taken):
         for mutation in taken:
             if self.known[mutation.key] == SURVIVED_ROOM:
-                self.keep(mutation, self.copy.outcome(mutation, tests_of(mutation.room)[1], self.selection))
+                targets = itertools.chain(*tests_of(mutation.room))
+                self.keep(mutation, self.copy.outcome(mutation, targets, self.selection))
 
     def results(self):
         known = [(mutation, self.known[mutation.key]) for mutation in self.drawn
