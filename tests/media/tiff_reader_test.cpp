@@ -1,0 +1,155 @@
+// Kinds of TIFF that other programs write: tiles, a plane for each channel, palettes. libtiff writes them here.
+#include "media/tiff_reader.hpp"
+
+#include <gtest/gtest.h>
+#include <tiffio.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "capture/error.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+// No multiple of a tile's side.
+constexpr std::uint32_t kWidth = 41, kHeight = 23, kTileSide = 16;
+
+struct Close {
+  void operator()(TIFF* file) const { TIFFClose(file); }
+};
+using File = std::unique_ptr<TIFF, Close>;
+
+std::uint32_t code_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
+  return x * 5 + y * 3 + channel * 20;
+}
+
+struct Kind {
+  std::uint16_t bits, channels;
+  bool tiled, separate;
+};
+
+File begun(const std::filesystem::path& path, const Kind& kind) {
+  File file(TIFFOpen(path.c_str(), "w"));
+  TIFFSetField(file.get(), TIFFTAG_IMAGEWIDTH, kWidth);
+  TIFFSetField(file.get(), TIFFTAG_IMAGELENGTH, kHeight);
+  TIFFSetField(file.get(), TIFFTAG_BITSPERSAMPLE, kind.bits);
+  TIFFSetField(file.get(), TIFFTAG_SAMPLESPERPIXEL, kind.channels);
+  TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC,
+               kind.channels == 3 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
+  TIFFSetField(file.get(), TIFFTAG_PLANARCONFIG, kind.separate ? PLANARCONFIG_SEPARATE : PLANARCONFIG_CONTIG);
+  TIFFSetField(file.get(), TIFFTAG_COMPRESSION, COMPRESSION_LZW);
+  if (kind.tiled) {
+    TIFFSetField(file.get(), TIFFTAG_TILEWIDTH, kTileSide);
+    TIFFSetField(file.get(), TIFFTAG_TILELENGTH, kTileSide);
+  }
+  return file;
+}
+
+// Codes of a part of the picture, those of `plane` alone where planes are separate.
+std::vector<std::uint8_t> packed(const Kind& kind, std::uint32_t left, std::uint32_t top, std::uint32_t width,
+                                 std::uint32_t height, std::uint32_t plane) {
+  std::vector<std::uint8_t> bytes;
+  for (std::uint32_t y = top; y < top + height; ++y) {
+    for (std::uint32_t x = left; x < left + width; ++x) {
+      for (std::uint32_t channel = 0; channel < (kind.separate ? 1 : kind.channels); ++channel) {
+        const auto code = static_cast<std::uint16_t>(code_at(x, y, kind.separate ? plane : channel));
+        bytes.push_back(static_cast<std::uint8_t>(code));
+        if (kind.bits == 16) bytes.push_back(static_cast<std::uint8_t>(code >> 8));  // little endian, as here
+      }
+    }
+  }
+  return bytes;
+}
+
+void write(const std::filesystem::path& path, const Kind& kind) {
+  const File file = begun(path, kind);
+  for (std::uint16_t plane = 0; plane < (kind.separate ? kind.channels : 1); ++plane) {
+    for (std::uint32_t y = 0; y < kHeight; y += kind.tiled ? kTileSide : 1) {
+      if (!kind.tiled) {
+        TIFFWriteScanline(file.get(), packed(kind, 0, y, kWidth, 1, plane).data(), y, plane);
+        continue;
+      }
+      for (std::uint32_t x = 0; x < kWidth; x += kTileSide) {
+        TIFFWriteTile(file.get(), packed(kind, x, y, kTileSide, kTileSide, plane).data(), x, y, 0, plane);
+      }
+    }
+  }
+}
+
+class TiffKinds : public testing::TestWithParam<Kind> {};
+
+TEST_P(TiffKinds, GiveTheCodesThatTheyHold) {
+  const test::Scratch scratch;
+  write(scratch / "a.tif", GetParam());
+  TiffReader reader(scratch / "a.tif");
+  ASSERT_EQ(reader.page_count(), 1u);
+  const TiffPage page = *reader.next();
+  EXPECT_FALSE(reader.next());
+  const Shape& shape = page.picture.shape;
+  ASSERT_EQ(shape, (Shape{kWidth, kHeight, GetParam().channels}));
+  for (std::size_t i = 0; i < shape.value_count(); ++i) {
+    const std::uint32_t code = GetParam().bits == 8 ? page.picture.values<std::uint8_t>()[i]
+                                                    : page.picture.values<std::uint16_t>()[i];
+    const auto pixel = static_cast<std::uint32_t>(i / shape.channels),
+               channel = static_cast<std::uint32_t>(i % shape.channels);
+    const std::uint32_t expected = code_at(pixel % kWidth, pixel / kWidth, channel);
+    ASSERT_EQ(code, GetParam().bits == 8 ? expected & 255 : expected) << "value " << i;
+  }
+}
+
+TEST_P(TiffKinds, AreRefusedWhereTheyAreDamaged) {
+  const test::Scratch scratch;
+  write(scratch / "a.tif", GetParam());
+  std::string bytes = test::read_file(scratch / "a.tif");
+  std::fill(bytes.begin() + 8, bytes.begin() + 40, '\xFF');  // of the first strip or tile
+  TiffReader reader(scratch.write("b.tif", bytes));
+  try {
+    static_cast<void>(reader.next());
+    FAIL() << "it was read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("b.tif, page 1, cannot be read: it is damaged"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TiffKinds,
+                         testing::Values(Kind{8, 1, true, false}, Kind{8, 3, true, false},
+                                         Kind{16, 3, true, false}, Kind{16, 1, true, false},
+                                         Kind{8, 3, true, true}, Kind{16, 3, false, true},
+                                         Kind{8, 3, false, false}));
+
+// A palette's colours, as libtiff shows them: the upper half of 16 bits.
+TEST(TiffPalette, GivesItsColours) {
+  const test::Scratch scratch;
+  {
+    const File file = begun(scratch / "a.tif", {8, 1, false, false});
+    TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_PALETTE);
+    std::vector<std::uint16_t> red(256), green(256), blue(256);
+    for (std::uint16_t i = 0; i < 256; ++i) {
+      red[i] = static_cast<std::uint16_t>(i << 8);
+      green[i] = static_cast<std::uint16_t>((255 - i) << 8);
+      blue[i] = 0x1200;
+    }
+    TIFFSetField(file.get(), TIFFTAG_COLORMAP, red.data(), green.data(), blue.data());
+    for (std::uint32_t y = 0; y < kHeight; ++y) {
+      TIFFWriteScanline(file.get(), packed({8, 1, false, false}, 0, y, kWidth, 1, 0).data(), y, 0);
+    }
+  }
+  const Picture picture = TiffReader(scratch / "a.tif").next()->picture;
+  ASSERT_EQ(picture.shape, (Shape{kWidth, kHeight, 3}));
+  const auto codes = picture.values<std::uint8_t>();
+  for (std::uint32_t y = 0; y < kHeight; ++y) {
+    for (std::uint32_t x = 0; x < kWidth; ++x) {
+      const std::uint32_t entry = code_at(x, y, 0) & 255, at = (y * kWidth + x) * 3;
+      ASSERT_EQ(codes[at], entry);
+      ASSERT_EQ(codes[at + 1], 255 - entry);
+      ASSERT_EQ(codes[at + 2], 0x12);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nutik
