@@ -49,6 +49,16 @@ class Habits : public testing::Test {
   test::Scratch scratch_;
 };
 
+TEST_F(Habits, SaysThatStandardOutputIsFull) {
+  for (const char* words : {"--help", "clip.tik", "clip.tik --json",
+                            "trace --start 0s --exposure 1f --pixel 0,0 clip.tik", "completion bash"}) {
+    const ProgramResult result = test::run_shell(
+        std::string("('" NUTIK_TEST_PROGRAM "' ") + words + " > /dev/full)", scratch_.folder());
+    EXPECT_EQ(result.status, 5) << words;
+    EXPECT_EQ(result.err, "nutik-cl: standard output cannot be written\n") << words;
+  }
+}
+
 TEST_F(Habits, ReadsFunctionsAndMasksFromStandardInput) {
   const std::vector<std::string> plain{"--no-recipe", "-m", "mask.pgm", "-k", "two.fn", "clip.tik", "a.png"};
   ASSERT_EQ(run(plain).status, 0);
