@@ -25,7 +25,8 @@ std::uint32_t usual_columns(const Shape& picture, std::uint32_t count, std::uint
   const double wanted = std::ceil(std::sqrt(count * kUsualAspect / aspect));
   const double most = std::max(1.0, std::floor(width / std::min<double>(kUsualCell, picture.width + kGap)));
   const auto columns = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, std::min<double>(most, count)));
-  for (const std::uint32_t near : {columns, columns + 1, columns - 1}) {
+  if (count % columns == 0) return columns;
+  for (const std::uint32_t near : {columns + 1, columns - 1}) {
     if (near > 1 && near <= most && count % near == 0) return near;
   }
   return columns;

@@ -20,6 +20,8 @@ TEST(SheetLayout, FitsItsWidthAndEnlargesNothing) {
     }
   }
   EXPECT_EQ(lay_out({640, 360, 3}, 24, {}).columns, 6u);  // no row is short
+  EXPECT_EQ(lay_out({1200, 300, 3}, 2, {}).columns, 1u) << "panoramas stand one above the other";
+  EXPECT_EQ(lay_out({640, 200, 3}, 5, {}).columns, 2u) << "rather a short row than a column";
 }
 
 TEST(SheetLayout, DoesAsAsked) {
