@@ -172,5 +172,9 @@ class Reach:
         functions = lines.get(above, set()) | lines.get(below, set())
         return not functions.isdisjoint(self.tests[test]["functions"])
 
+    def passes(self, test):
+        return test in self.tests and self.tests[test]["status"] == 0
+
     def seconds(self, test):
-        return self.tests[test]["seconds"] if test in self.tests else 0.0
+        """How long it took; None where it is not known."""
+        return self.tests[test]["seconds"] if test in self.tests else None

@@ -1,10 +1,10 @@
 """Changes of host/ and kernels/ for the worse, drawn by a seed and spread over all rooms: do the tests notice?
 
-Each is made in a copy of the tree, built, and tested by the tests of its room. What passes them goes, in a second round,
-through all tests that can see it until one fails. What a build refuses is replaced by the next one.
+Each is made in a copy of the tree, built, and tested by the tests of its room. What passes them goes through all tests
+that can see it, in a second round, until one fails. What a build refuses is replaced by the next one.
 
-Where build-coverage/reach.json (of tools/coverage) says which tests run the changed line, only these are run, the
-quickest first. A test counts where it fails twice, and passes without the mutation.
+Where build-coverage/reach.json (of tools/coverage) says which tests run the changed line, only these are run: those
+that it does not know yet, then the quick ones. A test counts where it fails twice, and passes without the mutation.
 """
 
 import contextlib
@@ -31,8 +31,10 @@ EXPLAINED = Path(__file__).resolve().parent / "explained.txt"
 MOST_BYTES = 6 << 30  # that a test may take: more is noticed, too
 LONGEST_S = 1200  # that the tests of a room may take: a loop that never ends is noticed, too
 LONGEST_CPU_S = 300  # the same for each process, so that it does not take the whole while
+LONGEST_SCRIPT_S = 60
 SLOW_S = 2  # a test that takes longer runs after the others
 WHOLE_PROGRAM = ("app_tests", "faults_tests")
+SCRIPT = "script"  # in place of a target
 SURVIVED_ROOM = "?"  # the outcome of what has its second round before it
 
 # Name, what a line has, what it gets instead.
@@ -141,21 +143,31 @@ class Selection:
         if not self.reach:
             print(f"{path} is missing: every test runs for every mutation; tools/coverage makes it")
         self.filters_of = {}  # of each target's tests, by name
+        self.scripts = []  # other tests' names
         for test in listed_tests(build):
-            for word in test["command"][1:]:
-                if word.startswith("--gtest_filter="):
-                    target = self.filters_of.setdefault(Path(test["command"][0]).name, {})
-                    target[test["name"]] = word.removeprefix("--gtest_filter=")
+            chosen = [word for word in test["command"][1:] if word.startswith("--gtest_filter=")]
+            if chosen:
+                target = self.filters_of.setdefault(Path(test["command"][0]).name, {})
+                target[test["name"]] = chosen[0].removeprefix("--gtest_filter=")
+            else:
+                self.scripts.append(test["name"])
 
     def filters(self, mutation, target):
         """GoogleTest's filters, each for a run of its own; none where no test of the target runs the line."""
         if not self.reach:
             return ["*"]
-        quick, slow = [], []
+        new, quick, slow = [], [], []
         for name, chosen in self.filters_of[target].items():
             if self.reach.may_run(name, mutation.path, mutation.line):
-                (slow if self.reach.seconds(name) > SLOW_S else quick).append(chosen)
-        return [":".join(each) for each in (quick, slow) if each]
+                seconds = self.reach.seconds(name)
+                (new if seconds is None else slow if seconds > SLOW_S else quick).append(chosen)
+        return [":".join(each) for each in (new, quick, slow) if each]
+
+    def reaching_scripts(self, mutation):
+        """Tests that are no programs of GoogleTest and are known to run the line."""
+        known = [name for name in self.scripts if self.reach and self.reach.passes(name)]
+        return [name for name in known if self.reach.seconds(name) < LONGEST_SCRIPT_S
+                and self.reach.may_run(name, mutation.path, mutation.line)]
 
 
 class Copy:
@@ -233,7 +245,14 @@ class Copy:
             passed_over += [failed] if passed_over or "-" in chosen else [f"-{failed}"]
         return None
 
-    def outcome(self, mutation, targets, selection):
+    def fails(self, script):
+        return subprocess.run(["ctest", "--test-dir", self.build, "-R", f"^{re.escape(script)}$"], check=False,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode != 0
+
+    def failing_script(self, scripts):
+        return next((f"{SCRIPT} {each}" for each in scripts if self.fails(each) and self.fails(each)), None)
+
+    def outcome(self, mutation, targets, selection, is_last):
         """A test that notices it, "" where none does, None where it does not build."""
         self.apply(mutation)
         try:
@@ -246,7 +265,7 @@ class Copy:
                 for chosen in filters:
                     if failed := self.failing_test(target, chosen):
                         return failed
-            return ""
+            return self.failing_script(selection.reaching_scripts(mutation) if is_last else ()) or ""
         finally:
             self.restore(mutation)
 
@@ -255,6 +274,9 @@ class Copy:
         found = []
         for each in sorted(noticed_by):
             target, name = each.split(" ", 1)
+            if target == SCRIPT:
+                found += [each] if self.fails(name) else []
+                continue
             if not self.builds(target):
                 sys.exit("the tree does not build without a mutation")
             if self.first_failure(target, "*" if " " in name else name, 1):
@@ -331,7 +353,7 @@ class Campaign:
             if len(taken) == self.count:
                 break
             if mutation.key not in self.known:
-                outcome = self.copy.outcome(mutation, tests_of(mutation.room)[0], self.selection)
+                outcome = self.copy.outcome(mutation, tests_of(mutation.room)[0], self.selection, False)
                 self.keep(mutation, SURVIVED_ROOM if outcome == "" else outcome)
             if self.known[mutation.key] is not None:
                 taken.append(mutation)
@@ -341,7 +363,7 @@ class Campaign:
         for mutation in taken:
             if self.known[mutation.key] == SURVIVED_ROOM:
                 targets = itertools.chain(*tests_of(mutation.room))
-                self.keep(mutation, self.copy.outcome(mutation, targets, self.selection))
+                self.keep(mutation, self.copy.outcome(mutation, targets, self.selection, True))
 
     def results(self):
         known = [(mutation, self.known[mutation.key]) for mutation in self.drawn
