@@ -46,7 +46,9 @@ TEST(Feather, RefusesWhatIsNone) {
   }
   EXPECT_EQ(message("501px"), "the feather '501px' reaches too far; at most 500 pixels");
   EXPECT_EQ(message("1px,2px"), "the feather '1px,2px' says twice how far all edges reach");
-  EXPECT_EQ(message("M256=1px"), "the feather 'M256=1px' names no mask value: M0=6px … M255=6px");
+  for (const std::string tag : {"M256", "M", "", "M0009", "9x", "m-1"}) {
+    EXPECT_EQ(message(tag + "=1px"), "the feather '" + tag + "=1px' names no mask value: M0=6px … M255=6px");
+  }
   EXPECT_EQ(message("M9=1px,9=2px"), "the feather 'M9=1px,9=2px' names M9 twice");
   EXPECT_EQ(test::message_of<UsageError>([] {
               static_cast<void>(feathered(row_of({0, 9}), Feather::parse("M4=1px")));

@@ -1,0 +1,51 @@
+// Which places of a track are shown together.
+#include "scene/moments.hpp"
+
+#include <gtest/gtest.h>
+
+namespace nutik {
+namespace {
+
+// A subject of one cell of 8 pixels, found at these samples, so many pixels from the left.
+SubjectTrack track_of(const std::vector<std::pair<std::uint64_t, std::size_t>>& found) {
+  SubjectTrack track;
+  track.cell_side = 8;
+  track.cell_columns = 100;
+  for (const auto& [sample, x] : found) {
+    SubjectPlace& place = track.places.emplace_back();
+    place.sample = sample;
+    place.centre = {static_cast<double>(x), 4};
+    place.contrast = 0.5;
+    place.cells = {x / 8};
+  }
+  return track;
+}
+
+std::vector<std::uint64_t> samples_of(const std::vector<SubjectPlace>& places) {
+  std::vector<std::uint64_t> samples;
+  for (const SubjectPlace& place : places) samples.push_back(place.sample);
+  return samples;
+}
+
+using Samples = std::vector<std::uint64_t>;
+
+TEST(Moments, AreSpreadEvenlyInTimeOrAlongTheWay) {
+  const SubjectTrack track = track_of({{0, 4}, {10, 24}, {20, 44}, {30, 204}, {40, 404}});
+  EXPECT_EQ(samples_of(choose_moments(track, 3, MomentSpacing::time)), (Samples{0, 20, 40}));
+  EXPECT_EQ(samples_of(choose_moments(track, 3, MomentSpacing::distance)), (Samples{0, 30, 40}));
+  EXPECT_EQ(samples_of(choose_moments(track, 1, MomentSpacing::time)), (Samples{20}));
+}
+
+// At the middle of the time nothing was found: what lies furthest from the others takes its place.
+TEST(Moments, AreFilledUpWithTheFurthest) {
+  const SubjectTrack track = track_of({{0, 4}, {20, 124}, {22, 204}, {24, 164}, {100, 404}});
+  EXPECT_EQ(samples_of(choose_moments(track, 3, MomentSpacing::time)), (Samples{0, 22, 100}));
+}
+
+TEST(Moments, DoNotTouch) {
+  const SubjectTrack track = track_of({{0, 4}, {10, 12}, {20, 20}, {30, 28}, {40, 36}});
+  EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time)), (Samples{0, 20, 40}));
+}
+
+}  // namespace
+}  // namespace nutik
