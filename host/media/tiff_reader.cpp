@@ -285,8 +285,6 @@ TiffReader::TiffReader(const std::filesystem::path& path)
   }
 }
 TiffReader::~TiffReader() = default;
-TiffReader::TiffReader(TiffReader&&) noexcept = default;
-TiffReader& TiffReader::operator=(TiffReader&&) noexcept = default;
 
 std::optional<TiffPage> TiffReader::next() {
   if (pages_read_ == page_count_) return std::nullopt;

@@ -33,8 +33,6 @@ class TiffReader {
   // where their chain breaks: what lies behind that would be missing without a word.
   explicit TiffReader(const std::filesystem::path& path);
   ~TiffReader();
-  TiffReader(TiffReader&&) noexcept;
-  TiffReader& operator=(TiffReader&&) noexcept;
 
   [[nodiscard]] std::uint64_t page_count() const { return page_count_; }
 
