@@ -114,6 +114,17 @@ TEST_F(Solve, ExposesRegionsAsTheyAreWished) {
   EXPECT_NEAR(answer["wishes"][0]["reached"][0].get<double>(), 0.25, 1e-6);
 }
 
+TEST_F(Solve, SaysWhatIsSaturated) {
+  const auto said = [&](const std::string& light) {
+    return run({"solve", "-k", "figure14.fn", "--wish", "70,20,10,10 = " + light, "clip.tik", "-o",
+                "solved.fn"})
+        .out;
+  };
+  EXPECT_NE(said("0.9").find("\nthe picture: no pixel saturated\n"), std::string::npos) << said("0.9");
+  EXPECT_NE(said("1.5").find("\nthe picture: 100 pixels saturated above 1\n"), std::string::npos)
+      << said("1.5");
+}
+
 TEST_F(Solve, ComparesWithAnIntervalUpToTheCapturesEnd) {
   const json answer =
       solved({"-k", "figure14.fn", "--wish", "72,22,6,6 like 0.9s..1.2s", "clip.tik", "-o", "solved.fn"});

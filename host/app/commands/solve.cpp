@@ -144,10 +144,7 @@ int run_solve(const Options& options) {
       format("{}: {}; {} tried, {:.2f} s", output.string(), found_text(request.functions, solved.numbers),
              counted(solved.tried, "exposure"), stopwatch.seconds());
   answer.details.push_back(wishes_table(solved));
-  if (solved.saturation.below + solved.saturation.above > 0) {
-    answer.details.push_back(format("the picture: {} saturated below 0 and {} above 1",
-                                    counted(solved.saturation.below, "pixel"), solved.saturation.above));
-  }
+  answer.details.push_back("the picture: " + saturated_text(solved.saturation));
   answer.details.push_back("try: " + next_command(options, output));
   answer.tell_source(session);
   for (std::string& note : notes_of(request, solved)) answer.notes.push_back(std::move(note));

@@ -52,6 +52,9 @@ struct Answer {
 int tell(const Options& options, const std::filesystem::path& output, const Answer& answer);
 int tell(const Options& options, const std::filesystem::path& output, const Answer& answer, bool was_named);
 
+// `12 pixels saturated below 0 and 3 above 1`, `no pixel saturated`.
+[[nodiscard]] std::string saturated_text(const Saturation& saturation);
+
 // What is said of one exposure, or of many together, since it is there.
 class ExposureTally {
  public:
@@ -62,8 +65,8 @@ class ExposureTally {
   [[nodiscard]] const std::string& report() const { return report_; }
   [[nodiscard]] double seconds() const { return stopwatch_.seconds(); }
 
-  // `, 12 pixels saturated below 0 and 3 above 1`, `, no pixel saturated`; `saturated_below_pixels` and
-  // `saturated_above_pixels`. Nothing where all pictures hold light.
+  // `, no pixel saturated`, and so on; `saturated_below_pixels` and `saturated_above_pixels`. Nothing where all pictures
+  // hold light.
   [[nodiscard]] std::string saturation_text() const;
   [[nodiscard]] Json saturation_json() const;
   // That codes to be seen end at white, where those of the capture go on behind it.
