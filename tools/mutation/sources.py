@@ -10,6 +10,7 @@ that it does not know yet, then the quick ones. A test counts where it fails twi
 import contextlib
 import itertools
 import json
+import math
 import os
 import random
 import re
@@ -30,7 +31,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 EXPLAINED = Path(__file__).resolve().parent / "explained.txt"
 MOST_BYTES = 6 << 30  # that a test may take: more is noticed, too
 LONGEST_S = 1200  # that the tests of a room may take: a loop that never ends is noticed, too
-LONGEST_CPU_S = 300  # the same for each process, so that it does not take the whole while
+LONGEST_CPU_S = 200  # the same for each process, so that it does not take the whole while
 LONGEST_SCRIPT_S = 60
 SLOW_S = 2  # a test that takes longer runs after the others
 WHOLE_PROGRAM = ("app_tests", "faults_tests")
@@ -162,6 +163,13 @@ class Selection:
                 seconds = self.reach.seconds(name)
                 (new if seconds is None else slow if seconds > SLOW_S else quick).append(chosen)
         return [":".join(each) for each in (new, quick, slow) if each]
+
+    def seconds(self, mutation):
+        """How long all tests take that run the line, as far as it is known."""
+        if not self.reach or mutation.room == "kernels":
+            return math.inf
+        return sum(self.reach.seconds(name) for name in self.reach.tests
+                   if self.reach.may_run(name, mutation.path, mutation.line))
 
     def reaching_scripts(self, mutation):
         """Tests that are no programs of GoogleTest and are known to run the line."""
@@ -360,10 +368,10 @@ class Campaign:
         return taken
 
     def second_round(self, taken):
-        for mutation in taken:
-            if self.known[mutation.key] == SURVIVED_ROOM:
-                targets = itertools.chain(*tests_of(mutation.room))
-                self.keep(mutation, self.copy.outcome(mutation, targets, self.selection, True))
+        survivors = [mutation for mutation in taken if self.known[mutation.key] == SURVIVED_ROOM]
+        for mutation in sorted(survivors, key=self.selection.seconds):
+            targets = itertools.chain(*tests_of(mutation.room))
+            self.keep(mutation, self.copy.outcome(mutation, targets, self.selection, True))
 
     def results(self):
         known = [(mutation, self.known[mutation.key]) for mutation in self.drawn
