@@ -15,7 +15,7 @@ endif()
 
 # What makes a mistake in our code harder to use for who feeds it files. Linked to whatever has our warnings.
 option(NUTIK_HARDENED "Stack protector, checked libc calls, read-only relocations, position-independent programs" ON)
-option(NUTIK_LIBRARY_ASSERTIONS "Check indices of the standard library's containers, also in optimized builds" OFF)
+option(NUTIK_LIBRARY_ASSERTIONS "Check indices of the standard library's containers, also in optimized builds" ON)
 add_library(nutik_hardening INTERFACE)
 if(NUTIK_HARDENED)
   include(CheckPIESupported)
