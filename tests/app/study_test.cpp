@@ -490,7 +490,8 @@ TEST_F(Study, ShowsEachStripOfASlitAtItsOwnMoment) {
       << side.err;
   const auto none = run({"study", "clip.tik", "--slit-from", "top"});
   EXPECT_EQ(none.status, 2);
-  EXPECT_NE(none.err.find("leave it out, or state that style"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("--slit-from goes with --style slit only; leave it out"), std::string::npos)
+      << none.err;
   const auto which = run({"study", "clip.tik", "--style", "slit", "--moments", "1f,3f"});
   EXPECT_EQ(which.status, 2);
   EXPECT_NE(which.err.find("how many there are, not which"), std::string::npos) << which.err;

@@ -277,8 +277,7 @@ constexpr Option kRows[] = {
      "even, fade (ends at nothing), ramp (begins at nothing) or none (default: what the style has)",
      "even fade ramp none"},
     {0, "slit-from", "SIDE", subject, bit(Id::study), &Options::slit_from,
-     "where the first moment of slit lies: left or right, for columns, top or bottom, for rows (default: left)",
-     "left right top bottom"},
+     "where slit begins: left, right (columns), top or bottom (rows) (default: left)", "left right top bottom"},
 
     heading("What is solved for"),
     step("wish", "WISH",

@@ -47,7 +47,6 @@ constexpr std::array kTrails{
     std::pair<std::string_view, std::optional<TrailShape>>("ramp", TrailShape::ramp),
     std::pair<std::string_view, std::optional<TrailShape>>("none", TrailShape::none),
 };
-
 constexpr std::array kSides{
     std::pair<std::string_view, SlitFrom>("left", SlitFrom::left),
     std::pair<std::string_view, SlitFrom>("right", SlitFrom::right),
@@ -96,8 +95,9 @@ StudyRequest study_request(const Options& options) {
   request.trail = named(options.trail, "--trail", kTrails, request.trail);
   request.slit_from = named(options.slit_from, "--slit-from", kSides, request.slit_from);
   const bool is_slit = request.style == StudyStyle::slit, is_clean = request.style == StudyStyle::clean;
-  if (options.slit_from && !is_slit)
-    throw UsageError("--slit-from says nothing without --style slit; leave it out, or state that style");
+  if (options.slit_from && !is_slit) {
+    throw UsageError("--slit-from goes with --style slit only; leave it out, or state that style");
+  }
   for (const auto& [said, name] : {std::pair(options.moments.has_value() && !is_slit, "--moments"),
                                    std::pair(options.spacing.has_value(), "--spacing"),
                                    std::pair(options.trail.has_value(), "--trail")}) {
