@@ -45,6 +45,36 @@ TEST_F(Batch, GivesThePicturesOfSingleCommands) {
   EXPECT_EQ(picture("trail.tif"), picture("single.tif"));
 }
 
+// Boxcars over many blocks, whose sums are kept from one picture to the next: the first, the last and each by itself have
+// the same bytes.
+TEST_F(Batch, GivesThePicturesOfSingleCommandsWhereSumsAreKept) {
+  for (int k = 0; k < 200; ++k) {
+    std::string still = "P5\n9 7\n255\n";
+    for (int i = 0; i < 9 * 7; ++i) still += static_cast<char>((k * k * 7 + i * 31 + k * i) % 256);
+    scratch_.write("long/" + std::to_string(1000 + k) + ".pgm", still);
+  }
+  ASSERT_EQ(run({"encode", "-f", "100", "--block-samples", "16", "long", "long.tik"}).status, 0);
+  std::string lines;
+  for (int k = 0; k < 6; ++k) {
+    for (const char* type : {"png", "pfm"}) {
+      lines += "--start " + std::to_string(30 * k) + "ms --exposure 1.6s many" + std::to_string(k) + "." +
+               type + "\n";
+    }
+  }
+  scratch_.write("list.txt", lines);
+  const ProgramResult batch = run({"batch", "-v", "list.txt", "long.tik"});
+  ASSERT_EQ(batch.status, 0) << batch.err;
+  EXPECT_NE(batch.out.find(" sums of others kept, "), std::string::npos) << batch.out;
+  for (int k = 0; k < 6; ++k) {
+    for (const std::string type : {".png", ".pfm"}) {
+      const std::string one = "one" + type, many = "many" + std::to_string(k) + type;
+      ASSERT_EQ(run({"--start", std::to_string(30 * k) + "ms", "--exposure", "1.6s", "long.tik", one}).status,
+                0);
+      EXPECT_EQ(picture(many), picture(one)) << many;
+    }
+  }
+}
+
 // The last picture has codes from 140 on; four times the light of every code above 137 is above white.
 TEST_F(Batch, CountsSaturatedPixelsOfThePicturesThatHoldCodes) {
   scratch_.write("list.txt",

@@ -60,7 +60,7 @@ TEST(Subject, IsFollowedWhereItGoes) {
   }
   EXPECT_NEAR(track.extent, left_at(kSamples - 1) - left_at(0), 2 * side);
   EXPECT_NEAR(track.size(), std::sqrt(kWidth * kHeight), 2 * side);
-  EXPECT_FALSE(track.is_scraps);
+  EXPECT_FALSE(track.is_scraps());
   EXPECT_FALSE(track.flickers);
   EXPECT_TRUE(track.rests.empty());
   std::size_t sum = 0;
@@ -90,7 +90,7 @@ TEST(Subject, IsScrapsWhereItIsThinAndLittleOfWhatDiffers) {
   });
   ASSERT_EQ(tracks.size(), 1u);
   EXPECT_GT(tracks[0].extent, 60);
-  EXPECT_TRUE(tracks[0].is_scraps);
+  EXPECT_TRUE(tracks[0].is_scraps());
 }
 
 }  // namespace
