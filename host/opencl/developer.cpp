@@ -165,14 +165,14 @@ Saturation Developer::saturated(const ExposedBand& exposed, const CodeScale& sca
   const std::uint32_t left = part.x - band.first_column, top = part.y - band.first_row;
   const cl::Buffer limits =
       memory_.upload(code_limits(CodeKey::of(plan_, work_.precision, output_), scale, plan_));
-  const cl::Buffer counts = memory_.allocate(2 * sizeof(cl_uint), CL_MEM_READ_WRITE);
-  queue_.enqueueFillBuffer(counts, cl_uint{0}, 0, 2 * sizeof(cl_uint));
+  std::array<cl_uint, 2> found{};
+  const cl::Buffer counts =
+      memory_.allocate(sizeof found, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, found.data());
   CountSaturatedKernel kernel(program_, "count_saturated");
   const cl::Event event = kernel(items(queue_, work_.shape, band.tile_count), exposed.sums,
                                  memory_.upload(blend_scales(plan_, work_.precision)), exposed.map.of_lane,
                                  band.shape.width, band.shape.height, band.tile_count, left, top,
                                  left + part.width, top + part.height, limits, counts);
-  std::array<cl_uint, 2> found{};
   queue_.enqueueReadBuffer(counts, CL_TRUE, 0, sizeof found, found.data());
   develop_ms_ += milliseconds(event).value_or(0.0);
   return {found[0], found[1]};

@@ -93,14 +93,6 @@ void ExposureTally::add(const ExposedPicture& exposed) {
   report_ = rendering_report(exposed, exposed.output);
 }
 
-std::string saturated_text(const Saturation& saturation) {
-  const auto [below, above] = saturation;
-  if (below == 0 && above == 0) return "no pixel saturated";
-  if (above == 0) return format("{} saturated below 0", counted(below, "pixel"));
-  if (below == 0) return format("{} saturated above 1", counted(above, "pixel"));
-  return format("{} saturated below 0 and {} above 1", counted(below, "pixel"), above);
-}
-
 std::string ExposureTally::saturation_text() const {
   return has_codes_ ? ", " + saturated_text(saturation_) : std::string();
 }

@@ -52,9 +52,6 @@ struct Answer {
 int tell(const Options& options, const std::filesystem::path& output, const Answer& answer);
 int tell(const Options& options, const std::filesystem::path& output, const Answer& answer, bool was_named);
 
-// `12 pixels saturated below 0 and 3 above 1`, `no pixel saturated`.
-[[nodiscard]] std::string saturated_text(const Saturation& saturation);
-
 // What is said of one exposure, or of many together, since it is there.
 class ExposureTally {
  public:

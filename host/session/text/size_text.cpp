@@ -8,6 +8,14 @@ std::string counted(std::uint64_t count, std::string_view name) {
   return format("{} {}{}", count, name, count == 1 ? "" : "s");
 }
 
+std::string saturated_text(const Saturation& saturation) {
+  const auto [below, above] = saturation;
+  if (below == 0 && above == 0) return "no pixel saturated";
+  if (above == 0) return format("{} saturated below 0", counted(below, "pixel"));
+  if (below == 0) return format("{} saturated above 1", counted(above, "pixel"));
+  return format("{} saturated below 0 and {} above 1", counted(below, "pixel"), above);
+}
+
 std::string bytes_text(std::uint64_t bytes) {
   const auto value = static_cast<double>(bytes);
   if (bytes < 1000) return format("{} bytes", bytes);
