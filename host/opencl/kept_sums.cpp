@@ -82,7 +82,17 @@ std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
   }
   std::uint64_t rooms = capacity_ - slots_.size();
   for (const Slot& slot : slots_) rooms += is_idle(slot);
+  // A boxcar that moves on wants the blocks of the bundle that it leaves: they are read for the bundle anyhow.
+  std::vector<SummedBlocks> with_blocks = worth;
+  for (const SummedBlocks& sum : worth) {
+    for (std::uint64_t block = sum.first; sum.count > 1 && block < sum.first + sum.count; ++block) {
+      if (!slot_of_.contains({block, 1})) with_blocks.push_back({block, 1});
+    }
+  }
+  if (with_blocks.size() <= rooms) worth = std::move(with_blocks);
   if (worth.size() > rooms) worth.resize(rooms);
+  // Bundles last, of blocks that are there by then.
+  std::ranges::stable_partition(worth, [](const SummedBlocks& sum) { return sum.count == 1; });
   return worth;
 }
 
