@@ -1,0 +1,45 @@
+// What an output may replace.
+#include <gtest/gtest.h>
+
+#include "capture/error.hpp"
+#include "session/output_check.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+class OutputCheck : public testing::Test {
+ protected:
+  // Whether a picture of this name may be written over a file with these bytes.
+  [[nodiscard]] bool replaces(const std::string& name, const std::string& bytes) const {
+    scratch_.write(name, bytes);
+    try {
+      check_output(scratch_ / name, OutputKind::picture, {});
+      return true;
+    } catch (const UsageError&) {
+      return false;
+    }
+  }
+
+  test::Scratch scratch_;
+};
+
+TEST_F(OutputCheck, PicturesOfEveryKindAreReplaced) {
+  using namespace std::string_literals;
+  for (const std::string& bytes :
+       {"\x89PNG\r\n"s, "II*\0...."s, "MM\0*...."s, "II+\0...."s, "\xFF\xD8\xFF\xE0"s, "\x76\x2f\x31\x01"s,
+        "P5\n1 1\n255\n"s, "P2 1 1"s, "P3 1 1"s, "P6\n"s, "Pf\n"s, "PF\n"s, ""s}) {
+    EXPECT_TRUE(replaces("picture.tif", bytes)) << testing::PrintToString(bytes);
+  }
+}
+
+TEST_F(OutputCheck, NothingElseIs) {
+  using namespace std::string_literals;
+  for (const std::string& bytes :
+       {"a letter"s, "Dear"s, "P"s, "P7\n"s, "II"s, "MM"s, "MM+\0"s, "\x89PN"s, "\xFF\xD8"s, "M0 [0:1]\n"s}) {
+    EXPECT_FALSE(replaces("picture.tif", bytes)) << testing::PrintToString(bytes);
+  }
+}
+
+}  // namespace
+}  // namespace nutik
