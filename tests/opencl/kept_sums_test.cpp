@@ -206,6 +206,28 @@ TEST_P(KeptSumsOf, AChangedFunctionAloneIsExposed) {
   renderer_.keep_resident(nullptr);
 }
 
+// Nothing, times less than nothing, is 0 and not -0, wherever a pixel's sums begin.
+TEST_P(KeptSumsOf, BlackIsZeroWhateverIsExposedFirst) {
+  CaptureFormat format;
+  format.shape = {16, 8, 1};
+  const test::Rasters black(48, std::vector<std::byte>(format.sample_bytes()));
+  MemoryCapture capture(format, Timeline::constant({1000, 1}, {360, 1}, 48), black, 16);
+  Mask mask = Mask::uniform(16, 8, 0);
+  for (std::size_t pixel = 0; pixel < mask.tags.size(); ++pixel) mask.tags[pixel] = pixel % 16 >= 8;
+  renderer_.keep_resident(&capture);
+  PlanCache plans;
+  for (const double gain : {-1.0, -2.0}) {
+    // The first function needs no block but the second, the other one, which stays, all three.
+    const FunctionSet functions{{0, GainFunction::boxcar(16'000'000, 32'000'000, gain)},
+                                {1, GainFunction({{0, 0.5}})}};
+    const RenderPlan plan = plans.plan(capture, functions, mask, {});
+    EXPECT_TRUE(renderer_.render(plan, capture, kLight).picture.bytes ==
+                fresh_.render(plan, capture, kLight).picture.bytes)
+        << gain;
+  }
+  renderer_.keep_resident(nullptr);
+}
+
 // A budget that holds few sums, and one that holds none, change no bit.
 TEST_P(KeptSumsOf, AnyMemoryHasTheSamePictures) {
   const SteadyCase random(11);

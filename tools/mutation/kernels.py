@@ -13,6 +13,7 @@ import tempfile
 
 TESTS = "Roundings.*:*ExactSums.*:*DamagedIndex.*"
 LIGHT_TESTS = "SinglePrecision.TurnsEveryCodeIntoItsLight"
+STEADY_TESTS = "KeptSumsOf.RandomCases*:KeptSumsOf.BlackIs*"
 BLENDING_TESTS = "SoftMasks.KeepTo*:SoftMasks.OfWholeNumbers*:SoftMasks.LeaveOther*"
 
 # Name, what the source has, what it gets instead.
@@ -66,6 +67,14 @@ MUTATIONS = (
      "  const Lights light = positive >> 16;"),
     ("blending: one function is left out", "    for (size_t tile = first; tile < last; ++tile) {",
      "    for (size_t tile = first; tile + 1 < last; ++tile) {"),
+    ("steady: doubles are multiplied by a gain that is cast to float", "{ return gains * sums; }",
+     "{ return NUTIK_TO_REALS(NUTIK_CONVERT(float)(gains)) * sums; }"),
+    ("steady: pairs forget the low part of what a gain is multiplied to", "{ return add_product(gains, sums, zero()); }",
+     "{ Sums high = sums; high.low = (reals)(0); return add_product(gains, high, zero()); }"),
+    ("steady: a bundle forgets its last block", "if (adds) load_tile(bundles, tile, lane, sums_of_block);",
+     "if (adds) (void)0;"),
+    ("steady: sums begin with what comes first", "store_sums(add(is_start ? zero() : load_sums(to), sum), to);",
+     "store_sums(is_start ? sum : add(load_sums(to), sum), to);"),
     ("an index of rows is not clamped", "  return min(index, sample_count);", "  return index;"),
     ("indices of records are not clamped", "  return min(index, (uints)(sample_count));", "  return index;"),
     ("compilers may fuse what is not written as fused", "#pragma OPENCL FP_CONTRACT OFF",
@@ -80,7 +89,7 @@ def failed_tests(build, folder, mutation):
         settings |= {"LD_PRELOAD": str(build / "tests/libmutate_kernels.so"), "NUTIK_MUTATE_FROM": mutation[1],
                      "NUTIK_MUTATE_TO": mutation[2]}
     part = mutation[0].split(":")[0] if mutation is not None else ""
-    tests = {"light": LIGHT_TESTS, "blending": BLENDING_TESTS}.get(part, TESTS)
+    tests = {"light": LIGHT_TESTS, "blending": BLENDING_TESTS, "steady": STEADY_TESTS}.get(part, TESTS)
     command = [str(build / "tests/opencl_tests"), f"--gtest_filter={tests}", "--gtest_brief=1"]
     done = subprocess.run(command, env=os.environ | settings, text=True, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, check=False)
