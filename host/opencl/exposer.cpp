@@ -49,8 +49,8 @@ void Exposer::expose(std::span<ExposedBand> bands, const RenderControl& control,
   device_.feed.start(plan_, slices, source_, tiles, shares_.feed, kept_.skipped);
   const StoppedAtEnd stopped(device_.feed);
   const DeviceMemory::Scope scope(memory_);
-  // Tables of several slices would have to be written anew for each band.
   const bool has_bundles = work_.precision != Precision::fixed && plan_.has_bundles();
+  // Tables of several slices would have to be written anew for each band.
   const bool are_all_there = bands.size() > 1 && slices.size() == 1 && fetch_all();
   const std::size_t bands_at_once = are_all_there ? 1 : bands.size();
   for (std::size_t first = 0; first < bands.size(); first += bands_at_once) {

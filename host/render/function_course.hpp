@@ -12,10 +12,9 @@ namespace nutik {
 
 // Sums are of light · weight, over all light in [0, 1].
 struct FunctionCourse {
-  double magnitude = 0.0;  // Σ|w|
-  double extent = 0.0;     // the largest that the whole sum can be
-  double partial_sums =
-      0.0;  // Σ over samples but the first of a block: the same of their block's sum up to them
+  double magnitude = 0.0;              // Σ|w|
+  double extent = 0.0;                 // the largest that the whole sum can be
+  double partial_sums = 0.0;           // Σ over samples but a block's first: the same of its sum up to them
   double block_sums = 0.0;             // Σ over blocks but the first: the same of all up to their ends
   double boundaries = 0.0;             // Σ|B|
   double longest_block = 0.0;          // in live samples

@@ -41,10 +41,11 @@ struct RenderStatistics {
   std::uint64_t table_bytes_written = 0;  // of gain tables, and
   std::uint64_t map_bytes_written =
       0;  // of functions of pixels, that were not on the device from renders before
-  std::uint64_t exposed_functions =
-      0;                        // whose pixels were not as in the render before; of a resident capture
-  std::uint64_t kept_sums = 0;  // of blocks and bundles, that were there from renders before, or were
-  std::uint64_t made_sums = 0;  // made for those to come
+  // Of a resident capture: functions whose pixels were not as in the render before; sums of blocks and bundles that
+  // were not made again, and those that were made to be kept.
+  std::uint64_t exposed_functions = 0;
+  std::uint64_t kept_sums = 0;
+  std::uint64_t made_sums = 0;
   std::uint64_t blocks = 0;
   std::uint64_t launches = 0;  // of the kernel that exposes: a chunk of blocks in a band of the picture each
 };

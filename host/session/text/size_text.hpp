@@ -5,9 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "render/output_format.hpp"
-
 #include "capture/picture.hpp"
+#include "render/output_format.hpp"
 
 namespace nutik {
 
