@@ -92,7 +92,7 @@ std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
   if (with_blocks.size() <= rooms) worth = std::move(with_blocks);
   if (worth.size() > rooms) worth.resize(rooms);
   // Bundles last, of blocks that are there by then.
-  std::ranges::stable_partition(worth, [](const SummedBlocks& sum) { return sum.count == 1; });
+  std::stable_partition(worth.begin(), worth.end(), [](const SummedBlocks& sum) { return sum.count == 1; });
   return worth;
 }
 
