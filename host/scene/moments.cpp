@@ -3,20 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/telling_places.hpp"
+
 namespace nutik {
 namespace {
 
-using Places = std::vector<const SubjectPlace*>;
-
 constexpr std::uint32_t kGapPixels = 8;  // between moments: for the soft borders of both
-
-double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
-
-double middle_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 // Whether two places touch or overlap when each is grown by half of so many cells.
 bool overlap(const SubjectPlace& a, const SubjectPlace& b, std::size_t columns, std::size_t gap) {
@@ -30,26 +22,6 @@ bool overlap(const SubjectPlace& a, const SubjectPlace& b, std::size_t columns, 
     }
   }
   return false;
-}
-
-// Those that are no mere piece of the subject, of which the rest looks like what is behind it, nor only its shadow.
-Places large_places(const SubjectTrack& track) {
-  constexpr double kLeastSize = 0.25, kLeastContrast = 0.5;  // shares of what is usual
-  std::vector<double> sizes, contrasts;
-  for (const SubjectPlace& place : track.places) {
-    sizes.push_back(static_cast<double>(place.cells.size()));
-    contrasts.push_back(place.contrast);
-  }
-  if (sizes.empty()) return {};
-  const double size = middle_of(sizes), contrast = middle_of(contrasts);
-  Places large;
-  for (const SubjectPlace& place : track.places) {
-    if (static_cast<double>(place.cells.size()) >= kLeastSize * size &&
-        place.contrast >= kLeastContrast * contrast) {
-      large.push_back(&place);
-    }
-  }
-  return large;
 }
 
 class Chooser {
@@ -123,9 +95,8 @@ class Chooser {
 
 std::vector<SubjectPlace> choose_moments(const SubjectTrack& track, std::uint32_t count,
                                          MomentSpacing spacing) {
-  const Places candidates = large_places(track);
-  Places whole = candidates;
-  std::erase_if(whole, [](const SubjectPlace* place) { return place->is_cut_off; });
+  const Places candidates = telling_places(track.places);
+  const Places whole = whole_places(candidates);
   Chooser chooser(track, count);
   if (const Places& most = whole.size() >= count ? whole : candidates; !most.empty()) {
     chooser.add_evenly(most, spacing);

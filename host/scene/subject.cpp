@@ -8,6 +8,7 @@
 
 #include "scene/differing_cells.hpp"
 #include "scene/looks.hpp"
+#include "scene/telling_places.hpp"
 
 namespace nutik {
 namespace {
@@ -46,8 +47,6 @@ SubjectPlace place_of(std::vector<std::size_t> cells, std::uint64_t sample, cons
   place.cells = std::move(cells);
   return place;
 }
-
-double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 // How far places lie apart, and how much steps from one to the next differ from those before them.
 class Way {
@@ -112,16 +111,21 @@ class Followed {
   }
 
   // How far it goes, in a measure that lets a small thing that crosses the picture win over a large one that stirs, a
-  // thing over its shadow, and one that goes its way over what flickers here and there.
+  // thing over its shadow, one that goes its way over what flickers here and there, and one that can be shown twice and is
+  // mostly seen as a whole over one that is not.
   [[nodiscard]] double weight() const {
-    double cells = 0, contrast = 0;
+    constexpr double kAtOnePlace = 0.125, kCutOff = 0.25;
+    double cells = 0, contrast = 0, whole = 0;
     for (const SubjectPlace& place : places_) {
+      if (!place.is_cut_off) ++whole;
       cells += static_cast<double>(place.cells.size());
       contrast += place.contrast;
     }
     const auto count = static_cast<double>(places_.size());
     const Way way(places_);
-    return way.extent() * std::pow(cells / count, 0.25) * contrast / count / (1 + way.turns_of_extent());
+    const double extent = std::max(furthest_apart(telling_places(places_)), kAtOnePlace * way.extent());
+    return extent * std::lerp(kCutOff, 1.0, whole / count) * std::pow(cells / count, 0.25) * contrast /
+           count / (1 + way.turns_of_extent());
   }
 
   [[nodiscard]] std::vector<SubjectPlace>&& places() && { return std::move(places_); }

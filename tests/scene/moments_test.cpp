@@ -47,5 +47,17 @@ TEST(Moments, DoNotTouch) {
   EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time)), (Samples{0, 20, 40}));
 }
 
+// Of a subject of four cells the border leaves one, two and three.
+TEST(Moments, ShowAtLeastHalfOfTheSubject) {
+  SubjectTrack track = track_of({{0, 0}, {10, 80}, {20, 240}, {30, 400}, {40, 640}});
+  const std::vector<std::size_t> cells = {1, 4, 4, 4, 2};
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    SubjectPlace& place = track.places[i];
+    place.is_cut_off = cells[i] < 4;
+    while (place.cells.size() < cells[i]) place.cells.push_back(place.cells.back() + 1);
+  }
+  EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time)), (Samples{10, 20, 30, 40}));
+}
+
 }  // namespace
 }  // namespace nutik

@@ -93,5 +93,22 @@ TEST(Subject, IsScrapsWhereItIsThinAndLittleOfWhatDiffers) {
   EXPECT_TRUE(tracks[0].is_scraps());
 }
 
+// One comes in from below and stays, cut off and never apart from itself; the other one passes by, half as far.
+TEST(Subject, IsSeenAsAWholeOnItsWay) {
+  const auto comes_in = [](int x, int y, std::uint64_t sample) {
+    return x >= 10 && x < 40 && y >= std::max(20, 118 - 4 * static_cast<int>(sample));
+  };
+  const auto passes = [](int x, int y, std::uint64_t sample) {
+    const int left = 80 + static_cast<int>(sample) / 2;
+    return x >= left && x < left + 12 && y >= 10 && y < 22;
+  };
+  const auto alone = tracked(comes_in);
+  const auto both = tracked(
+      [&](int x, int y, std::uint64_t sample) { return comes_in(x, y, sample) || passes(x, y, sample); });
+  EXPECT_LT(alone[0].places.back().centre.x, 40) << "where there is no other";
+  EXPECT_GT(both[0].places.back().centre.x, 80);
+  EXPECT_LT(both[0].extent, alone[0].extent / 2);
+}
+
 }  // namespace
 }  // namespace nutik

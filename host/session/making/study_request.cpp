@@ -121,7 +121,8 @@ class StudyPlanner {
     }
     if (moments.size() < wanted) {
       study.notes.push_back(
-          format("{} of {} moments are shown: at others the subject would overlap with itself",
+          format("{} of {} moments are shown: at others the subject would overlap with itself, or the picture's "
+                 "border would leave less than half of it",
                  moments.size(), wanted));
     }
     return moments;
