@@ -120,10 +120,10 @@ class StudyPlanner {
           track.extent > track.size() ? " at which it is seen as a whole" : ""));
     }
     if (moments.size() < wanted) {
-      study.notes.push_back(
-          format("{} of {} moments are shown: at others the subject would overlap with itself, or the picture's "
-                 "border would leave less than half of it",
-                 moments.size(), wanted));
+      study.notes.push_back(format(
+          "{} of {} moments are shown: at others the subject would overlap with itself, or the picture's "
+          "border would leave less than half of it",
+          moments.size(), wanted));
     }
     return moments;
   }
