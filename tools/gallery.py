@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Films the gallery's scenes and runs its recipes, tools/gallery/*.sh, as docs/gallery.md prints them.
+"""Draws the gallery's scenes and runs its recipes, tools/gallery/*.sh, as docs/gallery.md prints them.
 
 Each recipe runs in a folder of its own, where its scene's clip.mkv lies, with nutik-cl and FnPlotter.py in PATH. It
 makes picture.png and plot.png. --publish FOLDER writes the pictures of the page there:
@@ -65,7 +65,7 @@ def commands_in_path(program, folder, plots):
 
 
 def make(recipe, program, work, size, plots=True):
-    """Films the scene and runs the recipe, with or without its plot; the folder that holds what it made."""
+    """Draws the scene and runs the recipe, with or without its plot; the folder that holds what it made."""
     folder = work / recipe
     folder.mkdir(parents=True, exist_ok=True)
     film(recipe, folder, size)

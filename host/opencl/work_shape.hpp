@@ -25,8 +25,8 @@ struct WorkShape {
   }
 };
 
-// The shape that suits a device and an arithmetic, or what the options ask for: see the table in
-// docs/performance.md. Throws UsageError where it does not divide a tile.
+// The shape that suits a device and an arithmetic, unless the options state one: one pixel an item on a GPU, 16
+// tiles an item on a CPU with vectors (docs/performance.md). Throws UsageError if it does not divide a tile.
 [[nodiscard]] WorkShape work_shape(const OpenClOptions& options, Precision precision,
                                    const DeviceInfo& device);
 

@@ -20,12 +20,12 @@ from report import Report
 
 # Integral of the gain over the time that it is not zero, exactly, for the functions as printed.
 STILL_GAIN = {
-    "figure4": 20.83350075 / 83.331001,
-    "figure7": 40.0000035 / 40.000007,
-    "figure14": 750.000013 / 1010.000001,
-    "figure16": 1.0,
+    "difference": 20.83350075 / 83.331001,
+    "strobe": 40.0000035 / 40.000007,
+    "motion-study": 750.000013 / 1010.000001,
+    "one-blur": 1.0,
 }
-MASKS = {"figure4": None, "figure7": "whole", "figure14": "regions", "figure16": "regions"}
+MASKS = {"difference": None, "strobe": "whole", "motion-study": "regions", "one-blur": "regions"}
 
 # A picture's 10 ms and a region's differ by its 1 ns ramp, 5e-8 of the light, and by single precision, 1e-6: together
 # less than this many codes. A value that close to a half may be rounded either way.
@@ -113,7 +113,7 @@ def at(pixel):
 
 def check_regions(demo, report):
     """(a) Each region of Figure 14 is its own 10 ms picture, code for code."""
-    picture = demo.figure("figure14", ".png")
+    picture = demo.figure("motion-study", ".png")
     for value, start in demo.truth["regions"].items():
         region = demo.regions == int(value)
         length = demo.truth["exposure_s"]
@@ -182,7 +182,7 @@ def check_background(demo, report):
 
 def check_negative_end(demo, report):
     """(d) M0 of Figure 14 is negative where the ball comes to rest: 1 s of the roll less 25 times 10 ms of its end."""
-    lines = (demo.folder / "figure14.fn").read_text().splitlines()
+    lines = (demo.folder / "motion-study.fn").read_text().splitlines()
     (demo.folder / "m0.fn").write_text("".join(line + "\n" for line in lines if line.startswith("M0")))
     alone = demo.expose("m0.pfm", "-k", demo.folder / "m0.fn")
     roll, end = demo.interval("roll.pfm", 0, 1.0), demo.interval("end.pfm", 1.0, 0.01)
@@ -203,15 +203,15 @@ def check_negative_end(demo, report):
 
 def check_difference(demo, report):
     """(e) Figure 4 as light: the still background has its still gain times its light, and motion goes below 0."""
-    light, still, gain = demo.figure("figure4", ".pfm"), demo.still(), STILL_GAIN["figure4"]
+    light, still, gain = demo.figure("difference", ".pfm"), demo.still(), STILL_GAIN["difference"]
     expected = gain * demo.background
     error = codes_of(light) - codes_of(expected)
     pixel, share = worst_pixel(error, still), np.median(light[still] / demo.background[still])
     report.hold(abs(share / gain - 1) <= 2e-3 and abs(error[pixel]) <= PIXEL_CODES,
-                f"figure4.pfm: still background / truth has median {share:.6f}, still gain {gain:.6f}; "
+                f"difference.pfm: still background / truth has median {share:.6f}, still gain {gain:.6f}; "
                 f"worst {at(pixel)}: {light[pixel]:.6f} against {expected[pixel]:.6f}, {error[pixel]:+.3f} codes")
     report.hold(light.min() < -0.01 and light.max() > 0.1,
-                f"figure4.pfm: motion from {light.min():+.4f} to {light.max():+.4f}")
+                f"difference.pfm: motion from {light.min():+.4f} to {light.max():+.4f}")
 
 
 def main():

@@ -26,7 +26,7 @@ M255{[0:0], [999999999:0], [1000000000:1], [1010000000:1], [1010000001:0]}
 """
 
 FIGURE_14 = """\
-The paper's Figure 14 (BallComposite.fn): a motion study with five regions. Four show the ball for 10 ms each, sharp;
+The paper's Figure 14 (BallComposite.fn): a motion study with five regions. Four show the ball for 10 ms each;
 around them, 0, the ball's whole way is exposed. The weight of -25 at its end takes away the ball where it lies.
 The paper prints [100000000:1], a tenth of the time and surely a lost zero: the gain would fall from there on.
 
@@ -40,4 +40,4 @@ on and ends at 0.8 s: a trail that grows into one of the pictures.
 M0{[0:0], [600000000:0], [800000000:2], [800000001:0], [1000000000:0]}
 """ + REGIONS
 
-FUNCTIONS = {"figure4": FIGURE_4, "figure7": FIGURE_7, "figure14": FIGURE_14, "figure16": FIGURE_16}
+FUNCTIONS = {"difference": FIGURE_4, "strobe": FIGURE_7, "motion-study": FIGURE_14, "one-blur": FIGURE_16}
