@@ -8,7 +8,7 @@
 //   items: see items.clh
 //
 // Where a function's gain is steady, a block's sum is that of light · ns, the same for every such function, and is
-// multiplied by the gain afterwards (docs/model.md, "Steady gain"): whether it is made here or was kept, to the same bits.
+// multiplied by the gain afterwards (docs/explanation/model.md, "Steady gain"): made here or kept, to the same bits.
 #include "items.clh"
 #include "tiles.clh"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the gain functions of a function file, to see what they do. docs/functions.md has the format."""
+"""Draws the gain functions of a function file, to see what they do. docs/reference/functions.md has the format."""
 
 import argparse
 import os

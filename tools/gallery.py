@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the gallery's scenes and runs its recipes, tools/gallery/*.sh, as docs/gallery.md prints them.
+"""Draws the gallery's scenes and runs its recipes, tools/gallery/*.sh, as docs/how-to/gallery.md prints them.
 
 Each recipe runs in a folder of its own, where its scene's clip.mkv lies, with nutik-cl and FnPlotter.py in PATH. It
 makes picture.png and plot.png. --publish FOLDER writes the pictures of the page there:
@@ -80,7 +80,7 @@ def make_real(recipe, program, work, recordings):
     """Runs the recipe on its recording; the folder with picture.png."""
     recording = recordings.resolve() / REAL[recipe]
     if not recording.exists():
-        raise OSError(f"{recording} is not there; docs/gallery.md says where it is from")
+        raise OSError(f"{recording} is not there; docs/how-to/gallery.md says where it is from")
     folder = work / f"{recipe}-real"
     folder.mkdir(parents=True, exist_ok=True)
     link = folder / recording.name
@@ -123,7 +123,7 @@ def main():
     parser.add_argument("--work", required=True, type=Path, help="where clips, captures and pictures lie")
     parser.add_argument("--size", default="768x432", help="of the scenes (default: 768x432)")
     parser.add_argument("--only", choices=RECIPES, action="append", help="this recipe; may be repeated")
-    parser.add_argument("--publish", type=Path, metavar="FOLDER", help="write the pictures of docs/gallery.md")
+    parser.add_argument("--publish", type=Path, metavar="FOLDER", help="write the pictures of docs/how-to/gallery.md")
     parser.add_argument("--recordings", type=Path, metavar="FOLDER", help="make the pictures of real recordings, which lie there")
     options = parser.parse_args()
     program, work = options.program.resolve(), options.work.resolve()

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the shutter shapes that nutik-cl makes, from the text that it prints: the picture of docs/shutters.md."""
+"""Draws the shutter shapes that nutik-cl prints: the picture of docs/reference/shutters.md."""
 
 import argparse
 import subprocess

@@ -8,7 +8,7 @@
 //   points   straight lines between points that were measured, the outermost held: for cameras, and
 //            compressed clips, that do not behave like a sensor
 //
-// docs/noise.md derives it; capture/noise_file.hpp has it as text.
+// docs/explanation/noise.md derives it; capture/noise_file.hpp has it as text.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Boundary tables: all that a kernel needs to know of a gain function (docs/model.md, "Packed tables").
+// Boundary tables: all that a kernel needs to know of a gain function (docs/explanation/model.md, "Packed tables").
 //
 //   in:      a gain function, a timeline, and the samples of one block
 //   out:     weights      w_k = ∫ g φ_k / D, φ_k being sample k's own hat: 1 while it is exposed, ramps
@@ -8,7 +8,7 @@
 //   error:   a weight is summed from the closed form of each stretch on which both lines are straight,
 //            never as a difference of integrals from the start, so it errs by at most 13 roundings
 //            of its own local ∫ ĝ φ / D, ĝ being the line between |g| at the ends of each piece
-//            (docs/accuracy.md). Boundaries add one rounding of their own.
+//            (docs/explanation/accuracy.md). Boundaries add one rounding of their own.
 #pragma once
 
 #include <cstdint>

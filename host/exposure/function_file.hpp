@@ -1,4 +1,4 @@
-// Function files: gain functions as people write them. docs/functions.md has the format.
+// Function files: gain functions as people write them. docs/reference/functions.md has the format.
 //
 //   M0 [0:1], [10000000:1], [10000001:0]          one line without braces
 //   M128{[0:0], [399999999:0],                    or braces, over as many lines as it takes

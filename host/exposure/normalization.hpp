@@ -1,4 +1,4 @@
-// Normalizations: what the integral of light times gain is divided by (docs/model.md, "Normalization").
+// Normalizations: what the integral of light times gain is divided by (docs/explanation/model.md, "Normalization").
 //
 //   support      D, the time in the capture over which the gain is not zero
 //   integral     ∫g: a still scene comes out as it is

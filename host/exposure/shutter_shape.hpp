@@ -16,7 +16,7 @@
 //
 // Shapes of straight lines are exact but for their corners' times, which are rounded to whole nanoseconds. The
 // others become the fewest straight pieces that keep within the error, a share of the shape's largest
-// |gain|, at all times (docs/shutters.md).
+// |gain|, at all times (docs/reference/shutters.md).
 #pragma once
 
 #include <algorithm>

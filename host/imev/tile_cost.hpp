@@ -18,7 +18,7 @@ TilePolicy parse_tile_policy(std::string_view text);
 std::string to_text(TilePolicy policy);
 
 // What reading costs, in bytes of a row tile streamed by the kernel. A slot gathers a boundary value for
-// every pixel where a row needs one for the whole tile; docs/performance.md has the measurement.
+// every pixel where a row needs one for the whole tile; docs/explanation/performance.md has the measurement.
 inline constexpr double kSlotCostPerByte = 2.5;
 
 // Whether a tile whose samples have `rows` different rows, and whose busiest pixel has `slots` change

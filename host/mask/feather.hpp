@@ -1,4 +1,4 @@
-// Blends the functions of a hard mask along its edges (docs/masks.md, "Soft masks").
+// Blends the functions of a hard mask along its edges (docs/reference/masks.md, "Soft masks").
 //
 //   in:      a mask, and how far an edge reaches: for all tags, or for some of them
 //   out:     the same mask with shares: α of each tag at each pixel

@@ -1,4 +1,4 @@
-// Recipes: how a picture was made, kept in the picture (docs/recipes.md).
+// Recipes: how a picture was made, kept in the picture (docs/reference/recipes.md).
 //
 //   in:      what an exposure was made from and with
 //   out:     one line of printable ASCII: a JSON object that starts with {"nutik-cl":

@@ -39,7 +39,7 @@ struct Stillness {
 class StillnessWatch {
  public:
   // Light that is held is off by a fifth of the noise's standard deviation where all stands still (imev_tests,
-  // docs/noise.md); what is no noise may add as much.
+  // docs/explanation/noise.md); what is no noise may add as much.
   static constexpr double kMostStray = 0.2;
 
   StillnessWatch(const CaptureFormat& capture, std::uint64_t most_samples);

@@ -4,8 +4,8 @@
 //   out:     buffers of weights and boundaries [row][function], of parts and gains [block][function]
 //   always:  what a buffer holds already is not written again: a function that changed costs its own column
 //
-// Rows of functions side by side suit pixels that have many functions among them (docs/performance.md): a column is
-// therefore written with gaps, by a rectangular copy.
+// Rows of functions side by side suit pixels that have many functions among them
+// (docs/explanation/performance.md): a column is therefore written with gaps, by a rectangular copy.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Sums of light · ns over whole blocks and bundles of the resident capture, in one arithmetic, on the device from one
-// exposure to the next: what exposures have in common wherever gains are steady (docs/model.md, "Steady gain").
+// exposure to the next: what they have in common wherever gains are steady (docs/explanation/model.md, "Steady gain").
 //
 //   in:      plans, one exposure after another
 //   out:     of each the sums that need not be made, and which it is worth to make now

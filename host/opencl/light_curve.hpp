@@ -14,7 +14,7 @@ namespace nutik {
 //
 // centre is whole and step a power of two, so that t is exact in single precision. Light then errs
 // by less than 3.3e-7 for every white code up to 65535, and by less than 1.7e-7 where white has
-// the form 2^b - 1, b = 8 … 16 (derivation and measurement: docs/accuracy.md).
+// the form 2^b - 1, b = 8 … 16 (derivation and measurement: docs/explanation/accuracy.md).
 inline constexpr std::uint32_t kCurveDegree = 10;
 
 // The curve as the kernel reads it: centre, step, toe_end, toe_slope, a_0 … a_10. Nothing where the

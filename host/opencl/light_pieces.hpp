@@ -17,7 +17,7 @@ inline constexpr std::uint32_t kLightPieces = 16;
 //
 // Piece 0 is the toe; the others cut the rest into equal parts, half way between codes. As the kernel reads
 // it: scale, offset, then a_0[16], a_1[16], a_2[16], a_3[16]. Light errs by less than 2.7e-7, measured
-// 1.3e-7 (docs/accuracy.md).
+// 1.3e-7 (docs/explanation/accuracy.md).
 // Nothing where the function has no straight toe, or where the white code is below 255.
 [[nodiscard]] std::optional<std::vector<double>> light_pieces(const Transfer& transfer,
                                                               std::uint32_t white_code);

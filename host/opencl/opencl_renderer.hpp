@@ -16,7 +16,7 @@
 
 namespace nutik {
 
-// The arithmetics that a device has, the fastest first (docs/accuracy.md): what choose_precision() takes.
+// The arithmetics that a device has, the fastest first (docs/explanation/accuracy.md): what choose_precision() takes.
 [[nodiscard]] std::span<const Precision> precisions_of(const DeviceInfo& device);
 
 struct OpenClOptions {

@@ -26,7 +26,7 @@ struct WorkShape {
 };
 
 // The shape that suits a device and an arithmetic, unless the options state one: one pixel an item on a GPU, 16
-// tiles an item on a CPU with vectors (docs/performance.md). Throws UsageError if it does not divide a tile.
+// tiles an item on a CPU with vectors (docs/explanation/performance.md). UsageError if it does not divide a tile.
 [[nodiscard]] WorkShape work_shape(const OpenClOptions& options, Precision precision,
                                    const DeviceInfo& device);
 

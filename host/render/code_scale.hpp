@@ -5,7 +5,7 @@
 //   out:     codes 0 … white code, and how many pixels saturate at either end
 //   always:  light 0 and light 1 never saturate, nor does what rounds to their codes
 //
-// docs/model.md has the formulas.
+// docs/explanation/model.md has the formulas.
 #pragma once
 
 #include <cstdint>

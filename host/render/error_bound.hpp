@@ -5,7 +5,7 @@
 //            rounded to the format, and how many of the format's steps that is
 //   always:  holds for every capture with these tables, whatever kind its tiles are of and however the work is
 //            cut, on every device that rounds as IEEE 754 says; infinite where nothing can be promised.
-//            Derived in docs/accuracy.md.
+//            Derived in docs/explanation/accuracy.md.
 //
 // A pixel that several functions share errs by its shares of what each of them may err by, and by what blending rounds.
 //

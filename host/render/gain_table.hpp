@@ -36,7 +36,7 @@ struct SampleSpan {
 static_assert(sizeof(SampleSpan) == 4);
 
 // What a block's light · ns is multiplied by where a function's gain is steady: the same over the whole reach of all
-// its samples, and not 0 (docs/model.md, "Steady gain").
+// its samples, and not 0 (docs/explanation/model.md, "Steady gain").
 struct SteadyGain {
   double per_ns = 0.0;     // scaled gain / D; 0: the block is not steady
   bool in_bundle = false;  // so are all blocks of its bundle

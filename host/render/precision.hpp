@@ -1,4 +1,4 @@
-// The arithmetics that a picture can be computed in. docs/accuracy.md says what each may err by.
+// The arithmetics that a picture can be computed in. docs/explanation/accuracy.md says what each may err by.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The scalar reference: what a picture is, computed the way docs/model.md defines it.
+// The scalar reference: what a picture is, computed the way docs/explanation/model.md defines it.
 #pragma once
 
 #include "render/renderer.hpp"

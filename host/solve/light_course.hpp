@@ -2,7 +2,7 @@
 // told from, without another look at the capture.
 //
 //   units:   time in nanoseconds, light of white is 1
-//   always:  light holds while a sample is exposed and runs straight across gaps, as in a capture (docs/model.md).
+//   always:  light holds while a sample is exposed and runs straight across gaps (docs/explanation/model.md).
 //            Integrals are exact but for rounding: sums of products, of which none cancel that the gain does not
 #pragma once
 

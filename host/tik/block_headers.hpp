@@ -1,4 +1,4 @@
-// What a block says in front of its payload, and what of it can be believed. docs/tik-format.md has the layout.
+// A block's header, and what of it can be believed. docs/reference/tik-format.md has the layout.
 #pragma once
 
 #include <cstddef>

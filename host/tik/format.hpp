@@ -1,4 +1,4 @@
-// The .tik container, version 1: what docs/tik-format.md specifies.
+// The .tik container, version 1: what docs/reference/tik-format.md specifies.
 //
 //   ┌───────────────────────────────┐ 0
 //   │ PGM or PPM of sample 0, with  │   opens in any image viewer; comments describe the capture

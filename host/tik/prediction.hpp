@@ -1,5 +1,5 @@
 // Prediction: turns tile bodies into residuals that a general compressor packs well, and back. Lossless.
-// docs/tik-format.md specifies the plain form of a group of consecutive tiles; in short:
+// docs/reference/tik-format.md specifies the plain form of a group of consecutive tiles; in short:
 //
 //   head        the sample numbers of rows and records, each as the difference from the one before; then,
 //               for each row of a tile (in records tiles the start and each slot), for each channel, a mark:

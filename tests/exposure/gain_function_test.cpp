@@ -23,7 +23,7 @@ GainFunction parse(const std::string& line) {
   return file.functions.begin()->second.function;
 }
 
-// The numbers at the end of docs/model.md: figures of the paper, over 3 s.
+// The numbers at the end of docs/explanation/model.md: figures of the paper, over 3 s.
 TEST(GainSummary, KnowsThePapersFigures) {
   const GainSummary difference = summarize(
       parse("M0{[0:0.0] , [1500000000:0.0] , [1500000001:-0.5] , [1516666000:-0.5] , [1533332000:1] ,"

@@ -156,7 +156,7 @@ def write_videos(folder):
 
 
 def classes_of(data):
-    """The classes of a capture's bytes (docs/tik-format.md): name and a list of pairs of offset and bytes."""
+    """The classes of a capture's bytes (docs/reference/tik-format.md): name and a list of pairs of offset and bytes."""
     found = {}
 
     def add(name, first, last):

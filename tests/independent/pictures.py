@@ -67,7 +67,7 @@ LINES_OF_HIGH_DEFINITION = 720
 
 
 def rgb_of_yuv(y, u, v, matrix, is_full):
-    """8-bit RGB of planes of one size, as docs/model.md has it."""
+    """8-bit RGB of planes of one size, as docs/explanation/model.md has it."""
     red, blue = LUMA_WEIGHTS[matrix]
     green = 1 - red - blue
     luma, chroma = (1, 1) if is_full else (255 / 219, 255 / 224)

@@ -1,4 +1,4 @@
-"""Soft masks from their definition (docs/masks.md): which share of each pixel a mask value has."""
+"""Soft masks from their definition (docs/reference/masks.md): which share of each pixel a mask value has."""
 
 from fractions import Fraction
 

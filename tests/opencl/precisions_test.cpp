@@ -33,7 +33,7 @@ class Precisions : public testing::Test {
   test::PrecisionCheck check_;
 };
 
-// NUTIK_TEST_CASES=10000 is the full run; docs/accuracy.md says what it measured. NUTIK_TEST_LARGEST=n leaves out
+// NUTIK_TEST_CASES=10000 is the full run (docs/explanation/accuracy.md). NUTIK_TEST_LARGEST=n leaves out
 // cases of more than n values in all samples together: for tools/check_kernels.
 TEST_F(Precisions, StayWithinTheirBoundsOnRandomCases) {
   const char* limit = std::getenv("NUTIK_TEST_LARGEST");

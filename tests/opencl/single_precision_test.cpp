@@ -1,4 +1,4 @@
-// What --precision single may err by (docs/accuracy.md): in light code by code, and in exposures.
+// What --precision single may err by (docs/explanation/accuracy.md): in light code by code, and in exposures.
 #include <gtest/gtest.h>
 
 #include <cmath>

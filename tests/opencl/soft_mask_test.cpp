@@ -166,7 +166,7 @@ struct Mixtures {
   }
 };
 
-// The definition in docs/accuracy.md, computed again in integers of 128 bits.
+// The definition in docs/explanation/accuracy.md, computed again in integers of 128 bits.
 TEST(SoftMasks, OfWholeNumbersAreRoundedAsDefined) {
   Mixtures mixtures{{0.75, -1.5, 3.3, 1e-3, 1000.25}, 2917, 4095, {}};
   test::Random random(11);

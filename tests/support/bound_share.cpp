@@ -20,7 +20,7 @@ double value_of(const Picture& picture, std::uint64_t i) {
   return picture.values<double>()[i];
 }
 
-// Where light lies on the scale of codes, between two of them; docs/model.md.
+// Where light lies on the scale of codes, between two of them; docs/explanation/model.md.
 double place_of(const Transfer& transfer, const OutputFormat& output, double light) {
   const double white = output.white_code;
   const double magnitude = transfer.fraction_of(std::min(std::fabs(light), 1.0));

@@ -1,5 +1,5 @@
 // Every numeric bound that the tests use beside those that the program computes itself
-// (render/error_bound.hpp). None is tuned: docs/accuracy.md derives each of them.
+// (render/error_bound.hpp). None is tuned: docs/explanation/accuracy.md derives each of them.
 // u is the unit roundoff of the arithmetic, S = ∫|g| / D.
 #pragma once
 
@@ -17,7 +17,7 @@ inline constexpr double kWeightRoundings = 13;
 inline constexpr double kReferenceRoundings = 30;
 
 // OpenCL in double against the reference, in S: what the program promises of exposures that are not extremely
-// long (docs/accuracy.md).
+// long (docs/explanation/accuracy.md).
 inline constexpr double kDoubleAgainstReference = 1e-12;
 
 // Light of a code in single precision by a fitted curve: enumerated for whites of 2^b - 1, b = 8 … 16; whether

@@ -1,6 +1,6 @@
 // Exact rational arithmetic: what weights, tables and light really are, to measure errors against.
 //
-// Written from docs/model.md with another formula than either renderer: Simpson's rule, which is exact
+// Written from docs/explanation/model.md with another formula than either renderer: Simpson's rule, which is exact
 // for the product of two straight lines.
 #pragma once
 

@@ -9,7 +9,7 @@
 namespace nutik::test {
 
 // Code c stands for the light from thresholds[c] up to thresholds[c + 1]; 0 also for all that is darker, the
-// white code for all that is brighter (docs/model.md, "From light to codes").
+// white code for all that is brighter (docs/explanation/model.md, "From light to codes").
 class RightCodes {
  public:
   RightCodes(const Transfer& transfer, std::uint32_t white_code)

@@ -11,7 +11,7 @@ import os
 import pathlib
 import subprocess
 
-# What every arithmetic keeps on these few samples, in S: docs/accuracy.md has the bounds, single's is the largest.
+# What every arithmetic keeps on these few samples, in S: single's bound (docs/explanation/accuracy.md).
 LARGEST_ERROR = 4e-6
 
 parser = argparse.ArgumentParser()

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Holds the gallery to what docs/gallery.md promises.
+"""Holds the gallery to what docs/how-to/gallery.md promises.
 
     check_gallery.py --only page
     check_gallery.py --only recipes --program nutik-cl --work FOLDER
@@ -31,24 +31,24 @@ NOISE_SIGMAS = 6  # 110 592 codes: one in 1e9 lies further out
 
 
 def check_page(report):
-    page = (ROOT / "docs" / "gallery.md").read_text()
+    page = (ROOT / "docs" / "how-to" / "gallery.md").read_text()
     blocks = re.findall(r"^```sh\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
     scripts = {path.stem: path.read_text() for path in (ROOT / "tools" / "gallery").glob("*.sh")}
     report.hold(set(scripts) == set(gallery.RECIPES), f"a script for each recipe: {', '.join(sorted(scripts))}")
     for name, text in scripts.items():
-        report.hold(text in blocks, f"docs/gallery.md prints tools/gallery/{name}.sh as it is run")
+        report.hold(text in blocks, f"docs/how-to/gallery.md prints tools/gallery/{name}.sh as it is run")
     real = {path.stem: path.read_text() for path in (ROOT / "tools" / "gallery" / "real").glob("*.sh")}
     report.hold(set(real) == set(gallery.REAL), f"a script for each real recording: {', '.join(sorted(real))}")
     for name, text in real.items():
-        report.hold(text in blocks, f"docs/gallery.md prints tools/gallery/real/{name}.sh as it is run")
+        report.hold(text in blocks, f"docs/how-to/gallery.md prints tools/gallery/real/{name}.sh as it is run")
         link = f"images/gallery/{name}-real.jpg"
-        report.hold(f"]({link})" in page and (ROOT / "docs" / link).exists(), f"the page shows {link}")
+        report.hold(f"](../{link})" in page and (ROOT / "docs" / link).exists(), f"the page shows {link}")
     report.hold(len(blocks) == len(scripts) + len(real), f"the page has {len(blocks)} scripts for {len(scripts)} recipes and {len(real)} recordings")
     pictures = ROOT / "docs" / "images" / "gallery"
     for name in scripts:
         for ending in (".jpg", "-scene.jpg", "-plot.png"):
             link = f"images/gallery/{name}{ending}"
-            report.hold(f"]({link})" in page and (ROOT / "docs" / link).exists(), f"the page shows {link}")
+            report.hold(f"](../{link})" in page and (ROOT / "docs" / link).exists(), f"the page shows {link}")
     size = sum(path.stat().st_size for path in pictures.iterdir())
     report.hold(size <= LARGEST_GALLERY_BYTES, f"pictures of {size} bytes, at most {LARGEST_GALLERY_BYTES}")
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""NoisePlotter.py: that it draws, computes what docs/noise.md says, and names what is wrong with a file."""
+"""NoisePlotter.py: that it draws, computes what docs/explanation/noise.md says, and names what is wrong with a file."""
 
 import argparse
 import math

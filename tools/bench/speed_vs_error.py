@@ -31,7 +31,7 @@ TOLERANCES = (0, 2, 4, 8)
 PRECISIONS = ("single", "double", "fixed", "compensated")
 WHOLE = ("--start", "0s", "--exposure", "24h")
 PAPER_MS = 6000  # the paper's own program for a picture, on its authors' machine
-REFERENCE_BOUND = 30 * 2.0 ** -53  # of light, docs/accuracy.md
+REFERENCE_BOUND = 30 * 2.0 ** -53  # of light, docs/explanation/accuracy.md
 # Half a code where codes lie closest in light, the straight toe of sRGB.
 HALF_CODES = {"half a code of 8 bits": 0.5 / 255 / 12.92, "half a code of 16 bits": 0.5 / 65535 / 12.92}
 

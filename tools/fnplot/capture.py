@@ -1,6 +1,6 @@
 """Reads what is drawn of a capture: its end, its samples' exposures, and how much changes at each.
 
-The file's footer (docs/tik-format.md) says how long the capture is. All else is asked of nutik-cl:
+The file's footer (docs/reference/tik-format.md) says how long the capture is. All else is asked of nutik-cl:
 `nutik-cl activity --csv - clip.tik` prints a line of CSV for each sample, with the columns below.
 """
 

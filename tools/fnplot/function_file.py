@@ -1,4 +1,4 @@
-"""Reads function files. docs/functions.md has the format.
+"""Reads function files. docs/reference/functions.md has the format.
 
 in:      the bytes of a file
 out:     its gain functions by mask value, and a diagnostic for every mistake

@@ -1,4 +1,4 @@
-"""Reads one function of a function file. docs/functions.md has the format.
+"""Reads one function of a function file. docs/reference/functions.md has the format.
 
 in:      the text of a file, and the extent of a function in it
 out:     its mask value, its control points and its mistakes

@@ -10,7 +10,7 @@ MANTISSA_BITS = 53  # of a double
 
 @dataclass(frozen=True)
 class GainSummary:
-    """As docs/model.md defines it, over the interval in place of the domain."""
+    """As docs/explanation/model.md defines it, over the interval in place of the domain."""
 
     integral_ns: Fraction  # ∫g
     support_ns: int  # D: length of { t : g(t) ≠ 0 }

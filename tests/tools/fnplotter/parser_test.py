@@ -108,7 +108,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(self.summary(function, 30, 40).integral_ns, 20)  # held
 
     def test_live_intervals(self):
-        # As docs/model.md has it, over 100 ns.
+        # As docs/explanation/model.md has it, over 100 ns.
         cases = (
             (((10, 0.0), (20, 1.0), (30, 0.0), (40, 0.0)), (10, 30)),
             (((10, 1.0), (20, 0.0), (30, 0.0)), (0, 20)),  # held before
