@@ -1,6 +1,6 @@
 # Installs the build into an empty folder and has another project find it, build with it and run.
 #
-#   cmake -D BUILD=… -D CONSUMER=… -D README=… -D WORK=… -D GENERATOR=… -D COMPILER=… -D FLAGS=… -D LAUNCHER=…
+#   cmake -D BUILD=… -D CONSUMER=… -D PAGE=… -D WORK=… -D GENERATOR=… -D COMPILER=… -D FLAGS=… -D LAUNCHER=…
 #         -P check_package.cmake
 
 function(run)
@@ -25,12 +25,12 @@ foreach(plotter FnPlotter.py NoisePlotter.py)
   run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/installed/bin/${plotter} --help)
 endforeach()
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR}
-    -DREADME=${README} -DCMAKE_PREFIX_PATH=${WORK}/installed -DCMAKE_CXX_COMPILER=${COMPILER}
+    -DPAGE=${PAGE} -DCMAKE_PREFIX_PATH=${WORK}/installed -DCMAKE_CXX_COMPILER=${COMPILER}
     -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
 
-# A second of nothing, for the example in the README.
+# A second of nothing, for the page's example.
 string(REPEAT "x" 61440 samples)
 file(WRITE ${WORK}/clip.raw "${samples}")
 run(${WORK}/installed/bin/nutik-cl -q --raw 8x8:gray -f 960 ${WORK}/clip.raw ${WORK}/clip.tik)

@@ -10,7 +10,6 @@ import sys
 from pathlib import Path
 
 
-
 def without_code(page):
     return re.sub(r"^```.*?^```$", "", page, flags=re.DOTALL | re.MULTILINE)
 
