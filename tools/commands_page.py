@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+"""Writes docs/reference/commands.md from the manual page, which the program makes from its table of options.
+
+    tools/commands_page.py --program build/nutik-cl            writes the page
+    tools/commands_page.py --program build/nutik-cl --check    says whether the page is what would be written
+"""
+
+import argparse
+import difflib
+import re
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "commands.md"
+
+# The page that goes on where a command's help ends.
+FURTHER = {
+    "activity": "../how-to/find-the-moment.md", "again": "recipes.md", "batch": "../how-to/many-pictures.md",
+    "check": "../how-to/check-a-picture.md#checking-before-exposing", "contact": "../how-to/find-the-moment.md",
+    "devices": "environment.md#devices", "info": "input.md#colour-shape-and-rate", "encode": "input.md", "expose": "picture.md", "mask": "masks.md",
+    "noise": "../explanation/noise.md", "plate": "../how-to/plate.md", "recover": "tik-format.md#damage",
+    "retime": "input.md#colour-shape-and-rate", "shutter": "shutters.md", "solve": "../how-to/solve.md",
+    "study": "../how-to/study.md", "sweep": "../how-to/find-the-moment.md", "completion": "environment.md#shells",
+    "trace": "../how-to/check-a-picture.md#following-a-pixel", "man": "environment.md#shells",
+    "validate": "../how-to/check-a-picture.md#how-right-a-picture-is", "video": "../how-to/video.md",
+}
+
+PREFACE = """\
+# Commands
+
+<!-- Written by tools/commands_page.py from `nutik-cl man`. -->
+
+Every command: what it does, examples, the options it takes. `nutik-cl COMMAND --help` shows the same in a terminal.
+New here? Start with [a tutorial](../tutorial/first-picture.md).
+
+| you write | it means |
+| --- | --- |
+| `nutik-cl clip.mp4 clip.tik`, `nutik-cl -o clip.tik clip.mp4` | `encode` |
+| `nutik-cl -m mask.pgm -k functions.fn clip.tik` | `expose` |
+| `nutik-cl --start 0.4s --exposure 10ms clip.tik` | `expose` |
+| `nutik-cl clip.tik`, `nutik-cl --json clip.tik` | `info`, and a command to try |
+
+The first word that is neither an option nor an option's value can name a command. Options and operands come in any
+order; a short option's value may be attached (`-f120`). A file with a command's name is written `./info`, or after `--`.
+"""
+
+
+def plain(troff):
+    """Text as troff would print it."""
+    text = re.sub(r"\\f[BIR]", "", troff)
+    text = re.sub(r"\\\[u([0-9A-F]+)\]", lambda match: chr(int(match[1], 16)), text)
+    for name, mark in ((r"\-", "-"), (r"\(aq", "'"), (r"\(ha", "^"), (r"\(ti", "~"), (r"\&", ""), (r"\e", "\\")):
+        text = text.replace(name, mark)
+    return text
+
+
+def section(man, title):
+    return re.search(rf"^\.SH {title}\n(.*?)(?=^\.SH |\Z)", man, re.DOTALL | re.MULTILINE)[1]
+
+
+def groups(text):
+    """Of each subsection its title and its lines."""
+    parts = re.split(r"^\.SS (.*)\n", text, flags=re.MULTILINE)
+    return [(plain(title), body) for title, body in zip(parts[1::2], parts[2::2])]
+
+
+def items(text):
+    """Of each item its term and what is said of it, unescaped."""
+    return [(plain(term), plain(said)) for term, said in re.findall(r"^\.TP\n(.*)\n(.*)\n", text, re.MULTILINE)]
+
+
+def in_table(text):
+    return text.replace("|", "\\|")
+
+
+def anchor(heading):
+    return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+
+
+def long_name(term):
+    """--fps of `-f, --fps RATE`."""
+    return re.search(r"--[\w-]+", term)[0]
+
+
+def folded(text, indent=""):
+    return textwrap.fill(text, 120, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+
+
+def options_of(command, option_groups):
+    """For each heading the command's options."""
+    for heading, options in option_groups:
+        taken = [f"`{long_name(term)}`" for term, _, takers in options if command in takers]
+        if taken:
+            yield folded(f"- [{heading}](#{anchor(heading)}): {', '.join(taken)}", "  ")
+
+
+def page_of(man):
+    option_groups = []
+    command_groups = [(title, items(body)) for title, body in groups(section(man, "COMMANDS"))]
+    names = [term.split()[0] for _, commands in command_groups for term, _ in commands]
+    for heading, body in groups(section(man, "OPTIONS")):
+        options = []
+        for term, said in items(body):
+            text, takers = re.fullmatch(r"(.*) \[(.*)\]", said).groups()
+            options.append((term, text, names if takers == "all commands" else takers.split(", ")))
+        option_groups.append((heading, options))
+    examples = {title: plain(re.sub(r"^\.(nf|fi)\n", "", body, flags=re.MULTILINE))
+                for title, body in groups(section(man, "EXAMPLES"))}
+    text = PREFACE
+    for title, commands in command_groups:
+        text += f"\n## {title}\n"
+        for term, summary in commands:
+            name, _, operands = term.partition(" ")
+            text += f"\n### {name}\n\n`{f'nutik-cl {name} {operands}'.strip()}`\n\n"
+            text += folded(f"{summary} ([more]({FURTHER[name]}))") + "\n"
+            text += "\n```sh\n" + examples[name] + "```\n"
+            taken = list(options_of(name, option_groups))
+            text += "".join(f"\n{line}" for line in taken) + ("\n" if taken else "")
+    text += "\n## Options\n"
+    for heading, options in option_groups:
+        text += f"\n### {heading}\n\n| option | |\n| --- | --- |\n"
+        text += "".join(f"| `{in_table(term)}` | {in_table(said)} |\n" for term, said, _ in options)
+    for title in ("EXIT STATUS", "ENVIRONMENT"):
+        text += f"\n## {title.capitalize()}\n\n| | |\n| --- | --- |\n"
+        text += "".join(f"| `{term}` | {in_table(said)} |\n" for term, said in items(section(man, title)))
+    return text
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", default="build/nutik-cl")
+    parser.add_argument("--check", action="store_true")
+    options = parser.parse_args()
+    written = page_of(subprocess.run([options.program, "man"], check=True, text=True, capture_output=True).stdout)
+    if not options.check:
+        PAGE.write_text(written)
+        return
+    difference = list(difflib.unified_diff(PAGE.read_text().splitlines(), written.splitlines(),
+                                           "the page", "the program", lineterm="", n=1))
+    if difference:
+        sys.exit("\n".join([*difference, "tools/commands_page.py writes it anew"]))
+    print(f"{PAGE.name}: {written.count(chr(10))} lines, as the program has them")
+
+
+if __name__ == "__main__":
+    main()
