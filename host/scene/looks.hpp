@@ -12,14 +12,25 @@ namespace nutik {
 
 class Looks {
  public:
-  static constexpr std::uint64_t kMost = 256;
+  static constexpr std::uint64_t kMost = 256, kFew = 128;
 
-  explicit Looks(std::uint64_t sample_count, std::uint64_t most = kMost)
+  // All of few samples, every other one of more.
+  explicit Looks(std::uint64_t sample_count)
+      : Looks(sample_count, std::clamp(sample_count / 2, kFew, kMost)) {}
+  Looks(std::uint64_t sample_count, std::uint64_t most)
       : samples_(sample_count), count_(std::min(sample_count, most)) {}
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   // Increasing, from 0 on.
   [[nodiscard]] std::uint64_t sample(std::uint64_t look) const { return look * samples_ / count_; }
+  // The look's sample, or the number of samples behind the last look.
+  [[nodiscard]] std::uint64_t sample_or_end(std::uint64_t look) const {
+    return look < count_ ? sample(look) : samples_;
+  }
+  // The first look at a sample or after it; count() where there is none.
+  [[nodiscard]] std::uint64_t from(std::uint64_t sample) const {
+    return sample == 0 ? 0 : before(sample - 1) + 1;
+  }
   // The last look at a sample or before it.
   [[nodiscard]] std::uint64_t before(std::uint64_t sample) const {
     return ((sample + 1) * count_ - 1) / samples_;

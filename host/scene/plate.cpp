@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "scene/looks.hpp"
 #include "scene/place_times.hpp"
 #include "scene/small_holes.hpp"
 #include "scene/tile_history.hpp"
@@ -70,7 +71,7 @@ class LongestHeld {
 // Makes a plate strip by strip, a strip being rows of tiles.
 class PlateMaker {
  public:
-  PlateMaker(CaptureSource& capture, const CodeBand& band)
+  PlateMaker(CaptureSource& capture, const CodeBand& band, const Looks& looks)
       : capture_(capture),
         band_(band),
         grid_(capture.format().shape),
@@ -79,8 +80,12 @@ class PlateMaker {
         rooms_(capture.block_count()) {
     const CaptureFormat& format = capture.format();
     const Timeline& timeline = capture.timeline();
-    for (std::uint64_t k = 0; k < timeline.sample_count(); ++k) starts_ns_.push_back(timeline.start_ns(k));
-    starts_ns_.push_back(timeline.duration_ns());
+    // What is seen at a look holds until the next.
+    for (std::uint64_t k = 0; k <= timeline.sample_count(); ++k) {
+      const std::uint64_t sample = looks.sample_or_end(looks.from(k));
+      starts_ns_.push_back(sample < timeline.sample_count() ? timeline.start_ns(sample)
+                                                            : timeline.duration_ns());
+    }
     plate_.light = Picture(format.shape, ValueType::light64, format.white_code);
     plate_.uncertain = Region::none(format.shape.width, format.shape.height);
   }
@@ -225,7 +230,7 @@ class PlateMaker {
   CaptureSource& capture_;
   const CodeBand& band_;
   TileGrid grid_;
-  std::vector<std::int64_t> starts_ns_;  // of all samples, and the capture's end
+  std::vector<std::int64_t> starts_ns_;  // as TileHistory has them
   std::vector<double> light_of_code_;
   std::vector<PageBuffer> rooms_;  // for blocks that are unpacked
   Plate plate_;
@@ -241,6 +246,7 @@ MemoryNeeds plate_needs(const CaptureFormat& capture) {
 }
 
 Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t memory_bytes,
+                 std::uint64_t most_samples,
                  const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
   const std::uint32_t rows = TileGrid(capture.format().shape).rows();
   std::uint64_t unpacked_bytes = 0;
@@ -252,7 +258,7 @@ Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t mem
   needs.add("a row of tiles at all samples", row_bytes);
   const auto at_once =
       static_cast<std::uint32_t>(std::min<std::uint64_t>(1 + needs.rest_of(memory_bytes) / row_bytes, rows));
-  PlateMaker maker(capture, band);
+  PlateMaker maker(capture, band, Looks(capture.timeline().sample_count(), most_samples));
   for (std::uint32_t row = 0; row < rows; row += at_once) {
     if (progress) progress(row, rows);
     maker.make(row, std::min(row + at_once, rows));

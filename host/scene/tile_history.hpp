@@ -23,7 +23,8 @@ class TileHistory {
   using Codes = std::array<Code, 3 * kTilePixels>;  // [channel][lane]
   using Light = std::array<double, 3 * kTilePixels>;
 
-  // Samples begin at `starts_ns`, which end with the end of the capture; blocks are all of the capture's, in time order.
+  // Until a sample begins `starts_ns` have passed, and until the capture's end the last of them: of samples that nobody
+  // looks at, no time. Blocks are all of the capture's, in time order.
   // What is handed over must outlive this.
   TileHistory(const std::vector<BlockView>& blocks, std::span<const std::int64_t> starts_ns)
       : blocks_(blocks), starts_ns_(starts_ns) {}
@@ -132,7 +133,8 @@ class TileHistory {
   void add_rows(const BlockView& block) {
     block.for_each_row(tile_, [&](std::uint32_t first, std::uint32_t until, const std::byte* codes) {
       const std::uint64_t sample = block.extent().first_sample;
-      rows_.push_back({codes, starts_ns_[sample + until] - starts_ns_[sample + first]});
+      const std::int64_t held_ns = starts_ns_[sample + until] - starts_ns_[sample + first];
+      if (held_ns > 0) rows_.push_back({codes, held_ns});
     });
   }
 
@@ -144,7 +146,8 @@ class TileHistory {
       for (std::size_t i = 0; i < records_.size(); ++i) {
         const std::uint32_t until =
             i + 1 < records_.size() ? records_[i + 1].sample : block->extent().sample_count;
-        visit(records_[i], starts_ns_[sample + until] - starts_ns_[sample + records_[i].sample]);
+        const std::int64_t held_ns = starts_ns_[sample + until] - starts_ns_[sample + records_[i].sample];
+        if (held_ns > 0) visit(records_[i], held_ns);
       }
     }
   }

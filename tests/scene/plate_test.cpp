@@ -109,6 +109,19 @@ TEST(Plate, TakesCodesForOneLightThatDifferByNoMoreThanStated) {
   EXPECT_LT(together, 12.2) << "the mean light of 10, 14 and 12";
 }
 
+// Every other sample: three of 40 and one of 200, which the others are all.
+TEST(Plate, OfFewSamplesTakesWhatTheyHold) {
+  MemoryCapture capture = one_pixel({40, 200, 40, 200, 40, 200, 200, 200}, {0, 10, 20, 30, 40, 50, 60, 70});
+  const CodeBand band = CodeBand::of_codes(capture.format(), 5);
+  const auto code_of_few = [&](std::uint64_t most_samples) {
+    const Plate plate = make_plate(capture, band, 1 << 20, most_samples);
+    return code_of(capture.format(), plate.light.values<double>()[0]);
+  };
+  EXPECT_NEAR(code_of_few(8), 200, 1e-9);
+  EXPECT_NEAR(code_of_few(4), 40, 1e-9);
+  EXPECT_NEAR(code_of_few(100), 200, 1e-9);
+}
+
 TEST(Plate, IsUnsureOfPixelsThatNothingHoldsForHalfOfTheTime) {
   MemoryCapture unsure = one_pixel({10, 10, 90, 90, 170}, {0, 10, 20, 30, 40});
   const CodeBand band = CodeBand::of_codes(unsure.format(), 5);

@@ -20,9 +20,11 @@
 namespace nutik {
 namespace {
 
+constexpr std::uint64_t kRoughSamples = 64;  // of a plate that is only compared with
+
 // Samples that the noise is measured on: several windows of the estimator, in the middle of the capture.
 constexpr std::uint64_t kMeasuredSamples = 4 * kWindowSamples;
-constexpr std::uint64_t kMeasuredPixels = 128 * 1024;  // or fewer, spread over the picture
+constexpr std::uint64_t kMeasuredPixels = 32 * 1024;  // or fewer, spread over the picture
 
 // The noise that a capture holds; none where nothing tells it: all of it moves, or is black.
 std::optional<CameraNoise> noise_of(CaptureSource& capture) {
@@ -82,19 +84,19 @@ MadePlate make_plate(CaptureSource& capture, const std::string& capture_name, co
   const auto least = static_cast<std::uint32_t>(std::ceil(CodeBand::kLeastShare * format.white_code));
   const CodeBand band = noise ? CodeBand::of_noise(format, *noise)
                               : CodeBand::of_codes(format, request.by_codes.value_or(least));
-  Plate plate = make_plate(capture, band, memory.bytes, progress);
+  Plate plate = make_plate(capture, band, memory.bytes, request.most_samples, progress);
   MadePlate made{{}, std::move(plate.uncertain), noise || request.by_codes, {}};
   made.picture = stored(std::move(plate.light), format, output, made.saturation);
   state_values(made.picture, format, output);
   return made;
 }
 
-Picture make_code_plate(CaptureSource& capture, const std::string& capture_name, const MemoryBudget& memory,
-                        const ReportedProgress& progress) {
+MadePlate make_rough_plate(CaptureSource& capture, const std::string& capture_name,
+                           const MemoryBudget& memory, const ReportedProgress& progress) {
   OutputFormat codes;
   codes.type = code_type(capture.format());
   codes.white_code = capture.format().white_code;
-  return make_plate(capture, capture_name, {}, codes, memory, progress).picture;
+  return make_plate(capture, capture_name, {{}, kRoughSamples}, codes, memory, progress);
 }
 
 NeedsOfFormat mask_needs_of(const MaskRequest& request) {

@@ -19,6 +19,8 @@ struct PlateRequest {
   // Codes of the same light differ by no more, to either side. None: by three standard deviations of the noise that the
   // capture itself is measured to have, and at least by 1/32 of white.
   std::optional<std::uint32_t> by_codes;
+  // Where the capture has more samples, so many are looked at, evenly in time.
+  std::uint64_t most_samples = ~std::uint64_t{0};
 
   friend bool operator==(const PlateRequest&, const PlateRequest&) = default;
 };
@@ -39,9 +41,10 @@ struct MadePlate {
                                    const PlateRequest& request, const OutputFormat& output,
                                    const MemoryBudget& memory, const ReportedProgress& progress = {});
 
-// The plate in codes of the capture, as a picture of it at a time has them. As above.
-[[nodiscard]] Picture make_code_plate(CaptureSource& capture, const std::string& capture_name,
-                                      const MemoryBudget& memory, const ReportedProgress& progress = {});
+// A plate to compare with, which need not be free of noise: of few samples, in codes of the capture, as a picture of it
+// at a time has them. As above.
+[[nodiscard]] MadePlate make_rough_plate(CaptureSource& capture, const std::string& capture_name,
+                                         const MemoryBudget& memory, const ReportedProgress& progress = {});
 
 // What making a mask takes, with the plate where a step needs it.
 [[nodiscard]] NeedsOfFormat mask_needs_of(const MaskRequest& request);

@@ -330,10 +330,7 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
   }
   const CaptureFormat& format = capture.format();
   const std::vector<Rectangle> regions = regions_of(request, capture_name, format.shape);
-  OutputFormat codes;
-  codes.type = code_type(format);
-  codes.white_code = format.white_code;
-  MadePlate plate = make_plate(capture, capture_name, {}, codes, memory, progress);
+  MadePlate plate = make_rough_plate(capture, capture_name, memory, progress);
   const double moving = uncertain_share(plate.uncertain, regions);
   if (moving > kMostMoving) {
     throw EverythingMoves(
