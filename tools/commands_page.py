@@ -113,6 +113,8 @@ def page_of(man):
         text += f"\n## {title}\n"
         for term, summary in commands:
             name, _, operands = term.partition(" ")
+            if name not in FURTHER:
+                sys.exit(f"which page goes on with {name}? Name it in FURTHER of tools/commands_page.py")
             text += f"\n### {name}\n\n`{f'nutik-cl {name} {operands}'.strip()}`\n\n"
             text += folded(f"{summary} ([more]({FURTHER[name]}))") + "\n"
             text += "\n```sh\n" + examples[name] + "```\n"
