@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws a camera's noise: measured points and the curve that is used. docs/explanation/noise.md has the format."""
+"""Draws a camera's noise: measured points and the curve that is used. docs/reference/noise-files.md has the format."""
 
 import argparse
 import sys

@@ -20,7 +20,7 @@ FURTHER = {
     "activity": "../how-to/find-the-moment.md", "again": "recipes.md", "batch": "../how-to/many-pictures.md",
     "check": "../how-to/check-a-picture.md#checking-before-exposing", "contact": "../how-to/find-the-moment.md",
     "devices": "environment.md#devices", "info": "input.md#colour-shape-and-rate", "encode": "input.md", "expose": "picture.md", "mask": "masks.md",
-    "noise": "../explanation/noise.md", "plate": "../how-to/plate.md", "recover": "tik-format.md#damage",
+    "noise": "../how-to/reduce-noise.md", "plate": "../how-to/plate.md", "recover": "tik-format.md#damage",
     "retime": "input.md#colour-shape-and-rate", "shutter": "shutters.md", "solve": "../how-to/solve.md",
     "study": "../how-to/study.md", "sweep": "../how-to/find-the-moment.md", "completion": "environment.md#shells",
     "trace": "../how-to/check-a-picture.md#following-a-pixel", "man": "environment.md#shells",
