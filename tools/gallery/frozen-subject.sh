@@ -1,6 +1,6 @@
 nutik-cl encode --tolerance 2 clip.mkv clip.tik
 
-# The salmon at 1.65 s: what differs from an earlier picture, without what moves anyway, the water.
+# The salmon at 1.65 s: what differs from an earlier picture, without the water, which moves anyway.
 nutik-cl mask --tag 255 --difference 1.65s 0s --grow 1 \
               --tag 0 --changed-between 0s 1.2s --grow 5 \
               clip.tik regions.pgm --preview preview.png

@@ -57,8 +57,8 @@ constexpr Command kCommands[] = {
      "printf '%s\\n' '--start 0s --exposure 10ms a.png' '-k trail.fn b.png' | nutik-cl batch - clip.tik",
      run_batch, kPictures},
     {Id::check, "check", "[CAPTURE.tik|CLIP]",
-     "Say everything that is wrong or suspicious about a function file, a mask and a capture, and what each "
-     "function comes to.",
+     "Name everything wrong or suspicious in a function file, a mask and a capture, and each function's "
+     "figures.",
      "nutik-cl check -k regions.fn\n"
      "nutik-cl check -m regions.pgm -k regions.fn clip.tik\n"
      "nutik-cl check --json -m regions.pgm -k regions.fn clip.tik",
@@ -72,7 +72,7 @@ constexpr Command kCommands[] = {
      "nutik-cl trace --pixel 0,0 --start 0.4s --exposure 10ms clip.tik",
      run_trace, kUnderstanding},
     {Id::mask, "mask", "[CAPTURE.tik|CLIP] [MASK.pgm]",
-     "Make a mask from shapes, from pictures and from what moves, without an image editor.",
+     "Make a mask from shapes, pictures and motion, without an image editor.",
      "nutik-cl mask --moving clip.tik mask.pgm --preview preview.png\n"
      "nutik-cl mask --moving --smooth 2 --largest --grow 4 clip.tik mask.pgm\n"
      "nutik-cl mask --tag 128 --changed-between 0.3s 0.5s --tag 255 --ellipse 320,180,60,40 clip.tik\n"
@@ -122,7 +122,7 @@ constexpr Command kCommands[] = {
      "nutik-cl solve -k moved.fn --free when=0.2s..0.8s/1f --wish '300,150,60,60 >= 1.2 * plate' clip.tik",
      run_solve, kUnderstanding},
     {Id::plate, "plate", "CAPTURE.tik|CLIP [PLATE.png]",
-     "Show the scene without what moves in it: of every pixel the light that it holds longest.",
+     "Show the scene without moving things: each pixel's light that it holds longest.",
      "nutik-cl plate clip.tik\n"
      "nutik-cl plate --uncertain unsure.pgm clip.mp4 empty.png\n"
      "nutik-cl plate --depth float clip.tik -o empty.pfm",
@@ -156,7 +156,7 @@ constexpr Command kCommands[] = {
      run_man},
     {Id::validate, "validate", "CAPTURE.tik|CLIP",
      "Expose with the reference and in every arithmetic that the device has: how right each is, within which "
-     "bound, and how long it takes. Exit status 1 where one exceeds its bound.",
+     "bound, and how long it takes. Exit status 1 if one exceeds its bound.",
      "nutik-cl validate --start 0.4s --exposure 10ms clip.tik\n"
      "nutik-cl validate -m regions.pgm -k regions.fn --depth 16 clip.tik\n"
      "nutik-cl validate --start 0s --exposure 1s --source clip.mp4 clip.tik\n"

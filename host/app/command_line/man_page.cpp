@@ -80,7 +80,7 @@ std::string commands_section() {
 
 std::string options_section() {
   std::string text = section("OPTIONS");
-  text += escaped("Behind each stand the commands that take it.") + "\n";
+  text += escaped("Brackets hold the commands that take an option.") + "\n";
   std::string_view group;
   for (const Option& option : options()) {
     if (option.heading != group) text += format(".SS {}\n", escaped(group = option.heading));

@@ -100,7 +100,7 @@ constexpr Option kRows[] = {
      "within it is no change, and samples are held as the light they are expected to have",
      "auto"},
     {0, "sigmas", "K", encoding, kReadsClips, &Options::sigmas,
-     "with --noise: standard deviations from what is held within which a sample is no change (default: 3)"},
+     "with --noise: how many standard deviations from the held light are no change (default: 3)"},
 
     heading("A camera that moved"),
     {0, "align", "MOTION", encoding, kEncodesClips, &Options::align,
@@ -141,7 +141,7 @@ constexpr Option kRows[] = {
     {0, "unmapped", "zero", exposure, kTakesFunctions, &Options::unmapped,
      "expose mask values without a function to black (default: an error)", "zero"},
     {0, "live", "all", exposure, kShapesExposures, &Options::live,
-     "visit every sample, also where no gain needs it (the picture is the same)", "all"},
+     "visit every sample, also if no gain needs it (the picture is the same)", "all"},
     {0, "pixel", "X,Y", subject, bit(Id::trace), &Options::pixel,
      "the pixel to follow, counted from 0 at the top left"},
     {0, "tag", "VALUE", subject, bit(Id::trace), &Options::tag,
@@ -189,14 +189,14 @@ constexpr Option kRows[] = {
     step("fill", "", "the whole picture"),
     step("rectangle", "X,Y,W,H", "from its top left corner, in pixels"),
     step("ellipse", "X,Y,RX,RY", "round its centre, with half its width and height"),
-    step("polygon", "X,Y,X,Y,...", "three corners or more, even-odd where it crosses itself"),
+    step("polygon", "X,Y,X,Y,...", "three corners or more, even-odd if it crosses itself"),
     step("grid", "COLUMNSxROWS",
          "the whole picture, cut into cells that are tagged N, N + 1, … row by row, from 0 without --tag"),
     step("threshold", "PICTURE LOW..HIGH",
-         "where a picture's brightness lies in a range: 100..255 in codes, 100 for that and brighter, "
+         "pixels with a brightness in a range: 100..255 in codes, 100 for that and brighter, "
          "40%..100% of white. PICTURE is a file, or a time of the capture (0.3s, 12f)"),
-    step("difference", "PICTURE PICTURE", "where two pictures, or times of the capture, differ"),
-    step("subject", "TIME", "what is not in the plate (nutik-cl plate) at a time of the capture: 0.3s, 37f"),
+    step("difference", "PICTURE PICTURE", "pixels in which two pictures, or times of the capture, differ"),
+    step("subject", "TIME", "pixels that differ from the plate (nutik-cl plate) at a time: 0.3s, 37f"),
     step("moving", "", "pixels that change within the capture by more than its noise"),
     step("still", "", "the others"),
     step("changed-between", "TIME TIME",
@@ -204,9 +204,9 @@ constexpr Option kRows[] = {
 
     heading("Changes to the region before them"),
     step("by", "CODES",
-         "the least that is no change: for --moving, --still, --changed-between, --difference and "
-         "--subject, codes must differ by more (default: twice what a quarter of all pixels stay within, at "
-         "least 1/16 of white)"),
+         "the largest difference that is no change, in codes: for --moving, --still, --changed-between, "
+         "--difference and --subject (default: twice the 25th percentile of all pixels' ranges, at least "
+         "1/16 of white)"),
     step("within", "X,Y,W,H", "only its part in a rectangle"),
     step("largest", "", "only its largest connected part"),
     step("grow", "PIXELS", "and all that is no further away than this"),
@@ -218,7 +218,7 @@ constexpr Option kRows[] = {
     {0, "base", "MASK.pgm", subject, bit(Id::mask), &Options::base,
      "start with this mask (default: 0 everywhere)"},
     {0, "size", "WxH", subject, bit(Id::mask), &Options::size,
-     "its size, where neither capture nor picture tells: 640x360"},
+     "its size, if neither capture nor picture tells: 640x360"},
     {0, "feather", "PIXELS", subject, bit(Id::mask), &Options::feather,
      "blend tags along their edges, so far to either side: 6px, M255=6px, 2px,M255=6px; the output is "
      "layers of 16 bits, one for each tag: layer-%d.png"},
@@ -232,7 +232,7 @@ constexpr Option kRows[] = {
     {0, "scale-gain", "FACTORS", series, bit(Id::sweep), &Options::scale_gain,
      "every gain times a factor: 0.5..2/0.25"},
     {0, "stretch", "FACTORS", series, bit(Id::sweep), &Options::stretch,
-     "the functions longer by a factor, from where the first of them begins to expose: 0.5..2/0.5"},
+     "the functions longer by a factor, from the moment that the first begins to expose: 0.5..2/0.5"},
 
     heading("The sheet"),
     {0, "every", "TIME", series, bit(Id::contact), &Options::every,
@@ -263,7 +263,7 @@ constexpr Option kRows[] = {
     {0, "style", "NAME", subject, bit(Id::study), &Options::style,
      "trail (sharp moments over the whole way), strobe (moments alone), rear-curtain (the last moment, and "
      "a trail that grows towards it), frozen (one moment in a scene exposed for all of the time), clean (the "
-     "scene without what moves) or slit (strips, each later than the one before it) (default: trail)",
+     "scene without moving things) or slit (strips, each later than the one before it) (default: trail)",
      "trail strobe rear-curtain frozen clean slit"},
     {0, "moments", "N|TIMES", subject, bit(Id::study), &Options::moments,
      "how many moments, or which: 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen 1); of slit "

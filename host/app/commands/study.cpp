@@ -150,7 +150,7 @@ int run_study(const Options& stated) {
     write_text(files.commands, commands_text(options, files, study, request.style));
     write_picture(files.picture, plate.picture, {}, file_wishes(output_request(options)));
     Answer answer{{{"picture", files.picture.string()}, {"commands", files.commands.string()}}};
-    answer.line = format("{}: {}, the scene without what moves; {}: the command", files.picture.string(),
+    answer.line = format("{}: {}, the scene without moving things; {}: the command", files.picture.string(),
                          shape_text(plate.picture.shape), files.commands.string());
     add_notes(answer, planned);
     return tell(options, files.picture, answer);
