@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Holds pages to what they point at: every relative link, every heading named in one, and every docs/... path anywhere.
+"""Holds pages to what they point at: every relative link, every heading named in one, every file that they name, and
+every docs/... path anywhere.
 
     check_links.py ROOT
 """
@@ -8,6 +9,9 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+
+# Files that CONTRIBUTING.md has somebody add.
+EXAMPLES = {"host/app/commands/times.cpp", "kernels/tile_kinds.cl"}
 
 
 def without_code(page):
@@ -44,6 +48,13 @@ def check_links(root, pages):
                 yield f"{path.relative_to(root)}: [{text}] points to {target}, and {to.name} has no such heading"
 
 
+def check_named_files(root, pages):
+    for path, page in pages.items():
+        for name in set(re.findall(r"`((?:host|kernels|tests|tools)/[\w./-]*\w)`", page)):
+            if name not in EXAMPLES and not (root / name).exists():
+                yield f"{path.relative_to(root)} names {name}, which is not there"
+
+
 def check_paths(root, files):
     for path in files:
         try:
@@ -59,7 +70,7 @@ def main():
     root = Path(sys.argv[1]).resolve()
     files = tracked(root)
     pages = {path.resolve(): path.read_text() for path in files if path.suffix == ".md"}
-    mistakes = [*check_links(root, pages), *check_paths(root, files)]
+    mistakes = [*check_links(root, pages), *check_named_files(root, pages), *check_paths(root, files)]
     print("\n".join(mistakes) or f"{len(pages)} pages, {sum(page.count('](') for page in pages.values())} links")
     return 1 if mistakes or not pages else 0
 
