@@ -8,6 +8,7 @@
 
 import argparse
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -139,6 +140,8 @@ def main():
     parser.add_argument("--demo", type=Path, default="demo")
     parser.add_argument("--output", type=Path, default="docs/images/concepts")
     options = parser.parse_args()
+    if not (options.demo / "clip.tik").exists():
+        sys.exit(f"{options.demo}/clip.tik is not there; tools/demo makes it")
     options.output.mkdir(parents=True, exist_ok=True)
     draw_flow(options.program, options.demo, options.output)
     draw_pixel(options.output)

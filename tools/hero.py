@@ -8,6 +8,7 @@
 
 import argparse
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -71,6 +72,8 @@ def main():
     parser.add_argument("--demo", type=Path, default="demo")
     parser.add_argument("--output", type=Path, default="docs/images/hero.jpg")
     options = parser.parse_args()
+    if not (options.demo / "clip.tik").exists():
+        sys.exit(f"{options.demo}/clip.tik is not there; tools/demo makes it")
     capture, mask = options.demo / "clip.tik", options.demo / "regions.pgm"
     functions = parse_functions((options.demo / "one-blur.fn").read_bytes()).functions
     frame = picture_of(options.program, "--start", "0.8s", "--exposure", "1f", capture)

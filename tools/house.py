@@ -70,7 +70,10 @@ def main():
             sys.exit(f"{PICTURE.relative_to(ROOT)} has not the rooms of today; tools/house.py draws it anew")
         print(f"{len(uses)} rooms and programs")
         return
-    drawn = subprocess.run(["dot", "-Tsvg"], input=source, text=True, check=True, capture_output=True).stdout
+    try:
+        drawn = subprocess.run(["dot", "-Tsvg"], input=source, text=True, check=True, capture_output=True).stdout
+    except FileNotFoundError:
+        sys.exit("graphviz draws the house: apt install graphviz")
     drawn = drawn[drawn.index("<svg"):]
     PICTURE.write_text(f'<?xml version="1.0" encoding="UTF-8"?>\n<!--\n{comment}-->\n{drawn}')
 
