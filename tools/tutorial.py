@@ -46,7 +46,7 @@ def draw_phone_clip(folder, size):
 TUTORIALS = {
     "first-picture": (draw_ball, {"sheet": ["sheet"], "moments": ["moment", "blur"], "preview": ["preview"],
                                   "pictures": ["picture", "trail"]}),
-    "phone-clip": (draw_phone_clip, {}),
+    "phone-clip": (draw_phone_clip, {"styles": ["clip-study", "strobe", "empty"]}),
 }
 
 
