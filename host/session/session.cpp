@@ -112,7 +112,7 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
       devices_(needed(std::move(devices))),
       reading_(terms.reading),
       besides_(terms.besides),
-      is_clip_(!is_tik(source.path)),
+      is_clip_(terms.open_clip || !is_tik(source.path)),
       plans_(memory().table_bytes()) {
   if (!is_clip_) {
     if (source.describes_clip()) {
@@ -123,7 +123,7 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
     check_transfer(source.clip.transfer);
   } else if (reading_ == Reading::whole) {
     ScratchCapture scratch = encode_to_scratch(
-        source, memory(),
+        source, terms.open_clip, memory(),
         [&](const CaptureFormat& format) {
           MemoryNeeds needs = terms.renders
                                   ? rendering_needs(format, code_type(format), 1, kDefaultBlockSamples)
@@ -137,6 +137,7 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
     notes_ = std::move(scratch.encoded.notes);
     warnings_ = std::move(scratch.encoded.warnings);
   } else {
+    if (terms.open_clip) throw UsageError("a clip that its owner makes is read whole");
     clip_ = open_clip_source(source, memory(), terms.progress, terms.stop);
     announced_ = clip_->timeline(clip_->announced_samples());
     facts_ = clip_->facts(*announced_);

@@ -22,6 +22,7 @@
 
 #include "opencl/validation.hpp"
 #include "render/trace.hpp"
+#include "session/clips/alignment.hpp"
 #include "session/clips/source_check.hpp"
 #include "session/devices.hpp"
 #include "session/exposed_picture.hpp"
@@ -70,6 +71,10 @@ class Session {
     Reading reading = Reading::whole;
     ReportedProgress progress = {};  // of a clip that is read whole, in samples
     std::stop_token stop = {};       // ends that: Cancelled
+
+    // Makes the clip, in place of the one at the source's path, which is its name in messages. Such a
+    // clip is read whole.
+    OpenClip open_clip = {};
 
     // The part of the budget that the caller uses beside the session: for pictures that wait to be written, say.
     NeedsOfFormat besides = {};

@@ -55,7 +55,7 @@ ActivityOutputs outputs_of(const Options& options) {
 ActivityRequest activity_request(const Options& options) {
   ActivityRequest request;
   if (options.tag && !options.mask) throw UsageError("--tag is one of a mask; add -m mask.pgm");
-  request.mask = options.mask;
+  if (options.mask) request.mask = *options.mask;
   request.each_tag = options.tag == "all";
   if (options.tag && !request.each_tag)
     request.tag = static_cast<std::uint8_t>(parse_whole_number(*options.tag, "tag", 0, 255));

@@ -24,9 +24,6 @@
 namespace nutik::app {
 namespace {
 
-// How far the subject's border is blended with what lies around it.
-constexpr const char* kFeather = "2px";
-
 constexpr std::string_view kAboutCommands = "# What makes the same study by hand.";
 constexpr std::string_view kAboutFunctions =
     "# The light of each part of the picture: M0, M1 and so on are values of the mask.";
@@ -57,7 +54,7 @@ Options exposing(const Options& options, const StudyFiles& files, StudyStyle sty
   Options by_hand = options;
   by_hand.mask = files.mask.string();
   by_hand.functions = files.functions.string();
-  if (style != StudyStyle::slit) by_hand.feather = kFeather;
+  if (style != StudyStyle::slit) by_hand.feather = kStudyFeather;
   by_hand.normalize = "integral";
   return by_hand;
 }
@@ -156,14 +153,10 @@ int run_study(const Options& stated) {
     return tell(options, files.picture, answer);
   }
   const MadeMask made = make_regions(study, session.capture(), capture_name);
-  ExposureRequest exposure;
-  exposure.gains = Shared(FunctionSet(study.functions));
   const bool is_slit = request.style == StudyStyle::slit;
-  exposure.mask = is_slit ? Shared(MaskWithRegions(made.mask))
-                          : Shared(MaskWithRegions(feathered(made.mask, Feather::parse(kFeather))));
-  exposure.normalization = Normalization::parse("integral");
   const ExposedPicture exposed =
-      session.render(exposure, output_format(output_request(options), files.picture, session.format()));
+      session.render(study_exposure(study, request.style, made.mask),
+                     output_format(output_request(options), files.picture, session.format()));
   tally.add(exposed);
   print_warnings(exposure_warnings(exposed));
   write_picture(files.mask, made.mask.to_picture());

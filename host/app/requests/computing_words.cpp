@@ -1,8 +1,5 @@
 #include "app/requests/requests.hpp"
 
-#include <cstdlib>
-#include <string_view>
-
 #include "app/output/console.hpp"
 #include "app/text/number_text.hpp"
 #include "session/below/error.hpp"
@@ -13,22 +10,20 @@ namespace nutik::app {
 namespace {
 
 ComputingRequest computing_request(const Options& options) {
-  ComputingRequest request;
+  ComputingRequest request = ComputingRequest::of_environment();
   request.memory = memory_budget(options);
   const std::string name = options.renderer.value_or("opencl");
   if (name == "reference") {
     if (options.device) throw UsageError("--device chooses an OpenCL device; the reference uses none");
     if (options.precision) throw UsageError("--precision goes with OpenCL; the reference uses double");
+    request.device.clear();
     request.renderer = RendererKind::reference;
     return request;
   }
   if (name != "opencl") {
     throw UsageError(format("renderer '{}' is not known; choose opencl or reference", name));
   }
-  const char* environment = std::getenv("NUTIK_DEVICE");
-  request.device = options.device.value_or(environment != nullptr ? environment : "");
-  const char* self_test = std::getenv("NUTIK_SELF_TEST");
-  request.tests_drivers = self_test == nullptr || std::string_view(self_test) != "off";
+  if (options.device) request.device = *options.device;
   if (options.precision.value_or("auto") != "auto") request.precision = parse_precision(*options.precision);
   return request;
 }

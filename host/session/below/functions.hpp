@@ -2,6 +2,7 @@
 #pragma once
 
 #include "capture/source_text.hpp"
+#include "exposure/corridor_fit.hpp"
 #include "exposure/function_check.hpp"
 #include "exposure/function_diagnostics.hpp"
 #include "exposure/function_file.hpp"

@@ -226,16 +226,23 @@ ClipToRead ClipSource::clip_to_read() const {
 ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory,
                             const ReportedProgress& progress, const std::stop_token& stop) {
   if (request.path.empty()) throw UsageError("no clip is named");
+  refuse_streams(request.path);
+  ClipOptions options = request.clip;
+  options.decoder_bytes = memory.bytes / 8;
+  return open_clip_source(
+      request, [path = request.path, options] { return open_clip(path, options); }, memory, progress, stop);
+}
+
+ClipSource open_clip_source(const SourceRequest& request, const OpenClip& open_whole,
+                            const MemoryBudget& memory, const ReportedProgress& progress,
+                            const std::stop_token& stop) {
   if (!(request.sigmas >= SourceRequest::kLeastSigmas && request.sigmas <= SourceRequest::kMostSigmas)) {
     throw UsageError(format("{} standard deviations of noise are not within {} … {}", request.sigmas,
                             SourceRequest::kLeastSigmas, SourceRequest::kMostSigmas));
   }
   ClipSource source;
   source.request = request;
-  refuse_streams(request.path);
-  ClipOptions options = request.clip;
-  options.decoder_bytes = memory.bytes / 8;
-  OpenClip open = [path = request.path, options] { return open_clip(path, options); };
+  OpenClip open = open_whole;
   source.clip = open();
   if (request.shutter_angle && !request.clip.rate && !source.clip->info().timing.exposures.empty()) {
     throw ExposuresAreListed(source.name());

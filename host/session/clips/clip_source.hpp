@@ -63,6 +63,12 @@ struct ClipSource {
                                           const ReportedProgress& progress = {},
                                           const std::stop_token& stop = {});
 
+// The same of a clip that its owner makes: `open` does, from the start, as often as it is read. The request's path is its
+// name in messages. What of the request only files have, the part of the clip for example, is the owner's business.
+[[nodiscard]] ClipSource open_clip_source(const SourceRequest& request, const OpenClip& open,
+                                          const MemoryBudget& memory, const ReportedProgress& progress = {},
+                                          const std::stop_token& stop = {});
+
 // When the pictures of a .tik or a clip were exposed, as far as that is known before one is decoded. Throws InputError
 // where nothing tells how many there are or how fast they were taken, and what open_clip_source() throws.
 [[nodiscard]] Timeline known_timeline(const SourceRequest& request, const MemoryBudget& memory);

@@ -153,6 +153,15 @@ EncodedCapture encode(ClipSource source, const EncodeRequest& request, const Cli
   return Encoding(std::move(source), request, memory).run(progress, stop);
 }
 
+EncodedCapture encode(const SourceRequest& source, const OpenClip& open, const EncodeRequest& request,
+                      const MemoryBudget& memory, const ReportedProgress& progress, std::stop_token stop) {
+  check_output(request.output, OutputKind::tik, {});
+  const TwofoldProgress twofold(source, progress);
+  ClipSource clip = open_clip_source(source, open, memory, twofold.finding, stop);
+  const ClipMemory shares = memory_for_encoding(memory, clip.clip_to_read());
+  return encode(std::move(clip), request, shares, twofold.reading, std::move(stop));
+}
+
 EncodedCapture encode(const SourceRequest& source, const EncodeRequest& request, const MemoryBudget& memory,
                       const ReportedProgress& progress, std::stop_token stop) {
   std::vector<std::string> inputs{source.path.string()};

@@ -42,5 +42,9 @@ struct EncodedCapture {
 [[nodiscard]] EncodedCapture encode(const SourceRequest& source, const EncodeRequest& request,
                                     const MemoryBudget& memory, const ReportedProgress& progress = {},
                                     std::stop_token stop = {});
+// The same of a clip that its owner makes (clip_source.hpp).
+[[nodiscard]] EncodedCapture encode(const SourceRequest& source, const OpenClip& open,
+                                    const EncodeRequest& request, const MemoryBudget& memory,
+                                    const ReportedProgress& progress = {}, std::stop_token stop = {});
 
 }  // namespace nutik

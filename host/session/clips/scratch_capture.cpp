@@ -103,12 +103,13 @@ bool has_room_for(const ClipSource& clip, const fs::path& folder) {
 
 }  // namespace
 
-ScratchCapture encode_to_scratch(const SourceRequest& source, const MemoryBudget& memory,
-                                 const NeedsOfFormat& rendering, const ReportedProgress& progress,
-                                 std::stop_token stop) {
+ScratchCapture encode_to_scratch(const SourceRequest& source, const OpenClip& open,
+                                 const MemoryBudget& memory, const NeedsOfFormat& rendering,
+                                 const ReportedProgress& progress, std::stop_token stop) {
   const TwofoldProgress twofold(source, progress);
-  ClipSource clip =
-      open_clip_source(source, memory, twofold.finding, stop);  // before a folder is made for it
+  // Before a folder is made for it.
+  ClipSource clip = open ? open_clip_source(source, open, memory, twofold.finding, stop)
+                         : open_clip_source(source, memory, twofold.finding, stop);
   const ClipMemory shares = memory_for_encoding(memory, clip.clip_to_read(), rendering(clip.capture));
   const PrivateFolder folder;
   const EncodeRequest request{folder.path() / "capture.tik",

@@ -18,8 +18,9 @@ struct ScratchCapture {
 // once the reader is gone; what a killed process left behind is removed by the next that makes one. Throws as encode()
 // does, OutputError where there is no space.
 // `rendering` tells what will be held while the capture is used, beside a block of it.
-[[nodiscard]] ScratchCapture encode_to_scratch(const SourceRequest& source, const MemoryBudget& memory,
-                                               const NeedsOfFormat& rendering,
+// `open` makes the clip in place of the one at the source's path; it may be empty.
+[[nodiscard]] ScratchCapture encode_to_scratch(const SourceRequest& source, const OpenClip& open,
+                                               const MemoryBudget& memory, const NeedsOfFormat& rendering,
                                                const ReportedProgress& progress = {},
                                                std::stop_token stop = {});
 

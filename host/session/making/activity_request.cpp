@@ -19,9 +19,10 @@ namespace {
 
 ActivityOptions options_of(const ActivityRequest& request, const Shape& shape) {
   ActivityOptions options{request.ignored_codes, {}, {}, {}};
-  if (!request.mask) return options;
-  const std::string name = input_title(*request.mask);
-  Mask mask = read_mask_input(*request.mask);
+  if (std::holds_alternative<std::monostate>(request.mask)) return options;
+  const auto* const file = std::get_if<std::string>(&request.mask);
+  const std::string name = file != nullptr ? input_title(*file) : "the mask";
+  Mask mask = file != nullptr ? read_mask_input(*file) : *std::get<Shared<Mask>>(request.mask);
   if (mask.width != shape.width || mask.height != shape.height) {
     throw InputError(format("{} is {} x {}, the capture {} x {}; they must be of one size", name, mask.width,
                             mask.height, shape.width, shape.height));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "capture/timeline.hpp"
@@ -12,12 +13,14 @@
 #include "imev/capture_source.hpp"
 #include "session/reported_progress.hpp"
 #include "session/session.hpp"
+#include "session/shared.hpp"
 
 namespace nutik {
 
 struct ActivityRequest {
-  // Only pixels of this mask count: those with the tag, or with any but 0. None: all pixels.
-  std::optional<std::string> mask;  // an input, as input_bytes.hpp has it
+  // Only pixels of this mask count: those with the tag, or with any but 0. None: all pixels. A mask, or the name of an
+  // input, as input_bytes.hpp has it.
+  std::variant<std::monostate, std::string, Shared<Mask>> mask;
   std::optional<std::uint8_t> tag;
   bool each_tag = false;  // all pixels count, and those with each tag of the mask for themselves, too
   std::uint32_t ignored_codes = 0;  // changes of no more are none

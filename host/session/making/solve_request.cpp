@@ -321,8 +321,11 @@ class Solver {
 }  // namespace
 
 TemplateInput read_template_input(const std::string& name) {
-  TemplateInput input{parse_template(InputBytes(name).text()), {}};
-  const std::string title = input_title(name);
+  return read_template(InputBytes(name).text(), input_title(name));
+}
+
+TemplateInput read_template(std::string_view text, const std::string& title) {
+  TemplateInput input{parse_template(text), {}};
   const std::string report = input.functions.diagnostics.report(title);
   if (input.functions.has_errors()) throw InputError(format("{} has mistakes:\n{}", title, report));
   if (input.functions.gains.empty() && input.functions.times.empty()) {

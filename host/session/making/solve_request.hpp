@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "capture/memory_needs.hpp"
@@ -28,6 +29,8 @@ struct TemplateInput {
   FunctionTemplate functions;
   std::string warnings;
 };
+[[nodiscard]] TemplateInput read_template(std::string_view text, const std::string& title);
+// The same of an input. Throws InputError where it cannot be read, too.
 [[nodiscard]] TemplateInput read_template_input(const std::string& name);
 
 struct SolveRequest {

@@ -6,6 +6,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "mask/feather.hpp"
 #include "scene/code_band.hpp"
 #include "session/making/gain_pieces.hpp"
 #include "session/making/mask_making.hpp"
@@ -358,6 +359,15 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
   planner.add_regions(study);
   planner.add_functions(study);
   return study;
+}
+
+ExposureRequest study_exposure(const Study& study, StudyStyle style, const Mask& regions) {
+  ExposureRequest request;
+  request.gains = Shared(FunctionSet(study.functions));
+  request.mask = Shared(MaskWithRegions(
+      style == StudyStyle::slit ? regions : feathered(regions, Feather::parse(kStudyFeather))));
+  request.normalization = Normalization::parse("integral");
+  return request;
 }
 
 }  // namespace nutik

@@ -20,6 +20,7 @@
 #include "session/making/mask_making.hpp"
 #include "session/memory_budget.hpp"
 #include "session/reported_progress.hpp"
+#include "session/requests/exposure_request.hpp"
 #include "session/requests/mask_request.hpp"
 #include "session/requests/stated_time.hpp"
 
@@ -80,5 +81,11 @@ struct Study {
 // The regions of its moments, of the capture that it was planned for; takes its plate. Throws NoSubject where moments that
 // were found cover one another.
 [[nodiscard]] MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& capture_name);
+
+// How far the subject's border is blended with what lies around it; a slit's strips are not.
+inline constexpr const char* kStudyFeather = "2px";
+
+// What exposes the study's picture through these regions.
+[[nodiscard]] ExposureRequest study_exposure(const Study& study, StudyStyle style, const Mask& regions);
 
 }  // namespace nutik

@@ -26,6 +26,9 @@ struct ComputingRequest {
 
   bool tests_drivers = true;  // false: new kernels are used without a self-test (opencl/self_test.hpp)
 
+  // With what the environment says: NUTIK_DEVICE names the device, NUTIK_SELF_TEST=off does without self-tests.
+  static ComputingRequest of_environment();
+
   friend bool operator==(const ComputingRequest&, const ComputingRequest&) = default;
 };
 
