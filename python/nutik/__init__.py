@@ -1,0 +1,33 @@
+"""Exposes pictures after the scene was filmed.
+
+A capture records for every pixel when and how its value changed. A picture is the integral of each pixel's light times
+a gain function of time; each region of a mask has its own.
+
+    import nutik
+    capture = nutik.open("clip.tik")                               # or a video, or nutik.encode(array, rate=960)
+    picture = capture.render(start="0.4s", exposure="10ms")        # light, float32
+    light = picture.array                                          # [height, width, 3], read-only, no copy
+
+Times are seconds, exactly as a float is printed (0.4 is 4/10 s), or words with a unit: "10ms", "250us", "1/300s", "37f"
+for picture 37; or Fraction, Decimal, numpy.timedelta64, datetime.timedelta. What is returned as `..._ns` is whole
+nanoseconds, int64. Light of white is 1. Pictures are [height, width] or [height, width, 3] (red, green, blue).
+
+Everything raises nutik.Error: UsageError, InputError, DeviceError, OutputError, MemoryTooLittle. Ctrl-C ends what
+takes long and raises KeyboardInterrupt. What is doubtful about a result comes as a warning of class NutikWarning. Work
+runs without Python's lock; any number of threads may use one capture.
+"""
+
+from ._captures import Capture, Trace
+from ._finds import Activity, Plate, Solution, SolvedWish, Study
+from ._functions import Function, boxcar, fit, parse_functions, read_functions, shutter, write_functions
+from ._masks import Mask, read_mask
+from ._nutik import (DeviceError, Error, InputError, MemoryTooLittle, OutputError, UsageError, __version__)
+from ._pictures import Picture
+from ._sources import encode, open
+from ._words import NutikWarning
+
+__all__ = [
+    "Activity", "Capture", "DeviceError", "Error", "Function", "InputError", "Mask", "MemoryTooLittle", "NutikWarning",
+    "OutputError", "Picture", "Plate", "Solution", "SolvedWish", "Study", "Trace", "UsageError", "__version__",
+    "boxcar", "encode", "fit", "open", "parse_functions", "read_functions", "read_mask", "shutter", "write_functions",
+]

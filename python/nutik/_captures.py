@@ -1,0 +1,308 @@
+"""Captures: opened, encoded, exposed, looked into."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from os import PathLike
+from typing import Any, Mapping, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _finds, _nutik
+from ._functions import Function, FunctionLike, function_of, read_functions
+from ._masks import Mask, MaskLike, mask_of
+from ._nutik import UsageError
+from ._pictures import Picture
+from ._words import Time, settings_of, time_word, warn
+
+Functions = Union[FunctionLike, Mapping[int, FunctionLike], str, PathLike]
+
+
+@dataclass(frozen=True)
+class Trace:
+    """How one function's light of a pixel came about, or the mean of a region: from edge to edge, where light and gain
+    run straight in between. N steps, C channels."""
+
+    tag: int                 # whose function it is
+    share: float             # of the pixel's light that this function has
+    pixels: int              # whose mean it is
+    times_ns: np.ndarray     # [N, 2] int64: where each step begins and ends
+    gain: np.ndarray         # [N, 2] at both
+    light: np.ndarray        # [N, 2, C] at both
+    integral_ns: np.ndarray  # [N, C] of light times gain over the step
+    sum_ns: np.ndarray       # [N, C] of all integrals up to the step's end
+    exposed: np.ndarray      # [C] the exposure's light
+    support_ns: int          # D, by which the sum is divided
+
+    @classmethod
+    def _of(cls, arrays: dict[str, Any]) -> Trace:
+        for each in arrays.values():
+            if isinstance(each, np.ndarray):
+                each.flags.writeable = False
+        return cls(**arrays)
+
+
+class Capture:
+    """A capture that is open: nutik.open() and nutik.encode() make one.
+
+    Any number of threads may ask it. It is closed when nothing refers to it any more, or by `with`; pictures of it stay.
+    """
+
+    def __init__(self, held: _nutik.Capture):
+        self._open_capture: Optional[_nutik.Capture] = held
+
+    @property
+    def _held(self) -> _nutik.Capture:
+        if self._open_capture is None:
+            raise UsageError("the capture is closed")
+        return self._open_capture
+
+    def close(self) -> None:
+        """Gives back its memory and, of a temporary one, its file. Whatever is asked besides raises UsageError."""
+        self._open_capture = None
+
+    def __enter__(self) -> Capture:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    @property
+    def name(self) -> str:
+        """What messages call it: its path."""
+        return self._held.name
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """(samples, height, width) or (samples, height, width, 3)."""
+        return (len(self), *self._held.shape)
+
+    @property
+    def dtype(self) -> np.dtype:
+        """Of its codes: uint8 or uint16."""
+        return np.dtype(np.uint8 if self._held.code_bytes == 1 else np.uint16)
+
+    def __len__(self) -> int:
+        return self._held.sample_count
+
+    @property
+    def rate(self) -> Fraction:
+        """Samples a second, exactly where constant, else on average."""
+        return Fraction(*self._held.rate)
+
+    @property
+    def duration_ns(self) -> int:
+        """How long it lasts."""
+        return self._held.duration_ns
+
+    @property
+    def times_ns(self) -> np.ndarray:
+        """[samples, 2] int64: when each sample's exposure begins and ends."""
+        return self._held.times_ns()
+
+    @property
+    def facts(self) -> list[str]:
+        """What the clip was taken for, and who said it: 'transfer srgb, assumed'."""
+        return self._held.facts
+
+    @property
+    def notes(self) -> list[str]:
+        """Of a clip: what a person should know."""
+        return self._held.notes
+
+    def figures(self) -> dict[str, Any]:
+        """What it comes to: samples, duration_ns, rate, shutter_angle, white, transfer, primaries, tolerance, blocks,
+        records, tiles, file_bytes, raw_bytes, memory_bytes, codec."""
+        return self._held.figures()
+
+    def render(self, functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, *,
+               start: Optional[Time] = None, exposure: Optional[Time] = None, shutter: Optional[str] = None,
+               shutter_error: Optional[float] = None, feather: Union[str, float, None] = None,
+               normalize: str = "support", gain: float = 1.0, unmapped: Optional[str] = None,
+               precision: Optional[str] = None, codes: bool = False, dtype: Any = None,
+               transfer: Optional[str] = None, negative: Optional[str] = None,
+               region: Optional[Sequence[int]] = None) -> Picture:
+        """Exposes a picture.
+
+        Either an interval: `start` (0 without one) and `exposure`, with `shutter` a shape (nutik.shutter()) and
+        `shutter_error`. Or `functions`: one for all of the picture (a nutik.Function, a list of (time, gain), a
+        callable over the whole capture), or one for each tag of `mask` ({0: ..., 128: ...}, or a function file);
+        `start` is then their time 0.
+
+        mask: tags [height, width], or {tag: alpha} of shares (the first function gets what they leave), a nutik.Mask, or
+            a file. feather: pixels that tags are blended over, 6 or '6px'.
+        normalize: 'support', 'integral', 'absolute' or 'seconds:S' (docs/model.md). gain: multiplies the light.
+        unmapped: 'zero' lets tags without a function expose to black.
+        precision: 'single', 'compensated', 'double' or 'fixed'; None: the fastest whose error bound is small enough.
+
+        Light comes as float32, or float64 with dtype; codes=True gives uint8 or uint16, the capture's own unless dtype
+        says which, sRGB unless `transfer` says otherwise ('source': the capture's own). negative: what codes say of
+        light below 0, 'saturate', 'offset' or 'abs'. region: (x, y, width, height), only these pixels.
+
+        Raises UsageError where the request does not fit the capture, InputError where mask and functions do not or the
+        capture is damaged, DeviceError; KeyboardInterrupt at Ctrl-C.
+        """
+        asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, normalize, gain,
+                               unmapped)
+        output = self._output(codes, dtype, transfer, negative)
+        held = _nutik.render(self._held, asked, output, _region(region), precision)
+        picture = Picture(held)
+        warn(held.figures["warnings"])
+        if picture.dtype.kind == "u" and negative in (None, "saturate"):
+            warn(f"M{each['tag']}: the still gain is {each['still_gain']:.6g}: whatever does not move comes out black; "
+                 "negative='offset' shows light below 0, and light itself (codes=False) keeps it"
+                 for each in picture.plan["functions"] if each["still_gain"] < 0)
+        return picture
+
+    def trace(self, x: Optional[int] = None, y: Optional[int] = None, *, tag: Optional[int] = None,
+              functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, start: Optional[Time] = None,
+              exposure: Optional[Time] = None, shutter: Optional[str] = None, shutter_error: Optional[float] = None,
+              feather: Union[str, float, None] = None, normalize: str = "support", gain: float = 1.0,
+              unmapped: Optional[str] = None) -> list[Trace]:
+        """How the light of pixel x, y came about, or the mean of all pixels with a `tag` of the mask: a Trace for each
+        function that has a share. The other arguments are those of render().
+
+        Raises UsageError where there is no such pixel or tag; as render() does.
+        """
+        if (x is None) != (y is None) or (x is None) == (tag is None):
+            raise UsageError("what should be followed? Either a pixel, x and y, or a tag of the mask, tag=")
+        if tag is not None and mask is None:
+            raise UsageError("tag= is a value of a mask; add mask=")
+        asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, normalize, gain,
+                               unmapped)
+        pixel = None if x is None else (_count(x, "x"), _count(y, "y"))
+        traces, _, told = _nutik.trace(self._held, asked, pixel, tag)
+        warn(told)
+        return [Trace._of(arrays) for arrays in traces]
+
+    def plate(self, *, by: Optional[int] = None, codes: bool = False, dtype: Any = None,
+              transfer: Optional[str] = None) -> _finds.Plate:
+        """The scene without what moves in it (docs/plate.md). by: codes that the same light may differ by; None: by the
+        capture's own noise. codes, dtype and transfer as of render(), but for float64."""
+        return _finds.plate(self._held, by, self._output(codes, dtype, transfer, None))
+
+    def activity(self, mask: Optional[MaskLike] = None, *, tag: Optional[int] = None, by: int = 0,
+                 count_redrawn: bool = False) -> _finds.Activity:
+        """When it changes, and where. Only pixels of `mask` with `tag` count, or with any tag but 0; changes of no more
+        than `by` codes are none. Samples at which a codec drew its picture anew count as those beside them, unless
+        count_redrawn."""
+        return _finds.activity(self._held, mask_of(mask), tag, by, count_redrawn)
+
+    def study(self, style: str = "trail", *, moments: Union[int, Sequence[Time], None] = None, spacing: str = "time",
+              trail: Optional[str] = None, slit_from: str = "left", regions: Sequence[Sequence[int]] = (),
+              codes: bool = False, dtype: Any = None, transfer: Optional[str] = None) -> _finds.Study:
+        """A motion study that finds its subject by itself (docs/study.md).
+
+        style: 'trail', 'strobe', 'rear-curtain', 'frozen', 'clean' or 'slit'. moments: how many, or which times. spacing:
+        'time' or 'distance'. trail: 'even', 'fade', 'ramp' or 'none'. slit_from: 'left', 'right', 'top' or 'bottom'.
+        regions: (x, y, width, height) each with a subject of its own.
+
+        Raises InputError where nothing moves or everything does: the camera must stand still (align='rigid' where it is
+        encoded).
+        """
+        if moments is None:
+            moments = {"slit": 256, "rear-curtain": 1, "frozen": 1}.get(style, 5)
+        asked = _count(moments, "moments") if isinstance(moments, (int, np.integer)) else [
+            time_word(time, "moments") for time in moments]
+        moved = self._held.moved_camera()
+        if moved:
+            warn([f"{moved}; align='rigid' moves the clip's pictures back when it is encoded"])
+        settings = settings_of({"style": style, "spacing": spacing, "trail": trail, "slit_from": slit_from})
+        boxes = [_region(each) for each in regions]
+        return _finds.study(self._held, settings, asked, boxes, self._output(codes, dtype, transfer, None))
+
+    def solve(self, functions: str, wishes: Sequence[str], *,
+              free: Mapping[str, Union[str, tuple[Any, ...]]] = {}, mask: Optional[MaskLike] = None,
+              regions: Optional[MaskLike] = None, start: Optional[Time] = None,
+              feather: Union[str, float, None] = None, normalize: str = "support", gain: float = 1.0,
+              unmapped: Optional[str] = None) -> _finds.Solution:
+        """Gains and times that make a picture as it is wished (docs/solve.md).
+
+        functions: the text of a function file with names in place of numbers, 'M0{[0:0], [1:1], [1000000000:rest]}'.
+        wishes: 'M0 = plate', '500,120,80,60 gone', 'R1 <= 0.5'. free: of a gain (least, most), of a time (from, to) or
+        (from, to, step). mask: whose tags M0 ... are; regions: a second mask, whose values R0 ... are.
+        """
+        asked = self._asked(None, mask, feather, dict(start=start, normalize=normalize, gain=gain, unmapped=unmapped))
+        words = [_finds.freedom_word(name, each, functions) for name, each in free.items()]
+        region_mask = mask_of(regions)
+        return _finds.solve(self._held, functions, list(wishes), words, asked,
+                            None if region_mask is None else region_mask._held)
+
+    def _asked(self, functions: Optional[dict[int, Function]], mask: Optional[MaskLike],
+               feather: Union[str, float, None], stated: dict[str, Any]) -> _nutik.Exposure:
+        if feather is not None and mask is None:
+            raise UsageError("feather= blends functions along the edges of a mask; add mask= and functions=")
+        first = min(functions) if functions else 0
+        made = mask_of(mask, rest=first)
+        if made is not None and feather is not None:
+            made = made.feathered(feather)
+        if stated.get("unmapped") not in (None, "zero"):
+            raise UsageError(f"unmapped={stated['unmapped']!r} is not known; the only choice is 'zero'")
+        held = None if functions is None else {tag: each._held for tag, each in functions.items()}
+        return _nutik.Exposure(held, None if made is None else made._held, settings_of(stated))
+
+    def _exposure(self, functions: Optional[Functions], mask: Optional[MaskLike], start: Optional[Time],
+                  exposure: Optional[Time], shutter: Optional[str], shutter_error: Optional[float],
+                  feather: Union[str, float, None], normalize: str, gain: float,
+                  unmapped: Optional[str]) -> _nutik.Exposure:
+        stated = dict(start=start, exposure=exposure, shutter=shutter, shutter_error=shutter_error,
+                      normalize=normalize, gain=gain, unmapped=unmapped)
+        if functions is None:
+            if mask is not None:
+                raise UsageError("a mask goes with functions=, not with a plain interval")
+            if exposure is None:
+                raise UsageError("an exposure needs a plain interval (start='0.4s', exposure='10ms') or functions=")
+            return self._asked(None, None, feather, stated)
+        for name in ("exposure", "shutter", "shutter_error"):
+            if stated[name] is not None:
+                raise UsageError(f"{name}= describes a plain interval, functions= say themselves how long; use one")
+        return self._asked(self._functions(functions, mask is not None), mask, feather, stated)
+
+    def _functions(self, functions: Functions, has_mask: bool) -> dict[int, Function]:
+        if isinstance(functions, (str, PathLike)):
+            functions = read_functions(functions)
+        duration = np.timedelta64(self.duration_ns, "ns")
+        if not isinstance(functions, Mapping):
+            return {0: function_of(functions, "functions", duration)}
+        if not functions:
+            raise UsageError("functions= is empty; an exposure has one at least")
+        if not has_mask and len(functions) > 1:
+            raise UsageError(f"there are {len(functions)} functions; mask= says where each applies")
+        made = {}
+        for tag, each in functions.items():
+            if not 0 <= _count(tag, "a tag") <= 255:
+                raise UsageError(f"functions[{tag}]: tags are 0 ... 255")
+            made[int(tag)] = function_of(each, f"functions[{tag}]", duration)
+        return made
+
+    def _output(self, codes: bool, dtype: Any, transfer: Optional[str],
+                negative: Optional[str]) -> dict[str, str]:
+        kinds = ("uint8", "uint16") if codes else ("float32", "float64")
+        kind = np.dtype(dtype).name if dtype is not None else self.dtype.name if codes else kinds[0]
+        if kind not in kinds:
+            other = "codes=True gives uint8 and uint16" if not codes else "codes are uint8 or uint16"
+            raise UsageError(f"dtype={kind} holds no {'codes' if codes else 'light'}: light is float32 or float64; "
+                             f"{other}")
+        return settings_of({"dtype": kind, "transfer": transfer, "negative": negative})
+
+    def __repr__(self) -> str:
+        if self._open_capture is None:
+            return "<nutik.Capture, closed>"
+        samples, height, width = self.shape[:3]
+        return (f"<nutik.Capture {self.name}: {width} x {height} {'colour' if len(self.shape) == 4 else 'grey'}, "
+                f"{samples} samples, {float(self.rate):g} a second>")
+
+
+def _count(value: Any, what: str) -> int:
+    if isinstance(value, (int, np.integer)) and not isinstance(value, bool) and 0 <= value < 2 ** 32:
+        return int(value)
+    raise UsageError(f"{what} is {value!r}, no whole number from 0 on")
+
+
+def _region(region: Optional[Sequence[int]]) -> Optional[list[int]]:
+    if region is None:
+        return None
+    if len(region) != 4:
+        raise UsageError(f"the region {region!r} is none; write whole pixels: (x, y, width, height)")
+    return [_count(each, "a region's side") for each in region]

@@ -1,0 +1,214 @@
+"""Gain functions of time: lists of points, shutters, callables fitted within an error."""
+
+from __future__ import annotations
+
+from os import PathLike
+from typing import Any, Callable, Iterable, Mapping, Sequence, Union
+
+import numpy as np
+
+from . import _nutik
+from ._nutik import UsageError
+from ._words import Time, path_word, time_ns, time_word, times_ns, warn
+
+_LEAST_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
+_MOST_SAMPLES = 1 << 20
+_CHORD_SHARE = 0.1     # of the error, by which a callable may leave the chord of two samples in their middle
+
+
+class Function:
+    """A gain function: straight between its control points, held before the first and after the last.
+
+    times: [points], in time order; two may be equal, where the function jumps from the first gain to the second.
+    gains: [points], any finite numbers, negative ones too. Functions do not change, and are equal where all points are.
+    """
+
+    def __init__(self, times: Iterable[Time], gains: Iterable[float]):
+        """Raises UsageError where times are out of order or a gain is not finite."""
+        at = times_ns(times, "times")
+        self._held = _nutik.Function(at, np.asarray(list(gains), np.float64))
+
+    @classmethod
+    def _of(cls, held: _nutik.Function) -> Function:
+        function = cls.__new__(cls)
+        function._held = held
+        return function
+
+    @classmethod
+    def from_ns(cls, times_ns: Any, gains: Any) -> Function:
+        """The same of whole nanoseconds. Raises UsageError as above."""
+        at = np.asarray(times_ns)
+        if at.size and at.dtype.kind not in "iu":
+            raise UsageError(f"times_ns has dtype {at.dtype}; whole nanoseconds are int64")
+        return cls._of(_nutik.Function(at.astype(np.int64), np.asarray(gains, np.float64)))
+
+    @property
+    def times_ns(self) -> np.ndarray:
+        """[points] int64: when the control points are, in nanoseconds."""
+        return self._held.points()[0]
+
+    @property
+    def gains(self) -> np.ndarray:
+        """[points] float64."""
+        return self._held.points()[1]
+
+    def __call__(self, times: Any) -> Any:
+        """The gain at times in seconds, an array of any shape or a number; at a jump that of its later side."""
+        at = np.asarray(times, np.float64) * 1e9
+        points, gains = self._held.points()
+        last = len(points) - 1
+        begin = np.clip(np.searchsorted(points, at, side="right") - 1, 0, last)
+        end = np.minimum(begin + 1, last)
+        length = (points[end] - points[begin]).astype(np.float64)
+        share = np.clip((at - points[begin]) / np.where(length > 0, length, 1), 0, 1)
+        value = np.where(length > 0, gains[begin] + (gains[end] - gains[begin]) * share, gains[begin])
+        return value if value.ndim else float(value)
+
+    def shifted(self, by: Time) -> Function:
+        """The same function later; earlier where `by` is negative."""
+        return Function._of(self._held.shifted_ns(time_ns(by, "by")))
+
+    def scaled(self, factor: float) -> Function:
+        """The same function with every gain times `factor`."""
+        return Function._of(self._held.scaled(factor))
+
+    def text(self, tag: int = 0) -> str:
+        """Its line in a function file. Jumps become steps of 1 ns, for files have none."""
+        return self._held.text(tag)
+
+    def __eq__(self, other: object) -> bool:
+        return self._held == other._held if isinstance(other, Function) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash((self.times_ns.tobytes(), self.gains.tobytes()))
+
+    def __repr__(self) -> str:
+        times, gains = self._held.points()
+        if len(times) > 6:
+            return f"<nutik.Function of {len(times)} points, {times[0]} to {times[-1]} ns>"
+        points = ", ".join(f"[{time}:{gain:.9g}]" for time, gain in zip(times, gains))
+        return f"<nutik.Function {points}>"
+
+
+FunctionLike = Union[Function, Sequence[tuple[Time, float]], Callable[[Any], Any]]
+
+
+def boxcar(start: Time, exposure: Time, gain: float = 1.0) -> Function:
+    """`gain` from a start for a length of time, 0 elsewhere."""
+    begin, end = _nutik.interval_ns(time_word(start, "start"), time_word(exposure, "exposure"))
+    return Function.from_ns([begin, begin, end, end], [0.0, gain, gain, 0.0])
+
+
+def shutter(shape: str, start: Time, exposure: Time, *, error: float = 1e-3) -> Function:
+    """A shutter's shape over an exposure: 'box', 'trapezoid:0.25', 'triangle', 'gaussian', 'hann', 'strobe:5',
+    'spline:0=0,0.3=1,1=0' (docs/shutters.md). Curves become the fewest straight pieces within `error`, a share of
+    their largest gain.
+
+    Raises UsageError where the shape is not known, or the exposure too short for it.
+    """
+    begin, end = _nutik.interval_ns(time_word(start, "start"), time_word(exposure, "exposure"))
+    return Function._of(_nutik.shutter(shape, begin, end, error))
+
+
+def fit(gain: Callable[[Any], Any], start: Time, end: Time, *, error: float = 1e-3) -> Function:
+    """The fewest straight pieces that stay near a callable, from `start` to `end`; 0 outside.
+
+    gain: called with an array of times in seconds, returns as many gains; one that takes single times only is called
+        once for each.
+    error: how far the pieces may lie from it, a share of its largest |gain|. It holds at every time that was looked at:
+        1024 evenly, and more wherever the middle of two lies off the line between them, down to single nanoseconds.
+
+    A jump becomes a step of 1 ns. Raises UsageError where a gain is not finite, where it is 0 everywhere, or where it
+    bends in more places than can be looked at: give such a function's pieces as points.
+    """
+    begin_ns, end_ns = time_ns(start, "start"), time_ns(end, "end")
+    if end_ns - begin_ns < 1:
+        raise UsageError(f"the function ends at {end!r}, which is not after its start at {start!r}")
+    if not 0 < error < 1:
+        raise UsageError(f"error={error} is no share between 0 and 1")
+
+    def gains_at(times: np.ndarray) -> np.ndarray:
+        seconds = times / 1e9
+        try:
+            values = np.asarray(gain(seconds), np.float64)
+        except (TypeError, ValueError):
+            values = np.asarray([gain(float(each)) for each in seconds], np.float64)
+        values = np.broadcast_to(values, times.shape) if values.ndim == 0 else values
+        if values.shape != times.shape:
+            raise UsageError(f"the function returns shape {values.shape} for {times.shape}: one gain for each time")
+        if not np.all(np.isfinite(values)):
+            raise UsageError(f"the function is not finite at {seconds[~np.isfinite(values)][0]!r} s")
+        return values
+
+    count = min(_LEAST_SAMPLES, end_ns - begin_ns)
+    times = begin_ns + (np.arange(count + 1) * ((end_ns - begin_ns) / count)).round().astype(np.int64)
+    times[-1] = end_ns
+    times = np.unique(times)
+    gains = gains_at(times)
+    bends = np.ones(len(times) - 1, bool)  # stretches whose middle is still to be looked at
+    while np.any(bends):
+        largest = np.max(np.abs(gains))
+        begin = np.flatnonzero(bends & (np.diff(times) > 1))
+        middle = times[begin] + (times[begin + 1] - times[begin]) // 2
+        if not len(middle):
+            break
+        if len(times) + len(middle) > _MOST_SAMPLES:
+            raise UsageError(f"the function bends in too many places to stay within {error} of it; give its pieces as "
+                             "points, or allow a larger error=")
+        found = gains_at(middle)
+        share = (middle - times[begin]) / (times[begin + 1] - times[begin])
+        chord = gains[begin] + (gains[begin + 1] - gains[begin]) * share
+        is_off = np.abs(found - chord) > _CHORD_SHARE * error * max(largest, np.max(np.abs(found), initial=0))
+        times, gains = np.insert(times, begin + 1, middle), np.insert(gains, begin + 1, found)
+        bends = np.zeros(len(times) - 1, bool)
+        where = begin + np.arange(len(begin))  # of each stretch's first half, now
+        bends[where[is_off]] = bends[where[is_off] + 1] = True
+    largest = np.max(np.abs(gains))
+    if largest == 0:
+        raise UsageError("the function is 0 everywhere; there is nothing to expose")
+    fitted_times, fitted_gains = _nutik.fitted(times, gains, error * largest).points()
+    if fitted_gains[0] != 0:
+        fitted_times, fitted_gains = np.insert(fitted_times, 0, fitted_times[0]), np.insert(fitted_gains, 0, 0.0)
+    if fitted_gains[-1] != 0:
+        fitted_times, fitted_gains = np.append(fitted_times, fitted_times[-1]), np.append(fitted_gains, 0.0)
+    return Function.from_ns(fitted_times, fitted_gains)
+
+
+def parse_functions(text: str, *, name: str = "functions") -> dict[int, Function]:
+    """Functions by mask value, from the text of a function file (docs/functions.md). `name` stands in messages.
+
+    Raises InputError with every mistake of the text, its line and column; what is suspicious is warned of.
+    """
+    functions, told = _nutik.parse_functions(text, name)
+    warn([told] if told else [])
+    return {tag: Function._of(held) for tag, held in functions.items()}
+
+
+def read_functions(path: Union[str, PathLike]) -> dict[int, Function]:
+    """The same of a file."""
+    functions, told = _nutik.read_functions(path_word(path))
+    warn([told] if told else [])
+    return {tag: Function._of(held) for tag, held in functions.items()}
+
+
+def write_functions(path: Union[str, PathLike], functions: Mapping[int, FunctionLike]) -> None:
+    """Writes a function file that the command line reads."""
+    lines = [function_of(function, f"functions[{tag}]").text(tag) for tag, function in sorted(functions.items())]
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("".join(line + "\n" for line in lines))
+
+
+def function_of(given: FunctionLike, what: str, duration: Time = 0) -> Function:
+    """A function of what stands for one: a callable over all of `duration`."""
+    if isinstance(given, Function):
+        return given
+    if callable(given):
+        if duration == 0:
+            raise UsageError(f"{what}: how long is it? nutik.fit(function, start, end) says")
+        return fit(given, 0, duration)
+    try:
+        points = [(time, float(gain)) for time, gain in given]
+    except (TypeError, ValueError):
+        raise UsageError(f"{what} is {given!r}, no function; give a nutik.Function, a list of (time, gain), or a "
+                         "callable") from None
+    return Function([time for time, _ in points], [gain for _, gain in points])

@@ -1,0 +1,110 @@
+"""Masks: which gain function each pixel is exposed with."""
+
+from __future__ import annotations
+
+from os import PathLike
+from typing import Any, Mapping, Optional, Union
+
+import numpy as np
+
+from . import _nutik
+from ._nutik import UsageError
+from ._words import path_word
+
+
+class Mask:
+    """One tag for each pixel, or shares of several. Masks do not change."""
+
+    def __init__(self, tags: Any):
+        """tags: [height, width] whole numbers 0 ... 255; bool is 0 and 1. Raises UsageError where it is none."""
+        tags = np.asarray(tags)
+        if tags.dtype == bool:
+            tags = tags.astype(np.uint8)
+        if tags.dtype != np.uint8:
+            whole = tags.dtype.kind in "iu" and tags.size and tags.min() >= 0 and tags.max() <= 255
+            if not whole:
+                raise UsageError(f"a mask's tags are whole numbers 0 ... 255, and this array has dtype {tags.dtype}"
+                                 f"{'' if not tags.size else f' and values {tags.min()} ... {tags.max()}'}; for "
+                                 "shares of pixels see nutik.Mask.of_layers()")
+            tags = tags.astype(np.uint8)
+        self._held = _nutik.Mask(tags)
+
+    @classmethod
+    def _of(cls, held: _nutik.Mask) -> Mask:
+        mask = cls.__new__(cls)
+        mask._held = held
+        return mask
+
+    @classmethod
+    def of_layers(cls, alphas: Mapping[int, Any], *, rest: int = 0) -> Mask:
+        """A soft mask. alphas: for each tag [height, width], the share of each pixel that it has: float in [0, 1],
+        uint8 of 255, uint16 of 65535, or bool. `rest` is the tag that gets what they leave.
+
+        Shares are kept in 65535ths. Raises InputError where they come to more than all of a pixel.
+        """
+        layers = {int(tag): _shares(alpha, tag) for tag, alpha in alphas.items()}
+        return cls._of(_nutik.Mask.of_layers(layers, rest))
+
+    def feathered(self, feather: Union[str, float]) -> Mask:
+        """A mask of tags, blended along its edges: pixels to either side, 6 or '6px', or '2px,M255=6px' for a tag of
+        its own (docs/masks.md)."""
+        return Mask._of(self._held.feathered(feather if isinstance(feather, str) else f"{feather:g}px"))
+
+    @property
+    def tags(self) -> np.ndarray:
+        """[height, width] uint8, read-only, no copy: of a pixel with several shares the tag with the largest."""
+        return self._held.tags()
+
+    def share(self, tag: int) -> np.ndarray:
+        """[height, width] uint16: how much of each pixel a tag has, in 65535ths."""
+        return self._held.share(tag)
+
+    @property
+    def tags_in_use(self) -> list[int]:
+        """The tags that pixels have or share."""
+        return self._held.tags_in_use()
+
+    @property
+    def is_soft(self) -> bool:
+        """Whether some pixel has shares of several tags."""
+        return self._held.is_soft()
+
+    def __repr__(self) -> str:
+        height, width = self.tags.shape
+        return f"<nutik.Mask {width} x {height}, tags {self.tags_in_use}{', soft' if self.is_soft else ''}>"
+
+
+MaskLike = Union[Mask, np.ndarray, Mapping[int, Any], str, PathLike]
+
+
+def read_mask(path: Union[str, PathLike], *, rest: int = 0) -> Mask:
+    """A mask from a grey picture of 8 bits; or, of a name with a number in it, 'layer-%d.png', from its layers, of which
+    `rest` gets what they leave. Raises InputError where it is none."""
+    return Mask._of(_nutik.Mask.read(path_word(path), rest))
+
+
+def mask_of(given: Optional[MaskLike], rest: int = 0) -> Optional[Mask]:
+    """A mask of what stands for one."""
+    if given is None or isinstance(given, Mask):
+        return given
+    if isinstance(given, (str, PathLike)):
+        return read_mask(given, rest=rest)
+    if isinstance(given, Mapping):
+        return Mask.of_layers(given, rest=rest)
+    return Mask(given)
+
+
+def _shares(alpha: Any, tag: int) -> np.ndarray:
+    alpha = np.asarray(alpha)
+    whole = _nutik.WHOLE_SHARE
+    if alpha.dtype == bool:
+        return alpha * np.uint16(whole)
+    if alpha.dtype == np.uint8:
+        return alpha * np.uint16(whole // 255)
+    if alpha.dtype == np.uint16:
+        return alpha
+    if alpha.dtype.kind == "f":
+        if alpha.size and not (np.min(alpha) >= 0 and np.max(alpha) <= 1):
+            raise UsageError(f"the alpha of tag {tag} lies outside 0 ... 1: {np.min(alpha)} ... {np.max(alpha)}")
+        return np.rint(alpha * whole).astype(np.uint16)
+    raise UsageError(f"the alpha of tag {tag} has dtype {alpha.dtype}; give float in [0, 1], uint8, uint16 or bool")

@@ -1,0 +1,91 @@
+"""Pictures, as NumPy arrays that nobody writes to."""
+
+from __future__ import annotations
+
+from os import PathLike
+from typing import Any, Optional, Union
+
+import numpy as np
+
+from . import _nutik
+from ._words import path_word
+
+
+class Picture:
+    """A picture that was exposed, and what is known of it.
+
+    `array` is the picture itself: numpy.asarray(picture) and matplotlib's imshow(picture) take it without a copy. Light
+    is not clipped: it may be negative, and above 1.
+    """
+
+    def __init__(self, held: _nutik.Picture):
+        self._held = held
+        self._array = held.values()
+
+    @property
+    def array(self) -> np.ndarray:
+        """[height, width] or [height, width, 3]: light (float32, float64) or codes (uint8, uint16). Read-only; it
+        keeps the picture's memory alive by itself."""
+        return self._array
+
+    def __array__(self, dtype: Any = None) -> np.ndarray:
+        return self._array if dtype is None else self._array.astype(dtype, copy=False)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of `array`."""
+        return self._array.shape
+
+    @property
+    def dtype(self) -> np.dtype:
+        """The type of `array`."""
+        return self._array.dtype
+
+    @property
+    def precision(self) -> Optional[str]:
+        """The arithmetic that computed it: 'single', 'compensated', 'double' or 'fixed'; None of a plate."""
+        return self._held.figures.get("precision")
+
+    @property
+    def error_bound(self) -> Optional[float]:
+        """How far the light of any pixel may lie from the exact integral, in light, before it is rounded to a code.
+        Known before anything was computed (docs/accuracy.md). None of a plate, and of the reference."""
+        bound = self._held.figures.get("error_bound")
+        return None if bound is None else bound["light"]
+
+    @property
+    def error_bound_in_codes(self) -> Optional[float]:
+        """The same on the scale of the picture's codes; of light in steps of its floating point."""
+        bound = self._held.figures.get("error_bound")
+        return None if bound is None else bound["steps"]
+
+    @property
+    def saturated(self) -> Optional[tuple[int, int]]:
+        """How many pixels hold light below the first code, and above the last; None where light is kept."""
+        return self._held.figures.get("saturated")
+
+    @property
+    def plan(self) -> dict[str, Any]:
+        """What the exposure touched: samples, live_samples, samples_read (first, one past the last), blocks_read,
+        blocks, table_bytes, map_bytes; and functions, one dict for each that the mask uses: tag, pixels, live_ns,
+        samples, still_gain, support_ns, integral_ns. Empty of a plate."""
+        return self._held.figures.get("plan", {})
+
+    @property
+    def statistics(self) -> dict[str, Any]:
+        """What the rendering took: read_ms, expose_ms, develop_ms (None where the driver does not time kernels),
+        payload_bytes, device_bytes, blocks, launches. Empty of a plate."""
+        return self._held.figures.get("statistics", {})
+
+    def write(self, path: Union[str, PathLike], *, quality: Optional[int] = None) -> None:
+        """Writes a file: .png, .tif, .jpg, .ppm, .pgm of codes, .exr, .tif, .pfm of light. quality: of .jpg, 1 ... 100.
+
+        Raises UsageError where such a file cannot hold the picture, OutputError where it cannot be written.
+        """
+        self._held.write(path_word(path), quality)
+
+    def __repr__(self) -> str:
+        size = " x ".join(str(side) for side in self.shape[1::-1])
+        colour = "colour" if len(self.shape) == 3 else "grey"
+        values = f"light, {self.dtype}" if self.dtype.kind == "f" else f"codes, {self.dtype}"
+        return f"<nutik.Picture {size} {colour}, {values}>"

@@ -1,0 +1,157 @@
+"""Where captures come from: files, clips, arrays, iterables."""
+
+from __future__ import annotations
+
+from itertools import chain
+from os import PathLike
+from typing import Any, Iterable, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _nutik
+from ._captures import Capture
+from ._nutik import InputError, UsageError
+from ._words import Number, Time, half_up, path_word, seconds_of, settings_of, time_ns, times_ns, warn
+
+Path = Union[str, PathLike]
+
+
+def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[Number] = None,
+         transfer: Optional[str] = None, white: Optional[int] = None, primaries: Optional[str] = None,
+         pixel_aspect: Union[str, Number, None] = None, raw: Optional[str] = None, matrix: Optional[str] = None,
+         range: Optional[str] = None, chroma_at: Optional[str] = None, begin: Optional[Time] = None,
+         end: Optional[Time] = None, crop: Union[str, Sequence[int], None] = None, scale: Optional[str] = None,
+         deinterlace: Optional[str] = None, as_far_as_it_goes: bool = False, align: Optional[str] = None,
+         align_to: Optional[Time] = None, unseen: Optional[str] = None, deflicker: bool = False,
+         tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
+         device: Optional[str] = None, memory: Union[int, str, None] = None, renderer: Optional[str] = None) -> Capture:
+    """Opens a capture (.tik), or a clip, which is encoded into a temporary capture first: a video, a folder of stills,
+    'frames/*.png', a table of stills (docs/cli.md).
+
+    Of a clip may be stated what its files do not say or say wrongly: rate in pictures a second ('30000/1001'),
+    shutter_angle in degrees, transfer, white, primaries, pixel_aspect; raw, matrix, range, chroma_at of video. Part of it:
+    begin and end, crop (x, y, width, height) or 'WxH+X+Y', scale '1/2'. align ('translation', 'rigid', 'homography')
+    moves pictures of a camera that moved onto the first one, or that at align_to. Changes are kept beyond `tolerance`
+    codes, or beyond `sigmas` of the camera's noise: 'auto', or a noise file.
+
+    device: an OpenCL device, by number or part of its name; None: NUTIK_DEVICE, else the first. memory: bytes or '2GB';
+    None: half of the machine's. renderer: 'reference' computes without OpenCL, slowly.
+
+    Raises InputError where it cannot be read, UsageError where what is stated does not fit, MemoryTooLittle;
+    KeyboardInterrupt at Ctrl-C.
+    """
+    stated = {name: value for name, value in locals().items() if name not in _COMPUTING and name != "path"}
+    computing = _computing(device, memory, renderer)
+    return _told(_nutik.open(path_word(path), settings_of(stated), computing))
+
+
+def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number] = None,
+           times: Optional[Iterable[Time]] = None, exposures: Union[Time, Iterable[Time], None] = None,
+           shutter_angle: Optional[Number] = None, transfer: Optional[str] = None, white: Optional[int] = None,
+           primaries: Optional[str] = None, pixel_aspect: Union[str, Number, None] = None, deflicker: bool = False,
+           align: Optional[str] = None, align_to: Optional[Time] = None, unseen: Optional[str] = None,
+           tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
+           codec: str = "zstd", tiles: Optional[str] = None, block_samples: Optional[int] = None,
+           device: Optional[str] = None, memory: Union[int, str, None] = None, renderer: Optional[str] = None,
+           name: str = "array") -> Capture:
+    """Makes a capture of pictures, and opens it.
+
+    source: an array [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16,
+        however it is strided; or an iterable of such pictures; or the path of a clip (nutik.open() says more of
+        these). An array is read where it lies.
+    output: a .tik to write; None: a temporary capture, gone when it is closed.
+    rate: pictures a second. Or `times`: when each picture's exposure begins. exposures: how long each was exposed, one
+        time or one for each; with neither that nor shutter_angle, all the time to the next.
+    transfer: what codes stand for, 'srgb', 'bt709', 'linear', 'gamma:G', 'hlg', 'pq'; without it 'srgb' of uint8, 'linear'
+        of uint16. white: the code of white, 255 or 65535 without it; no code may be larger.
+    tolerance, noise, sigmas, align, ...: as of nutik.open(). codec, of an output: 'none', 'lz4', 'zstd', 'zstd:9'.
+
+    Raises UsageError where arguments do not fit, InputError where pictures are unlike or times out of order,
+    OutputError; what an iterable raises; KeyboardInterrupt at Ctrl-C. No file is left behind then.
+    """
+    computing = _computing(device, memory, renderer)
+    path = None if output is None else path_word(output)
+    stated = dict(rate=rate, shutter_angle=shutter_angle, transfer=transfer, white=white, primaries=primaries,
+                  pixel_aspect=pixel_aspect, deflicker=deflicker, align=align, align_to=align_to, unseen=unseen,
+                  tolerance=tolerance, noise=noise, sigmas=sigmas, tiles=tiles, block_samples=block_samples)
+    if isinstance(source, (str, PathLike)):
+        if times is not None or exposures is not None:
+            raise UsageError("times= and exposures= are those of arrays; a table of stills lists those of files")
+        return _told(_nutik.encode_clip(path_word(source), path, codec, settings_of(stated), computing))
+    pictures, first = _pictures_of(source)
+    count = len(pictures) if isinstance(pictures, np.ndarray) else None
+    starts, intervals, exposed = _timing(rate, times, exposures, shutter_angle, count)
+    return _told(_nutik.encode_pictures(pictures, first, name, starts, intervals, exposed, path, codec,
+                                        settings_of(stated), computing))
+
+
+_COMPUTING = ("device", "memory", "renderer")
+
+
+def _computing(device: Optional[str], memory: Union[int, str, None], renderer: Optional[str]) -> dict[str, str]:
+    return settings_of({"device": device, "memory": memory, "renderer": renderer})
+
+
+def _told(opened: tuple[_nutik.Capture, list[str]]) -> Capture:
+    capture, told = opened
+    warn(told)
+    return Capture(capture)
+
+
+def _check_picture(picture: np.ndarray, what: str) -> None:
+    if picture.dtype not in (np.uint8, np.uint16) or not picture.dtype.isnative:
+        way = ("round them: (light * 65535 + 0.5).astype(numpy.uint16), with transfer='linear'"
+               if picture.dtype.kind == "f" else "say which with .astype()")
+        raise UsageError(f"{what} has dtype {picture.dtype}; codes are uint8 or uint16 in the machine's byte order: {way}")
+    if picture.ndim not in (2, 3) or (picture.ndim == 3 and picture.shape[2] not in (1, 3)) or not picture.size:
+        raise UsageError(f"{what} has shape {picture.shape}; pictures are [height, width] or [height, width, 3], not "
+                         "empty")
+
+
+def _pictures_of(source: Any) -> tuple[Any, np.ndarray]:
+    """An array of all, or an iterator; and the first picture."""
+    if isinstance(source, np.ndarray) or hasattr(source, "__array_interface__") or hasattr(source, "__array__"):
+        pictures = np.asarray(source)
+        if pictures.ndim not in (3, 4) or not len(pictures):
+            raise UsageError(f"the array has shape {pictures.shape}; it is [samples, height, width] or [samples, height, "
+                             "width, 3], with one sample at least")
+        _check_picture(pictures[0], "a picture of the array")
+        return pictures, pictures[0]
+    try:
+        iterator = iter(source)
+    except TypeError:
+        raise UsageError(f"{type(source).__name__} holds no pictures: give an array, an iterable of arrays, or a path") \
+            from None
+    try:
+        first = np.asarray(next(iterator))
+    except StopIteration:
+        raise InputError("the iterable holds no picture") from None
+    _check_picture(first, "the first picture")
+    return chain([first], iterator), first
+
+
+def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: Union[Time, Iterable[Time], None],
+            shutter_angle: Optional[Number], count: Optional[int]
+            ) -> tuple[list[int], list[tuple[int, int]], Optional[int]]:
+    """Starts, exposures, and how long all were exposed, as the engine has them."""
+    if (rate is None) == (times is None):
+        raise UsageError("when were the pictures taken? Say rate=, pictures a second, or times=, when each begins; not "
+                         "both")
+    if exposures is not None and shutter_angle is not None:
+        raise UsageError("exposures= and shutter_angle= both say how long pictures were exposed; leave one out")
+    is_list = exposures is not None and not isinstance(exposures, str) and np.ndim(exposures) == 1
+    starts = [] if times is None else times_ns(times, "times").tolist()
+    if times is not None and count is not None and len(starts) != count:
+        raise UsageError(f"there are {len(starts)} times for {count} pictures")
+    if exposures is None:
+        return starts, [], None
+    if not is_list:
+        return starts, [], time_ns(exposures, "exposures")
+    if times is None:
+        raise UsageError("exposures= of each picture need times=, when each begins; with rate= give one for all")
+    begins = [seconds_of(time, "times") for time in times]
+    lengths = [seconds_of(each, f"exposures[{i}]") for i, each in enumerate(exposures)]
+    if len(lengths) != len(begins):
+        raise UsageError(f"there are {len(lengths)} exposures for {len(begins)} times")
+    return [], [(start, half_up((begin + length) * 10 ** 9))
+                for start, begin, length in zip(starts, begins, lengths)], None

@@ -1,0 +1,165 @@
+"""Values as the engine's words: times, sizes, rates; and what it says, as warnings."""
+
+from __future__ import annotations
+
+import datetime
+import sys
+import warnings
+from decimal import Decimal
+from fractions import Fraction
+from os import fspath
+from pathlib import Path
+from typing import Any, Iterable, Union
+
+import numpy as np
+
+from . import _nutik
+from ._nutik import UsageError
+
+Time = Union[str, float, int, Fraction, Decimal, np.timedelta64, datetime.timedelta]
+Number = Union[str, float, int, Fraction, Decimal]
+
+_MOST_DIGITS = 10 ** 15 - 1  # that the engine reads above and below a fraction line
+_SECOND_NS = 10 ** 9
+
+
+class NutikWarning(UserWarning):
+    """What is doubtful about a result, or should be known of it."""
+
+
+def warn(messages: Iterable[str]) -> None:
+    """Warns at the line outside of this package that asked."""
+    folder = str(Path(__file__).parent)
+    level, frame = 1, sys._getframe()
+    while frame is not None and frame.f_code.co_filename.startswith(folder):
+        frame, level = frame.f_back, level + 1
+    for message in messages:
+        warnings.warn(message, NutikWarning, stacklevel=level)
+
+
+def exact(value: Any, what: str) -> Fraction:
+    """A number exactly as it is printed: 0.1 is a tenth."""
+    if isinstance(value, (bool, np.bool_)):
+        raise UsageError(f"{what} {value!r} is no number")
+    try:
+        if isinstance(value, (float, np.floating)):
+            return Fraction(repr(float(value)))
+        if isinstance(value, (int, np.integer)):
+            return Fraction(int(value))
+        if isinstance(value, (str, Fraction, Decimal)):
+            return Fraction(value)
+    except (ValueError, OverflowError, ZeroDivisionError):
+        pass
+    raise UsageError(f"{what} {value!r} is no finite number")
+
+
+def number_word(value: Number, what: str) -> str:
+    """`30000/1001`, `960`."""
+    if isinstance(value, str):
+        return value
+    number = exact(value, what)
+    if max(abs(number.numerator), number.denominator) > _MOST_DIGITS:
+        raise UsageError(f"{what} {value!r} needs more than 15 digits; write it as a fraction, '30000/1001'")
+    return f"{number.numerator}/{number.denominator}"
+
+
+def seconds_of(time: Time, what: str) -> Fraction:
+    """A time in seconds, exactly; of words only those that count no pictures."""
+    if isinstance(time, np.timedelta64):
+        if np.isnat(time):
+            raise UsageError(f"{what} is NaT, which is no time")
+        return Fraction(nanoseconds_of_delta(time, what), _SECOND_NS)
+    if isinstance(time, datetime.timedelta):
+        return Fraction(time // datetime.timedelta(microseconds=1), 10 ** 6)
+    if isinstance(time, str):
+        return Fraction(_nutik.nanoseconds(time, what), _SECOND_NS)
+    return exact(time, what)
+
+
+def nanoseconds_of_delta(time: np.timedelta64, what: str) -> int:
+    unit = np.datetime_data(time.dtype)[0]
+    if unit in ("generic", "Y", "M"):
+        raise UsageError(f"{what} {time!r} has no unit of a fixed length; say numpy.timedelta64(10, 'ms')")
+    finest = {"ps": 10 ** 3, "fs": 10 ** 6, "as": 10 ** 9}
+    if unit in finest:
+        count = int(time.astype(np.int64)) * np.datetime_data(time.dtype)[1]
+        return round(Fraction(count, finest[unit]))
+    return int(time.astype("timedelta64[ns]").astype(np.int64))
+
+
+def time_word(time: Time, what: str) -> str:
+    """A time as the engine reads it, exactly; with more digits than it reads, to the nanosecond."""
+    if isinstance(time, str):
+        return time
+    seconds = seconds_of(time, what)
+    if max(abs(seconds.numerator), seconds.denominator) > _MOST_DIGITS:
+        return f"{half_up(seconds * _SECOND_NS)}ns"
+    return f"{seconds.numerator}/{seconds.denominator}s"
+
+
+def half_up(value: Fraction) -> int:
+    """To the nearest whole number, halves upward, as the engine rounds times."""
+    return (2 * value.numerator + value.denominator) // (2 * value.denominator)
+
+
+def time_ns(time: Time, what: str) -> int:
+    """A time in whole nanoseconds."""
+    return half_up(seconds_of(time, what) * _SECOND_NS)
+
+
+def times_ns(times: Any, what: str) -> np.ndarray:
+    """Times one after another in whole nanoseconds, int64."""
+    if isinstance(times, np.ndarray) and times.dtype.kind == "m":
+        return np.array([time_ns(time, f"{what}[{i}]") for i, time in enumerate(times)], np.int64)
+    values = [time_ns(time, f"{what}[{i}]") for i, time in enumerate(times)]
+    try:
+        return np.array(values, np.int64)
+    except OverflowError:
+        raise UsageError(f"{what}: a time lies further away than 126 years") from None
+
+
+def bytes_word(size: Union[int, str], what: str) -> str:
+    """500000000, '500MB', '2GB', '1GiB' -> the number of bytes."""
+    units = {"KB": 10 ** 3, "MB": 10 ** 6, "GB": 10 ** 9, "TB": 10 ** 12, "KIB": 2 ** 10, "MIB": 2 ** 20,
+             "GIB": 2 ** 30, "TIB": 2 ** 40, "B": 1}
+    number: Any = size
+    factor = 1
+    if isinstance(size, str):
+        for name in sorted(units, key=len, reverse=True):
+            if size.upper().endswith(name):
+                number, factor = size[:-len(name)].strip(), units[name]
+                break
+    count = exact(number, what) * factor
+    if not 1 <= count < 2 ** 63:
+        raise UsageError(f"{what}={size!r} is no size; write 500_000_000, '500MB', '2GB' or '1GiB'")
+    return str(int(count))
+
+
+def path_word(path: Any) -> str:
+    """A path as text."""
+    word = fspath(path)
+    return word.decode() if isinstance(word, bytes) else word
+
+
+def settings_of(stated: dict[str, Any]) -> dict[str, str]:
+    """What is stated, as words: None and False are not."""
+    settings = {}
+    for name, value in stated.items():
+        if value is None or value is False:
+            continue
+        if name in ("rate", "shutter_angle", "pixel_aspect", "sigmas", "gain", "shutter_error") and not isinstance(
+                value, str):
+            settings[name] = number_word(value, name) if name not in ("sigmas", "gain", "shutter_error") else repr(
+                float(value))
+        elif name in ("begin", "end", "align_to", "start", "exposure"):
+            settings[name] = time_word(value, name)
+        elif name == "crop" and not isinstance(value, str):
+            x, y, width, height = (int(each) for each in value)
+            settings[name] = f"{width}x{height}+{x}+{y}"
+        elif name == "memory":
+            settings[name] = bytes_word(value, name)
+        elif name == "noise":
+            settings[name] = path_word(value)
+        else:
+            settings[name] = "1" if value is True else str(value)
+    return settings

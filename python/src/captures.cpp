@@ -1,0 +1,205 @@
+// Captures: opened, encoded from clips and from arrays, and what is known of them.
+#include <pybind11/stl.h>
+
+#include <deque>
+#include <mutex>
+
+#include "array_clip.hpp"
+#include "errors.hpp"
+#include "parts.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/clips/camera_check.hpp"
+#include "session/clips/encoding.hpp"
+#include "session/making/capture_figures.hpp"
+#include "working.hpp"
+
+namespace nutik::python {
+namespace {
+
+// All captures of a process share devices, which start once. They are never ended: an OpenCL driver's threads may
+// outlive the interpreter.
+std::shared_ptr<Devices> devices_for(const ComputingRequest& request) {
+  static std::mutex finding;
+  static auto& known = *new std::deque<std::shared_ptr<Devices>>();
+  const std::lock_guard lock(finding);
+  for (const auto& devices : known) {
+    if (devices->request() == request) return devices;
+  }
+  known.push_back(std::make_shared<Devices>(request));
+  return known.back();
+}
+
+struct Terms {
+  SourceRequest source;
+  std::shared_ptr<Devices> devices;
+  OpenClip open;
+};
+
+std::shared_ptr<OpenCapture> opened(const Terms& terms) {
+  return without_lock([&](const Stopping& stopping) {
+    Session::Terms how;
+    how.progress = stopping.progress();
+    how.stop = stopping.stop;
+    how.open_clip = terms.open;
+    auto session = std::make_unique<Session>(terms.source, terms.devices, how);
+    return std::make_shared<OpenCapture>(OpenCapture{terms.source.path.string(), std::move(session)});
+  });
+}
+
+// To a file, or to a temporary capture.
+std::shared_ptr<OpenCapture> encoded(Terms terms, const std::optional<std::string>& output,
+                                     const std::string& codec, std::vector<std::string>& told) {
+  if (!output) return opened(terms);
+  const EncodeRequest request{*output, tik::Codec::parse(codec)};
+  const EncodedCapture made = without_lock([&](const Stopping& stopping) {
+    const MemoryBudget& memory = terms.devices->request().memory;
+    return terms.open ? encode(terms.source, terms.open, request, memory, stopping.progress(), stopping.stop)
+                      : encode(terms.source, request, memory, stopping.progress(), stopping.stop);
+  });
+  told = made.warnings;
+  Terms of_file;
+  of_file.source.path = *output;
+  of_file.devices = terms.devices;
+  return opened(of_file);
+}
+
+py::tuple with_warnings(std::shared_ptr<OpenCapture> capture, std::vector<std::string> told) {
+  const std::vector<std::string>& own = capture->session->warnings();
+  told.insert(told.end(), own.begin(), own.end());
+  return py::make_tuple(std::move(capture), std::move(told));
+}
+
+py::tuple open(const std::string& path, const Settings& settings, const Settings& computing) {
+  return with_warnings(
+      opened({source_request(path, settings), devices_for(computing_request(computing)), {}}), {});
+}
+
+py::tuple encode_clip(const std::string& path, const std::optional<std::string>& output,
+                      const std::string& codec, const Settings& settings, const Settings& computing) {
+  std::vector<std::string> told;
+  auto capture = encoded({source_request(path, settings), devices_for(computing_request(computing)), {}},
+                         output, codec, told);
+  return with_warnings(std::move(capture), std::move(told));
+}
+
+// `first` is a picture: of an iterator its first one, which it will return again. Times are those of ClipTiming.
+py::tuple encode_pictures(const py::object& pictures, const py::array& first, const std::string& name,
+                          const std::vector<std::int64_t>& starts_ns,
+                          const std::vector<std::pair<std::int64_t, std::int64_t>>& exposures_ns,
+                          std::optional<std::int64_t> exposed_ns, const std::optional<std::string>& output,
+                          const std::string& codec, const Settings& settings, const Settings& computing) {
+  PictureNotes notes;
+  notes.shape = {static_cast<std::uint32_t>(first.shape(1)), static_cast<std::uint32_t>(first.shape(0)),
+                 first.ndim() == 3 ? static_cast<std::uint32_t>(first.shape(2)) : 1U};
+  notes.code_bytes = static_cast<std::uint32_t>(first.itemsize());
+  notes.timing.rate_from = "the caller";
+  notes.timing.starts_ns = starts_ns;
+  for (const auto& [start_ns, end_ns] : exposures_ns) notes.timing.exposures.push_back({start_ns, end_ns});
+  notes.timing.exposed_ns = exposed_ns;
+  Terms terms{source_request(name, settings), devices_for(computing_request(computing)), {}};
+  if (py::isinstance<py::array>(pictures)) {
+    const auto array = pictures.cast<py::array>();
+    notes.sample_count = static_cast<std::uint64_t>(array.shape(0));
+    terms.open = open_array(array, std::move(notes), terms.source.clip, name);
+  } else {
+    notes.sample_count = std::max(starts_ns.size(), exposures_ns.size());
+    terms.open = open_iterator(py::iter(pictures), std::move(notes), terms.source.clip, name);
+  }
+  std::vector<std::string> told;
+  auto capture = encoded(std::move(terms), output, codec, told);
+  return with_warnings(std::move(capture), std::move(told));
+}
+
+py::array times_ns(const OpenCapture& capture) {
+  const Timeline& timeline = capture.session->timeline();
+  const std::uint64_t count = timeline.sample_count();
+  std::vector<std::int64_t> times;
+  times.reserve(2 * count);
+  for (std::uint64_t k = 0; k < count; ++k) {
+    times.push_back(timeline.start_ns(k));
+    times.push_back(timeline.end_ns(k));
+  }
+  return array_of(times, {static_cast<py::ssize_t>(count), 2});
+}
+
+std::vector<std::string> facts(const OpenCapture& capture) {
+  return capture.session->capture().header().facts;
+}
+
+py::dict figures(const OpenCapture& capture) {
+  Session& session = *capture.session;
+  tik::Reader& reader = session.capture();
+  const CaptureFormat& format = session.format();
+  const Timeline& timeline = session.timeline();
+  const CaptureFigures held = without_lock([&](const Stopping&) { return nutik::figures_of(reader); });
+  const auto& [still, rows, dense, records] = held.tiles;
+  py::dict tiles;
+  tiles["still"] = still;
+  tiles["rows"] = rows;
+  tiles["dense"] = dense;
+  tiles["records"] = records;
+  py::dict told;
+  told["samples"] = timeline.sample_count();
+  told["duration_ns"] = timeline.duration_ns();
+  told["rate"] = timeline.rate().text();
+  told["is_constant_rate"] = timeline.is_constant();
+  told["shutter_angle"] = timeline.shutter_angle().text();
+  told["white"] = format.white_code;
+  told["transfer"] = format.transfer.text();
+  told["primaries"] = std::string(to_text(format.primaries));
+  told["pixel_aspect"] = py::make_tuple(format.pixel_aspect.numerator, format.pixel_aspect.denominator);
+  told["tolerance"] = format.noise.tolerance;
+  told["blocks"] = reader.block_count();
+  told["records"] = held.record_count;
+  told["tiles"] = tiles;
+  told["file_bytes"] = reader.file_bytes();
+  told["raw_bytes"] = held.raw_bytes;
+  told["memory_bytes"] = held.payload_bytes;
+  told["codec"] = reader.header().codec;
+  return told;
+}
+
+std::optional<std::string> moved_camera_text(const OpenCapture& capture) {
+  return without_lock([&](const Stopping&) -> std::optional<std::string> {
+    const auto moved = moved_camera(capture.session->capture());
+    return moved ? std::optional(moved->text()) : std::nullopt;
+  });
+}
+
+}  // namespace
+
+void bind_captures(py::module_& module) {
+  py::class_<OpenCapture, std::shared_ptr<OpenCapture>>(module, "Capture")
+      .def_property_readonly("name", [](const OpenCapture& capture) { return capture.name; })
+      .def_property_readonly("shape",
+                             [](const OpenCapture& capture) {
+                               return py::tuple(py::cast(axes_of(capture.session->format().shape)));
+                             })
+      .def_property_readonly("code_bytes",
+                             [](const OpenCapture& capture) { return capture.session->format().code_bytes; })
+      .def_property_readonly(
+          "sample_count",
+          [](const OpenCapture& capture) { return capture.session->timeline().sample_count(); })
+      .def_property_readonly(
+          "duration_ns", [](const OpenCapture& capture) { return capture.session->timeline().duration_ns(); })
+      .def_property_readonly("rate",
+                             [](const OpenCapture& capture) {
+                               const Rational rate = capture.session->timeline().rate();
+                               return py::make_tuple(rate.numerator, rate.denominator);
+                             })
+      .def_property_readonly("facts", &facts)
+      .def_property_readonly("notes",
+                             [](const OpenCapture& capture) { return note_texts(capture.session->notes()); })
+      .def("times_ns", &times_ns)
+      .def("figures", &figures)
+      .def("moved_camera", &moved_camera_text);
+  module.def("open", &open, py::arg("path"), py::arg("settings"), py::arg("computing"));
+  module.def("encode_clip", &encode_clip, py::arg("path"), py::arg("output"), py::arg("codec"),
+             py::arg("settings"), py::arg("computing"));
+  module.def("encode_pictures", &encode_pictures, py::arg("pictures"), py::arg("first"), py::arg("name"),
+             py::arg("starts_ns"), py::arg("exposures_ns"), py::arg("exposed_ns"), py::arg("output"),
+             py::arg("codec"), py::arg("settings"), py::arg("computing"));
+}
+
+}  // namespace nutik::python

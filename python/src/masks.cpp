@@ -1,0 +1,90 @@
+// Masks: tags, and shares of them, as arrays.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+#include "parts.hpp"
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/requests/function_input.hpp"
+#include "working.hpp"
+
+namespace nutik::python {
+namespace {
+
+template <typename Code>
+using Codes = py::array_t<Code, py::array::c_style | py::array::forcecast>;
+
+template <typename Code>
+Picture picture_of(const Codes<Code>& codes, ValueType type, std::uint32_t white) {
+  if (codes.ndim() != 2 || codes.size() == 0)
+    throw UsageError("a mask is an array of two axes, its height and its width, none of them empty");
+  Picture picture({static_cast<std::uint32_t>(codes.shape(1)), static_cast<std::uint32_t>(codes.shape(0)), 1},
+                  type, white);
+  std::copy_n(codes.data(), codes.size(), picture.values<Code>().begin());
+  return picture;
+}
+
+HeldMask of_tags(const Codes<std::uint8_t>& tags) {
+  return {Shared(Mask::from_picture(picture_of(tags, ValueType::code8, 255)))};
+}
+
+HeldMask of_layers(const std::map<std::uint8_t, Codes<std::uint16_t>>& shares, std::uint8_t rest) {
+  if (shares.empty()) throw UsageError("a mask of layers has one at least");
+  std::vector<MaskLayer> layers;
+  for (const auto& [tag, codes] : shares)
+    layers.push_back({tag, format("layer {}", tag), picture_of(codes, ValueType::code16, kWholeShare)});
+  const py::gil_scoped_release released;
+  return {Shared(mask_of_layers(layers, rest))};
+}
+
+HeldMask read(const std::string& path, std::uint8_t rest) {
+  const py::gil_scoped_release released;
+  return {Shared(read_layered_mask_input(path, rest))};
+}
+
+HeldMask feathered_mask(const HeldMask& held, const std::string& feather) {
+  const Feather how = Feather::parse(feather);
+  if (held.mask->is_soft())
+    throw UsageError(
+        "feather= blends a mask of tags along its edges; one of layers says itself how it is blended");
+  const py::gil_scoped_release released;
+  return {Shared(feathered(*held.mask, how))};
+}
+
+std::vector<py::ssize_t> axes(const Mask& mask) {
+  return {static_cast<py::ssize_t>(mask.height), static_cast<py::ssize_t>(mask.width)};
+}
+
+py::array tags(const py::object& self) {
+  const Mask& mask = *self.cast<const HeldMask&>().mask;
+  return view_of(py::dtype::of<std::uint8_t>(), axes(mask), mask.tags.data(), self);
+}
+
+py::array_t<std::uint16_t> share(const HeldMask& held, std::uint8_t tag) {
+  const Picture layer = layer_of(*held.mask, tag);
+  return py::array_t<std::uint16_t>(axes(*held.mask), layer.values<std::uint16_t>().data());
+}
+
+std::vector<std::uint8_t> tags_in_use(const HeldMask& held) {
+  std::vector<std::uint8_t> used;
+  for (const MaskRegion& region : regions_of(*held.mask)) used.push_back(region.tag);
+  return used;
+}
+
+}  // namespace
+
+void bind_masks(py::module_& module) {
+  py::class_<HeldMask>(module, "Mask")
+      .def(py::init(&of_tags), py::arg("tags"))
+      .def_static("of_layers", &of_layers, py::arg("shares"), py::arg("rest"))
+      .def_static("read", &read, py::arg("path"), py::arg("rest"))
+      .def("feathered", &feathered_mask, py::arg("feather"))
+      .def("tags", &tags)
+      .def("share", &share, py::arg("tag"))
+      .def("tags_in_use", &tags_in_use)
+      .def("is_soft", [](const HeldMask& held) { return held.mask->is_soft(); });
+  module.attr("WHOLE_SHARE") = kWholeShare;
+}
+
+}  // namespace nutik::python

@@ -1,0 +1,56 @@
+// Work that takes long, away from Python's lock.
+//
+//   in:      what is to be done, on a thread of its own
+//   out:     what it returns or throws
+//   always:  Python's other threads go on meanwhile. Ctrl-C stops it and becomes KeyboardInterrupt, which only Python's
+//            main thread hears; nothing of a stopped piece of work is left running
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <functional>
+#include <future>
+#include <optional>
+#include <stop_token>
+#include <utility>
+
+#include "session/reported_progress.hpp"
+
+namespace nutik::python {
+
+namespace py = pybind11;
+
+// What a piece of work looks at to end early.
+struct Stopping {
+  std::stop_token stop;
+  // Throws Cancelled where it is told of progress after Ctrl-C.
+  [[nodiscard]] ReportedProgress progress() const;
+};
+
+// Waits without Python's lock until is_done(), asked every 50 ms with how long it may wait; asks for a stop at Ctrl-C.
+// Returns what a signal's handler raised.
+[[nodiscard]] std::optional<py::error_already_set> wait_for(const std::function<bool()>& is_done,
+                                                            std::stop_source& stopping);
+// Throws InputError where a mapped file was lost meanwhile.
+void check_files();
+
+// Calls work(Stopping) and returns what that does.
+template <typename Work>
+auto without_lock(Work work) {
+  std::stop_source source;
+  const Stopping stopping{source.get_token()};
+  auto future = std::async(std::launch::async, [&] { return work(stopping); });
+  const auto raised = wait_for(
+      [&] { return future.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready; }, source);
+  if (raised) throw *raised;
+  if constexpr (std::is_void_v<decltype(future.get())>) {
+    future.get();
+    check_files();
+  } else {
+    auto result = future.get();
+    check_files();
+    return result;
+  }
+}
+
+}  // namespace nutik::python

@@ -1,0 +1,65 @@
+"""Builds the Python package with CMake, in build-python/, and packs it into a wheel:
+
+    pip wheel . --no-build-isolation --no-deps
+
+NUTIK_BUILD_DIR=build takes a build folder that is there already, as it is configured, and compiles only what is missing.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+ROOT = Path(__file__).resolve().parent
+OWN_FOLDER = ROOT / "build-python"
+OWN_FOLDER.mkdir(exist_ok=True)
+
+
+def version():
+    return re.search(r"^project\(nutik VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE).group(1)
+
+
+class BuildWithCMake(build_ext):
+    """The package as CMake makes it: the module, what decodes clips, and the Python files."""
+
+    def run(self):
+        stated = os.environ.get("NUTIK_BUILD_DIR")
+        folder = Path(stated).resolve() if stated else OWN_FOLDER / "cmake"
+        if not (folder / "CMakeCache.txt").exists():
+            subprocess.run(["cmake", "--preset", "release", "-S", ROOT, "-B", folder, "-DNUTIK_BUILD_TESTS=OFF",
+                            "-DNUTIK_BUILD_BENCHMARKS=OFF", "-DNUTIK_BUILD_PYTHON=ON",
+                            f"-DPython_EXECUTABLE={sys.executable}"], check=True, cwd=ROOT)
+        subprocess.run(["cmake", "--build", folder, "--target", "nutik_python_package"], check=True)
+        made, target = folder / "python" / "nutik", Path(self.build_lib) / "nutik"
+        module = Path(self.get_ext_filename("_nutik")).name
+        if not (made / module).exists():
+            raise SystemExit(f"{folder} is configured for another Python: {made / module} is missing")
+        target.mkdir(parents=True, exist_ok=True)
+        for file in sorted(made.iterdir()):
+            if file.name == module or file.name.startswith("nutik-") or file.suffix in (".py", ".pyi", ".typed"):
+                shutil.copy2(file, target)
+
+    def get_outputs(self):
+        return [str(file) for file in (Path(self.build_lib) / "nutik").iterdir()]
+
+
+setup(
+    name="nutik",
+    version=version(),
+    description="Exposes pictures after the scene was filmed",
+    long_description=(ROOT / "README.md").read_text(encoding="utf-8"),
+    long_description_content_type="text/markdown",
+    license_files=["LICENSE"],
+    python_requires=">=3.9",
+    install_requires=["numpy>=1.20"],
+    packages=[],
+    ext_modules=[Extension("nutik._nutik", sources=[])],
+    cmdclass={"build_ext": BuildWithCMake},
+    options={"build": {"build_base": str(OWN_FOLDER)}, "egg_info": {"egg_base": str(OWN_FOLDER)}},
+    zip_safe=False,
+)
