@@ -49,7 +49,7 @@ class Capture:
     Any number of threads may ask it. It is closed when nothing refers to it any more, or by `with`; pictures of it stay.
     """
 
-    def __init__(self, held: _nutik.Capture):
+    def __init__(self, held: _nutik.Capture) -> None:
         self._open_capture: Optional[_nutik.Capture] = held
 
     @property

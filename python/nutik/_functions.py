@@ -23,7 +23,7 @@ class Function:
     gains: [points], any finite numbers, negative ones too. Functions do not change, and are equal where all points are.
     """
 
-    def __init__(self, times: Iterable[Time], gains: Iterable[float]):
+    def __init__(self, times: Iterable[Time], gains: Iterable[float]) -> None:
         """Raises UsageError where times are out of order or a gain is not finite."""
         at = times_ns(times, "times")
         self._held = _nutik.Function(at, np.asarray(list(gains), np.float64))

@@ -15,7 +15,7 @@ from ._words import path_word
 class Mask:
     """One tag for each pixel, or shares of several. Masks do not change."""
 
-    def __init__(self, tags: Any):
+    def __init__(self, tags: Any) -> None:
         """tags: [height, width] whole numbers 0 ... 255; bool is 0 and 1. Raises UsageError where it is none."""
         tags = np.asarray(tags)
         if tags.dtype == bool:

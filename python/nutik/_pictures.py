@@ -18,7 +18,7 @@ class Picture:
     is not clipped: it may be negative, and above 1.
     """
 
-    def __init__(self, held: _nutik.Picture):
+    def __init__(self, held: _nutik.Picture) -> None:
         self._held = held
         self._array = held.values()
 

@@ -129,10 +129,13 @@ def bytes_word(size: Union[int, str], what: str) -> str:
             if size.upper().endswith(name):
                 number, factor = size[:-len(name)].strip(), units[name]
                 break
-    count = exact(number, what) * factor
+    try:
+        count = int(exact(number, what) * factor)
+    except UsageError:
+        count = 0
     if not 1 <= count < 2 ** 63:
         raise UsageError(f"{what}={size!r} is no size; write 500_000_000, '500MB', '2GB' or '1GiB'")
-    return str(int(count))
+    return str(count)
 
 
 def path_word(path: Any) -> str:

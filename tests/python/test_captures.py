@@ -1,0 +1,178 @@
+"""Captures of arrays and iterables: values, times, what is refused."""
+
+import datetime
+import itertools
+import unittest
+from decimal import Decimal
+from fractions import Fraction
+
+import nutik
+import numpy as np
+
+import support
+
+
+def sample(capture, k):
+    return capture.render(start=f"{k}f", exposure="1f", codes=True, transfer="source").array
+
+
+class Arrays(support.TestCase):
+    def test_however_they_lie(self):
+        base = support.moving_box(12, 33, 50)
+        deep = support.moving_box(12, 33, 50, dtype=np.uint16)
+        grey = support.moving_box(12, 33, 50, channels=1)
+        for name, array in {
+            "backwards in time": base[::-1], "mirrored": base[:, :, ::-1], "BGR": base[..., ::-1],
+            "every second": base[::2, ::2, ::2], "upside down": base[:, ::-1], "deep and mirrored": deep[:, ::-1, ::-1],
+            "one channel": grey[..., None], "a channel of colour": base[..., 1], "columns first": grey.transpose(0, 2, 1),
+            "Fortran's order": np.asfortranarray(deep), "one picture": base[:1],
+        }.items():
+            with self.subTest(name):
+                capture = nutik.encode(array, rate=100)
+                wanted = array[..., 0] if array.shape[-1] == 1 else array
+                self.assertEqual(capture.shape, wanted.shape)
+                self.assertEqual(capture.dtype, array.dtype)
+                for k in {0, len(array) // 2, len(array) - 1}:
+                    self.assert_same(sample(capture, k), wanted[k])
+
+    def test_iterables(self):
+        pictures = support.moving_box(9, 20, 30)
+        for source in (list(pictures), (each for each in pictures), iter(pictures)):
+            capture = nutik.encode(source, rate=100)
+            self.assertEqual(capture.shape, pictures.shape)
+            for k in (0, 8):
+                self.assert_same(sample(capture, k), pictures[k])
+
+    def test_an_iterable_that_fails(self):
+        def broken():
+            yield np.zeros((8, 8), np.uint8)
+            raise OSError("the camera is gone")
+
+        with self.assertRaisesRegex(OSError, "^the camera is gone$"):
+            nutik.encode(broken(), self.path("broken.tik"), rate=10)
+        unlike = [np.zeros((8, 8), np.uint8), np.zeros((8, 9), np.uint8)]
+        self.assert_raises(nutik.InputError, ["picture 1", "(8, 9)"], nutik.encode, unlike, self.path("u.tik"), rate=10)
+        unlike[1] = np.zeros((8, 8), np.uint16)
+        self.assert_raises(nutik.InputError, ["picture 1", "uint16"], nutik.encode, unlike, self.path("u.tik"), rate=10)
+        self.assertEqual(list(self.folder.iterdir()), [], "it left a file behind")
+
+    def test_what_codes_stand_for(self):
+        codes = np.arange(0, 250, 10, dtype=np.uint8).reshape(1, 5, 5)
+        fractions = codes[0] / 250
+        wanted = {"linear": fractions, "gamma:2": fractions ** 2,
+                  "srgb": np.where(fractions <= 0.04045, fractions / 12.92, ((fractions + 0.055) / 1.055) ** 2.4)}
+        for transfer, light in wanted.items():
+            capture = nutik.encode(codes, rate=1, transfer=transfer, white=250)
+            exposed = capture.render(start=0, exposure=1, dtype=np.float64).array
+            np.testing.assert_allclose(exposed, light, atol=1e-12)
+        self.assert_raises(nutik.InputError, ["picture 0", "240", "100", "white="], nutik.encode, codes, rate=1, white=100)
+
+    def test_noise_is_left_out(self):
+        pictures = np.full((40, 32, 32), 100, np.uint8)
+        pictures += np.random.default_rng(1).integers(0, 3, pictures.shape, np.uint8)
+        lossless, held = (nutik.encode(pictures, rate=1, tolerance=each).figures() for each in (0, 2))
+        self.assertEqual(held["tolerance"], 2)
+        self.assertLess(held["records"], lossless["records"] / 10)
+
+    def test_refused(self):
+        pictures = np.zeros((4, 8, 8), np.uint8)
+        encode, usage = nutik.encode, nutik.UsageError
+        self.assert_raises(usage, ["float64", "uint16"], encode, pictures.astype(float), rate=1)
+        self.assert_raises(usage, "byte order", encode, pictures.astype(">u2"), rate=1)
+        self.assert_raises(usage, "int64", encode, pictures.astype(int), rate=1)
+        self.assert_raises(usage, "(8, 8)", encode, pictures[0], rate=1)
+        self.assert_raises(usage, "(8, 8, 4)", encode, np.zeros((4, 8, 8, 4), np.uint8), rate=1)
+        self.assert_raises(usage, "(0, 8, 8)", encode, pictures[:0], rate=1)
+        self.assert_raises(nutik.InputError, "no picture", encode, [], rate=1)
+        self.assert_raises(usage, "int holds no pictures", encode, 3, rate=1)
+        self.assert_raises(usage, ["rate=", "times="], encode, pictures)
+        self.assert_raises(usage, "not both", encode, pictures, rate=1, times=range(4))
+        self.assert_raises(usage, "3 times for 4", encode, pictures, times=range(3))
+        self.assert_raises(usage, "give one for all", encode, pictures, rate=1, exposures=[1, 1, 1, 1])
+        self.assert_raises(usage, "leave one out", encode, pictures, rate=1, exposures=1, shutter_angle=180)
+        self.assert_raises(usage, "x.png", encode, pictures, self.path("x.png"), rate=1)
+        self.assert_raises(usage, "rate", encode, pictures, rate=float("nan"))
+        self.assert_raises(usage, "rate", encode, pictures, rate=-1)
+        self.assert_raises(usage, "zstd:19", encode, pictures, self.path("x.tik"), rate=1, codec="zip")
+        self.assert_raises(usage, "noise='auto'", encode, pictures, rate=1, sigmas=3)
+        self.assert_raises(usage, "read once", encode, (each for each in pictures), rate=1, noise="auto")
+        self.assert_raises(usage, "align='rigid'", encode, pictures, rate=1, align_to="1f")
+        self.assert_raises(nutik.InputError, "sample 2", encode, pictures, times=[0, 2, 1, 3])
+        self.assert_raises(nutik.MemoryTooLittle, "memory='", encode, pictures, rate=1, memory="1kB")
+        self.assert_raises(usage, "'2GB'", encode, pictures, rate=1, memory="much")
+        self.assert_raises(usage, "'opencl' or 'reference'", encode, pictures, rate=1, renderer="gpu")
+        self.assert_raises(nutik.DeviceError, "no such device",
+                           lambda: encode(pictures, rate=1, device="no such device").render(exposure="1f"))
+
+    def test_files_that_are_none(self):
+        (self.folder / "text.tik").write_text("nothing")
+        self.assert_raises(nutik.InputError, "text.tik", nutik.open, self.path("text.tik"))
+        self.assert_raises(nutik.InputError, "no such file", nutik.open, self.path("absent.mp4"))
+        nutik.encode(np.zeros((4, 8, 8), np.uint8), self.path("clip.tik"), rate=1)
+        self.assert_raises(nutik.UsageError, "encoded already", nutik.open, self.path("clip.tik"), rate=2)
+
+    def test_closed(self):
+        with nutik.encode(np.zeros((4, 8, 8), np.uint8), rate=1) as capture:
+            picture = capture.render(exposure=1)
+        self.assertEqual(picture.array.sum(), 0)
+        self.assert_raises(nutik.UsageError, "closed", capture.render, exposure=1)
+
+
+class Times(support.TestCase):
+    pictures = np.zeros((4, 8, 8), np.uint8)
+
+    def check(self, wanted, **stated):
+        self.assertEqual(nutik.encode(self.pictures, **stated).times_ns.tolist(), wanted)
+
+    def test_rates(self):
+        thirds = [[0, 333333333], [333333333, 666666667], [666666667, 10 ** 9], [10 ** 9, 1333333333]]
+        for rate in (3, "3", Fraction(3), Decimal(3), 3.0, np.int32(3)):
+            self.check(thirds, rate=rate)
+        self.check([[0, 5], [10, 15], [20, 25], [30, 35]], rate=1e8, shutter_angle=180)
+        self.check([[0, 4], [10, 14], [20, 24], [30, 34]], rate=1e8, exposures="4ns")
+        ntsc = nutik.encode(self.pictures, rate="30000/1001")
+        self.assertEqual(ntsc.rate, Fraction(30000, 1001))
+        self.assertEqual(ntsc.duration_ns, round(Fraction(4 * 1001 * 10 ** 9, 30000)))
+
+    def test_starts(self):
+        wanted = [[0, 100], [100, 300], [300, 700], [700, 1100]]
+        nanoseconds = [5, 105, 305, 705]
+        for times in (np.array(nanoseconds, "timedelta64[ns]"), [f"{each}ns" for each in nanoseconds],
+                      [Fraction(each, 10 ** 9) for each in nanoseconds], np.array(nanoseconds) * 1e-9):
+            self.check(wanted, times=times)
+        self.check([[0, 50], [100, 200], [300, 500], [700, 900]], times=np.array(nanoseconds) / 1e9, shutter_angle=180)
+        self.check([[0, 10 ** 6], [10 ** 6, 3 * 10 ** 6], [3 * 10 ** 6, 4 * 10 ** 6], [4 * 10 ** 6, 5 * 10 ** 6]],
+                   times=[datetime.timedelta(milliseconds=each) for each in (0, 1, 3, 4)])
+
+    def test_exposures(self):
+        self.check([[0, 10], [100, 120], [300, 330], [700, 740]], times=[f"{each}ns" for each in (0, 100, 300, 700)],
+                   exposures=np.array([10, 20, 30, 40], "timedelta64[ns]"))
+        self.check([[0, 60], [100, 160], [300, 360], [700, 760]], times=[f"{each}ns" for each in (0, 100, 300, 700)],
+                   exposures="60ns")
+        self.assert_raises(nutik.InputError, "sample 0", nutik.encode, self.pictures, times=[0, 1, 2, 3],
+                           exposures=[1.5, 0.5, 0.5, 0.5])
+        self.assert_raises(nutik.UsageError, "3 exposures for 4", nutik.encode, self.pictures, times=range(4),
+                           exposures=[1, 1, 1])
+
+    def test_an_endless_iterable_ends_with_its_times(self):
+        with self.assertWarnsRegex(nutik.NutikWarning, "announces 6 pictures and 4"):
+            capture = nutik.encode(iter(self.pictures), times=range(6))
+        self.assertEqual(len(capture), 4)
+        self.assert_raises(nutik.InputError, "only 6 times", nutik.encode,
+                           itertools.repeat(self.pictures[0], 9), times=range(6))
+
+    def test_floats_are_what_they_show(self):
+        """0.1 is a tenth, and 0.1 + 0.2, which shows more digits than a time has, the nanosecond next to it."""
+        capture = nutik.encode(self.pictures, rate=2)
+        for start, wanted in ((0.1, 100_000_000), (0.1 + 0.2, 300_000_000), (1e-9, 1), (Fraction(1, 3), 333_333_333),
+                              (np.float64(0.25), 250_000_000), (np.timedelta64(2, "ms"), 2_000_000),
+                              (datetime.timedelta(microseconds=7), 7000), ("1/300s", 3_333_333), (Decimal("0.07"), 70_000_000)):
+            plan = capture.render(start=start, exposure="100ms").plan
+            self.assertEqual(plan["functions"][0]["live_ns"][0], wanted, start)
+        for wrong in (float("nan"), None, True, np.timedelta64("NaT"), np.timedelta64(1, "Y"), "soon", [1]):
+            with self.assertRaises(nutik.UsageError, msg=repr(wrong)):
+                capture.render(start=0, exposure=wrong)
+
+
+if __name__ == "__main__":
+    unittest.main()

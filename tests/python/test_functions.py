@@ -1,0 +1,94 @@
+"""Gain functions: points, jumps, shutters, fits."""
+
+import math
+import unittest
+
+import nutik
+import numpy as np
+
+import support
+
+
+class Functions(support.TestCase):
+    def test_points(self):
+        function = nutik.Function([0, "10ms", 0.01, 0.5], [0, 1, -2.5, 0])
+        self.assertEqual(function.times_ns.tolist(), [0, 10_000_000, 10_000_000, 500_000_000])
+        self.assertEqual(function.gains.tolist(), [0, 1, -2.5, 0])
+        np.testing.assert_allclose(function([-1, 0.005, 0.0099999, 0.01, 0.255, 0.5, 9]),
+                                   [0, 0.5, 0.99999, -2.5, -1.25, 0, 0], atol=1e-12)
+        self.assertEqual(function(0.01), -2.5)
+        self.assertEqual(function.scaled(2).gains.tolist(), [0, 2, -5, 0])
+        self.assertEqual(function.shifted("1ms").times_ns.tolist(), [1_000_000, 11_000_000, 11_000_000, 501_000_000])
+        self.assertEqual(function, nutik.Function.from_ns(function.times_ns, function.gains))
+        self.assertNotEqual(function, function.scaled(2))
+        self.assertEqual(hash(function), hash(nutik.Function.from_ns(function.times_ns, function.gains)))
+        self.assertEqual(nutik.boxcar("1/3s", "1/3s").times_ns.tolist(), [333333333, 333333333, 666666667, 666666667])
+
+    def test_points_that_are_none(self):
+        make, usage = nutik.Function, nutik.UsageError
+        self.assert_raises(usage, ["control point 1", "not after"], make, [1, 0], [0, 0])
+        self.assert_raises(usage, "a jump has two", make, [1, 1, 1], [0, 1, 2])
+        self.assert_raises(usage, "control point 1: gain", make, [0, 1], [0, math.inf])
+        self.assert_raises(usage, "126 years", make, [0, 5e9], [0, 1])
+        self.assert_raises(usage, "one control point", make, [], [])
+        self.assert_raises(usage, "as many times as gains", make, [0, 1], [0])
+        self.assert_raises(usage, "int64", nutik.Function.from_ns, [0.5], [1])
+        self.assert_raises(usage, "functions is 7, no function", nutik.encode(np.zeros((2, 8, 8), np.uint8), rate=1).render, 7)
+
+    def test_files(self):
+        functions = nutik.parse_functions(support.FUNCTIONS)
+        nutik.write_functions(self.path("gains.fn"), functions)
+        self.assertEqual(nutik.read_functions(self.path("gains.fn")), functions)
+        self.run_program("check", "-k", "gains.fn")
+        self.assert_raises(nutik.InputError, "mine:1:18: time 1000000 is not after 2000000", nutik.parse_functions,
+                           "M0 [2000000:1], [1000000:1]", name="mine")
+        with self.assertWarnsRegex(nutik.NutikWarning, "functions:1:1: .*capital M"):
+            nutik.parse_functions("m0 [0:1]\nM1 [0:1]")
+
+    def test_shutters_are_the_command_lines(self):
+        for shape in ("box", "trapezoid:0.25", "triangle", "gaussian", "hann", "strobe:5,0.1", "spline:0=0,0.3=1,1=0"):
+            text = self.run_program("shutter", shape, "--start", "0.4s", "--exposure", "10ms", "--shutter-error", "1e-4")
+            ours = nutik.shutter(shape, 0.4, "10ms", error=1e-4)
+            self.assertEqual(ours.text(), text.splitlines()[1])
+        self.assert_raises(nutik.UsageError, "box, trapezoid:R", nutik.shutter, "round", 0, 1)
+        self.assert_raises(nutik.UsageError, "error=", nutik.shutter, "hann", 0, 1, error=0)
+
+    def test_fits_stay_within_their_error(self):
+        bumps = {"sine": lambda t: np.sin(9 * t), "sharp": lambda t: np.exp(-((t - 0.31) / 1e-4) ** 2) + 0.01,
+                 "jumps": lambda t: np.where(t < 0.7, 1.0, -3.0), "flat": lambda t: 2.0,
+                 "of numbers": lambda t: math.exp(-t) if t < 0.7 else 0.25, "steep": lambda t: np.sqrt(t)}
+        for name, gain in bumps.items():
+            for error in (1e-2, 1e-4):
+                with self.subTest(name, error=error):
+                    fitted = nutik.fit(gain, 0, 1, error=error)
+                    times = np.unique(np.concatenate([np.linspace(0, 1, 54321)[:-1], 0.7 + np.array([-2e-9, 2e-9]),
+                                                      0.31 + np.linspace(-1e-3, 1e-3, 999)]))
+                    wanted = np.array([float(gain(float(t))) for t in times])
+                    off = np.max(np.abs(fitted(times) - wanted)) / np.max(np.abs(wanted))
+                    # The fit may use all of the error at what it looked at; between these, a tenth of it is added.
+                    self.assertLessEqual(off, 1.1 * error)
+                    self.assertEqual(fitted(-1e-9), 0)
+                    self.assertEqual(fitted(1.5), 0)
+        self.assertLess(len(nutik.fit(bumps["sine"], 0, 1).gains), 60)
+        self.assertLess(len(nutik.fit(bumps["jumps"], 0, 1).gains), 8)
+
+    def test_fits_that_cannot_be(self):
+        fit, usage = nutik.fit, nutik.UsageError
+        self.assert_raises(usage, "not finite at 0.0 s", fit, lambda t: 1 / t if np.all(t) else np.nan * t, 0, 1)
+        self.assert_raises(usage, "0 everywhere", fit, lambda t: 0 * t, 0, 1)
+        self.assert_raises(usage, "not after its start", fit, lambda t: t, 1, 1)
+        self.assert_raises(usage, "bends in too many places", fit, lambda t: np.sin(1e9 * t), 0, 1)
+        self.assert_raises(usage, "one gain for each time", fit, lambda t: np.ones(3), 0, 1)
+        self.assert_raises(usage, "error=2", fit, lambda t: t, 0, 1, error=2)
+        self.assertRaisesRegex(KeyError, "mine", fit, lambda t: {}["mine"], 0, 1)
+
+    def test_a_callable_is_exposed_over_all_of_the_capture(self):
+        capture = nutik.encode(support.moving_box(20), rate=100)
+        ours = capture.render(lambda t: 1 + t, dtype=np.float64, precision="double")
+        wanted = capture.render(nutik.fit(lambda t: 1 + t, 0, "200ms"), dtype=np.float64, precision="double")
+        self.assert_same(ours.array, wanted.array)
+        self.assertEqual(ours.plan["functions"][0]["live_ns"], (0, capture.duration_ns))
+
+
+if __name__ == "__main__":
+    unittest.main()

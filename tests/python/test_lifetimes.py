@@ -1,0 +1,187 @@
+"""What lives how long: views of pictures, arrays that are read, work that Ctrl-C ends, Python's lock, memory."""
+
+import gc
+import itertools
+import os
+import signal
+import subprocess
+import sys
+import threading
+import unittest
+import weakref
+
+import nutik
+import numpy as np
+
+import support
+
+
+class Views(support.TestCase):
+    def test_they_keep_their_picture(self):
+        pictures = support.moving_box()
+        capture = nutik.encode(pictures, rate=960)
+        picture = capture.render(start=0, exposure="10ms")
+        values = picture.array.copy()
+        views = [picture.array, np.asarray(picture), picture.array[3:9, ::2], np.asarray(memoryview(picture._held))]
+        wanted = [values, values, values[3:9, ::2], values]
+        self.assertTrue(all(np.shares_memory(each, views[0]) for each in views), "it was copied")
+        tags = nutik.Mask(support.tags()).tags
+        del picture, capture
+        gc.collect()
+        churn = [np.full(values.shape, 7, values.dtype) for _ in range(50)]  # takes memory that was given back
+        for view, value in zip(views, wanted):
+            self.assert_same(np.ascontiguousarray(view), value)
+        self.assert_same(tags, support.tags())
+        del churn
+
+    def test_nobody_writes_to_them(self):
+        capture = nutik.encode(support.moving_box(), rate=960)
+        picture = capture.render(start=0, exposure="10ms")
+        for view in (picture.array, np.asarray(picture), np.asarray(memoryview(picture._held)),
+                     nutik.Mask(support.tags()).tags, capture.plate().uncertain, capture.activity().changes,
+                     capture.trace(1, 2, exposure="10ms")[0].light):
+            with self.assertRaises(ValueError):
+                view[...] = 0
+        with self.assertRaises(ValueError):
+            picture.array.flags.writeable = True
+
+    def test_an_array_is_let_go_once_it_is_read(self):
+        class Pictures(np.ndarray):  # which can be referred to weakly
+            pass
+
+        array = support.moving_box().view(Pictures)
+        alive = weakref.ref(array)
+        capture = nutik.encode(array, rate=960)
+        del array
+        gc.collect()
+        self.assertIsNone(alive())
+        self.assertEqual(capture.render(exposure="1f").shape, (45, 80, 3))
+
+
+class Interruptions(support.TestCase):
+    """Ctrl-C is a signal to this process; the work itself sends it, so that it surely has begun."""
+
+    def test_encoding_ends(self):
+        def endless():
+            for k in itertools.count():
+                if k == 200:
+                    os.kill(os.getpid(), signal.SIGINT)
+                yield np.full((32, 32), k % 251, np.uint8)
+
+        for output in (None, self.path("clip.tik")):
+            with self.assertRaises(KeyboardInterrupt):
+                nutik.encode(endless(), output, rate=1e5)
+        self.assertEqual(list(self.folder.iterdir()), [], "it left a file behind")
+        nutik.encode(support.moving_box(), rate=1).render(exposure="1f")  # and all works on
+
+    def test_a_rendering_ends_while_other_threads_go_on(self):
+        """The scalar reference would take minutes for this. Another thread ends it, which waits for Python's lock; nobody
+        is made to give that up for 1000 s, so that it runs only where the work gives it up by itself."""
+        pictures = np.random.default_rng(1).integers(0, 256, (128, 384, 512, 3), np.uint8)
+        capture = nutik.encode(pictures, rate=960, renderer="reference")
+        tags = np.arange(384 * 512).reshape(384, 512) % 256
+        times = np.arange(0, capture.duration_ns, 2000)
+        zigzag = nutik.Function.from_ns(times, np.arange(len(times)) % 2)
+        go = threading.Event()
+
+        def interrupt():
+            go.wait()
+            os.kill(os.getpid(), signal.SIGINT)
+
+        thread = threading.Thread(target=interrupt)
+        thread.start()
+        self.addCleanup(sys.setswitchinterval, sys.getswitchinterval())
+        sys.setswitchinterval(1000)
+        go.set()
+        with self.assertRaises(KeyboardInterrupt):
+            capture.render({tag: zigzag for tag in range(256)}, tags)
+        thread.join()
+        small = capture.render(start=0, exposure="1f", region=(0, 0, 8, 8))
+        self.assertEqual(small.shape, (8, 8, 3))
+
+    def test_a_handlers_own_exception_comes_through(self):
+        class Enough(Exception):
+            pass
+
+        def raise_enough(*_):
+            raise Enough
+
+        def endless():
+            for k in itertools.count():
+                if k == 100:
+                    os.kill(os.getpid(), signal.SIGUSR1)
+                yield np.zeros((8, 8), np.uint8)
+
+        before = signal.signal(signal.SIGUSR1, raise_enough)
+        self.addCleanup(signal.signal, signal.SIGUSR1, before)
+        with self.assertRaises(Enough):
+            nutik.encode(endless(), rate=1e5)
+
+
+class Threads(support.TestCase):
+    def test_an_iterable_may_wait_for_another_thread(self):
+        first, second = threading.Event(), threading.Event()
+
+        def answer():
+            first.wait()
+            second.set()
+
+        def pictures():
+            first.set()
+            second.wait()
+            yield np.zeros((8, 8), np.uint8)
+
+        thread = threading.Thread(target=answer)
+        thread.start()
+        self.assertEqual(len(nutik.encode(itertools.chain([np.ones((8, 8), np.uint8)], pictures()), rate=1)), 2)
+        thread.join()
+
+    def test_many_may_ask(self):
+        capture = nutik.encode(support.moving_box(), rate=960)
+        wanted = [capture.render(start=f"{k}f", exposure="3f").array.tobytes() for k in range(8)]
+        found = [None] * 8
+
+        def ask(k):
+            found[k] = capture.render(start=f"{k}f", exposure="3f").array.tobytes()
+
+        threads = [threading.Thread(target=ask, args=(k,)) for k in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(found, wanted)
+
+
+# Prints what encoding and exposing took beside the array, as a share of it.
+MEASURED = """
+import numpy as np, nutik, sys
+
+def memory(line):
+    with open("/proc/self/status") as status:
+        return next(int(each.split()[1]) * 1024 for each in status if each.startswith(line))
+
+random = np.random.default_rng(1)
+pictures = np.empty((360, 480, 640, 3), np.uint8)
+for picture in pictures:
+    picture[...] = np.frombuffer(random.bytes(picture.nbytes), np.uint8).reshape(picture.shape)
+nutik.encode(pictures[:2], rate=1).render(exposure="1f")  # starts the device
+with open("/proc/self/clear_refs", "w") as peak:
+    peak.write("5")  # the peak is what is there now
+before = memory("VmRSS")
+capture = nutik.encode(pictures, rate=960)
+capture.render(exposure="360f")
+print((memory("VmHWM") - before) / pictures.nbytes)
+"""
+
+
+class Memory(support.TestCase):
+    def test_a_large_array(self):
+        """332 MB of noise, of which nothing can be left out. The temporary capture's pages count, too, which the system
+        can take back at any time."""
+        done = subprocess.run([sys.executable, "-c", MEASURED], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLessEqual(float(done.stdout), 1.2)
+
+
+if __name__ == "__main__":
+    unittest.main()

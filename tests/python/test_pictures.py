@@ -1,0 +1,150 @@
+"""A picture from Python is the command line's, bit for bit: codes and light, in every arithmetic, through every mask."""
+
+import unittest
+
+import nutik
+import numpy as np
+
+import support
+
+
+class Pictures(support.TestCase):
+    def setUp(self):
+        super().setUp()
+        self.pictures = support.moving_box()
+        self.capture = nutik.encode(self.pictures, self.path("clip.tik"), rate=support.RATE)
+        self.tags = support.tags()
+        support.write_pgm(self.path("mask.pgm"), self.tags)
+        (self.folder / "gains.fn").write_text(support.FUNCTIONS)
+        self.functions = nutik.parse_functions(support.FUNCTIONS)
+
+    def check(self, words, name="picture.ppm", **asked):
+        """Both of the same exposure. Returns ours."""
+        self.run_program("-q", *words, "clip.tik", name)
+        theirs = (support.read_pfm if name.endswith(".pfm") else support.read_netpbm)(self.path(name))
+        picture = self.capture.render(**asked)
+        self.assert_same(picture.array, theirs)
+        return picture
+
+    def test_an_interval(self):
+        self.check(["--start", "0.02s", "--exposure", "12ms"], start=0.02, exposure="12ms", codes=True)
+        self.check(["--start", "0.02s", "--exposure", "12ms"], "light.pfm", start="20ms", exposure=0.012)
+        self.check(["--start", "7f", "--exposure", "9f", "--shutter", "hann", "--shutter-error", "1e-4"], start="7f",
+                   exposure="9f", shutter="hann", shutter_error=1e-4, codes=True)
+
+    def test_every_arithmetic(self):
+        for precision in ("single", "compensated", "double", "fixed"):
+            for name, codes in (("picture.ppm", True), ("light.pfm", False)):
+                with self.subTest(precision=precision, codes=codes):
+                    picture = self.check(["-m", "mask.pgm", "-k", "gains.fn", "--precision", precision], name,
+                                         functions=self.functions, mask=self.tags, precision=precision, codes=codes)
+                    self.assertEqual(picture.precision, precision)
+
+    def test_feathers_and_what_codes_say(self):
+        self.check(["-m", "mask.pgm", "-k", "gains.fn", "--feather", "3px", "--normalize", "integral"],
+                   functions=self.functions, mask=self.tags, feather=3, normalize="integral", codes=True)
+        self.check(["-m", "mask.pgm", "-k", "gains.fn", "--negative", "offset", "--out-transfer", "linear", "--depth",
+                    "16", "--gain", "0.5"], functions=self.path("gains.fn"), mask=self.path("mask.pgm"),
+                   negative="offset", transfer="linear", dtype=np.uint16, gain=0.5, codes=True)
+
+    def test_soft_masks_from_alphas(self):
+        height, width = self.tags.shape
+        ramp = np.linspace(0, 1, width, dtype=np.float64)[None].repeat(height, 0)
+        shares = {128: np.rint(ramp * 65535).astype(np.uint16), 255: np.rint((1 - ramp) * 40000).astype(np.uint16)}
+        for tag, share in shares.items():
+            support.write_pgm(self.path(f"layer-{tag}.pgm"), share)
+        for precision in ("single", "fixed"):
+            self.check(["-m", "layer-%d.pgm", "-k", "gains.fn", "--precision", precision], functions=self.functions,
+                       mask=shares, precision=precision, codes=True)
+        self.check(["-m", "layer-%d.pgm", "-k", "gains.fn"], "light.pfm", functions=self.functions, mask=shares)
+        mask = nutik.Mask.of_layers({128: ramp, 255: shares[255]})
+        self.assertTrue(mask.is_soft)
+        self.assertEqual(mask.tags_in_use, [0, 128, 255])
+        self.assert_same(mask.share(128), shares[128])
+        self.assert_same(nutik.read_mask(self.path("layer-%d.pgm")).share(255), shares[255])
+
+    def test_deep_grey(self):
+        pictures = support.moving_box(channels=1, dtype=np.uint16)
+        self.capture = nutik.encode(pictures, self.path("clip.tik"), rate="30000/1001")
+        self.assertEqual(self.capture.facts[2], "transfer linear, assumed")
+        picture = self.check(["--start", "3f", "--exposure", "8f"], "picture.pgm", start="3f", exposure="8f", codes=True)
+        self.assertEqual(picture.dtype, np.uint16)
+        self.check(["--start", "3f", "--exposure", "8f"], "light.pfm", start="3f", exposure="8f")
+
+    def test_one_sample_comes_back(self):
+        for k in (0, 63, 64, 69):
+            picture = self.capture.render(start=f"{k}f", exposure="1f", codes=True, transfer="source")
+            self.assert_same(picture.array, self.pictures[k])
+        part = self.capture.render(start="5f", exposure="1f", codes=True, transfer="source", region=(20, 10, 30, 8))
+        self.assert_same(part.array, self.pictures[5, 10:18, 20:50])
+
+    def test_a_capture_of_an_array_is_that_of_its_file(self):
+        """Stills of the same codes, encoded by the command line."""
+        for k, picture in enumerate(self.pictures[:6]):
+            (self.folder / f"{k}.ppm").write_bytes(b"P6\n80 45\n255\n" + picture.tobytes())
+        self.run_program("-q", "-f", str(support.RATE), self.path("%d.ppm"), "stills.tik")
+        stills = nutik.open(self.path("stills.tik"))
+        array = nutik.encode(self.pictures[:6], rate=support.RATE)
+        self.assert_same(array.times_ns, stills.times_ns)
+        for k in range(6):
+            ours, theirs = (each.render(start=f"{k}f", exposure="1f", dtype=np.float64) for each in (array, stills))
+            self.assert_same(ours.array, theirs.array)
+
+    def test_what_is_told_of_a_picture(self):
+        picture = self.capture.render(self.functions, self.tags)
+        self.assertEqual([each["tag"] for each in picture.plan["functions"]], [0, 128, 255])
+        self.assertEqual([each["pixels"] for each in picture.plan["functions"]],
+                         [int(np.sum(self.tags == tag)) for tag in (0, 128, 255)])
+        self.assertEqual(picture.plan["functions"][0]["support_ns"], 72_000_000 + 1)
+        self.assertEqual(picture.plan["samples"], 70)
+        self.assertIsNone(picture.saturated)
+        reference = nutik.open(self.path("clip.tik"), renderer="reference").render(self.functions, self.tags,
+                                                                                  dtype=np.float64)
+        self.assertIsNone(reference.error_bound)
+        for precision in ("single", "double", "fixed"):
+            ours = self.capture.render(self.functions, self.tags, dtype=np.float64, precision=precision)
+            worst = np.max(np.abs(ours.array - reference.array))
+            self.assertGreater(ours.error_bound, 0)
+            self.assertLessEqual(worst, ours.error_bound, precision)
+        codes = self.capture.render({0: [(0, 3.0), (0.06, 3.0), (0.06, 0)]}, codes=True)
+        light = self.capture.render({0: [(0, 3.0), (0.06, 3.0), (0.06, 0)]})
+        self.assertEqual(codes.saturated[0], 0)
+        self.assertGreater(codes.saturated[1], 0)
+        self.assertLessEqual(codes.saturated[1], np.sum(np.any(light.array > 0.99, axis=2)))
+
+    def test_files(self):
+        picture = self.capture.render(start=0, exposure="10ms", codes=True)
+        picture.write(self.path("ours.ppm"))
+        self.assert_same(support.read_netpbm(self.path("ours.ppm")), picture.array)
+        self.assert_raises(nutik.UsageError, ".pfm", picture.write, self.path("codes.pfm"))
+        self.assert_raises(nutik.OutputError, "absent", picture.write, self.path("absent/ours.ppm"))
+
+    def test_what_makes_no_sense(self):
+        render, usage = self.capture.render, nutik.UsageError
+        self.assert_raises(usage, "functions=", render)
+        self.assert_raises(usage, "functions=", render, mask=self.tags, exposure=1)
+        self.assert_raises(usage, ["exposure=", "functions="], render, [(0, 1)], exposure=1)
+        self.assert_raises(usage, "3 functions; mask=", render, self.functions)
+        self.assert_raises(usage, "float32 or float64", render, exposure="1ms", dtype=np.uint8)
+        self.assert_raises(usage, "codes are uint8", render, exposure="1ms", codes=True, dtype=np.float32)
+        self.assert_raises(usage, "negative=", render, exposure="1ms", negative="offset")
+        self.assert_raises(usage, "transfer=", render, exposure="1ms", transfer="srgb")
+        self.assert_raises(usage, "single, compensated", render, exposure="1ms", precision="halves")
+        self.assert_raises(usage, "0.4s, 10ms", render, exposure="10 parsecs")
+        self.assert_raises(usage, "rectangle", render, exposure="1ms", region=(70, 0, 20, 20))
+        self.assert_raises(usage, "0 ... 255", render, {300: [(0, 1)]}, self.tags)
+        self.assert_raises(nutik.InputError, ["80 x 45", "4 x 3"], render, {0: [(0, 1)]}, np.zeros((3, 4), np.uint8))
+        found = self.assert_raises(nutik.InputError, "unmapped='zero'", render, {0: [(0, 1)]}, self.tags)
+        self.assertEqual(found.settings, ("unmapped='zero'",))
+        self.assert_raises(nutik.InputError, "more than all", nutik.Mask.of_layers, {1: np.ones((2, 2)), 2: np.ones((2, 2))})
+        self.assert_raises(usage, "0 ... 255", nutik.Mask, np.full((2, 2), 256))
+        self.assert_raises(usage, "outside 0 ... 1", nutik.Mask.of_layers, {1: np.full((2, 2), 1.5)})
+
+    def test_black_is_warned_of(self):
+        with self.assertWarnsRegex(nutik.NutikWarning, "still gain is -1: .* negative='offset'") as warned:
+            self.capture.render([(0, -1), (0.05, -1), (0.05, 0)], codes=True)
+        self.assertEqual(warned.filename, __file__)
+
+
+if __name__ == "__main__":
+    unittest.main()

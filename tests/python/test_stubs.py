@@ -1,0 +1,103 @@
+"""The stubs of the module say what is there, names and arguments; the package is annotated and says what it takes."""
+
+import ast
+import inspect
+import re
+import typing
+import unittest
+from pathlib import Path
+
+import nutik
+from nutik import _nutik
+
+STUBS = ast.parse(Path(nutik.__file__).with_name("_nutik.pyi").read_text(encoding="utf-8"))
+OURS = {"__init__", "__version__"}
+
+
+def arguments_told(function):
+    """`open(path: str, settings: ...) -> ...` at the head of the docstring: pybind11 writes it from the code."""
+    head = function.__doc__.splitlines()[0]
+    inside, depth, names = head[head.index("(") + 1:], 0, [""]
+    for character in inside:
+        depth += {"[": 1, "(": 1, "]": -1, ")": -1}.get(character, 0)
+        if depth < 0:
+            break
+        if character == "," and depth == 0:
+            names.append("")
+        else:
+            names[-1] += character
+    return [name.split(":")[0].strip() for name in names if name.strip()]
+
+
+def stubs_of(body):
+    return {each.name if not isinstance(each, ast.AnnAssign) else each.target.id: each for each in body
+            if isinstance(each, (ast.FunctionDef, ast.ClassDef, ast.AnnAssign))}
+
+
+class Stubs(unittest.TestCase):
+    def check_arguments(self, stub, function, name):
+        stated = [each.arg for each in stub.args.args]
+        self.assertEqual(stated, arguments_told(function), name)
+        for each in stub.args.args:
+            self.assertTrue(each.annotation or each.arg == "self", f"{name}: {each.arg} has no type")
+        self.assertIsNotNone(stub.returns, name)
+
+    def test_the_module(self):
+        stubs = stubs_of(STUBS.body)
+        there = {name for name in dir(_nutik) if not name.startswith("_") or name in OURS}
+        self.assertEqual(set(stubs), there - {"__init__"})
+        for name, stub in stubs.items():
+            real = getattr(_nutik, name)
+            if isinstance(stub, ast.FunctionDef):
+                self.check_arguments(stub, real, name)
+            elif isinstance(stub, ast.ClassDef):
+                self.check_class(stub, real, name)
+
+    def check_class(self, stub, real, name):
+        if issubclass(real, Exception):
+            self.assertEqual([ast.unparse(base) for base in stub.bases], [base.__name__ for base in real.__bases__], name)
+            return
+        members = stubs_of(stub.body)
+        there = {each for each in vars(real) if not each.startswith("_") or each == "__init__"}
+        if real.__init__ is object.__init__ or "__init__" not in members:
+            there.discard("__init__")
+        self.assertEqual(set(members), there, name)
+        for member, each in members.items():
+            if isinstance(inspect.getattr_static(real, member), property):
+                self.assertEqual([ast.unparse(one) for one in each.decorator_list], ["property"], f"{name}.{member}")
+            else:
+                self.check_arguments(each, getattr(real, member), f"{name}.{member}")
+
+    def test_what_the_package_offers(self):
+        for name in nutik.__all__:
+            offered = getattr(nutik, name)
+            if name == "__version__":
+                self.assertRegex(offered, r"^\d+\.\d+\.\d+$")
+                continue
+            self.assertTrue(offered.__doc__, f"{name} has no docstring")
+            self.assertNotRegex(offered.__doc__, "--[a-z]", name)
+            for part, function in [(name, offered)] if inspect.isfunction(offered) else inspect.getmembers(
+                    offered, inspect.isfunction):
+                if part.startswith("_") and part != "__init__":
+                    continue
+                hints = typing.get_type_hints(function)
+                for argument in inspect.signature(function).parameters:
+                    self.assertTrue(argument in hints or argument == "self", f"{name}.{part}: {argument} has no type")
+                self.assertIn("return", hints, f"{name}.{part}")
+        public = {each for each in vars(nutik) if not each.startswith("_") and not inspect.ismodule(getattr(nutik, each))}
+        self.assertEqual(public, set(nutik.__all__) - {"__version__"})
+        self.assertTrue(Path(nutik.__file__).with_name("py.typed").exists())
+
+    def test_every_argument_of_open_and_encode_reaches_the_engine(self):
+        """Each is known by name in settings.cpp; a misspelt one would be passed over there."""
+        source = Path(__file__).parents[2] / "python/src"
+        known = set(re.findall(r'\{"(\w+)",', (source / "settings.cpp").read_text()))
+        stated = set()
+        for function in (nutik.open, nutik.encode):
+            stated |= set(inspect.signature(function).parameters)
+        besides = {"path", "source", "output", "times", "exposures", "codec", "name", "device", "memory", "renderer"}
+        self.assertEqual(stated - besides, known)
+
+
+if __name__ == "__main__":
+    unittest.main()
