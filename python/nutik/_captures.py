@@ -14,9 +14,9 @@ from ._functions import Function, FunctionLike, function_of, read_functions
 from ._masks import Mask, MaskLike, mask_of
 from ._nutik import UsageError
 from ._pictures import Picture
-from ._words import Time, settings_of, time_word, warn
+from ._words import Array, Path, Time, settings_of, time_word, warn
 
-Functions = Union[FunctionLike, Mapping[int, FunctionLike], str, PathLike]
+Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
 
 
 @dataclass(frozen=True)
@@ -27,12 +27,12 @@ class Trace:
     tag: int                 # whose function it is
     share: float             # of the pixel's light that this function has
     pixels: int              # whose mean it is
-    times_ns: np.ndarray     # [N, 2] int64: where each step begins and ends
-    gain: np.ndarray         # [N, 2] at both
-    light: np.ndarray        # [N, 2, C] at both
-    integral_ns: np.ndarray  # [N, C] of light times gain over the step
-    sum_ns: np.ndarray       # [N, C] of all integrals up to the step's end
-    exposed: np.ndarray      # [C] the exposure's light
+    times_ns: Array     # [N, 2] int64: where each step begins and ends
+    gain: Array         # [N, 2] at both
+    light: Array        # [N, 2, C] at both
+    integral_ns: Array  # [N, C] of light times gain over the step
+    sum_ns: Array       # [N, C] of all integrals up to the step's end
+    exposed: Array      # [C] the exposure's light
     support_ns: int          # D, by which the sum is divided
 
     @classmethod
@@ -79,7 +79,7 @@ class Capture:
         return (len(self), *self._held.shape)
 
     @property
-    def dtype(self) -> np.dtype:
+    def dtype(self) -> np.dtype[Any]:
         """Of its codes: uint8 or uint16."""
         return np.dtype(np.uint8 if self._held.code_bytes == 1 else np.uint16)
 
@@ -97,7 +97,7 @@ class Capture:
         return self._held.duration_ns
 
     @property
-    def times_ns(self) -> np.ndarray:
+    def times_ns(self) -> Array:
         """[samples, 2] int64: when each sample's exposure begins and ends."""
         return self._held.times_ns()
 
@@ -203,8 +203,11 @@ class Capture:
         """
         if moments is None:
             moments = {"slit": 256, "rear-curtain": 1, "frozen": 1}.get(style, 5)
-        asked = _count(moments, "moments") if isinstance(moments, (int, np.integer)) else [
-            time_word(time, "moments") for time in moments]
+        asked: Union[int, list[str]]
+        if isinstance(moments, (int, np.integer)):
+            asked = _count(moments, "moments")
+        else:
+            asked = [time_word(time, "moments") for time in moments]
         moved = self._held.moved_camera()
         if moved:
             warn([f"{moved}; align='rigid' moves the clip's pictures back when it is encoded"])

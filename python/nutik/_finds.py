@@ -13,7 +13,7 @@ from ._functions import Function, parse_functions
 from ._masks import Mask
 from ._nutik import UsageError
 from ._pictures import Picture
-from ._words import time_word, warn
+from ._words import Array, time_word, warn
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Plate:
     """The scene without what moves in it."""
 
     picture: Picture
-    uncertain: np.ndarray  # [height, width] bool: pixels whose light is a guess
+    uncertain: Array  # [height, width] bool: pixels whose light is a guess
 
 
 @dataclass(frozen=True)
@@ -36,10 +36,10 @@ class Stretch:
 class Activity:
     """When a capture changes, and where."""
 
-    changed_pixels: np.ndarray  # [samples] uint64: how many of the counted pixels changed at each sample
-    changes: np.ndarray         # [height, width] uint64: at how many samples each pixel changed
+    changed_pixels: Array  # [samples] uint64: how many of the counted pixels changed at each sample
+    changes: Array         # [height, width] uint64: at how many samples each pixel changed
     counted_pixels: int
-    redrawn: np.ndarray         # samples that count as those beside them
+    redrawn: Array         # samples that count as those beside them
     busiest: Optional[Stretch]  # a twentieth of the capture; None where nothing changes
     quietest: Optional[Stretch]
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from os import PathLike
 from typing import Any, Callable, Iterable, Mapping, Sequence, Union
 
 import numpy as np
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Time, path_word, time_ns, time_word, times_ns, warn
+from ._words import Array, Path, Time, path_word, time_ns, time_word, times_ns, warn
 
 _LEAST_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
 _MOST_SAMPLES = 1 << 20
@@ -43,12 +42,12 @@ class Function:
         return cls._of(_nutik.Function(at.astype(np.int64), np.asarray(gains, np.float64)))
 
     @property
-    def times_ns(self) -> np.ndarray:
+    def times_ns(self) -> Array:
         """[points] int64: when the control points are, in nanoseconds."""
         return self._held.points()[0]
 
     @property
-    def gains(self) -> np.ndarray:
+    def gains(self) -> Array:
         """[points] float64."""
         return self._held.points()[1]
 
@@ -77,7 +76,7 @@ class Function:
         return self._held.text(tag)
 
     def __eq__(self, other: object) -> bool:
-        return self._held == other._held if isinstance(other, Function) else NotImplemented
+        return isinstance(other, Function) and bool(self._held == other._held)
 
     def __hash__(self) -> int:
         return hash((self.times_ns.tobytes(), self.gains.tobytes()))
@@ -127,7 +126,7 @@ def fit(gain: Callable[[Any], Any], start: Time, end: Time, *, error: float = 1e
     if not 0 < error < 1:
         raise UsageError(f"error={error} is no share between 0 and 1")
 
-    def gains_at(times: np.ndarray) -> np.ndarray:
+    def gains_at(times: Array) -> Array:
         seconds = times / 1e9
         try:
             values = np.asarray(gain(seconds), np.float64)
@@ -184,14 +183,14 @@ def parse_functions(text: str, *, name: str = "functions") -> dict[int, Function
     return {tag: Function._of(held) for tag, held in functions.items()}
 
 
-def read_functions(path: Union[str, PathLike]) -> dict[int, Function]:
+def read_functions(path: Path) -> dict[int, Function]:
     """The same of a file."""
     functions, told = _nutik.read_functions(path_word(path))
     warn([told] if told else [])
     return {tag: Function._of(held) for tag, held in functions.items()}
 
 
-def write_functions(path: Union[str, PathLike], functions: Mapping[int, FunctionLike]) -> None:
+def write_functions(path: Path, functions: Mapping[int, FunctionLike]) -> None:
     """Writes a function file that the command line reads."""
     lines = [function_of(function, f"functions[{tag}]").text(tag) for tag, function in sorted(functions.items())]
     with open(path, "w", encoding="utf-8") as file:

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import path_word
+from ._words import Array, Path, path_word
 
 
 class Mask:
@@ -51,11 +51,11 @@ class Mask:
         return Mask._of(self._held.feathered(feather if isinstance(feather, str) else f"{feather:g}px"))
 
     @property
-    def tags(self) -> np.ndarray:
+    def tags(self) -> Array:
         """[height, width] uint8, read-only, no copy: of a pixel with several shares the tag with the largest."""
         return self._held.tags()
 
-    def share(self, tag: int) -> np.ndarray:
+    def share(self, tag: int) -> Array:
         """[height, width] uint16: how much of each pixel a tag has, in 65535ths."""
         return self._held.share(tag)
 
@@ -74,10 +74,10 @@ class Mask:
         return f"<nutik.Mask {width} x {height}, tags {self.tags_in_use}{', soft' if self.is_soft else ''}>"
 
 
-MaskLike = Union[Mask, np.ndarray, Mapping[int, Any], str, PathLike]
+MaskLike = Union[Mask, Array, Mapping[int, Any], Path]
 
 
-def read_mask(path: Union[str, PathLike], *, rest: int = 0) -> Mask:
+def read_mask(path: Path, *, rest: int = 0) -> Mask:
     """A mask from a grey picture of 8 bits; or, of a name with a number in it, 'layer-%d.png', from its layers, of which
     `rest` gets what they leave. Raises InputError where it is none."""
     return Mask._of(_nutik.Mask.read(path_word(path), rest))
@@ -94,17 +94,17 @@ def mask_of(given: Optional[MaskLike], rest: int = 0) -> Optional[Mask]:
     return Mask(given)
 
 
-def _shares(alpha: Any, tag: int) -> np.ndarray:
+def _shares(alpha: Any, tag: int) -> Array:
     alpha = np.asarray(alpha)
     whole = _nutik.WHOLE_SHARE
     if alpha.dtype == bool:
-        return alpha * np.uint16(whole)
+        return np.asarray(alpha * np.uint16(whole))
     if alpha.dtype == np.uint8:
-        return alpha * np.uint16(whole // 255)
+        return np.asarray(alpha * np.uint16(whole // 255))
     if alpha.dtype == np.uint16:
-        return alpha
+        return np.asarray(alpha)
     if alpha.dtype.kind == "f":
         if alpha.size and not (np.min(alpha) >= 0 and np.max(alpha) <= 1):
             raise UsageError(f"the alpha of tag {tag} lies outside 0 ... 1: {np.min(alpha)} ... {np.max(alpha)}")
-        return np.rint(alpha * whole).astype(np.uint16)
+        return np.asarray(np.rint(alpha * whole), np.uint16)
     raise UsageError(f"the alpha of tag {tag} has dtype {alpha.dtype}; give float in [0, 1], uint8, uint16 or bool")

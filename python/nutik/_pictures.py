@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from os import PathLike
 from typing import Any, Optional, Union
 
 import numpy as np
 
 from . import _nutik
-from ._words import path_word
+from ._nutik import UsageError
+from ._words import Array, Path, path_word
 
 
 class Picture:
@@ -23,12 +23,12 @@ class Picture:
         self._array = held.values()
 
     @property
-    def array(self) -> np.ndarray:
+    def array(self) -> Array:
         """[height, width] or [height, width, 3]: light (float32, float64) or codes (uint8, uint16). Read-only; it
         keeps the picture's memory alive by itself."""
         return self._array
 
-    def __array__(self, dtype: Any = None) -> np.ndarray:
+    def __array__(self, dtype: Any = None) -> Array:
         return self._array if dtype is None else self._array.astype(dtype, copy=False)
 
     @property
@@ -37,7 +37,7 @@ class Picture:
         return self._array.shape
 
     @property
-    def dtype(self) -> np.dtype:
+    def dtype(self) -> np.dtype[Any]:
         """The type of `array`."""
         return self._array.dtype
 
@@ -77,11 +77,14 @@ class Picture:
         payload_bytes, device_bytes, blocks, launches. Empty of a plate."""
         return self._held.figures.get("statistics", {})
 
-    def write(self, path: Union[str, PathLike], *, quality: Optional[int] = None) -> None:
+    def write(self, path: Path, *, quality: Optional[int] = None) -> None:
         """Writes a file: .png, .tif, .jpg, .ppm, .pgm of codes, .exr, .tif, .pfm of light. quality: of .jpg, 1 ... 100.
 
         Raises UsageError where such a file cannot hold the picture, OutputError where it cannot be written.
         """
+        if self.dtype == np.float64:
+            raise UsageError(f"{path_word(path)}: files of light hold float32; expose the picture with that dtype, or save "
+                             "the array with numpy.save()")
         self._held.write(path_word(path), quality)
 
     def __repr__(self) -> str:

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from itertools import chain
 from os import PathLike
-from typing import Any, Iterable, Optional, Sequence, Union
+from typing import Any, Iterable, Optional, Sequence, Union, cast
 
 import numpy as np
 
 from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
-from ._words import Number, Time, half_up, path_word, seconds_of, settings_of, time_ns, times_ns, warn
+from ._words import Array, Number, Path, Time, half_up, path_word, seconds_of, settings_of, time_ns, times_ns, warn
 
-Path = Union[str, PathLike]
 
 
 def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[Number] = None,
@@ -98,7 +97,7 @@ def _told(opened: tuple[_nutik.Capture, list[str]]) -> Capture:
     return Capture(capture)
 
 
-def _check_picture(picture: np.ndarray, what: str) -> None:
+def _check_picture(picture: Array, what: str) -> None:
     if picture.dtype not in (np.uint8, np.uint16) or not picture.dtype.isnative:
         way = ("round them: (light * 65535 + 0.5).astype(numpy.uint16), with transfer='linear'"
                if picture.dtype.kind == "f" else "say which with .astype()")
@@ -108,7 +107,7 @@ def _check_picture(picture: np.ndarray, what: str) -> None:
                          "empty")
 
 
-def _pictures_of(source: Any) -> tuple[Any, np.ndarray]:
+def _pictures_of(source: Any) -> tuple[Any, Array]:
     """An array of all, or an iterator; and the first picture."""
     if isinstance(source, np.ndarray) or hasattr(source, "__array_interface__") or hasattr(source, "__array__"):
         pictures = np.asarray(source)
@@ -139,18 +138,18 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
                          "both")
     if exposures is not None and shutter_angle is not None:
         raise UsageError("exposures= and shutter_angle= both say how long pictures were exposed; leave one out")
-    is_list = exposures is not None and not isinstance(exposures, str) and np.ndim(exposures) == 1
+    is_list = not isinstance(exposures, str) and hasattr(exposures, "__iter__")
     starts = [] if times is None else times_ns(times, "times").tolist()
     if times is not None and count is not None and len(starts) != count:
         raise UsageError(f"there are {len(starts)} times for {count} pictures")
     if exposures is None:
         return starts, [], None
     if not is_list:
-        return starts, [], time_ns(exposures, "exposures")
+        return starts, [], time_ns(cast(Time, exposures), "exposures")
     if times is None:
         raise UsageError("exposures= of each picture need times=, when each begins; with rate= give one for all")
     begins = [seconds_of(time, "times") for time in times]
-    lengths = [seconds_of(each, f"exposures[{i}]") for i, each in enumerate(exposures)]
+    lengths = [seconds_of(each, f"exposures[{i}]") for i, each in enumerate(cast(Iterable[Time], exposures))]
     if len(lengths) != len(begins):
         raise UsageError(f"there are {len(lengths)} exposures for {len(begins)} times")
     return [], [(start, half_up((begin + length) * 10 ** 9))

@@ -7,17 +7,20 @@ import sys
 import warnings
 from decimal import Decimal
 from fractions import Fraction
-from os import fspath
-from pathlib import Path
+from os import PathLike, fsdecode
+from os.path import dirname
 from typing import Any, Iterable, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _nutik
 from ._nutik import UsageError
 
 Time = Union[str, float, int, Fraction, Decimal, np.timedelta64, datetime.timedelta]
 Number = Union[str, float, int, Fraction, Decimal]
+Path = Union[str, "PathLike[str]"]
+Array = NDArray[Any]
 
 _MOST_DIGITS = 10 ** 15 - 1  # that the engine reads above and below a fraction line
 _SECOND_NS = 10 ** 9
@@ -29,8 +32,8 @@ class NutikWarning(UserWarning):
 
 def warn(messages: Iterable[str]) -> None:
     """Warns at the line outside of this package that asked."""
-    folder = str(Path(__file__).parent)
-    level, frame = 1, sys._getframe()
+    folder = dirname(__file__)
+    level, frame = 2, sys._getframe().f_back
     while frame is not None and frame.f_code.co_filename.startswith(folder):
         frame, level = frame.f_back, level + 1
     for message in messages:
@@ -107,7 +110,7 @@ def time_ns(time: Time, what: str) -> int:
     return half_up(seconds_of(time, what) * _SECOND_NS)
 
 
-def times_ns(times: Any, what: str) -> np.ndarray:
+def times_ns(times: Any, what: str) -> Array:
     """Times one after another in whole nanoseconds, int64."""
     if isinstance(times, np.ndarray) and times.dtype.kind == "m":
         return np.array([time_ns(time, f"{what}[{i}]") for i, time in enumerate(times)], np.int64)
@@ -140,8 +143,7 @@ def bytes_word(size: Union[int, str], what: str) -> str:
 
 def path_word(path: Any) -> str:
     """A path as text."""
-    word = fspath(path)
-    return word.decode() if isinstance(word, bytes) else word
+    return fsdecode(path)
 
 
 def settings_of(stated: dict[str, Any]) -> dict[str, str]:

@@ -117,6 +117,8 @@ class Pictures(support.TestCase):
         picture.write(self.path("ours.ppm"))
         self.assert_same(support.read_netpbm(self.path("ours.ppm")), picture.array)
         self.assert_raises(nutik.UsageError, ".pfm", picture.write, self.path("codes.pfm"))
+        deep = self.capture.render(start=0, exposure="10ms", dtype=np.float64)
+        self.assert_raises(nutik.UsageError, "float32", deep.write, self.path("light.exr"))
         self.assert_raises(nutik.OutputError, "absent", picture.write, self.path("absent/ours.ppm"))
 
     def test_what_makes_no_sense(self):

@@ -62,6 +62,30 @@ TEST_F(SessionOfClip, AnswersTheSameReadForwardAndWhole) {
   EXPECT_FALSE(streamed.figures.block_count.has_value());
 }
 
+TEST_F(SessionOfClip, ReadsAClipThatItsOwnerMakes) {
+  int opened = 0;
+  Session::Terms terms;
+  terms.open_clip = [&] {
+    ++opened;
+    return open_clip(scratch_ / "frames", source_.clip);
+  };
+  SourceRequest source = source_;
+  source.path = "pictures";  // its name alone: no such file is there
+  const auto devices = std::make_shared<Devices>(reference());
+  Session session(source, devices, terms);
+  EXPECT_EQ(opened, 1);
+  EXPECT_TRUE(session.is_clip());
+  EXPECT_EQ(session.render(request_, kFloats).picture,
+            Session(source_, devices).render(request_, kFloats).picture);
+
+  terms.reading = Reading::forward;
+  EXPECT_EQ(test::message<UsageError>([&] { Session(source, devices, terms); }),
+            "a clip that its owner makes is read whole");
+  source.path.clear();
+  terms.reading = Reading::whole;
+  EXPECT_EQ(test::message<UsageError>([&] { Session(source, devices, terms); }), "no clip is named");
+}
+
 TEST_F(SessionOfClip, ReadForwardIsSpentAfterOnePicture) {
   Session once = forward();
   EXPECT_THROW(static_cast<void>(once.capture()), SessionIsSpent);
