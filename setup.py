@@ -56,7 +56,7 @@ setup(
     long_description_content_type="text/markdown",
     license_files=["LICENSE"],
     python_requires=">=3.9",
-    install_requires=["numpy>=1.20"],
+    install_requires=["numpy>=1.21"],
     packages=[],
     ext_modules=[Extension("nutik._nutik", sources=[])],
     cmdclass={"build_ext": BuildWithCMake},

@@ -13,8 +13,9 @@ for picture 37; or Fraction, Decimal, numpy.timedelta64, datetime.timedelta. Wha
 nanoseconds, int64. Light of white is 1. Pictures are [height, width] or [height, width, 3] (red, green, blue).
 
 Everything raises nutik.Error: UsageError, InputError, DeviceError, OutputError, MemoryTooLittle. Ctrl-C ends what
-takes long and raises KeyboardInterrupt. What is doubtful about a result comes as a warning of class NutikWarning. Work
-runs without Python's lock; any number of threads may use one capture.
+takes long and raises KeyboardInterrupt. What is doubtful about a result comes as a warning of class NutikWarning, what
+should be known of it besides as one of its subclass NutikNote. Work runs without Python's lock; any number of threads
+may use one capture.
 """
 
 from ._captures import Capture, Trace
@@ -24,10 +25,10 @@ from ._masks import Mask, read_mask
 from ._nutik import (DeviceError, Error, InputError, MemoryTooLittle, OutputError, UsageError, __version__)
 from ._pictures import Picture
 from ._sources import encode, open
-from ._words import NutikWarning
+from ._words import NutikNote, NutikWarning
 
 __all__ = [
-    "Activity", "Capture", "DeviceError", "Error", "Function", "InputError", "Mask", "MemoryTooLittle", "NutikWarning",
-    "OutputError", "Picture", "Plate", "Solution", "SolvedWish", "Study", "Trace", "UsageError", "__version__",
+    "Activity", "Capture", "DeviceError", "Error", "Function", "InputError", "Mask", "MemoryTooLittle", "NutikNote",
+    "NutikWarning", "OutputError", "Picture", "Plate", "Solution", "SolvedWish", "Study", "Trace", "UsageError", "__version__",
     "boxcar", "encode", "fit", "open", "parse_functions", "read_functions", "read_mask", "shutter", "write_functions",
 ]

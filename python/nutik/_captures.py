@@ -49,7 +49,8 @@ class Capture:
     Any number of threads may ask it. It is closed when nothing refers to it any more, or by `with`; pictures of it stay.
     """
 
-    def __init__(self, held: _nutik.Capture) -> None:
+    def __init__(self, held: _nutik.Capture, notes: Sequence[str] = ()) -> None:
+        self._notes = list(notes)
         self._open_capture: Optional[_nutik.Capture] = held
 
     @property
@@ -108,8 +109,8 @@ class Capture:
 
     @property
     def notes(self) -> list[str]:
-        """Of a clip: what a person should know."""
-        return self._held.notes
+        """What should be known of the clip that it was made from; each was warned of as a NutikNote."""
+        return list(self._notes)
 
     def figures(self) -> dict[str, Any]:
         """What it comes to: samples, duration_ns, rate, shutter_angle, white, transfer, primaries, tolerance, blocks,

@@ -13,7 +13,7 @@ from ._functions import Function, parse_functions
 from ._masks import Mask
 from ._nutik import UsageError
 from ._pictures import Picture
-from ._words import Array, time_word, warn
+from ._words import Array, NutikNote, time_word, warn
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ def activity(capture: _nutik.Capture, mask: Optional[Mask], tag: Optional[int], 
     if tag is not None and mask is None:
         raise UsageError("tag= is a value of a mask; add mask=")
     told = _nutik.activity(capture, None if mask is None else mask._held, tag, by, count_redrawn)
-    warn(told.pop("notes"))
+    warn(told.pop("notes"), NutikNote)
     for name in ("changed_pixels", "changes", "redrawn"):
         told[name].flags.writeable = False
     for name in ("busiest", "quietest"):
@@ -110,7 +110,7 @@ def study(capture: _nutik.Capture, settings: dict[str, str], moments: Union[int,
     if settings["style"] == "clean" and output["dtype"] == "float64":
         raise UsageError("a plate's light is float32")
     told = _nutik.study(capture, settings, moments, regions, output)
-    warn(told["notes"])
+    warn(told["notes"], NutikNote)
     picture = Picture(told["picture"])
     warn(picture._held.figures.get("warnings", []))
     return Study(picture, None if told["mask"] is None else Mask._of(told["mask"]),

@@ -191,10 +191,9 @@ def read_functions(path: Path) -> dict[int, Function]:
 
 
 def write_functions(path: Path, functions: Mapping[int, FunctionLike]) -> None:
-    """Writes a function file that the command line reads."""
+    """Writes a function file that the command line reads. Raises OutputError where it cannot be written."""
     lines = [function_of(function, f"functions[{tag}]").text(tag) for tag, function in sorted(functions.items())]
-    with open(path, "w", encoding="utf-8") as file:
-        file.write("".join(line + "\n" for line in lines))
+    _nutik.write_text(path_word(path), "".join(line + "\n" for line in lines))
 
 
 def function_of(given: FunctionLike, what: str, duration: Time = 0) -> Function:

@@ -28,8 +28,8 @@ class Picture:
         keeps the picture's memory alive by itself."""
         return self._array
 
-    def __array__(self, dtype: Any = None) -> Array:
-        return self._array if dtype is None else self._array.astype(dtype, copy=False)
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> Array:
+        return self._array if dtype is None and not copy else self._array.astype(dtype or self.dtype, copy=bool(copy))
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -11,7 +11,7 @@ import numpy as np
 from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
-from ._words import Array, Number, Path, Time, half_up, path_word, seconds_of, settings_of, time_ns, times_ns, warn
+from ._words import Array, NutikNote, Number, Path, Time, half_up, path_word, seconds_of, settings_of, time_ns, times_ns, warn
 
 
 
@@ -91,10 +91,11 @@ def _computing(device: Optional[str], memory: Union[int, str, None], renderer: O
     return settings_of({"device": device, "memory": memory, "renderer": renderer})
 
 
-def _told(opened: tuple[_nutik.Capture, list[str]]) -> Capture:
-    capture, told = opened
-    warn(told)
-    return Capture(capture)
+def _told(opened: tuple[_nutik.Capture, list[str], list[str]]) -> Capture:
+    capture, doubts, notes = opened
+    warn(doubts)
+    warn(notes, NutikNote)
+    return Capture(capture, notes)
 
 
 def _check_picture(picture: Array, what: str) -> None:

@@ -27,17 +27,21 @@ _SECOND_NS = 10 ** 9
 
 
 class NutikWarning(UserWarning):
-    """What is doubtful about a result, or should be known of it."""
+    """What is doubtful about a result."""
 
 
-def warn(messages: Iterable[str]) -> None:
+class NutikNote(NutikWarning):
+    """What should be known of a result, although nothing is doubtful."""
+
+
+def warn(messages: Iterable[str], kind: type[NutikWarning] = NutikWarning) -> None:
     """Warns at the line outside of this package that asked."""
     folder = dirname(__file__)
     level, frame = 2, sys._getframe().f_back
     while frame is not None and frame.f_code.co_filename.startswith(folder):
         frame, level = frame.f_back, level + 1
     for message in messages:
-        warnings.warn(message, NutikWarning, stacklevel=level)
+        warnings.warn(message, kind, stacklevel=level)
 
 
 def exact(value: Any, what: str) -> Fraction:

@@ -47,40 +47,42 @@ std::shared_ptr<OpenCapture> opened(const Terms& terms) {
   });
 }
 
+// A capture, what is doubtful about it, and what a person should know of the clip.
+py::tuple told_of(std::shared_ptr<OpenCapture> capture, std::vector<std::string> warnings,
+                  const std::vector<Note>& notes) {
+  return py::make_tuple(std::move(capture), std::move(warnings), note_texts(notes));
+}
+
+py::tuple opened_and_told(const Terms& terms) {
+  std::shared_ptr<OpenCapture> capture = opened(terms);
+  const Session& session = *capture->session;
+  return told_of(capture, session.warnings(), session.notes());
+}
+
 // To a file, or to a temporary capture.
-std::shared_ptr<OpenCapture> encoded(Terms terms, const std::optional<std::string>& output,
-                                     const std::string& codec, std::vector<std::string>& told) {
-  if (!output) return opened(terms);
+py::tuple encoded(const Terms& terms, const std::optional<std::string>& output, const std::string& codec) {
+  if (!output) return opened_and_told(terms);
   const EncodeRequest request{*output, tik::Codec::parse(codec)};
-  const EncodedCapture made = without_lock([&](const Stopping& stopping) {
+  EncodedCapture made = without_lock([&](const Stopping& stopping) {
     const MemoryBudget& memory = terms.devices->request().memory;
     return terms.open ? encode(terms.source, terms.open, request, memory, stopping.progress(), stopping.stop)
                       : encode(terms.source, request, memory, stopping.progress(), stopping.stop);
   });
-  told = made.warnings;
   Terms of_file;
   of_file.source.path = *output;
   of_file.devices = terms.devices;
-  return opened(of_file);
-}
-
-py::tuple with_warnings(std::shared_ptr<OpenCapture> capture, std::vector<std::string> told) {
-  const std::vector<std::string>& own = capture->session->warnings();
-  told.insert(told.end(), own.begin(), own.end());
-  return py::make_tuple(std::move(capture), std::move(told));
+  return told_of(opened(of_file), std::move(made.warnings), made.notes);
 }
 
 py::tuple open(const std::string& path, const Settings& settings, const Settings& computing) {
-  return with_warnings(
-      opened({source_request(path, settings), devices_for(computing_request(computing)), {}}), {});
+  return opened_and_told({source_request(path, settings), devices_for(computing_request(computing)), {}});
 }
 
 py::tuple encode_clip(const std::string& path, const std::optional<std::string>& output,
                       const std::string& codec, const Settings& settings, const Settings& computing) {
-  std::vector<std::string> told;
-  auto capture = encoded({source_request(path, settings), devices_for(computing_request(computing)), {}},
-                         output, codec, told);
-  return with_warnings(std::move(capture), std::move(told));
+  if (is_tik(path)) throw UsageError(format("{} is a capture already; nutik.open() opens it", path));
+  return encoded({source_request(path, settings), devices_for(computing_request(computing)), {}}, output,
+                 codec);
 }
 
 // `first` is a picture: of an iterator its first one, which it will return again. Times are those of ClipTiming.
@@ -106,9 +108,7 @@ py::tuple encode_pictures(const py::object& pictures, const py::array& first, co
     notes.sample_count = std::max(starts_ns.size(), exposures_ns.size());
     terms.open = open_iterator(py::iter(pictures), std::move(notes), terms.source.clip, name);
   }
-  std::vector<std::string> told;
-  auto capture = encoded(std::move(terms), output, codec, told);
-  return with_warnings(std::move(capture), std::move(told));
+  return encoded(terms, output, codec);
 }
 
 py::array times_ns(const OpenCapture& capture) {
@@ -189,8 +189,6 @@ void bind_captures(py::module_& module) {
                                return py::make_tuple(rate.numerator, rate.denominator);
                              })
       .def_property_readonly("facts", &facts)
-      .def_property_readonly("notes",
-                             [](const OpenCapture& capture) { return note_texts(capture.session->notes()); })
       .def("times_ns", &times_ns)
       .def("figures", &figures)
       .def("moved_camera", &moved_camera_text);

@@ -7,6 +7,7 @@
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/requests/function_input.hpp"
+#include "system/output_file.hpp"
 
 namespace nutik::python {
 namespace {
@@ -130,6 +131,9 @@ void bind_functions(py::module_& module) {
   module.def("shutter", &shutter, py::arg("shape"), py::arg("begin_ns"), py::arg("end_ns"), py::arg("error"));
   module.def("parse_functions", &parsed, py::arg("text"), py::arg("title"));
   module.def("read_functions", &read, py::arg("path"));
+  module.def(
+      "write_text", [](const std::string& path, const std::string& text) { write_text(path, text); },
+      py::arg("path"), py::arg("text"));
   module.def("interval_ns", &interval_ns, py::arg("start"), py::arg("length"));
   module.def("nanoseconds", &nanoseconds, py::arg("time"), py::arg("what"));
   module.attr("LEAST_ERROR") = ShutterShape::kLeastError;

@@ -111,6 +111,18 @@ class Arrays(support.TestCase):
         nutik.encode(np.zeros((4, 8, 8), np.uint8), self.path("clip.tik"), rate=1)
         self.assert_raises(nutik.UsageError, "encoded already", nutik.open, self.path("clip.tik"), rate=2)
 
+    def test_what_should_be_known_of_a_clip(self):
+        """Of stills that are numbered with a hole, whether they are read or written to a file."""
+        for k in (1, 2, 4):
+            support.write_pgm(self.path(f"still-{k}.pgm"), np.full((8, 8), k, np.uint8))
+        for call in (lambda: nutik.open(self.path("."), rate=1),
+                     lambda: nutik.encode(self.path("."), self.path("stills.tik"), rate=1)):
+            with self.assertWarnsRegex(nutik.NutikNote, "still-3.pgm") as warned:
+                capture = call()
+            self.assertEqual(capture.notes, [str(warned.warning)])
+            self.assertEqual(len(capture), 3)
+        self.assert_raises(nutik.UsageError, "nutik.open()", nutik.encode, self.path("stills.tik"), self.path("again.tik"))
+
     def test_closed(self):
         with nutik.encode(np.zeros((4, 8, 8), np.uint8), rate=1) as capture:
             picture = capture.render(exposure=1)

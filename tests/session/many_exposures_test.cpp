@@ -177,7 +177,7 @@ TEST_F(ManyExposures, ActivityCountsThePixelsOfAMask) {
   request.tag = 8;
   EXPECT_EQ(
       test::message_of<InputError>([&] { static_cast<void>(measure_activity(session_.capture(), request)); }),
-      *request.mask + " has no pixel with tag 8");
+      std::get<std::string>(request.mask) + " has no pixel with tag 8");
 }
 
 }  // namespace

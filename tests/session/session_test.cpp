@@ -79,11 +79,11 @@ TEST_F(SessionOfClip, ReadsAClipThatItsOwnerMakes) {
             Session(source_, devices).render(request_, kFloats).picture);
 
   terms.reading = Reading::forward;
-  EXPECT_EQ(test::message<UsageError>([&] { Session(source, devices, terms); }),
+  EXPECT_EQ(test::message_of<UsageError>([&] { Session(source, devices, terms); }),
             "a clip that its owner makes is read whole");
   source.path.clear();
   terms.reading = Reading::whole;
-  EXPECT_EQ(test::message<UsageError>([&] { Session(source, devices, terms); }), "no clip is named");
+  EXPECT_EQ(test::message_of<UsageError>([&] { Session(source, devices, terms); }), "no clip is named");
 }
 
 TEST_F(SessionOfClip, ReadForwardIsSpentAfterOnePicture) {

@@ -225,7 +225,6 @@ ClipToRead ClipSource::clip_to_read() const {
 
 ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory,
                             const ReportedProgress& progress, const std::stop_token& stop) {
-  if (request.path.empty()) throw UsageError("no clip is named");
   refuse_streams(request.path);
   ClipOptions options = request.clip;
   options.decoder_bytes = memory.bytes / 8;
@@ -236,6 +235,7 @@ ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& me
 ClipSource open_clip_source(const SourceRequest& request, const OpenClip& open_whole,
                             const MemoryBudget& memory, const ReportedProgress& progress,
                             const std::stop_token& stop) {
+  if (request.path.empty()) throw UsageError("no clip is named");
   if (!(request.sigmas >= SourceRequest::kLeastSigmas && request.sigmas <= SourceRequest::kMostSigmas)) {
     throw UsageError(format("{} standard deviations of noise are not within {} … {}", request.sigmas,
                             SourceRequest::kLeastSigmas, SourceRequest::kMostSigmas));
