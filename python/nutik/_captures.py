@@ -133,7 +133,7 @@ class Capture:
 
         mask: tags [height, width], or {tag: alpha} of shares (the first function gets what they leave), a nutik.Mask, or
             a file. feather: pixels that tags are blended over, 6 or '6px'.
-        normalize: 'support', 'integral', 'absolute' or 'seconds:S' (docs/model.md). gain: multiplies the light.
+        normalize: 'support', 'integral', 'absolute' or 'seconds:S' (docs/explanation/model.md). gain: multiplies the light.
         unmapped: 'zero' lets tags without a function expose to black.
         precision: 'single', 'compensated', 'double' or 'fixed'; None: the fastest whose error bound is small enough.
 
@@ -179,7 +179,7 @@ class Capture:
 
     def plate(self, *, by: Optional[int] = None, codes: bool = False, dtype: Any = None,
               transfer: Optional[str] = None) -> _finds.Plate:
-        """The scene without what moves in it (docs/plate.md). by: codes that the same light may differ by; None: by the
+        """The scene without what moves in it (docs/how-to/plate.md). by: codes that the same light may differ by; None: by the
         capture's own noise. codes, dtype and transfer as of render(), but for float64."""
         return _finds.plate(self._held, by, self._output(codes, dtype, transfer, None))
 
@@ -193,7 +193,7 @@ class Capture:
     def study(self, style: str = "trail", *, moments: Union[int, Sequence[Time], None] = None, spacing: str = "time",
               trail: Optional[str] = None, slit_from: str = "left", regions: Sequence[Sequence[int]] = (),
               codes: bool = False, dtype: Any = None, transfer: Optional[str] = None) -> _finds.Study:
-        """A motion study that finds its subject by itself (docs/study.md).
+        """A motion study that finds its subject by itself (docs/how-to/study.md).
 
         style: 'trail', 'strobe', 'rear-curtain', 'frozen', 'clean' or 'slit'. moments: how many, or which times. spacing:
         'time' or 'distance'. trail: 'even', 'fade', 'ramp' or 'none'. slit_from: 'left', 'right', 'top' or 'bottom'.
@@ -221,7 +221,7 @@ class Capture:
               regions: Optional[MaskLike] = None, start: Optional[Time] = None,
               feather: Union[str, float, None] = None, normalize: str = "support", gain: float = 1.0,
               unmapped: Optional[str] = None) -> _finds.Solution:
-        """Gains and times that make a picture as it is wished (docs/solve.md).
+        """Gains and times that make a picture as it is wished (docs/how-to/solve.md).
 
         functions: the text of a function file with names in place of numbers, 'M0{[0:0], [1:1], [1000000000:rest]}'.
         wishes: 'M0 = plate', '500,120,80,60 gone', 'R1 <= 0.5'. free: of a gain (least, most), of a time (from, to) or

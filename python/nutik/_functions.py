@@ -100,7 +100,7 @@ def boxcar(start: Time, exposure: Time, gain: float = 1.0) -> Function:
 
 def shutter(shape: str, start: Time, exposure: Time, *, error: float = 1e-3) -> Function:
     """A shutter's shape over an exposure: 'box', 'trapezoid:0.25', 'triangle', 'gaussian', 'hann', 'strobe:5',
-    'spline:0=0,0.3=1,1=0' (docs/shutters.md). Curves become the fewest straight pieces within `error`, a share of
+    'spline:0=0,0.3=1,1=0' (docs/reference/shutters.md). Curves become the fewest straight pieces within `error`, a share of
     their largest gain.
 
     Raises UsageError where the shape is not known, or the exposure too short for it.
@@ -174,7 +174,7 @@ def fit(gain: Callable[[Any], Any], start: Time, end: Time, *, error: float = 1e
 
 
 def parse_functions(text: str, *, name: str = "functions") -> dict[int, Function]:
-    """Functions by mask value, from the text of a function file (docs/functions.md). `name` stands in messages.
+    """Functions by mask value, from the text of a function file (docs/reference/functions.md). `name` stands in messages.
 
     Raises InputError with every mistake of the text, its line and column; what is suspicious is warned of.
     """

@@ -47,7 +47,7 @@ class Mask:
 
     def feathered(self, feather: Union[str, float]) -> Mask:
         """A mask of tags, blended along its edges: pixels to either side, 6 or '6px', or '2px,M255=6px' for a tag of
-        its own (docs/masks.md)."""
+        its own (docs/reference/masks.md)."""
         return Mask._of(self._held.feathered(feather if isinstance(feather, str) else f"{feather:g}px"))
 
     @property

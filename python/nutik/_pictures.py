@@ -49,7 +49,7 @@ class Picture:
     @property
     def error_bound(self) -> Optional[float]:
         """How far the light of any pixel may lie from the exact integral, in light, before it is rounded to a code.
-        Known before anything was computed (docs/accuracy.md). None of a plate, and of the reference."""
+        Known before anything was computed (docs/explanation/accuracy.md). None of a plate, and of the reference."""
         bound = self._held.figures.get("error_bound")
         return None if bound is None else bound["light"]
 

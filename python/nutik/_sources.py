@@ -25,7 +25,7 @@ def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[N
          tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
          device: Optional[str] = None, memory: Union[int, str, None] = None, renderer: Optional[str] = None) -> Capture:
     """Opens a capture (.tik), or a clip, which is encoded into a temporary capture first: a video, a folder of stills,
-    'frames/*.png', a table of stills (docs/cli.md).
+    'frames/*.png', a table of stills (docs/reference/input.md).
 
     Of a clip may be stated what its files do not say or say wrongly: rate in pictures a second ('30000/1001'),
     shutter_angle in degrees, transfer, white, primaries, pixel_aspect; raw, matrix, range, chroma_at of video. Part of it:

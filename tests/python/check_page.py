@@ -2,7 +2,7 @@
 """Runs every Python example of a page, one behind the other, beside a small clip; and looks that the pages and pictures
 that it links to are there.
 
-    check_page.py --page docs/python.md --work FOLDER
+    check_page.py --page docs/reference/python.md --work FOLDER
 """
 
 import argparse
