@@ -14,7 +14,7 @@ from ._functions import Function, FunctionLike, function_of, read_functions
 from ._masks import Mask, MaskLike, mask_of
 from ._nutik import UsageError
 from ._pictures import Picture
-from ._words import Array, Path, Time, settings_of, time_word, warn
+from ._words import Array, Path, Time, box_of, count_of, settings_of, tag_of, time_word, warn
 
 Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
 
@@ -147,7 +147,8 @@ class Capture:
         asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, normalize, gain,
                                unmapped)
         output = self._output(codes, dtype, transfer, negative)
-        held = _nutik.render(self._held, asked, output, _region(region), precision)
+        box = None if region is None else box_of(region, "region")
+        held = _nutik.render(self._held, asked, output, box, None if precision is None else str(precision))
         picture = Picture(held)
         warn(held.figures["warnings"])
         if picture.dtype.kind == "u" and negative in (None, "saturate"):
@@ -172,8 +173,8 @@ class Capture:
             raise UsageError("tag= is a value of a mask; add mask=")
         asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, normalize, gain,
                                unmapped)
-        pixel = None if x is None else (_count(x, "x"), _count(y, "y"))
-        traces, _, told = _nutik.trace(self._held, asked, pixel, tag)
+        pixel = None if x is None else (count_of(x, "x"), count_of(y, "y"))
+        traces, _, told = _nutik.trace(self._held, asked, pixel, None if tag is None else tag_of(tag))
         warn(told)
         return [Trace._of(arrays) for arrays in traces]
 
@@ -181,14 +182,16 @@ class Capture:
               transfer: Optional[str] = None) -> _finds.Plate:
         """The scene without what moves in it (docs/how-to/plate.md). by: codes that the same light may differ by; None: by the
         capture's own noise. codes, dtype and transfer as of render(), but for float64."""
-        return _finds.plate(self._held, by, self._output(codes, dtype, transfer, None))
+        return _finds.plate(self._held, None if by is None else count_of(by, "by"),
+                            self._output(codes, dtype, transfer, None))
 
     def activity(self, mask: Optional[MaskLike] = None, *, tag: Optional[int] = None, by: int = 0,
                  count_redrawn: bool = False) -> _finds.Activity:
         """When it changes, and where. Only pixels of `mask` with `tag` count, or with any tag but 0; changes of no more
         than `by` codes are none. Samples at which a codec drew its picture anew count as those beside them, unless
         count_redrawn."""
-        return _finds.activity(self._held, mask_of(mask), tag, by, count_redrawn)
+        return _finds.activity(self._held, mask_of(mask), None if tag is None else tag_of(tag), count_of(by, "by"),
+                               count_redrawn)
 
     def study(self, style: str = "trail", *, moments: Union[int, Sequence[Time], None] = None, spacing: str = "time",
               trail: Optional[str] = None, slit_from: str = "left", regions: Sequence[Sequence[int]] = (),
@@ -206,14 +209,14 @@ class Capture:
             moments = {"slit": 256, "rear-curtain": 1, "frozen": 1}.get(style, 5)
         asked: Union[int, list[str]]
         if isinstance(moments, (int, np.integer)):
-            asked = _count(moments, "moments")
+            asked = count_of(moments, "moments")
         else:
             asked = [time_word(time, "moments") for time in moments]
         moved = self._held.moved_camera()
         if moved:
             warn([f"{moved}; align='rigid' moves the clip's pictures back when it is encoded"])
         settings = settings_of({"style": style, "spacing": spacing, "trail": trail, "slit_from": slit_from})
-        boxes = [_region(each) for each in regions]
+        boxes = [box_of(each, "a region") for each in regions]
         return _finds.study(self._held, settings, asked, boxes, self._output(codes, dtype, transfer, None))
 
     def solve(self, functions: str, wishes: Sequence[str], *,
@@ -275,9 +278,7 @@ class Capture:
             raise UsageError(f"there are {len(functions)} functions; mask= says where each applies")
         made = {}
         for tag, each in functions.items():
-            if not 0 <= _count(tag, "a tag") <= 255:
-                raise UsageError(f"functions[{tag}]: tags are 0 ... 255")
-            made[int(tag)] = function_of(each, f"functions[{tag}]", duration)
+            made[tag_of(tag)] = function_of(each, f"functions[{tag}]", duration)
         return made
 
     def _output(self, codes: bool, dtype: Any, transfer: Optional[str],
@@ -296,17 +297,3 @@ class Capture:
         samples, height, width = self.shape[:3]
         return (f"<nutik.Capture {self.name}: {width} x {height} {'colour' if len(self.shape) == 4 else 'grey'}, "
                 f"{samples} samples, {float(self.rate):g} a second>")
-
-
-def _count(value: Any, what: str) -> int:
-    if isinstance(value, (int, np.integer)) and not isinstance(value, bool) and 0 <= value < 2 ** 32:
-        return int(value)
-    raise UsageError(f"{what} is {value!r}, no whole number from 0 on")
-
-
-def _region(region: Optional[Sequence[int]]) -> Optional[list[int]]:
-    if region is None:
-        return None
-    if len(region) != 4:
-        raise UsageError(f"the region {region!r} is none; write whole pixels: (x, y, width, height)")
-    return [_count(each, "a region's side") for each in region]

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Array, Path, Time, path_word, time_ns, time_word, times_ns, warn
+from ._words import Array, Path, Time, path_word, tag_of, time_ns, time_word, times_ns, warn
 
 _LEAST_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
 _MOST_SAMPLES = 1 << 20
@@ -73,7 +73,7 @@ class Function:
 
     def text(self, tag: int = 0) -> str:
         """Its line in a function file. Jumps become steps of 1 ns, for files have none."""
-        return self._held.text(tag)
+        return self._held.text(tag_of(tag))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Function) and bool(self._held == other._held)

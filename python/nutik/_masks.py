@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Array, Path, path_word
+from ._words import Array, Path, path_word, tag_of
 
 
 class Mask:
@@ -42,8 +42,8 @@ class Mask:
 
         Shares are kept in 65535ths. Raises InputError where they come to more than all of a pixel.
         """
-        layers = {int(tag): _shares(alpha, tag) for tag, alpha in alphas.items()}
-        return cls._of(_nutik.Mask.of_layers(layers, rest))
+        layers = {tag_of(tag): _shares(alpha, tag) for tag, alpha in alphas.items()}
+        return cls._of(_nutik.Mask.of_layers(layers, tag_of(rest)))
 
     def feathered(self, feather: Union[str, float]) -> Mask:
         """A mask of tags, blended along its edges: pixels to either side, 6 or '6px', or '2px,M255=6px' for a tag of
@@ -57,7 +57,7 @@ class Mask:
 
     def share(self, tag: int) -> Array:
         """[height, width] uint16: how much of each pixel a tag has, in 65535ths."""
-        return self._held.share(tag)
+        return self._held.share(tag_of(tag))
 
     @property
     def tags_in_use(self) -> list[int]:
@@ -80,7 +80,7 @@ MaskLike = Union[Mask, Array, Mapping[int, Any], Path]
 def read_mask(path: Path, *, rest: int = 0) -> Mask:
     """A mask from a grey picture of 8 bits; or, of a name with a number in it, 'layer-%d.png', from its layers, of which
     `rest` gets what they leave. Raises InputError where it is none."""
-    return Mask._of(_nutik.Mask.read(path_word(path), rest))
+    return Mask._of(_nutik.Mask.read(path_word(path), tag_of(rest)))
 
 
 def mask_of(given: Optional[MaskLike], rest: int = 0) -> Optional[Mask]:

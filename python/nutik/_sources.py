@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from itertools import chain
 from os import PathLike
 from typing import Any, Iterable, Optional, Sequence, Union, cast
@@ -52,7 +53,7 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
            tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
            codec: str = "zstd", tiles: Optional[str] = None, block_samples: Optional[int] = None,
            device: Optional[str] = None, memory: Union[int, str, None] = None, renderer: Optional[str] = None,
-           name: str = "array") -> Capture:
+           name: str = "array", **clip: Any) -> Capture:
     """Makes a capture of pictures, and opens it.
 
     source: an array [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16,
@@ -63,7 +64,8 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
         time or one for each; with neither that nor shutter_angle, all the time to the next.
     transfer: what codes stand for, 'srgb', 'bt709', 'linear', 'gamma:G', 'hlg', 'pq'; without it 'srgb' of uint8, 'linear'
         of uint16. white: the code of white, 255 or 65535 without it; no code may be larger.
-    tolerance, noise, sigmas, align, ...: as of nutik.open(). codec, of an output: 'none', 'lz4', 'zstd', 'zstd:9'.
+    tolerance, noise, sigmas, align, ...: as of nutik.open(), which takes more of a path: begin, crop, raw, ... codec, of an
+        output: 'none', 'lz4', 'zstd', 'zstd:9'.
 
     Raises UsageError where arguments do not fit, InputError where pictures are unlike or times out of order,
     OutputError; what an iterable raises; KeyboardInterrupt at Ctrl-C. No file is left behind then.
@@ -73,7 +75,14 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
     stated = dict(rate=rate, shutter_angle=shutter_angle, transfer=transfer, white=white, primaries=primaries,
                   pixel_aspect=pixel_aspect, deflicker=deflicker, align=align, align_to=align_to, unseen=unseen,
                   tolerance=tolerance, noise=noise, sigmas=sigmas, tiles=tiles, block_samples=block_samples)
+    of_files = set(inspect.signature(open).parameters) - {"path"} - set(_COMPUTING) - set(stated)
+    for argument in clip:
+        if argument not in of_files:
+            raise TypeError(f"encode() has no argument {argument!r}")
+        if not isinstance(source, (str, PathLike)):
+            raise UsageError(f"{argument}= is said of a clip's files; these are pictures in memory")
     if isinstance(source, (str, PathLike)):
+        stated.update(clip)
         if times is not None or exposures is not None:
             raise UsageError("times= and exposures= are those of arrays; a table of stills lists those of files")
         return _told(_nutik.encode_clip(path_word(source), path, codec, settings_of(stated), computing))

@@ -150,6 +150,30 @@ def path_word(path: Any) -> str:
     return fsdecode(path)
 
 
+def count_of(value: Any, what: str) -> int:
+    """A whole number that is not negative."""
+    if isinstance(value, (int, np.integer)) and not isinstance(value, bool) and 0 <= value < 2 ** 32:
+        return int(value)
+    raise UsageError(f"{what} is {value!r}, no whole number from 0 on")
+
+
+def tag_of(value: Any) -> int:
+    """A value of a mask."""
+    tag = count_of(value, "a tag")
+    if tag > 255:
+        raise UsageError(f"{tag} is no tag: tags are 0 ... 255")
+    return tag
+
+
+def box_of(value: Any, what: str) -> list[int]:
+    """(x, y, width, height)."""
+    try:
+        x, y, width, height = value
+    except (TypeError, ValueError):
+        raise UsageError(f"{what} is {value!r}; write whole pixels: (x, y, width, height)") from None
+    return [count_of(each, f"a side of {what}") for each in (x, y, width, height)]
+
+
 def settings_of(stated: dict[str, Any]) -> dict[str, str]:
     """What is stated, as words: None and False are not."""
     settings = {}
@@ -163,7 +187,7 @@ def settings_of(stated: dict[str, Any]) -> dict[str, str]:
         elif name in ("begin", "end", "align_to", "start", "exposure"):
             settings[name] = time_word(value, name)
         elif name == "crop" and not isinstance(value, str):
-            x, y, width, height = (int(each) for each in value)
+            x, y, width, height = box_of(value, name)
             settings[name] = f"{width}x{height}+{x}+{y}"
         elif name == "memory":
             settings[name] = bytes_word(value, name)

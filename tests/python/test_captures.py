@@ -123,6 +123,19 @@ class Arrays(support.TestCase):
             self.assertEqual(len(capture), 3)
         self.assert_raises(nutik.UsageError, "nutik.open()", nutik.encode, self.path("stills.tik"), self.path("again.tik"))
 
+    def test_a_part_of_a_clip(self):
+        for k in range(6):
+            support.write_pgm(self.path(f"still-{k}.pgm"), np.full((8, 8), 9 * k, np.uint8))
+        for call in (lambda **part: nutik.open(self.path("still-%d.pgm"), rate=10, **part),
+                     lambda **part: nutik.encode(self.path("still-%d.pgm"), self.path("part.tik"), rate=10, **part)):
+            part = call(begin="2f", end=0.5, crop=(1, 2, 6, 4))
+            self.assertEqual(part.shape, (3, 4, 6))
+            self.assert_same(sample(part, 0), np.full((4, 6), 18, np.uint8))
+        self.assert_raises(nutik.UsageError, "crop= is said of a clip's files", nutik.encode, np.zeros((2, 8, 8), np.uint8),
+                           rate=1, crop=(0, 0, 4, 4))
+        with self.assertRaisesRegex(TypeError, "'chop'"):
+            nutik.encode(self.path("still-%d.pgm"), rate=1, chop=1)
+
     def test_closed(self):
         with nutik.encode(np.zeros((4, 8, 8), np.uint8), rate=1) as capture:
             picture = capture.render(exposure=1)

@@ -183,5 +183,26 @@ class Memory(support.TestCase):
         self.assertLessEqual(float(done.stdout), 1.2)
 
 
+# A capture that is cut off while it is open.
+CUT_OFF = """
+import numpy as np, nutik, os, sys
+pictures = np.random.default_rng(1).integers(0, 256, (64, 128, 128, 3), np.uint8)
+capture = nutik.encode(pictures, sys.argv[1], rate=960, codec="none")
+os.truncate(sys.argv[1], 100_000)
+try:
+    capture.render(exposure="64f")
+except nutik.InputError as error:
+    print(error)
+"""
+
+
+class Files(support.TestCase):
+    def test_a_capture_that_somebody_cuts_off(self):
+        """Is an error, and not the interpreter's end."""
+        done = subprocess.run([sys.executable, "-c", CUT_OFF, self.path("clip.tik")], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("clip.tik changed or could not be read any more", done.stdout)
+
+
 if __name__ == "__main__":
     unittest.main()

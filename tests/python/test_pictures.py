@@ -112,6 +112,12 @@ class Pictures(support.TestCase):
         self.assertGreater(codes.saturated[1], 0)
         self.assertLessEqual(codes.saturated[1], np.sum(np.any(light.array > 0.99, axis=2)))
 
+    def test_a_function_without_a_mask_may_have_any_tag(self):
+        function = nutik.boxcar(0, "10ms")
+        wanted = self.capture.render(function)
+        self.assert_same(self.capture.render({128: function}).array, wanted.array)
+        self.assert_same(self.capture.render([(0, 0), (0, 1), ("10ms", 1), (0.01, 0)]).array, wanted.array)
+
     def test_files(self):
         picture = self.capture.render(start=0, exposure="10ms", codes=True)
         picture.write(self.path("ours.ppm"))

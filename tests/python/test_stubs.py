@@ -95,7 +95,7 @@ class Stubs(unittest.TestCase):
         stated = set()
         for function in (nutik.open, nutik.encode):
             stated |= set(inspect.signature(function).parameters)
-        besides = {"path", "source", "output", "times", "exposures", "codec", "name", "device", "memory", "renderer"}
+        besides = {"path", "source", "output", "times", "exposures", "codec", "name", "device", "memory", "renderer", "clip"}
         self.assertEqual(stated - besides, known)
 
 
