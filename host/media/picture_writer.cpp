@@ -12,6 +12,7 @@
 #include "media/png_file.hpp"
 #include "media/tiff_file.hpp"
 #include "system/output_file.hpp"
+#include "system/temporary_folder.hpp"
 
 namespace nutik {
 namespace {
@@ -157,7 +158,7 @@ void write_picture(const std::filesystem::path& path, const Picture& picture, co
   if (!fits) throw UsageError(format("{} cannot hold the values of this picture", path.string()));
   if (names_standard_output(path)) {
     // Made whole before anything is sent; some of it is written by libraries that go back in their file.
-    OutputFile file(std::filesystem::temp_directory_path() / (std::string("nutik-picture") + kind.extension),
+    OutputFile file(temporary_folder() / (std::string("nutik-picture") + kind.extension),
                     OutputFile::Lasting::no);
     kind.write(file, picture, text, wishes);
     file.send_to_standard_output();

@@ -13,6 +13,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "system/interruption.hpp"
+#include "system/temporary_folder.hpp"
 
 namespace nutik {
 namespace {
@@ -39,7 +40,7 @@ void keep_standard_input() {
     throw InputError(format("{} is a terminal; send a clip there: ffmpeg … -f yuv4mpegpipe - | …", kTitle));
   }
   if (fstat(STDIN_FILENO, &input) == 0 && S_ISREG(input.st_mode)) return;
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  const std::filesystem::path folder = temporary_folder();
   const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   const auto fail = [&](int reason) {
     if (file >= 0) close(file);

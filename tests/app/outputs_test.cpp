@@ -104,6 +104,11 @@ TEST_F(Outputs, ThatStandardOutputCannotTakeAreRefused) {
                                       scratch_.folder(), {"TMPDIR=tmp"});
   EXPECT_EQ(full.status, 0) << full.err;
   EXPECT_TRUE(std::filesystem::is_empty(scratch_ / "tmp"));
+  const auto nowhere = test::run_program({"expose", "-f", "100", "--exposure", "1f", "frames", "-o", "-"},
+                                         scratch_.folder(), {"TMPDIR=absent"});
+  EXPECT_EQ(nowhere.status, 5);
+  EXPECT_NE(nowhere.err.find("there is no folder absent for temporary files"), std::string::npos)
+      << nowhere.err;
 }
 
 // The temporary capture's name cannot be foreseen, and what somebody put in its place is not written to.

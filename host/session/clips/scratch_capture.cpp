@@ -16,6 +16,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/expected_values.hpp"
+#include "system/temporary_folder.hpp"
 
 namespace nutik {
 namespace {
@@ -66,8 +67,8 @@ void remove_abandoned_folders(const fs::path& where) {
 class PrivateFolder {
  public:
   PrivateFolder() {
-    remove_abandoned_folders(fs::temp_directory_path());
-    std::string name = fs::temp_directory_path() / (std::string(kPrefix) + "XXXXXX");
+    remove_abandoned_folders(temporary_folder());
+    std::string name = temporary_folder() / (std::string(kPrefix) + "XXXXXX");
     if (::mkdtemp(name.data()) == nullptr) {
       throw OutputError(format("no temporary folder can be made: {}: {}", name, std::strerror(errno)));
     }
