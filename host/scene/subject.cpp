@@ -111,21 +111,22 @@ class Followed {
   }
 
   // How far it goes, in a measure that lets a small thing that crosses the picture win over a large one that stirs, a
-  // thing over its shadow, one that goes its way over what flickers here and there, and one that can be shown twice and is
-  // mostly seen as a whole over one that is not.
+  // thing over its shadow, one that goes its way over what flickers here and there, one that can be shown twice and is
+  // mostly seen as a whole over one that is not, and most of what differs over a piece of it.
   [[nodiscard]] double weight() const {
     constexpr double kAtOnePlace = 0.125, kCutOff = 0.25;
-    double cells = 0, contrast = 0, whole = 0;
+    double cells = 0, contrast = 0, share = 0, whole = 0;
     for (const SubjectPlace& place : places_) {
       if (!place.is_cut_off) ++whole;
       cells += static_cast<double>(place.cells.size());
       contrast += place.contrast;
+      share += place.share;
     }
     const auto count = static_cast<double>(places_.size());
     const Way way(places_);
     const double extent = std::max(furthest_apart(telling_places(places_)), kAtOnePlace * way.extent());
-    return extent * std::lerp(kCutOff, 1.0, whole / count) * std::pow(cells / count, 0.25) * contrast /
-           count / (1 + way.turns_of_extent());
+    return extent * std::lerp(kCutOff, 1.0, whole / count) * std::pow(cells / count * share / count, 0.25) *
+           contrast / count / (1 + way.turns_of_extent());
   }
 
   [[nodiscard]] std::vector<SubjectPlace>&& places() && { return std::move(places_); }
