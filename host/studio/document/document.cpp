@@ -1,0 +1,171 @@
+#include "studio/document/document.hpp"
+
+#include <QUndoCommand>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace nutik::studio {
+
+// One step of undo: the state before and after it.
+class StateStep : public QUndoCommand {
+ public:
+  // `drag`: steps of the same one merge; 0 merges with none.
+  StateStep(Document& document, DocumentState after, const QString& what, std::uint64_t drag)
+      : QUndoCommand(what),
+        document_(document),
+        before_(document.state_),
+        after_(std::move(after)),
+        drag_(drag) {}
+
+  void undo() override { document_.take(before_); }
+  void redo() override { document_.take(after_); }
+  int id() const override { return 1; }
+  bool mergeWith(const QUndoCommand* later) override {
+    const auto& step = static_cast<const StateStep&>(*later);
+    if (drag_ == 0 || step.drag_ != drag_) return false;
+    after_ = step.after_;
+    setObsolete(before_ == after_);
+    return true;
+  }
+
+ private:
+  Document& document_;
+  DocumentState before_, after_;
+  std::uint64_t drag_;
+};
+
+Document::Document(QObject* parent) : QObject(parent) {}
+
+void Document::start(CaptureFacts facts) {
+  facts_ = std::move(facts);
+  overview_ = {};
+  undo_.clear();
+  is_dragging_ = false;
+  const std::int64_t duration_ns = facts_->timeline.duration_ns();
+  const std::int64_t length_ns = std::max<std::int64_t>(duration_ns / 10, 1);
+  const std::int64_t start_ns = (duration_ns - length_ns) / 2;
+  state_ = {};
+  state_.boxcar = {start_ns, length_ns};
+  state_.functions.emplace(0, with_steps(GainFunction::boxcar(start_ns, start_ns + length_ns)));
+  state_.looks[0] = {tr("Background"), first_colour(0), true};
+  selected_tag_ = 0;
+  selected_points_.clear();
+  solo_.reset();
+  probe_.reset();
+  waveform_.reset();
+  Q_EMIT capture_changed();
+}
+
+void Document::set_overview(CaptureOverview overview) {
+  overview_ = std::move(overview);
+  Q_EMIT overview_changed();
+}
+
+std::vector<ControlPoint> Document::points(std::uint8_t tag) const {
+  const auto found = state_.functions.find(tag);
+  if (found == state_.functions.end()) return {};
+  return {found->second.points().begin(), found->second.points().end()};
+}
+
+QColor Document::colour(std::uint8_t tag) const {
+  const auto found = state_.looks.find(tag);
+  return found == state_.looks.end() ? first_colour(tag) : found->second.colour;
+}
+
+void Document::set_points(std::uint8_t tag, std::vector<ControlPoint> points, const QString& what) {
+  const auto not_after = [](const ControlPoint& a, const ControlPoint& b) { return a.time_ns >= b.time_ns; };
+  if (std::ranges::adjacent_find(points, not_after) != points.end())
+    throw std::logic_error("times of control points do not increase");
+  DocumentState after = state_;
+  after.functions.insert_or_assign(tag, GainFunction(std::move(points)));
+  after.mode = ExposureMode::functions;
+  apply(std::move(after), what);
+}
+
+void Document::set_boxcar(Boxcar boxcar, const QString& what) {
+  const std::int64_t duration_ns = std::max<std::int64_t>(this->duration_ns(), 1);
+  boxcar.length_ns = std::clamp<std::int64_t>(boxcar.length_ns, 1, duration_ns);
+  boxcar.start_ns = std::clamp<std::int64_t>(boxcar.start_ns, 0, duration_ns - boxcar.length_ns);
+  DocumentState after = state_;
+  after.boxcar = boxcar;
+  after.mode = ExposureMode::boxcar;
+  apply(std::move(after), what);
+}
+
+void Document::set_mode(ExposureMode mode) {
+  DocumentState after = state_;
+  after.mode = mode;
+  apply(std::move(after), mode == ExposureMode::boxcar ? tr("Expose the interval") : tr("Expose regions"));
+}
+
+void Document::apply(DocumentState state, const QString& what) {
+  if (state == state_) return;
+  undo_.push(new StateStep(*this, std::move(state), what, is_dragging_ ? drag_ : 0));
+}
+
+void Document::begin_drag() {
+  is_dragging_ = true;
+  ++drag_;
+}
+
+void Document::end_drag() {
+  if (!is_dragging_) return;
+  is_dragging_ = false;
+  Q_EMIT released();
+}
+
+void Document::select_tag(std::uint8_t tag) {
+  if (tag == selected_tag_) return;
+  selected_tag_ = tag;
+  selected_points_.clear();
+  Q_EMIT selection_changed();
+}
+
+void Document::select_points(std::set<std::size_t> points) {
+  if (points == selected_points_) return;
+  selected_points_ = std::move(points);
+  keep_selection_within();
+  Q_EMIT selection_changed();
+}
+
+void Document::set_solo(std::optional<std::uint8_t> tag) {
+  if (tag == solo_) return;
+  solo_ = tag;
+  Q_EMIT selection_changed();
+}
+
+void Document::set_probe(std::optional<QPoint> pixel) {
+  if (pixel == probe_) return;
+  probe_ = pixel;
+  waveform_.reset();
+  Q_EMIT probe_changed();
+}
+
+void Document::set_waveform(Waveform waveform) {
+  if (!probe_ || *probe_ != waveform.pixel) return;
+  waveform_ = std::move(waveform);
+  Q_EMIT probe_changed();
+}
+
+void Document::take(const DocumentState& state) {
+  state_ = state;
+  keep_selection_within();
+  Q_EMIT changed();
+}
+
+// What undo took away is not selected any more.
+void Document::keep_selection_within() {
+  if (!state_.functions.contains(selected_tag_))
+    selected_tag_ = state_.functions.empty() ? std::uint8_t{0} : state_.functions.begin()->first;
+  selected_points_.erase(selected_points_.lower_bound(points(selected_tag_).size()), selected_points_.end());
+  if (solo_ && !state_.functions.contains(*solo_)) solo_.reset();
+}
+
+QColor first_colour(std::uint8_t tag) {
+  // Steps of the golden angle: neighbours in number are far apart in hue.
+  const int hue = static_cast<int>(std::fmod(205.0 + 137.5 * tag, 360.0));
+  return QColor::fromHsl(hue, 150, 150);
+}
+
+}  // namespace nutik::studio

@@ -1,0 +1,148 @@
+// What is edited: gain functions, mask, how regions look, and what is exposed at the moment.
+//
+//   in:      edits, which name themselves ("Move point") for the undo menu
+//   out:     signals; every value can be read at any time
+//   always:  each edit is one undo step; all edits between begin_drag() and end_drag() are one step together.
+//            A function's times increase strictly, as those of function files do
+//   threads: the window's own
+//
+// What is looked at (selected tag and points, solo, the clicked pixel) is kept here, too, but is no undo step.
+#pragma once
+
+#include <QColor>
+#include <QObject>
+#include <QString>
+#include <QUndoStack>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "session/below/functions.hpp"
+#include "session/requests/exposure_request.hpp"
+#include "session/shared.hpp"
+#include "studio/document/capture_facts.hpp"
+
+namespace nutik::studio {
+
+enum class ExposureMode {
+  boxcar,    // all pixels are exposed over Boxcar: for scrubbing
+  functions  // each pixel is exposed with its region's function
+};
+
+// [start_ns, start_ns + length_ns]; within the capture, length_ns >= 1.
+struct Boxcar {
+  std::int64_t start_ns = 0;
+  std::int64_t length_ns = 0;
+  friend bool operator==(const Boxcar&, const Boxcar&) = default;
+};
+
+struct RegionLook {
+  QString name;
+  QColor colour;
+  bool is_visible = true;  // its outline, and its curve
+  friend bool operator==(const RegionLook&, const RegionLook&) = default;
+};
+
+// All that undo brings back. Cheap to copy: copies share the mask.
+struct DocumentState {
+  FunctionSet functions;  // by tag; each with a look
+  std::map<std::uint8_t, RegionLook> looks;
+  std::optional<Shared<MaskWithRegions>> mask;  // none: tag 0 everywhere
+  ExposureMode mode = ExposureMode::boxcar;
+  Boxcar boxcar;
+  friend bool operator==(const DocumentState&, const DocumentState&) = default;
+};
+
+class Document : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit Document(QObject* parent = nullptr);
+
+  // ---- the capture ----
+
+  // None until one is opened.
+  [[nodiscard]] const CaptureFacts* facts() const { return facts_ ? &*facts_ : nullptr; }
+  [[nodiscard]] std::int64_t duration_ns() const { return facts_ ? facts_->timeline.duration_ns() : 0; }
+  // A capture was opened: starts anew with one region, tag 0, exposed over the middle tenth.
+  void start(CaptureFacts facts);
+
+  [[nodiscard]] const CaptureOverview& overview() const { return overview_; }
+  void set_overview(CaptureOverview overview);
+
+  // ---- what is edited ----
+
+  [[nodiscard]] const DocumentState& state() const { return state_; }
+  [[nodiscard]] const FunctionSet& functions() const { return state_.functions; }
+  [[nodiscard]] std::vector<ControlPoint> points(
+      std::uint8_t tag) const;  // empty if there is no such function
+  [[nodiscard]] QColor colour(std::uint8_t tag) const;
+  [[nodiscard]] const Boxcar& boxcar() const { return state_.boxcar; }
+  [[nodiscard]] ExposureMode mode() const { return state_.mode; }
+
+  // Replaces a function's control points: at least one, times strictly increasing, gains finite; whoever drags points
+  // keeps them apart. Throws std::logic_error else. Switches to ExposureMode::functions.
+  void set_points(std::uint8_t tag, std::vector<ControlPoint> points, const QString& what);
+  // Clamped into the capture. Switches to ExposureMode::boxcar.
+  void set_boxcar(Boxcar boxcar, const QString& what);
+  void set_mode(ExposureMode mode);
+  // Any other edit. The edit is dropped if nothing differs.
+  void apply(DocumentState state, const QString& what);
+
+  // While the mouse is down. Drags do not nest.
+  void begin_drag();
+  void end_drag();
+  [[nodiscard]] bool is_dragging() const { return is_dragging_; }
+
+  [[nodiscard]] QUndoStack& undo_stack() { return undo_; }
+
+  // ---- what is looked at ----
+
+  [[nodiscard]] std::uint8_t selected_tag() const { return selected_tag_; }
+  void select_tag(std::uint8_t tag);  // clears the selected points if it is another one
+  // Indices into points(selected_tag()).
+  [[nodiscard]] const std::set<std::size_t>& selected_points() const { return selected_points_; }
+  void select_points(std::set<std::size_t> points);
+
+  [[nodiscard]] std::optional<std::uint8_t> solo() const { return solo_; }
+  void set_solo(std::optional<std::uint8_t> tag);
+
+  // The pixel that was clicked, and then its light once it has been read.
+  [[nodiscard]] const std::optional<QPoint>& probe() const { return probe_; }
+  void set_probe(std::optional<QPoint> pixel);
+  [[nodiscard]] const std::optional<Waveform>& waveform() const { return waveform_; }
+  void set_waveform(Waveform waveform);  // dropped if it is not the probe's
+
+ Q_SIGNALS:
+  void capture_changed();    // facts(): everything else is new, too
+  void overview_changed();   // overview()
+  void changed();            // state(); also by undo and redo
+  void released();           // a drag ended: the full picture may follow
+  void selection_changed();  // selected_tag(), selected_points(), solo()
+  void probe_changed();      // probe(), waveform()
+
+ private:
+  friend class StateStep;
+  void take(const DocumentState& state);
+  void keep_selection_within();
+
+  std::optional<CaptureFacts> facts_;
+  CaptureOverview overview_;
+  DocumentState state_;
+  QUndoStack undo_;
+  bool is_dragging_ = false;
+  std::uint64_t drag_ = 0;  // counts them: edits of one merge
+  std::uint8_t selected_tag_ = 0;
+  std::set<std::size_t> selected_points_;
+  std::optional<std::uint8_t> solo_;
+  std::optional<QPoint> probe_;
+  std::optional<Waveform> waveform_;
+};
+
+// The colour that the region with a tag begins with: calm ones, told apart on dark and light.
+[[nodiscard]] QColor first_colour(std::uint8_t tag);
+
+}  // namespace nutik::studio

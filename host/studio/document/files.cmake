@@ -1,0 +1,1 @@
+set(files capture_facts.hpp document.cpp document.hpp)

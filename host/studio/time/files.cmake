@@ -1,0 +1,1 @@
+set(files time_axis.cpp time_axis.hpp)
