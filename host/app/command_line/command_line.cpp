@@ -6,10 +6,10 @@
 #include "app/command_line/help.hpp"
 #include "app/command_line/suggestion.hpp"
 #include "app/command_line/words.hpp"
-#include "app/text/shell_text.hpp"
 #include "app/text/text_table.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
+#include "session/text/shell_text.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {

@@ -4,12 +4,12 @@
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/message_text.hpp"
-#include "app/text/shell_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/functions.hpp"
 #include "session/below/pictures.hpp"
 #include "session/requests/function_input.hpp"
+#include "session/text/shell_text.hpp"
 #include "system/mapped_file.hpp"
 #include "system/output_file.hpp"
 

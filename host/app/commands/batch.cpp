@@ -14,10 +14,10 @@
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/message_text.hpp"
-#include "app/text/shell_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/making/picture_queue.hpp"
+#include "session/text/shell_text.hpp"
 #include "session/text/size_text.hpp"
 #include "system/input_bytes.hpp"
 

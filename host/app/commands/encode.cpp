@@ -6,11 +6,11 @@
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/shell_text.hpp"
 #include "app/text/timing_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/clips/encoding.hpp"
+#include "session/text/shell_text.hpp"
 #include "session/text/size_text.hpp"
 
 namespace nutik::app {

@@ -4,7 +4,6 @@
 #include "app/commands/commands.hpp"
 #include "app/output/report.hpp"
 #include "app/text/message_text.hpp"
-#include "app/text/shell_text.hpp"
 #include "session/below/activity.hpp"
 #include "session/below/capture.hpp"
 #include "session/below/error.hpp"
@@ -13,6 +12,7 @@
 #include "session/clips/alignment.hpp"
 #include "session/making/capture_figures.hpp"
 #include "session/output_check.hpp"
+#include "session/text/shell_text.hpp"
 #include "session/text/size_text.hpp"
 #include "session/text/time_text.hpp"
 

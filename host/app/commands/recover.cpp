@@ -3,10 +3,10 @@
 #include "app/commands/commands.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
-#include "app/text/shell_text.hpp"
 #include "session/below/capture.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
+#include "session/text/shell_text.hpp"
 #include "session/text/size_text.hpp"
 
 namespace nutik::app {

@@ -6,11 +6,11 @@
 
 #include "app/output/console.hpp"
 #include "app/text/number_text.hpp"
-#include "app/text/shell_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/functions.hpp"
 #include "session/requests/function_input.hpp"
+#include "session/text/shell_text.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {

@@ -6,9 +6,9 @@
 #include "app/command_line/option_table.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
-#include "app/text/shell_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
+#include "session/text/shell_text.hpp"
 
 namespace nutik::app {
 namespace {

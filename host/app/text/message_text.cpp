@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "app/command_line/suggestion.hpp"
-#include "app/text/shell_text.hpp"
 #include "session/below/capture.hpp"
 #include "session/below/format.hpp"
 #include "session/clips/alignment.hpp"
@@ -19,6 +18,7 @@
 #include "session/requests/output_request.hpp"
 #include "session/requests/picture_input.hpp"
 #include "session/requests/series_request.hpp"
+#include "session/text/shell_text.hpp"
 
 namespace nutik::app {
 namespace {

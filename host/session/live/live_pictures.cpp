@@ -75,8 +75,8 @@ void LivePictures::work(const std::stop_token& stop) {
 
 void LivePictures::preview(Asked asked, const std::stop_token& stop) {
   strips_.reset();
-  LiveAnswer found{asked.number, true, {}, {}};
   const LivePart& part = asked.request.preview;
+  LiveAnswer found{asked.number, true, part.rectangle, {}, {}};
   try {
     const std::optional<Precision> single =
         previews_in_single_ ? std::optional(Precision::single_) : std::nullopt;
@@ -99,7 +99,7 @@ void LivePictures::preview(Asked asked, const std::stop_token& stop) {
 void LivePictures::expose_strip(const std::stop_token& stop) {
   Strips& strips = *strips_;
   const Rectangle& whole = strips.part.rectangle;
-  LiveAnswer found{strips.number, false, {}, {}};
+  LiveAnswer found{strips.number, false, whole, {}, {}};
   try {
     Rectangle strip = whole;
     strip.y += strips.next_row;

@@ -39,7 +39,8 @@ struct LiveRequest {
 struct LiveAnswer {
   std::uint64_t request = 0;  // as ask() numbered it
   bool is_preview = false;
-  // Of the rectangle; the bytes of a full one are those of Session::render(). Or what that threw.
+  Rectangle rectangle;  // that was asked for
+  // Of that; the bytes of a full one are those of Session::render(). Or what that threw.
   std::optional<ExposedPicture> exposed;
   std::exception_ptr error;
 };

@@ -1,10 +1,10 @@
-#include "app/text/shell_text.hpp"
+#include "session/text/shell_text.hpp"
 
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/functions.hpp"
 
-namespace nutik::app {
+namespace nutik {
 
 std::string shell_word(std::string_view word) {
   constexpr std::string_view kPlain =
@@ -53,4 +53,4 @@ std::vector<std::string> shell_words(std::string_view line) {
   return words;
 }
 
-}  // namespace nutik::app
+}  // namespace nutik

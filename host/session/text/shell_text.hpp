@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace nutik::app {
+namespace nutik {
 
 // The word as it is where a shell takes it literally, else in single quotes.
 [[nodiscard]] std::string shell_word(std::string_view word);
@@ -14,4 +14,4 @@ namespace nutik::app {
 // quote is not closed.
 [[nodiscard]] std::vector<std::string> shell_words(std::string_view line);
 
-}  // namespace nutik::app
+}  // namespace nutik
