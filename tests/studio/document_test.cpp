@@ -12,7 +12,7 @@ namespace {
 CaptureFacts facts_of_one_second() {
   CaptureFormat format;
   format.shape = {8, 6, 3};
-  return {"clip.tik", "clip.tik", format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)};
+  return {"clip.tik", format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)};
 }
 
 TEST(Document, MakesOneStepOfADrag) {

@@ -1,1 +1,1 @@
-set(files)
+set(files canvas.cpp canvas.hpp outlines.cpp outlines.hpp view.cpp view.hpp)

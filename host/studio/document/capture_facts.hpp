@@ -13,10 +13,10 @@ namespace nutik::studio {
 
 // Of an opened capture: its shape, codes and times. timeline.rate() is its sample rate.
 struct CaptureFacts {
-  QString path;     // as the person gave it: a .tik or a clip
-  QString capture;  // the .tik that is exposed: the same, or one that was made of the clip
+  QString path;  // as the person gave it: a .tik or a clip
   CaptureFormat format;
   Timeline timeline;
+  QString rate = {};  // pictures a second, as a person stated it; empty: what the clip says
 };
 
 // What the time strip shows behind the boxcar. Measured after the first picture, so that it does not delay it.

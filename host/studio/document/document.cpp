@@ -37,7 +37,7 @@ class StateStep : public QUndoCommand {
 
 Document::Document(QObject* parent) : QObject(parent) {}
 
-void Document::start(CaptureFacts facts) {
+void Document::start(CaptureFacts facts, std::optional<DocumentState> state) {
   facts_ = std::move(facts);
   overview_ = {};
   undo_.clear();
@@ -48,8 +48,9 @@ void Document::start(CaptureFacts facts) {
   state_ = {};
   state_.boxcar = {start_ns, length_ns};
   state_.functions.emplace(0, with_steps(GainFunction::boxcar(start_ns, start_ns + length_ns)));
-  state_.looks[0] = {tr("Background"), first_colour(0), true};
-  selected_tag_ = 0;
+  if (state) state_ = std::move(*state);
+  complete(state_);
+  selected_tag_ = state_.functions.begin()->first;
   selected_points_.clear();
   solo_.reset();
   probe_.reset();
@@ -99,7 +100,19 @@ void Document::set_mode(ExposureMode mode) {
   apply(std::move(after), mode == ExposureMode::boxcar ? tr("Expose the interval") : tr("Expose regions"));
 }
 
+void Document::complete(DocumentState& state) const {
+  if (state.functions.size() > 1 && !state.mask && facts_) {
+    const Shape& shape = facts_->format.shape;
+    state.mask = Shared(MaskWithRegions(Mask::uniform(shape.width, shape.height, 0)));
+  }
+  std::erase_if(state.looks, [&](const auto& look) { return !state.functions.contains(look.first); });
+  for (const auto& [tag, function] : state.functions)
+    state.looks.try_emplace(
+        tag, RegionLook{tag == 0 ? tr("Background") : tr("Region %1").arg(tag), first_colour(tag), true});
+}
+
 void Document::apply(DocumentState state, const QString& what) {
+  complete(state);
   if (state == state_) return;
   undo_.push(new StateStep(*this, std::move(state), what, is_dragging_ ? drag_ : 0));
 }

@@ -53,6 +53,9 @@ struct DocumentState {
   std::optional<Shared<MaskWithRegions>> mask;  // none: tag 0 everywhere
   ExposureMode mode = ExposureMode::boxcar;
   Boxcar boxcar;
+  Normalization normalization;
+  int feather = 0;           // of the mask's edges, to either side, in hundredths of a pixel
+  double brightness_ev = 0;  // in stops
   friend bool operator==(const DocumentState&, const DocumentState&) = default;
 };
 
@@ -67,8 +70,8 @@ class Document : public QObject {
   // None until one is opened.
   [[nodiscard]] const CaptureFacts* facts() const { return facts_ ? &*facts_ : nullptr; }
   [[nodiscard]] std::int64_t duration_ns() const { return facts_ ? facts_->timeline.duration_ns() : 0; }
-  // A capture was opened: starts anew with one region, tag 0, exposed over the middle tenth.
-  void start(CaptureFacts facts);
+  // A capture was opened: starts anew with one region, tag 0, exposed over the middle tenth; or with what was loaded.
+  void start(CaptureFacts facts, std::optional<DocumentState> state = {});
 
   [[nodiscard]] const CaptureOverview& overview() const { return overview_; }
   void set_overview(CaptureOverview overview);
@@ -89,7 +92,8 @@ class Document : public QObject {
   // Clamped into the capture. Switches to ExposureMode::boxcar.
   void set_boxcar(Boxcar boxcar, const QString& what);
   void set_mode(ExposureMode mode);
-  // Any other edit. The edit is dropped if nothing differs.
+  // Any other edit. The edit is dropped if nothing differs. Several functions get a mask, tag 0 everywhere, where there
+  // is none; functions get looks.
   void apply(DocumentState state, const QString& what);
 
   // While the mouse is down. Drags do not nest.
@@ -98,6 +102,7 @@ class Document : public QObject {
   [[nodiscard]] bool is_dragging() const { return is_dragging_; }
 
   [[nodiscard]] QUndoStack& undo_stack() { return undo_; }
+  [[nodiscard]] const QUndoStack& undo_stack() const { return undo_; }
 
   // ---- what is looked at ----
 
@@ -128,6 +133,7 @@ class Document : public QObject {
   friend class StateStep;
   void take(const DocumentState& state);
   void keep_selection_within();
+  void complete(DocumentState& state) const;
 
   std::optional<CaptureFacts> facts_;
   CaptureOverview overview_;

@@ -1,1 +1,2 @@
-set(files)
+set(files exposure_of.cpp exposure_of.hpp jobs.cpp jobs.hpp live_view.cpp live_view.hpp overview.cpp overview.hpp
+    opening.cpp opening.hpp picture_image.cpp picture_image.hpp)

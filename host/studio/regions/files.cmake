@@ -1,1 +1,1 @@
-set(files)
+set(files mask_tools.cpp mask_tools.hpp region_edits.cpp region_edits.hpp region_list.cpp region_list.hpp)

@@ -1,0 +1,91 @@
+// The picture: zoomed, panned, with the outlines of regions, and the mouse on it.
+//
+//   in:      pictures as they are exposed; the mouse and the keyboard
+//   out:     which pixels are visible, the pixel under the pointer; clicks and strokes, to whoever is its tool
+//   always:  the middle button pans, the wheel zooms to the pointer, whatever the tool
+#pragma once
+
+#include <QImage>
+#include <QWidget>
+#include <memory>
+#include <optional>
+
+#include "studio/canvas/outlines.hpp"
+#include "studio/canvas/view.hpp"
+#include "studio/document/document.hpp"
+#include "studio/live/live_view.hpp"
+
+namespace nutik::studio {
+
+// What the left button does, in the picture's coordinates.
+class CanvasTool {
+ public:
+  virtual ~CanvasTool() = default;
+  virtual void press(QPointF at, Qt::KeyboardModifiers keys) = 0;
+  virtual void drag(QPointF to, Qt::KeyboardModifiers keys) = 0;
+  virtual void release(QPointF at, Qt::KeyboardModifiers keys) = 0;
+  virtual void finish() {}   // Enter, or a double click
+  virtual void give_up() {}  // Escape
+  // What is being drawn, `picture` painted already with lines one screen pixel wide; `pointer` is where the mouse is.
+  virtual void paint(QPainter& painter, QPointF pointer) const = 0;
+};
+
+class Canvas : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit Canvas(Document& document, QWidget* parent = nullptr);
+  ~Canvas() override;
+
+  void show_picture(const ShownPicture& picture);
+  // Before there is a picture of the document: a clip's first one.
+  void show_first_look(const QImage& image);
+  void clear();
+  // Said where no picture is.
+  void set_hint(const QString& hint);
+
+  // Null: the left button looks (a click takes the pixel, a drag pans). The tool is not owned.
+  void set_tool(CanvasTool* tool);
+
+  [[nodiscard]] const QImage& image() const { return image_; }
+  [[nodiscard]] View& view() { return view_; }
+  void zoom_by(double factor);  // about the middle
+  void show_actual_size();
+  void fit();
+
+ Q_SIGNALS:
+  void visible_changed(QRect pixels);
+  void pointed(std::optional<QPoint> pixel);  // none: it left the picture
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  QSize sizeHint() const override { return {640, 400}; }
+
+ private:
+  void view_moved();
+  void follow_mask();
+  void paint_regions(QPainter& painter);
+  void paint_solo(QPainter& painter);
+  [[nodiscard]] std::optional<QPoint> pixel_at(QPointF widget) const;
+
+  Document& document_;
+  QImage image_;
+  QString hint_;
+  View view_;
+  CanvasTool* tool_ = nullptr;
+  std::optional<Shared<MaskWithRegions>> outlined_;
+  Outlines outlines_;
+  QImage solo_;  // what it leaves in the dark
+  QPointF pointer_, pressed_;
+  bool is_panning_ = false, is_stroking_ = false, has_moved_ = false;
+};
+
+}  // namespace nutik::studio

@@ -1,0 +1,106 @@
+#include "studio/live/jobs.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "session/below/error.hpp"
+
+namespace nutik::studio {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kBetweenReports = std::chrono::milliseconds(40);
+
+}  // namespace
+
+Jobs::Jobs(QObject* parent) : QObject(parent), worker_([this](const std::stop_token& stop) { run(stop); }) {}
+
+Jobs::~Jobs() {
+  cancel();
+  worker_.request_stop();
+  worker_.join();
+}
+
+void Jobs::start(const QString& what, Work work) {
+  ++open_;
+  const std::scoped_lock lock(mutex_);
+  waiting_.push_back({what, std::move(work), round_});
+  changed_.notify_all();
+}
+
+void Jobs::cancel() {
+  ++round_;
+  std::deque<Waiting> dropped;
+  {
+    const std::scoped_lock lock(mutex_);
+    dropped = std::exchange(waiting_, {});
+    current_.request_stop();
+  }
+  open_ -= static_cast<int>(dropped.size());
+  if (!dropped.empty()) Q_EMIT ended();
+}
+
+void Jobs::run(const std::stop_token& stop) {
+  for (;;) {
+    Waiting next;
+    {
+      std::unique_lock lock(mutex_);
+      if (!changed_.wait(lock, stop, [&] { return !waiting_.empty(); })) return;
+      next = std::move(waiting_.front());
+      waiting_.pop_front();
+      current_ = std::stop_source();
+    }
+    run(next);
+  }
+}
+
+void Jobs::run(Waiting& waiting) {
+  std::stop_token stop;
+  {
+    const std::scoped_lock lock(mutex_);
+    stop = current_.get_token();
+  }
+  Clock::time_point last_report{};
+  const auto progress = [&](std::uint64_t done, std::uint64_t total) {
+    if (stop.stop_requested()) throw Cancelled();
+    const Clock::time_point now = Clock::now();
+    if (now - last_report < kBetweenReports && done != total) return;
+    last_report = now;
+    QMetaObject::invokeMethod(
+        this, [this, what = waiting.what, done, total] { Q_EMIT progressed(what, done, total); },
+        Qt::QueuedConnection);
+  };
+  Finish finish;
+  QString error;
+  try {
+    finish = waiting.work({stop, progress});
+  } catch (const Cancelled&) {
+  } catch (...) {
+    error = sentence_of(std::current_exception());
+  }
+  QMetaObject::invokeMethod(
+      this,
+      [this, finish, error, what = waiting.what, round = waiting.round] {
+        --open_;
+        if (round == round_ && finish) finish();
+        if (round == round_ && !error.isEmpty()) Q_EMIT failed(what, error);
+        Q_EMIT ended();
+      },
+      Qt::QueuedConnection);
+}
+
+QString sentence_of(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    return Jobs::tr("There is not enough memory for this.");
+  } catch (const std::exception& known) {
+    QString text = QString::fromUtf8(known.what());
+    if (!text.isEmpty()) text[0] = text[0].toUpper();
+    return text;
+  } catch (...) {
+    return Jobs::tr("It failed, and nothing is known of why.");
+  }
+}
+
+}  // namespace nutik::studio

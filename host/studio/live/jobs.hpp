@@ -1,0 +1,70 @@
+// Work that takes long, one after another on a thread of its own, so that the window never waits.
+//
+//   in:      work, and a name for it that people read
+//   out:     signals, and what the work returns to be done on the window's thread
+//   always:  a job that throws Cancelled ends without a word; any other error comes as failed()
+#pragma once
+
+#include <QObject>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
+#include "session/reported_progress.hpp"
+
+namespace nutik::studio {
+
+// What work is given. Its progress throws Cancelled once it is to stop.
+struct Job {
+  std::stop_token stop;
+  ReportedProgress progress;
+};
+
+class Jobs : public QObject {
+  Q_OBJECT
+
+ public:
+  using Finish = std::function<void()>;            // on the window's thread; may be empty
+  using Work = std::function<Finish(const Job&)>;  // on the jobs' thread
+
+  explicit Jobs(QObject* parent = nullptr);
+  ~Jobs() override;  // cancels
+
+  void start(const QString& what, Work work);
+  // The one that runs and those that wait. What the one that runs would have returned is dropped.
+  void cancel();
+  [[nodiscard]] bool is_busy() const { return open_ > 0; }
+
+ Q_SIGNALS:
+  void progressed(const QString& what, quint64 done, quint64 total);  // total 0: not known
+  void failed(const QString& what, const QString& why);
+  void ended();  // after each job, also a cancelled one
+
+ private:
+  struct Waiting {
+    QString what;
+    Work work;
+    std::uint64_t round;
+  };
+
+  void run(const std::stop_token& stop);
+  void run(Waiting& waiting);
+
+  int open_ = 0;             // started and not ended; the window's
+  std::uint64_t round_ = 0;  // counts cancellations; the window's
+
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable_any changed_;
+  std::deque<Waiting> waiting_;
+  std::stop_source current_;
+
+  std::jthread worker_;  // last: it uses everything else
+};
+
+// An error in the words of its message.
+[[nodiscard]] QString sentence_of(const std::exception_ptr& error);
+
+}  // namespace nutik::studio

@@ -1,0 +1,141 @@
+#include "studio/live/live_view.hpp"
+
+#include <utility>
+
+#include "session/below/functions.hpp"
+#include "studio/live/exposure_of.hpp"
+#include "studio/live/picture_image.hpp"
+
+namespace nutik::studio {
+namespace {
+
+QString arithmetic_of(const ExposedPicture& exposed) {
+  QString text = QString::fromStdString(std::string(to_text(exposed.precision)));
+  if (exposed.choice && exposed.choice->bound.precision == exposed.precision)
+    text += ": " + QString::fromStdString(error_text(exposed.choice->bound.worst, exposed.output));
+  return text;
+}
+
+}  // namespace
+
+LiveView::LiveView(Document& document, Jobs& jobs, QObject* parent)
+    : QObject(parent), document_(document), jobs_(jobs) {
+  connect(&document_, &Document::changed, this, [this] { ask(!document_.is_dragging()); });
+  connect(&document_, &Document::released, this, [this] { ask(true); });
+}
+
+LiveView::~LiveView() = default;
+
+void LiveView::show(std::shared_ptr<Session> session) {
+  pictures_.reset();
+  session_ = std::move(session);
+  soft_.reset();
+  visible_ = {};
+  last_asked_ = last_shown_ = 0;
+  full_wanted_ = full_shown_ = false;
+  {
+    const std::scoped_lock lock(mutex_);
+    asked_at_.clear();
+    delivered_.reset();
+  }
+  if (!session_) return;
+  pictures_ = std::make_unique<LivePictures>([this](LiveAnswer answer) { deliver(std::move(answer)); });
+  ask(true);
+}
+
+void LiveView::set_visible(QRect pixels) {
+  if (pixels == visible_) return;
+  visible_ = pixels;
+}
+
+bool LiveView::is_busy() const {
+  return pictures_ && (last_shown_ < last_asked_ || (full_wanted_ && !full_shown_));
+}
+
+void LiveView::ask(bool with_full) {
+  if (!pictures_) return;
+  bool is_final = true;
+  const ExposureRequest exposure = exposure_of(document_.state(), mask_of(document_.state(), is_final));
+  const Shape& shape = session_->format().shape;
+  LivePart preview{session_.get(), exposure, screen_format(), rectangle_of(visible_, shape)};
+  std::optional<LivePart> full;
+  if (with_full && is_final) {
+    full = preview;
+    full->rectangle = Rectangle::whole(shape);
+  }
+  full_wanted_ = full.has_value();
+  full_shown_ = false;
+  const std::scoped_lock lock(mutex_);
+  last_asked_ = pictures_->ask({std::move(preview), std::move(full)});
+  asked_at_[last_asked_] = Clock::now();
+}
+
+std::optional<Shared<MaskWithRegions>> LiveView::mask_of(const DocumentState& state, bool& is_final) {
+  if (!state.mask || state.mode == ExposureMode::boxcar || state.feather == 0) return state.mask;
+  if (!soft_ || !(soft_->hard == *state.mask) || soft_->feather != state.feather) {
+    soft_ = {*state.mask, state.feather, std::nullopt};
+    jobs_.start(tr("Feathering"), [this, wanted = state](const Job&) -> Jobs::Finish {
+      return [this, wanted, made = feathered_mask(wanted)] {
+        if (!soft_ || !(soft_->hard == *wanted.mask) || soft_->feather != wanted.feather) return;
+        soft_->mask = made;
+        ask(!document_.is_dragging());
+      };
+    });
+  }
+  is_final = soft_->mask.has_value();
+  return is_final ? soft_->mask : state.mask;
+}
+
+Shared<MaskWithRegions> LiveView::feathered_mask(const DocumentState& state) {
+  if (state.feather == 0) return *state.mask;
+  return Shared(MaskWithRegions(feathered((*state.mask)->mask, {state.feather, {}})));
+}
+
+// On the engine's thread.
+void LiveView::deliver(LiveAnswer answer) {
+  Delivered found{answer.request, answer.is_preview, {}, {}};
+  if (answer.exposed) {
+    const ExposedPicture& exposed = *answer.exposed;
+    found.picture.image = image_of(exposed.picture);
+    found.picture.is_full = !answer.is_preview;
+    found.picture.pixels_below = exposed.saturation.below;
+    found.picture.pixels_above = exposed.saturation.above;
+    found.picture.arithmetic = arithmetic_of(exposed);
+    QStringList warnings;
+    for (const std::string& warning : exposed.warnings) warnings += QString::fromStdString(warning);
+    found.picture.warnings = warnings.join('\n');
+  } else {
+    found.error = sentence_of(answer.error);
+  }
+  found.picture.place = rectangle_of(answer.rectangle);
+  const std::scoped_lock lock(mutex_);
+  const auto asked = asked_at_.find(answer.request);
+  if (asked != asked_at_.end()) {
+    found.picture.milliseconds =
+        std::chrono::duration<double, std::milli>(Clock::now() - asked->second).count();
+    asked_at_.erase(asked_at_.begin(), asked);
+  }
+  // A full picture is not dropped for its own preview, which comes before it.
+  const bool is_waiting = std::exchange(delivered_, std::move(found)).has_value();
+  if (!is_waiting)
+    QMetaObject::invokeMethod(
+        this, [this] { take(); }, Qt::QueuedConnection);
+}
+
+void LiveView::take() {
+  std::optional<Delivered> found;
+  {
+    const std::scoped_lock lock(mutex_);
+    found = std::exchange(delivered_, std::nullopt);
+  }
+  if (!found) return;
+  last_shown_ = found->request;
+  if (found->request == last_asked_ && (!found->is_preview || !found->error.isEmpty())) full_shown_ = true;
+  if (found->error.isEmpty()) {
+    Q_EMIT pictured(found->picture);
+  } else {
+    Q_EMIT failed(found->error);
+  }
+}
+
+}  // namespace nutik::studio

@@ -1,0 +1,88 @@
+// The picture of a document, exposed anew whenever it changes: LivePictures between two sides of the window.
+//
+//   in:      the document, and which pixels can be seen
+//   out:     pictured(), on the window's thread: of several that came while the window was busy the newest alone
+//   always:  the window never waits. While a drag lasts previews of what is seen are asked for; otherwise the full
+//            picture follows, in the arithmetic that written pictures have
+#pragma once
+
+#include <QImage>
+#include <QObject>
+#include <QRect>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "session/live/live_pictures.hpp"
+#include "studio/document/document.hpp"
+#include "studio/live/jobs.hpp"
+
+namespace nutik::studio {
+
+struct ShownPicture {
+  QImage image;
+  QRect place;  // in the capture's pixels
+  bool is_full = false;
+  std::uint64_t pixels_below = 0, pixels_above = 0;  // saturated
+  QString arithmetic;                                // and its bound
+  double milliseconds = 0;                           // from the request to the picture
+  QString warnings;
+};
+
+class LiveView : public QObject {
+  Q_OBJECT
+
+ public:
+  LiveView(Document& document, Jobs& jobs, QObject* parent = nullptr);
+  ~LiveView() override;
+
+  // What pictures are exposed of; null: nothing. The session lives on until the next one.
+  void show(std::shared_ptr<Session> session);
+  void set_visible(QRect pixels);
+  // Whether a picture is on its way that nothing has delivered yet: for tests and for who wants to write it.
+  [[nodiscard]] bool is_busy() const;
+  // The document's mask as pictures are exposed with it; none while it is being feathered.
+  [[nodiscard]] static Shared<MaskWithRegions> feathered_mask(const DocumentState& state);
+
+ Q_SIGNALS:
+  void pictured(const ShownPicture& picture);
+  void failed(const QString& why);
+
+ private:
+  struct Soft {
+    Shared<MaskWithRegions> hard;
+    int feather;
+    std::optional<Shared<MaskWithRegions>> mask;  // none while it is made
+  };
+  using Clock = std::chrono::steady_clock;
+
+  void ask(bool with_full);
+  [[nodiscard]] std::optional<Shared<MaskWithRegions>> mask_of(const DocumentState& state, bool& is_final);
+  void deliver(LiveAnswer answer);
+  void take();
+
+  Document& document_;
+  Jobs& jobs_;
+  QRect visible_;
+  std::optional<Soft> soft_;
+  std::uint64_t last_asked_ = 0, last_shown_ = 0;
+  bool full_wanted_ = false;
+  bool full_shown_ = false;
+
+  struct Delivered {
+    std::uint64_t request;
+    bool is_preview;
+    ShownPicture picture;
+    QString error;
+  };
+  std::mutex mutex_;  // guards what follows
+  std::map<std::uint64_t, Clock::time_point> asked_at_;
+  std::optional<Delivered> delivered_;
+
+  std::shared_ptr<Session> session_;
+  std::unique_ptr<LivePictures> pictures_;  // last: it delivers into what is above
+};
+
+}  // namespace nutik::studio

@@ -1,0 +1,40 @@
+#include "studio/live/opening.hpp"
+
+#include <utility>
+
+#include "session/below/error.hpp"
+#include "studio/live/picture_image.hpp"
+
+namespace nutik::studio {
+namespace {
+
+// The first picture, of a session that reads no further.
+QImage first_picture(const SourceRequest& source, const std::shared_ptr<Devices>& devices, const Job& job) {
+  Session forward(source, devices, {.reading = Reading::forward, .progress = {}, .stop = job.stop});
+  ExposureRequest exposure;
+  exposure.start = StatedTime::of_pictures(0);
+  exposure.gains = PlainInterval{StatedTime::of_pictures(1), Shutter()};
+  RenderControl control;
+  control.stop = job.stop;
+  return image_of(forward.render(exposure, screen_format(), control).picture);
+}
+
+}  // namespace
+
+Opened open_capture(const QString& path, const QString& rate, std::shared_ptr<Devices> devices,
+                    const Job& job, const std::function<void(QImage)>& first_look) {
+  SourceRequest source;
+  source.path = path.toStdString();
+  if (!rate.isEmpty()) source.clip.rate = Rational::parse(rate.toStdString(), "the frame rate");
+  const bool is_clip = !path.endsWith(".tik", Qt::CaseInsensitive);
+  if (is_clip) first_look(first_picture(source, devices, job));
+  auto session = std::make_shared<Session>(
+      source, std::move(devices),
+      Session::Terms{.reading = Reading::whole, .progress = job.progress, .stop = job.stop});
+  Opened opened{session, {path, session->format(), session->timeline(), rate}, {}};
+  for (const Note& note : session->notes()) opened.notes += QString::fromStdString(note.text);
+  for (const std::string& warning : session->warnings()) opened.notes += QString::fromStdString(warning);
+  return opened;
+}
+
+}  // namespace nutik::studio

@@ -1,0 +1,210 @@
+#include "studio/regions/region_list.hpp"
+
+#include <QColorDialog>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QGridLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QScopedValueRollback>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "studio/regions/region_edits.hpp"
+
+namespace nutik::studio {
+namespace {
+
+constexpr int kTagRole = Qt::UserRole;
+constexpr double kMostRadius = 100, kMostFeather = 100;  // pixels
+
+QIcon swatch(const QColor& colour) {
+  QPixmap pixmap(32, 32);
+  pixmap.setDevicePixelRatio(2);
+  pixmap.fill(Qt::transparent);
+  QPainter painter(&pixmap);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(colour);
+  painter.drawRoundedRect(QRectF(2, 2, 12, 12), 3, 3);
+  return pixmap;
+}
+
+std::uint8_t tag_of(const QTreeWidgetItem& item) {
+  return static_cast<std::uint8_t>(item.data(0, kTagRole).toUInt());
+}
+
+QDoubleSpinBox* pixel_box(double most, double value, const QString& name, QWidget* parent) {
+  auto* box = new QDoubleSpinBox(parent);
+  box->setRange(0, most);
+  box->setDecimals(1);
+  box->setSuffix(QStringLiteral(" px"));
+  box->setValue(value);
+  box->setAccessibleName(name);
+  return box;
+}
+
+}  // namespace
+
+RegionList::RegionList(Document& document, QWidget* parent)
+    : QWidget(parent), document_(document), list_(new QTreeWidget(this)) {
+  list_->setObjectName("regions");
+  list_->setAccessibleName(tr("Regions"));
+  list_->setColumnCount(kColumns);
+  list_->setHeaderLabels({tr("Region"), tr("Tag"), tr("Still"), tr("Solo")});
+  list_->headerItem()->setToolTip(kTag, tr("The region's value in the mask, and its M in the function file"));
+  list_->headerItem()->setToolTip(kStill, tr("What light that does not change is multiplied by"));
+  list_->headerItem()->setToolTip(kSolo, tr("Darkens all other regions"));
+  list_->setRootIsDecorated(false);
+  list_->setUniformRowHeights(true);
+  list_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
+  list_->header()->setStretchLastSection(false);
+  list_->header()->setSectionResizeMode(kName, QHeaderView::Stretch);
+  for (const int column : {kTag, kStill, kSolo})
+    list_->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
+  build_buttons();
+  connect(list_, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
+    if (!is_following_ && item != nullptr) document_.select_tag(tag_of(*item));
+  });
+  connect(list_, &QTreeWidget::itemChanged, this, &RegionList::edited);
+  connect(&document_, &Document::changed, this, &RegionList::follow);
+  connect(&document_, &Document::capture_changed, this, &RegionList::follow);
+  connect(&document_, &Document::selection_changed, this, &RegionList::follow_selection);
+  follow();
+}
+
+void RegionList::build_buttons() {
+  const auto button = [&](const char* name, const QString& text, const QString& tip) {
+    auto* made = new QPushButton(text, this);
+    made->setObjectName(name);
+    made->setToolTip(tip);
+    made->setAccessibleDescription(tip);
+    return made;
+  };
+  add_ = button("add_region", tr("Add"), tr("A new region, exposed over the interval; paint it with a tool"));
+  remove_ = button("remove_region", tr("Remove"), tr("Its pixels fall to the background"));
+  colour_ = button("region_colour", tr("Colour…"), tr("Of the region's outline and curve"));
+  over_interval_ = button("over_interval", tr("Expose over interval"),
+                          tr("The interval of the time strip becomes the region's function"));
+  grow_ = button("grow", tr("Grow"), tr("By so many pixels"));
+  shrink_ = button("shrink", tr("Shrink"), tr("By so many pixels"));
+  smooth_ = button("smooth", tr("Smooth"), tr("Without parts and holes narrower than twice that"));
+  radius_ = pixel_box(kMostRadius, 2, tr("Pixels to grow, shrink or smooth by"), this);
+  radius_->setObjectName("radius");
+  feather_ = pixel_box(kMostFeather, 0, tr("Feather: how far all edges are blended, to either side"), this);
+  feather_->setObjectName("feather");
+  feather_->setKeyboardTracking(false);
+
+  auto* first = new QGridLayout;
+  first->addWidget(add_, 0, 0);
+  first->addWidget(remove_, 0, 1);
+  first->addWidget(colour_, 0, 2);
+  first->addWidget(over_interval_, 1, 0, 1, 3);
+  auto* second = new QGridLayout;
+  second->addWidget(grow_, 0, 0);
+  second->addWidget(shrink_, 0, 1);
+  second->addWidget(smooth_, 0, 2);
+  auto* numbers = new QFormLayout;
+  numbers->addRow(tr("By"), radius_);
+  numbers->addRow(tr("Feather edges"), feather_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(6, 6, 6, 6);
+  column->addWidget(list_, 1);
+  column->addLayout(first);
+  column->addLayout(second);
+  column->addLayout(numbers);
+
+  connect(add_, &QPushButton::clicked, this, [this] { add_region(document_); });
+  connect(remove_, &QPushButton::clicked, this,
+          [this] { remove_region(document_, document_.selected_tag()); });
+  connect(colour_, &QPushButton::clicked, this, &RegionList::choose_colour);
+  connect(over_interval_, &QPushButton::clicked, this,
+          [this] { expose_over_boxcar(document_, document_.selected_tag()); });
+  connect(grow_, &QPushButton::clicked, this,
+          [this] { grow_region(document_, document_.selected_tag(), radius_->value()); });
+  connect(shrink_, &QPushButton::clicked, this,
+          [this] { grow_region(document_, document_.selected_tag(), -radius_->value()); });
+  connect(smooth_, &QPushButton::clicked, this,
+          [this] { smooth_region(document_, document_.selected_tag(), radius_->value()); });
+  connect(feather_, &QDoubleSpinBox::valueChanged, this, [this](double pixels) {
+    if (!is_following_) set_feather(document_, qRound(pixels * 100));
+  });
+}
+
+void RegionList::follow() {
+  const QScopedValueRollback guard(is_following_, true);
+  const FunctionSet& functions = document_.functions();
+  int row = 0;
+  for (const auto& [tag, function] : functions) {
+    while (row < list_->topLevelItemCount() && tag_of(*list_->topLevelItem(row)) < tag)
+      delete list_->takeTopLevelItem(row);
+    if (row == list_->topLevelItemCount() || tag_of(*list_->topLevelItem(row)) != tag) {
+      auto* item = new QTreeWidgetItem;
+      item->setData(0, kTagRole, tag);
+      item->setFlags(item->flags() | Qt::ItemIsEditable | Qt::ItemIsUserCheckable);
+      list_->insertTopLevelItem(row, item);
+    }
+    fill(*list_->topLevelItem(row), tag);
+    ++row;
+  }
+  while (list_->topLevelItemCount() > row) delete list_->takeTopLevelItem(row);
+  feather_->setValue(document_.state().feather / 100.0);
+  follow_selection();
+}
+
+void RegionList::follow_selection() {
+  const QScopedValueRollback guard(is_following_, true);
+  for (int row = 0; row < list_->topLevelItemCount(); ++row) {
+    QTreeWidgetItem& item = *list_->topLevelItem(row);
+    if (tag_of(item) == document_.selected_tag()) list_->setCurrentItem(&item);
+    item.setCheckState(kSolo, document_.solo() == tag_of(item) ? Qt::Checked : Qt::Unchecked);
+  }
+  const bool is_open = document_.facts() != nullptr;
+  const bool can_change = is_open && document_.selected_tag() != kBackground;
+  for (QWidget* widget : {static_cast<QWidget*>(add_), static_cast<QWidget*>(colour_),
+                          static_cast<QWidget*>(over_interval_), static_cast<QWidget*>(feather_)})
+    widget->setEnabled(is_open);
+  for (QPushButton* button : {remove_, grow_, shrink_, smooth_}) button->setEnabled(can_change);
+}
+
+void RegionList::fill(QTreeWidgetItem& item, std::uint8_t tag) const {
+  const auto look = document_.state().looks.find(tag);
+  if (look == document_.state().looks.end()) return;
+  const double still = summarize(document_.functions().at(tag), document_.duration_ns()).still_gain();
+  item.setText(kName, look->second.name);
+  item.setIcon(kName, swatch(look->second.colour));
+  item.setCheckState(kName, look->second.is_visible ? Qt::Checked : Qt::Unchecked);
+  item.setToolTip(kName, tr("Checked: its outline and its curve are shown"));
+  item.setText(kTag, QStringLiteral("M%1").arg(tag));
+  item.setText(kStill, QStringLiteral("%1×").arg(still, 0, 'f', 2));
+  item.setTextAlignment(kStill, Qt::AlignRight | Qt::AlignVCenter);
+}
+
+void RegionList::edited(QTreeWidgetItem* item, int column) {
+  if (is_following_) return;
+  const std::uint8_t tag = tag_of(*item);
+  RegionLook look = document_.state().looks.at(tag);
+  if (column == kSolo) {
+    document_.set_solo(item->checkState(kSolo) == Qt::Checked ? std::optional(tag) : std::nullopt);
+    return;
+  }
+  if (column != kName) return follow();  // what is told cannot be edited
+  const bool is_visible = item->checkState(kName) == Qt::Checked;
+  const QString what = is_visible == look.is_visible ? tr("Rename region") : tr("Show region");
+  look.is_visible = is_visible;
+  if (!item->text(kName).trimmed().isEmpty()) look.name = item->text(kName).trimmed();
+  set_look(document_, tag, look, what);
+  follow();
+}
+
+void RegionList::choose_colour() {
+  RegionLook look = document_.state().looks.at(document_.selected_tag());
+  const QColor chosen = QColorDialog::getColor(look.colour, this, tr("Colour of %1").arg(look.name));
+  if (!chosen.isValid()) return;
+  look.colour = chosen;
+  set_look(document_, document_.selected_tag(), look, tr("Colour region"));
+}
+
+}  // namespace nutik::studio
