@@ -178,7 +178,7 @@ void Document::keep_selection_within() {
 QColor first_colour(std::uint8_t tag) {
   // Steps of the golden angle: neighbours in number are far apart in hue.
   const int hue = static_cast<int>(std::fmod(205.0 + 137.5 * tag, 360.0));
-  return QColor::fromHsl(hue, 150, 150);
+  return QColor(QColor::fromHsl(hue, 150, 150).rgb());  // as files have it
 }
 
 }  // namespace nutik::studio
