@@ -6,6 +6,7 @@
 #include "exposure/function_check.hpp"
 #include "exposure/function_diagnostics.hpp"
 #include "exposure/function_file.hpp"
+#include "exposure/function_numbers.hpp"
 #include "exposure/function_text.hpp"
 #include "exposure/mask.hpp"
 #include "exposure/mask_check.hpp"

@@ -22,21 +22,18 @@ std::vector<GainBoxcar> boxcars_of(const Points& points) {
   return boxcars;
 }
 
-Points with_boxcar_changed(const Points& points, const GainBoxcar& boxcar, BoxcarPart part, PointShift by) {
+Points with_boxcar_moved(const Points& points, const GainBoxcar& boxcar, BoxcarPart part,
+                         std::int64_t by_ns) {
   Points result = points;
   std::size_t first = boxcar.first, last = boxcar.last;
-  if (!boxcar.has_first_step && part != BoxcarPart::gain && part != BoxcarPart::end) {
+  if (!boxcar.has_first_step && part != BoxcarPart::end) {
     result.insert(result.begin(), {boxcar.begin_ns - 1, 0.0});
     ++first;
     ++last;
   }
-  switch (part) {
-    case BoxcarPart::whole: return moved(result, {first, last}, {by.time_ns, 0.0});
-    case BoxcarPart::begin: return moved(result, {first}, {by.time_ns, 0.0});
-    case BoxcarPart::end: return moved(result, {last}, {by.time_ns, 0.0});
-    case BoxcarPart::gain: return moved(result, {first, last}, {0, by.gain});
-  }
-  return result;
+  if (part == BoxcarPart::begin) return moved(result, {first}, {by_ns, 0.0});
+  if (part == BoxcarPart::end) return moved(result, {last}, {by_ns, 0.0});
+  return moved(result, {first, last}, {by_ns, 0.0});
 }
 
 }  // namespace nutik::studio

@@ -27,8 +27,8 @@ struct GainBoxcar {
 
 enum class BoxcarPart { whole, begin, end, gain };
 
-// Its ends and gain by so much; of a part only what it stands for. It stays as long as a nanosecond.
-[[nodiscard]] Points with_boxcar_changed(const Points& points, const GainBoxcar& boxcar, BoxcarPart part,
-                                         PointShift by);
+// Its ends, or one of them, so much later; its gain stays. It stays as long as a nanosecond.
+[[nodiscard]] Points with_boxcar_moved(const Points& points, const GainBoxcar& boxcar, BoxcarPart part,
+                                       std::int64_t by_ns);
 
 }  // namespace nutik::studio

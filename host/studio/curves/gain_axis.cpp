@@ -18,9 +18,9 @@ GainRange range_with_room(std::span<const ControlPoint> points) {
     low = std::min(low, point.gain);
     high = std::max(high, point.gain);
   }
-  // Functions that nearly reach 1, or are 0 everywhere, show it: it is what a plain exposure has.
+  // A gain of 1, which plain exposures have, is shown unless all gains are far from it.
   constexpr double kNear = 0.2;
-  if (high > kNear || low >= 0.0) high = std::max(high, high > kNear || high == 0.0 ? 1.0 : high);
+  if (high > kNear || low == high) high = std::max(high, 1.0);
   low = std::max(low, -kLargest);
   high = std::min(high, kLargest);
   const double length = std::max(high - low, kSmallest);

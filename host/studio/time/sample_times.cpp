@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "session/below/functions.hpp"
 #include "session/requests/stated_time.hpp"
 
 namespace nutik::studio {

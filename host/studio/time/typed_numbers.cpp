@@ -14,10 +14,8 @@ namespace {
 
 QString text_of(const std::string& text) { return QString::fromStdString(text); }
 
-// Without blanks, and with a point where a comma was meant.
-std::string plain(QString text) {
-  text.remove(QChar::Space).remove(QChar::Tabulation).remove(QChar(0x00A0)).remove(QChar(0x202F));
-  return text.replace(QChar(','), QChar('.')).toStdString();
+std::string without_blanks(QString text) {
+  return text.remove(QChar::Space).remove(QChar::Tabulation).remove(QChar::Nbsp).toStdString();
 }
 
 Typed<std::int64_t> within_reach(std::int64_t time_ns, const QString& what) {
@@ -49,7 +47,7 @@ QString exact_time_text(std::int64_t time_ns) {
 
 Typed<std::int64_t> read_typed_time(const QString& text, const QString& what, const Timeline& timeline) {
   try {
-    const StatedTime time = StatedTime::parse(plain(text), what.toStdString());
+    const StatedTime time = StatedTime::parse(without_blanks(text), what.toStdString());
     return within_reach(moment_ns(time, timeline), what);
   } catch (const UsageError& error) {
     return {std::nullopt, text_of(error.what())};
@@ -58,7 +56,7 @@ Typed<std::int64_t> read_typed_time(const QString& text, const QString& what, co
 
 Typed<std::int64_t> read_typed_length(const QString& text, const QString& what, const Timeline& timeline) {
   try {
-    const StatedTime time = StatedTime::parse(plain(text), what.toStdString());
+    const StatedTime time = StatedTime::parse(without_blanks(text), what.toStdString());
     const Exposure interval = plain_interval(StatedTime::of_nanoseconds(0), time, timeline);
     return within_reach(interval.end_ns - interval.start_ns, what);
   } catch (const UsageError& error) {
@@ -69,7 +67,7 @@ Typed<std::int64_t> read_typed_length(const QString& text, const QString& what, 
 QString gain_text(double gain) { return text_of(format("{}", gain)); }
 
 Typed<double> read_typed_gain(const QString& text) {
-  const auto read = read_gain(plain(text));
+  const auto read = read_gain(without_blanks(text));
   if (!read.mistake.empty()) return {std::nullopt, text_of(read.mistake)};
   return {read.value, {}};
 }

@@ -1,0 +1,216 @@
+#include "studio/curves/drags.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "session/below/format.hpp"
+#include "studio/time/typed_numbers.hpp"
+
+namespace nutik::studio {
+namespace {
+
+std::int64_t whole(double ns) {
+  constexpr auto kMost = static_cast<double>(kLargestTimeNs);
+  return std::llround(std::clamp(ns, -kMost, kMost));
+}
+
+// The nearest multiple of a power of ten: what is written with few digits.
+double rounded(double value, double step) {
+  if (step <= 0.0) return value;
+  if (step >= 1.0) return std::round(value / step) * step;
+  const double parts = std::round(1.0 / step);
+  const double of_them = std::round(value * parts);
+  return of_them / parts;
+}
+
+std::int64_t later(std::int64_t time_ns, const HandShift& shift) {
+  if (whole(shift.time_ns) == 0) return time_ns;
+  const auto step = std::max<std::int64_t>(1, whole(shift.time_step_ns));
+  const std::int64_t at = time_ns + whole(shift.time_ns);
+  const std::int64_t half = at < 0 ? -step / 2 : step / 2;
+  return std::clamp((at + half) / step * step, -kLargestTimeNs, kLargestTimeNs);
+}
+
+double higher(double gain, const HandShift& shift) {
+  return shift.gain == 0.0 ? gain : rounded(gain + shift.gain, shift.gain_step);
+}
+
+QString short_gain(double gain) { return QString::fromStdString(format("{:.4g}", gain)); }
+
+class PointDrag : public Drag {
+ public:
+  PointDrag(Points points, PointIndices chosen, std::size_t pressed, Snapper snapper)
+      : Drag(std::move(points), std::move(snapper)), chosen_(std::move(chosen)), pressed_(pressed) {}
+
+  Dragged by(const HandShift& shift) const override {
+    // A step is aligned by the point that stands for its moment.
+    const ControlPoint& anchor = points_[shift.alone ? pressed_ : step_anchor(points_, pressed_)];
+    const ControlPoint& pressed = points_[pressed_];
+    Dragged dragged;
+    PointShift by{later(anchor.time_ns, shift) - anchor.time_ns, higher(pressed.gain, shift) - pressed.gain};
+    dragged.time_snap = snapper_.time(anchor.time_ns + by.time_ns, shift.time_reach_ns);
+    if (dragged.time_snap) by.time_ns = dragged.time_snap->time_ns - anchor.time_ns;
+    dragged.gain_snap = snapper_.gain(pressed.gain + by.gain, shift.gain_reach);
+    if (dragged.gain_snap) by.gain = dragged.gain_snap->gain - pressed.gain;
+    dragged.points = moved(points_, chosen_, by, shift.alone ? Steps::ignored : Steps::kept);
+    // A sum of differences would have other last digits.
+    dragged.points[pressed_].gain = dragged.gain_snap ? dragged.gain_snap->gain : higher(pressed.gain, shift);
+    dragged.text = point_text(dragged.points[pressed_]);
+    return dragged;
+  }
+  QString name() const override {
+    return chosen_.size() == 1 ? QString("Move point") : QString("Move %1 points").arg(chosen_.size());
+  }
+
+ private:
+  PointIndices chosen_;
+  std::size_t pressed_;
+};
+
+class BoxDrag : public Drag {
+ public:
+  BoxDrag(Points points, PointIndices chosen, const TransformBox& box, BoxPart part, Snapper snapper)
+      : Drag(std::move(points), std::move(snapper)), chosen_(std::move(chosen)), box_(box), part_(part) {}
+
+  Dragged by(const HandShift& shift) const override {
+    if (part_ == BoxPart::inside) return PointDrag(points_, chosen_, chosen_.front(), snapper_).by(shift);
+    if (part_ == BoxPart::left || part_ == BoxPart::right) return spread_by(shift);
+    return amplified_by(shift);
+  }
+  QString name() const override {
+    switch (part_) {
+      case BoxPart::inside: return QString("Move %1 points").arg(chosen_.size());
+      case BoxPart::left:
+      case BoxPart::right: return "Stretch points in time";
+      case BoxPart::top:
+      case BoxPart::bottom: return "Multiply gains";
+    }
+    return {};
+  }
+
+ private:
+  Dragged spread_by(const HandShift& shift) const {
+    const bool is_left = part_ == BoxPart::left;
+    const std::int64_t held = is_left ? box_.begin_ns() : box_.end_ns();
+    const std::int64_t fixed = is_left ? box_.end_ns() : box_.begin_ns();
+    Dragged dragged;
+    std::int64_t at = later(held, shift);
+    dragged.time_snap = snapper_.time(at, shift.time_reach_ns);
+    if (dragged.time_snap) at = dragged.time_snap->time_ns;
+    // It does not turn over.
+    constexpr double kLeast = 1e-6;
+    const double factor =
+        std::max(static_cast<double>(at - fixed) / static_cast<double>(held - fixed), kLeast);
+    dragged.points = at == held ? points_ : spread(points_, chosen_, factor, fixed);
+    const Points& now = dragged.points;
+    const std::int64_t length = now[chosen_.back()].time_ns - now[chosen_.front()].time_ns;
+    dragged.text = QString("%1 long, × %2")
+                       .arg(exact_time_text(length))
+                       .arg(short_gain(static_cast<double>(length) /
+                                       static_cast<double>(box_.end_ns() - box_.begin_ns())));
+    return dragged;
+  }
+
+  Dragged amplified_by(const HandShift& shift) const {
+    const double held = part_ == BoxPart::top ? box_.high() : box_.low();
+    Dragged dragged;
+    double to = higher(held, shift);
+    dragged.gain_snap = snapper_.gain(to, shift.gain_reach);
+    if (dragged.gain_snap) to = dragged.gain_snap->gain;
+    dragged.points = to == held ? points_ : amplified(points_, chosen_, to / held);
+    dragged.text = QString("gain %1, × %2").arg(short_gain(to), short_gain(to / held));
+    return dragged;
+  }
+
+  PointIndices chosen_;
+  TransformBox box_;
+  BoxPart part_;
+};
+
+class BoxcarDrag : public Drag {
+ public:
+  BoxcarDrag(Points points, const BoxcarHit& hit, Snapper snapper)
+      : Drag(std::move(points), std::move(snapper)), hit_(hit) {}
+
+  Dragged by(const HandShift& shift) const override {
+    const GainBoxcar& boxcar = hit_.boxcar;
+    Dragged dragged;
+    if (hit_.part == BoxcarPart::gain) {
+      double to = higher(boxcar.gain, shift);
+      dragged.gain_snap = snapper_.gain(to, shift.gain_reach);
+      if (dragged.gain_snap) to = dragged.gain_snap->gain;
+      dragged.text = QString("gain %1").arg(short_gain(to));
+      dragged.points = points_;
+      for (const std::size_t i : {boxcar.first, boxcar.last}) dragged.points[i].gain = to;
+      return dragged;
+    }
+    const std::int64_t held = hit_.part == BoxcarPart::end ? boxcar.end_ns : boxcar.begin_ns;
+    std::int64_t by_ns = later(held, shift) - held;
+    dragged.time_snap = snap(by_ns, shift.time_reach_ns);
+    // Nothing is added to a boxcar that stays where it is.
+    dragged.points = by_ns == 0 ? points_ : with_boxcar_moved(points_, boxcar, hit_.part, by_ns);
+    const std::size_t added = dragged.points.size() - points_.size();
+    const std::int64_t begin = dragged.points[boxcar.first + added].time_ns;
+    const std::int64_t end = dragged.points[boxcar.last + added].time_ns;
+    dragged.text = QString("%1 to %2, %3 long")
+                       .arg(exact_time_text(begin), exact_time_text(end), exact_time_text(end - begin));
+    return dragged;
+  }
+  QString name() const override {
+    switch (hit_.part) {
+      case BoxcarPart::whole: return "Move boxcar";
+      case BoxcarPart::begin: return "Move boxcar's begin";
+      case BoxcarPart::end: return "Move boxcar's end";
+      case BoxcarPart::gain: return "Change boxcar's gain";
+    }
+    return {};
+  }
+
+ private:
+  // Of a whole boxcar either end, the nearer one. Changes the shift.
+  std::optional<TimeSnap> snap(std::int64_t& by_ns, double reach_ns) const {
+    std::optional<TimeSnap> begin, end;
+    const std::int64_t begin_ns = hit_.boxcar.begin_ns, end_ns = hit_.boxcar.end_ns;
+    if (hit_.part != BoxcarPart::end) begin = snapper_.time(begin_ns + by_ns, reach_ns);
+    if (hit_.part != BoxcarPart::begin) end = snapper_.time(end_ns + by_ns, reach_ns);
+    const std::int64_t asked_ns = by_ns;
+    const auto distance = [&](const std::optional<TimeSnap>& to, std::int64_t from) {
+      return std::abs(to->time_ns - from - asked_ns);
+    };
+    if (begin && (!end || distance(begin, begin_ns) <= distance(end, end_ns))) {
+      by_ns = begin->time_ns - begin_ns;
+      return begin;
+    }
+    if (end) by_ns = end->time_ns - end_ns;
+    return end;
+  }
+
+  BoxcarHit hit_;
+};
+
+}  // namespace
+
+std::unique_ptr<Drag> drag_points(Points points, PointIndices chosen, std::size_t pressed, Snapper snapper) {
+  return std::make_unique<PointDrag>(std::move(points), std::move(chosen), pressed, std::move(snapper));
+}
+
+std::unique_ptr<Drag> drag_box(Points points, PointIndices chosen, const TransformBox& box, BoxPart part,
+                               Snapper snapper) {
+  return std::make_unique<BoxDrag>(std::move(points), std::move(chosen), box, part, std::move(snapper));
+}
+
+std::unique_ptr<Drag> drag_boxcar(Points points, const BoxcarHit& hit, Snapper snapper) {
+  return std::make_unique<BoxcarDrag>(std::move(points), hit, std::move(snapper));
+}
+
+QString point_text(const ControlPoint& point) {
+  return QString("%1, gain %2").arg(exact_time_text(point.time_ns), short_gain(point.gain));
+}
+
+QString pointer_text(const ControlPoint& at, double ns_per_pixel) {
+  const auto step = std::max<std::int64_t>(1, whole(std::pow(10.0, std::floor(std::log10(ns_per_pixel)))));
+  const QString gain = QString::fromStdString(format("{:.3g}", at.gain));
+  return QString("%1, gain %2").arg(exact_time_text(at.time_ns / step * step), gain);
+}
+
+}  // namespace nutik::studio

@@ -1,0 +1,39 @@
+#include "studio/time/colours.hpp"
+
+namespace nutik::studio {
+
+QColor mixed(const QColor& a, const QColor& b, double share) {
+  const auto channel = [share](float from, float to) {
+    return static_cast<float>(from + (to - from) * static_cast<float>(share));
+  };
+  return QColor::fromRgbF(channel(a.redF(), b.redF()), channel(a.greenF(), b.greenF()),
+                          channel(a.blueF(), b.blueF()));
+}
+
+QColor with_opacity(QColor colour, double opacity) {
+  colour.setAlphaF(static_cast<float>(opacity));
+  return colour;
+}
+
+TimeColours TimeColours::of(const QPalette& palette) {
+  const QColor base = palette.color(QPalette::Base), text = palette.color(QPalette::Text);
+  const bool is_dark = base.lightness() < text.lightness();
+  TimeColours colours;
+  colours.ground = base;
+  colours.outside = mixed(base, is_dark ? QColor(Qt::black) : text, is_dark ? 0.35 : 0.07);
+  colours.grid = mixed(base, text, 0.10);
+  colours.axis = mixed(base, text, 0.34);
+  colours.label = mixed(base, text, 0.68);
+  colours.text = text;
+  colours.activity = mixed(base, QColor(0x8f, 0x7a, 0xc0), is_dark ? 0.55 : 0.5);
+  colours.waveform = mixed(base, is_dark ? QColor(0xe8, 0xe2, 0xc8) : QColor(0x50, 0x48, 0x30), 0.5);
+  colours.negative = is_dark ? QColor(0xe6, 0x8a, 0x2e) : QColor(0xd5, 0x6a, 0x00);
+  colours.boxcar = palette.color(QPalette::Highlight);
+  colours.guide = is_dark ? QColor(0x6f, 0xd6, 0xc4) : QColor(0x00, 0x86, 0x70);
+  colours.warning = is_dark ? QColor(0xf2, 0xc1, 0x4e) : QColor(0xa8, 0x6a, 0x00);
+  colours.tip = is_dark ? mixed(base, text, 0.16) : mixed(base, text, 0.9);
+  colours.tip_text = is_dark ? text : base;
+  return colours;
+}
+
+}  // namespace nutik::studio

@@ -1,0 +1,143 @@
+#include "studio/time/time_fields.hpp"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+
+#include "studio/time/colours.hpp"
+#include "studio/time/time_strip.hpp"
+#include "studio/time/typed_numbers.hpp"
+
+namespace nutik::studio {
+namespace {
+
+void show_in(QLineEdit& field, const QString& text) {
+  if (field.isModified() || field.text() == text) return;
+  field.setText(text);
+  field.setCursorPosition(0);
+}
+
+QString mark_text(const std::optional<std::int64_t>& mark) {
+  return mark ? exact_time_text(*mark) : QString();
+}
+
+}  // namespace
+
+TimeFields::TimeFields(Document& document, TimeAxis& axis, QWidget* parent)
+    : QWidget(parent), document_(document), axis_(axis), said_(new QLabel(this)) {
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(8, 2, TimeAxis::kRight, 2);
+  row->setSpacing(6);
+  const QString times = "A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for ";
+  start_ = add_field("S&tart", "Where the exposed interval begins. " + times + "the start of sample 37",
+                     &TimeFields::enter_start);
+  length_ = add_field("&Width", "How long the exposed interval is. " + times + "37 samples",
+                      &TimeFields::enter_length);
+  in_ = add_field("&In", "Where work begins, or nothing. " + times + "the start of sample 37",
+                  &TimeFields::enter_in);
+  out_ = add_field("&Out", "Where work ends, or nothing. " + times + "the start of sample 37",
+                   &TimeFields::enter_out);
+  said_->setAccessibleName("Exposed samples");
+  said_->setTextFormat(Qt::PlainText);
+  said_->setMinimumWidth(0);
+  said_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  row->addWidget(said_, 1);
+  connect(&document_, &Document::changed, this, &TimeFields::show_values);
+  connect(&document_, &Document::capture_changed, this, &TimeFields::show_values);
+  connect(&axis_, &TimeAxis::marks_changed, this, &TimeFields::show_values);
+  show_values();
+}
+
+QLineEdit* TimeFields::add_field(const QString& name, const QString& help, void (TimeFields::*enter)()) {
+  auto* label = new QLabel(name, this);
+  auto* field = new QLineEdit(this);
+  label->setBuddy(field);
+  field->setToolTip(help);
+  field->setAccessibleName(QString(name).remove('&'));
+  field->setAccessibleDescription(help);
+  field->setObjectName(QString(name).remove('&').toLower());
+  field->setFixedWidth(field->fontMetrics().horizontalAdvance("888.888888 ms") + 18);
+  layout()->addWidget(label);
+  layout()->addWidget(field);
+  // Pressed Return or left: both mean it.
+  connect(field, &QLineEdit::editingFinished, this, enter);
+  return field;
+}
+
+void TimeFields::show_values() {
+  const CaptureFacts* facts = document_.facts();
+  for (QLineEdit* field : {start_, length_, in_, out_}) field->setEnabled(facts != nullptr);
+  if (facts == nullptr) return;
+  show_in(*start_, exact_time_text(document_.boxcar().start_ns));
+  show_in(*length_, exact_time_text(document_.boxcar().length_ns));
+  show_in(*in_, mark_text(axis_.mark_in()));
+  show_in(*out_, mark_text(axis_.mark_out()));
+  for (const QLineEdit* field : {start_, length_, in_, out_})
+    if (field->isModified()) return;  // what is said about it stays
+  QPalette normal = palette();
+  normal.setColor(QPalette::WindowText, TimeColours::of(palette()).label);
+  said_->setPalette(normal);
+  const QString text = interval_text(document_.boxcar(), facts->timeline);
+  said_->setText(text.mid(text.lastIndexOf(", ") + 2));
+  said_->setToolTip(text);
+}
+
+void TimeFields::refuse(QLineEdit& field, const QString& mistake) {
+  QPalette warning = palette();
+  warning.setColor(QPalette::WindowText, TimeColours::of(palette()).warning);
+  said_->setPalette(warning);
+  said_->setText(mistake);
+  said_->setToolTip(mistake);
+  field.setAccessibleDescription(mistake);
+}
+
+void TimeFields::accept(QLineEdit& field) {
+  field.setModified(false);
+  field.setAccessibleDescription(field.toolTip());
+  show_values();
+}
+
+void TimeFields::enter_start() {
+  if (!start_->isModified()) return;
+  const auto typed = read_typed_time(start_->text(), "start", document_.facts()->timeline);
+  if (!typed.value) return refuse(*start_, typed.mistake);
+  const std::int64_t last_ns = document_.duration_ns() - document_.boxcar().length_ns;
+  if (*typed.value < 0 || *typed.value > last_ns)
+    return refuse(*start_,
+                  QString("An interval of this width lies within the capture if it starts between 0 s and %1")
+                      .arg(exact_time_text(last_ns)));
+  document_.set_boxcar({*typed.value, document_.boxcar().length_ns}, "Set start");
+  accept(*start_);
+}
+
+void TimeFields::enter_length() {
+  if (!length_->isModified()) return;
+  const auto typed = read_typed_length(length_->text(), "width", document_.facts()->timeline);
+  if (!typed.value) return refuse(*length_, typed.mistake);
+  if (*typed.value > document_.duration_ns())
+    return refuse(*length_, QString("The capture lasts %1: the width can be no more")
+                                .arg(exact_time_text(document_.duration_ns())));
+  document_.set_boxcar({document_.boxcar().start_ns, *typed.value}, "Set width");
+  accept(*length_);
+}
+
+void TimeFields::enter_in() { enter_mark(*in_, "in", &TimeAxis::set_mark_in); }
+void TimeFields::enter_out() { enter_mark(*out_, "out", &TimeAxis::set_mark_out); }
+
+void TimeFields::enter_mark(QLineEdit& field, const QString& what,
+                            void (TimeAxis::*set)(std::optional<std::int64_t>)) {
+  if (!field.isModified()) return;
+  if (field.text().trimmed().isEmpty()) {
+    (axis_.*set)(std::nullopt);
+    return accept(field);
+  }
+  const auto typed = read_typed_time(field.text(), what, document_.facts()->timeline);
+  if (!typed.value) return refuse(field, typed.mistake);
+  if (*typed.value < 0 || *typed.value > document_.duration_ns())
+    return refuse(field, QString("Marks lie within the capture, between 0 s and %1")
+                             .arg(exact_time_text(document_.duration_ns())));
+  (axis_.*set)(*typed.value);
+  accept(field);
+}
+
+}  // namespace nutik::studio

@@ -1,0 +1,41 @@
+// The exposed interval and the marks as numbers to type.
+//
+//   always:  a field shows what is so, to the last digit, unless somebody is typing in it; what cannot be read changes
+//            nothing, stays as it was typed, and is explained beside the fields
+#pragma once
+
+#include <QWidget>
+#include <functional>
+
+#include "studio/document/document.hpp"
+#include "studio/time/time_axis.hpp"
+
+class QLabel;
+class QLineEdit;
+
+namespace nutik::studio {
+
+class TimeFields : public QWidget {
+  Q_OBJECT
+
+ public:
+  TimeFields(Document& document, TimeAxis& axis, QWidget* parent = nullptr);
+
+ private:
+  QLineEdit* add_field(const QString& name, const QString& help, void (TimeFields::*enter)());
+  void show_values();
+  void enter_start();
+  void enter_length();
+  void enter_in();
+  void enter_out();
+  void enter_mark(QLineEdit& field, const QString& what, void (TimeAxis::*set)(std::optional<std::int64_t>));
+  void refuse(QLineEdit& field, const QString& mistake);
+  void accept(QLineEdit& field);
+
+  Document& document_;
+  TimeAxis& axis_;
+  QLineEdit *start_, *length_, *in_, *out_;
+  QLabel* said_;
+};
+
+}  // namespace nutik::studio

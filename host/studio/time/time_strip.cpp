@@ -1,0 +1,219 @@
+#include "studio/time/time_strip.hpp"
+
+#include <QEvent>
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+
+#include "session/below/sheets.hpp"
+#include "session/requests/stated_time.hpp"
+#include "studio/time/typed_numbers.hpp"
+
+namespace nutik::studio {
+namespace {
+
+constexpr double kRuler = 22, kFoot = 4;
+constexpr double kThumbnailShare = 0.58;  // of the track's height
+
+}  // namespace
+
+QString interval_text(const Boxcar& boxcar, const Timeline& timeline) {
+  const std::int64_t end_ns = boxcar.start_ns + boxcar.length_ns;
+  const std::uint64_t first = sample_at(boxcar.start_ns, timeline), last = sample_at(end_ns - 1, timeline);
+  const QString samples =
+      first == last ? QString("sample %1").arg(first) : QString("samples %1 to %2").arg(first).arg(last);
+  return QString("%1 to %2, %3").arg(exact_time_text(boxcar.start_ns), exact_time_text(end_ns), samples);
+}
+
+TimeStrip::TimeStrip(Document& document, TimeAxis& axis, QWidget* parent)
+    : QWidget(parent), document_(document), axis_(axis), activity_(document.overview().changed_share) {
+  setFocusPolicy(Qt::StrongFocus);
+  setMouseTracking(true);
+  setAccessibleName("Time");
+  setObjectName("time");
+  connect(&document_, &Document::capture_changed, this, [this] {
+    cancel_press();
+    activity_ = {};
+    refresh_backdrop();
+    follow_document();
+  });
+  connect(&document_, &Document::changed, this, &TimeStrip::follow_document);
+  connect(&document_, &Document::overview_changed, this, [this] {
+    activity_ = Series(document_.overview().changed_share);
+    refresh_backdrop();
+  });
+  connect(&axis_, &TimeAxis::changed, this, &TimeStrip::refresh_backdrop);
+  connect(&axis_, &TimeAxis::marks_changed, this, qOverload<>(&QWidget::update));
+  follow_document();
+}
+
+QRectF TimeStrip::track() const {
+  return QRectF(rect()).adjusted(TimeAxis::kLeft, kRuler, -TimeAxis::kRight, -kFoot);
+}
+
+QRectF TimeStrip::boxcar_area() const {
+  const Boxcar& boxcar = document_.boxcar();
+  const double begin = axis_.to_pixel(static_cast<double>(boxcar.start_ns), width());
+  const double end = axis_.to_pixel(static_cast<double>(boxcar.start_ns + boxcar.length_ns), width());
+  return {begin, track().top(), end - begin, track().height()};
+}
+
+QPointF TimeStrip::mark_place(std::int64_t time_ns) const {
+  return {axis_.to_pixel(static_cast<double>(time_ns), width()), kRuler - 5};
+}
+
+void TimeStrip::follow_document() {
+  if (const CaptureFacts* facts = document_.facts())
+    setAccessibleDescription("Exposed interval: " + interval_text(document_.boxcar(), facts->timeline));
+  update();
+}
+
+void TimeStrip::refresh_backdrop() {
+  is_backdrop_stale_ = true;
+  update();
+}
+
+void TimeStrip::resizeEvent(QResizeEvent*) { refresh_backdrop(); }
+
+void TimeStrip::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) refresh_backdrop();
+  QWidget::changeEvent(event);
+}
+
+void TimeStrip::paintEvent(QPaintEvent*) {
+  const TimeColours colours = TimeColours::of(palette());
+  const qreal ratio = devicePixelRatioF();
+  const QSize device = size() * ratio;
+  if (is_backdrop_stale_ || backdrop_.size() != device) {
+    is_backdrop_stale_ = false;
+    backdrop_ = QPixmap(device);
+    backdrop_.setDevicePixelRatio(ratio);
+    backdrop_.fill(palette().color(QPalette::Window));
+    QPainter painter(&backdrop_);
+    painter.setFont(font());
+    paint_backdrop(painter, colours);
+  }
+  QPainter painter(this);
+  painter.drawPixmap(0, 0, backdrop_);
+  if (document_.facts() == nullptr) return;
+  paint_boxcar(painter, colours);
+  paint_marks(painter, colours);
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(hasFocus() ? colours.boxcar : colours.grid, 1));
+  painter.drawRect(track().adjusted(-0.5, -0.5, 0.5, 0.5));
+}
+
+void TimeStrip::paint_backdrop(QPainter& painter, const TimeColours& colours) const {
+  const QRectF track = this->track();
+  painter.fillRect(track, colours.ground);
+  const CaptureFacts* facts = document_.facts();
+  if (facts == nullptr) return;
+  const QFontMetricsF metrics(font());
+  constexpr double kApart = 90;
+  const int most = std::max(static_cast<int>(track.width() / kApart), 2);
+  const auto ticks = plot::time_ticks(std::llround(axis_.begin_ns()), std::llround(axis_.end_ns()), most);
+  painter.setPen(colours.label);
+  painter.drawText(QRectF(0, 0, TimeAxis::kLeft - 7, kRuler - 3), Qt::AlignRight | Qt::AlignVCenter,
+                   QString::fromStdString(ticks.unit));
+  for (const plot::Tick& tick : ticks.ticks) {
+    const double x = std::round(axis_.to_pixel(tick.at, width())) + 0.5;
+    const QString label = QString::fromStdString(tick.label);
+    const double half = metrics.horizontalAdvance(label) / 2 + 1;
+    painter.setPen(colours.axis);
+    painter.drawLine(QPointF(x, kRuler - 4), QPointF(x, kRuler));
+    if (x - half < TimeAxis::kLeft - 6 || x + half > width()) continue;  // beside the unit, or cut off
+    painter.setPen(colours.label);
+    painter.drawText(QRectF(x - half, 0, 2 * half, kRuler - 4), Qt::AlignCenter, label);
+  }
+
+  painter.save();
+  painter.setClipRect(track);
+  const double start = axis_.to_pixel(0, width());
+  const double end = axis_.to_pixel(static_cast<double>(facts->timeline.duration_ns()), width());
+  const bool has_thumbnails = !document_.overview().thumbnails.empty();
+  const double split = has_thumbnails ? track.top() + kThumbnailShare * track.height() : track.top();
+  if (has_thumbnails) paint_thumbnails(painter, QRectF(track.topLeft(), QPointF(track.right(), split)));
+  if (!activity_.empty()) {
+    const QRectF row(QPointF(track.left(), split + 3), track.bottomRight());
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(colours.activity);
+    const double highest = activity_.over(0, activity_.values().size()).high;
+    painter.drawPolygon(area_of(columns_of(activity_, facts->timeline, axis_, width()), row, highest));
+  }
+  painter.fillRect(QRectF(track.topLeft(), QPointF(std::min(start, track.right()), track.bottom())),
+                   colours.outside);
+  painter.fillRect(QRectF(QPointF(std::max(end, track.left()), track.top()), track.bottomRight()),
+                   colours.outside);
+  painter.restore();
+  // What the rows are, beside them.
+  painter.setPen(colours.label);
+  const auto name_row = [&](double top, double bottom, const QString& name) {
+    painter.drawText(QRectF(0, top, TimeAxis::kLeft - 7, bottom - top), Qt::AlignRight | Qt::AlignVCenter,
+                     metrics.elidedText(name, Qt::ElideRight, TimeAxis::kLeft - 8));
+  };
+  if (!activity_.empty()) name_row(split, track.bottom(), "change");
+}
+
+void TimeStrip::paint_thumbnails(QPainter& painter, const QRectF& row) const {
+  const auto& thumbnails = document_.overview().thumbnails;
+  const QSize size = thumbnails.front().image.size();
+  if (size.isEmpty()) return;
+  const double wide = std::max(row.height() * size.width() / size.height(), 8.0) + 1;
+  // Pictures stay with their times when the axis is moved: places count from time 0 on.
+  const double zero = axis_.to_pixel(0, width());
+  painter.setRenderHint(QPainter::SmoothPixmapTransform);
+  for (double x = zero + std::floor((row.left() - zero) / wide) * wide; x < row.right(); x += wide) {
+    const std::int64_t middle = axis_.to_time(x + wide / 2, width());
+    if (middle < 0 || middle > document_.duration_ns()) continue;
+    const auto after = std::lower_bound(thumbnails.begin(), thumbnails.end(), middle,
+                                        [](const CaptureOverview::Thumbnail& thumbnail, std::int64_t time) {
+                                          return thumbnail.time_ns < time;
+                                        });
+    auto nearest = after == thumbnails.end() ? after - 1 : after;
+    if (after != thumbnails.begin() &&
+        std::abs((after - 1)->time_ns - middle) < std::abs(nearest->time_ns - middle))
+      nearest = after - 1;
+    painter.drawImage(QRectF(x, row.top(), wide - 1, row.height()), nearest->image);
+  }
+}
+
+void TimeStrip::paint_boxcar(QPainter& painter, const TimeColours& colours) const {
+  const QRectF track = this->track();
+  QRectF area = boxcar_area();
+  constexpr double kLeast = 2;  // it can be seen however short it is
+  if (area.width() < kLeast) area.adjust(-(kLeast - area.width()) / 2, 0, (kLeast - area.width()) / 2, 0);
+  if (area.right() < track.left() || area.left() > track.right()) return;
+  const bool is_exposed = document_.mode() == ExposureMode::boxcar;
+  painter.save();
+  painter.setClipRect(track);
+  painter.fillRect(area, with_opacity(colours.boxcar, is_exposed ? 0.34 : 0.14));
+  painter.setPen(QPen(with_opacity(colours.boxcar, is_exposed ? 1.0 : 0.5), 2));
+  painter.drawLine(area.topLeft(), area.bottomLeft());
+  painter.drawLine(area.topRight(), area.bottomRight());
+  painter.restore();
+}
+
+void TimeStrip::paint_marks(QPainter& painter, const TimeColours& colours) const {
+  const QRectF track = this->track();
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  const auto paint = [&](const std::optional<std::int64_t>& mark, double direction) {
+    if (!mark) return;
+    const QPointF at = mark_place(*mark);
+    if (at.x() < track.left() - 1 || at.x() > track.right() + 1) return;
+    const QRectF beyond = direction > 0 ? QRectF(track.topLeft(), QPointF(at.x(), track.bottom()))
+                                        : QRectF(QPointF(at.x(), track.top()), track.bottomRight());
+    painter.fillRect(beyond, with_opacity(colours.ground, 0.55));
+    painter.setPen(QPen(colours.guide, 1.4));
+    painter.drawLine(QPointF(at.x(), 4), QPointF(at.x(), track.bottom()));
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(colours.guide);
+    const QPointF top(at.x(), 4);
+    painter.drawPolygon(QPolygonF({top, top + QPointF(9 * direction, 0), top + QPointF(0, 12)}));
+  };
+  paint(axis_.mark_in(), 1);
+  paint(axis_.mark_out(), -1);
+  painter.restore();
+}
+
+}  // namespace nutik::studio
