@@ -33,6 +33,47 @@ void add_vertex(QPolygonF& line, QPointF& previous, QPointF to) {
   previous = to;
 }
 
+// Painters compare all sides of a long line or area with each other, which takes seconds: they get short parts, and of
+// what is denser than pixels a stroke for each column.
+constexpr qsizetype kDense = 1'500;
+
+void paint_line(QPainter& painter, const QPolygonF& line, const QColor& colour, double width) {
+  constexpr qsizetype kTogether = 32;
+  const bool is_dense = line.size() > kDense;
+  painter.setBrush(Qt::NoBrush);
+  painter.setRenderHint(QPainter::Antialiasing, !is_dense);
+  painter.setPen(is_dense ? QPen(colour, 0) : QPen(colour, width));
+  for (qsizetype first = 0; first + 1 < line.size(); first += kTogether)
+    painter.drawPolyline(line.constData() + first,
+                         static_cast<int>(std::min(kTogether + 1, line.size() - first)));
+}
+
+// Between a line and a height.
+void paint_area(QPainter& painter, const QPolygonF& line, double foot, const QBrush& brush) {
+  constexpr qsizetype kTogether = 32;
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(brush);
+  if (line.size() <= kDense) {
+    for (qsizetype first = 0; first + 1 < line.size(); first += kTogether) {
+      QPolygonF part = line.mid(first, kTogether + 1);
+      part << QPointF(part.back().x(), foot) << QPointF(part.front().x(), foot);
+      painter.drawPolygon(part);
+    }
+    return;
+  }
+  for (auto vertex = line.begin(); vertex != line.end();) {
+    const double column = std::floor(vertex->x());
+    double low = foot, high = foot;
+    for (; vertex != line.end() && std::floor(vertex->x()) == column; ++vertex) {
+      low = std::max(low, vertex->y());
+      high = std::min(high, vertex->y());
+    }
+    painter.drawRect(
+        QRectF(column, high, vertex == line.end() ? 1.0 : std::floor(vertex->x()) - column, low - high));
+  }
+}
+
 void paint_series(QPainter& painter, const PlotFrame& frame, const TimeColours& colours,
                   const Backdrop& backdrop, int width) {
   const QRectF& box = frame.box();
@@ -146,10 +187,10 @@ void paint_backdrop(QPainter& painter, const PlotFrame& frame, const TimeColours
     paint_time_grid(painter, frame, colours, *backdrop.axis);
     paint_series(painter, frame, colours, backdrop, width);
   }
-  painter.setRenderHint(QPainter::Antialiasing);
   for (const PaintedFunction& other : backdrop.others) {
-    painter.setPen(QPen(with_opacity(other.colour, 0.45), kOtherLinePixels));
-    painter.drawPolyline(visible_curve(frame, other.points));
+    // Mixed, not seen through: parts of a line that meet are no darker.
+    paint_line(painter, visible_curve(frame, other.points), mixed(colours.ground, other.colour, 0.5),
+               kOtherLinePixels);
   }
   painter.restore();
 }
@@ -161,23 +202,17 @@ void paint_curve(QPainter& painter, const PlotFrame& frame, const TimeColours& c
   const QRectF& box = frame.box();
   const double zero = std::clamp(frame.y_of(0.0), box.top(), box.bottom());
   const double foot = std::clamp(frame.y_of(0.0), -kFarPixels, kFarPixels);
-  QPolygonF area = line;
-  area << QPointF(line.back().x(), foot) << QPointF(line.front().x(), foot);
   painter.save();
-  painter.setPen(Qt::NoPen);
   painter.setClipRect(QRectF(box.topLeft(), QPointF(box.right(), zero)));
-  painter.setBrush(with_opacity(colour, 0.20));
-  painter.drawPolygon(area);
-  painter.setClipRect(QRectF(QPointF(box.left(), zero), box.bottomRight()));
-  painter.setBrush(with_opacity(colours.negative, 0.26));
-  painter.drawPolygon(area);
-  painter.setBrush(QBrush(with_opacity(colours.negative, 0.55), Qt::BDiagPattern));
-  painter.drawPolygon(area);
+  paint_area(painter, line, foot, with_opacity(colour, 0.20));
+  const auto is_negative = [](const ControlPoint& point) { return point.gain < 0.0; };
+  if (std::any_of(points.begin(), points.end(), is_negative)) {
+    painter.setClipRect(QRectF(QPointF(box.left(), zero), box.bottomRight()));
+    paint_area(painter, line, foot, with_opacity(colours.negative, 0.26));
+    paint_area(painter, line, foot, QBrush(with_opacity(colours.negative, 0.55), Qt::BDiagPattern));
+  }
   painter.setClipRect(box.adjusted(0, -1, 0, 1));
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setBrush(Qt::NoBrush);
-  painter.setPen(QPen(colour, kLinePixels));
-  painter.drawPolyline(line);
+  paint_line(painter, line, colour, kLinePixels);
   painter.restore();
 }
 

@@ -91,8 +91,11 @@ class BoxDrag : public Drag {
  private:
   Dragged spread_by(const HandShift& shift) const {
     const bool is_left = part_ == BoxPart::left;
-    const std::int64_t held = is_left ? box_.begin_ns() : box_.end_ns();
-    const std::int64_t fixed = is_left ? box_.end_ns() : box_.begin_ns();
+    // Steps are aligned by the points that stand for their moments.
+    const std::size_t begin = step_anchor(points_, chosen_.front()),
+                      end = step_anchor(points_, chosen_.back());
+    const std::int64_t held = points_[is_left ? begin : end].time_ns;
+    const std::int64_t fixed = points_[is_left ? end : begin].time_ns;
     Dragged dragged;
     std::int64_t at = later(held, shift);
     dragged.time_snap = snapper_.time(at, shift.time_reach_ns);
@@ -102,12 +105,10 @@ class BoxDrag : public Drag {
     const double factor =
         std::max(static_cast<double>(at - fixed) / static_cast<double>(held - fixed), kLeast);
     dragged.points = at == held ? points_ : spread(points_, chosen_, factor, fixed);
-    const Points& now = dragged.points;
-    const std::int64_t length = now[chosen_.back()].time_ns - now[chosen_.front()].time_ns;
-    dragged.text = QString("%1 long, × %2")
-                       .arg(exact_time_text(length))
-                       .arg(short_gain(static_cast<double>(length) /
-                                       static_cast<double>(box_.end_ns() - box_.begin_ns())));
+    const std::int64_t length = dragged.points[end].time_ns - dragged.points[begin].time_ns;
+    const double times =
+        static_cast<double>(length) / static_cast<double>(points_[end].time_ns - points_[begin].time_ns);
+    dragged.text = QString("%1 long, × %2").arg(exact_time_text(length), short_gain(times));
     return dragged;
   }
 

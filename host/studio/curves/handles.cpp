@@ -86,15 +86,15 @@ std::optional<TransformBox> TransformBox::round(const PlotFrame& frame, const Po
                                                 const PointIndices& selected) {
   if (selected.size() < 2) return std::nullopt;
   TransformBox made;
-  made.begin_ns_ = points[selected.front()].time_ns;
-  made.end_ns_ = points[selected.back()].time_ns;
   made.low_ = made.high_ = points[selected.front()].gain;
   for (const std::size_t i : selected) {
     made.low_ = std::min(made.low_, points[i].gain);
     made.high_ = std::max(made.high_, points[i].gain);
   }
-  const QRectF tight(QPointF(frame.x_of(made.begin_ns_), frame.y_of(made.high_)),
-                     QPointF(frame.x_of(made.end_ns_), frame.y_of(made.low_)));
+  made.is_long_ = points[step_anchor(points, selected.front())].time_ns <
+                  points[step_anchor(points, selected.back())].time_ns;
+  const QRectF tight(QPointF(frame.x_of(points[selected.front()].time_ns), frame.y_of(made.high_)),
+                     QPointF(frame.x_of(points[selected.back()].time_ns), frame.y_of(made.low_)));
   made.box_ = tight.adjusted(-kBoxRoom, -kBoxRoom, kBoxRoom, kBoxRoom);
   return made;
 }
@@ -102,7 +102,7 @@ std::optional<TransformBox> TransformBox::round(const PlotFrame& frame, const Po
 std::vector<std::pair<BoxPart, QRectF>> TransformBox::handles() const {
   const QPointF middle = box_.center();
   std::vector<std::pair<BoxPart, QRectF>> handles;
-  if (end_ns_ - begin_ns_ > 1) {
+  if (is_long_) {
     handles.emplace_back(BoxPart::left, square_at(box_.left(), middle.y()));
     handles.emplace_back(BoxPart::right, square_at(box_.right(), middle.y()));
   }

@@ -44,15 +44,13 @@ class TransformBox {
   [[nodiscard]] std::vector<std::pair<BoxPart, QRectF>> handles() const;
   [[nodiscard]] std::optional<BoxPart> part_under(QPointF at) const;
 
-  // Of the selected points.
-  [[nodiscard]] std::int64_t begin_ns() const { return begin_ns_; }
-  [[nodiscard]] std::int64_t end_ns() const { return end_ns_; }
+  // Gains of the selected points.
   [[nodiscard]] double low() const { return low_; }
   [[nodiscard]] double high() const { return high_; }
 
  private:
   QRectF box_;
-  std::int64_t begin_ns_ = 0, end_ns_ = 0;
+  bool is_long_ = false;
   double low_ = 0.0, high_ = 0.0;
 };
 

@@ -1,0 +1,239 @@
+// The time strip and its fields, driven by mouse and keyboard.
+#include <gtest/gtest.h>
+
+#include <QLabel>
+#include <QLineEdit>
+#include <QSignalSpy>
+#include <QTest>
+#include <QWheelEvent>
+
+#include "studio/time/time_fields.hpp"
+#include "studio/time/time_strip.hpp"
+
+namespace nutik::studio {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+
+// 100 samples of 10 ms; 100 ms from 450 ms on are exposed.
+class TimeStripTest : public testing::Test {
+ protected:
+  TimeStripTest() : strip_(document_, axis_), fields_(document_, axis_) {
+    CaptureFormat format;
+    format.shape = {8, 6, 3};
+    document_.start({"clip.tik", format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)});
+    axis_.set_duration(document_.duration_ns());
+    document_.set_points(0, {{0, 1.0}}, "Function");
+    document_.undo_stack().clear();
+    strip_.resize(1000, 112);
+    fields_.resize(1000, 32);
+    for (QWidget* widget : {static_cast<QWidget*>(&strip_), static_cast<QWidget*>(&fields_)}) widget->show();
+    strip_.setFocus();
+  }
+
+  [[nodiscard]] QPoint at(std::int64_t time_ns) const {
+    return {static_cast<int>(std::lround(axis_.to_pixel(static_cast<double>(time_ns), strip_.width()))), 70};
+  }
+  void press(QPoint at, Qt::KeyboardModifiers keys = {}) {
+    QTest::mousePress(&strip_, Qt::LeftButton, keys, at);
+  }
+  void release(QPoint at) { QTest::mouseRelease(&strip_, Qt::LeftButton, {}, at); }
+  void move(QPoint to, Qt::KeyboardModifiers keys = {}) {
+    QMouseEvent event(QEvent::MouseMove, to, strip_.mapToGlobal(to), Qt::NoButton, Qt::LeftButton, keys);
+    QCoreApplication::sendEvent(&strip_, &event);
+  }
+  void drag(QPoint from, QPoint to, Qt::KeyboardModifiers keys = {}) {
+    press(from, keys);
+    constexpr int kSteps = 10;
+    for (int i = 1; i <= kSteps; ++i) move(from + (to - from) * i / kSteps, keys);
+    release(to);
+  }
+  void key(Qt::Key key, Qt::KeyboardModifiers keys = {}) { QTest::keyClick(&strip_, key, keys); }
+  void type(const char* name, const QString& text) {
+    auto* field = fields_.findChild<QLineEdit*>(name);
+    ASSERT_TRUE(field != nullptr) << name;
+    field->setFocus();
+    field->selectAll();
+    QTest::keyClicks(field, text);
+    if (text.isEmpty()) QTest::keyClick(field, Qt::Key_Delete);
+    QTest::keyClick(field, Qt::Key_Return);
+  }
+  [[nodiscard]] QString shown(const char* name) const { return fields_.findChild<QLineEdit*>(name)->text(); }
+
+  Document document_;
+  TimeAxis axis_;
+  TimeStrip strip_;
+  TimeFields fields_;
+};
+
+TEST_F(TimeStripTest, ScrubsTheBoxcarFromWhereItWasPressedInOneStepOfUndo) {
+  QSignalSpy changed(&document_, &Document::changed), released(&document_, &Document::released);
+  ASSERT_EQ(document_.mode(), ExposureMode::functions);
+  drag(at(480 * kMs), at(680 * kMs));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{650 * kMs, 100 * kMs}));
+  EXPECT_EQ(document_.mode(), ExposureMode::boxcar);
+  EXPECT_GT(changed.count(), 5) << "live";
+  EXPECT_EQ(released.count(), 1);
+  EXPECT_EQ(document_.undo_stack().count(), 1);
+  document_.undo_stack().undo();
+  EXPECT_EQ(document_.boxcar(), (Boxcar{450 * kMs, 100 * kMs}));
+}
+
+TEST_F(TimeStripTest, BringsTheBoxcarToAPressElsewhere) {
+  const QPoint there = at(200 * kMs);
+  press(there);
+  EXPECT_EQ(document_.boxcar(), (Boxcar{150 * kMs, 100 * kMs}));
+  move(there + QPoint(0, 5));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{150 * kMs, 100 * kMs}));
+  release(there);
+  drag(at(200 * kMs), at(5'000 * kMs));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{900 * kMs, 100 * kMs})) << "it stays in the capture";
+}
+
+TEST_F(TimeStripTest, MakesTheBoxcarLongerAndShorterAtItsEnds) {
+  drag(at(550 * kMs), at(700 * kMs));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{450 * kMs, 250 * kMs}));
+  drag(at(450 * kMs), at(300 * kMs));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{300 * kMs, 400 * kMs}));
+  drag(at(300 * kMs), at(950 * kMs));
+  EXPECT_EQ(document_.boxcar().length_ns, 1) << "it does not turn over";
+}
+
+TEST_F(TimeStripTest, MovesATenthAsFastWithShiftAndFreelyWithControl) {
+  const QPoint from = at(500 * kMs);
+  press(from);
+  move(from + QPoint(7, 0), Qt::ControlModifier);
+  const double free_ns = static_cast<double>(document_.boxcar().start_ns - 450 * kMs);
+  EXPECT_NEAR(free_ns, 7 * axis_.ns_per_pixel(strip_.width()), 2);
+  release(from);
+  document_.set_boxcar({450 * kMs, 100 * kMs}, "Back");
+  press(from);
+  move(from + QPoint(100, 0), Qt::ShiftModifier | Qt::ControlModifier);
+  EXPECT_NEAR(static_cast<double>(document_.boxcar().start_ns - 450 * kMs),
+              10 * axis_.ns_per_pixel(strip_.width()), 2);
+  release(from);
+}
+
+TEST_F(TimeStripTest, StepsBySamples) {
+  key(Qt::Key_Right);
+  EXPECT_EQ(document_.boxcar(), (Boxcar{460 * kMs, 100 * kMs}));
+  key(Qt::Key_Left, Qt::ShiftModifier);
+  EXPECT_EQ(document_.boxcar(), (Boxcar{360 * kMs, 100 * kMs}));
+  key(Qt::Key_Right, Qt::ControlModifier);
+  EXPECT_EQ(document_.boxcar().start_ns, 360 * kMs + 1);
+  key(Qt::Key_Left, Qt::ControlModifier);
+  key(Qt::Key_Up);
+  EXPECT_EQ(document_.boxcar(), (Boxcar{360 * kMs, 110 * kMs}));
+  key(Qt::Key_Down, Qt::ShiftModifier);
+  EXPECT_EQ(document_.boxcar(), (Boxcar{360 * kMs, 10 * kMs}));
+  key(Qt::Key_Down);
+  EXPECT_EQ(document_.boxcar(), (Boxcar{360 * kMs, 10 * kMs})) << "nothing would be left";
+  key(Qt::Key_Home);
+  EXPECT_EQ(document_.boxcar().start_ns, 0);
+  key(Qt::Key_End);
+  EXPECT_EQ(document_.boxcar().start_ns, 990 * kMs);
+  EXPECT_EQ(document_.mode(), ExposureMode::boxcar);
+}
+
+TEST_F(TimeStripTest, SetsMovesAndTakesAwayMarks) {
+  key(Qt::Key_I);
+  key(Qt::Key_O);
+  EXPECT_EQ(axis_.mark_in(), 450 * kMs);
+  EXPECT_EQ(axis_.mark_out(), 550 * kMs);
+  const QPoint mark = strip_.mark_place(550 * kMs).toPoint();
+  drag(mark, {at(800 * kMs).x(), mark.y()});
+  EXPECT_EQ(axis_.mark_out(), 800 * kMs);
+  EXPECT_EQ(document_.undo_stack().count(), 0) << "marks are no edits";
+  key(Qt::Key_X);
+  EXPECT_EQ(document_.boxcar(), (Boxcar{450 * kMs, 350 * kMs}));
+  key(Qt::Key_Z);
+  EXPECT_GT(axis_.begin_ns(), 400e6);
+  EXPECT_LT(axis_.end_ns(), 850e6);
+  key(Qt::Key_F);
+  EXPECT_LT(axis_.begin_ns(), 0);
+  QTest::mouseClick(&strip_, Qt::RightButton, {}, strip_.mark_place(800 * kMs).toPoint());
+  EXPECT_FALSE(axis_.mark_out());
+  key(Qt::Key_I, Qt::ShiftModifier);
+  EXPECT_FALSE(axis_.mark_in());
+}
+
+TEST_F(TimeStripTest, TakesADragBackByEscape) {
+  const DocumentState before = document_.state();
+  press(at(500 * kMs));
+  move(at(800 * kMs));
+  EXPECT_NE(document_.boxcar(), before.boxcar);
+  key(Qt::Key_Escape);
+  EXPECT_EQ(document_.state(), before);
+  EXPECT_FALSE(document_.is_dragging());
+  EXPECT_EQ(document_.undo_stack().count(), 0);
+}
+
+TEST_F(TimeStripTest, TakesTypedTimesExactly) {
+  EXPECT_EQ(shown("width"), "100 ms");
+  EXPECT_EQ(shown("start"), "450 ms");
+  type("width", "12.345678 ms");
+  EXPECT_EQ(document_.boxcar(), (Boxcar{450 * kMs, 12'345'678}));
+  type("width", "1/100s");
+  EXPECT_EQ(document_.boxcar().length_ns, 10 * kMs);
+  EXPECT_EQ(shown("width"), "10 ms");
+  type("start", "37f");
+  EXPECT_EQ(document_.boxcar().start_ns, 370 * kMs);
+  type("in", "0.2s");
+  type("out", "800 ms");
+  EXPECT_EQ(axis_.mark_in(), 200 * kMs);
+  EXPECT_EQ(axis_.mark_out(), 800 * kMs);
+  type("in", "");
+  EXPECT_FALSE(axis_.mark_in());
+}
+
+TEST_F(TimeStripTest, SaysWhatIsWrongWithATypedTimeAndKeepsIt) {
+  const DocumentState before = document_.state();
+  for (const auto& [text, said] :
+       {std::pair("ten", "write a number and a unit"), std::pair("0 ms", "not longer"),
+        std::pair("1 h", "The capture lasts 1 s")}) {
+    type("width", text);
+    EXPECT_EQ(document_.state(), before) << text;
+    EXPECT_EQ(shown("width"), text);
+    const auto* answer = fields_.findChildren<QLabel*>().back();
+    bool is_said = answer->text().contains(said);
+    for (const QLabel* label : fields_.findChildren<QLabel*>())
+      is_said = is_said || label->text().contains(said);
+    EXPECT_TRUE(is_said) << text;
+  }
+  type("width", "10 ms");
+  EXPECT_EQ(document_.boxcar().length_ns, 10 * kMs);
+}
+
+TEST_F(TimeStripTest, ShowsActivityAndThumbnailsWhereTheyAre) {
+  const QImage empty = strip_.grab().toImage();
+  CaptureOverview overview;
+  overview.changed_share.assign(100, 0.0);
+  for (std::size_t i = 80; i < 90; ++i) overview.changed_share[i] = 0.5;
+  document_.set_overview(overview);
+  const QImage active = strip_.grab().toImage();
+  EXPECT_NE(active.pixel(at(850 * kMs)), empty.pixel(at(850 * kMs)));
+  EXPECT_EQ(active.pixel(at(200 * kMs)), empty.pixel(at(200 * kMs)));
+  EXPECT_TRUE(strip_.text_at(at(850 * kMs)).contains("50 % of the pixels change"));
+  for (int i = 0; i < 10; ++i) {
+    QImage image(32, 24, QImage::Format_RGB32);
+    image.fill(i < 5 ? Qt::red : Qt::green);
+    overview.thumbnails.push_back({i * 111 * kMs, image});
+  }
+  document_.set_overview(overview);
+  const QImage pictured = strip_.grab().toImage();
+  EXPECT_EQ(pictured.pixelColor(at(103 * kMs).x(), 40), QColor(Qt::red));
+  EXPECT_EQ(pictured.pixelColor(at(903 * kMs).x(), 40), QColor(Qt::green));
+}
+
+TEST_F(TimeStripTest, ZoomsToThePointer) {
+  const QPointF where(700, 60);
+  const std::int64_t time_ns = axis_.to_time(where.x(), strip_.width());
+  QWheelEvent event(where, strip_.mapToGlobal(where), {}, {0, 480}, Qt::NoButton, {}, Qt::NoScrollPhase,
+                    false);
+  QCoreApplication::sendEvent(&strip_, &event);
+  EXPECT_NEAR(static_cast<double>(axis_.to_time(where.x(), strip_.width()) - time_ns), 0, 10);
+  EXPECT_LT(axis_.end_ns() - axis_.begin_ns(), 5e8);
+}
+
+}  // namespace
+}  // namespace nutik::studio
