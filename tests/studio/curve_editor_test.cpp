@@ -362,6 +362,13 @@ TEST_F(CurveEditorTest, DrawsTheWaveformOfTheClickedPixelBehindTheCurve) {
   EXPECT_NE(editor_.grab().toImage(), without);
 }
 
+// CPU time of the window's own thread.
+double thread_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
 // Printed, not asserted: machines differ. The target is 8 ms an event.
 TEST_F(CurveEditorTest, TellsWhatADragEventCosts) {
   for (const int count : {4, 400, 100'000}) {
@@ -371,13 +378,13 @@ TEST_F(CurveEditorTest, TellsWhatADragEventCosts) {
     document_.set_points(kTag, many, "Many");
     editor_.resize(2560, 400);
     press(at_point(1));
-    const std::clock_t begin = std::clock();
+    const double begin = thread_ms();
     constexpr int kEvents = 40;
     for (int i = 0; i < kEvents; ++i) {
       move(at_point(1) + QPoint(i % 3, i % 5 - 2), Qt::ControlModifier);
       editor_.grab();
     }
-    const double ms = 1000.0 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / kEvents;
+    const double ms = (thread_ms() - begin) / kEvents;
     release(at_point(1));
     std::printf("  %d points, 2560 wide: %.2f ms of CPU time a drag event, painted\n", count, ms);
   }

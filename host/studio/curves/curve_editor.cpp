@@ -205,7 +205,7 @@ void CurveEditor::paintEvent(QPaintEvent*) {
       const auto look = document_.state().looks.find(tag);
       const bool is_shown = look == document_.state().looks.end() || look->second.is_visible;
       if (tag != document_.selected_tag() && is_shown)
-        made.others.push_back({points_of(function), document_.colour(tag)});
+        made.others.push_back({points_of(function), colours.line(document_.colour(tag))});
     }
     drawn_functions_ = document_.functions();
     QPainter painter(&backdrop_);
@@ -222,7 +222,7 @@ void CurveEditor::paintEvent(QPaintEvent*) {
                       QPointF(frame.x_of(boxcar.start_ns + boxcar.length_ns), frame.box().bottom()));
     painter.fillRect(band.intersected(frame.box()), with_opacity(colours.boxcar, 0.16));
   }
-  const QColor colour = document_.colour(document_.selected_tag());
+  const QColor colour = colours.line(document_.colour(document_.selected_tag()));
   paint_curve(painter, frame, colours, points_, colour);
   paint_boxcars(painter, frame, colours, boxcars_, lane_top(), colour);
   if (const auto box = this->box()) paint_box(painter, *box, colours);
@@ -245,7 +245,7 @@ void CurveEditor::paint_header(QPainter& painter, const TimeColours& colours) co
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(Qt::NoPen);
-  painter.setBrush(document_.colour(document_.selected_tag()));
+  painter.setBrush(colours.line(document_.colour(document_.selected_tag())));
   painter.drawEllipse(QRectF(line.left() + 1, line.center().y() - kDot / 2, kDot, kDot));
   line.setLeft(line.left() + kDot + 8);
   painter.setPen(colours.label);

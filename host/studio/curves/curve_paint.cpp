@@ -33,16 +33,21 @@ void add_vertex(QPolygonF& line, QPointF& previous, QPointF to) {
   previous = to;
 }
 
-// Painters compare all sides of a long line or area with each other, which takes seconds: they get short parts, and of
-// what is denser than pixels a stroke for each column.
-constexpr qsizetype kDense = 1'500;
+// Painters compare all sides of a long line or area with each other, which takes seconds: they get short parts. Smooth
+// lines take their time even so, and a drag has few milliseconds: of many parts they are drawn without.
+constexpr qsizetype kSmooth = 160, kDense = 1'500, kTogether = 32;
 
 void paint_line(QPainter& painter, const QPolygonF& line, const QColor& colour, double width) {
-  constexpr qsizetype kTogether = 32;
-  const bool is_dense = line.size() > kDense;
   painter.setBrush(Qt::NoBrush);
-  painter.setRenderHint(QPainter::Antialiasing, !is_dense);
-  painter.setPen(is_dense ? QPen(colour, 0) : QPen(colour, width));
+  if (line.size() > kSmooth) {
+    painter.setRenderHint(QPainter::Antialiasing, false);
+    painter.setPen(QPen(colour, 0));
+    painter.drawPolyline(line);
+    if (width > kOtherLinePixels) painter.drawPolyline(line.translated(0, 1));
+    return;
+  }
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(colour, width));
   for (qsizetype first = 0; first + 1 < line.size(); first += kTogether)
     painter.drawPolyline(line.constData() + first,
                          static_cast<int>(std::min(kTogether + 1, line.size() - first)));
@@ -50,7 +55,6 @@ void paint_line(QPainter& painter, const QPolygonF& line, const QColor& colour, 
 
 // Between a line and a height.
 void paint_area(QPainter& painter, const QPolygonF& line, double foot, const QBrush& brush) {
-  constexpr qsizetype kTogether = 32;
   painter.setRenderHint(QPainter::Antialiasing, false);
   painter.setPen(Qt::NoPen);
   painter.setBrush(brush);
@@ -63,15 +67,30 @@ void paint_area(QPainter& painter, const QPolygonF& line, double foot, const QBr
     return;
   }
   for (auto vertex = line.begin(); vertex != line.end();) {
-    const double column = std::floor(vertex->x());
+    const int column = static_cast<int>(std::floor(vertex->x()));
     double low = foot, high = foot;
-    for (; vertex != line.end() && std::floor(vertex->x()) == column; ++vertex) {
+    for (; vertex != line.end() && static_cast<int>(std::floor(vertex->x())) == column; ++vertex) {
       low = std::max(low, vertex->y());
       high = std::min(high, vertex->y());
     }
-    painter.drawRect(
-        QRectF(column, high, vertex == line.end() ? 1.0 : std::floor(vertex->x()) - column, low - high));
+    const int next = vertex == line.end() ? column + 1 : static_cast<int>(std::floor(vertex->x()));
+    const int top = static_cast<int>(std::floor(high));
+    painter.fillRect(column, top, next - column, static_cast<int>(std::ceil(low)) - top, brush);
   }
+}
+
+// A point's sign, drawn once for all points.
+constexpr double kSignPixels = 12;
+QPixmap round_sign(double radius, const QPen& pen, const QColor& inside, qreal ratio) {
+  QPixmap sign((QSizeF(kSignPixels, kSignPixels) * ratio).toSize());
+  sign.setDevicePixelRatio(ratio);
+  sign.fill(Qt::transparent);
+  QPainter painter(&sign);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(pen);
+  painter.setBrush(inside);
+  painter.drawEllipse(QPointF(kSignPixels / 2, kSignPixels / 2), radius, radius);
+  return sign;
 }
 
 void paint_series(QPainter& painter, const PlotFrame& frame, const TimeColours& colours,
@@ -222,22 +241,24 @@ void paint_points(QPainter& painter, const PlotFrame& frame, const TimeColours& 
   const PointIndices seen = points_within(frame, points, reach);
   constexpr double kApart = 3;
   const bool is_dense = static_cast<double>(seen.size()) * kApart > frame.box().width();
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing);
+  const double plain = is_dense ? 2.0 : 4.0, chosen = is_dense ? 2.0 : 4.5;
+  const qreal ratio = painter.device()->devicePixelRatioF();
+  const QPixmap plain_sign = round_sign(plain, QPen(colour, 1.6), colours.ground, ratio);
+  const QPixmap chosen_sign = round_sign(chosen, QPen(colours.text, 1.6), colour, ratio);
   for (const std::size_t i : seen) {
     const bool is_selected = std::binary_search(selected.begin(), selected.end(), i);
     if (is_dense && !is_selected) continue;
     const QPointF at = frame.place(points[i]);
-    const double radius = is_dense ? 2.0 : is_selected ? 4.5 : 4.0;
-    painter.setPen(QPen(is_selected ? colours.text : colour, 1.6));
-    painter.setBrush(is_selected ? colour : colours.ground);
-    painter.drawEllipse(at, radius, radius);
+    const double half = kSignPixels / 2;
+    painter.drawPixmap(at - QPointF(half, half), is_selected ? chosen_sign : plain_sign);
     if (current != i) continue;
+    painter.save();
+    painter.setRenderHint(QPainter::Antialiasing);
     painter.setBrush(Qt::NoBrush);
     painter.setPen(QPen(colours.text, 1.0, Qt::DotLine));
-    painter.drawEllipse(at, radius + 4, radius + 4);
+    painter.drawEllipse(at, chosen + 4, chosen + 4);
+    painter.restore();
   }
-  painter.restore();
 }
 
 void paint_boxcars(QPainter& painter, const PlotFrame& frame, const TimeColours& colours,

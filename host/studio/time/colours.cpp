@@ -1,5 +1,8 @@
 #include "studio/time/colours.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace nutik::studio {
 
 QColor mixed(const QColor& a, const QColor& b, double share) {
@@ -13,6 +16,12 @@ QColor mixed(const QColor& a, const QColor& b, double share) {
 QColor with_opacity(QColor colour, double opacity) {
   colour.setAlphaF(static_cast<float>(opacity));
   return colour;
+}
+
+QColor TimeColours::line(const QColor& region) const {
+  const double contrast = std::abs(region.lightnessF() - ground.lightnessF());
+  constexpr double kEnough = 0.45;
+  return contrast >= kEnough ? region : mixed(region, text, std::min((kEnough - contrast) * 1.6, 0.6));
 }
 
 TimeColours TimeColours::of(const QPalette& palette) {

@@ -22,6 +22,9 @@ struct TimeColours {
   QColor warning;
   QColor tip, tip_text;  // coordinates
 
+  // A region's colour as a line that can be seen on the ground.
+  [[nodiscard]] QColor line(const QColor& region) const;
+
   static TimeColours of(const QPalette& palette);
 };
 

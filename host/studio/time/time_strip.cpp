@@ -12,7 +12,8 @@
 namespace nutik::studio {
 namespace {
 
-constexpr double kRuler = 22, kFoot = 4;
+constexpr double kRuler = 30, kFoot = 4;
+constexpr double kLabels = 18;            // the ruler's upper part; marks have the lower one
 constexpr double kThumbnailShare = 0.58;  // of the track's height
 
 }  // namespace
@@ -59,7 +60,7 @@ QRectF TimeStrip::boxcar_area() const {
 }
 
 QPointF TimeStrip::mark_place(std::int64_t time_ns) const {
-  return {axis_.to_pixel(static_cast<double>(time_ns), width()), kRuler - 5};
+  return {axis_.to_pixel(static_cast<double>(time_ns), width()), (kLabels + kRuler) / 2};
 }
 
 void TimeStrip::follow_document() {
@@ -113,7 +114,7 @@ void TimeStrip::paint_backdrop(QPainter& painter, const TimeColours& colours) co
   const int most = std::max(static_cast<int>(track.width() / kApart), 2);
   const auto ticks = plot::time_ticks(std::llround(axis_.begin_ns()), std::llround(axis_.end_ns()), most);
   painter.setPen(colours.label);
-  painter.drawText(QRectF(0, 0, TimeAxis::kLeft - 7, kRuler - 3), Qt::AlignRight | Qt::AlignVCenter,
+  painter.drawText(QRectF(0, 0, TimeAxis::kLeft - 7, kLabels), Qt::AlignRight | Qt::AlignVCenter,
                    QString::fromStdString(ticks.unit));
   for (const plot::Tick& tick : ticks.ticks) {
     const double x = std::round(axis_.to_pixel(tick.at, width())) + 0.5;
@@ -123,7 +124,7 @@ void TimeStrip::paint_backdrop(QPainter& painter, const TimeColours& colours) co
     painter.drawLine(QPointF(x, kRuler - 4), QPointF(x, kRuler));
     if (x - half < TimeAxis::kLeft - 6 || x + half > width()) continue;  // beside the unit, or cut off
     painter.setPen(colours.label);
-    painter.drawText(QRectF(x - half, 0, 2 * half, kRuler - 4), Qt::AlignCenter, label);
+    painter.drawText(QRectF(x - half, 0, 2 * half, kLabels), Qt::AlignCenter, label);
   }
 
   painter.save();
@@ -205,10 +206,10 @@ void TimeStrip::paint_marks(QPainter& painter, const TimeColours& colours) const
                                         : QRectF(QPointF(at.x(), track.top()), track.bottomRight());
     painter.fillRect(beyond, with_opacity(colours.ground, 0.55));
     painter.setPen(QPen(colours.guide, 1.4));
-    painter.drawLine(QPointF(at.x(), 4), QPointF(at.x(), track.bottom()));
+    painter.drawLine(QPointF(at.x(), kLabels), QPointF(at.x(), track.bottom()));
     painter.setPen(Qt::NoPen);
     painter.setBrush(colours.guide);
-    const QPointF top(at.x(), 4);
+    const QPointF top(at.x(), kLabels);
     painter.drawPolygon(QPolygonF({top, top + QPointF(9 * direction, 0), top + QPointF(0, 12)}));
   };
   paint(axis_.mark_in(), 1);
