@@ -1,10 +1,38 @@
-// nutik-studio: the window in which functions and masks are drawn while the picture follows.
+// nutik-studio: a window in which functions and masks are drawn while the picture follows.
 #include <QApplication>
-#include <QMainWindow>
+#include <QCommandLineParser>
+
+#include "studio/window/appearance.hpp"
+#include "studio/window/main_window.hpp"
 
 int main(int count, char** words) {
-  const QApplication application(count, words);
-  QMainWindow window;
+  QApplication application(count, words);
+  QApplication::setApplicationName("nutik-studio");
+  QApplication::setOrganizationName("nutik");
+  QApplication::setApplicationVersion(NUTIK_VERSION);
+
+  QCommandLineParser parser;
+  parser.setApplicationDescription("Draw gain functions and masks while the picture follows.");
+  parser.addHelpOption();
+  parser.addVersionOption();
+  const QCommandLineOption rate({"f", "fps"},
+                                "Pictures a second that the clip was filmed with: 120, 30000/1001.", "RATE");
+  parser.addOption(rate);
+  parser.addPositionalArgument("file", "A clip, a capture (.tik) or a project (.nutik).",
+                               "[CAPTURE.tik|CLIP|PROJECT.nutik]");
+  parser.process(application);
+
+  nutik::studio::set_appearance(nutik::studio::kept_appearance());
+  nutik::ComputingRequest computing;
+  using nutik::studio::MainWindow;
+  MainWindow window(computing);
   window.show();
+  const QStringList files = parser.positionalArguments();
+  if (files.isEmpty() && !nutik::studio::Autosave::found().isEmpty())
+    window.notice().say(
+        nutik::studio::Notice::Kind::note,
+        MainWindow::tr(
+            "There is unsaved work of a window that did not end well: File, Recover unsaved work."));
+  if (!files.isEmpty()) window.open(files.front(), parser.value(rate));
   return QApplication::exec();
 }

@@ -125,7 +125,7 @@ void Canvas::paintEvent(QPaintEvent* event) {
   painter.scale(view_.zoom(), view_.zoom());
   paint_solo(painter);
   paint_regions(painter);
-  if (tool_ != nullptr) tool_->paint(painter, view_.to_picture(pointer_));
+  if (tool_ != nullptr && is_inside_) tool_->paint(painter, view_.to_picture(pointer_));
 }
 
 void Canvas::paint_regions(QPainter& painter) {
@@ -185,6 +185,7 @@ void Canvas::resizeEvent(QResizeEvent*) {
 
 void Canvas::mousePressEvent(QMouseEvent* event) {
   pointer_ = pressed_ = event->position();
+  is_inside_ = true;
   has_moved_ = false;
   if (image_.isNull() || document_.facts() == nullptr) return;
   if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && tool_ == nullptr)) {
@@ -199,6 +200,7 @@ void Canvas::mousePressEvent(QMouseEvent* event) {
 void Canvas::mouseMoveEvent(QMouseEvent* event) {
   const QPointF before = pointer_;
   pointer_ = event->position();
+  is_inside_ = true;
   if (is_panning_) {
     if (!has_moved_ && (pointer_ - pressed_).manhattanLength() <= kClickPixels) return;
     view_.pan(pointer_ - (has_moved_ ? before : pressed_));
@@ -265,6 +267,10 @@ void Canvas::keyPressEvent(QKeyEvent* event) {
   }
 }
 
-void Canvas::leaveEvent(QEvent*) { Q_EMIT pointed({}); }
+void Canvas::leaveEvent(QEvent*) {
+  is_inside_ = false;
+  update();
+  Q_EMIT pointed({});
+}
 
 }  // namespace nutik::studio

@@ -85,6 +85,7 @@ class Canvas : public QWidget {
   Outlines outlines_;
   QImage solo_;  // what it leaves in the dark
   QPointF pointer_, pressed_;
+  bool is_inside_ = false;  // the pointer
   bool is_panning_ = false, is_stroking_ = false, has_moved_ = false;
 };
 

@@ -89,15 +89,23 @@ void Jobs::run(Waiting& waiting) {
       Qt::QueuedConnection);
 }
 
+QString sentence(const std::string& text) {
+  QString said = QString::fromStdString(text);
+  // A path keeps its letters.
+  const bool begins_with_word = said.size() > 1 && said[0].isLetter() &&
+                                !said.section(' ', 0, 0).contains('/') &&
+                                !said.section(' ', 0, 0).contains('.');
+  if (begins_with_word) said[0] = said[0].toUpper();
+  return said;
+}
+
 QString sentence_of(const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
     return Jobs::tr("There is not enough memory for this.");
   } catch (const std::exception& known) {
-    QString text = QString::fromUtf8(known.what());
-    if (!text.isEmpty()) text[0] = text[0].toUpper();
-    return text;
+    return sentence(known.what());
   } catch (...) {
     return Jobs::tr("It failed, and nothing is known of why.");
   }

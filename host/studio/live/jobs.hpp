@@ -11,6 +11,7 @@
 #include <functional>
 #include <mutex>
 #include <stop_token>
+#include <string>
 #include <thread>
 
 #include "session/reported_progress.hpp"
@@ -64,6 +65,8 @@ class Jobs : public QObject {
   std::jthread worker_;  // last: it uses everything else
 };
 
+// With a capital letter.
+[[nodiscard]] QString sentence(const std::string& text);
 // An error in the words of its message.
 [[nodiscard]] QString sentence_of(const std::exception_ptr& error);
 

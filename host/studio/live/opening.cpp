@@ -1,5 +1,6 @@
 #include "studio/live/opening.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "session/below/error.hpp"
@@ -32,8 +33,12 @@ Opened open_capture(const QString& path, const QString& rate, std::shared_ptr<De
       source, std::move(devices),
       Session::Terms{.reading = Reading::whole, .progress = job.progress, .stop = job.stop});
   Opened opened{session, {path, session->format(), session->timeline(), rate}, {}};
-  for (const Note& note : session->notes()) opened.notes += QString::fromStdString(note.text);
-  for (const std::string& warning : session->warnings()) opened.notes += QString::fromStdString(warning);
+  for (const Note& note : session->notes()) {
+    opened.notes += sentence(note.text);
+    if (std::ranges::find(note.settings, Setting::frame_rate) != note.settings.end())
+      opened.notes.back() += Jobs::tr(" (File, Frame rate)");
+  }
+  for (const std::string& warning : session->warnings()) opened.notes += sentence(warning);
   return opened;
 }
 

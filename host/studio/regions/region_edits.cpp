@@ -81,8 +81,9 @@ void set_look(Document& document, std::uint8_t tag, const RegionLook& look, cons
 }
 
 void expose_over_boxcar(Document& document, std::uint8_t tag) {
-  const auto points = function_over(document.boxcar()).points();
-  document.set_points(tag, {points.begin(), points.end()}, tr("Expose over the interval"));
+  const GainFunction function = function_over(document.boxcar());
+  document.set_points(tag, {function.points().begin(), function.points().end()},
+                      tr("Expose over the interval"));
 }
 
 void paint_region(Document& document, const Region& region, std::uint8_t tag, const QString& what) {

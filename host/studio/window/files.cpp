@@ -1,0 +1,219 @@
+// What the window does with files: open, save, export.
+#include <QClipboard>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QGuiApplication>
+#include <QMenu>
+#include <QMessageBox>
+#include <QSettings>
+
+#include "session/below/error.hpp"
+#include "studio/window/main_window.hpp"
+#include "studio/window/project_file.hpp"
+#include "studio/window/starting_points.hpp"
+
+namespace nutik::studio {
+namespace {
+
+constexpr const char* kRecentKey = "recent";
+constexpr int kMostRecent = 10;
+
+}  // namespace
+
+// Errors are said above the picture.
+bool MainWindow::try_to(const std::function<void()>& what) {
+  try {
+    what();
+    return true;
+  } catch (...) {
+    notice_->say(Notice::Kind::error, sentence_of(std::current_exception()));
+    return false;
+  }
+}
+
+void MainWindow::choose_capture() {
+  if (!may_leave()) return;
+  const QString path =
+      QFileDialog::getOpenFileName(this, tr("Open"), {},
+                                   tr("Clips, captures and projects (*.tik *.nutik *.mp4 *.mov *.mkv *.avi "
+                                      "*.cine *.cihx *.csv);;All files (*)"));
+  if (!path.isEmpty()) open(path);
+}
+
+bool MainWindow::save_project(const QString& path) {
+  if (document_.facts() == nullptr) return false;
+  const CommandFiles files = path == project_ && !files_.functions.isEmpty() ? files_ : files_beside(path);
+  if (!try_to([&] { nutik::studio::save_project(path, document_, files); })) return false;
+  project_ = path;
+  files_ = files;
+  note_files();
+  Autosave::forget();
+  document_.undo_stack().setClean();
+  remember(path);
+  follow_title();
+  return true;
+}
+
+bool MainWindow::save() {
+  if (project_.isEmpty()) return save_as();
+  const QStringList changed = changed_outside();
+  if (!changed.isEmpty() &&
+      QMessageBox::question(
+          this, tr("Changed outside"),
+          tr("These files were changed by another program since they were read:\n%1\nReplace them?")
+              .arg(changed.join('\n'))) != QMessageBox::Yes)
+    return false;
+  return save_project(project_);
+}
+
+void MainWindow::note_files() {
+  known_.clear();
+  for (const QString& file : {project_, files_.functions, files_.mask})
+    known_[file] = QFileInfo(file).lastModified();
+}
+
+QStringList MainWindow::changed_outside() const {
+  QStringList changed;
+  for (const auto& [file, time] : known_) {
+    const QFileInfo info(file);
+    if (info.exists() && info.lastModified() != time) changed += file;
+  }
+  return changed;
+}
+
+void MainWindow::recover() {
+  const QString kept = Autosave::found();
+  if (kept.isEmpty() || !may_leave()) return;
+  open(kept);
+  project_.clear();  // it is saved where a person says
+  files_ = {};
+}
+
+bool MainWindow::save_as() {
+  if (document_.facts() == nullptr) return false;
+  QString path = QFileDialog::getSaveFileName(this, tr("Save the project"), suggested(kProjectExtension),
+                                              tr("Projects (*%1)").arg(kProjectExtension));
+  if (path.isEmpty()) return false;
+  if (!path.endsWith(QLatin1String(kProjectExtension))) path += QLatin1String(kProjectExtension);
+  return save_project(path);
+}
+
+bool MainWindow::may_leave() {
+  if (document_.undo_stack().isClean()) return true;
+  const auto answer = QMessageBox::question(
+      this, tr("Unsaved changes"), tr("Regions and functions were changed and not saved. Save them?"),
+      QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
+  if (answer == QMessageBox::Save) return save();
+  return answer == QMessageBox::Discard;
+}
+
+bool MainWindow::has_files() const {
+  return document_.mode() == ExposureMode::boxcar ||
+         (!project_.isEmpty() && document_.undo_stack().isClean());
+}
+
+// A command names files: they have to hold what is shown.
+bool MainWindow::ensure_files() { return document_.facts() != nullptr && (has_files() || save()); }
+
+QString MainWindow::command_for(const QString& picture) const {
+  return command_line(document_, files_, picture);
+}
+
+void MainWindow::choose_export() {
+  if (!ensure_files()) return;
+  const QString path = QFileDialog::getSaveFileName(this, tr("Export the picture"), suggested(".png"),
+                                                    tr("Pictures (*.png *.tif *.jpg *.exr *.pfm *.ppm)"));
+  if (!path.isEmpty()) export_picture(path);
+}
+
+void MainWindow::copy_command() {
+  if (!ensure_files()) return;
+  const QString line = command_for(suggested(".png"));
+  QGuiApplication::clipboard()->setText(line);
+  notice_->say(Notice::Kind::note, tr("Copied: %1").arg(line));
+}
+
+void MainWindow::choose_functions() {
+  const QString path = QFileDialog::getOpenFileName(this, tr("Load functions"), {},
+                                                    tr("Function files (*.fn);;All files (*)"));
+  if (path.isEmpty()) return;
+  try_to([&] {
+    DocumentState state = document_.state();
+    state.functions = load_functions(path);
+    if (state.mask) {
+      for (const MaskRegion& region : (*state.mask)->regions) {
+        // Pixels whose function is not in the file keep the one they have.
+        if (!state.functions.contains(region.tag))
+          state.functions.emplace(region.tag, document_.functions().at(region.tag));
+      }
+    }
+    state.mode = ExposureMode::functions;
+    document_.apply(std::move(state), tr("Load functions"));
+  });
+}
+
+void MainWindow::choose_mask() {
+  const QString path =
+      QFileDialog::getOpenFileName(this, tr("Load mask"), {}, tr("Masks (*.pgm *.png);;All files (*)"));
+  if (path.isEmpty()) return;
+  try_to([&] {
+    DocumentState state = document_.state();
+    const Shared<MaskWithRegions> mask = load_mask(path);
+    const Shape& shape = document_.facts()->format.shape;
+    if (mask->mask.width != shape.width || mask->mask.height != shape.height)
+      throw InputError(tr("%1 is %2 × %3 pixels large, the capture %4 × %5")
+                           .arg(path)
+                           .arg(mask->mask.width)
+                           .arg(mask->mask.height)
+                           .arg(shape.width)
+                           .arg(shape.height)
+                           .toStdString());
+    const GainFunction function = with_steps(
+        GainFunction::boxcar(state.boxcar.start_ns, state.boxcar.start_ns + state.boxcar.length_ns));
+    for (const MaskRegion& region : mask->regions) state.functions.try_emplace(region.tag, function);
+    state.mask = mask;
+    state.mode = ExposureMode::functions;
+    document_.apply(std::move(state), tr("Load mask"));
+  });
+}
+
+void MainWindow::choose_plate() {
+  const QString path = QFileDialog::getSaveFileName(
+      this, tr("Write the empty scene"), suggested("-empty.png"), tr("Pictures (*.png *.tif *.jpg *.exr)"));
+  if (path.isEmpty()) return;
+  try_to([&] {
+    jobs_.start(tr("Looking for the empty scene"), writing_plate(session_, path, [this](const QString& line) {
+                  notice_->say(Notice::Kind::note, line);
+                }));
+  });
+}
+
+// Beside the project, else beside the capture.
+QString MainWindow::suggested(const QString& ending) const {
+  const QFileInfo from(project_.isEmpty() ? document_.facts()->path : project_);
+  return from.dir().filePath(from.completeBaseName() + ending);
+}
+
+void MainWindow::remember(const QString& path) {
+  QSettings settings;
+  QStringList recent = settings.value(kRecentKey).toStringList();
+  const QString absolute = QFileInfo(path).absoluteFilePath();
+  recent.removeAll(absolute);
+  recent.prepend(absolute);
+  settings.setValue(kRecentKey, recent.mid(0, kMostRecent));
+}
+
+void MainWindow::fill_recent(QMenu& menu) {
+  menu.clear();
+  for (const QString& path : QSettings().value(kRecentKey).toStringList()) {
+    QAction* action = menu.addAction(path);
+    action->setEnabled(QFileInfo::exists(path));
+    connect(action, &QAction::triggered, this, [this, path] {
+      if (may_leave()) open(path);
+    });
+  }
+  if (menu.isEmpty()) menu.addAction(tr("None yet"))->setEnabled(false);
+}
+
+}  // namespace nutik::studio

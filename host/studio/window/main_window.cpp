@@ -1,0 +1,258 @@
+#include "studio/window/main_window.hpp"
+
+#include <QDragEnterEvent>
+#include <QDropEvent>
+#include <QFileInfo>
+#include <QInputDialog>
+#include <QMimeData>
+#include <QSplitter>
+#include <QUrl>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "session/below/error.hpp"
+#include "studio/curves/curve_editor.hpp"
+#include "studio/live/overview.hpp"
+#include "studio/regions/region_list.hpp"
+#include "studio/time/time_fields.hpp"
+#include "studio/time/time_strip.hpp"
+#include "studio/window/picture_export.hpp"
+#include "studio/window/project_file.hpp"
+#include "studio/window/starting_points.hpp"
+
+namespace nutik::studio {
+
+MainWindow::MainWindow(const ComputingRequest& computing)
+    : live_(document_, quick_), autosave_(document_), devices_(std::make_shared<Devices>(computing)) {
+  devices_->start();
+  build_window();
+  build_menus();
+  connect_parts();
+  follow_title();
+  follow_exposure();
+}
+
+// Widgets know the document: they go first.
+MainWindow::~MainWindow() { delete takeCentralWidget(); }
+
+void MainWindow::build_window() {
+  setAcceptDrops(true);
+  resize(1280, 800);
+  notice_ = new Notice;
+  canvas_ = new Canvas(document_);
+  canvas_->setObjectName("canvas");
+  canvas_->set_hint(tr("Open a clip or a capture (Ctrl+O), or drop one here."));
+  auto* picture = new QWidget;
+  auto* picture_column = new QVBoxLayout(picture);
+  picture_column->setContentsMargins(0, 0, 0, 0);
+  picture_column->setSpacing(0);
+  picture_column->addWidget(notice_);
+  picture_column->addWidget(canvas_, 1);
+
+  auto* strip = new TimeStrip(document_, axis_);
+  strip->setObjectName("time_strip");
+  auto* curves = new CurveEditor(document_, axis_);
+  curves->setObjectName("curves");
+  auto* time = new QWidget;
+  auto* time_column = new QVBoxLayout(time);
+  time_column->setContentsMargins(0, 0, 0, 0);
+  time_column->setSpacing(1);
+  time_column->addWidget(new TimeFields(document_, axis_));
+  time_column->addWidget(strip);
+  time_column->addWidget(curves, 1);
+
+  auto* column = new QSplitter(Qt::Vertical);
+  column->addWidget(picture);
+  column->addWidget(time);
+  column->setStretchFactor(0, 1);
+  column->setChildrenCollapsible(false);
+  column->setSizes({430, 290});
+  auto* row = new QSplitter(Qt::Horizontal);
+  row->addWidget(column);
+  row->addWidget(new RegionList(document_));
+  row->setStretchFactor(0, 1);
+  row->setChildrenCollapsible(false);
+  row->setSizes({980, 300});
+  setCentralWidget(row);
+  status_ = new StatusLine(jobs_);
+  setStatusBar(status_);
+}
+
+void MainWindow::connect_parts() {
+  connect(&live_, &LiveView::pictured, this, [this](const ShownPicture& picture) {
+    canvas_->show_picture(picture);
+    status_->tell(picture);
+  });
+  connect(&live_, &LiveView::failed, this,
+          [this](const QString& why) { notice_->say(Notice::Kind::error, why); });
+  connect(&jobs_, &Jobs::failed, this, [this](const QString& what, const QString& why) {
+    notice_->say(Notice::Kind::error, tr("%1: %2").arg(what, why));
+  });
+  connect(canvas_, &Canvas::visible_changed, &live_, &LiveView::set_visible);
+  connect(canvas_, &Canvas::pointed, this,
+          [this](std::optional<QPoint> pixel) { status_->tell(pixel, canvas_->image()); });
+  connect(&document_, &Document::probe_changed, this, &MainWindow::look_at_pixel);
+  connect(&document_, &Document::changed, this, &MainWindow::follow_exposure);
+  connect(&document_, &Document::capture_changed, this, &MainWindow::follow_exposure);
+  connect(&document_.undo_stack(), &QUndoStack::cleanChanged, this, &MainWindow::follow_title);
+}
+
+void MainWindow::open(const QString& path, const QString& rate) {
+  notice_->clear();
+  if (!path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive)) {
+    project_.clear();
+    files_ = {};
+    return open_capture_file(path, rate, {});
+  }
+  try_to([&] {
+    Project project = load_project(path);
+    project_ = path;
+    files_ = project.files;
+    note_files();
+    remember(path);
+    open_capture_file(project.capture, project.rate, std::move(project.state));
+  });
+}
+
+void MainWindow::open_capture_file(const QString& path, const QString& rate,
+                                   std::optional<DocumentState> state) {
+  jobs_.cancel();
+  const auto first_look = [this](QImage image) {
+    QMetaObject::invokeMethod(
+        this, [this, image] { canvas_->show_first_look(image); }, Qt::QueuedConnection);
+  };
+  jobs_.start(tr("Opening %1").arg(QFileInfo(path).fileName()),
+              [this, path, rate, state = std::move(state), devices = devices_,
+               first_look](const Job& job) -> Jobs::Finish {
+                try {
+                  auto opened = std::make_shared<Opened>(open_capture(path, rate, devices, job, first_look));
+                  return [this, opened, state] { take(std::move(*opened), state); };
+                } catch (const Error& error) {
+                  const auto& settings = error.settings();
+                  if (!rate.isEmpty() || std::ranges::find(settings, Setting::frame_rate) == settings.end())
+                    throw;
+                  return [this, path, why = sentence_of(std::current_exception())] { ask_rate(path, why); };
+                }
+              });
+}
+
+void MainWindow::ask_rate(const QString& path, const QString& why) {
+  bool is_answered = false;
+  const QString rate = QInputDialog::getText(
+      this, tr("Pictures a second"),
+      tr("%1\n\nHow many pictures a second was it filmed with? As in 120 or 30000/1001").arg(why),
+      QLineEdit::Normal, {}, &is_answered);
+  if (is_answered && !rate.trimmed().isEmpty()) open(path, rate.trimmed());
+}
+
+void MainWindow::take(Opened opened, std::optional<DocumentState> state) {
+  if (state && state->mask) {
+    const Shape& shape = opened.facts.format.shape;
+    const Mask& mask = (*state->mask)->mask;
+    if (mask.width != shape.width || mask.height != shape.height) {
+      notice_->say(
+          Notice::Kind::error,
+          tr("The project's mask is %1 × %2 pixels large, the capture %3 × %4: the mask was left out.")
+              .arg(mask.width)
+              .arg(mask.height)
+              .arg(shape.width)
+              .arg(shape.height));
+      state->mask.reset();
+    }
+  }
+  remember(project_.isEmpty() ? opened.facts.path : project_);
+  live_.show(nullptr);
+  session_ = opened.session;
+  const bool is_recovered = state && project_.isEmpty();
+  document_.start(std::move(opened.facts), std::move(state));
+  if (is_recovered) document_.undo_stack().resetClean();
+  axis_.set_duration(document_.duration_ns());
+  live_.show(session_);
+  follow_title();
+  if (!opened.notes.isEmpty() && notice_->text().isEmpty())
+    notice_->say(Notice::Kind::note, opened.notes.join('\n'));
+  look_at_capture();
+}
+
+// What the time strip shows behind the interval.
+void MainWindow::look_at_capture() {
+  auto overview = std::make_shared<CaptureOverview>();
+  jobs_.start(tr("Making thumbnails"), [this, session = session_, overview](const Job& job) -> Jobs::Finish {
+    *overview = thumbnails_of(*session, job);
+    return [this, overview] { document_.set_overview(*overview); };
+  });
+  jobs_.start(tr("Looking for motion"), [this, session = session_](const Job& job) -> Jobs::Finish {
+    auto shares = std::make_shared<std::vector<double>>(changed_shares_of(*session, job));
+    return [this, shares] {
+      CaptureOverview both = document_.overview();
+      both.changed_share = std::move(*shares);
+      document_.set_overview(std::move(both));
+    };
+  });
+}
+
+void MainWindow::look_at_pixel() {
+  if (!document_.probe() || document_.waveform() || !session_) return;
+  quick_.start(tr("Reading a pixel"),
+               [this, session = session_, pixel = *document_.probe()](const Job&) -> Jobs::Finish {
+                 auto waveform = std::make_shared<Waveform>(waveform_of(*session, pixel));
+                 return [this, waveform, session] {
+                   if (session == session_) document_.set_waveform(std::move(*waveform));
+                 };
+               });
+}
+
+void MainWindow::export_picture(const QString& path) {
+  if (!session_) return;
+  try_to([&] {
+    jobs_.start(tr("Writing %1").arg(QFileInfo(path).fileName()),
+                exporting(document_, session_, files_, path,
+                          [this](const QString& line) { notice_->say(Notice::Kind::note, line); }));
+  });
+}
+
+void MainWindow::start_study(StudyStyle style) {
+  if (!session_) return;
+  notice_->clear();
+  jobs_.start(tr("Looking for a subject"), studying(document_, session_, style, [this](const QString& notes) {
+                notice_->say(Notice::Kind::note, notes);
+              }));
+}
+
+void MainWindow::use_tool(ToolKind kind) {
+  canvas_->set_tool(nullptr);
+  tool_ = make_tool(kind, document_, tool_settings_, [this]() -> const QImage& { return canvas_->image(); });
+  canvas_->set_tool(tool_.get());
+}
+
+bool MainWindow::is_settled() const { return !jobs_.is_busy() && !quick_.is_busy() && !live_.is_busy(); }
+
+void MainWindow::follow_title() {
+  const CaptureFacts* facts = document_.facts();
+  const QString name = !project_.isEmpty() ? project_ : facts != nullptr ? facts->path : QString();
+  setWindowTitle(name.isEmpty() ? tr("nutik studio")
+                                : tr("%1[*] – nutik studio").arg(QFileInfo(name).fileName()));
+  setWindowModified(!document_.undo_stack().isClean());
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  if (may_leave()) {
+    Autosave::forget();
+    event->accept();
+  } else {
+    event->ignore();
+  }
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  const QList<QUrl> urls = event->mimeData()->urls();
+  if (urls.isEmpty() || !urls.front().isLocalFile()) return;
+  event->acceptProposedAction();
+  if (may_leave()) open(urls.front().toLocalFile());
+}
+
+}  // namespace nutik::studio

@@ -1,0 +1,132 @@
+// The window: canvas, regions, time and curves around one document, and the files that it comes from.
+//
+//   always:  nothing here waits: captures are opened, measured and written by jobs. What fails is said above the picture
+#pragma once
+
+#include <QDateTime>
+#include <QMainWindow>
+#include <QPointer>
+#include <map>
+#include <memory>
+
+#include "session/making/study_request.hpp"
+#include "studio/canvas/canvas.hpp"
+#include "studio/document/document.hpp"
+#include "studio/live/jobs.hpp"
+#include "studio/live/live_view.hpp"
+#include "studio/live/opening.hpp"
+#include "studio/regions/mask_tools.hpp"
+#include "studio/time/time_axis.hpp"
+#include "studio/window/autosave.hpp"
+#include "studio/window/command_line.hpp"
+#include "studio/window/notice.hpp"
+#include "studio/window/status_line.hpp"
+
+class QActionGroup;
+class QComboBox;
+class QDoubleSpinBox;
+class QToolBar;
+
+namespace nutik::studio {
+
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+
+ public:
+  explicit MainWindow(const ComputingRequest& computing = {});
+  ~MainWindow() override;
+
+  // A capture, a clip or a project, in the background. `rate`, pictures a second, is stated of a clip.
+  void open(const QString& path, const QString& rate = {});
+  // False: it failed, and why is said above the picture.
+  bool save_project(const QString& path);
+  // In the background. Needs a saved project unless an interval is exposed.
+  void export_picture(const QString& path);
+  void start_study(StudyStyle style);
+  void use_tool(ToolKind kind);
+
+  // Whether mask and functions lie in files as they are, so that a command can name them.
+  [[nodiscard]] bool has_files() const;
+  // The line that makes the same picture; of a document that has_files().
+  [[nodiscard]] QString command_for(const QString& picture) const;
+  // Whether the picture shown is that of the document, and no job runs.
+  [[nodiscard]] bool is_settled() const;
+
+  // What was kept of a window that did not end well.
+  void recover();
+  [[nodiscard]] Autosave& autosave() { return autosave_; }
+
+  [[nodiscard]] Document& document() { return document_; }
+  [[nodiscard]] Canvas& canvas() { return *canvas_; }
+  [[nodiscard]] Notice& notice() { return *notice_; }
+  [[nodiscard]] ToolSettings& tool_settings() { return tool_settings_; }
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+ private:
+  // main_window.cpp
+  void build_window();
+  void connect_parts();
+  void open_capture_file(const QString& path, const QString& rate, std::optional<DocumentState> state);
+  void take(Opened opened, std::optional<DocumentState> state);
+  void ask_rate(const QString& path, const QString& why);
+  void look_at_capture();
+  void look_at_pixel();
+  void follow_title();
+
+  // menus.cpp
+  void build_menus();
+  void build_tools(QToolBar& bar);
+  void build_exposure_bar(QToolBar& bar);
+  QAction* add_action(QMenu& menu, const QString& text, const QKeySequence& keys, std::function<void()> run);
+  void build_file_menu();
+  void build_view_menu();
+  void build_start_menu();
+  void build_region_menu();
+  void follow_exposure();
+
+  // files.cpp
+  void choose_capture();
+  bool save();  // asks for a name where there is none
+  bool save_as();
+  bool may_leave();  // asks where something is not saved
+  bool ensure_files();
+  void note_files();
+  [[nodiscard]] QStringList changed_outside() const;
+  void choose_export();
+  void copy_command();
+  void choose_functions();
+  void choose_mask();
+  void choose_plate();
+  void remember(const QString& path);
+  void fill_recent(QMenu& menu);
+  [[nodiscard]] QString suggested(const QString& ending) const;
+  bool try_to(const std::function<void()>& what);
+
+  Document document_;
+  Jobs jobs_, quick_;  // what a person waits for, and what is there in no time
+  LiveView live_;
+  TimeAxis axis_;
+  Autosave autosave_;
+  std::shared_ptr<Devices> devices_;
+  std::shared_ptr<Session> session_;
+  QString project_;
+  CommandFiles files_;
+  // When this window read or wrote the project's files: later changes are somebody else's.
+  std::map<QString, QDateTime> known_;
+  ToolSettings tool_settings_;
+  std::unique_ptr<CanvasTool> tool_;
+
+  Notice* notice_ = nullptr;
+  Canvas* canvas_ = nullptr;
+  StatusLine* status_ = nullptr;
+  QActionGroup* tools_ = nullptr;
+  QList<QAction*> needs_capture_;
+  QComboBox *mode_ = nullptr, *normalization_ = nullptr;
+  QDoubleSpinBox* brightness_ = nullptr;
+};
+
+}  // namespace nutik::studio

@@ -1,0 +1,243 @@
+// What can be chosen: menus, tools, and the bar over the picture. Every action has a key or a menu's letter.
+#include <QActionGroup>
+#include <QApplication>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QMenuBar>
+#include <QSignalBlocker>
+#include <QSpinBox>
+#include <QToolBar>
+
+#include "studio/regions/region_edits.hpp"
+#include "studio/window/appearance.hpp"
+#include "studio/window/main_window.hpp"
+#include "studio/window/starting_points.hpp"
+
+namespace nutik::studio {
+namespace {
+
+struct ToolRow {
+  ToolKind kind;
+  const char* object;
+  const char* name;
+  const char* tip;
+  Qt::Key key;
+};
+constexpr ToolRow kTools[] = {
+    {ToolKind::look, "tool_look", QT_TR_NOOP("Look"),
+     QT_TR_NOOP("A click shows the light of a pixel; dragging pans"), Qt::Key_V},
+    {ToolKind::brush, "tool_brush", QT_TR_NOOP("Brush"), QT_TR_NOOP("Paints the selected region; Alt erases"),
+     Qt::Key_B},
+    {ToolKind::rectangle, "tool_rectangle", QT_TR_NOOP("Rectangle"),
+     QT_TR_NOOP("Shift: a square; Alt erases"), Qt::Key_R},
+    {ToolKind::ellipse, "tool_ellipse", QT_TR_NOOP("Ellipse"), QT_TR_NOOP("Shift: a circle; Alt erases"),
+     Qt::Key_E},
+    {ToolKind::polygon, "tool_polygon", QT_TR_NOOP("Polygon"),
+     QT_TR_NOOP("Corners by clicks; a double click or Enter closes it"), Qt::Key_P},
+    {ToolKind::wand, "tool_wand", QT_TR_NOOP("Wand"),
+     QT_TR_NOOP("Pixels that look like the one clicked and hang together with it"), Qt::Key_W}};
+
+constexpr const char* kNormalizations[] = {"support", "integral", "absolute"};
+
+}  // namespace
+
+QAction* MainWindow::add_action(QMenu& menu, const QString& text, const QKeySequence& keys,
+                                std::function<void()> run) {
+  QAction* action = menu.addAction(text);
+  action->setShortcut(keys);
+  connect(action, &QAction::triggered, this, std::move(run));
+  return action;
+}
+
+void MainWindow::build_menus() {
+  build_file_menu();
+  QMenu& edit = *menuBar()->addMenu(tr("&Edit"));
+  QAction* undo = document_.undo_stack().createUndoAction(this, tr("&Undo"));
+  undo->setShortcut(QKeySequence::Undo);
+  QAction* redo = document_.undo_stack().createRedoAction(this, tr("&Redo"));
+  redo->setShortcuts({QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z), QKeySequence(Qt::CTRL | Qt::Key_Y)});
+  edit.addActions({undo, redo});
+  build_region_menu();
+  build_start_menu();
+  build_view_menu();
+  auto* bar = new QToolBar(tr("Tools"));
+  bar->setObjectName("tools");
+  bar->setMovable(false);
+  addToolBar(bar);
+  build_tools(*bar);
+  bar->addSeparator();
+  build_exposure_bar(*bar);
+  const auto follow = [this] {
+    for (QAction* action : std::as_const(needs_capture_)) action->setEnabled(document_.facts() != nullptr);
+  };
+  connect(&document_, &Document::capture_changed, this, follow);
+  follow();
+}
+
+void MainWindow::build_file_menu() {
+  QMenu& menu = *menuBar()->addMenu(tr("&File"));
+  add_action(menu, tr("&Open…"), QKeySequence::Open, [this] { choose_capture(); });
+  QMenu& recent = *menu.addMenu(tr("Open &recent"));
+  connect(&recent, &QMenu::aboutToShow, this, [this, &recent] { fill_recent(recent); });
+  QAction* kept = add_action(menu, tr("Reco&ver unsaved work"), {}, [this] { recover(); });
+  connect(&menu, &QMenu::aboutToShow, kept, [kept] { kept->setEnabled(!Autosave::found().isEmpty()); });
+  needs_capture_ += add_action(menu, tr("Frame ra&te…"), {}, [this] {
+    if (may_leave()) ask_rate(document_.facts()->path, tr("The clip is opened again."));
+  });
+  menu.addSeparator();
+  needs_capture_ += add_action(menu, tr("&Save project"), QKeySequence::Save, [this] { save(); });
+  needs_capture_ +=
+      add_action(menu, tr("Save project &as…"), Qt::CTRL | Qt::SHIFT | Qt::Key_S, [this] { save_as(); });
+  needs_capture_ += add_action(menu, tr("Load &functions…"), {}, [this] { choose_functions(); });
+  needs_capture_ += add_action(menu, tr("Load &mask…"), {}, [this] { choose_mask(); });
+  menu.addSeparator();
+  needs_capture_ +=
+      add_action(menu, tr("&Export picture…"), Qt::CTRL | Qt::Key_E, [this] { choose_export(); });
+  needs_capture_ +=
+      add_action(menu, tr("&Copy as command"), Qt::CTRL | Qt::SHIFT | Qt::Key_C, [this] { copy_command(); });
+  menu.addSeparator();
+  add_action(menu, tr("&Quit"), QKeySequence::Quit, [this] { close(); });
+}
+
+void MainWindow::build_region_menu() {
+  QMenu& menu = *menuBar()->addMenu(tr("&Regions"));
+  needs_capture_ += add_action(menu, tr("&Add region"), Qt::CTRL | Qt::SHIFT | Qt::Key_N,
+                               [this] { add_region(document_); });
+  needs_capture_ += add_action(menu, tr("&Remove region"), Qt::CTRL | Qt::SHIFT | Qt::Key_Backspace,
+                               [this] { remove_region(document_, document_.selected_tag()); });
+  needs_capture_ += add_action(menu, tr("&Expose over the interval"), Qt::CTRL | Qt::Key_I,
+                               [this] { expose_over_boxcar(document_, document_.selected_tag()); });
+  menu.addSeparator();
+  needs_capture_ += add_action(menu, tr("Select what &moves"), Qt::CTRL | Qt::Key_M, [this] {
+    jobs_.start(tr("Looking for what moves"), selecting_motion(document_, session_));
+  });
+}
+
+void MainWindow::build_start_menu() {
+  QMenu& menu = *menuBar()->addMenu(tr("&Start from"));
+  menu.setToolTipsVisible(true);
+  for (const StartingPoint& point : starting_points()) {
+    QAction* action =
+        add_action(menu, Document::tr(point.name), {}, [this, style = point.style] { start_study(style); });
+    action->setToolTip(Document::tr(point.tip));
+    needs_capture_ += action;
+  }
+  menu.addSeparator();
+  needs_capture_ += add_action(menu, tr("&Empty scene, as a picture…"), {}, [this] { choose_plate(); });
+}
+
+void MainWindow::build_view_menu() {
+  QMenu& menu = *menuBar()->addMenu(tr("&View"));
+  constexpr double kStep = 1.5;
+  add_action(menu, tr("Zoom &in"), QKeySequence::ZoomIn, [this] { canvas_->zoom_by(kStep); });
+  add_action(menu, tr("Zoom &out"), QKeySequence::ZoomOut, [this] { canvas_->zoom_by(1 / kStep); });
+  add_action(menu, tr("&Fit"), Qt::CTRL | Qt::Key_0, [this] { canvas_->fit(); });
+  add_action(menu, tr("&Pixel for pixel"), Qt::CTRL | Qt::Key_1, [this] { canvas_->show_actual_size(); });
+  add_action(menu, tr("All of the &time"), Qt::CTRL | Qt::Key_T, [this] { axis_.show_all(); });
+  QMenu& looks = *menu.addMenu(tr("&Appearance"));
+  auto* group = new QActionGroup(this);
+  const std::pair<Appearance, QString> rows[] = {{Appearance::dark, tr("&Dark")},
+                                                 {Appearance::light, tr("&Light")},
+                                                 {Appearance::system, tr("&System")}};
+  for (const auto& [appearance, name] : rows) {
+    QAction* action = add_action(looks, name, {}, [chosen = appearance] {
+      set_appearance(chosen);
+      keep_appearance(chosen);
+    });
+    action->setCheckable(true);
+    action->setChecked(kept_appearance() == appearance);
+    group->addAction(action);
+  }
+}
+
+void MainWindow::build_tools(QToolBar& bar) {
+  tools_ = new QActionGroup(this);
+  for (const ToolRow& row : kTools) {
+    QAction* action = bar.addAction(tr(row.name));
+    action->setObjectName(row.object);
+    action->setCheckable(true);
+    action->setChecked(row.kind == ToolKind::look);
+    action->setShortcut(row.key);
+    action->setToolTip(tr("%1 (%2)").arg(tr(row.tip), action->shortcut().toString()));
+    tools_->addAction(action);
+    connect(action, &QAction::triggered, this, [this, kind = row.kind] { use_tool(kind); });
+    needs_capture_ += action;
+  }
+  auto* radius = new QDoubleSpinBox;
+  radius->setObjectName("brush_radius");
+  radius->setRange(0.5, 500);
+  radius->setDecimals(1);
+  radius->setValue(tool_settings_.brush_radius);
+  radius->setPrefix(tr("Brush "));
+  radius->setSuffix(tr(" px"));
+  radius->setAccessibleName(tr("Radius of the brush, in pixels"));
+  radius->setToolTip(radius->accessibleName());
+  connect(radius, &QDoubleSpinBox::valueChanged, this, [this](double value) {
+    tool_settings_.brush_radius = value;
+    canvas_->update();
+  });
+  auto* codes = new QSpinBox;
+  codes->setObjectName("wand_codes");
+  codes->setRange(0, 255);
+  codes->setValue(tool_settings_.wand_codes);
+  codes->setPrefix(tr("Wand ± "));
+  codes->setAccessibleName(
+      tr("How many codes of 255 a pixel may differ by from the one that the wand clicked"));
+  codes->setToolTip(codes->accessibleName());
+  connect(codes, &QSpinBox::valueChanged, this, [this](int value) { tool_settings_.wand_codes = value; });
+  bar.addWidget(radius);
+  bar.addWidget(codes);
+}
+
+void MainWindow::build_exposure_bar(QToolBar& bar) {
+  mode_ = new QComboBox;
+  mode_->setObjectName("mode");
+  mode_->addItems({tr("Expose interval"), tr("Expose regions")});
+  mode_->setAccessibleName(tr("What is exposed: the interval everywhere, or each region's function"));
+  mode_->setToolTip(mode_->accessibleName());
+  connect(mode_, &QComboBox::activated, this, [this](int index) {
+    document_.set_mode(index == 0 ? ExposureMode::boxcar : ExposureMode::functions);
+  });
+  normalization_ = new QComboBox;
+  normalization_->setObjectName("normalization");
+  normalization_->addItems({tr("by open time"), tr("by integral"), tr("by magnitude")});
+  normalization_->setAccessibleName(tr("Normalization: what the exposure is divided by"));
+  normalization_->setToolTip(
+      tr("What the exposure is divided by: the time with a gain; its integral, so that what rests keeps its "
+         "brightness; that of its magnitude"));
+  connect(normalization_, &QComboBox::activated, this, [this](int index) {
+    DocumentState state = document_.state();
+    state.normalization = Normalization::parse(kNormalizations[index]);
+    document_.apply(std::move(state), tr("Normalize"));
+  });
+  brightness_ = new QDoubleSpinBox;
+  brightness_->setObjectName("brightness");
+  brightness_->setRange(-16, 16);
+  brightness_->setSingleStep(0.25);
+  brightness_->setPrefix(tr("EV "));
+  brightness_->setAccessibleName(tr("Brightness, in stops"));
+  brightness_->setToolTip(brightness_->accessibleName());
+  connect(brightness_, &QDoubleSpinBox::valueChanged, this, [this](double stops) {
+    DocumentState state = document_.state();
+    state.brightness_ev = stops;
+    document_.apply(std::move(state), tr("Brightness"));
+  });
+  for (QWidget* widget : {static_cast<QWidget*>(mode_), static_cast<QWidget*>(normalization_),
+                          static_cast<QWidget*>(brightness_)})
+    bar.addWidget(widget);
+}
+
+void MainWindow::follow_exposure() {
+  const DocumentState& state = document_.state();
+  const QSignalBlocker quiet(brightness_);
+  mode_->setCurrentIndex(state.mode == ExposureMode::boxcar ? 0 : 1);
+  for (int index = 0; index < static_cast<int>(std::size(kNormalizations)); ++index)
+    if (state.normalization.text() == kNormalizations[index]) normalization_->setCurrentIndex(index);
+  brightness_->setValue(state.brightness_ev);
+  for (QWidget* widget : {static_cast<QWidget*>(mode_), static_cast<QWidget*>(normalization_),
+                          static_cast<QWidget*>(brightness_)})
+    widget->setEnabled(document_.facts() != nullptr);
+}
+
+}  // namespace nutik::studio

@@ -1,0 +1,144 @@
+#include "studio/window/project_file.hpp"
+
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+
+#include "session/below/error.hpp"
+#include "session/below/format.hpp"
+#include "session/below/pictures.hpp"
+#include "session/requests/function_input.hpp"
+#include "studio/document/texts.hpp"
+#include "system/output_file.hpp"
+
+namespace nutik::studio {
+namespace {
+
+constexpr const char* kVersionKey = "nutik-studio";
+constexpr int kVersion = 1;
+
+void write_text(const QString& path, std::string_view text) {
+  OutputFile file(path.toStdString());
+  file.write(text);
+  file.commit();
+}
+
+[[noreturn]] void refuse(const QString& path, const std::string& what) {
+  throw InputError(format("{}: {}", path.toStdString(), what));
+}
+
+// Whole nanoseconds as text: JSON's numbers are doubles for many readers.
+std::int64_t time_in(const QJsonObject& object, const char* name, const QString& path) {
+  bool is_number = false;
+  const qlonglong time_ns = object[name].toString().toLongLong(&is_number);
+  if (!is_number || time_ns < 0) refuse(path, format("'{}' is no time in nanoseconds", name));
+  return time_ns;
+}
+
+void read_looks(const QJsonArray& regions, DocumentState& state, const QString& path) {
+  for (const QJsonValue& value : regions) {
+    const QJsonObject region = value.toObject();
+    const int tag = region["tag"].toInt(-1);
+    const QColor colour(region["colour"].toString());
+    if (tag < 0 || tag > 255 || !colour.isValid())
+      refuse(path, "a region has no tag from 0 to 255, or no colour");
+    state.looks[static_cast<std::uint8_t>(tag)] = {region["name"].toString(), colour,
+                                                   region["visible"].toBool(true)};
+  }
+}
+
+}  // namespace
+
+CommandFiles files_beside(const QString& project) {
+  const QFileInfo info(project);
+  const QString stem = info.dir().filePath(info.completeBaseName());
+  return {stem + ".pgm", stem + ".fn"};
+}
+
+void save_functions(const QString& path, const FunctionSet& functions) {
+  write_text(path, functions_text(functions));
+}
+
+void save_mask(const QString& path, const Mask& mask) {
+  write_picture(path.toStdString(), mask.to_picture());
+}
+
+FunctionSet load_functions(const QString& path) { return *read_function_input(path.toStdString()).functions; }
+
+Shared<MaskWithRegions> load_mask(const QString& path) {
+  return Shared(MaskWithRegions(read_mask_input(path.toStdString())));
+}
+
+void save_project(const QString& path, const Document& document, const CommandFiles& files) {
+  const DocumentState& state = document.state();
+  const QDir folder = QFileInfo(path).absoluteDir();
+  const auto named = [&](const QString& file) {
+    return folder.relativeFilePath(QFileInfo(file).absoluteFilePath());
+  };
+  save_functions(files.functions, state.functions);
+  if (state.mask) save_mask(files.mask, (*state.mask)->mask);
+  QJsonArray regions;
+  for (const auto& [tag, look] : state.looks)
+    regions += QJsonObject{
+        {"tag", tag}, {"name", look.name}, {"colour", look.colour.name()}, {"visible", look.is_visible}};
+  QJsonObject object{{kVersionKey, kVersion},
+                     {"capture", named(document.facts()->path)},
+                     {"functions", named(files.functions)},
+                     {"exposes", state.mode == ExposureMode::boxcar ? "interval" : "regions"},
+                     {"start_ns", QString::number(state.boxcar.start_ns)},
+                     {"length_ns", QString::number(state.boxcar.length_ns)},
+                     {"normalize", QString::fromStdString(state.normalization.text())},
+                     {"feather", QString::fromStdString(feather_text(state.feather))},
+                     {"ev", state.brightness_ev},
+                     {"regions", regions}};
+  if (state.mask) object["mask"] = named(files.mask);
+  if (!document.facts()->rate.isEmpty()) object["fps"] = document.facts()->rate;
+  write_text(path, QJsonDocument(object).toJson().toStdString());
+}
+
+Project load_project(const QString& path) {
+  QFile file(path);
+  if (!file.open(QIODevice::ReadOnly)) refuse(path, file.errorString().toStdString());
+  QJsonParseError mistake;
+  const QJsonDocument json = QJsonDocument::fromJson(file.readAll(), &mistake);
+  if (!json.isObject())
+    refuse(path,
+           format("it is no project: {} at byte {}", mistake.errorString().toStdString(), mistake.offset));
+  const QJsonObject object = json.object();
+  if (object[kVersionKey].toInt() != kVersion)
+    refuse(path, format("it says '{}': {}, and this program reads {}", kVersionKey,
+                        object[kVersionKey].toInt(), kVersion));
+  const QDir folder = QFileInfo(path).absoluteDir();
+  const auto resolved = [&](const char* name) {
+    const QString text = object[name].toString();
+    if (text.isEmpty()) refuse(path, format("'{}' names no file", name));
+    return QDir::cleanPath(folder.absoluteFilePath(text));
+  };
+  Project project;
+  project.capture = resolved("capture");
+  project.rate = object["fps"].toString();
+  project.files = files_beside(path);
+  project.files.functions = resolved("functions");
+  DocumentState& state = project.state;
+  state.functions = load_functions(project.files.functions);
+  if (object.contains("mask")) {
+    project.files.mask = resolved("mask");
+    state.mask = load_mask(project.files.mask);
+  }
+  state.mode = object["exposes"].toString() == "interval" ? ExposureMode::boxcar : ExposureMode::functions;
+  state.boxcar = {time_in(object, "start_ns", path), time_in(object, "length_ns", path)};
+  try {
+    state.normalization = Normalization::parse(object["normalize"].toString().toStdString());
+    state.feather = Feather::parse(object["feather"].toString().toStdString()).everywhere;
+  } catch (const UsageError& error) {
+    refuse(path, error.what());
+  }
+  state.brightness_ev = object["ev"].toDouble();
+  read_looks(object["regions"].toArray(), state, path);
+  return project;
+}
+
+}  // namespace nutik::studio

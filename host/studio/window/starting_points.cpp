@@ -1,0 +1,117 @@
+#include "studio/window/starting_points.hpp"
+
+#include <span>
+
+#include "session/below/pictures.hpp"
+#include "session/making/mask_making.hpp"
+#include "session/making/plate_request.hpp"
+#include "session/output_check.hpp"
+#include "session/requests/output_request.hpp"
+#include "session/text/time_text.hpp"
+#include "studio/regions/region_edits.hpp"
+
+namespace nutik::studio {
+namespace {
+
+constexpr int kStudyFeather = 200;  // as nutik-cl study blends a subject's border
+
+QString text_of(std::span<const std::string> lines) {
+  QStringList texts;
+  for (const std::string& line : lines) texts += QString::fromStdString(line);
+  return texts.join('\n');
+}
+
+DocumentState state_of(const DocumentState& before, const Study& study, Mask mask, const Timeline& timeline,
+                       StudyStyle style) {
+  DocumentState state = before;
+  state.looks.clear();
+  state.functions.clear();
+  for (const auto& [tag, function] : study.functions) state.functions.emplace(tag, with_steps(function));
+  const bool is_slit = style == StudyStyle::slit;
+  for (const auto& [tag, function] : state.functions) {
+    const std::size_t moment = is_slit ? tag : tag - std::size_t{1};
+    if (moment >= study.moments.size()) continue;  // what is left around the subject
+    const std::string time = duration_text(timeline.start_ns(study.moments[moment]));
+    state.looks[tag] = {(is_slit ? Document::tr("Strip at %1") : Document::tr("Subject at %1"))
+                            .arg(QString::fromStdString(time)),
+                        first_colour(tag), true};
+  }
+  state.mask = Shared(MaskWithRegions(std::move(mask)));
+  state.mode = ExposureMode::functions;
+  state.normalization = Normalization::parse("integral");
+  state.feather = is_slit ? 0 : kStudyFeather;
+  return state;
+}
+
+}  // namespace
+
+std::span<const StartingPoint> starting_points() {
+  static constexpr StartingPoint kAll[] = {
+      {StudyStyle::trail, QT_TRANSLATE_NOOP("Document", "Motion study"),
+       QT_TRANSLATE_NOOP("Document", "Sharp moments over the trail of the whole way")},
+      {StudyStyle::strobe, QT_TRANSLATE_NOOP("Document", "Strobe"),
+       QT_TRANSLATE_NOOP("Document", "Sharp moments, and nothing between them")},
+      {StudyStyle::rear_curtain, QT_TRANSLATE_NOOP("Document", "Rear curtain"),
+       QT_TRANSLATE_NOOP("Document", "The last moment, and a trail that grows towards it")},
+      {StudyStyle::frozen, QT_TRANSLATE_NOOP("Document", "Frozen subject"),
+       QT_TRANSLATE_NOOP("Document", "One moment in a scene that is exposed for all of the time")},
+      {StudyStyle::slit, QT_TRANSLATE_NOOP("Document", "Slit-scan"),
+       QT_TRANSLATE_NOOP("Document", "Strips side by side, each at a moment of its own")}};
+  return kAll;
+}
+
+Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyStyle style,
+                    std::function<void(const QString&)> told) {
+  return [&document, session = std::move(session), style, told = std::move(told),
+          path = document.facts()->path](const Job& job) -> Jobs::Finish {
+    StudyRequest request;
+    request.style = style;
+    const std::string name = path.toStdString();
+    const MemoryBudget& memory = session->devices().request().memory;
+    auto study = std::make_shared<Study>(plan_study(session->capture(), name, request, memory, job.progress));
+    auto made = std::make_shared<MadeMask>(make_regions(*study, session->capture(), name));
+    return [&document, session, study, made, style, told] {
+      document.apply(state_of(document.state(), *study, std::move(made->mask), session->timeline(), style),
+                     Document::tr("Starting point"));
+      told(text_of(study->notes));
+    };
+  };
+}
+
+Jobs::Work writing_plate(std::shared_ptr<Session> session, const QString& picture,
+                         std::function<void(const QString&)> told) {
+  const std::filesystem::path path = picture.toStdString();
+  const std::string name = session->source().path.string();
+  check_output(path, OutputKind::picture, std::vector{name});
+  return [session = std::move(session), path, name, told = std::move(told)](const Job& job) -> Jobs::Finish {
+    const MadePlate plate =
+        make_plate(session->capture(), name, {}, output_format({}, path, session->format()),
+                   session->devices().request().memory, job.progress);
+    write_picture(path, plate.picture);
+    const QString line =
+        Document::tr("%1: the scene without what moves").arg(QString::fromStdString(path.string()));
+    return [told, line] { told(line); };
+  };
+}
+
+Jobs::Work selecting_motion(Document& document, std::shared_ptr<Session> session) {
+  return
+      [&document, session = std::move(session), tag = document.selected_tag()](const Job&) -> Jobs::Finish {
+        MaskRequest request;
+        MaskStep step;
+        step.name.text = "what moves";
+        step.tag = tag;
+        step.selection = select::Motion();
+        step.changes = {{RegionChange::Kind::smooth, 1.0, {}}};
+        request.steps = {step};
+        MadeMask made = make_mask(request, &session->capture(), session->source().path.string());
+        auto region = std::make_shared<Region>(Region::none(made.mask.width, made.mask.height));
+        for (std::size_t pixel = 0; pixel < made.mask.tags.size(); ++pixel)
+          region->inside[pixel] = made.mask.tags[pixel] == tag;
+        return [&document, region, tag] {
+          paint_region(document, *region, tag, Document::tr("Select what moves"));
+        };
+      };
+}
+
+}  // namespace nutik::studio

@@ -1,0 +1,84 @@
+#include "studio/window/status_line.hpp"
+
+#include <QLabel>
+#include <QProgressBar>
+#include <QToolButton>
+
+namespace nutik::studio {
+namespace {
+
+QString light_text(int code) {
+  // White may stand for any light from there on.
+  const double light = Transfer::srgb().light_of(code / 255.0);
+  return code == 255 ? QStringLiteral("≥ 1") : QString::number(light, 'f', 3);
+}
+
+}  // namespace
+
+StatusLine::StatusLine(Jobs& jobs, QWidget* parent)
+    : QStatusBar(parent),
+      pixel_(new QLabel(this)),
+      saturated_(new QLabel(this)),
+      arithmetic_(new QLabel(this)),
+      milliseconds_(new QLabel(this)),
+      work_(new QLabel(this)),
+      progress_(new QProgressBar(this)),
+      cancel_(new QToolButton(this)) {
+  pixel_->setObjectName("pixel");
+  pixel_->setAccessibleName(tr("Pixel under the pointer"));
+  arithmetic_->setObjectName("arithmetic");
+  arithmetic_->setToolTip(tr("The arithmetic that the picture was computed in, and what it may be wrong by"));
+  saturated_->setToolTip(tr("Pixels with light that the picture's codes cannot show"));
+  milliseconds_->setToolTip(tr("From the change to the picture"));
+  progress_->setMaximumWidth(160);
+  progress_->setMaximumHeight(14);
+  progress_->setTextVisible(false);
+  cancel_->setText(tr("Cancel"));
+  cancel_->setObjectName("cancel");
+  addWidget(pixel_, 1);
+  addWidget(work_);
+  addWidget(progress_);
+  addWidget(cancel_);
+  addPermanentWidget(saturated_);
+  addPermanentWidget(arithmetic_);
+  addPermanentWidget(milliseconds_);
+  const auto show_work = [this](bool is_shown) {
+    for (QWidget* widget :
+         {static_cast<QWidget*>(work_), static_cast<QWidget*>(progress_), static_cast<QWidget*>(cancel_)})
+      widget->setVisible(is_shown);
+  };
+  show_work(false);
+  connect(&jobs, &Jobs::progressed, this,
+          [this, show_work](const QString& what, quint64 done, quint64 total) {
+            work_->setText(what);
+            progress_->setRange(0, total > 0 ? 1000 : 0);
+            if (total > 0) progress_->setValue(static_cast<int>(1000 * done / total));
+            progress_->setAccessibleName(what);
+            show_work(true);
+          });
+  connect(&jobs, &Jobs::ended, this, [&jobs, show_work] {
+    if (!jobs.is_busy()) show_work(false);
+  });
+  connect(cancel_, &QToolButton::clicked, &jobs, &Jobs::cancel);
+}
+
+void StatusLine::tell(const ShownPicture& picture) {
+  arithmetic_->setText(picture.arithmetic);
+  milliseconds_->setText(tr("%1 ms").arg(picture.milliseconds, 0, 'f', 0));
+  const std::uint64_t saturated = picture.pixels_above + picture.pixels_below;
+  saturated_->setText(saturated == 0 ? QString() : tr("%1 px saturated").arg(saturated));
+}
+
+void StatusLine::tell(std::optional<QPoint> pixel, const QImage& image) {
+  if (!pixel || !image.rect().contains(*pixel)) return pixel_->clear();
+  const QRgb codes = image.pixel(*pixel);
+  pixel_->setText(tr("x %1, y %2   light %3  %4  %5   code %6  %7  %8")
+                      .arg(pixel->x())
+                      .arg(pixel->y())
+                      .arg(light_text(qRed(codes)), light_text(qGreen(codes)), light_text(qBlue(codes)))
+                      .arg(qRed(codes))
+                      .arg(qGreen(codes))
+                      .arg(qBlue(codes)));
+}
+
+}  // namespace nutik::studio

@@ -1,0 +1,90 @@
+// A hand that does whatever it likes: nothing breaks, undo brings everything back, and the picture that stands in the end
+// is the document's.
+#include <QSignalSpy>
+
+#include "studio/curves/curve_editor.hpp"
+#include "studio/live/exposure_of.hpp"
+#include "studio/live/picture_image.hpp"
+#include "studio/time/time_strip.hpp"
+#include "studio_test.hpp"
+#include "support/random_case.hpp"
+#include "support/seeds.hpp"
+
+namespace nutik::studio {
+namespace {
+
+using test::Random;
+
+class RandomEventsTest : public StudioTest {
+ protected:
+  [[nodiscard]] QPoint somewhere(const QWidget& widget) {
+    return {static_cast<int>(random_.whole(0, widget.width() - 1)),
+            static_cast<int>(random_.whole(0, widget.height() - 1))};
+  }
+
+  void act() {
+    QWidget* const widgets[] = {&canvas(), &child<TimeStrip>("time_strip"), &child<CurveEditor>("curves")};
+    QWidget& widget = *widgets[random_.whole(0, 2)];
+    const auto modifiers = random_.pick(
+        std::vector<Qt::KeyboardModifiers>{{}, Qt::ShiftModifier, Qt::ControlModifier, Qt::AltModifier});
+    switch (random_.whole(0, 7)) {
+      case 0:
+        return click_tool(random_.pick(std::vector<const char*>{
+            "tool_look", "tool_brush", "tool_rectangle", "tool_ellipse", "tool_polygon", "tool_wand"}));
+      case 1:
+        return click_button(random_.pick(std::vector<const char*>{"add_region", "remove_region", "grow",
+                                                                  "shrink", "smooth", "over_interval"}));
+      case 2:
+        return QTest::mouseClick(&widget, random_.chance(0.8) ? Qt::LeftButton : Qt::RightButton, modifiers,
+                                 somewhere(widget));
+      case 3:
+        return QTest::keyClick(&widget,
+                               random_.pick(std::vector<Qt::Key>{
+                                   Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down, Qt::Key_Escape,
+                                   Qt::Key_Tab, Qt::Key_Insert, Qt::Key_Delete, Qt::Key_Plus, Qt::Key_Minus}),
+                               modifiers);
+      case 4:
+        return QTest::keyClick(&window_, random_.chance(0.7) ? Qt::Key_Z : Qt::Key_Y, Qt::ControlModifier);
+      case 5: return QCoreApplication::processEvents();
+      default: return drag(widget, somewhere(widget), somewhere(widget), modifiers);
+    }
+  }
+
+  void run() {
+    open_clip();
+    const DocumentState before = document().state();
+    for (int event = 0; event < 400; ++event) act();
+    QTest::keyClick(&canvas(), Qt::Key_Escape);
+    ASSERT_FALSE(document().is_dragging());
+    ASSERT_TRUE(settles());
+
+    const DocumentState& state = document().state();
+    SourceRequest source;
+    source.path = document().facts()->path.toStdString();
+    source.clip.rate = Rational::parse("100", "rate");
+    Session session(source);
+    const auto mask = state.mask ? std::optional(LiveView::feathered_mask(state)) : std::nullopt;
+    try {
+      const ExposedPicture alone = session.render(exposure_of(state, mask), screen_format());
+      EXPECT_EQ(difference(canvas().image(), image_of(alone.picture)), "");
+    } catch (const InputError& error) {
+      EXPECT_EQ(window_.notice().text(), sentence(error.what())) << "what cannot be exposed is said";
+    }
+    while (document().undo_stack().canUndo()) document().undo_stack().undo();
+    EXPECT_TRUE(document().state() == before);
+  }
+
+  Random random_{1};
+};
+
+TEST_F(RandomEventsTest, LeaveTheDocumentsPicture) {
+  const test::Seeds seeds = test::seeds(1, 2);
+  for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
+    SCOPED_TRACE(test::rerun(seed));
+    random_ = Random(seed);
+    ASSERT_NO_FATAL_FAILURE(run());
+  }
+}
+
+}  // namespace
+}  // namespace nutik::studio

@@ -1,0 +1,207 @@
+// The window: opening, saving, exporting, and the paper's motion study by mouse alone.
+#include <QFile>
+#include <QMimeData>
+#include <QSignalSpy>
+#include <QTreeWidget>
+
+#include "studio/curves/curve_editor.hpp"
+#include "studio/regions/region_edits.hpp"
+#include "studio/time/time_strip.hpp"
+#include "studio/window/project_file.hpp"
+#include "studio_test.hpp"
+#include "support/program.hpp"
+
+namespace nutik::studio {
+namespace {
+
+class WindowTest : public StudioTest {
+ protected:
+  // Runs a line that was copied, with the program that was built.
+  [[nodiscard]] test::ProgramResult run_line(const QString& line) {
+    const std::string words = line.toStdString();
+    EXPECT_TRUE(words.starts_with("nutik-cl "));
+    return test::run_shell(std::string(NUTIK_TEST_PROGRAM) + words.substr(8), scratch_.folder());
+  }
+
+  // The exported picture, and that of the line, are the same file.
+  void expect_same_picture_by_command() {
+    window_.export_picture(path("window.png"));
+    ASSERT_TRUE(settles());
+    const test::ProgramResult made = run_line(window_.command_for(path("line.png")));
+    ASSERT_EQ(made.status, 0) << made.err;
+    const std::string by_window = test::read_file(scratch_ / "window.png");
+    ASSERT_FALSE(by_window.empty()) << window_.notice().text().toStdString();
+    EXPECT_TRUE(by_window == test::read_file(scratch_ / "line.png"));
+    EXPECT_EQ(difference(canvas().image(), QImage(path("line.png"))), "");
+  }
+};
+
+// "Specifying functions by graphically selecting and dragging control points, automatically rendering a preview image,
+// and scrubbing a boxcar of specified width."
+TEST_F(WindowTest, MakesThePapersMotionStudyByMouseAlone) {
+  open_clip();
+  // The interval is scrubbed to where the square is on its way.
+  auto& strip = child<TimeStrip>("time_strip");
+  auto& curves = child<CurveEditor>("curves");
+  const Boxcar first = document().boxcar();
+  const QImage unscrubbed = canvas().image();
+  const QPoint held = strip.boxcar_area().center().toPoint();
+  drag(strip, held, held - QPoint(strip.width() / 4, 0));
+  EXPECT_LT(document().boxcar().start_ns, first.start_ns);
+  EXPECT_EQ(document().boxcar().length_ns, first.length_ns);
+  ASSERT_TRUE(settles());
+  EXPECT_NE(canvas().image(), unscrubbed) << "the picture follows";
+
+  // A region, exposed over that interval, round where the square is then.
+  click_button("add_region");
+  const std::uint8_t tag = document().selected_tag();
+  ASSERT_NE(tag, kBackground);
+  click_tool("tool_rectangle");
+  const double left = test::MovingSquare::left(4), top = test::MovingSquare::kTop;
+  drag(canvas(), at(left, top), at(left + 12, top + 8));
+  EXPECT_GT(pixels_of(tag), 50u);
+  EXPECT_EQ(document().mode(), ExposureMode::functions);
+
+  // A control point of its function is dragged: twice as much light.
+  ASSERT_TRUE(settles());
+  const QImage undragged = canvas().image();
+  const std::vector<ControlPoint> before = document().points(tag);
+  ASSERT_EQ(before.size(), 4u);
+  const PlotFrame frame = curves.frame();
+  const QPoint from = frame.place(before[2]).toPoint();
+  drag(curves, from, from + QPoint(30, 0), Qt::ControlModifier);
+  ASSERT_NE(document().points(tag), before);
+  ASSERT_TRUE(settles());
+  EXPECT_NE(canvas().image(), undragged) << "the picture follows";
+
+  ASSERT_TRUE(window_.save_project(path("study.nutik")));
+  expect_same_picture_by_command();
+}
+
+TEST_F(WindowTest, CopiesTheLineOfWhateverIsExposed) {
+  open_clip();
+  expect_same_picture_by_command();  // an interval needs no files
+  add_region(document());
+  paint_region(document(), ellipse(96, 48, {40, 24}, 20, 12), document().selected_tag(), "Ellipse");
+  set_feather(document(), 250);
+  DocumentState state = document().state();
+  state.normalization = Normalization::parse("integral");
+  state.brightness_ev = -0.75;
+  document().apply(state, "Normalize");
+  EXPECT_FALSE(window_.has_files()) << "what is not saved cannot be named";
+  ASSERT_TRUE(window_.save_project(path("with 'quotes' and spaces.nutik")));
+  ASSERT_TRUE(window_.has_files());
+  ASSERT_TRUE(settles());
+  expect_same_picture_by_command();
+}
+
+TEST_F(WindowTest, OpensAProjectAsItWasSaved) {
+  open_clip();
+  add_region(document());
+  const std::uint8_t tag = document().selected_tag();
+  paint_region(document(), rectangle(96, 48, {10, 10}, 20, 20), tag, "Rectangle");
+  set_feather(document(), 125);
+  set_look(document(), tag, {"Ball", QColor("#c08040"), false}, "Rename region");
+  document().set_boxcar({12'345'678, 9'876'543}, "Scrub");
+  ASSERT_TRUE(settles());
+  const QImage picture = canvas().image();
+  const DocumentState saved = document().state();
+  ASSERT_TRUE(window_.save_project(path("saved.nutik")));
+  EXPECT_FALSE(window_.isWindowModified());
+
+  MainWindow other;
+  other.open(path("saved.nutik"));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return other.is_settled(); }, kMostWaitMs));
+  const DocumentState& loaded = other.document().state();
+  EXPECT_EQ(loaded.functions, saved.functions);
+  EXPECT_EQ(loaded.looks, saved.looks);
+  EXPECT_TRUE(loaded == saved);
+  EXPECT_EQ(difference(other.canvas().image(), picture), "");
+  EXPECT_FALSE(other.isWindowModified());
+}
+
+TEST_F(WindowTest, KeepsWhatIsNotSaved) {
+  Autosave::forget();
+  open_clip();
+  window_.autosave().keep();
+  EXPECT_EQ(Autosave::found(), "") << "nothing was changed";
+  add_region(document());
+  const DocumentState changed = document().state();
+  window_.autosave().keep();
+  ASSERT_NE(Autosave::found(), "");
+
+  MainWindow next;
+  next.recover();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return next.is_settled(); }, kMostWaitMs));
+  EXPECT_TRUE(next.document().state() == changed);
+  EXPECT_TRUE(next.isWindowModified()) << "it is to be saved where a person says";
+  ASSERT_TRUE(window_.save_project(path("saved.nutik")));
+  EXPECT_EQ(Autosave::found(), "");
+}
+
+TEST_F(WindowTest, SaysWhyAFileIsRefused) {
+  window_.open(path("absent.mp4"));
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(window_.notice().text().contains("absent.mp4")) << window_.notice().text().toStdString();
+  EXPECT_EQ(document().facts(), nullptr);
+
+  const auto refuses = [&](const char* name, const char* text, const char* words) {
+    scratch_.write(name, text);
+    window_.open(path(name));
+    EXPECT_TRUE(window_.notice().text().contains(words)) << window_.notice().text().toStdString();
+  };
+  refuses("broken.nutik", "{", "it is no project");
+  refuses("newer.nutik", R"({"nutik-studio": 2})", "this program reads 1");
+  refuses("empty.nutik", R"({"nutik-studio": 1})", "'capture' names no file");
+  scratch_.write("bad.fn", "M0 [5:1], [3:1]\n");
+  refuses("bad.nutik", R"({"nutik-studio": 1, "capture": "clip.tik", "functions": "bad.fn"})", "bad.fn:1:");
+}
+
+TEST_F(WindowTest, OpensWhatIsDropped) {
+  ASSERT_EQ(
+      test::run_program({"encode", "-f", "100", "frames/%02d.pgm", "clip.tik"}, scratch_.folder()).status, 0);
+  QMimeData files;
+  files.setUrls({QUrl::fromLocalFile(path("clip.tik"))});
+  QDragEnterEvent enter({10, 10}, Qt::CopyAction, &files, Qt::LeftButton, {});
+  QApplication::sendEvent(&window_, &enter);
+  EXPECT_TRUE(enter.isAccepted());
+  QDropEvent drop({10, 10}, Qt::CopyAction, &files, Qt::LeftButton, {});
+  QApplication::sendEvent(&window_, &drop);
+  ASSERT_TRUE(settles());
+  ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
+  EXPECT_EQ(document().facts()->path, path("clip.tik"));
+  EXPECT_EQ(document().overview().changed_share.size(), static_cast<std::size_t>(test::MovingSquare::kCount));
+  EXPECT_FALSE(document().overview().thumbnails.empty());
+}
+
+TEST_F(WindowTest, StudiesAreStartingPoints) {
+  open_clip();
+  const DocumentState before = document().state();
+  window_.start_study(StudyStyle::frozen);
+  ASSERT_TRUE(settles());
+  ASSERT_NE(document().state(), before) << window_.notice().text().toStdString();
+  EXPECT_GT(document().functions().size(), 1u);
+  ASSERT_TRUE(window_.save_project(path("frozen.nutik")));
+  expect_same_picture_by_command();
+  document().undo_stack().undo();
+  EXPECT_EQ(document().state(), before) << "one step";
+}
+
+TEST_F(WindowTest, ListsRegionsAndTheirStillGain) {
+  open_clip();
+  click_button("add_region");
+  auto& list = child<QTreeWidget>("regions");
+  ASSERT_EQ(list.topLevelItemCount(), 2);
+  const std::uint8_t tag = document().selected_tag();
+  EXPECT_EQ(list.currentItem()->text(1), QString("M%1").arg(tag));
+  list.currentItem()->setText(0, "Ball");
+  EXPECT_EQ(document().state().looks.at(tag).name, "Ball");
+  list.currentItem()->setCheckState(3, Qt::Checked);
+  EXPECT_EQ(document().solo(), tag);
+  click_button("remove_region");
+  EXPECT_EQ(list.topLevelItemCount(), 1);
+  EXPECT_FALSE(document().solo());
+}
+
+}  // namespace
+}  // namespace nutik::studio
