@@ -81,6 +81,7 @@ QString CurveEditor::function_name() const {
 }
 
 void CurveEditor::follow_document() {
+  if (press_ && press_->kind == Press::Kind::drag && press_->tag != document_.selected_tag()) drop_press();
   points_ = document_.points(document_.selected_tag());
   boxcars_ = boxcars_of(points_);
   if (current_ && *current_ >= points_.size()) current_.reset();
@@ -104,10 +105,7 @@ void CurveEditor::follow_document() {
 }
 
 void CurveEditor::follow_selection() {
-  if (press_ && press_->drag) {
-    update();
-    return;
-  }
+  if (press_ && press_->drag && press_->tag == document_.selected_tag()) return update();
   const auto& chosen = document_.selected_points();
   if (current_ && !chosen.contains(*current_)) current_.reset();
   if (!current_ && chosen.size() == 1) current_ = *chosen.begin();
@@ -147,7 +145,7 @@ PointIndices CurveEditor::selected() const {
 }
 
 void CurveEditor::select(const PointIndices& points, std::optional<std::size_t> current) {
-  current_ = current;
+  current_ = current && *current < points_.size() ? current : std::nullopt;
   document_.select_points({points.begin(), points.end()});
   describe();
   update();

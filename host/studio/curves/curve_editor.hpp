@@ -67,6 +67,7 @@ class CurveEditor : public QWidget {
     QPointF last;  // where the pointer was last
     QPointF hand;  // how far the hand has come, slowly with Shift
     std::unique_ptr<Drag> drag;
+    std::uint8_t tag = 0;       // whose points are dragged
     DocumentState before = {};  // for Escape
     bool has_moved = false;
     bool adds_point = false;                  // a click on the curve
@@ -93,6 +94,7 @@ class CurveEditor : public QWidget {
   void start(std::unique_ptr<Drag> drag, QPointF at);
   void drag_to(QPointF at, Qt::KeyboardModifiers modifiers);
   void cancel_press();
+  void drop_press();
   void remove_at(QPointF at);
   void set_shape_at(QPointF at);
 
@@ -104,6 +106,7 @@ class CurveEditor : public QWidget {
   void type_numbers();
   void step_to(std::size_t point);
   void begin_key_edit(const QKeyEvent& event);
+  void end_key_edit();
   bool edit_by_key(const QKeyEvent& event);
   bool look_by_key(const QKeyEvent& event);
 

@@ -100,11 +100,14 @@ void CurveEditor::begin_key_edit(const QKeyEvent& event) {
   document_.begin_drag();
 }
 
+void CurveEditor::end_key_edit() {
+  if (!is_key_edit_) return;
+  is_key_edit_ = false;
+  document_.end_drag();
+}
+
 void CurveEditor::keyReleaseEvent(QKeyEvent* event) {
-  if (!event->isAutoRepeat() && is_key_edit_) {
-    is_key_edit_ = false;
-    document_.end_drag();
-  }
+  if (!event->isAutoRepeat()) end_key_edit();
   QWidget::keyReleaseEvent(event);
 }
 
@@ -117,10 +120,7 @@ void CurveEditor::focusInEvent(QFocusEvent* event) {
 }
 
 void CurveEditor::focusOutEvent(QFocusEvent* event) {
-  if (is_key_edit_) {
-    is_key_edit_ = false;
-    document_.end_drag();
-  }
+  end_key_edit();
   QWidget::focusOutEvent(event);
   update();
 }

@@ -41,6 +41,7 @@ Qt::CursorShape shape_of(BoxcarPart part) {
 
 void CurveEditor::mousePressEvent(QMouseEvent* event) {
   setFocus(Qt::MouseFocusReason);
+  end_key_edit();
   if (press_ || document_.facts() == nullptr) return;
   const QPointF at = event->position();
   if (event->button() == Qt::RightButton) return remove_at(at);
@@ -98,6 +99,7 @@ void CurveEditor::press_curve(QPointF at) {
     return update();
   }
   Press press{Press::Kind::drag, at, at, {}, nullptr};
+  press.tag = document_.selected_tag();
   press.before = document_.state();
   press.has_moved = true;
   press_ = std::move(press);
@@ -109,6 +111,7 @@ void CurveEditor::press_curve(QPointF at) {
 
 void CurveEditor::start(std::unique_ptr<Drag> drag, QPointF at) {
   press_.emplace(Press{Press::Kind::drag, at, at, {}, std::move(drag)});
+  press_->tag = document_.selected_tag();
   press_->before = document_.state();
 }
 
@@ -202,6 +205,13 @@ void CurveEditor::mouseDoubleClickEvent(QMouseEvent* event) {
   if (!point) return mousePressEvent(event);
   select({*point}, point);
   type_numbers();
+}
+
+// The function went away while it was dragged, by undo or a shortcut: what is left of the drag is nobody's.
+void CurveEditor::drop_press() {
+  press_.reset();
+  dragged_.reset();
+  document_.end_drag();
 }
 
 void CurveEditor::cancel_press() {

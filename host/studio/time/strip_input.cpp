@@ -60,6 +60,7 @@ void TimeStrip::use(const Boxcar& boxcar) { document_.set_boxcar(boxcar, "Scrub"
 
 void TimeStrip::mousePressEvent(QMouseEvent* event) {
   setFocus(Qt::MouseFocusReason);
+  end_key_edit();
   if (press_ || document_.facts() == nullptr) return;
   const QPointF at = event->position();
   const Part part = part_at(at);
@@ -235,19 +236,19 @@ bool TimeStrip::look_by_key(const QKeyEvent& event) {
   }
 }
 
+void TimeStrip::end_key_edit() {
+  if (!is_key_edit_) return;
+  is_key_edit_ = false;
+  document_.end_drag();
+}
+
 void TimeStrip::keyReleaseEvent(QKeyEvent* event) {
-  if (!event->isAutoRepeat() && is_key_edit_) {
-    is_key_edit_ = false;
-    document_.end_drag();
-  }
+  if (!event->isAutoRepeat()) end_key_edit();
   QWidget::keyReleaseEvent(event);
 }
 
 void TimeStrip::focusOutEvent(QFocusEvent* event) {
-  if (is_key_edit_) {
-    is_key_edit_ = false;
-    document_.end_drag();
-  }
+  end_key_edit();
   QWidget::focusOutEvent(event);
 }
 

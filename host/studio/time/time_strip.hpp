@@ -69,6 +69,7 @@ class TimeStrip : public QWidget {
   void drag_to(QPointF at, Qt::KeyboardModifiers modifiers);
   void use(const Boxcar& boxcar);
   void cancel_press();
+  void end_key_edit();
   bool move_by_key(const QKeyEvent& event);
   bool look_by_key(const QKeyEvent& event);
   void follow_document();
