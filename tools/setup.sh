@@ -13,6 +13,7 @@ program_packages=(
   libexif-dev libpng-dev libjpeg-dev libtiff-dev libopenexr-dev libraw-dev liblcms2-dev
   libzstd-dev liblz4-dev libxxhash-dev libcairo2-dev fonts-dejavu-core
   libeigen3-dev libfmt-dev nlohmann-json3-dev
+  qt6-base-dev
 )
 # The scene generator and the plotter.
 script_packages=(python3 python3-numpy python3-opencv python3-matplotlib)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The program is a client of the session: host/app includes the session's headers, the system's and its own, what writes
-its outputs knows nothing of its requests, and it stays small, as the engine belongs below it. What lies below names no
+"""The program is a client of the session: host/app includes the session's headers, the system's and its own, and so does
+host/studio; what writes the program's outputs knows nothing of its requests, and it stays small, as the engine belongs below it. What lies below names no
 option of a command line.
 
     check_includes.py --app FOLDER
@@ -48,6 +48,10 @@ def main():
             mistakes.append(f"{name}: {sizes[name]} lines, {MOST_LINES_OF_NEWER} at most")
     if lines > MOST_LINES:
         mistakes.append(f"{lines} lines, {MOST_LINES} at most: what is engine belongs into the session")
+    for path in sorted((app.parent / "studio").rglob("*.[ch]pp")):
+        mistakes += [f"{path.relative_to(app.parent)} includes {name}, which is neither the session's, the system's nor the studio's"
+                     for name in INCLUDE.findall(path.read_text(encoding="utf-8"))
+                     if name.split("/")[0] not in {"studio", "session", "system"}]
     for path in sorted(app.parent.rglob("*.[ch]pp")):
         if app not in path.parents:
             mistakes += [f"{path.relative_to(app.parent)} says {text}" for text in OPTION.findall(path.read_text(encoding="utf-8"))]

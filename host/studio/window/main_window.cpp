@@ -66,7 +66,7 @@ void MainWindow::build_window() {
   column->addWidget(time);
   column->setStretchFactor(0, 1);
   column->setChildrenCollapsible(false);
-  column->setSizes({430, 290});
+  column->setSizes({400, 330});
   auto* row = new QSplitter(Qt::Horizontal);
   row->addWidget(column);
   row->addWidget(new RegionList(document_));
