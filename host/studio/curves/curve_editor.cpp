@@ -2,6 +2,7 @@
 
 #include <QAccessible>
 #include <QPaintEvent>
+#include <algorithm>
 
 #include "studio/curves/number_editor.hpp"
 #include "studio/time/typed_numbers.hpp"
@@ -195,10 +196,6 @@ void CurveEditor::paintEvent(QPaintEvent*) {
     made.timeline = facts == nullptr ? nullptr : &facts->timeline;
     made.activity = &activity_;
     made.waveform = &waveform_;
-    if (document_.waveform()) {
-      const QPoint pixel = document_.waveform()->pixel;
-      made.waveform_name = QString("light of pixel %1, %2").arg(pixel.x()).arg(pixel.y());
-    }
     for (const auto& [tag, function] : document_.functions()) {
       const auto look = document_.state().looks.find(tag);
       const bool is_shown = look == document_.state().looks.end() || look->second.is_visible;
@@ -239,6 +236,7 @@ void CurveEditor::paintEvent(QPaintEvent*) {
 void CurveEditor::paint_header(QPainter& painter, const TimeColours& colours) const {
   const QFontMetricsF metrics(font());
   QRectF line(TimeAxis::kLeft, 0, plot_area().width(), kHeader - 2);
+  if (document_.facts() == nullptr) return;
   constexpr double kDot = 8;
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
@@ -252,6 +250,17 @@ void CurveEditor::paint_header(QPainter& painter, const TimeColours& colours) co
   const QString name = metrics.elidedText(function_name(), Qt::ElideRight, line.width() / 3);
   painter.drawText(line, Qt::AlignVCenter, name);
   line.setLeft(line.left() + metrics.horizontalAdvance(name) + 20);
+  if (!waveform_.empty()) {
+    const QPoint pixel = document_.waveform()->pixel;
+    const Series::Range light = waveform_.over(0, waveform_.values().size());
+    const QString text =
+        QString("light of pixel %1, %2, up to %3").arg(pixel.x()).arg(pixel.y()).arg(light.high, 0, 'g', 3);
+    const double wide = std::min(metrics.horizontalAdvance(text), line.width() / 2);
+    painter.setPen(colours.waveform);
+    painter.drawText(QRectF(line.right() - wide, 0, wide, line.height()), Qt::AlignVCenter,
+                     metrics.elidedText(text, Qt::ElideRight, wide));
+    line.setRight(line.right() - wide - 16);
+  }
   QString said = message_;
   bool is_warning = !message_.isEmpty();
   if (said.isEmpty() && !findings_.empty()) {

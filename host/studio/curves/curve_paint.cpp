@@ -107,15 +107,13 @@ void paint_series(QPainter& painter, const PlotFrame& frame, const TimeColours& 
   if (backdrop.waveform != nullptr && !backdrop.waveform->empty()) {
     QPolygonF line;
     const Series::Range all = backdrop.waveform->over(0, backdrop.waveform->values().size());
-    const double most = std::max(all.high, 1.0);
+    const double most = all.high > 0.0 ? all.high * 1.05 : 1.0;  // of dark pixels, too, the course is seen
     const auto y_of = [&](double light) { return box.bottom() - box.height() * std::max(light, 0.0) / most; };
     for (const SeriesColumn& column :
          columns_of(*backdrop.waveform, *backdrop.timeline, *backdrop.axis, width))
       line << QPointF(column.x, y_of(column.range.high)) << QPointF(column.x + 1, y_of(column.range.low));
     painter.setPen(QPen(colours.waveform, 1.0));
     painter.drawPolyline(line);
-    painter.setPen(colours.waveform);
-    painter.drawText(box.adjusted(6, 4, -6, -4), Qt::AlignRight | Qt::AlignTop, backdrop.waveform_name);
   }
 }
 

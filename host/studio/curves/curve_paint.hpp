@@ -25,7 +25,6 @@ struct Backdrop {
   const Timeline* timeline = nullptr;  // none: no capture is open
   const Series* activity = nullptr;
   const Series* waveform = nullptr;
-  QString waveform_name;  // `light of pixel 12, 7`
   std::vector<PaintedFunction> others;
 };
 void paint_backdrop(QPainter& painter, const PlotFrame& frame, const TimeColours& colours,

@@ -1,5 +1,6 @@
 #include "studio/time/time_fields.hpp"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -46,6 +47,11 @@ TimeFields::TimeFields(Document& document, TimeAxis& axis, QWidget* parent)
   connect(&document_, &Document::capture_changed, this, &TimeFields::show_values);
   connect(&axis_, &TimeAxis::marks_changed, this, &TimeFields::show_values);
   show_values();
+}
+
+void TimeFields::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::PaletteChange) show_values();
+  QWidget::changeEvent(event);
 }
 
 QLineEdit* TimeFields::add_field(const QString& name, const QString& help, void (TimeFields::*enter)()) {

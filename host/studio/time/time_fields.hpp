@@ -21,6 +21,9 @@ class TimeFields : public QWidget {
  public:
   TimeFields(Document& document, TimeAxis& axis, QWidget* parent = nullptr);
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
   QLineEdit* add_field(const QString& name, const QString& help, void (TimeFields::*enter)());
   void show_values();

@@ -29,6 +29,7 @@ QString interval_text(const Boxcar& boxcar, const Timeline& timeline) {
 TimeStrip::TimeStrip(Document& document, TimeAxis& axis, QWidget* parent)
     : QWidget(parent), document_(document), axis_(axis), activity_(document.overview().changed_share) {
   setFocusPolicy(Qt::StrongFocus);
+  setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   setMouseTracking(true);
   setAccessibleName("Time");
   setObjectName("time");

@@ -29,7 +29,7 @@ class TimeStrip : public QWidget {
  public:
   TimeStrip(Document& document, TimeAxis& axis, QWidget* parent = nullptr);
 
-  [[nodiscard]] QSize sizeHint() const override { return {900, 120}; }
+  [[nodiscard]] QSize sizeHint() const override { return {900, 106}; }
   [[nodiscard]] QSize minimumSizeHint() const override { return {320, 92}; }
 
   // Places of things, for whoever presses on them.
