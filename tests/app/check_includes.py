@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""The program is a client of the session: host/app includes the session's headers, the system's and its own, and so does
-host/studio; what writes the program's outputs knows nothing of its requests, and it stays small, as the engine belongs below it. What lies below names no
-option of a command line.
+"""The programs are clients of the session: host/app and host/studio include the session's headers, the system's and
+their own. What writes the outputs of host/app knows nothing of its requests, and it stays small, as the engine belongs
+below it. What lies below names no option of a command line.
 
     check_includes.py --app FOLDER
 """

@@ -1,7 +1,7 @@
 // The window: opening, saving, exporting, and the paper's motion study by mouse alone.
 #include <QFile>
 #include <QMimeData>
-#include <QSignalSpy>
+#include <QToolButton>
 #include <QTreeWidget>
 
 #include "studio/curves/curve_editor.hpp"
@@ -155,6 +155,38 @@ TEST_F(WindowTest, SaysWhyAFileIsRefused) {
   refuses("empty.nutik", R"({"nutik-studio": 1})", "'capture' names no file");
   scratch_.write("bad.fn", "M0 [5:1], [3:1]\n");
   refuses("bad.nutik", R"({"nutik-studio": 1, "capture": "clip.tik", "functions": "bad.fn"})", "bad.fn:1:");
+}
+
+TEST_F(WindowTest, StaysWithItsCaptureWhereAnotherCannotBeOpened) {
+  open_clip();
+  const QImage picture = canvas().image();
+  std::filesystem::create_directory(scratch_ / "damaged");
+  scratch_.write("damaged/0.pgm", "P5 16 8 255\n" + std::string(128, 'a'));  // which is shown at first
+  scratch_.write("damaged/1.pgm", "P5 16 8 255\n" + std::string(100, 'a'));
+  window_.open(path("damaged/%d.pgm"), "100");
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(window_.notice().text().contains("1.pgm")) << window_.notice().text().toStdString();
+  EXPECT_EQ(document().facts()->path, path("frames/%02d.pgm"));
+  EXPECT_EQ(difference(canvas().image(), picture), "");
+}
+
+TEST_F(WindowTest, CancelsOpening) {
+  window_.open(path("frames/%02d.pgm"), "100");
+  QTest::mouseClick(&child<QToolButton>("cancel"), Qt::LeftButton);
+  ASSERT_TRUE(settles());
+  EXPECT_EQ(document().facts(), nullptr);
+  EXPECT_EQ(window_.notice().text(), "") << "who cancels knows why";
+  open_clip();
+}
+
+TEST_F(WindowTest, SavesBeforeItExportsWhatLiesInNoFile) {
+  open_clip();
+  add_region(document());
+  paint_region(document(), rectangle(96, 48, {10, 10}, 20, 20), document().selected_tag(), "Rectangle");
+  window_.export_picture(path("unsaved.png"));
+  ASSERT_TRUE(settles());
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "unsaved.png"));
+  EXPECT_TRUE(window_.notice().text().contains("Save the project first"));
 }
 
 TEST_F(WindowTest, OpensWhatIsDropped) {

@@ -38,6 +38,7 @@ void Canvas::show_picture(const ShownPicture& picture) {
   const CaptureFacts* facts = document_.facts();
   if (facts == nullptr) return;
   const QSize size(static_cast<int>(facts->format.shape.width), static_cast<int>(facts->format.shape.height));
+  is_first_look_ = false;
   if (picture.place == QRect({0, 0}, size)) {
     image_ = picture.image;
   } else {
@@ -56,12 +57,14 @@ void Canvas::show_picture(const ShownPicture& picture) {
 
 void Canvas::show_first_look(const QImage& image) {
   image_ = image;
+  is_first_look_ = true;
   view_.set_sizes(image.size(), size());
   view_moved();
 }
 
 void Canvas::clear() {
   image_ = {};
+  is_first_look_ = false;
   update();
 }
 
@@ -120,7 +123,7 @@ void Canvas::paintEvent(QPaintEvent* event) {
   }
   painter.setRenderHint(QPainter::SmoothPixmapTransform, view_.zoom() < 1);
   painter.drawImage(view_.place(), image_);
-  if (document_.facts() == nullptr) return;
+  if (document_.facts() == nullptr || is_first_look_) return;
   painter.translate(view_.place().topLeft());
   painter.scale(view_.zoom(), view_.zoom());
   paint_solo(painter);
@@ -187,7 +190,7 @@ void Canvas::mousePressEvent(QMouseEvent* event) {
   pointer_ = pressed_ = event->position();
   is_inside_ = true;
   has_moved_ = false;
-  if (image_.isNull() || document_.facts() == nullptr) return;
+  if (image_.isNull() || document_.facts() == nullptr || is_first_look_) return;
   if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && tool_ == nullptr)) {
     is_panning_ = true;
   } else if (event->button() == Qt::LeftButton) {

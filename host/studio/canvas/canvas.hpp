@@ -38,8 +38,9 @@ class Canvas : public QWidget {
   ~Canvas() override;
 
   void show_picture(const ShownPicture& picture);
-  // Before there is a picture of the document: a clip's first one.
+  // Of a clip that is being opened, until there is a picture of the document. No tool works on it.
   void show_first_look(const QImage& image);
+  [[nodiscard]] bool shows_first_look() const { return is_first_look_; }
   void clear();
   // Said where no picture is.
   void set_hint(const QString& hint);
@@ -86,6 +87,7 @@ class Canvas : public QWidget {
   QImage solo_;  // what it leaves in the dark
   QPointF pointer_, pressed_;
   bool is_inside_ = false;  // the pointer
+  bool is_first_look_ = false;
   bool is_panning_ = false, is_stroking_ = false, has_moved_ = false;
 };
 

@@ -88,6 +88,11 @@ void MainWindow::connect_parts() {
   connect(&jobs_, &Jobs::failed, this, [this](const QString& what, const QString& why) {
     notice_->say(Notice::Kind::error, tr("%1: %2").arg(what, why));
   });
+  connect(&jobs_, &Jobs::ended, this, [this] {
+    if (!canvas_->shows_first_look()) return;  // a clip that was not opened, after all
+    canvas_->clear();
+    live_.show(session_);
+  });
   connect(canvas_, &Canvas::visible_changed, &live_, &LiveView::set_visible);
   connect(canvas_, &Canvas::pointed, this,
           [this](std::optional<QPoint> pixel) { status_->tell(pixel, canvas_->image()); });
@@ -102,7 +107,7 @@ void MainWindow::open(const QString& path, const QString& rate) {
   if (!path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive)) {
     project_.clear();
     files_ = {};
-    return open_capture_file(path, rate, {});
+    return open_capture_file(QFileInfo(path).absoluteFilePath(), rate, {});
   }
   try_to([&] {
     Project project = load_project(path);
@@ -161,6 +166,7 @@ void MainWindow::take(Opened opened, std::optional<DocumentState> state) {
     }
   }
   remember(project_.isEmpty() ? opened.facts.path : project_);
+  canvas_->clear();
   live_.show(nullptr);
   session_ = opened.session;
   const bool is_recovered = state && project_.isEmpty();
@@ -204,6 +210,9 @@ void MainWindow::look_at_pixel() {
 
 void MainWindow::export_picture(const QString& path) {
   if (!session_) return;
+  if (!has_files())
+    return notice_->say(Notice::Kind::error,
+                        tr("Save the project first: the picture's recipe names its files."));
   try_to([&] {
     jobs_.start(tr("Writing %1").arg(QFileInfo(path).fileName()),
                 exporting(document_, session_, files_, path,
