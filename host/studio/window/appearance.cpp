@@ -37,10 +37,15 @@ QPalette palette_of(int window, int base, int button, int text, int dim) {
   return palette;
 }
 
-// Fusion, whose boxes in lists cannot be told from a dark ground.
+// Fusion, whose boxes in lists cannot be told from a dark ground, and whose shadows double texts that are disabled there.
 class Style : public QProxyStyle {
  public:
   Style() : QProxyStyle(QStringLiteral("Fusion")) {}
+
+  int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                QStyleHintReturn* answer) const override {
+    return hint == SH_EtchDisabledText ? 0 : QProxyStyle::styleHint(hint, option, widget, answer);
+  }
 
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget) const override {
