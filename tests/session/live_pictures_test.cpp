@@ -96,6 +96,8 @@ TEST_F(LivePicturesTest, AnswersTheLatestRequestOnly) {
   ASSERT_GT(random_.capture.shape.height, kTileSide) << "it takes several strips";
   const LiveRequest last = request(6);
   const ExposedPicture preview = alone(last.preview, Precision::single_), full = alone(*last.full, {});
+  EXPECT_EQ(all[1].rectangle, last.preview.rectangle);
+  EXPECT_EQ(all[2].rectangle, last.full->rectangle);
   EXPECT_EQ(all[1].exposed->picture.bytes, preview.picture.bytes);
   EXPECT_EQ(all[1].exposed->precision, Precision::single_);
   EXPECT_EQ(all[2].exposed->picture.shape, full.picture.shape);
