@@ -1,6 +1,8 @@
 // The window: opening, saving, exporting, and the paper's motion study by mouse alone.
 #include <QFile>
+#include <QMessageBox>
 #include <QMimeData>
+#include <QTimer>
 #include <QToolButton>
 #include <QTreeWidget>
 
@@ -22,6 +24,19 @@ class WindowTest : public StudioTest {
     EXPECT_TRUE(words.starts_with("nutik-cl "));
     return test::run_shell(std::string(NUTIK_TEST_PROGRAM) + words.substr(8), scratch_.folder());
   }
+
+  // To the question that comes next.
+  void answer_next(QMessageBox::StandardButton answer) {
+    is_asked_ = false;
+    QTimer::singleShot(0, &window_, [this, answer] {
+      auto* question = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+      ASSERT_NE(question, nullptr);
+      is_asked_ = true;
+      QTest::mouseClick(question->button(answer), Qt::LeftButton);
+    });
+  }
+
+  bool is_asked_ = false;
 
   // The exported picture, and that of the line, are the same file.
   void expect_same_picture_by_command() {
@@ -187,6 +202,76 @@ TEST_F(WindowTest, SavesBeforeItExportsWhatLiesInNoFile) {
   ASSERT_TRUE(settles());
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "unsaved.png"));
   EXPECT_TRUE(window_.notice().text().contains("Save the project first"));
+}
+
+TEST_F(WindowTest, LoadsFunctionsAndMasksOfTheCommandLine) {
+  open_clip();
+  Mask mask = Mask::uniform(test::MovingSquare::kWidth, test::MovingSquare::kHeight, 0);
+  paint(mask, rectangle(mask.width, mask.height, {10, 10}, 20, 20), 200);
+  save_mask(path("regions.pgm"), mask);
+  window_.use_mask(path("regions.pgm"));
+  EXPECT_EQ(pixels_of(200), 400u);
+  EXPECT_TRUE(document().functions().contains(200)) << "exposed over the interval";
+  scratch_.write("regions.fn", "M200 [0:0], [50000000:1], [100000000:-0.5]\n");
+  const std::vector<ControlPoint> background = document().points(0);
+  window_.use_functions(path("regions.fn"));
+  EXPECT_EQ(document().points(200),
+            (std::vector<ControlPoint>{{0, 0}, {50'000'000, 1}, {100'000'000, -0.5}}));
+  EXPECT_EQ(document().points(0), background) << "what the file leaves out stays";
+  ASSERT_TRUE(window_.save_project(path("regions.nutik")));
+  ASSERT_TRUE(settles());
+  expect_same_picture_by_command();
+
+  const DocumentState before = document().state();
+  scratch_.write("small.pgm", "P5 2 2 255\n    ");
+  window_.use_mask(path("small.pgm"));
+  EXPECT_TRUE(window_.notice().text().contains("2 x 2 pixels large, the capture 96 x 48"));
+  EXPECT_TRUE(document().state() == before);
+}
+
+TEST_F(WindowTest, AsksBeforeUnsavedChangesAreLost) {
+  open_clip();
+  EXPECT_TRUE(window_.close()) << "nothing was changed, nothing is asked";
+  window_.show();
+  add_region(document());
+  EXPECT_TRUE(window_.isWindowModified());
+  answer_next(QMessageBox::Cancel);
+  EXPECT_FALSE(window_.close());
+  ASSERT_TRUE(window_.save_project(path("saved.nutik")));
+  document().set_boxcar({0, 1'000}, "Scrub");
+  answer_next(QMessageBox::Save);
+  EXPECT_TRUE(window_.close());
+  EXPECT_EQ(load_project(path("saved.nutik")).state.boxcar, (Boxcar{0, 1'000}));
+}
+
+TEST_F(WindowTest, AsksBeforeItReplacesWhatChangedOutside) {
+  open_clip();
+  ASSERT_TRUE(window_.save_project(path("saved.nutik")));
+  std::filesystem::remove(scratch_ / "saved.fn");
+  scratch_.write("saved.fn", "M0 [0:1]\n");
+  std::filesystem::last_write_time(scratch_ / "saved.fn",
+                                   std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
+  answer_next(QMessageBox::No);
+  QTest::keyClick(&window_, Qt::Key_S, Qt::ControlModifier);
+  EXPECT_TRUE(is_asked_);
+  EXPECT_EQ(test::read_file(scratch_ / "saved.fn"), "M0 [0:1]\n");
+  window_.activateWindow();  // which a desktop does once the question is gone
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  answer_next(QMessageBox::Yes);
+  QTest::keyClick(&window_, Qt::Key_S, Qt::ControlModifier);
+  EXPECT_TRUE(is_asked_);
+  EXPECT_NE(test::read_file(scratch_ / "saved.fn"), "M0 [0:1]\n") << window_.notice().text().toStdString();
+}
+
+TEST_F(WindowTest, ChoosesToolsByKeyboard) {
+  open_clip();
+  const std::pair<Qt::Key, const char*> keys[] = {{Qt::Key_B, "tool_brush"},   {Qt::Key_R, "tool_rectangle"},
+                                                  {Qt::Key_E, "tool_ellipse"}, {Qt::Key_P, "tool_polygon"},
+                                                  {Qt::Key_W, "tool_wand"},    {Qt::Key_V, "tool_look"}};
+  for (const auto& [key, tool] : keys) {
+    QTest::keyClick(&window_, key);
+    EXPECT_TRUE(child<QAction>(tool).isChecked()) << tool;
+  }
 }
 
 TEST_F(WindowTest, OpensWhatIsDropped) {

@@ -9,6 +9,7 @@
 #include <QSettings>
 
 #include "session/below/error.hpp"
+#include "session/below/format.hpp"
 #include "studio/window/main_window.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio/window/starting_points.hpp"
@@ -137,16 +138,18 @@ void MainWindow::copy_command() {
 void MainWindow::choose_functions() {
   const QString path = QFileDialog::getOpenFileName(this, tr("Load functions"), {},
                                                     tr("Function files (*.fn);;All files (*)"));
-  if (path.isEmpty()) return;
+  if (!path.isEmpty()) use_functions(path);
+}
+
+void MainWindow::use_functions(const QString& path) {
   try_to([&] {
     DocumentState state = document_.state();
     state.functions = load_functions(path);
     if (state.mask) {
-      for (const MaskRegion& region : (*state.mask)->regions) {
-        // Pixels whose function is not in the file keep the one they have.
+      // Pixels whose function is not in the file keep the one they have.
+      for (const MaskRegion& region : (*state.mask)->regions)
         if (!state.functions.contains(region.tag))
           state.functions.emplace(region.tag, document_.functions().at(region.tag));
-      }
     }
     state.mode = ExposureMode::functions;
     document_.apply(std::move(state), tr("Load functions"));
@@ -156,19 +159,18 @@ void MainWindow::choose_functions() {
 void MainWindow::choose_mask() {
   const QString path =
       QFileDialog::getOpenFileName(this, tr("Load mask"), {}, tr("Masks (*.pgm *.png);;All files (*)"));
-  if (path.isEmpty()) return;
+  if (!path.isEmpty()) use_mask(path);
+}
+
+void MainWindow::use_mask(const QString& path) {
   try_to([&] {
     DocumentState state = document_.state();
     const Shared<MaskWithRegions> mask = load_mask(path);
     const Shape& shape = document_.facts()->format.shape;
     if (mask->mask.width != shape.width || mask->mask.height != shape.height)
-      throw InputError(tr("%1 is %2 × %3 pixels large, the capture %4 × %5")
-                           .arg(path)
-                           .arg(mask->mask.width)
-                           .arg(mask->mask.height)
-                           .arg(shape.width)
-                           .arg(shape.height)
-                           .toStdString());
+      throw InputError(format("{} is {} x {} pixels large, the capture {} x {}", path.toStdString(),
+                              mask->mask.width, mask->mask.height, shape.width, shape.height));
+    // Regions without a function are exposed over the interval.
     const GainFunction function = with_steps(
         GainFunction::boxcar(state.boxcar.start_ns, state.boxcar.start_ns + state.boxcar.length_ns));
     for (const MaskRegion& region : mask->regions) state.functions.try_emplace(region.tag, function);

@@ -40,6 +40,9 @@ class MainWindow : public QMainWindow {
   void open(const QString& path, const QString& rate = {});
   // False: it failed, and why is said above the picture.
   bool save_project(const QString& path);
+  // Of an open capture; why a file is refused is said above the picture.
+  void use_functions(const QString& path);
+  void use_mask(const QString& path);
   // In the background. Needs a saved project unless an interval is exposed.
   void export_picture(const QString& path);
   void start_study(StudyStyle style);
