@@ -194,6 +194,25 @@ TEST_F(WindowTest, CancelsOpening) {
   open_clip();
 }
 
+TEST_F(WindowTest, MayGoAtAnyTime) {
+  {
+    MainWindow other;
+    other.open(path("frames/%02d.pgm"), "100");
+  }
+  open_clip();  // what follows it, thumbnails and activity, is still to come in the next one
+  MainWindow other;
+  other.show();
+  other.open(path("frames/%02d.pgm"), "100");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return other.document().facts() != nullptr; }, kMostWaitMs));
+}
+
+TEST_F(WindowTest, WritesAPictureAlthoughAnotherCaptureIsOpened) {
+  open_clip();
+  window_.export_picture(path("picture.png"));
+  open_clip();
+  EXPECT_TRUE(std::filesystem::exists(scratch_ / "picture.png"));
+}
+
 TEST_F(WindowTest, SavesBeforeItExportsWhatLiesInNoFile) {
   open_clip();
   add_region(document());

@@ -32,8 +32,11 @@ MainWindow::MainWindow(const ComputingRequest& computing)
   follow_exposure();
 }
 
-// Widgets know the document: they go first.
-MainWindow::~MainWindow() { delete takeCentralWidget(); }
+// Jobs tell widgets that they ended, and widgets know the document: they go in that order.
+MainWindow::~MainWindow() {
+  for (Jobs* jobs : {&jobs_, &quick_, &writing_}) jobs->cancel();
+  delete takeCentralWidget();
+}
 
 void MainWindow::build_window() {
   setAcceptDrops(true);
@@ -85,9 +88,11 @@ void MainWindow::connect_parts() {
   });
   connect(&live_, &LiveView::failed, this,
           [this](const QString& why) { notice_->say(Notice::Kind::error, why); });
-  connect(&jobs_, &Jobs::failed, this, [this](const QString& what, const QString& why) {
-    notice_->say(Notice::Kind::error, tr("%1: %2").arg(what, why));
-  });
+  for (Jobs* jobs : {&jobs_, &quick_, &writing_}) {
+    connect(jobs, &Jobs::failed, this, [this](const QString& what, const QString& why) {
+      notice_->say(Notice::Kind::error, tr("%1: %2").arg(what, why));
+    });
+  }
   connect(&jobs_, &Jobs::ended, this, [this] {
     if (!canvas_->shows_first_look()) return;  // a clip that was not opened, after all
     canvas_->clear();
@@ -214,9 +219,9 @@ void MainWindow::export_picture(const QString& path) {
     return notice_->say(Notice::Kind::error,
                         tr("Save the project first: the picture's recipe names its files."));
   try_to([&] {
-    jobs_.start(tr("Writing %1").arg(QFileInfo(path).fileName()),
-                exporting(document_, session_, files_, path,
-                          [this](const QString& line) { notice_->say(Notice::Kind::note, line); }));
+    writing_.start(tr("Writing %1").arg(QFileInfo(path).fileName()),
+                   exporting(document_, session_, files_, path,
+                             [this](const QString& line) { notice_->say(Notice::Kind::note, line); }));
   });
 }
 
@@ -234,7 +239,9 @@ void MainWindow::use_tool(ToolKind kind) {
   canvas_->set_tool(tool_.get());
 }
 
-bool MainWindow::is_settled() const { return !jobs_.is_busy() && !quick_.is_busy() && !live_.is_busy(); }
+bool MainWindow::is_settled() const {
+  return !jobs_.is_busy() && !quick_.is_busy() && !writing_.is_busy() && !live_.is_busy();
+}
 
 void MainWindow::follow_title() {
   const CaptureFacts* facts = document_.facts();

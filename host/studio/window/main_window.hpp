@@ -110,7 +110,9 @@ class MainWindow : public QMainWindow {
   bool try_to(const std::function<void()>& what);
 
   Document document_;
-  Jobs jobs_, quick_;  // what a person waits for, and what is there in no time
+  // What a person waits for and may cancel; what is there in no time; pictures on their way to files, which opening
+  // another capture does not stop.
+  Jobs jobs_, quick_, writing_;
   LiveView live_;
   TimeAxis axis_;
   Autosave autosave_;
