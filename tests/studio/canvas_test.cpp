@@ -84,6 +84,17 @@ TEST_F(CanvasTest, AClickTakesThePixelAndReadsItsLight) {
   }
 }
 
+TEST_F(CanvasTest, AnotherCaptureHasNoPixelYet) {
+  open_clip();
+  document().set_probe(QPoint(3, 4));
+  ASSERT_TRUE(settles());
+  ASSERT_TRUE(document().waveform());
+  QSignalSpy changed(&document(), &Document::probe_changed);
+  open_clip();
+  EXPECT_GT(changed.count(), 0) << "what draws the waveform is told";
+  EXPECT_FALSE(document().probe() || document().waveform());
+}
+
 TEST_F(CanvasTest, ToolsPaintTheSelectedRegionAndUndoTakesItBack) {
   open_clip();
   click_button("add_region");

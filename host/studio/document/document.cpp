@@ -56,6 +56,8 @@ void Document::start(CaptureFacts facts, std::optional<DocumentState> state) {
   probe_.reset();
   waveform_.reset();
   Q_EMIT capture_changed();
+  Q_EMIT overview_changed();
+  Q_EMIT probe_changed();
 }
 
 void Document::set_overview(CaptureOverview overview) {

@@ -122,7 +122,7 @@ class Document : public QObject {
   void set_waveform(Waveform waveform);  // dropped if it is not the probe's
 
  Q_SIGNALS:
-  void capture_changed();    // facts(): everything else is new, too
+  void capture_changed();    // facts(), and all that is edited; what is looked at is told of by the signals below
   void overview_changed();   // overview()
   void changed();            // state(); also by undo and redo
   void released();           // a drag ended: the full picture may follow
