@@ -1,4 +1,4 @@
-// Takes the pictures of docs/studio.md: nutik_studio_screenshots CLIP FOLDER.
+// Takes the pictures of docs/how-to/studio.md: nutik_studio_screenshots CLIP FOLDER.
 #include <QApplication>
 #include <QDir>
 #include <QElapsedTimer>
