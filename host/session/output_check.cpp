@@ -43,8 +43,9 @@ bool is_mask_content(const std::filesystem::path& file) {
   }
 }
 
-// Text with a comma in its first line.
+// Text with a comma in its first line, or a camera's path.
 bool is_table_content(std::string_view bytes) {
+  if (bytes.starts_with("# nutik camera")) return true;
   const std::string_view line = bytes.substr(0, bytes.find('\n'));
   return line.find(',') != std::string_view::npos && line.find('\0') == std::string_view::npos;
 }

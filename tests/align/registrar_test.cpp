@@ -23,12 +23,12 @@ constexpr std::size_t kPictures = 8;
 // Waves of many directions, none shorter than three pixels.
 class Texture {
  public:
-  explicit Texture(unsigned seed) {
+  explicit Texture(unsigned seed, double longest = 120) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> share(0, 1);
     for (Wave& wave : waves_) {
       const double turn = 2 * std::numbers::pi * share(random);
-      const double length = 3 * std::pow(40.0, share(random));
+      const double length = 3 * std::pow(longest / 3, share(random));
       const double pulse = 2 * std::numbers::pi / length;
       wave = {pulse * std::cos(turn), pulse * std::sin(turn), 2 * std::numbers::pi * share(random)};
     }
@@ -195,6 +195,32 @@ TEST(Registrar, FindsAPictureThatLiesFarFromWhereItWasExpected) {
   const Place is = found.warp.at(160, 120), should = far.at(160, 120);
   EXPECT_NEAR(is.x, should.x, 0.1);
   EXPECT_NEAR(is.y, should.y, 0.1);
+}
+
+// Before texture that no coarser level shows a smooth thing moves from one side to the other.
+TEST(Registrar, FollowsFineTextureBehindWhatLeftItsPlace) {
+  const Texture texture(16, 6);
+  const auto seen = [&](double shift, int left) {
+    std::vector<std::byte> raster(kWidth * kHeight);
+    for (int y = 0; y < static_cast<int>(kHeight); ++y) {
+      for (int x = 0; x < static_cast<int>(kWidth); ++x) {
+        const bool is_thing = x >= left && x < left + 128 && y >= 60 && y < 180;
+        const double light = is_thing ? 180 + 20 * std::sin((x - left) / 7.0)
+                                      : 110 + 40 * texture.at({x - shift, static_cast<double>(y)});
+        raster[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)] =
+            static_cast<std::byte>(std::clamp(std::round(light), 0.0, 255.0));
+      }
+    }
+    return raster;
+  };
+  for (const CameraMotion motion :
+       {CameraMotion::translation, CameraMotion::rigid, CameraMotion::homography}) {
+    const auto registrar = registrar_of(format_of({}), motion, seen(0, 0));
+    const Registered found = registrar->find(seen(1.5, 160), Warp());
+    EXPECT_TRUE(is_sure(found)) << to_text(motion) << ": " << found.agreeing;
+    EXPECT_NEAR(found.warp.at(160, 120).x, 161.5, 0.05) << to_text(motion);
+    EXPECT_NEAR(found.warp.at(160, 120).y, 120, 0.05) << to_text(motion);
+  }
 }
 
 TEST(Registrar, GivesTheSameTwice) {

@@ -10,11 +10,12 @@ namespace {
 
 class OutputCheck : public testing::Test {
  protected:
-  // Whether a picture of this name may be written over a file with these bytes.
-  [[nodiscard]] bool replaces(const std::string& name, const std::string& bytes) const {
+  // Whether an output of this name may be written over a file with these bytes.
+  [[nodiscard]] bool replaces(const std::string& name, const std::string& bytes,
+                              OutputKind kind = OutputKind::picture) const {
     scratch_.write(name, bytes);
     try {
-      check_output(scratch_ / name, OutputKind::picture, {});
+      check_output(scratch_ / name, kind, {});
       return true;
     } catch (const UsageError&) {
       return false;
@@ -39,6 +40,12 @@ TEST_F(OutputCheck, NothingElseIs) {
        {"a letter"s, "Dear"s, "P"s, "P7\n"s, "II"s, "MM"s, "MM+\0"s, "\x89PN"s, "\xFF\xD8"s, "M0 [0:1]\n"s}) {
     EXPECT_FALSE(replaces("picture.tif", bytes)) << testing::PrintToString(bytes);
   }
+}
+
+TEST_F(OutputCheck, TablesAndPathsOfCamerasAreReplaced) {
+  EXPECT_TRUE(replaces("table.csv", "time,gain\n", OutputKind::table));
+  EXPECT_TRUE(replaces("path.csv", "# nutik camera path,rigid,0,400,300\n", OutputKind::table));
+  EXPECT_FALSE(replaces("letter.csv", "Dear reader\n", OutputKind::table));
 }
 
 }  // namespace

@@ -182,11 +182,13 @@ class RobustRegistrar final : public Registrar {
   Registered find(std::span<const std::byte> raster, const Warp& guess, Reach reach) override {
     const GreyPyramid pyramid(format_, raster);
     Registered best = fit(pyramid, guess, levels_.size());
-    const auto try_from = [&](const Warp& start) {
-      const Registered other = fit(pyramid, start, kFineLevels);
+    const auto try_from = [&](const Warp& start, std::size_t levels = kFineLevels) {
+      const Registered other = fit(pyramid, start, levels);
       if (other.agreeing > best.agreeing) best = other;
     };
     if (!is_sure(best)) try_from(guess);
+    // Fine texture is seen on no coarser level, where what moves may be all there is.
+    if (!is_sure(best)) try_from(guess, 1);
     if (reach == Reach::near) return unless_it_rests(pyramid.levels.front(), guess, best);
     if (is_sure(best)) return best;
     if (!features_) features_.emplace(reference_, pyramid.feature_scale());
@@ -224,7 +226,12 @@ class RobustRegistrar final : public Registrar {
     for (std::size_t i = std::min(levels, levels_.size()); i-- > 0;) {
       const bool is_fine =
           i == 0 || (i == 1 && levels_[i].size.height >= 100 && levels_[i].size.width >= 100);
-      if (!settle(levels_[i], pyramid.levels[i], is_fine ? frame_ : coarse_, fit)) return {guess, 0, 0};
+      Fit settled = fit;
+      if (settle(levels_[i], pyramid.levels[i], is_fine ? frame_ : coarse_, settled)) {
+        fit = settled;
+      } else if (i == 0) {
+        return {guess, 0, 0};
+      }
     }
     return judged(levels_.front(), pyramid.levels.front(), fit);
   }
