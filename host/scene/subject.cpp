@@ -15,9 +15,14 @@ namespace {
 
 constexpr std::uint64_t kLeastCells = 6;  // fewer are noise
 
+// The cells in which a subject is looked for, the last ones included.
+struct Field {
+  std::size_t left, top, right, bottom;
+};
+
 // What hangs together at one sample.
 SubjectPlace place_of(std::vector<std::size_t> cells, std::uint64_t sample, const DifferingCells& differing,
-                      std::uint32_t side, const Shape& shape) {
+                      std::uint32_t side, const Shape& shape, const Field& field) {
   const Region& grid = differing.region;
   SubjectPlace place;
   place.sample = sample;
@@ -33,7 +38,7 @@ SubjectPlace place_of(std::vector<std::size_t> cells, std::uint64_t sample, cons
     place.contrast += differing.contrast[cell] / static_cast<double>(cells.size());
   }
   const std::size_t top = cells.front() / grid.width, bottom = cells.back() / grid.width;
-  place.is_cut_off = left == 0 || top == 0 || right + 1 == grid.width || bottom + 1 == grid.height;
+  place.is_cut_off = left == field.left || top == field.top || right == field.right || bottom == field.bottom;
   const auto count = static_cast<double>(cells.size());
   place.share = count / static_cast<double>(grid.pixel_count());
   place.fill = count / (static_cast<double>(right - left + 1) * static_cast<double>(bottom - top + 1));
@@ -141,14 +146,15 @@ class Followed {
 // Follows everything that is not the plate's.
 class Follower {
  public:
-  Follower(const Shape& shape, std::uint32_t side) : shape_(shape), side_(side) {}
+  Follower(const Shape& shape, std::uint32_t side, const Field& field)
+      : shape_(shape), side_(side), field_(field) {}
 
   // What differs at the next look.
   void add(const DifferingCells& cells, std::uint64_t sample) {
     std::vector<SubjectPlace> places;
     for (std::vector<std::size_t>& part : parts_of(cells.region, kLeastCells)) {
       if (places.size() == kMostParts) break;
-      places.push_back(place_of(std::move(part), sample, cells, side_, shape_));
+      places.push_back(place_of(std::move(part), sample, cells, side_, shape_, field_));
     }
     for (SubjectPlace& place : places) {
       Followed* nearest = nullptr;
@@ -180,6 +186,7 @@ class Follower {
 
   Shape shape_;
   std::uint32_t side_;
+  Field field_;
   std::size_t look_ = 0;
   std::vector<Followed> followed_;
 };
@@ -227,27 +234,28 @@ double middle_of(const std::vector<SubjectPlace>& places, double SubjectPlace::*
 class Tracker {
  public:
   Tracker(const Shape& shape, std::uint32_t side, const Rectangle& region, std::uint64_t looks)
-      : follower_(shape, side), looks_(looks) {
+      : field_{region.x / side, region.y / side, (region.x + region.width - 1) / side,
+               (region.y + region.height - 1) / side},
+        follower_(shape, side, field_),
+        looks_(looks) {
     track_.cell_side = side;
-    left_ = region.x / side;
-    top_ = region.y / side;
-    right_ = (region.x + region.width - 1) / side;
-    bottom_ = (region.y + region.height - 1) / side;
   }
 
   void add(const DifferingCells& all, std::uint64_t sample) {
     const std::uint32_t columns = all.region.width;
     DifferingCells cells{Region::none(columns, all.region.height), all.contrast};
-    for (std::size_t row = top_; row <= bottom_; ++row) {
-      const auto first = static_cast<std::ptrdiff_t>(row * columns + left_);
-      std::copy_n(all.region.inside.begin() + first, right_ - left_ + 1, cells.region.inside.begin() + first);
+    for (std::size_t row = field_.top; row <= field_.bottom; ++row) {
+      const auto first = static_cast<std::ptrdiff_t>(row * columns + field_.left);
+      std::copy_n(all.region.inside.begin() + first, field_.right - field_.left + 1,
+                  cells.region.inside.begin() + first);
     }
     track_.looked_at.push_back(sample);
     track_.cell_columns = columns;
     const std::uint64_t differing = cells.region.pixel_count();
-    track_.moving_share += static_cast<double>(differing) /
-                           (static_cast<double>(right_ - left_ + 1) *
-                            static_cast<double>(bottom_ - top_ + 1) * static_cast<double>(looks_));
+    track_.moving_share +=
+        static_cast<double>(differing) /
+        (static_cast<double>(field_.right - field_.left + 1) *
+         static_cast<double>(field_.bottom - field_.top + 1) * static_cast<double>(looks_));
     without_ = differing >= kLeastCells ? SampleRange()
                                         : SampleRange{without_.empty() ? sample : without_.first, sample + 1};
     if (without_.size() > track_.empty.size()) track_.empty = without_;
@@ -269,10 +277,10 @@ class Tracker {
   }
 
  private:
+  Field field_;
   Follower follower_;
   std::uint64_t looks_;
-  std::size_t left_, top_, right_, bottom_;  // cells of the region
-  SampleRange without_;                      // anything, up to now
+  SampleRange without_;  // anything, up to now
   SubjectTrack track_;
 };
 

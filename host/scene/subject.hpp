@@ -20,7 +20,7 @@ struct SubjectPlace {
   std::uint64_t sample = 0;
   Point centre;                    // of gravity
   Rectangle box;                   // that holds it, with a border
-  bool is_cut_off = false;         // by the picture's border
+  bool is_cut_off = false;         // by the border of the picture or of the region that is looked at
   double share = 0;                // of all that differs from the plate then
   double fill = 0;                 // of the least box that holds it
   double contrast = 0;             // how far it differs from the plate on average, as a share of white

@@ -19,7 +19,8 @@ constexpr int kWidth = 24, kHeight = 16, kTop = 60;
 int left_at(std::uint64_t sample) { return 10 + 3 * static_cast<int>(sample); }
 
 // Grey but where `differs(x, y, sample)`.
-std::vector<SubjectTrack> tracked(const std::function<bool(int, int, std::uint64_t)>& differs) {
+std::vector<SubjectTrack> tracked(const std::function<bool(int, int, std::uint64_t)>& differs,
+                                  const Rectangle& region = Rectangle::whole(kShape)) {
   CaptureFormat format;
   format.shape = kShape;
   std::vector<std::vector<std::byte>> rasters;
@@ -35,7 +36,7 @@ std::vector<SubjectTrack> tracked(const std::function<bool(int, int, std::uint64
   MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, kSamples), rasters, 16);
   Picture plate(kShape, ValueType::code8, 255);
   std::fill(plate.bytes.begin(), plate.bytes.end(), std::byte{100});
-  return track_subjects(capture, plate, 8, {Rectangle::whole(kShape)});
+  return track_subjects(capture, plate, 8, {region});
 }
 
 TEST(Subject, IsFollowedWhereItGoes) {
@@ -79,6 +80,26 @@ TEST(Subject, IsCutOffAtTheBorder) {
   });
   ASSERT_EQ(tracks.size(), 1u);
   for (const SubjectPlace& place : tracks[0].places) EXPECT_TRUE(place.is_cut_off);
+}
+
+TEST(Subject, IsCutOffAtTheBorderOfItsRegion) {
+  const auto tracks = tracked(
+      [](int x, int y, std::uint64_t sample) {
+        return x >= left_at(sample) && x < left_at(sample) + kWidth && y >= kTop && y < kTop + kHeight;
+      },
+      {80, 0, 80, 120});
+  ASSERT_EQ(tracks.size(), 1u);
+  std::size_t whole = 0;
+  for (const SubjectPlace& place : tracks[0].places) {
+    const int left = left_at(place.sample);
+    if (left < 79) {
+      EXPECT_TRUE(place.is_cut_off) << left;
+    } else if (left > 84 && left + kWidth < 155) {
+      EXPECT_FALSE(place.is_cut_off) << left;
+    }
+    whole += place.is_cut_off ? 0 : 1;
+  }
+  EXPECT_GT(whole, 5u);
 }
 
 // A slanted line, beside something large that stays where it is.
