@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws docs/images/house.svg: the rooms of host/ and which of them use which, as their CMakeLists.txt say.
+"""Draws docs/images/house.svg: the rooms of host/, what stands on them, and who uses whom, as CMakeLists.txt say.
 
     tools/house.py            draws it (needs graphviz: apt install graphviz)
     tools/house.py --check    says whether the picture has the rooms and arrows of today
@@ -23,14 +23,15 @@ LIBRARIES = {"opencl": "OpenCL", "media": "OpenCV, FFmpeg", "plot": "Cairo", "so
 def uses_of_rooms():
     """Room or program: those it names."""
     uses = {}
-    for path in sorted((ROOT / "host").glob("*/CMakeLists.txt")):
+    for path in [*sorted((ROOT / "host").glob("*/CMakeLists.txt")), ROOT / "python" / "CMakeLists.txt"]:
         text = re.sub(r"#.*", "", path.read_text())
         room = re.search(rf"nutik_room\((\w+)(.*?)\)\s*$", text, re.DOTALL | re.MULTILINE)
         if room:
             named = re.search(rf"\bUSES\b(.*?)(?:\b(?:{KEYWORDS})\b|\Z)", room[2], re.DOTALL)
             uses[room[1]] = set(named[1].split()) if named else set()
-        for program, links in re.findall(r"target_link_libraries\(\s*(nutik-\w+)([^)]*)\)", text):
-            uses.setdefault(program, set()).update(re.findall(r"nutik::(\w+)", links))
+        links = re.findall(r"\bnutik::(\w+)", " ".join(re.findall(r"target_link_libraries\(([^)]*)\)", text)))
+        for program in re.findall(r"(?:add_executable|pybind11_add_module)\(\s*(nutik[-_]\w+)", text):
+            uses[program.replace("_", "-")] = set(links)
     return uses
 
 
