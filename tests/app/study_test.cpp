@@ -107,6 +107,28 @@ TEST_F(Study, TakesTheMomentsThatAreNamed) {
   EXPECT_NE(several.err.find("shows a single moment"), std::string::npos) << several.err;
 }
 
+// A square crosses the picture, is gone, and another thing stands there for a while.
+TEST_F(Study, ShowsWhatDiffersAtANamedMomentAtWhichTheSubjectIsNotSeen) {
+  std::filesystem::create_directory(scratch_ / "h");
+  for (int k = 0; k < 40; ++k) {
+    cv::Mat frame(48, 96, CV_8UC1, cv::Scalar::all(60));
+    if (k < 20) frame(cv::Rect(4 + 4 * k, 20, 8, 8)) = 200;
+    if (k >= 28 && k < 32) frame(cv::Rect(8, 30, 20, 12)) = 200;
+    cv::imwrite((scratch_ / "h" / (std::to_string(1000 + k) + ".pgm")).string(), frame);
+  }
+  const auto result = run({"study", "-f", "100", "h", "--moments", "10f,24f,30f", "-o", "h.png"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err.find("at 100 ms (10f)"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("at 240 ms (24f) the subject that was followed is not seen"), std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("at 300 ms (30f)"), std::string::npos) << result.err;
+  const cv::Mat mask = cv::imread((scratch_ / "h.pgm").string(), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(mask.at<std::uint8_t>(24, 48), 1);
+  EXPECT_EQ(cv::countNonZero(mask == 2), 0);
+  const cv::Mat thing = mask(cv::Rect(8, 30, 20, 12));
+  EXPECT_EQ(cv::countNonZero(thing == 3), 20 * 12);
+}
+
 TEST_F(Study, ReplacesNoTextThatIsNotAStudys) {
   scratch_.write("notes.txt", "call home");
   const auto result = run({"study", "clip.tik", "-o", "notes.png"});

@@ -131,6 +131,27 @@ TEST(OpenExr, SaysWhatItsValuesAre) {
   EXPECT_EQ(read_picture_text(scratch / "b.exr"), std::nullopt);
 }
 
+// OpenEXR would make room for it.
+TEST(Exr, WithAnAttributeLongerThanTheFileIsRefused) {
+  test::use_modules();
+  const Scratch scratch;
+  write_picture(scratch / "a.exr", Picture({8, 4, 3}, ValueType::light32, 1), "a text");
+  std::string bytes = test::read_file(scratch / "a.exr");
+  const std::string attribute("screenWindowWidth\0float\0", 24);
+  const std::size_t size = bytes.find(attribute) + attribute.size();
+  ASSERT_LT(size, bytes.size());
+  bytes.replace(size, 4, "\xff\xff\xff\x7f");
+  scratch.write("long.exr", bytes);
+  EXPECT_NE(message_of<InputError>([&] {
+              (void)read_picture_text(scratch / "long.exr");
+            }).find("an attribute of 2147483647 bytes does not fit into its"),
+            std::string::npos);
+  for (std::size_t count = 8; count < size; ++count) {
+    scratch.write("cut.exr", bytes.substr(0, count));
+    EXPECT_THROW((void)read_picture_text(scratch / "cut.exr"), InputError) << count;
+  }
+}
+
 Picture smooth_picture(const Shape& shape) {
   Picture picture(shape, ValueType::code8, 255);
   picture.transfer = Transfer::srgb();

@@ -13,12 +13,14 @@
 
 #include <cmath>
 #include <exception>
+#include <string_view>
 #include <vector>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/picture_text.hpp"
 #include "media/stills/stills.hpp"
+#include "system/mapped_file.hpp"
 
 namespace nutik::stills {
 namespace {
@@ -89,6 +91,28 @@ std::vector<half> halves(const Picture& picture) {
   return result;
 }
 
+// Each attribute of the header must lie within the file: OpenEXR makes room for what it is said to have, and then reads.
+void check_attributes(std::string_view bytes) {
+  constexpr std::size_t kMagicAndVersion = 8, kSizeBytes = 4;
+  std::size_t at = kMagicAndVersion;
+  while (at < bytes.size() && bytes[at] != '\0') {
+    for (int word = 0; word < 2; ++word) {  // name and type
+      at = bytes.find('\0', at);
+      if (at++ == std::string_view::npos) throw InputError("its header has no end");
+    }
+    if (bytes.size() - at < kSizeBytes) throw InputError("its header has no end");
+    std::uint32_t size = 0;
+    for (std::size_t i = 0; i < kSizeBytes; ++i) {
+      size |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
+    }
+    at += kSizeBytes;
+    if (size > bytes.size() - at) {
+      throw InputError(format("an attribute of {} bytes does not fit into its {} bytes", size, bytes.size()));
+    }
+    at += size;
+  }
+}
+
 }  // namespace
 
 void write_exr(OutputFile& file, const Picture& picture, const std::string& text, bool as_half) {
@@ -121,6 +145,8 @@ void write_exr(OutputFile& file, const Picture& picture, const std::string& text
 
 std::optional<std::string> read_exr_text(const std::filesystem::path& file, const char* keyword) {
   try {
+    const MappedFile mapped(file);
+    check_attributes({reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size()});
     const Imf::InputFile input(file.c_str(), 0);
     const auto* text = input.header().findTypedAttribute<Imf::StringAttribute>(keyword);
     if (text == nullptr) return std::nullopt;

@@ -12,6 +12,7 @@
 #include "session/making/mask_making.hpp"
 #include "session/making/plate_request.hpp"
 #include "session/making/study_slit.hpp"
+#include "session/text/time_text.hpp"
 
 namespace nutik {
 namespace {
@@ -54,8 +55,8 @@ std::vector<std::uint64_t> stated_moments(const std::vector<StatedTime>& times, 
 class StudyPlanner {
  public:
   StudyPlanner(const StudyRequest& request, const Timeline& timeline, const std::string& name,
-               std::vector<SubjectTrack> tracks)
-      : request_(request), timeline_(timeline), name_(name), tracks_(std::move(tracks)) {
+               std::vector<SubjectTrack> tracks, const std::vector<Rectangle>& regions)
+      : request_(request), timeline_(timeline), name_(name), tracks_(std::move(tracks)), regions_(regions) {
     shape_ = request.trail.value_or(usual_trail(request.style));
   }
 
@@ -81,7 +82,14 @@ class StudyPlanner {
       step.name = {nutik::format("subject {}", i + 1)};
       step.tag = static_cast<std::uint8_t>(i + 1);
       step.selection = select::Subject{StatedTime::of_pictures(static_cast<std::int64_t>(study.moments[i]))};
-      step.changes = {{RegionChange::Kind::within, 0.0, box_at(tracks_[subjects_[i]], study.moments[i])},
+      const SubjectTrack& track = tracks_[subjects_[i]];
+      if (!is_seen_at(track, study.moments[i])) {
+        study.notes.push_back(format(
+            "at {} ({}f) the subject that was followed is not seen: what differs most from the empty scene "
+            "then, if anything, is shown in its place",
+            duration_text(timeline_.start_ns(study.moments[i])), study.moments[i]));
+      }
+      step.changes = {{RegionChange::Kind::within, 0.0, box_at(subjects_[i], study.moments[i])},
                       {RegionChange::Kind::largest, 0.0, {}},
                       {RegionChange::Kind::smooth, kSmoothRadius, {}},
                       {RegionChange::Kind::grow, kGrowRadius, {}},
@@ -139,10 +147,20 @@ class StudyPlanner {
     return empty;
   }
 
-  // Where a subject is at a sample: where it was found last before, if it was not looked for there.
-  [[nodiscard]] static select::Rectangle box_at(const SubjectTrack& track, std::uint64_t sample) {
-    const auto after = std::ranges::upper_bound(track.places, sample, {}, &SubjectPlace::sample);
-    const Rectangle& box = (after == track.places.begin() ? after : after - 1)->box;
+  // Whether it was found at the last sample before that was looked at.
+  [[nodiscard]] static bool is_seen_at(const SubjectTrack& track, std::uint64_t sample) {
+    const auto after = std::ranges::upper_bound(track.looked_at, sample);
+    return after != track.looked_at.begin() &&
+           std::ranges::binary_search(track.places, *(after - 1), {}, &SubjectPlace::sample);
+  }
+
+  // Where a subject is at a sample: where it was found then, or at the last look before; anywhere if it was not.
+  [[nodiscard]] select::Rectangle box_at(std::size_t subject, std::uint64_t sample) const {
+    const SubjectTrack& track = tracks_[subject];
+    Rectangle box = regions_[subject];
+    if (is_seen_at(track, sample)) {
+      box = (std::ranges::upper_bound(track.places, sample, {}, &SubjectPlace::sample) - 1)->box;
+    }
     return {{double(box.x), double(box.y)}, double(box.width), double(box.height)};
   }
 
@@ -234,7 +252,8 @@ class StudyPlanner {
   const Timeline& timeline_;
   const std::string& name_;  // of the capture, for messages
   std::vector<SubjectTrack> tracks_;
-  std::vector<std::size_t> subjects_;  // whose moment each is
+  const std::vector<Rectangle>& regions_;  // in which each was looked for
+  std::vector<std::size_t> subjects_;      // whose moment each is
   TrailShape shape_;
 };
 
@@ -354,7 +373,7 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
   }
   Study study;
   study.plate = std::move(plate.picture);
-  StudyPlanner planner(request, capture.timeline(), capture_name, std::move(tracks));
+  StudyPlanner planner(request, capture.timeline(), capture_name, std::move(tracks), regions);
   planner.choose(study);
   planner.add_regions(study);
   planner.add_functions(study);
