@@ -30,9 +30,9 @@ struct Plate {
 // What a plate takes, beside blocks of the capture.
 [[nodiscard]] MemoryNeeds plate_needs(const CaptureFormat& capture);
 
-// Looks at every sample, or at so many evenly in time, on all cores; `progress(done, all)`, which may be empty, counts strips. Packed blocks are
-// unpacked strip by strip, so that they and the plate stay within `memory_bytes`. Throws MemoryTooLittle, InputError
-// where the capture is damaged.
+// Looks at every sample, or at so many evenly in time, on all cores; `progress(done, all)`, which may be empty, counts
+// strips. Packed blocks are unpacked strip by strip, so that they and the plate stay within `memory_bytes`. Throws
+// MemoryTooLittle, InputError where the capture is damaged.
 [[nodiscard]] Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t memory_bytes,
                                std::uint64_t most_samples = ~std::uint64_t{0},
                                const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});

@@ -10,10 +10,10 @@ namespace nutik {
 using Places = std::vector<const SubjectPlace*>;  // in time order
 
 // Those that are no mere piece of the subject, of which the rest looks like what is behind it, nor only its shadow, nor
-// what the picture's border leaves less than half of: a head alone at the bottom.
+// at a border that leaves less than half of it: a head alone at the bottom.
 [[nodiscard]] Places telling_places(const std::vector<SubjectPlace>& places);
 
-// Those of them that the picture's border does not touch.
+// Those of them that no border cuts off.
 [[nodiscard]] Places whole_places(const Places& places);
 
 [[nodiscard]] double distance(const Point& a, const Point& b);

@@ -129,10 +129,10 @@ class StudyPlanner {
           track.extent > track.size() ? " at which it is seen as a whole" : ""));
     }
     if (moments.size() < wanted) {
-      study.notes.push_back(format(
-          "{} of {} moments are shown: at others the subject would overlap with itself, or the picture's "
-          "border would leave less than half of it",
-          moments.size(), wanted));
+      study.notes.push_back(
+          format("{} of {} moments are shown: at others the subject would overlap with itself, or the border "
+                 "of the picture or of its region would leave less than half of it",
+                 moments.size(), wanted));
     }
     return moments;
   }
@@ -154,7 +154,7 @@ class StudyPlanner {
            std::ranges::binary_search(track.places, *(after - 1), {}, &SubjectPlace::sample);
   }
 
-  // Where a subject is at a sample: where it was found then, or at the last look before; anywhere if it was not.
+  // The box that it was found in then; all that is looked at if it was not.
   [[nodiscard]] select::Rectangle box_at(std::size_t subject, std::uint64_t sample) const {
     const SubjectTrack& track = tracks_[subject];
     Rectangle box = regions_[subject];

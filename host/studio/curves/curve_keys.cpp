@@ -1,7 +1,5 @@
 // The curve editor's keyboard, and what it says to those who point or listen.
-#include <QHelpEvent>
 #include <QKeyEvent>
-#include <QToolTip>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include "studio/curves/curve_editor.hpp"
 #include "studio/curves/number_editor.hpp"
 #include "studio/time/sample_times.hpp"
+#include "studio/time/view_events.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -196,18 +195,7 @@ void CurveEditor::type_numbers() {
 }
 
 bool CurveEditor::event(QEvent* event) {
-  if (event->type() == QEvent::ShortcutOverride && is_own_key(static_cast<QKeyEvent&>(*event))) {
-    event->accept();
-    return true;
-  }
-  if (event->type() == QEvent::ToolTip) {
-    const auto& help = static_cast<QHelpEvent&>(*event);
-    const QString text = text_at(help.pos());
-    if (text.isEmpty()) QToolTip::hideText();
-    if (!text.isEmpty()) QToolTip::showText(help.globalPos(), text, this);
-    return true;
-  }
-  return QWidget::event(event);
+  return answers_event(*this, *event, is_own_key) || QWidget::event(event);
 }
 
 QString CurveEditor::text_at(QPointF at) const {

@@ -1,7 +1,5 @@
 // The time strip's mouse and keyboard.
-#include <QHelpEvent>
 #include <QMouseEvent>
-#include <QToolTip>
 #include <QWheelEvent>
 #include <algorithm>
 #include <array>
@@ -11,6 +9,7 @@
 #include "studio/time/sample_times.hpp"
 #include "studio/time/time_strip.hpp"
 #include "studio/time/typed_numbers.hpp"
+#include "studio/time/view_events.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -253,18 +252,7 @@ void TimeStrip::focusOutEvent(QFocusEvent* event) {
 }
 
 bool TimeStrip::event(QEvent* event) {
-  if (event->type() == QEvent::ShortcutOverride && is_own_key(static_cast<QKeyEvent&>(*event))) {
-    event->accept();
-    return true;
-  }
-  if (event->type() == QEvent::ToolTip) {
-    const auto& help = static_cast<QHelpEvent&>(*event);
-    const QString text = text_at(help.pos());
-    if (text.isEmpty()) QToolTip::hideText();
-    if (!text.isEmpty()) QToolTip::showText(help.globalPos(), text, this);
-    return true;
-  }
-  return QWidget::event(event);
+  return answers_event(*this, *event, is_own_key) || QWidget::event(event);
 }
 
 QString TimeStrip::text_at(QPointF at) const {
