@@ -76,14 +76,15 @@ NUTIK_INLINE void write_codes(const Pixels* pixels, const Lights* lights,
   }
 }
 
-NUTIK_INLINE uints functions_of(global const uchar* restrict function_of_lane, const size_t tile, const uint lane) {
+NUTIK_INLINE uints functions_of(global const function_index* restrict function_of_lane, const size_t tile,
+                                const uint lane) {
   return NUTIK_TO_UINTS(NUTIK_LOAD(function_of_lane + tile * NUTIK_TILE_PIXELS + lane));
 }
 
 // Light of a tile's sums, by channel, between 0 and white.
 NUTIK_INLINE void develop_tile(const size_t tile, const uint lane, global const Sum* restrict sums,
                                global const LightScale* restrict scales,
-                               global const uchar* restrict function_of_lane, const Threshold white, Lights* lights) {
+                               global const function_index* restrict function_of_lane, const Threshold white, Lights* lights) {
   const uints functions = functions_of(function_of_lane, tile, lane);
 #pragma unroll
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
@@ -120,7 +121,7 @@ kernel void develop_sums(global const Sum* restrict sums, const uint width, cons
 // The same of the sums of the tiles `first` to `last`, each one function's: Σ share · light.
 NUTIK_INLINE void blend_tiles(const size_t first, const size_t last, const uint lane, global const Sum* restrict sums,
                               global const LightScale* restrict blend_scales,
-                              global const uchar* restrict function_of_lane, global const ushort* restrict shares,
+                              global const function_index* restrict function_of_lane, global const ushort* restrict shares,
                               const uint blend_shift, const Threshold white, Lights* lights) {
 #pragma unroll
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
@@ -137,7 +138,7 @@ NUTIK_INLINE void blend_tiles(const size_t first, const size_t last, const uint 
 // first_tiles: of each tile of the band, and one more, where its sums begin.
 kernel void blend_codes(global const Sum* restrict sums, global const LightScale* restrict scales,
                         global const LightScale* restrict blend_scales,
-                        global const uchar* restrict function_of_lane, global const uint* restrict first_tiles,
+                        global const function_index* restrict function_of_lane, global const uint* restrict first_tiles,
                         global const ushort* restrict shares, const uint blend_shift, const uint width,
                         const uint height, const ulong tile_count, global const Threshold* restrict thresholds,
                         global const uint* restrict guesses, const uint guess_count,
@@ -160,7 +161,7 @@ kernel void blend_codes(global const Sum* restrict sums, global const LightScale
 }
 #else
 kernel void develop_codes(global const Sum* restrict sums, global const LightScale* restrict scales,
-                          global const uchar* restrict function_of_lane, const uint width,
+                          global const function_index* restrict function_of_lane, const uint width,
                           const uint height, const ulong tile_count,
                           global const Threshold* restrict thresholds, global const uint* restrict guesses,
                           const uint guess_count, global raster_code* restrict raster) {
@@ -178,7 +179,7 @@ kernel void develop_codes(global const Sum* restrict sums, global const LightSca
 // Adds to counts[0] the pixels of a part of the picture that have a channel below limits[0], to counts[1] those with one
 // from limits[1] on: lights, on the scale on which they are blended, that have no code.
 kernel void count_saturated(global const Sum* restrict sums, global const LightScale* restrict blend_scales,
-                            global const uchar* restrict function_of_lane, const uint width, const uint height,
+                            global const function_index* restrict function_of_lane, const uint width, const uint height,
                             const ulong tile_count, const uint left, const uint top, const uint right,
                             const uint bottom, global const Threshold* restrict limits,
                             global uint* restrict counts) {

@@ -50,7 +50,8 @@ NUTIK_INLINE void scale(const Weight gain, Sums* sums) {
 }
 
 // Times the gain of each pixel's function: exactly 1 where it is not steady.
-NUTIK_INLINE void scale_each(global const Weight* restrict gains, global const uchar* restrict functions, Sums* sums) {
+NUTIK_INLINE void scale_each(global const Weight* restrict gains, global const function_index* restrict functions,
+                             Sums* sums) {
 #pragma unroll
   for (uint group = 0; group < NUTIK_GROUPS; ++group) {
     const Weights gain = pick_weights(gains, functions + group * NUTIK_LANES);
@@ -61,12 +62,29 @@ NUTIK_INLINE void scale_each(global const Weight* restrict gains, global const u
   }
 }
 
+#if NUTIK_FUNCTION_BYTES == 2
+// The samples of a block that any of the item's pixels needs: with delays few of those that some pixel of the picture
+// does. A tile that needs none need not be there.
+NUTIK_INLINE void narrow(Block* block, global const BlockPart* restrict parts,
+                         global const function_index* restrict functions) {
+  uint first = block->sample_count, last = 0;
+  for (uint i = 0; i < NUTIK_ITEM_PIXELS; ++i) {
+    const BlockPart part = parts[functions[i]];
+    if (part.first >= part.last) continue;
+    first = min(first, (uint)part.first);
+    last = max(last, (uint)part.last);
+  }
+  block->first = first;
+  block->last = last;
+}
+#endif
+
 kernel void expose(global const uchar* restrict chunk, global const BlockEntry* restrict blocks,
                    const uint block_count, global const BlockPart* restrict parts,
                    global const Weight* restrict gains, global const Weight* restrict weights,
                    global const Weight* restrict boundaries, const uint function_count,
                    global const uint* restrict tiles, global const ushort* restrict function_of_tile,
-                   global const uchar* restrict function_of_lane, global const uchar* restrict exposes,
+                   global const function_index* restrict function_of_lane, global const uchar* restrict exposes,
                    global const Light* restrict transfer, global const Sum* restrict kept,
                    global Sum* restrict bundles, global Sum* restrict sums,
                    const ulong tile_count, const uint first) {
@@ -131,6 +149,13 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
           block.first = 0;
           block.last = entry.sample_count;
           region.functions = function_of_lane + tile * NUTIK_TILE_PIXELS + lane;
+#if NUTIK_FUNCTION_BYTES == 2
+          narrow(&block, block_parts, region.functions);
+          if (block.first >= block.last) {
+            if (is_start) add_sums(sums, tile, lane, sums_of_block, is_start);
+            continue;
+          }
+#endif
           expose_tile(payload, directory[tiles[tile]], lane, &block, &region, transfer, sums_of_block);
           scale_each(block_gains, region.functions, sums_of_block);
         }

@@ -16,7 +16,7 @@ namespace nutik {
 inline constexpr std::uint32_t kWholeShare = 65'535;
 
 struct Share {
-  std::uint8_t of = 0;     // a mask value; in a plan's map (render/mask_map.hpp) a region
+  std::uint16_t of = 0;    // a mask value; in a plan's map (render/mask_map.hpp) a region
   std::uint16_t size = 0;  // of kWholeShare
 
   friend bool operator==(const Share&, const Share&) = default;
@@ -61,11 +61,12 @@ class MixedPixels {
     most_functions_ = std::max(most_functions_, shares.size());
   }
 
-  // The same mixtures of things with other names, which must be in the same order.
+  // The same mixtures of things with other names, which must be in the same order. Names before are mask values or as
+  // few.
   template <typename Name>
   [[nodiscard]] MixedPixels renamed(Name name) const {
     MixedPixels renamed = *this;
-    for (Share& share : renamed.shares_) share.of = name(share.of);
+    for (Share& share : renamed.shares_) share.of = name(static_cast<std::uint8_t>(share.of));
     return renamed;
   }
 

@@ -34,7 +34,7 @@ inline std::vector<Share> whole_shares(const std::vector<std::pair<std::uint8_t,
 
 // Gives a mask's pixel what it has: one tag, or a mixture of them.
 inline void put_shares(Mask& mask, std::uint64_t pixel, const std::vector<Share>& shares) {
-  mask.tags[pixel] = std::ranges::max_element(shares, {}, &Share::size)->of;
+  mask.tags[pixel] = static_cast<std::uint8_t>(std::ranges::max_element(shares, {}, &Share::size)->of);
   if (shares.size() > 1) mask.mixed.add(pixel, shares);
 }
 

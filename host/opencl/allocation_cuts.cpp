@@ -25,7 +25,7 @@ std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle, Pr
   for (const MixedTile& tile : mixed) {
     const std::uint32_t row = tile.tile / grid.columns(), column = tile.tile % grid.columns();
     if (row < top || row >= top + rows || column < left || column >= left + columns) continue;
-    sum_tiles[row - top] += tile.regions.size() - 1;
+    sum_tiles[row - top] += tile.tags.size() - 1;
   }
   const std::uint64_t row_bytes = sums_bytes(std::ranges::max(sum_tiles), shape.channels, precision);
   if (device.largest_allocation_bytes < row_bytes) {
@@ -65,7 +65,10 @@ std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, 
   const std::uint64_t row_bytes = plan.function_count() * weight_bytes(precision);
   // Spans never decide: a block has one row of them, no wider than its rows of weights, of which it has two or more.
   const std::uint64_t most_blocks = device.largest_allocation_bytes / sizeof(BlockEntry);
-  const auto fits = [&](std::uint64_t rows) { return rows * row_bytes <= device.largest_allocation_bytes; };
+  // Kernels count the elements of a block's tables in 32 bits.
+  const std::uint64_t most_bytes_of_block =
+      std::min(device.largest_allocation_bytes, std::uint64_t{0xFFFF'FFFF} * weight_bytes(precision));
+  const auto fits = [&](std::uint64_t rows) { return rows * row_bytes <= most_bytes_of_block; };
   std::vector<TableSlice> slices;
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     const PlannedBlock& block = plan.blocks[b];

@@ -17,28 +17,30 @@ const char* kernel_name_of(Precision precision) {
   return "";
 }
 
-std::string common_options(const Work& work, const CaptureFormat& capture) {
-  return format("-cl-std=CL1.2 -DNUTIK_PRECISION={} -DNUTIK_HAS_FMA={} -DNUTIK_CHANNELS={}",
-                kernel_name_of(work.precision), work.has_fma ? 1 : 0, capture.shape.channels);
+std::string common_options(const Work& work, const CaptureFormat& capture, bool has_delays) {
+  return format(
+      "-cl-std=CL1.2 -DNUTIK_PRECISION={} -DNUTIK_HAS_FMA={} -DNUTIK_CHANNELS={} -DNUTIK_FUNCTION_BYTES={}",
+      kernel_name_of(work.precision), work.has_fma ? 1 : 0, capture.shape.channels, has_delays ? 2 : 1);
 }
 
 }  // namespace
 
-std::string expose_options(const Work& work, const CaptureFormat& capture, const char* light_kind) {
+std::string expose_options(const Work& work, const CaptureFormat& capture, const char* light_kind,
+                           bool has_delays) {
   return format(
       "{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
       "-DNUTIK_LANES={}",
-      common_options(work, capture), capture.code_bytes, light_kind, work.shape.item_pixels,
+      common_options(work, capture, has_delays), capture.code_bytes, light_kind, work.shape.item_pixels,
       work.shape.item_tiles, work.shape.lanes);
 }
 
 std::string develop_options(const Work& work, const CaptureFormat& capture, const OutputFormat& output,
-                            bool blends) {
+                            bool blends, bool has_delays) {
   const std::size_t raster_bytes = holds_codes(output.type) ? value_bytes(output.type) : 1;
   return format(
       "{} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} -DNUTIK_LANES={} "
       "-DNUTIK_RASTER_BYTES={} -DNUTIK_BLENDS={}",
-      common_options(work, capture), work.shape.item_pixels, work.shape.item_tiles,
+      common_options(work, capture, has_delays), work.shape.item_pixels, work.shape.item_tiles,
       std::min(work.shape.lanes, kTileSide), raster_bytes, blends ? 1 : 0);
 }
 

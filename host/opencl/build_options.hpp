@@ -19,10 +19,11 @@ struct Work {
   bool has_fma;  // in the reals of the precision
 };
 
+// `has_delays`: where pixels have delays, so that there may be more functions than a byte counts.
 [[nodiscard]] std::string expose_options(const Work& work, const CaptureFormat& capture,
-                                         const char* light_kind);
+                                         const char* light_kind, bool has_delays);
 // `blends`: where functions share pixels.
 [[nodiscard]] std::string develop_options(const Work& work, const CaptureFormat& capture,
-                                          const OutputFormat& output, bool blends);
+                                          const OutputFormat& output, bool blends, bool has_delays);
 
 }  // namespace nutik

@@ -42,10 +42,14 @@ const DeviceMap& KernelConstants::map(const std::shared_ptr<const MaskMap>& map,
     return *kept;
   }
   FunctionMap functions = map_functions(*map, band);
+  const auto upload_lanes = [&] {
+    if (functions.lane_bytes == sizeof(std::uint16_t)) return memory.upload(functions.of_lane);
+    return memory.upload(std::vector<std::uint8_t>(functions.of_lane.begin(), functions.of_lane.end()));
+  };
   DeviceMap on_device{map,
                       band,
                       memory.upload(functions.tiles),
-                      memory.upload(functions.of_lane),
+                      upload_lanes(),
                       memory.upload(functions.of_tile),
                       {},
                       {},

@@ -139,11 +139,10 @@ void store_as(const RenderPlan& plan, const Rectangle& rectangle, Precision prec
   const std::vector<Factors> factors = factors_of(plan, precision);
   const std::uint32_t channels = plan.capture.shape.channels;
   parallel_for(rectangle.height, [&](std::uint64_t row) {
-    const std::uint8_t* functions =
-        plan.map->region_of_pixel.data() + (rectangle.y + row) * plan.capture.shape.width + rectangle.x;
+    const std::uint64_t first_pixel = (rectangle.y + row) * plan.capture.shape.width + rectangle.x;
     std::uint64_t i = row * rectangle.width * channels;
     for (std::uint32_t column = 0; column < rectangle.width; ++column) {
-      const Factors& light = factors[functions[column]];
+      const Factors& light = factors[plan.map->region_at(first_pixel + column)];
       for (std::uint32_t channel = 0; channel < channels; ++channel, ++i) {
         values[i] = static_cast<Value>(sum_at(raster, precision, i) * light.factor * light.exponent.first *
                                        light.exponent.second);

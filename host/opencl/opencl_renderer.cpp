@@ -215,7 +215,7 @@ class OpenClRenderer::Implementation {
       verdict = verdicts_.find(programs);
     }
     if (!verdict) {
-      verdict = self_test(plan.capture, precision, output, !plan.map->mixed.empty(),
+      verdict = self_test(plan.capture, precision, output, {!plan.map->mixed.empty(), plan.map->has_delays()},
                           [&](const RenderPlan& scene, CaptureSource& source, const OutputFormat& format) {
                             const Rectangle whole = Rectangle::whole(scene.capture.shape);
                             Rendered rendered;
@@ -306,12 +306,13 @@ class OpenClRenderer::Implementation {
 
   [[nodiscard]] std::string options_of_exposing(const Work& work, const RenderPlan& plan,
                                                 const DeviceLight& light) const {
-    return expose_options(work, plan.capture, light.kind) + fault_of(work.precision);
+    return expose_options(work, plan.capture, light.kind, plan.map->has_delays()) + fault_of(work.precision);
   }
 
   [[nodiscard]] std::string options_of_developing(const Work& work, const RenderPlan& plan,
                                                   const OutputFormat& output) const {
-    return develop_options(work, plan.capture, output, !plan.map->mixed.empty()) + fault_of(work.precision);
+    return develop_options(work, plan.capture, output, !plan.map->mixed.empty(), plan.map->has_delays()) +
+           fault_of(work.precision);
   }
 
   cl::Program expose_program(const Work& work, const RenderPlan& plan, const DeviceLight& light) {

@@ -41,7 +41,7 @@ RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, co
     constexpr std::uint64_t kMapBytes = 2 * (1 + sizeof(std::uint16_t)) * kTilePixels;
     const std::uint64_t tiles = TileGrid(plan.capture.shape).tile_count();
     std::uint64_t more_tiles = 0;
-    for (const MixedTile& tile : map.mixed_tiles) more_tiles += tile.regions.size() - 1;
+    for (const MixedTile& tile : map.mixed_tiles) more_tiles += tile.tags.size() - 1;
     const std::uint64_t tile_sums = std::uint64_t{picture.channels} * kTilePixels * sum_bytes(precision);
     needs.add("shares of functions", more_tiles * 2 * tile_sums + (tiles + more_tiles) * kMapBytes);
   }

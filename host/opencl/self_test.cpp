@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "capture/format.hpp"
@@ -89,6 +90,11 @@ class TilesOfAllKinds {
     return mask;
   }
 
+  // One for each row: more pairs with a function than a byte counts, and tiles with one delay and with several.
+  [[nodiscard]] DelayMap delays() const {
+    return DelayMap::by_rows(format_.shape, {-11'000'000, 17'000'000});
+  }
+
   // All the time; only within the last block; with negative gains; much weaker than the others.
   [[nodiscard]] static FunctionSet functions() {
     constexpr std::int64_t kMs = 1'000'000;
@@ -140,8 +146,8 @@ std::string fault_text(const Verdict& verdict) {
   return format("{} of {} codes are wrong", verdict.wrong_codes, verdict.codes);
 }
 
-Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFormat& output, bool is_soft,
-                  const RenderScene& render) {
+Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFormat& output,
+                  const TestedPixels& pixels, const RenderScene& render) {
   Verdict verdict;
   LightErrors worst;
   ReferenceRenderer reference;
@@ -158,10 +164,15 @@ Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFo
     verdict.wrong_codes = stored.differing - stored.explained;
   };
   MemoryCapture endless = long_capture(like);
-  judge(endless, make_plan(endless, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(1, 1, 0), {}), false);
+  PlanOptions options;
+  if (pixels.have_delays) {
+    options.delays = std::make_shared<const DelayMap>(DelayMap::by_rows(endless.format().shape, {}));
+  }
+  judge(endless, make_plan(endless, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(1, 1, 0), options), false);
   const TilesOfAllKinds scene(like);
   MemoryCapture tiles = scene.capture();
-  judge(tiles, make_plan(tiles, TilesOfAllKinds::functions(), scene.mask(is_soft), {}),
+  if (pixels.have_delays) options.delays = std::make_shared<const DelayMap>(scene.delays());
+  judge(tiles, make_plan(tiles, TilesOfAllKinds::functions(), scene.mask(pixels.share_functions), options),
         kernels_make_codes(like, output));
   verdict.light_error = worst.bounded_error;
   verdict.allowed_error = worst.bound;

@@ -35,9 +35,14 @@ struct Verdict {
 
 using RenderScene = std::function<Picture(const RenderPlan&, CaptureSource&, const OutputFormat&)>;
 
-// `like` is the capture whose shape alone is not the scenes'. `output` is how the picture will be stored; functions
-// share pixels of it where `is_soft`.
+// What pixels of the picture may have.
+struct TestedPixels {
+  bool share_functions = false;
+  bool have_delays = false;
+};
+
+// `like` is the capture whose shape alone is not the scenes'. `output` is how the picture will be stored.
 [[nodiscard]] Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFormat& output,
-                                bool is_soft, const RenderScene& render);
+                                const TestedPixels& pixels, const RenderScene& render);
 
 }  // namespace nutik

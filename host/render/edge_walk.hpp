@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -32,13 +33,16 @@ class GainWalk {
  public:
   // Gains are divided by 2^exponent() so that the sums neither overflow nor lose digits; the caller
   // multiplies the result by it.
-  explicit GainWalk(std::vector<GainPiece> pieces) : pieces_(std::move(pieces)) {
+  // `support_ns` is D, if it is not that of the pieces.
+  explicit GainWalk(std::vector<GainPiece> pieces, std::optional<std::int64_t> support_ns = {})
+      : pieces_(std::move(pieces)) {
     double largest = 0.0;
     for (const GainPiece& piece : pieces_) {
       if (piece.begin_gain == 0.0 && piece.end_gain == 0.0) continue;
       support_ns_ += piece.end_ns - piece.begin_ns;
       largest = std::max({largest, std::fabs(piece.begin_gain), std::fabs(piece.end_gain)});
     }
+    if (support_ns) support_ns_ = *support_ns;
     exponent_ = largest > 0.0 ? std::ilogb(largest) : 0;
     for (GainPiece& piece : pieces_) {
       piece.begin_gain = std::scalbn(piece.begin_gain, -exponent_);

@@ -29,7 +29,7 @@ BlockTable TableRun::table(std::uint64_t block) const {
 }
 
 GainTable::GainTable(GainFunction function, bool live_all, std::shared_ptr<const CaptureLayout> layout,
-                     std::shared_ptr<TableMemory> memory)
+                     std::shared_ptr<TableMemory> memory, std::optional<std::int64_t> support_ns)
     : function_(std::move(function)),
       live_all_(live_all),
       layout_(std::move(layout)),
@@ -37,8 +37,10 @@ GainTable::GainTable(GainFunction function, bool live_all, std::shared_ptr<const
       id_(memory_->new_table()),
       summary_(summarize(function_, layout_->timeline.duration_ns())),
       findings_(check_domain(function_, summary_, {.duration_ns = layout_->timeline.duration_ns()})),
-      live_(live_samples(summary_, layout_->timeline, live_all)),
-      steady_(steady_stretches()) {}
+      live_(live_samples(summary_, layout_->timeline, live_all)) {
+  if (support_ns) summary_.support_ns = *support_ns;
+  steady_ = steady_stretches();
+}
 
 GainTable::~GainTable() { memory_->forget(id_); }
 

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -81,9 +82,9 @@ struct TableRun {
 
 class GainTable {
  public:
-  // `live_all`: every sample is needed, also where the gain is 0.
+  // `live_all`: every sample is needed, also where the gain is 0. `support_ns`: D, if it is not the function's own.
   GainTable(GainFunction function, bool live_all, std::shared_ptr<const CaptureLayout> layout,
-            std::shared_ptr<TableMemory> memory);
+            std::shared_ptr<TableMemory> memory, std::optional<std::int64_t> support_ns = {});
   ~GainTable();
   GainTable(const GainTable&) = delete;
   GainTable& operator=(const GainTable&) = delete;

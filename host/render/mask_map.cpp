@@ -4,32 +4,46 @@
 #include <array>
 #include <bitset>
 #include <map>
+#include <span>
+#include <utility>
 
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "imev/tile.hpp"
 
 namespace nutik {
 namespace {
 
-std::vector<MixedTile> mixed_tiles_of(const MaskMap& map) {
-  const TileGrid grid({map.width, map.height, 1});
+std::vector<MixedTile> mixed_tiles_of(const Mask& mask) {
+  const TileGrid grid({mask.width, mask.height, 1});
   std::map<std::uint64_t, std::bitset<kMaskValues>> found;
-  for (std::size_t i = 0; i < map.mixed.pixels().size(); ++i) {
-    const std::uint64_t pixel = map.mixed.pixels()[i];
-    auto& regions = found[grid.tile_of(static_cast<std::uint32_t>(pixel % map.width),
-                                       static_cast<std::uint32_t>(pixel / map.width))];
-    for (const Share& share : map.mixed.shares(i)) regions.set(share.of);
+  for (std::size_t i = 0; i < mask.mixed.pixels().size(); ++i) {
+    const std::uint64_t pixel = mask.mixed.pixels()[i];
+    auto& tags = found[grid.tile_of(static_cast<std::uint32_t>(pixel % mask.width),
+                                    static_cast<std::uint32_t>(pixel / mask.width))];
+    for (const Share& share : mask.mixed.shares(i)) tags.set(share.of);
   }
   std::vector<MixedTile> tiles;
-  for (auto& [tile, regions] : found) {
-    grid.for_each_lane(tile, [&, &held = regions](std::uint32_t, std::uint64_t pixel) {
-      held.set(map.region_of_pixel[pixel]);
-    });
+  for (auto& [tile, tags] : found) {
+    grid.for_each_lane(tile,
+                       [&, &held = tags](std::uint32_t, std::uint64_t pixel) { held.set(mask.tags[pixel]); });
     MixedTile& mixed = tiles.emplace_back(MixedTile{static_cast<std::uint32_t>(tile), {}});
-    for (std::size_t region = 0; region < map.regions.size(); ++region) {
-      if (regions[region]) mixed.regions.push_back(static_cast<std::uint8_t>(region));
+    for (std::uint32_t tag = 0; tag < kMaskValues; ++tag) {
+      if (tags[tag]) mixed.tags.push_back(static_cast<std::uint8_t>(tag));
     }
   }
   return tiles;
+}
+
+// Calls visit(tag) for each mask value that has a share of the pixel; `mixed` counts the mixed ones before it.
+template <typename Visit>
+void for_each_tag(const Mask& mask, std::uint64_t pixel, std::size_t& mixed, Visit visit) {
+  if (mixed == mask.mixed.pixels().size() || mask.mixed.pixels()[mixed] != pixel) {
+    visit(mask.tags[pixel]);
+    return;
+  }
+  for (const Share& share : mask.mixed.shares(mixed)) visit(static_cast<std::uint8_t>(share.of));
+  ++mixed;
 }
 
 }  // namespace
@@ -38,13 +52,16 @@ std::vector<MaskRegion> regions_of(const Mask& mask) {
   const auto pixels = mask.pixels_per_tag();
   std::vector<MaskRegion> regions;
   for (std::uint32_t value = 0; value < kMaskValues; ++value) {
-    if (pixels[value] > 0) regions.push_back({static_cast<std::uint8_t>(value), pixels[value]});
+    if (pixels[value] > 0) regions.push_back({static_cast<std::uint8_t>(value), pixels[value], 0});
   }
   return regions;
 }
 
 std::shared_ptr<const MaskMap> MaskMap::of(const Mask& mask) {
-  auto map = std::make_shared<MaskMap>(MaskMap{mask.width, mask.height, regions_of(mask), {}, {}, {}});
+  auto map = std::make_shared<MaskMap>();
+  map->width = mask.width;
+  map->height = mask.height;
+  map->regions = regions_of(mask);
   std::array<std::uint8_t, kMaskValues> region_of_tag{};
   for (std::size_t r = 0; r < map->regions.size(); ++r) {
     region_of_tag[map->regions[r].tag] = static_cast<std::uint8_t>(r);
@@ -54,23 +71,83 @@ std::shared_ptr<const MaskMap> MaskMap::of(const Mask& mask) {
                          [&](std::uint8_t tag) { return region_of_tag[tag]; });
   if (mask.is_soft()) {
     map->mixed = mask.mixed.renamed([&](std::uint8_t tag) { return region_of_tag[tag]; });
-    map->mixed_tiles = mixed_tiles_of(*map);
+    map->mixed_tiles = mixed_tiles_of(mask);
   }
   return map;
 }
 
-bool MaskMap::is_of(const Mask& mask) const {
+std::shared_ptr<const MaskMap> MaskMap::of(const Mask& mask, std::shared_ptr<const DelayMap> delays) {
+  if (!delays) return of(mask);
+  if (delays->width != mask.width || delays->height != mask.height) {
+    throw InputError(
+        format("the map of delays is {} x {} pixels and the pictures are {} x {}; it needs their size",
+               delays->width, delays->height, mask.width, mask.height));
+  }
+  auto map = std::make_shared<MaskMap>();
+  map->width = mask.width;
+  map->height = mask.height;
+  std::array<std::vector<std::uint64_t>, kMaskValues> pixels;  // by mask value and delay
+  for (const MaskRegion& value : regions_of(mask)) pixels[value.tag].resize(delays->delays_ns.size());
+  const std::uint64_t pixel_count = mask.tags.size();
+  std::size_t mixed = 0;
+  for (std::uint64_t pixel = 0; pixel < pixel_count; ++pixel) {
+    for_each_tag(mask, pixel, mixed, [&](std::uint8_t tag) { ++pixels[tag][delays->delay_of_pixel[pixel]]; });
+  }
+  for (std::uint32_t tag = 0; tag < kMaskValues; ++tag) {
+    for (std::size_t delay = 0; delay < pixels[tag].size(); ++delay) {
+      if (pixels[tag][delay] == 0) continue;
+      map->regions.push_back({static_cast<std::uint8_t>(tag), pixels[tag][delay], delays->delays_ns[delay]});
+      pixels[tag][delay] = map->regions.size() - 1;
+    }
+  }
+  if (map->regions.size() > kMostRegions) {
+    throw InputError(format(
+        "the mask and the map of delays make {} different pairs of a function and a delay, and there can be "
+        "{}; use a map with fewer values, of 8 bits for example, or a mask with fewer",
+        map->regions.size(), kMostRegions));
+  }
+  const auto region_of = [&](std::uint16_t tag, std::uint64_t pixel) {
+    return static_cast<std::uint16_t>(pixels[tag][delays->delay_of_pixel[pixel]]);
+  };
+  map->delayed_region_of_pixel.resize(pixel_count);
+  for (std::uint64_t pixel = 0; pixel < pixel_count; ++pixel) {
+    map->delayed_region_of_pixel[pixel] = region_of(mask.tags[pixel], pixel);
+  }
+  for (std::size_t i = 0; i < mask.mixed.pixels().size(); ++i) {
+    const std::span<const Share> shares = mask.mixed.shares(i);
+    std::vector<Share> renamed(shares.begin(), shares.end());
+    for (Share& share : renamed) share.of = region_of(share.of, mask.mixed.pixels()[i]);
+    map->mixed.add(mask.mixed.pixels()[i], renamed);
+  }
+  if (mask.is_soft()) map->mixed_tiles = mixed_tiles_of(mask);
+  map->delays = std::move(delays);
+  return map;
+}
+
+bool MaskMap::is_of(const Mask& mask, const DelayMap* its_delays) const {
   if (mask.width != width || mask.height != height) return false;
   if (mask.is_soft() != !mixed.empty()) return false;
-  if (mask.is_soft() &&
-      mixed.renamed([&](std::uint8_t region) { return regions[region].tag; }) != mask.mixed) {
-    return false;
+  if ((its_delays != nullptr) != has_delays()) return false;
+  const auto tag_of = [&](std::uint16_t region) { return regions[region].tag; };
+  if (has_delays()) {
+    if (its_delays != delays.get() && *its_delays != *delays) return false;
+    for (std::size_t i = 0; i < mixed.pixels().size(); ++i) {
+      const bool is_same = i < mask.mixed.pixels().size() && mixed.pixels()[i] == mask.mixed.pixels()[i] &&
+                           std::ranges::equal(mixed.shares(i), mask.mixed.shares(i),
+                                              [&](const Share& here, const Share& there) {
+                                                return here.size == there.size && tag_of(here.of) == there.of;
+                                              });
+      if (!is_same) return false;
+    }
+    return mixed.pixels().size() == mask.mixed.pixels().size() &&
+           std::ranges::equal(mask.tags, delayed_region_of_pixel,
+                              [&](std::uint8_t tag, std::uint16_t region) { return tag == tag_of(region); });
   }
+  if (mask.is_soft() && mixed.renamed(tag_of) != mask.mixed) return false;
   // Masks whose values count from 0 are their own maps, which are compared many pixels at a time.
   if (std::size_t{regions.back().tag} + 1 == regions.size()) return mask.tags == region_of_pixel;
-  return std::ranges::equal(mask.tags, region_of_pixel, [&](std::uint8_t tag, std::uint8_t region) {
-    return tag == regions[region].tag;
-  });
+  return std::ranges::equal(mask.tags, region_of_pixel,
+                            [&](std::uint8_t tag, std::uint8_t region) { return tag == tag_of(region); });
 }
 
 }  // namespace nutik

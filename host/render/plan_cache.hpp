@@ -1,8 +1,8 @@
 // Makes plans, and keeps their parts for the next ones: each part as long as what it was made from stays the same.
 //
 //   part                            made from
-//   a mask's map                    the mask
-//   a function's table and course   the function, the capture's timeline and blocks
+//   a mask's map                    the mask, the time map
+//   a function's table and course   the function, the capture's timeline and blocks; with a time map they are made anew
 //
 //   always:  a plan is the same whether its parts were kept or made. It shares them, and may outlive the cache
 //   threads: safe from any number
@@ -39,7 +39,8 @@ class PlanCache {
 
  private:
   std::shared_ptr<const CaptureLayout> layout_of(const CaptureSource& source);
-  std::shared_ptr<const MaskMap> map_of(const Mask& mask);
+  std::shared_ptr<const MaskMap> map_of(const Mask& mask, const std::shared_ptr<const DelayMap>& delays);
+  void plan_delayed(RenderPlan& plan, const FunctionSet& functions, const PlanOptions& options);
   std::shared_ptr<const GainTable> table_of(const GainFunction& function, bool live_all,
                                             const std::shared_ptr<const CaptureLayout>& layout);
 

@@ -20,7 +20,7 @@ class Reference {
   Reference(const RenderPlan& plan, const Timeline& timeline, const Rectangle& rectangle)
       : plan_(plan), timeline_(timeline), rectangle_(rectangle), grid_(plan.capture.shape) {
     for (const PlannedFunction& planned : plan.functions) {
-      gains_.emplace_back(planned.function.pieces(plan.duration_ns));
+      gains_.push_back(walk_along(planned, plan.duration_ns));
     }
     std::uint64_t walked = std::uint64_t{rectangle.width} * rectangle.height;
     if (!plan.map->mixed.empty()) {

@@ -31,7 +31,8 @@ double RenderPlan::error_scale(std::uint64_t pixel) const {
 SampleRange exposed_samples(const PlannedFunction& planned, const Timeline& timeline) {
   if (planned.live != live_samples(planned.summary, timeline, false))
     return planned.live;  // all were asked for
-  const Interval meant = meant_interval(planned.function, planned.summary);
+  const Interval meant = meant_interval(
+      planned.delay_ns == 0 ? planned.function : planned.function.shifted(planned.delay_ns), planned.summary);
   return timeline.samples_reaching(meant.begin_ns, meant.end_ns);
 }
 
@@ -63,11 +64,15 @@ SampleRange needed_samples(const Timeline& timeline, const FunctionSet& function
   for (const MaskRegion& region : regions_of(mask)) {
     const auto found = functions.find(region.tag);
     if (found == functions.end()) continue;
-    const GainSummary summary = summarize(found->second, timeline.duration_ns());
-    const SampleRange live = live_samples(summary, timeline, options.live_all);
-    if (live.empty()) continue;
-    needed.first = needed.empty() ? live.first : std::min(needed.first, live.first);
-    needed.last = std::max(needed.last, live.last);
+    // Of whatever delays occur in the picture, though perhaps not with this function.
+    static const std::vector<std::int64_t> kNone{0};
+    for (const std::int64_t delay_ns : options.delays ? options.delays->delays_ns : kNone) {
+      const GainSummary summary = summarize(found->second.shifted(delay_ns), timeline.duration_ns());
+      const SampleRange live = live_samples(summary, timeline, options.live_all);
+      if (live.empty()) continue;
+      needed.first = needed.empty() ? live.first : std::min(needed.first, live.first);
+      needed.last = std::max(needed.last, live.last);
+    }
   }
   return needed;
 }

@@ -33,6 +33,9 @@ struct PlanOptions {
   bool live_all = false;             // visit every sample, also where all gains are 0
   std::optional<Transfer> transfer;  // instead of the capture's own
   std::string function_name;         // in warnings, where it is not a mask value's; empty: M0, M1, …
+
+  // By how much each pixel's function comes later; null: by nothing (docs/explanation/model.md, "Time maps").
+  std::shared_ptr<const DelayMap> delays;
 };
 
 struct PlannedFunction {
@@ -42,6 +45,11 @@ struct PlannedFunction {
   SampleRange live;           // samples whose reach meets the live interval
   std::uint64_t pixel_count;  // of the mask, that it has a share of
   std::shared_ptr<const GainTable> table;
+
+  // With a time map: by how much it comes later. `function` is without that, `summary` and table with it, and D is that of
+  // its whole course (exposure/whole_course.hpp).
+  bool is_delayed = false;
+  std::int64_t delay_ns = 0;
 };
 
 struct PlannedBlock {
@@ -57,7 +65,7 @@ struct RenderPlan {
   CaptureFormat capture;
   std::int64_t duration_ns = 0;
   std::shared_ptr<const CaptureLayout> layout;
-  std::vector<PlannedFunction> functions;  // by increasing tag: those of the map's regions
+  std::vector<PlannedFunction> functions;  // by increasing tag, then delay: those of the map's regions
   std::shared_ptr<const MaskMap> map;
   std::vector<PlannedBlock> blocks;   // in time order
   std::vector<std::string> warnings;  // whole sentences
@@ -67,7 +75,7 @@ struct RenderPlan {
 
   [[nodiscard]] std::uint64_t function_count() const { return functions.size(); }
   // Index into functions; of a mixed pixel the one with the largest share.
-  [[nodiscard]] std::uint8_t function_of(std::uint64_t pixel) const { return map->region_of_pixel[pixel]; }
+  [[nodiscard]] std::uint16_t function_of(std::uint64_t pixel) const { return map->region_at(pixel); }
   // The functions of a mixed pixel with their shares; none where it has one function alone.
   [[nodiscard]] std::span<const Share> shares_of(std::uint64_t pixel) const { return map->mixed.of(pixel); }
   // S = ∫|g| / D of a pixel's function; of a mixed pixel its shares of those of its functions.

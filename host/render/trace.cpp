@@ -28,7 +28,7 @@ Trace trace(const RenderPlan& plan, CaptureSource& source, std::size_t function,
   Trace trace;
   trace.channels = plan.capture.shape.channels;
   trace.function = function;
-  const GainWalk gain(plan.functions[function].function.pieces(plan.duration_ns));
+  const GainWalk gain = walk_along(plan.functions[function], plan.duration_ns);
   const auto unscaled = [&](double value) { return std::scalbn(value, gain.exponent()); };
   std::array<ValueWalk, 3> walks;
   BlockCursor cursor(source);
@@ -146,6 +146,10 @@ std::array<double, 3> light_of(std::span<const Trace> traces) {
 }
 
 Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t tag) {
+  if (plan.map->has_delays()) {
+    throw UsageError(
+        "the pixels of a mask value have delays of their own, and no common function; follow one pixel");
+  }
   const auto planned = std::ranges::find(plan.functions, tag, &PlannedFunction::tag);
   if (planned == plan.functions.end()) throw UsageError(format("no pixel of the mask has the value {}", tag));
   const auto function = static_cast<std::size_t>(planned - plan.functions.begin());

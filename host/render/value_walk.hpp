@@ -5,6 +5,7 @@
 // both run straight, and the exact integral of their product is added.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -13,6 +14,7 @@
 #include "capture/timeline.hpp"
 #include "exposure/mixed_pixels.hpp"
 #include "render/edge_walk.hpp"
+#include "render/render_plan.hpp"
 
 namespace nutik {
 
@@ -74,6 +76,17 @@ void walk_block(ValueWalk& walk, const GainWalk& gain, std::size_t piece, const 
     expose({from.start_ns, is_last && block.ends_capture ? until.after_ns : until.end_ns, light, light});
     walk.light = light;
   }
+}
+
+// Along the function of a plan, over the capture's domain. A delayed one is moved there; its D is how long it differs from
+// 0 over its whole course, from its first control point or the capture's start to its last or the capture's end.
+[[nodiscard]] inline GainWalk walk_along(const PlannedFunction& planned, std::int64_t duration_ns) {
+  if (!planned.is_delayed) return GainWalk(planned.function.pieces(duration_ns));
+  const std::span<const ControlPoint> points = planned.function.points();
+  const std::int64_t begin_ns = std::min<std::int64_t>(0, points.front().time_ns);
+  const std::int64_t end_ns = std::max(duration_ns, points.back().time_ns);
+  const GainWalk course(planned.function.shifted(-begin_ns).pieces(end_ns - begin_ns));
+  return GainWalk(planned.function.shifted(planned.delay_ns).pieces(duration_ns), course.support_ns());
 }
 
 // What a walk to the end comes to: the light of the exposure, ∫ light × gain / D.

@@ -68,7 +68,7 @@ Picture tinted(const Mask& mask, const std::vector<Tag>& tags, const Picture& en
         return static_cast<double>(source[pixel * channels + std::min(channel, channels - 1)]);
       };
       const double grey = kLuma[0] * code(0) + kLuma[1] * code(1) + kLuma[2] * code(2);
-      const auto shown = [&](std::uint8_t of, std::uint32_t channel) {
+      const auto shown = [&](std::size_t of, std::uint32_t channel) {
         const std::array<double, 3> colour{colours[of].red, colours[of].green, colours[of].blue};
         const double tint = is_border ? 1.0 : kTint;
         return of == 0 ? code(channel) : (1.0 - tint) * grey + tint * 255 * colour[channel];

@@ -74,7 +74,9 @@ class Courses {
   void for_each_share(std::uint64_t pixel, Visit visit) const {
     const auto shares = mask_.mixed.of(pixel);
     if (shares.empty()) visit(mask_.tags[pixel], 1.0);
-    for (const Share& share : shares) visit(share.of, static_cast<double>(share.size) / kWholeShare);
+    for (const Share& share : shares) {
+      visit(static_cast<std::uint8_t>(share.of), static_cast<double>(share.size) / kWholeShare);
+    }
   }
 
   void course(std::size_t region, std::uint8_t tag) {

@@ -158,7 +158,7 @@ TEST_F(SelfTest, APictureOfLightDoesNotVouchForCodes) {
 TEST_F(SelfTest, SeesWrongCodes) {
   ReferenceRenderer reference;
   const auto with_codes = [&](std::uint8_t wrong) {
-    return self_test(plan_.capture, Precision::single_, kCodes, false,
+    return self_test(plan_.capture, Precision::single_, kCodes, {},
                      [&](const RenderPlan& plan, CaptureSource& source, const OutputFormat& output) {
                        Picture picture = reference.render(plan, source, output).picture;
                        if (holds_codes(output.type)) picture.values<std::uint8_t>()[100] += wrong;
@@ -220,7 +220,7 @@ TEST_F(SelfTest, ScenesHaveTilesOfEveryKind) {
         for (const PlannedBlock& planned : plan.blocks) contents.add(capture.view(planned.block));
         return reference.render(plan, source, output).picture;
       };
-      EXPECT_TRUE(self_test(like, Precision::double_, {ValueType::code16, 4095}, false, render).is_right);
+      EXPECT_TRUE(self_test(like, Precision::double_, {ValueType::code16, 4095}, {}, render).is_right);
       EXPECT_GT(std::min({contents.still, contents.rows, contents.dense, contents.records}), 5u)
           << channels << " " << code_bytes;
       EXPECT_GT(contents.longest_block, 255u);

@@ -84,7 +84,7 @@ TEST(SoftMask, APlanHasTheFunctionsThatOnlySharesUse) {
   EXPECT_EQ(plan.functions[1].pixel_count, 1u);
   ASSERT_EQ(plan.map->mixed_tiles.size(), 1u);
   EXPECT_EQ(plan.map->mixed_tiles[0].tile, 1u);
-  EXPECT_EQ(plan.map->mixed_tiles[0].regions, (std::vector<std::uint8_t>{0, 1}));
+  EXPECT_EQ(plan.map->mixed_tiles[0].tags, (std::vector<std::uint8_t>{0, 200}));
 
   EXPECT_EQ(cache.plan(capture, functions, mask, {}).map, plan.map) << "the same mask has the same map";
   Mask other = Mask::uniform(20, 9, 0);

@@ -24,8 +24,26 @@ std::int64_t rounded_half_up(const Exact& value) {
   return static_cast<std::int64_t>(quotient);
 }
 
-std::vector<ExactStretch> exact_gain(const GainFunction& function, std::int64_t duration_ns) {
+std::int64_t exact_course_support_ns(const GainFunction& function, std::int64_t duration_ns) {
+  const auto points = function.points();
+  const auto held = [](double gain, std::int64_t begin_ns, std::int64_t end_ns) {
+    return gain == 0.0 ? 0 : std::max<std::int64_t>(0, end_ns - begin_ns);
+  };
+  std::int64_t support_ns = held(points.front().gain, 0, points.front().time_ns) +
+                            held(points.back().gain, points.back().time_ns, duration_ns);
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    if (points[i].gain != 0.0 || points[i + 1].gain != 0.0)
+      support_ns += points[i + 1].time_ns - points[i].time_ns;
+  }
+  return support_ns;
+}
+
+std::vector<ExactStretch> exact_gain(const GainFunction& function, std::int64_t duration_ns,
+                                     std::int64_t delay_ns) {
   std::vector<ExactStretch> stretches;
+  const auto points = function.points();
+  const std::int64_t first_ns = points.front().time_ns + delay_ns;
+  const std::int64_t last_ns = points.back().time_ns + delay_ns;
   const auto add = [&](std::int64_t begin, std::int64_t end, double from, double to) {
     const std::int64_t inside_begin = std::max<std::int64_t>(begin, 0);
     const std::int64_t inside_end = std::min(end, duration_ns);
@@ -33,15 +51,12 @@ std::vector<ExactStretch> exact_gain(const GainFunction& function, std::int64_t 
     const ExactStretch whole{begin, end, Exact(from), Exact(to)};
     stretches.push_back({inside_begin, inside_end, whole.at(inside_begin), whole.at(inside_end)});
   };
-  const auto points = function.points();
-  add(std::min<std::int64_t>(points.front().time_ns, 0) - 1, points.front().time_ns, function.first_gain(),
-      function.first_gain());
+  add(std::min<std::int64_t>(first_ns, 0) - 1, first_ns, function.first_gain(), function.first_gain());
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     if (points[i].time_ns == points[i + 1].time_ns) continue;
-    add(points[i].time_ns, points[i + 1].time_ns, points[i].gain, points[i + 1].gain);
+    add(points[i].time_ns + delay_ns, points[i + 1].time_ns + delay_ns, points[i].gain, points[i + 1].gain);
   }
-  add(points.back().time_ns, std::max(points.back().time_ns, duration_ns) + 1, function.last_gain(),
-      function.last_gain());
+  add(last_ns, std::max(last_ns, duration_ns) + 1, function.last_gain(), function.last_gain());
   return stretches;
 }
 

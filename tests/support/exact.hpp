@@ -35,8 +35,13 @@ struct ExactStretch {
   [[nodiscard]] bool is_zero() const { return begin == 0 && end == 0; }
 };
 
-// The gain function on the domain [0, duration_ns].
-[[nodiscard]] std::vector<ExactStretch> exact_gain(const GainFunction& function, std::int64_t duration_ns);
+// The gain function on the domain [0, duration_ns], so much later.
+[[nodiscard]] std::vector<ExactStretch> exact_gain(const GainFunction& function, std::int64_t duration_ns,
+                                                   std::int64_t delay_ns = 0);
+
+// D of a function that may be delayed: how long it is not 0 from its first control point to its last and from 0 to
+// duration_ns.
+[[nodiscard]] std::int64_t exact_course_support_ns(const GainFunction& function, std::int64_t duration_ns);
 
 // The first of stretches in time order that ends after a time.
 [[nodiscard]] std::vector<ExactStretch>::const_iterator first_stretch_after(

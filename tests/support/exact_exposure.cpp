@@ -24,9 +24,12 @@ bool is_reached(const std::vector<ExactStretch>& gain, const Timeline& timeline,
 ExactExposure::ExactExposure(const RenderPlan& plan, const Timeline& timeline, const DrawSample& sample)
     : plan_(plan) {
   for (const PlannedFunction& planned : plan.functions) {
-    const std::vector<ExactStretch> gain = exact_gain(planned.function, plan.duration_ns);
+    const std::vector<ExactStretch> gain = exact_gain(planned.function, plan.duration_ns, planned.delay_ns);
     Function& function = functions_.emplace_back();
     function.summary = exact_summary(gain);
+    if (planned.is_delayed) {
+      function.summary.support_ns = exact_course_support_ns(planned.function, plan.duration_ns);
+    }
     for (std::uint64_t k = 0; k < timeline.sample_count(); ++k) {
       if (!is_reached(gain, timeline, k)) continue;
       function.weights_ns.emplace_back(k, exact_weight_ns(gain, timeline, k));
@@ -74,7 +77,7 @@ std::vector<std::uint64_t> values_to_compare(const RenderPlan& plan, std::size_t
   const std::uint32_t channels = plan.capture.shape.channels;
   std::vector<std::size_t> left(plan.function_count(),
                                 std::max<std::size_t>(1, most / plan.function_count()));
-  for (std::uint64_t pixel = 0; pixel < plan.map->region_of_pixel.size(); ++pixel) {
+  for (std::uint64_t pixel = 0; pixel < plan.capture.shape.pixel_count(); ++pixel) {
     std::size_t& wanted = left[plan.function_of(pixel)];
     if (wanted == 0) continue;
     --wanted;

@@ -51,7 +51,7 @@ inline void soften(Mask& mask, FunctionSet& functions, std::uint64_t seed) {
     }
     const std::vector<Share> shares = random_shares(random, names);
     mask.mixed.add(pixel, shares);
-    mask.tags[pixel] = std::ranges::max_element(shares, {}, &Share::size)->of;
+    mask.tags[pixel] = static_cast<std::uint8_t>(std::ranges::max_element(shares, {}, &Share::size)->of);
   }
 }
 

@@ -1,0 +1,178 @@
+// Time maps in plan and reference: each pixel's function comes later by its own delay.
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "capture/error.hpp"
+#include "render/plan_cache.hpp"
+#include "render/reference_renderer.hpp"
+#include "render/trace.hpp"
+#include "support/bounds.hpp"
+#include "support/delays.hpp"
+#include "support/exact_exposure.hpp"
+#include "support/messages.hpp"
+#include "support/seeds.hpp"
+#include "support/soft_mask.hpp"
+
+namespace nutik {
+namespace {
+
+using test::RandomCase;
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr OutputFormat kLight{ValueType::light64, 0};
+
+PlanOptions delayed_by(DelayMap map) {
+  PlanOptions options;
+  options.delays = std::make_shared<const DelayMap>(std::move(map));
+  return options;
+}
+
+// NUTIK_TEST_CASES=10000 is the full run.
+TEST(DelayedReference, StaysWithinAFewUlpOfExactArithmetic) {
+  double worst = 0.0;
+  const test::Seeds seeds = test::seeds(0, 60);
+  for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
+    RandomCase random(seed);
+    random.capture.noise.tolerance = 0;  // held codes are the source's
+    test::Random draw(seed * 31 + 7);
+    if (draw.chance(0.3)) test::soften(random.mask, random.functions, seed);
+    MemoryCapture capture = random.encode();
+    PlanOptions options;
+    options.delays = test::random_delays(draw, random.capture.shape, random.timeline.duration_ns());
+    const RenderPlan plan = make_plan(capture, random.functions, random.mask, options);
+    if (plan.function_count() > 200) continue;  // exact arithmetic takes its time
+    const Picture picture = ReferenceRenderer().render(plan, capture, kLight).picture;
+    const test::ExactExposure exact(plan, random.timeline,
+                                    [&](std::uint64_t k) { return random.rasters[k]; });
+    for (const std::uint64_t value : test::values_to_compare(plan, 12, seed)) {
+      const double rendered = picture.values<double>()[value];
+      const double units =
+          test::error_in(exact.scale(value), rendered, exact.light(value)) / test::kRoundoff64;
+      EXPECT_LE(units, test::kReferenceRoundings + 3)
+          << random.text() << ", value " << value << "; rerun: " << test::rerun(seed);
+      worst = std::max(worst, units);
+    }
+    if (HasFailure()) return;
+  }
+  std::printf("worst error of the reference with delays: %.2f u of ∫|g|/D\n", worst);
+}
+
+// 8 samples at 100 a second, codes 10 k of 255 in each of 4 rows, linear.
+class DelayedRows : public testing::Test {
+ protected:
+  static CaptureFormat format() {
+    CaptureFormat capture;
+    capture.shape = {1, 4, 1};
+    capture.transfer = Transfer::linear();
+    return capture;
+  }
+  static test::Rasters rasters() {
+    test::Rasters rasters;
+    for (int k = 0; k < 8; ++k) rasters.emplace_back(4, static_cast<std::byte>(10 * k));
+    return rasters;
+  }
+
+  RenderPlan plan(const GainFunction& function, const DelayRange& range) {
+    return make_plan(capture_, {{0, function}}, Mask::uniform(1, 4, 0),
+                     delayed_by(DelayMap::by_rows(format().shape, range)));
+  }
+  std::vector<double> codes(const GainFunction& function, const DelayRange& range) {
+    const Picture light = ReferenceRenderer().render(plan(function, range), capture_, kLight).picture;
+    std::vector<double> codes;
+    for (const double value : light.values<double>()) codes.push_back(value * 255);
+    return codes;
+  }
+
+  MemoryCapture capture_{format(), Timeline::constant({100, 1}, Timeline::kFullShutter, 8), rasters(), 3};
+};
+
+void expect_codes(const std::vector<double>& codes, const std::vector<double>& wanted) {
+  ASSERT_EQ(codes.size(), wanted.size());
+  for (std::size_t i = 0; i < codes.size(); ++i) EXPECT_NEAR(codes[i], wanted[i], 1e-12) << "row " << i;
+}
+
+TEST_F(DelayedRows, SweepThroughTheCapture) {
+  expect_codes(codes(GainFunction::boxcar(0, 10 * kMs), {10 * kMs, 70 * kMs}), {10, 30, 50, 70});
+  expect_codes(codes(GainFunction::boxcar(70 * kMs, 80 * kMs), {0, -60 * kMs}), {70, 50, 30, 10});
+  expect_codes(codes(GainFunction::boxcar(0, 10 * kMs), {5 * kMs, 65 * kMs}), {5, 25, 45, 65});
+}
+
+TEST_F(DelayedRows, KeepTheirDWhereTheyLeaveTheCapture) {
+  // The last row's boxcar lies half outside: half the light; a fourth row's wholly.
+  expect_codes(codes(GainFunction::boxcar(0, 20 * kMs), {40 * kMs, 70 * kMs}), {45, 55, 65, 35});
+  expect_codes(codes(GainFunction::boxcar(0, 10 * kMs), {50 * kMs, 80 * kMs}), {50, 60, 70, 0});
+  // D counts what lies before the capture where there is no delay.
+  expect_codes(codes(GainFunction::boxcar(-10 * kMs, 10 * kMs), {0, 30 * kMs}), {0, 5, 15, 25});
+}
+
+TEST_F(DelayedRows, AreWarnedOfWithNumbersOfPixels) {
+  const RenderPlan out = plan(GainFunction::boxcar(0, 20 * kMs), {50 * kMs, 80 * kMs});
+  ASSERT_EQ(out.warnings.size(), 2u);
+  EXPECT_EQ(out.warnings[0],
+            "M0: of 1 of 4 pixels the delay moves the whole function outside of the capture (0 … 0.08 s); "
+            "they are 0");
+  EXPECT_EQ(out.warnings[1],
+            "M0: of 1 of 4 pixels the delay moves a part of the function behind the capture's end at 0.08 s; "
+            "nothing is "
+            "added there, though D counts it, so they are darker");
+  EXPECT_TRUE(plan(GainFunction::boxcar(0, 10 * kMs), {0, 70 * kMs}).warnings.empty());
+  const RenderPlan held = plan(GainFunction({{10 * kMs, 0.0}, {10 * kMs, 1.0}}), {0, 30 * kMs});
+  ASSERT_EQ(held.warnings.size(), 1u);
+  EXPECT_NE(held.warnings[0].find("its last gain is not 0"), std::string::npos) << held.warnings[0];
+}
+
+TEST_F(DelayedRows, AreTracedTogetherWithTheirDelay) {
+  const RenderPlan swept = plan(GainFunction::boxcar(0, 10 * kMs), {10 * kMs, 70 * kMs});
+  const auto traces = trace_pixel(swept, capture_, 0, 2);
+  ASSERT_EQ(traces.size(), 1u);
+  EXPECT_NEAR(traces[0].light[0] * 255, 50, 1e-12);
+  EXPECT_EQ(swept.functions[traces[0].function].delay_ns, 50 * kMs);
+  EXPECT_THROW(static_cast<void>(trace_region(swept, capture_, 0)), UsageError);
+}
+
+TEST_F(DelayedRows, NeedTheSamplesOfAllDelays) {
+  const PlanOptions options = delayed_by(DelayMap::by_rows(format().shape, {20 * kMs, 50 * kMs}));
+  const SampleRange needed = needed_samples(capture_.timeline(), {{0, GainFunction::boxcar(0, 10 * kMs)}},
+                                            Mask::uniform(1, 4, 0), options);
+  EXPECT_EQ(needed, (SampleRange{2, 6}));
+}
+
+TEST_F(DelayedRows, AreRefusedWhereTheirMapHasAnotherSize) {
+  EXPECT_NE(test::message_of<InputError>([&] {
+              static_cast<void>(make_plan(capture_, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(1, 4, 0),
+                                          delayed_by(DelayMap::by_rows({2, 4, 1}, {0, 1}))));
+            }).find("the map of delays is 2 x 4 pixels and the pictures are 1 x 4"),
+            std::string::npos);
+}
+
+TEST(DelayedPlan, TellsRegionsByMaskValueAndDelay) {
+  CaptureFormat format;
+  format.shape = {4, 2, 1};
+  MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 1),
+                        test::Rasters(1, std::vector<std::byte>(8)), 64);
+  Mask mask = Mask::uniform(4, 2, 3);
+  mask.tags[7] = 9;
+  mask.mixed.add(7, std::array<Share, 2>{{{3, 20'000}, {9, 45'535}}});
+  const FunctionSet functions{{3, GainFunction({{0, 1.0}})}, {9, GainFunction({{0, 0.5}})}};
+  const PlanOptions options = delayed_by(DelayMap::by_columns(format.shape, {0, 3}));
+  PlanCache cache;
+  const RenderPlan plan = cache.plan(capture, functions, mask, options);
+  ASSERT_EQ(plan.function_count(), 5u) << "four delays of M3, and the one that M9 has";
+  EXPECT_EQ(plan.function_of(0), 0u);
+  EXPECT_EQ(plan.function_of(7), 4u);
+  EXPECT_EQ(plan.functions[3].pixel_count, 2u);
+  EXPECT_EQ(plan.functions[4].delay_ns, 3);
+  ASSERT_EQ(plan.shares_of(7).size(), 2u);
+  EXPECT_EQ(plan.shares_of(7)[0], (Share{3, 20'000}));
+  EXPECT_EQ(plan.shares_of(7)[1], (Share{4, 45'535}));
+
+  const PlanOptions equal = delayed_by(DelayMap::by_columns(format.shape, {0, 3}));
+  EXPECT_EQ(cache.plan(capture, functions, mask, equal).map, plan.map) << "equal maps are one";
+  EXPECT_NE(cache.plan(capture, functions, mask, delayed_by(DelayMap::by_columns(format.shape, {0, 4}))).map,
+            plan.map);
+  EXPECT_NE(cache.plan(capture, functions, mask, {}).map, plan.map);
+}
+
+}  // namespace
+}  // namespace nutik
