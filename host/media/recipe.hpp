@@ -37,6 +37,7 @@ struct Recipe {
   std::optional<Text> functions;
   std::optional<Text> noise;
   std::optional<Input> mask;
+  std::optional<Input> delay_map;  // a picture of delays, whose range is the value of the option `delay`
   // Long names without dashes, and values. Of an exposure by name; of a sheet as they were stated, which says what its
   // rows and columns are.
   std::vector<std::pair<std::string, std::string>> options;

@@ -1,8 +1,34 @@
 #include "session/exposed_picture.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "exposure/whole_course.hpp"
+
 namespace nutik {
+namespace {
+
+// Of functions with delays one for each mask value: weighed by its whole course, of all its pixels, with the samples that
+// any of them needs.
+std::vector<PlannedFunction> by_mask_value(const RenderPlan& plan) {
+  std::vector<PlannedFunction> functions;
+  for (const PlannedFunction& delayed : plan.functions) {
+    if (functions.empty() || functions.back().tag != delayed.tag) {
+      PlannedFunction& function = functions.emplace_back(delayed);
+      function.summary = summarize_course(function.function, plan.duration_ns);
+      continue;
+    }
+    PlannedFunction& function = functions.back();
+    function.pixel_count += delayed.pixel_count;
+    if (delayed.live.empty()) continue;
+    function.live.first =
+        function.live.empty() ? delayed.live.first : std::min(function.live.first, delayed.live.first);
+    function.live.last = std::max(function.live.last, delayed.live.last);
+  }
+  return functions;
+}
+
+}  // namespace
 
 ExposureFigures ExposureFigures::of(RenderPlan&& plan, const Timeline& timeline,
                                     std::optional<std::uint64_t> block_count) {
@@ -12,8 +38,8 @@ ExposureFigures ExposureFigures::of(RenderPlan&& plan, const Timeline& timeline,
     figures.read = {plan.blocks.front().extent.range().first, plan.blocks.back().extent.range().last};
   }
   figures.table_bytes = 2 * plan.row_count() * plan.function_count() * sizeof(double);
-  figures.map_bytes = plan.map->region_of_pixel.size();
-  figures.functions = std::move(plan.functions);
+  figures.map_bytes = plan.map->bytes();
+  figures.functions = plan.map->has_delays() ? by_mask_value(plan) : std::move(plan.functions);
   for (PlannedFunction& function : figures.functions) function.table.reset();  // its memory is the session's
   return figures;
 }

@@ -186,7 +186,7 @@ tik::Reader& Session::Implementation::capture() {
 RenderPlan Session::Implementation::plan(const ExposureRequest& request) {
   check_transfer(request.transfer);
   return plans_.plan(capture(), functions_of(request, timeline()), mask_of(request, format_.shape),
-                     plan_options_of(request));
+                     plan_options_of(request, format_.shape));
 }
 
 // A device that is still starting loads its kernels beside the first block, unless much of that may not be needed.
@@ -223,9 +223,12 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
         return devices_->renderer().render(plan, source, output, limited);
       });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
-  if (plan.functions.size() == 1) rendered.picture.exposed_ns = plan.functions.front().summary.support_ns;
   const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
-  return {std::move(rendered), ExposureFigures::of(std::move(plan), source.timeline(), block_count), output};
+  ExposureFigures figures = ExposureFigures::of(std::move(plan), source.timeline(), block_count);
+  if (figures.functions.size() == 1) {
+    rendered.picture.exposed_ns = figures.functions.front().summary.support_ns;
+  }
+  return {std::move(rendered), std::move(figures), output};
 }
 
 ExposedPicture Session::Implementation::render(const ExposureRequest& request, const OutputFormat& output,
@@ -233,7 +236,7 @@ ExposedPicture Session::Implementation::render(const ExposureRequest& request, c
   spend();
   if (reader_) {
     return expose(*reader_, functions_of(request, timeline()), mask_of(request, format_.shape),
-                  plan_options_of(request), output, control);
+                  plan_options_of(request, format_.shape), output, control);
   }
   return expose_forward(std::move(*clip_), memory(), request, output.type, besides_of(format_),
                         [&](CaptureSource& stream, const FunctionSet& functions, const Mask& mask,
@@ -248,12 +251,29 @@ ExposedPicture Session::Implementation::render(const FunctionSet& functions, con
   return expose(capture(), functions, mask, options, output, control);
 }
 
+namespace {
+
+// Of a plan with delays the functions that are traced, each where its pixel has it.
+void keep_traced(RenderPlan& plan, std::vector<Trace>& traces) {
+  if (!plan.map->has_delays()) return;
+  std::vector<PlannedFunction> traced;
+  for (Trace& trace : traces) {
+    PlannedFunction& function = traced.emplace_back(plan.functions[trace.function]);
+    function.function = function.table->function();
+    trace.function = traced.size() - 1;
+  }
+  plan.functions = std::move(traced);
+}
+
+}  // namespace
+
 template <typename Follow>
 TracedExposure Session::Implementation::trace(const ExposureRequest& request, const Follow& follow) {
   RenderPlan planned = plan(request);
   check_reading(mask_needs(format_));
   std::vector<Trace> traces = follow(planned, *reader_);
   std::vector<std::string> warnings = std::move(planned.warnings);
+  keep_traced(planned, traces);
   return {std::move(traces), ExposureFigures::of(std::move(planned), timeline(), reader_->block_count()),
           std::move(warnings)};
 }

@@ -132,6 +132,10 @@ constexpr Option kRows[] = {
     {0, "feather", "PIXELS", exposure, kTakesFunctions, &Options::feather,
      "blend the mask's functions along its edges, so far to either side: 6px; M255=6px for one mask value; "
      "several with commas between: 2px,M255=6px"},
+    {0, "delay", "WHERE:TIMES", exposure, kShapesExposures | bit(Id::check), &Options::delay,
+     "expose each pixel later: rows:15ms (from the first row to the last), columns:0s..0.5s, radial:-20ms..20ms "
+     "(from the centre to the corners), map.tif:0s..1s (from black to white of a grey picture)",
+     "rows: columns: radial:"},
     {0, "start", "TIME", exposure, kTakesIntervals, &Options::start,
      "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip; with -k the "
      "functions' time 0 (default: 0s)"},

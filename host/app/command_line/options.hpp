@@ -32,7 +32,7 @@ struct Options {
   Value align, align_to, align_along, unseen, camera_path, camera_plot, coverage;
 
   // The exposure, and what is followed or counted: a pixel, or a tag of the mask.
-  Value mask, feather, functions, start, exposure, unmapped, live, pixel, tag;
+  Value mask, feather, delay, functions, start, exposure, unmapped, live, pixel, tag;
   Value shutter, shutter_error, normalize, gain, ev;
 
   // Many exposures: as a series, on a sheet, as a video's frames.

@@ -165,8 +165,15 @@ int run_again(const Options& options) {
     command += " --noise " + operand(here / files.find(*recipe->noise, "noise values", folder));
   }
   if (recipe->mask) command += " -m " + operand(files.find(*recipe->mask, "mask", mask_checksum));
-  for (const auto& [name, value] : recipe->options)
-    command += " " + shell_word("--" + name) + (value.empty() ? "" : " " + shell_word(value));
+  for (const auto& [name, value] : recipe->options) {
+    command += " " + shell_word("--" + name);
+    if (name == "delay" && recipe->delay_map) {
+      const fs::path map = files.find(*recipe->delay_map, "map of delays", input_checksum);
+      command += " " + operand(map.string() + ":" + value);
+    } else if (!value.empty()) {
+      command += " " + shell_word(value);
+    }
+  }
   command += recipe->renderer == "opencl" ? " --precision " + shell_word(recipe->precision)
                                           : " --renderer " + shell_word(recipe->renderer);
   command += " " + operand(files.find(recipe->capture, "capture", capture_checksum));

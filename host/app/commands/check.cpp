@@ -91,6 +91,13 @@ InputCheck checked_inputs(const Options& options) {
     const std::string& name = options.operands.front();
     attempt(check, input_title(name), "capture", [&] { read_capture(check, name, options); });
   }
+  if (options.delay) {
+    DelayRequest delay = DelayRequest::parse(*options.delay, "--delay");
+    attempt(check, delay.file.empty() ? "delays" : delay.file, "delay_map", [&] {
+      delay.read();
+      check.add_delay(std::move(delay));
+    });
+  }
   check.finish(options.unmapped.has_value());
   return check;
 }

@@ -164,7 +164,7 @@ int run_sweep(const Options& options) {
   const std::string what = counted(points.size(), "picture");
   sheet.heading = job.heading(format("{}, {}", label, what));
   sheet.mask = mask_of(request, shape);
-  sheet.plan = plan_options_of(request);
+  sheet.plan = plan_options_of(request, shape);
   const FunctionSet functions = functions_of(request, timeline);
   Json json = Json::array();
   for (std::size_t i = 0; i < points.size(); ++i) {

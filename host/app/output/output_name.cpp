@@ -3,6 +3,7 @@
 #include "app/command_line/option_table.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
+#include "session/requests/delay_request.hpp"
 #include "session/requests/function_input.hpp"
 #include "system/input_bytes.hpp"
 
@@ -67,6 +68,10 @@ std::vector<std::string> input_files(const Options& options) {
     if (name == nullptr || is_standard_input(*name) || option.knows(*name)) continue;
     inputs.push_back(*name);
     for (const auto& [tag, layer] : layer_files(*name)) inputs.push_back(layer.string());
+  }
+  if (options.delay) {
+    const std::string map = DelayRequest::parse(*options.delay, "--delay").file;
+    if (!map.empty()) inputs.push_back(map);
   }
   return inputs;
 }

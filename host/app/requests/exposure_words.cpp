@@ -83,6 +83,8 @@ ExposureRequest timeless_request(const Options& options,
         "--feather blends functions along the edges of a mask; add -m mask.pgm and -k functions.fn");
   }
   request.gain = brightening(options);
+  request.delay = delay_request(options);
+  if (request.delay) request.delay->read();
   if (!options.functions) {
     if (options.mask) throw UsageError("a mask goes with gain functions (-k), not with a plain interval");
     request.gains = PlainInterval{{}, parse_shutter(options.shutter.value_or("box"), options.shutter_error)};
@@ -108,6 +110,11 @@ ExposureRequest timeless_request(const Options& options,
 }
 
 }  // namespace
+
+std::optional<DelayRequest> delay_request(const Options& options) {
+  if (!options.delay) return std::nullopt;
+  return DelayRequest::parse(*options.delay, "--delay");
+}
 
 double brightening(const Options& options) {
   double gain = 1.0;

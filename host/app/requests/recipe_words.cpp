@@ -53,6 +53,11 @@ std::optional<RecipeSources> recipe_sources(const Options& options,
     if (value != nullptr && is_stated(option, *value, of))
       recipe.options.emplace_back(option.long_name, *value);
   }
+  if (const auto delay = delay_request(options); delay && !delay->file.empty()) {
+    recipe.delay_map = Recipe::Input{input_name(delay->file), input_checksum(delay->file)};
+    std::ranges::find(recipe.options, "delay", &std::pair<std::string, std::string>::first)->second =
+        delay->range_text();
+  }
   std::ranges::sort(recipe.options, {}, [&](const auto& option) {
     const auto said = std::ranges::find(options.said, option.first, &Said::option);
     return std::pair(of == RecipeOf::expose ? 0 : said - options.said.begin(), option.first);

@@ -47,6 +47,8 @@ inline constexpr std::string_view kAutomaticNoise = "auto";
 [[nodiscard]] ExposureRequest exposure_request(const Options& options);
 // With functions that -k only names.
 [[nodiscard]] ExposureRequest exposure_request(const Options& options, const Shared<FunctionSet>& functions);
+// What --delay says; its picture is not read.
+[[nodiscard]] std::optional<DelayRequest> delay_request(const Options& options);
 // For naming the picture: `FnFile`, `0.4s-10ms`.
 [[nodiscard]] std::string exposure_label(const Options& options);
 // The shutter of that name, and what --gain and --ev multiply light with.

@@ -1,5 +1,6 @@
 #include "session/clips/forward_clip.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -17,9 +18,13 @@ ExposedPicture expose_once(ClipSource& source, std::uint64_t sample_count, const
   const Timeline timeline = source.timeline(sample_count);
   const FunctionSet functions = functions_of(request, timeline);
   const Mask mask = mask_of(request, source.capture.shape);
-  PlanOptions options = plan_options_of(request);
+  PlanOptions options = plan_options_of(request, source.capture.shape);
   options.transfer.reset();  // it went into the capture's format
-  MemoryNeeds rendering = rendering_needs(source.capture, type, functions.size(),
+  // With delays there is a function for each pair of both.
+  const std::size_t function_count =
+      options.delays ? std::min(MaskMap::kMostRegions, functions.size() * options.delays->delays_ns.size())
+                     : functions.size();
+  MemoryNeeds rendering = rendering_needs(source.capture, type, function_count,
                                           source.request.block_samples.value_or(kDefaultBlockSamples));
   rendering.add(besides);
   const ClipMemory shares = memory_for_streaming(memory, source.clip_to_read(), rendering);

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "capture/format.hpp"
+#include "exposure/whole_course.hpp"
+#include "render/delayed_course.hpp"
 #include "session/text/size_text.hpp"
 
 namespace nutik {
@@ -82,6 +84,7 @@ void InputCheck::finish(bool unmapped_is_zero) {
   domain_ = domain_of_inputs();
   if (functions_) check_functions();
   if (mask_) check_mask(unmapped_is_zero);
+  if (delay_ && capture_) check_delay();
 }
 
 CheckedDomain InputCheck::domain_of_inputs() const {
@@ -122,11 +125,10 @@ FunctionFigures InputCheck::figures_of(std::uint8_t tag, const GainSummary& summ
 void InputCheck::check_functions() {
   std::vector<Finding> found;
   for (const auto& [tag, read] : functions_->file.functions) {
-    GainSummary summary = summarize(read.function, domain_.duration_ns);
+    GainSummary summary = summary_of(read.function);
     try {
-      const GainFunction weighed =
-          normalization_.normalized(read.function, domain_.duration_ns, gain_, format("M{}", tag));
-      summary = summarize(weighed, domain_.duration_ns);
+      summary = summary_of(weighed(read.function, normalization_, gain_, domain_.duration_ns,
+                                   delay_.has_value(), format("M{}", tag)));
     } catch (const InputError& error) {
       Finding finding = function_finding("not_normalizable", tag, read.start_at, error.what());
       finding.message = error.what();  // which starts with the mask value
@@ -147,6 +149,31 @@ void InputCheck::check_functions() {
   }
   std::ranges::stable_sort(found, {}, [](const Finding& finding) { return *finding.place; });
   std::ranges::move(found, std::back_inserter(findings_));
+}
+
+GainSummary InputCheck::summary_of(const GainFunction& function) const {
+  return delay_ ? summarize_course(function, domain_.duration_ns) : summarize(function, domain_.duration_ns);
+}
+
+void InputCheck::check_delay() {
+  const std::string name = delay_->file.empty() ? "delays" : delay_->file;
+  const Shape& shape = capture_->format.shape;
+  try {
+    const auto delays = delays_of(*delay_, shape);
+    if (!functions_ || functions_->file.functions.empty() || !capture_->timeline) return;
+    FunctionSet functions;
+    for (const auto& [tag, read] : functions_->file.functions) functions.emplace(tag, read.function);
+    if (mask_ && !size_mistake(mask_->mask, shape).empty()) return;
+    const auto map = MaskMap::of(
+        mask_ ? mask_->mask : Mask::uniform(shape.width, shape.height, functions.begin()->first), delays);
+    for (const std::string& warning : delay_warnings(*map, functions, capture_->timeline->duration_ns())) {
+      add({Severity::warning, "delayed_outside", name, warning});
+    }
+  } catch (const InputError& error) {
+    std::string message = error.what();
+    if (message.starts_with(name + " ")) message.erase(0, name.size() + 1);
+    add({Severity::error, "delay_map", name, message});
+  }
 }
 
 void InputCheck::check_mask(bool unmapped_is_zero) {

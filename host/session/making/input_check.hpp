@@ -21,6 +21,8 @@
 #include "exposure/mask_check.hpp"
 #include "exposure/normalization.hpp"
 #include "render/render_plan.hpp"
+#include "session/requests/delay_request.hpp"
+#include "session/requests/exposure_request.hpp"
 
 namespace nutik {
 
@@ -80,6 +82,8 @@ class InputCheck {
     mask_.emplace(CheckedMask{name, std::move(mask), pixels});
   }
   void add_capture(CheckedCapture capture) { capture_ = std::move(capture); }
+  // Its picture, if it is one, has been read.
+  void add_delay(DelayRequest delay) { delay_ = std::move(delay); }
 
   // How functions will be exposed, which their figures are told for; as they are where nothing is said.
   void set_weight(const Normalization& normalization, double gain);
@@ -102,10 +106,14 @@ class InputCheck {
   [[nodiscard]] FunctionFigures figures_of(std::uint8_t tag, const GainSummary& summary) const;
   void check_functions();
   void check_mask(bool unmapped_is_zero);
+  // What it moves outside of the capture.
+  void check_delay();
+  [[nodiscard]] GainSummary summary_of(const GainFunction& function) const;
 
   std::optional<CheckedFunctions> functions_;
   std::optional<CheckedMask> mask_;
   std::optional<CheckedCapture> capture_;
+  std::optional<DelayRequest> delay_;
   Normalization normalization_;
   double gain_ = 1.0;
   CheckedDomain domain_;

@@ -64,7 +64,7 @@ class Solver {
     if (request_.wishes.empty()) throw UsageError("nothing is wished for");
     // Masks and functions that do not fit.
     static_cast<void>(make_plan(session_.capture(), tags_of(request_.functions), mask_,
-                                plan_options_of(request_.exposure)));
+                                plan_options_of(request_.exposure, session_.format().shape)));
     if (request_.marks) {
       const Mask& marks = **request_.marks;
       if (marks.width != shape.width || marks.height != shape.height) {

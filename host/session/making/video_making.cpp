@@ -11,7 +11,7 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
                      const std::function<std::string(std::uint64_t frame, const Exposure& exposure,
                                                      const ExposedPicture& exposed)>& add) {
   CaptureFormat capture = session.format();
-  const PlanOptions plan = plan_options_of(request.exposure);
+  const PlanOptions plan = plan_options_of(request.exposure, capture.shape);
   const Mask mask = mask_of(request.exposure, capture.shape);
   const OutputFormat frame_format = output.frame_format(capture);
   capture.transfer = plan.transfer.value_or(capture.transfer);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "exposure/shutter_shape.hpp"
 #include "render/mask_map.hpp"
 #include "render/render_plan.hpp"
+#include "session/requests/delay_request.hpp"
 #include "session/requests/stated_time.hpp"
 #include "session/shared.hpp"
 
@@ -48,6 +50,7 @@ struct ExposureRequest {
   std::variant<PlainInterval, Shared<FunctionSet>> gains;
   StatedTime start;  // of the interval; of functions, their time 0
   std::optional<Shared<MaskWithRegions>> mask;
+  std::optional<DelayRequest> delay;  // of each pixel; its picture, if it is one, has been read
   Normalization normalization;
   double gain = 1.0;  // multiplies the light
   bool unmapped_is_zero = false;
@@ -67,12 +70,19 @@ struct ExposureRequest {
 [[nodiscard]] FunctionSet functions_of(const ExposureRequest& request, const Exposure& interval,
                                        const Timeline& timeline);
 
+// A function normalized and as bright as asked for. Delays move it about: it is then weighed by its whole course, of which
+// they may bring any part into the capture. Throws InputError naming it by `name`.
+[[nodiscard]] GainFunction weighed(const GainFunction& function, const Normalization& normalization,
+                                   double gain, std::int64_t duration_ns, bool has_delays,
+                                   const std::string& name);
+
 // The last time at which functions gather light, counted from their time 0.
 [[nodiscard]] std::int64_t functions_end_ns(const ExposureRequest& request);
 
 // The mask for a picture of this shape; without a stated one, tag 0 everywhere.
 [[nodiscard]] Mask mask_of(const ExposureRequest& request, const Shape& shape);
 
-[[nodiscard]] PlanOptions plan_options_of(const ExposureRequest& request);
+// For pictures of this shape. Throws as delays_of() does.
+[[nodiscard]] PlanOptions plan_options_of(const ExposureRequest& request, const Shape& shape);
 
 }  // namespace nutik

@@ -1,0 +1,83 @@
+#include "session/requests/delay_request.hpp"
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "session/requests/picture_input.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::string_view kTo = "..";
+
+StatedTime parse_delay(std::string_view text, std::string_view what) {
+  const StatedTime time = StatedTime::parse(text, what);
+  if (time.counts_samples()) {
+    throw UsageError(format(
+        "{} '{}' counts pictures, which are no length of time; write seconds, 15ms or 1/24s", what, text));
+  }
+  return time;
+}
+
+}  // namespace
+
+DelayRequest DelayRequest::parse(std::string_view text, std::string_view what) {
+  const auto colon = text.rfind(':');
+  if (colon == std::string_view::npos || colon == 0 || colon + 1 == text.size()) {
+    throw UsageError(
+        format("{} '{}' does not say where and by how much; write rows:15ms, columns:0s..0.5s, "
+               "radial:-20ms..20ms or, from black to white of a grey picture, map.tif:0s..1s",
+               what, text));
+  }
+  const std::string_view where = text.substr(0, colon), range = text.substr(colon + 1);
+  DelayRequest request;
+  if (where == "rows") {
+    request.course = Course::rows;
+  } else if (where == "columns") {
+    request.course = Course::columns;
+  } else if (where == "radial") {
+    request.course = Course::radial;
+  } else {
+    request.course = Course::picture;
+    request.file = where;
+  }
+  const auto to = range.find(kTo);
+  if (to == std::string_view::npos) {
+    request.to = parse_delay(range, what);
+  } else {
+    request.from = parse_delay(range.substr(0, to), what);
+    request.to = parse_delay(range.substr(to + kTo.size()), what);
+  }
+  return request;
+}
+
+std::string DelayRequest::range_text() const { return format("{}{}{}", from.text(), kTo, to.text()); }
+
+void DelayRequest::read() {
+  if (course != Course::picture) return;
+  try {
+    picture = Shared(read_picture(file));
+  } catch (const NoSinglePicture& error) {
+    throw UsageError(format("{}; or, without a picture, rows:, columns: or radial:", error.what()));
+  }
+}
+
+std::shared_ptr<const DelayMap> delays_of(const DelayRequest& request, const Shape& shape) {
+  const DelayRange range{request.from.nanoseconds(), request.to.nanoseconds()};
+  const auto shared = [](DelayMap map) { return std::make_shared<const DelayMap>(std::move(map)); };
+  switch (request.course) {
+    case DelayRequest::Course::rows: return shared(DelayMap::by_rows(shape, range));
+    case DelayRequest::Course::columns: return shared(DelayMap::by_columns(shape, range));
+    case DelayRequest::Course::radial: return shared(DelayMap::by_radius(shape, range));
+    case DelayRequest::Course::picture: break;
+  }
+  if (!request.picture) throw UsageError(format("the map of delays {} was not read", request.file));
+  const Shape& found = (*request.picture)->shape;
+  if (found.width != shape.width || found.height != shape.height) {
+    throw InputError(
+        format("{} is {} x {} pixels and the pictures are {} x {}; a map of delays needs their size",
+               request.file, found.width, found.height, shape.width, shape.height));
+  }
+  return shared(DelayMap::by_picture(**request.picture, range, request.file));
+}
+
+}  // namespace nutik

@@ -1,0 +1,45 @@
+// Delays of pixels (exposure/delay_map.hpp), as they are asked for.
+//
+//   rows:15ms   columns:0s..0.5s   radial:-20ms..20ms   map.tif:0s..1s
+//
+// From the first row or column to the last, from the centre to the corners, from black to white; one time is where it
+// ends, and it starts at 0.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "capture/picture.hpp"
+#include "exposure/delay_map.hpp"
+#include "session/requests/stated_time.hpp"
+#include "session/shared.hpp"
+
+namespace nutik {
+
+struct DelayRequest {
+  enum class Course { picture, rows, columns, radial };
+
+  Course course = Course::rows;
+  StatedTime from, to;
+  // Of a picture:
+  std::string file;
+  std::optional<Shared<Picture>> picture;  // read
+
+  // Throws UsageError naming `what` for anything else. Reads nothing.
+  static DelayRequest parse(std::string_view text, std::string_view what);
+  // `0s..15ms`
+  [[nodiscard]] std::string range_text() const;
+  // Reads the picture, if there is one. Throws as read_picture() does, UsageError if it is no single picture.
+  void read();
+
+  friend bool operator==(const DelayRequest& a, const DelayRequest& b) {
+    return a.course == b.course && a.from == b.from && a.to == b.to && a.picture == b.picture;
+  }
+};
+
+// For pictures of this shape. Throws InputError if it is a picture of another size, UsageError if it was not read.
+[[nodiscard]] std::shared_ptr<const DelayMap> delays_of(const DelayRequest& request, const Shape& shape);
+
+}  // namespace nutik
