@@ -16,6 +16,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import cv2
 import numpy
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -50,6 +51,8 @@ def make_more(folder, program):
     shutil.copy(folder / "clip.mp4", folder / "tape.mov")
     run(program, "-q", "mask", "--size", "640x360", "--tag", "1", "--rectangle", "300,150,60,60", "-o", "marks.pgm")
     run(program, "-q", "mask", "--base", "regions.pgm", "--feather", "6px", "-o", "layer-%d.png")
+    shades = numpy.tile(numpy.linspace(0, 65_535, WIDTH).astype(numpy.uint16), (HEIGHT, 1))
+    cv2.imwrite(str(folder / "map.tif"), shades)
 
 
 def main():
