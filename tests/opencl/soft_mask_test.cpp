@@ -160,7 +160,8 @@ struct Mixtures {
     for (std::uint64_t pixel = 0; pixel < pixels.size(); ++pixel) {
       if (pixels[pixel].size() == 1) continue;
       mask.mixed.add(pixel, pixels[pixel]);
-      mask.tags[pixel] = std::ranges::max_element(pixels[pixel], {}, &Share::size)->of;
+      mask.tags[pixel] =
+          static_cast<std::uint8_t>(std::ranges::max_element(pixels[pixel], {}, &Share::size)->of);
     }
     return make_plan(capture, functions, mask, {});
   }
