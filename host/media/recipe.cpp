@@ -114,6 +114,7 @@ std::string Recipe::text() const {
   if (functions) json["functions"] = text_json(*functions);
   if (noise) json["noise"] = text_json(*noise);
   if (mask) json["mask"] = input_json(*mask);
+  if (mask_to) json["mask_to"] = input_json(*mask_to);
   json["options"] = Json::object();
   for (const auto& [name, value] : options) json["options"][name] = value;
   json["renderer"] = renderer;
@@ -133,6 +134,7 @@ Recipe Recipe::parse(std::string_view text, const std::string& name) {
     if (json.contains("functions")) recipe.functions = text_of(json.at("functions"), name);
     if (json.contains("noise")) recipe.noise = text_of(json.at("noise"), name);
     if (json.contains("mask")) recipe.mask = input_of(json.at("mask"), name);
+    if (json.contains("mask_to")) recipe.mask_to = input_of(json.at("mask_to"), name);
     for (const auto& [option, value] : json.at("options").items()) recipe.options.emplace_back(option, value);
     recipe.renderer = json.at("renderer");
     recipe.precision = json.at("precision");
