@@ -14,7 +14,7 @@
 
 namespace {
 
-enum ExitStatus { kOk = 0, kOther = 1, kUsage = 2, kInput = 3, kDevice = 4, kOutput = 5, kSignal = 128 };
+enum ExitStatus { kOk = 0, kOther = 1, kUsage = 2, kInput = 3, kDevice = 4, kOutput = 5, kMemory = 6, kSignal = 128 };
 
 int fail(const std::exception& error, ExitStatus status) {
   nutik::app::print_error(nutik::app::message_text(error));
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
     return kSignal + interruption.signal;
   } catch (const std::bad_alloc&) {
     nutik::app::print_error("out of memory");
-    return kOther;
+    return kMemory;
   } catch (const std::exception& error) {
     return fail(error, kOther);
   }

@@ -13,7 +13,7 @@ FrameQueue::~FrameQueue() { frames_.close(); }
 void FrameQueue::write(const std::function<std::unique_ptr<VideoWriter>()>& open) {
   const ClosedAtEnd closed(frames_);
   writer_ = open();
-  while (const auto frame = frames_.pop()) writer_->write(frame->picture, frame->text);
+  while (const auto frame = frames_.pop()) writer_->write(frame->picture, frame->text, frame->number);
 }
 
 void FrameQueue::finish() {

@@ -31,8 +31,8 @@ class FrameQueue {
   FrameQueue& operator=(const FrameQueue&) = delete;
 
   // Waits while frames wait already. Returns false where writing has failed; finish() then throws why.
-  bool push(Picture picture, std::string text = {}) {
-    return frames_.push({std::move(picture), std::move(text)});
+  bool push(Picture picture, std::string text = {}, std::uint64_t number = 0) {
+    return frames_.push({std::move(picture), std::move(text), number});
   }
 
   // Writes what was pushed and ends the video. Throws OutputError.
@@ -45,6 +45,7 @@ class FrameQueue {
   struct Frame {
     Picture picture;
     std::string text;
+    std::uint64_t number;
   };
 
   void write(const std::function<std::unique_ptr<VideoWriter>()>& open);

@@ -115,6 +115,7 @@ std::string Recipe::text() const {
   if (noise) json["noise"] = text_json(*noise);
   if (mask) json["mask"] = input_json(*mask);
   if (delay_map) json["delay_map"] = input_json(*delay_map);
+  if (mask_to) json["mask_to"] = input_json(*mask_to);
   json["options"] = Json::object();
   for (const auto& [name, value] : options) json["options"][name] = value;
   json["renderer"] = renderer;
@@ -135,6 +136,7 @@ Recipe Recipe::parse(std::string_view text, const std::string& name) {
     if (json.contains("noise")) recipe.noise = text_of(json.at("noise"), name);
     if (json.contains("mask")) recipe.mask = input_of(json.at("mask"), name);
     if (json.contains("delay_map")) recipe.delay_map = input_of(json.at("delay_map"), name);
+    if (json.contains("mask_to")) recipe.mask_to = input_of(json.at("mask_to"), name);
     for (const auto& [option, value] : json.at("options").items()) recipe.options.emplace_back(option, value);
     recipe.renderer = json.at("renderer");
     recipe.precision = json.at("precision");

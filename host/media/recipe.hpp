@@ -36,8 +36,8 @@ struct Recipe {
   Input capture;
   std::optional<Text> functions;
   std::optional<Text> noise;
-  std::optional<Input> mask;
   std::optional<Input> delay_map;  // a picture of delays, whose range is the value of the option `delay`
+  std::optional<Input> mask, mask_to;
   // Long names without dashes, and values. Of an exposure by name; of a sheet as they were stated, which says what its
   // rows and columns are.
   std::vector<std::pair<std::string, std::string>> options;

@@ -15,8 +15,8 @@ class StillWriter final : public VideoWriter {
         name_(NumberedName::parse(path.filename().string()).value()),
         wishes_(wishes) {}
 
-  void write(const Picture& picture, const std::string& text) override {
-    write_picture(folder_ / name_.with(number_++), picture, text, wishes_);
+  void write(const Picture& picture, const std::string& text, std::uint64_t number) override {
+    write_picture(folder_ / name_.with(number), picture, text, wishes_);
   }
   void finish() override {}
 
@@ -24,7 +24,6 @@ class StillWriter final : public VideoWriter {
   std::filesystem::path folder_;
   NumberedName name_;
   FileWishes wishes_;
-  std::uint64_t number_ = 0;
 };
 
 }  // namespace

@@ -32,9 +32,9 @@ class VideoWriter {
   virtual ~VideoWriter() = default;
 
   // The next frame, of the format that the writer was opened with. Where frames are files of their own they keep
-  // `text` as write_picture() does. Throws OutputError.
-  virtual void write(const Picture& picture, const std::string& text) = 0;
-  void write(const Picture& picture) { write(picture, {}); }
+  // `text` as write_picture() does, and have `number` in their names. Throws OutputError.
+  virtual void write(const Picture& picture, const std::string& text, std::uint64_t number) = 0;
+  void write(const Picture& picture, std::uint64_t number = 0) { write(picture, {}, number); }
 
   // Ends the video after the frames so far, and gives the file its name. Throws OutputError.
   virtual void finish() = 0;
@@ -49,7 +49,7 @@ class VideoWriter {
                                                              const VideoFormat& format,
                                                              const VideoCodec& codec);
 
-// A still for each frame, `frame-%05d.png` from number 0 on: each appears when it is whole, and stays.
+// A still for each frame, `frame-%05d.png`: each appears when it is whole, and stays.
 [[nodiscard]] std::unique_ptr<VideoWriter> open_still_writer(const std::filesystem::path& path,
                                                              const FileWishes& wishes = {});
 

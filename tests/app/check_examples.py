@@ -19,6 +19,7 @@ WIDTH, HEIGHT, COUNT, RATE = 640, 360, 65, 50
 
 FUNCTIONS = {
     "trail.fn": "M0 [0:1], [1000000000:0]\n",
+    "sharp.fn": "M0 [-1:0], [0:1], [10000000:1], [10000001:0]\n",
     "one.fn": "M0 [0:1], [1000000000:0]\n",
     "regions.fn": "M0 [0:1], [1000000000:1], [1000000001:0]\nM128 [0:1], [10000000:1], [10000001:0]\n"
                   "M255 [0:1], [20000000:1], [20000001:0]\n",
@@ -64,6 +65,10 @@ def make_scene(folder, program):
     mask[100:300, 320:] = 255
     for name in ("regions.pgm", "mask.pgm"):
         cv2.imwrite(str(folder / name), mask)
+    for name, columns in (("left.pgm", 80), ("right.pgm", 400)):
+        side = numpy.where(numpy.arange(WIDTH) < columns, 128, 255).astype(numpy.uint8)
+        cv2.imwrite(str(folder / name), numpy.broadcast_to(side, (HEIGHT, WIDTH)))
+    (folder / "ramp.csv").write_text("0s,0.2s\n1s,0.7s\n1.2s,0.7s\n1.5s,0.4s\n")
     for name, text in FUNCTIONS.items():
         (folder / name).write_text(text)
     for name, of in COPIES.items():

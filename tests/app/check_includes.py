@@ -13,10 +13,10 @@ from collections import defaultdict
 from pathlib import Path
 
 ROOMS = {"app", "session", "system"}
-MOST_LINES = 6700  # 6500, and 200 for rows, notes and errors of newer commands and options
+MOST_LINES = 6900  # 6500, and 400 for rows, notes and errors of newer commands and options
 # Commands that came after that was set, counted for themselves.
 NEWER = {"commands/camera_files.cpp", "commands/camera_files.hpp", "commands/plate.cpp", "commands/solve.cpp",
-         "commands/study.cpp", "requests/align_words.cpp", "requests/solve_words.cpp", "requests/study_words.cpp"}
+         "commands/study.cpp", "output/skipping.cpp", "output/skipping.hpp", "requests/align_words.cpp", "requests/film_words.cpp", "requests/solve_words.cpp", "requests/study_words.cpp"}
 MOST_LINES_OF_NEWER = 200
 OPTION = re.compile(r'"(?:[^"\\\n]|\\.)*--[a-z](?:[^"\\\n]|\\.)*"')  # within a text
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)

@@ -61,6 +61,8 @@ LINES = (
     Line("--start 0s --exposure 1f --every 1f dense.tik -o o-%03d.png", 2 * BLOCK_MB, uses_device=True),
     Line("batch list.txt dense.tik", 2 * BLOCK_MB, (1,), uses_device=True),
     Line("video --out-fps 100 dense.tik o.mkv", 2 * BLOCK_MB, uses_device=True),
+    Line("video --out-fps 1 --key 0s points.fn --key 1s points.fn dense.tik o.mkv", 9 * POINTS_MB + 2 * BLOCK_MB,
+         (0, 2), uses_device=True),
     Line("contact --every 2f dense.tik o.png", 2 * BLOCK_MB, uses_device=True),
     Line("contact ages.tik o.png", uses_device=True),
     Line("sweep --start 0s --exposure 1f --shift 0f..30f/2f dense.tik o.png", 2 * BLOCK_MB, uses_device=True),

@@ -18,7 +18,7 @@ class KeepingWriter final : public VideoWriter {
  public:
   KeepingWriter(std::vector<std::uint32_t>& written, bool& is_finished)
       : written_(written), is_finished_(is_finished) {}
-  void write(const Picture& picture, const std::string&) override {
+  void write(const Picture& picture, const std::string&, std::uint64_t) override {
     if (picture.white_code == 99) throw OutputError("the disk is full");
     written_.push_back(picture.white_code);
   }
@@ -36,7 +36,7 @@ class FollowingWriter final : public VideoWriter {
  public:
   FollowingWriter(std::counting_semaphore<>& made, std::vector<std::uint32_t>& written)
       : made_(made), written_(written) {}
-  void write(const Picture& picture, const std::string&) override {
+  void write(const Picture& picture, const std::string&, std::uint64_t) override {
     if (!made_.try_acquire_for(20s)) throw OutputError("nothing was made meanwhile");
     written_.push_back(picture.white_code);
   }

@@ -105,7 +105,9 @@ constexpr Command kCommands[] = {
      "nutik-cl video --out-fps 24 --out-angle 180 --from 0.2s --to 1s --speed 0.25 clip.tik slow.mp4\n"
      "nutik-cl video -f 960 --out-fps 30000/1001 --out-angle 360 slowmotion.mp4 film.mkv\n"
      "nutik-cl video --depth 16 clip.tik frame-%05d.png\n"
-     "nutik-cl video -k trail.fn --out-fps 25 clip.tik trail.mp4",
+     "nutik-cl video -k trail.fn --out-fps 25 clip.tik trail.mp4\n"
+     "nutik-cl video --curve ramp.csv clip.tik ramp.mp4\n"
+     "nutik-cl video --key 0s sharp.fn --key 0.2s trail.fn clip.tik change.mp4",
      run_video, kPictures},
     {Id::study, "study", "CAPTURE.tik|CLIP [PICTURE]",
      "Make a motion study by itself: find what moves, choose moments of it, and expose them over its trail. Mask, "

@@ -121,11 +121,12 @@ std::string man_page() {
   text += section("EXIT STATUS");
   constexpr std::pair<std::string_view, std::string_view> kStatuses[] = {
       {"0", "done"},
-      {"1", "anything unforeseen, or pictures of a batch that could not be made"},
+      {"1", "anything unforeseen, or pictures of a batch that cannot be made"},
       {"2", "the command line makes no sense"},
       {"3", "an input cannot be read, is damaged or does not fit the others; mistakes that check found"},
       {"4", "the OpenCL device is absent or fails"},
-      {"5", "an output cannot be written"},
+      {"5", "an output cannot be written, or one of a batch"},
+      {"6", "out of memory"},
       {"128+n", "ended by signal n"}};
   for (const auto& [status, meaning] : kStatuses) text += item(bold(status), meaning);
   text += section("ENVIRONMENT");

@@ -21,6 +21,8 @@ constexpr CommandSet kTakesFunctions =
 // Those that take a plain interval.
 constexpr CommandSet kTakesIntervals =
     set_of(Id::expose, Id::trace, Id::mask, Id::contact, Id::sweep, Id::validate, Id::shutter);
+// Those that take a mask between two.
+constexpr CommandSet kBlendsMasks = set_of(Id::expose, Id::check, Id::trace, Id::validate);
 // Those that shape and weigh what they expose.
 constexpr CommandSet kShapesExposures = kTakesFunctions & ~set_of(Id::check, Id::solve);
 // Those that expose pictures, and so take what says how that is computed.
@@ -28,6 +30,8 @@ constexpr CommandSet kExposes =
     set_of(Id::expose, Id::batch, Id::mask, Id::contact, Id::sweep, Id::video, Id::study, Id::solve);
 // Those whose pictures may hold light below 0.
 constexpr CommandSet kExposesFreely = set_of(Id::expose, Id::contact, Id::sweep, Id::video);
+// Those that make many pictures, each in a file of its own.
+constexpr CommandSet kMakesMany = set_of(Id::expose, Id::batch, Id::video);
 // Those that lay pictures out on a sheet.
 constexpr CommandSet kMakesSheets = set_of(Id::contact, Id::sweep);
 // Those that have nothing to tell a script, or tell what is a file itself.
@@ -136,6 +140,13 @@ constexpr Option kRows[] = {
      "expose each pixel later: rows:15ms (from the first row to the last), columns:0s..0.5s, radial:-20ms..20ms "
      "(from the centre to the corners), map.tif:0s..1s (from black to white of a grey picture)",
      "rows: columns: radial:"},
+    {0, "mask-to", "FILE.pgm", exposure, kBlendsMasks, &Options::mask_to,
+     "a second mask: that of -m on its way to it, as between two key frames of a video"},
+    {0, "mask-share", "SHARE", exposure, kBlendsMasks, &Options::mask_share,
+     "how far it has come, from 0 to 1: 3/8"},
+    {0, "mask-blend", "HOW", exposure, kBlendsMasks | bit(Id::video), &Options::mask_blend,
+     "how one mask turns into the other: distance (edges move) or alpha (it fades) (default: distance)",
+     "distance alpha"},
     {0, "start", "TIME", exposure, kTakesIntervals, &Options::start,
      "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip; with -k the "
      "functions' time 0 (default: 0s)"},
@@ -168,6 +179,9 @@ constexpr Option kRows[] = {
      "expose a series, each picture this much later than the one before: 40ms, 2f; name it out-%03d.png"},
     {0, "count", "N", series, bit(Id::expose), &Options::count,
      "pictures in the series (default: as many as fit in the capture)"},
+    {0, "frames", "RANGES", series, kMakesMany, &Options::frames,
+     "only these frames of a video or pictures of a series, numbered from 0, or these lines of a batch: 7, 0-99, "
+     "1-100x2, several with commas between; names keep their numbers (default: all)"},
     {0, "tag", "VALUE", subject, bit(Id::shutter), &Options::tag,
      "the mask value that the function belongs to: 0 … 255 (default: 0)"},
 
@@ -183,6 +197,14 @@ constexpr Option kRows[] = {
      "where it ends; frames that would go on behind it are left out (default: the capture's end)"},
     {0, "speed", "FACTOR", series, bit(Id::video), &Options::speed,
      "seconds of the capture in a second of the video: 0.25 is four times slower than life (default: 1)"},
+    {0, "curve", "FILE.csv", series, bit(Id::video), &Options::curve,
+     "in place of --from, --to and --speed: which time of the capture each time of the video shows, a line for "
+     "each point, 1.5s,0.4s; also backwards and standing still"},
+    {0, "key", "TIME FILE.fn", series, bit(Id::video), {},
+     "in place of -k, several times: the functions at this time of the video (2s, or 48f for frame 48), which "
+     "change from key to key"},
+    {0, "mask-key", "TIME FILE.pgm", series, bit(Id::video), {},
+     "in place of -m, several times: the mask at this time of the video"},
     {0, "video-codec", "NAME", output, bit(Id::video), &Options::video_codec,
      "ffv1 (lossless; .mkv, .avi), h264, h265 (.mp4, .mov, .mkv), vp9 (.webm, .mkv), prores (.mov, .mkv) or "
      "mjpeg (.avi, .mov, .mkv) (default: h264, in .mkv and .avi ffv1, in .webm vp9)",
@@ -361,6 +383,10 @@ constexpr Option kRows[] = {
     {0, "json", "", answer, kAll & ~kOnlyPrints, &Options::json, "answer with one JSON object, for scripts"},
     {0, "no-recipe", "", output, kExposes & ~bit(Id::mask), &Options::no_recipe,
      "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},
+    {0, "skip-existing", "", output, kMakesMany, &Options::skip_existing,
+     "leave out pictures that are there already with the recipe that they would get"},
+    {0, "progress", "", output, kMakesMany | bit(Id::encode), &Options::progress,
+     "print a line a second on stderr if that is no terminal: Progress: 45% …"},
     {'q', "quiet", "", output, kAll, &Options::quiet, "no progress bar and no summary"},
     {'v', "verbose", "", output, (kExposes & ~set_of(Id::mask, Id::solve)) | bit(Id::trace),
      &Options::verbose,

@@ -34,10 +34,11 @@ struct Options {
   // The exposure, and what is followed or counted: a pixel, or a tag of the mask.
   Value mask, feather, delay, functions, start, exposure, unmapped, live, pixel, tag;
   Value shutter, shutter_error, normalize, gain, ev;
+  Value mask_to, mask_share, mask_blend;
 
   // Many exposures: as a series, on a sheet, as a video's frames.
   Value every, count, columns, width, shift, scale_gain, stretch, each;
-  Value out_fps, out_angle, from, to, speed, video_codec;
+  Value out_fps, out_angle, from, to, speed, curve, frames, video_codec;
 
   // How it is computed, and how right that is.
   Value renderer, device, precision, memory, source, runs;
@@ -51,6 +52,7 @@ struct Options {
   // What is written.
   Value output, depth, quality, negative, out_transfer, activity;
   bool json = false, no_recipe = false, quiet = false, verbose = false;
+  bool progress = false, skip_existing = false;
 };
 
 }  // namespace nutik::app

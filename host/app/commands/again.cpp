@@ -165,6 +165,8 @@ int run_again(const Options& options) {
     command += " --noise " + operand(here / files.find(*recipe->noise, "noise values", folder));
   }
   if (recipe->mask) command += " -m " + operand(files.find(*recipe->mask, "mask", mask_checksum));
+  if (recipe->mask_to)
+    command += " --mask-to " + operand(files.find(*recipe->mask_to, "second mask", mask_checksum));
   for (const auto& [name, value] : recipe->options) {
     command += " " + shell_word("--" + name);
     if (name == "delay" && recipe->delay_map) {

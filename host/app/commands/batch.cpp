@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -12,10 +13,12 @@
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
+#include "app/output/skipping.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/message_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
+#include "session/making/made_already.hpp"
 #include "session/making/picture_queue.hpp"
 #include "session/text/shell_text.hpp"
 #include "session/text/size_text.hpp"
@@ -61,6 +64,7 @@ Options line_options(const std::string& text, const Options& batch,
   }
   words.insert(words.begin(), "expose");
   Options options = parse_command_line(words).options;
+  if (options.frames) throw UsageError("--frames chooses lines of the list: nutik-cl batch --frames 1-100 …");
   const bool stated_transfer = options.transfer.has_value();
   for (const Option& option : app::options()) {
     if (option.is_shared_by_batch() && option.is_in(options)) {
@@ -118,6 +122,14 @@ class Batch {
       if (!is_new) {
         throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
       }
+      if (line.skip_existing) {
+        require_recipes(line, output);
+        if (is_made(output, stated_precision(line),
+                    [&](const std::string& precision) { return recipe_text(line, precision); })) {
+          ++skipped_;
+          return;
+        }
+      }
       Session& session = session_of(line.operands.front());
       const OutputRequest wishes = output_request(line);
       ExposedPicture exposed = session.render(request, output_format(wishes, output, session.format()));
@@ -126,7 +138,7 @@ class Batch {
         print_warning(format("{}:{}: {}", list_title_, listed.line, warning));
       }
       if (options_.verbose && !options_.json) print_line(format("{}: {}", output.string(), tally_.report()));
-      pictures_.push(listed.line, output, std::move(exposed.picture), recipe_text(line), file_wishes(wishes));
+      pictures_.push(listed.line, output, std::move(exposed.picture), recipe_text(line, tally_.precision()), file_wishes(wishes));
     } catch (const UsageError& error) {
       report(listed.line, error);
     } catch (const InputError& error) {
@@ -141,6 +153,9 @@ class Batch {
   }
 
   [[nodiscard]] const ExposureTally& tally() const { return tally_; }
+  // How many were there already, and whether one could not be written.
+  [[nodiscard]] std::size_t skipped() const { return skipped_; }
+  [[nodiscard]] bool failed_to_write() const { return failed_to_write_; }
   // The lines whose pictures are missing. After finish().
   [[nodiscard]] const std::set<std::size_t>& failed_lines() const { return failed_lines_; }
   // What each clip was taken for.
@@ -149,10 +164,11 @@ class Batch {
   [[nodiscard]] std::string renderer_name() const { return devices_->renderer().name(); }
 
  private:
-  std::string recipe_text(const Options& line) {
+  std::string recipe_text(const Options& line, const std::string& precision) {
     if (line.no_recipe) return {};
-    if (!capture_checksum_) capture_checksum_ = capture_checksum(session_->source().path.string());
-    return PictureRecipe(recipe_sources(line, capture_checksum_)).text(tally_.precision());
+    const std::string& name = line.operands.front();
+    if (!capture_checksum_ || capture_checksum_->first != name) capture_checksum_ = {name, capture_checksum(name)};
+    return PictureRecipe(recipe_sources(line, capture_checksum_->second)).text(precision);
   }
 
   // Any line may ask for floating point.
@@ -162,7 +178,6 @@ class Batch {
   Session& session_of(const std::string& name) {
     if (!session_ || session_->source().path != name) {
       session_.reset();
-      capture_checksum_.reset();
       session_.emplace(open_session(name, options_, devices_, {.besides = PictureQueue::needs(widest)}));
       Answer source{{{"capture", name}}};
       source.tell_source(*session_);
@@ -177,6 +192,7 @@ class Batch {
   void report(std::size_t line, const Error& error) {
     const std::lock_guard lock(reporting_);
     failed_lines_.insert(line);
+    failed_to_write_ |= dynamic_cast<const OutputError*>(&error) != nullptr;
     print_error(format("{}:{}: {}", list_title_, line, message_text(error)));
   }
 
@@ -185,7 +201,9 @@ class Batch {
   bool reads_list_from_input_;
   std::shared_ptr<Devices> devices_;
   ExposureTally tally_;
-  std::optional<std::string> capture_checksum_;  // where a recipe needed it
+  std::optional<std::pair<std::string, std::string>> capture_checksum_;  // of the capture that a recipe was last for
+  std::size_t skipped_ = 0;
+  bool failed_to_write_ = false;
   std::optional<Session> session_;
   Json clips_ = Json::array();
   std::map<std::filesystem::path, std::size_t> line_of_output_;
@@ -205,11 +223,19 @@ int run_batch(const Options& options) {
   const std::string& list = options.operands.front();
   const std::optional<std::string> capture =
       options.operands.size() == 2 ? std::optional(options.operands[1]) : std::nullopt;
-  const std::vector<ListedExposure> exposures = read_list(list);
+  std::vector<ListedExposure> exposures = read_list(list);
   if (exposures.empty()) throw InputError(format("{} lists no exposure", list));
+  if (options.frames) {
+    const FrameRanges lines = FrameRanges::parse(*options.frames, "--frames");
+    const std::vector<std::uint64_t> chosen = lines.below(exposures.back().line + 1);
+    std::erase_if(exposures, [&](const ListedExposure& each) {
+      return !std::ranges::binary_search(chosen, static_cast<std::uint64_t>(each.line));
+    });
+    if (exposures.empty()) throw UsageError(format("{} lists no exposure in lines {}", list, lines.text()));
+  }
 
   Batch batch(options, list);
-  Progress progress("exposing", exposures.size(), options.quiet);
+  Progress progress("exposing", exposures.size(), options.quiet, progress_lines(options));
   for (std::size_t i = 0; i < exposures.size(); ++i) {
     progress.show(i);
     batch.expose(exposures[i], capture);
@@ -218,18 +244,22 @@ int run_batch(const Options& options) {
   const std::size_t done = exposures.size() - failed;
   const double seconds = batch.tally().seconds();
   if (options.json) {
-    Json json{{"exposures", exposures.size()}, {"failed_lines", batch.failed_lines()}};
+    Json json{{"exposures", exposures.size()}, {"failed_lines", batch.failed_lines()}, {"skipped", batch.skipped()}};
     json.update(batch.tally().saturation_json());
     json.update({{"clips", batch.clips()}, {"seconds", seconds}, {"notes", batch.tally().notes()}});
     print_json(json);
   } else if (!options.quiet) {
-    print_line(format("{} of {}{}, {:.2f} s, {:.1f} exposures a second{}", done,
-                      counted(exposures.size(), "picture"), batch.tally().saturation_text(), seconds,
-                      static_cast<double>(done) / seconds,
-                      done > 0 ? " on " + batch.renderer_name() : std::string()));
+    const std::size_t made = done - batch.skipped();
+    print_line(format("{} of {}{}{}, {:.2f} s, {:.1f} exposures a second{}", done,
+                      counted(exposures.size(), "picture"),
+                      batch.skipped() > 0 ? format(", {} there already", batch.skipped()) : "",
+                      batch.tally().saturation_text(), seconds, static_cast<double>(made) / seconds,
+                      made > 0 ? " on " + batch.renderer_name() : std::string()));
     print_notes(batch.tally().notes());
   }
-  return failed > 0 ? 1 : 0;
+  constexpr int kSomeAreWrong = 1, kSomeWereNotWritten = 5;
+  if (failed == 0) return 0;
+  return batch.failed_to_write() ? kSomeWereNotWritten : kSomeAreWrong;
 }
 
 }  // namespace nutik::app

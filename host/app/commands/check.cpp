@@ -82,8 +82,9 @@ InputCheck checked_inputs(const Options& options) {
                                    ? functions->file.functions.begin()->first
                                    : std::uint8_t{0};
     attempt(check, name, "mask_file", [&] {
-      Mask mask = read_layered_mask_input(*options.mask, first);
-      if (options.feather) static_cast<void>(feathered(mask, Feather::parse(*options.feather)));
+      Mask mask =
+          options.mask_to ? exposure_mask(options, first) : read_layered_mask_input(*options.mask, first);
+      if (options.feather && !options.mask_to) static_cast<void>(feathered(mask, Feather::parse(*options.feather)));
       check.add_mask(name, std::move(mask));
     });
   }

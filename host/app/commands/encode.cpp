@@ -31,7 +31,7 @@ int run_encode(const Options& options) {
   const CameraFiles camera_files(options, output, input_files(options));
 
   const EncodedCapture encoded =
-      encode(source, {output, codec}, memory_budget(options), progress_bar("encoding", options.quiet));
+      encode(source, {output, codec}, memory_budget(options), progress_bar("encoding", options.quiet, progress_lines(options)));
   print_warnings(encoded.warnings);
   const Shape& shape = encoded.capture.shape;
   const Timeline& timeline = encoded.timeline;

@@ -6,10 +6,12 @@
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
+#include "app/output/skipping.hpp"
 #include "app/requests/requests.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/pictures.hpp"
+#include "session/making/made_already.hpp"
 #include "session/text/size_text.hpp"
 
 namespace nutik::app {
@@ -17,12 +19,18 @@ namespace nutik::app {
 int run_expose(const Options& options) {
   if (options.every) return run_series(options);
   if (options.count) throw UsageError("--count goes with --every: a series needs both a step and a number");
+  if (options.frames) throw UsageError("--frames chooses pictures of a series; add --every, or leave it out");
   ExposureTally tally;
   const std::filesystem::path output = output_name(options, "expose", "-" + exposure_label(options) + ".png");
   const ExposureRequest request = exposure_request(options);
   check_output(output, OutputKind::picture, input_files(options));
 
   PictureRecipe recipe(recipe_sources(options));
+  if (options.skip_existing) {
+    require_recipes(options, output);
+    if (is_made(output, stated_precision(options), [&](const std::string& precision) { return recipe.text(precision); }))
+      return tell_all_made(options, output, 1, "picture");
+  }
   Session session = open_session(options, {.reading = Reading::forward});
   const ExposedPicture exposed =
       session.render(request, output_format(output_request(options), output, session.format()));

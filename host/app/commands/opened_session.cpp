@@ -17,7 +17,8 @@ Session open_session(const Options& options, Session::Terms terms) {
 
 Session open_session(const std::string& name, const Options& options, std::shared_ptr<Devices> devices,
                      Session::Terms terms) {
-  terms.progress = progress_bar("reading", options.quiet);
+  terms.progress =
+      progress_bar("reading", options.quiet, options.progress ? ProgressLines::before : ProgressLines::none);
   Session session(source_request(options, name), std::move(devices), terms);
   print_warnings(session.warnings());
   return session;

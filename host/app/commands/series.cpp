@@ -7,8 +7,10 @@
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
+#include "app/output/skipping.hpp"
 #include "app/requests/requests.hpp"
 #include "session/below/format.hpp"
+#include "session/making/made_already.hpp"
 #include "session/making/picture_queue.hpp"
 #include "session/making/series_making.hpp"
 #include "session/text/size_text.hpp"
@@ -21,15 +23,29 @@ int run_series(const Options& options) {
   const SeriesRequest series = series_request(options);
   const std::vector<std::string> inputs = input_files(options);
   check_output(names[0], OutputKind::picture, inputs);  // before a clip is read
+  if (options.skip_existing) require_recipes(options, names[0]);
   PictureRecipe recipe(recipe_sources(options));
   const OutputRequest wishes = output_request(options);
   Session session = open_session(options, {.besides = PictureQueue::needs([&](const CaptureFormat& capture) {
                                              return output_format(wishes, names[0], capture).type;
                                            })});
+  const auto own_recipe_of = [](const SeriesPicture& picture) {
+    return OwnRecipe{{{"start", picture.start.text()}}, {}};
+  };
   std::vector<SeriesPicture> pictures;
-  for (StatedTime& start : starts_of(series, request, session.timeline())) {
-    pictures.push_back({std::move(start), names[pictures.size()]});
+  const std::vector<StatedTime> starts = starts_of(series, request, session.timeline());
+  for (const std::uint64_t k : chosen_numbers(series.numbers, starts.size(), "exposures", "series")) {
+    pictures.push_back({starts[k], names[k]});
     check_output(pictures.back().path, OutputKind::picture, inputs);
+  }
+  const std::size_t wanted = pictures.size();
+  if (options.skip_existing) {
+    std::erase_if(pictures, [&](const SeriesPicture& picture) {
+      return is_made(picture.path, stated_precision(options), [&](const std::string& precision) {
+        return recipe.text(precision, own_recipe_of(picture));
+      });
+    });
+    if (pictures.empty()) return tell_all_made(options, names[0], wanted, "exposure");
   }
   const OutputFormat output = output_format(wishes, names[0], session.format());
 
@@ -38,11 +54,11 @@ int run_series(const Options& options) {
   {
     WarningsAtEnd warnings;
     make_series(session, request, pictures, output, file_wishes(wishes),
-                progress_bar("exposing", options.quiet), [&](std::uint64_t k, ExposedPicture& exposed) {
+                progress_bar("exposing", options.quiet, progress_lines(options)), [&](std::uint64_t k, ExposedPicture& exposed) {
                   tally.add(exposed);
                   warnings.add(pictures[k].path.string(), exposure_warnings(exposed));
                   if (k == 0) first = std::move(exposed.figures);
-                  return recipe.text(tally.precision(), {{{"start", pictures[k].start.text()}}, {}});
+                  return recipe.text(tally.precision(), own_recipe_of(pictures[k]));
                 });
   }
 
@@ -52,10 +68,13 @@ int run_series(const Options& options) {
   }
   answer.json.update(shape_json(session.format().shape));
   answer.json["functions"] = functions_json(*first);
-  answer.line = format("{} … {}: {} exposures every {}, {}{}{}", names[0].string(),
+  answer.line = format("{} … {}: {} exposures every {}, {}{}{}", pictures.front().path.string(),
                        pictures.back().path.filename().string(), pictures.size(), series.every.text(),
                        shape_text(session.format().shape), still_gains_text(*first, request.is_plain()),
                        codes_text(first->capture, output));
+  answer.json["skipped"] = wanted - pictures.size();
+  if (wanted > pictures.size())
+    answer.line += format(", {} there already", counted(wanted - pictures.size(), "exposure"));
   if (options.verbose) answer.details.push_back("first " + plan_text(*first));
   tally.end(answer, session, options.verbose,
             format(", {:.1f} exposures a second", static_cast<double>(pictures.size()) / tally.seconds()));

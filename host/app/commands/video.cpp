@@ -5,8 +5,10 @@
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
+#include "app/output/skipping.hpp"
 #include "app/requests/requests.hpp"
 #include "session/below/format.hpp"
+#include "session/making/made_already.hpp"
 #include "session/making/video_making.hpp"
 #include "session/text/size_text.hpp"
 #include "session/text/time_text.hpp"
@@ -22,45 +24,61 @@ int run_video(const Options& options) {
   const VideoOutput output(output_name(options, "video", format("-{}fps.mp4", rate)), request.rate,
                            options.video_codec, output_request(options));
   const std::vector<std::string> inputs = input_files(options);
-  output.check(0, inputs);  // a container's name, before the clip is read
+  if (options.skip_existing) require_recipes(options, output.writes_stills() ? output.still(0) : output.path());
+  output.check({}, inputs);  // a container's name, before the clip is read
 
   Session session = open_session(
       options, {.besides = video_needs(output.encoder_frames(), [&](const CaptureFormat& format) {
                   return output.frame_format(format).type;
                 })});
   const Shape shape = session.format().shape;
-  const Frames frames = frames_of(request, session.timeline());
+  Frames frames = frames_of(request, session.timeline());
   if (!frames.warning.empty()) print_warning(frames.warning);
-  output.check(frames.count, inputs);
+  output.check(frames.numbers, inputs);
   PictureRecipe recipe(output.writes_stills() ? recipe_sources(options) : std::nullopt);
+  const auto own_recipe_of = [&](std::uint64_t frame) {
+    return frame_recipe(request, frames, frame, output.still(frame).stem().string() + ".fn");
+  };
+  const std::size_t wanted = frames.numbers.size();
+  if (options.skip_existing) {
+    std::erase_if(frames.numbers, [&](std::uint64_t frame) {
+      return is_made(output.still(frame), stated_precision(options),
+                     [&](const std::string& precision) { return recipe.text(precision, own_recipe_of(frame)); });
+    });
+    if (frames.numbers.empty()) return tell_all_made(options, output.path(), wanted, "frame");
+  }
   std::string codes;  // how the frames differ from the capture
   const MadeVideo made = [&] {
     WarningsAtEnd warnings;
-    return make_video(session, request, frames, output, progress_bar("exposing", options.quiet),
-                      [&](std::uint64_t frame, const Exposure& exposure, const ExposedPicture& exposed) {
+    return make_video(session, request, frames, output, progress_bar("exposing", options.quiet, progress_lines(options)),
+                      [&](std::uint64_t frame, const Exposure&, const ExposedPicture& exposed) {
                         tally.add(exposed);
                         codes = codes_text(exposed.figures.capture, exposed.output);
                         warnings.add(format("frame {}", frame), exposure_warnings(exposed));
-                        return recipe.text(tally.precision(),
-                                           own_recipe(exposure, request.exposure.is_plain()));
+                        return output.writes_stills()
+                                   ? recipe.text(tally.precision(), own_recipe_of(frame))
+                                   : std::string();
                       });
   }();
   const std::string name = output.path().string();
   if (made.interruption) {
-    print_note(format("{}: {} of {} frames were written", name, made.frames, frames.count));
+    print_note(format("{}: {} of {} frames were written", name, made.frames, frames.numbers.size()));
     throw *made.interruption;
   }
 
-  const std::int64_t start_ns = frames.times.start_ns(0), end_ns = frames.times.end_ns(frames.count - 1);
+  const auto [start_ns, end_ns] = frames.span();
   Answer answer{{{"video", name}, {"kind", output.kind()}}};
   answer.json.update(shape_json(shape));
-  answer.json.update({{"frames", frames.count},
+  answer.json.update({{"frames", frames.numbers.size()},
+                      {"skipped", wanted - frames.numbers.size()},
                       {"frames_a_second", request.rate.text()},
                       {"start_ns", start_ns},
                       {"end_ns", end_ns}});
   answer.line = format("{}: {}, {} ({}), from {} to {} of the capture, {}", name, shape_text(shape),
-                       counted(frames.count, "frame"), request.text(), duration_text(start_ns),
+                       counted(frames.numbers.size(), "frame"), request.text(), duration_text(start_ns),
                        duration_text(end_ns), output.kind() + codes);
+  if (wanted > frames.numbers.size())
+    answer.line += format(", {} there already", counted(wanted - frames.numbers.size(), "frame"));
   tally.end(answer, session, options.verbose);
   answer.tell_source(session);
   std::ranges::copy(made.notes, std::back_inserter(answer.notes));

@@ -63,11 +63,16 @@ std::vector<std::string> input_files(const Options& options) {
       inputs.push_back(still.string());
     }
   }
+  const auto add = [&](const std::string& name) {
+    inputs.push_back(name);
+    for (const auto& [tag, layer] : layer_files(name)) inputs.push_back(layer.string());
+  };
   for (const Option& option : app::options()) {
     const std::string* name = option.reads_file() ? option.stated(options) : nullptr;
-    if (name == nullptr || is_standard_input(*name) || option.knows(*name)) continue;
-    inputs.push_back(*name);
-    for (const auto& [tag, layer] : layer_files(*name)) inputs.push_back(layer.string());
+    if (name != nullptr && !is_standard_input(*name) && !option.knows(*name)) add(*name);
+  }
+  for (const Said& said : options.said) {  // key frames
+    if (said.option == "key" || said.option == "mask-key") add(said.words.back());
   }
   if (options.delay) {
     const std::string map = DelayRequest::parse(*options.delay, "--delay").file;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr auto kFirst = std::chrono::milliseconds(400);
 constexpr auto kEvery = std::chrono::milliseconds(100);
+constexpr auto kEveryLine = std::chrono::milliseconds(1000);
 constexpr std::uint64_t kBarWidth = 30;
 
 // `12 s`, `3:05 min`, `1:02 h`.
@@ -26,32 +27,49 @@ std::string time_left_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::string what, std::uint64_t total, bool quiet)
+Progress::Progress(std::string what, std::uint64_t total, bool quiet, ProgressLines lines)
     : what_(std::move(what)),
       total_(total),
       enabled_(!quiet && isatty(STDERR_FILENO) == 1),
-      next_(start_ + kFirst) {}
+      lines_(isatty(STDERR_FILENO) == 1 ? ProgressLines::none : lines),
+      next_(lines_ == ProgressLines::none ? start_ + kFirst : start_) {}
 
 Progress::~Progress() {
   if (shown_) std::fputs("\r\x1b[K", stderr);
 }
 
+std::string Progress::rate_text(std::uint64_t done) const {
+  const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double left =
+      done > 0 ? seconds / static_cast<double>(done) * static_cast<double>(total_ - std::min(done, total_)) : 0.0;
+  return format("{:.3g} a second, {} left", static_cast<double>(done) / seconds, time_left_text(left));
+}
+
+// `Progress: 45% exposing 54 of 120, 3.2 a second, 21 s left`.
+std::string Progress::line_text(std::uint64_t done) const {
+  std::string line;
+  if (lines_ == ProgressLines::main && total_ > 0) line = format("Progress: {}% ", done * 100 / total_);
+  line += format("{} {}", what_, done);
+  if (total_ > 0) line += format(" of {}", total_);
+  if (total_ > 0 && done > 0) line += ", " + rate_text(done);
+  return line;
+}
+
 void Progress::show(std::uint64_t done) {
-  if (!enabled_) return;
+  if (!enabled_ && lines_ == ProgressLines::none) return;
   const Clock::time_point now = Clock::now();
   if (now < next_) return;
-  next_ = now + kEvery;
+  next_ = now + (enabled_ ? kEvery : kEveryLine);
+  if (!enabled_) {
+    std::fprintf(stderr, "%s\n", line_text(done).c_str());
+    return;
+  }
   shown_ = true;
-  const double seconds = std::chrono::duration<double>(now - start_).count();
   std::string line = what_;
   if (total_ > 0) {
     const std::uint64_t filled = std::min(kBarWidth, done * kBarWidth / total_);
-    const double left =
-        done > 0 ? seconds / static_cast<double>(done) * static_cast<double>(total_ - std::min(done, total_))
-                 : 0.0;
-    line += format(" [{}{}] {}/{}, {:.3g} a second, {} left", std::string(filled, '#'),
-                   std::string(kBarWidth - filled, '.'), done, total_, static_cast<double>(done) / seconds,
-                   time_left_text(left));
+    line += format(" [{}{}] {}/{}, {}", std::string(filled, '#'), std::string(kBarWidth - filled, '.'), done,
+                   total_, rate_text(done));
   } else {
     line += format(" {}", done);
   }
@@ -59,10 +77,10 @@ void Progress::show(std::uint64_t done) {
   std::fflush(stderr);
 }
 
-ReportedProgress progress_bar(std::string what, bool quiet) {
-  return [what = std::move(what), quiet, bar = std::shared_ptr<Progress>()](std::uint64_t done,
-                                                                            std::uint64_t total) mutable {
-    if (!bar) bar = std::make_shared<Progress>(what, total, quiet);
+ReportedProgress progress_bar(std::string what, bool quiet, ProgressLines lines) {
+  return [what = std::move(what), quiet, lines, bar = std::shared_ptr<Progress>()](
+             std::uint64_t done, std::uint64_t total) mutable {
+    if (!bar) bar = std::make_shared<Progress>(what, total, quiet, lines);
     bar->show(done);
   };
 }

@@ -57,19 +57,6 @@ double parse_signed_number(std::string_view text, std::string_view option) {
   return *value;
 }
 
-// The mask for these functions, the first of which gets what layers leave.
-Mask exposure_mask(const Options& options, const FunctionSet& functions) {
-  const auto capture = options.operands.empty() ? std::nullopt : std::optional(options.operands.front());
-  Mask mask = read_layered_mask_input(*options.mask, functions.begin()->first, capture);
-  if (!options.feather) return mask;
-  if (!layer_files(*options.mask).empty()) {
-    throw UsageError(
-        format("{} is made of layers, which say themselves how they are blended; leave out --feather",
-               *options.mask));
-  }
-  return feathered(mask, Feather::parse(*options.feather));
-}
-
 // All but when it is exposed. Functions are read unless they are known.
 ExposureRequest timeless_request(const Options& options,
                                  const std::optional<Shared<FunctionSet>>& known = {}) {
@@ -86,7 +73,8 @@ ExposureRequest timeless_request(const Options& options,
   request.delay = delay_request(options);
   if (request.delay) request.delay->read();
   if (!options.functions) {
-    if (options.mask) throw UsageError("a mask goes with gain functions (-k), not with a plain interval");
+    if (options.mask || options.mask_to)
+      throw UsageError("a mask goes with gain functions (-k), not with a plain interval");
     request.gains = PlainInterval{{}, parse_shutter(options.shutter.value_or("box"), options.shutter_error)};
     return request;
   }
@@ -103,8 +91,9 @@ ExposureRequest timeless_request(const Options& options,
                             input_title(*options.functions), functions->size()));
   }
   request.gains = functions;
+  if (options.mask_to && !options.mask) throw UsageError("--mask-to is a second mask; add the first: -m mask.pgm");
   if (options.mask) {
-    request.mask = Shared(MaskWithRegions(exposure_mask(options, *functions)));
+    request.mask = Shared(MaskWithRegions(exposure_mask(options, functions->begin()->first)));
   }
   return request;
 }
@@ -114,6 +103,33 @@ ExposureRequest timeless_request(const Options& options,
 std::optional<DelayRequest> delay_request(const Options& options) {
   if (!options.delay) return std::nullopt;
   return DelayRequest::parse(*options.delay, "--delay");
+}
+
+Mask unfeathered_mask(const Options& options, const std::string& name, std::uint8_t rest) {
+  const auto capture = options.operands.empty() ? std::nullopt : std::optional(options.operands.front());
+  if (options.feather && !layer_files(name).empty()) {
+    throw UsageError(format(
+        "{} is made of layers, which say themselves how they are blended; leave out --feather", name));
+  }
+  return read_layered_mask_input(name, rest, capture);
+}
+
+Mask exposure_mask(const Options& options, std::uint8_t rest) {
+  const Mask mask = unfeathered_mask(options, *options.mask, rest);
+  const auto feather = options.feather ? std::optional(Feather::parse(*options.feather)) : std::nullopt;
+  if (!options.mask_to) {
+    if (options.mask_share) throw UsageError("--mask-share says how far it is to a second mask: add --mask-to");
+    return feather ? feathered(mask, *feather) : mask;
+  }
+  if (!options.mask_share) throw UsageError("how far is it to --mask-to? Add --mask-share 1/2, 0 to 1");
+  const Rational share = Rational::parse(*options.mask_share, "--mask-share");
+  if (share.numerator < 0 || share.numerator > share.denominator) {
+    throw UsageError(format("--mask-share {} is no share of 0 to 1", *options.mask_share));
+  }
+  const auto way = static_cast<std::uint32_t>(
+      round_half_up(static_cast<int128>(share.numerator) * kWholeWay, share.denominator));
+  return blended_mask(mask, *options.mask, unfeathered_mask(options, *options.mask_to, rest), *options.mask_to,
+                      mask_blend(options), way, feather);
 }
 
 double brightening(const Options& options) {
@@ -190,7 +206,8 @@ OutputRequest output_request(const Options& options) {
 }
 
 SeriesRequest series_request(const Options& options) {
-  SeriesRequest series{step_of(options), std::nullopt};
+  SeriesRequest series{step_of(options), {}, {}};
+  if (options.frames) series.numbers = FrameRanges::parse(*options.frames, "--frames");
   if (options.count) {
     series.count = parse_whole_number(*options.count, "--count", 1, SeriesRequest::kMostExposures);
   }
@@ -213,13 +230,7 @@ sheet::SheetWishes sheet_wishes(const Options& options) {
 }
 
 FramesRequest frames_request(const Options& options) {
-  if (options.functions && options.out_angle) {
-    throw UsageError(
-        "--out-angle describes plain exposures; with -k the functions say how each frame is exposed, from "
-        "its start on. Use one");
-  }
   FramesRequest request;
-  request.exposure = timeless_request(options);
   request.rate = Rational::parse(options.out_fps.value_or(kFilmRate), "--out-fps");
   request.speed = Rational::parse(options.speed.value_or("1"), "--speed");
   request.angle = Rational::parse(options.out_angle.value_or(kFilmAngle), "--out-angle");
@@ -227,6 +238,29 @@ FramesRequest frames_request(const Options& options) {
   if (options.to) request.to = StatedTime::parse(*options.to, "--to");
   // Before anything is opened.
   static_cast<void>(FrameTimes({}, request.rate, request.speed, request.angle));
+  request.keys.functions = function_keys(options, request);
+  const bool has_functions = options.functions || !request.keys.functions.empty();
+  if (has_functions && options.out_angle) {
+    throw UsageError(
+        "--out-angle describes plain exposures; with -k the functions say how each frame is exposed, from "
+        "its start on. Use one");
+  }
+  // The first keys stand for all where an exposure is described.
+  Options first = options;
+  std::optional<Shared<FunctionSet>> known;
+  if (!request.keys.functions.empty()) {
+    known = request.keys.functions.front().functions;
+    first.functions = request.keys.functions.front().name;
+  }
+  if (const auto mask = first_mask_key(options)) first.mask = mask;
+  request.exposure = timeless_request(first, known);
+  if (!request.exposure.is_plain()) {
+    const auto rest = std::get<Shared<FunctionSet>>(request.exposure.gains)->begin()->first;
+    read_mask_keys(request, options, rest);
+  }
+  request.keys.check();
+  request.curve = film_curve(options, request);
+  if (options.frames) request.numbers = FrameRanges::parse(*options.frames, "--frames");
   return request;
 }
 

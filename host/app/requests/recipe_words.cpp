@@ -47,6 +47,9 @@ std::optional<RecipeSources> recipe_sources(const Options& options,
   if (options.mask) {
     recipe.mask = Recipe::Input{known_name(*options.mask, ".pgm"), mask_checksum(*options.mask)};
   }
+  if (options.mask_to) {
+    recipe.mask_to = Recipe::Input{input_name(*options.mask_to), mask_checksum(*options.mask_to)};
+  }
   for (const Option& option : app::options()) {
     static const std::string kFlag;
     const std::string* value = option.is_flag() && option.is_in(options) ? &kFlag : option.stated(options);

@@ -62,6 +62,20 @@ inline constexpr std::string_view kAutomaticNoise = "auto";
 [[nodiscard]] ContactRequest contact_request(const Options& options);
 [[nodiscard]] SweepRequest sweep_request(const Options& options);
 [[nodiscard]] FramesRequest frames_request(const Options& options);
+
+// What changes along a film: functions, masks (of their first key the name alone), and when the capture is shown.
+[[nodiscard]] std::vector<FunctionKey> function_keys(const Options& options, const FramesRequest& request);
+[[nodiscard]] std::optional<std::string> first_mask_key(const Options& options);
+void read_mask_keys(FramesRequest& request, const Options& options, std::uint8_t rest);
+[[nodiscard]] std::optional<FilmCurve> film_curve(const Options& options, const FramesRequest& request);
+
+// The stated mask, on its way to the second one and with blended edges where that was asked for; of layers the tag
+// `rest` gets what they leave.
+[[nodiscard]] Mask exposure_mask(const Options& options, std::uint8_t rest);
+// One mask by its name.
+[[nodiscard]] Mask unfeathered_mask(const Options& options, const std::string& name, std::uint8_t rest);
+[[nodiscard]] MaskBlend mask_blend(const Options& options);
+
 // What --columns and --width ask for.
 [[nodiscard]] sheet::SheetWishes sheet_wishes(const Options& options);
 

@@ -91,7 +91,7 @@ class LibavVideoWriter final : public VideoWriter {
     check(avformat_write_header(muxer_.get(), nullptr));
   }
 
-  void write(const Picture& picture, const std::string&) override {
+  void write(const Picture& picture, const std::string&, std::uint64_t) override {
     // An encoder may still hold the frame before.
     check(av_frame_make_writable(picture_.get()));
     copy(picture);

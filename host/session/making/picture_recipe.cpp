@@ -40,6 +40,8 @@ std::string PictureRecipe::text(const std::string& precision, const OwnRecipe& o
   Recipe recipe = *recipe_;
   recipe.precision = precision;
   if (own.functions) recipe.functions = own.functions;
+  if (own.mask) recipe.mask = own.mask;
+  if (own.mask_to) recipe.mask_to = own.mask_to;
   for (const auto& [name, value] : own.options) {
     std::erase_if(recipe.options, [&name = name](const auto& option) { return option.first == name; });
     if (value) recipe.options.emplace_back(name, *value);

@@ -22,7 +22,8 @@ struct RecipeSources {
 // What the recipe of one of many pictures states in place of that.
 struct OwnRecipe {
   std::map<std::string, std::optional<std::string>> options;  // by long names; none: left out
-  std::optional<Recipe::Text> functions;
+  std::optional<Recipe::Text> functions = {};
+  std::optional<Recipe::Input> mask = {}, mask_to = {};
 };
 
 // Of the single picture that a frame of a video is: when it was exposed, of functions their time 0.

@@ -2,9 +2,37 @@
 
 #include <utility>
 
+#include "exposure/function_text.hpp"
 #include "media/frame_queue.hpp"
+#include "media/input_checksum.hpp"
 
 namespace nutik {
+
+OwnRecipe frame_recipe(const FramesRequest& request, const Frames& frames, std::uint64_t frame,
+                       const std::string& functions_name) {
+  OwnRecipe own = own_recipe(frames.exposure(frame), request.exposure.is_plain());
+  if (request.keys.empty()) return own;
+  const std::int64_t film_ns = frames.film->start_ns(frame);
+  if (!request.keys.functions.empty()) {
+    std::string text;
+    for (const auto& [tag, function] : request.keys.functions_at(film_ns))
+      text += function_text(tag, function) + "\n";
+    own.functions = Recipe::Text{functions_name, std::move(text)};
+  }
+  if (request.keys.masks.empty()) return own;
+  const auto input = [&](std::size_t key) {
+    const MaskKey& mask = request.keys.masks[key];
+    return Recipe::Input{input_name(mask.name), mask.checksum};
+  };
+  const auto [key, way] = request.keys.mask_moment(film_ns);
+  own.mask = input(key);
+  own.options["mask-blend"] = {};  // says nothing of one mask
+  if (way == 0) return own;
+  own.mask_to = input(key + 1);
+  own.options["mask-share"] = Rational::of(way, kWholeWay).text();
+  own.options["mask-blend"] = request.keys.blend == MaskBlend::alpha ? "alpha" : "distance";
+  return own;
+}
 
 MadeVideo make_video(Session& session, const FramesRequest& request, const Frames& frames,
                      const VideoOutput& output, const ReportedProgress& progress,
@@ -12,7 +40,8 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
                                                      const ExposedPicture& exposed)>& add) {
   CaptureFormat capture = session.format();
   const PlanOptions plan = plan_options_of(request.exposure, capture.shape);
-  const Mask mask = mask_of(request.exposure, capture.shape);
+  const bool mask_changes = !request.keys.masks.empty();
+  Mask mask = mask_changes ? Mask() : mask_of(exposure_of(request, frames, 0), capture.shape);
   const OutputFormat frame_format = output.frame_format(capture);
   capture.transfer = plan.transfer.value_or(capture.transfer);
 
@@ -21,14 +50,17 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   FrameQueue queue([&] { return output.open(capture, frame_format); },
                    session.waiting_pictures(frame_format.type));
   try {
-    for (; made.frames < frames.count; ++made.frames) {
+    for (; made.frames < frames.numbers.size(); ++made.frames) {
       check_interruption();
-      if (progress) progress(made.frames, frames.count);
-      const Exposure exposure = frames.times.exposure(made.frames);
-      const FunctionSet functions = functions_of(request.exposure, exposure, session.timeline());
+      if (progress) progress(made.frames, frames.numbers.size());
+      const std::uint64_t frame = frames.numbers[made.frames];
+      const Exposure exposure = frames.exposure(frame);
+      const ExposureRequest wanted = exposure_of(request, frames, frame);
+      const FunctionSet functions = functions_of(wanted, exposure, session.timeline());
+      if (mask_changes) mask = mask_of(wanted, capture.shape);
       ExposedPicture exposed = session.render(functions, mask, plan, frame_format);
-      std::string text = add ? add(made.frames, exposure, exposed) : std::string();
-      if (!queue.push(std::move(exposed.picture), std::move(text))) break;
+      std::string text = add ? add(frame, exposure, exposed) : std::string();
+      if (!queue.push(std::move(exposed.picture), std::move(text), frame)) break;
     }
   } catch (const Interrupted& caught) {
     if (made.frames == 0) throw;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "session/making/picture_recipe.hpp"
 #include "session/making/video_output.hpp"
 #include "session/requests/frames_request.hpp"
 #include "session/session.hpp"
@@ -22,8 +23,14 @@ struct MadeVideo {
   std::vector<std::string> notes;           // of the writer: whole sentences
 };
 
-// `frames` are those of the request on the session's timeline. `add`, which may be empty, is told each frame as it
-// was exposed, and returns the text that goes into it where frames are stills. Throws what Session::render() does, and OutputError.
+// What the recipe of a frame's still states for itself: when it was exposed, and with keys what its functions (as a text
+// with that name) and its mask were.
+[[nodiscard]] OwnRecipe frame_recipe(const FramesRequest& request, const Frames& frames, std::uint64_t frame,
+                                     const std::string& functions_name);
+
+// `frames` are those of the request on the session's timeline; stills have the frames' numbers. `add`, which may be
+// empty, is told each frame as it was exposed, and returns the text that goes into it where frames are stills. Throws
+// what Session::render() does, and OutputError.
 [[nodiscard]] MadeVideo make_video(
     Session& session, const FramesRequest& request, const Frames& frames, const VideoOutput& output,
     const ReportedProgress& progress,

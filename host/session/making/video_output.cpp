@@ -45,18 +45,20 @@ OutputFormat VideoOutput::frame_format(const CaptureFormat& capture) const {
   return output;
 }
 
-void VideoOutput::check(std::uint64_t frames, std::span<const std::string> inputs) const {
+void VideoOutput::check(std::span<const std::uint64_t> frames, std::span<const std::string> inputs) const {
   if (codec_ != nullptr) {
     check_output(path_, OutputKind::video, inputs);
     return;
   }
-  const NumberedName name = NumberedName::parse(path_.filename().string()).value();
   std::error_code error;
-  for (std::uint64_t k = 0; k < frames; ++k) {
+  for (const std::uint64_t frame : frames) {
     // What is not there yet can be no input.
-    const std::filesystem::path still = path_.parent_path() / name.with(k);
-    if (std::filesystem::exists(still, error)) check_output(still, OutputKind::picture, inputs);
+    if (std::filesystem::exists(still(frame), error)) check_output(still(frame), OutputKind::picture, inputs);
   }
+}
+
+std::filesystem::path VideoOutput::still(std::uint64_t frame) const {
+  return path_.parent_path() / NumberedName::parse(path_.filename().string()).value().with(frame);
 }
 
 std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture,

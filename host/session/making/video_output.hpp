@@ -24,7 +24,9 @@ class VideoOutput {
   [[nodiscard]] OutputFormat frame_format(const CaptureFormat& capture) const;
 
   // Throws UsageError where one of the files to write is an input or of another kind.
-  void check(std::uint64_t frames, std::span<const std::string> inputs) const;
+  void check(std::span<const std::uint64_t> frames, std::span<const std::string> inputs) const;
+  // The still of a frame. Of stills alone.
+  [[nodiscard]] std::filesystem::path still(std::uint64_t frame) const;
 
   [[nodiscard]] std::unique_ptr<VideoWriter> open(const CaptureFormat& capture,
                                                   const OutputFormat& format) const;

@@ -8,18 +8,56 @@
 
 namespace nutik {
 
-std::string FramesRequest::text() const {
-  std::string text = format("{} frames a second", rate.text());
-  if (exposure.is_plain()) text += format(", {} degrees", angle.text());
-  if (speed != Rational{1, 1}) text += format(", speed {}", speed.text());
-  return text;
+namespace {
+
+// Smooth shutters have some tens of control points, which need room.
+constexpr std::int64_t kLeastShapedNs = 1'000;
+constexpr std::uint64_t kMostCurveFrames = 100'000'000;
+
+// How long a frame is exposed at least where a curve stands still.
+std::int64_t least_ns(const FramesRequest& request) {
+  const auto* plain = std::get_if<PlainInterval>(&request.exposure.gains);
+  return plain == nullptr || plain->shutter == Shutter() ? 1 : kLeastShapedNs;
 }
 
-Frames frames_of(const FramesRequest& request, const Timeline& timeline) {
-  Frames frames{FrameTimes(exact_time(request.from, "the video's start", timeline), request.rate,
-                           request.speed, request.angle),
-                0,
-                {}};
+// From the start of a frame to the last time that its functions gather light.
+std::int64_t functions_end_ns(const FramesRequest& request) {
+  if (request.keys.functions.empty()) return functions_end_ns(request.exposure);
+  std::int64_t end_ns = 0;
+  ExposureRequest key = request.exposure;
+  for (const FunctionKey& functions : request.keys.functions) {
+    key.gains = functions.functions;
+    end_ns = std::max(end_ns, functions_end_ns(key));
+  }
+  return end_ns;
+}
+
+std::string outside_text(const Frames& frames, const std::string& name, const Timeline& timeline) {
+  std::vector<std::uint64_t> outside;
+  for (const std::uint64_t k : frames.numbers) {
+    if (frames.curve->leaves(frames.film->exposure(k))) outside.push_back(k);
+  }
+  if (outside.empty()) return {};
+  return format("{} leaves the capture, which lasts {}, in frame{} {}; there the film shows what is left within "
+                "it, or stands still at its first or last moment",
+                name, duration_text(timeline.duration_ns()), outside.size() > 1 ? "s" : "",
+                ranges_text(outside));
+}
+
+// The frames whose shutter is closed, or with functions whose moment has come, before the curve ends.
+void put_on_curve(Frames& frames, const FramesRequest& request, const Timeline& timeline) {
+  frames.curve.emplace(*request.curve, timeline, least_ns(request));
+  const std::int64_t end_ns = frames.curve->film_end_ns();
+  frames.count = request.exposure.is_plain() ? frames.film->count_ending_by(end_ns)
+                                             : frames.film->count_starting_by(end_ns - 1);
+  if (frames.count == 0 || frames.count > kMostCurveFrames) {
+    throw UsageError(format("{} lasts {}, which are {} frames of {} a second; a film by a curve has 1 to {}",
+                            request.curve->name, duration_text(end_ns), frames.count, request.rate.text(),
+                            kMostCurveFrames));
+  }
+}
+
+void put_evenly(Frames& frames, const FramesRequest& request, const Timeline& timeline) {
   const std::int64_t start_ns = frames.times.start_ns(0);
   std::int64_t end_ns = timeline.duration_ns();
   if (request.to) {
@@ -37,8 +75,7 @@ Frames frames_of(const FramesRequest& request, const Timeline& timeline) {
                             request.from.text(), duration_text(timeline.duration_ns())));
   }
   const bool is_plain = request.exposure.is_plain();
-  const std::int64_t length_ns =
-      is_plain ? frames.times.end_ns(0) - start_ns : functions_end_ns(request.exposure);
+  const std::int64_t length_ns = is_plain ? frames.times.end_ns(0) - start_ns : functions_end_ns(request);
   frames.count = is_plain ? frames.times.count_ending_by(end_ns)
                           // A frame that starts at the very end sees nothing.
                           : frames.times.count_starting_by(end_ns - std::max<std::int64_t>(length_ns, 1));
@@ -47,7 +84,49 @@ Frames frames_of(const FramesRequest& request, const Timeline& timeline) {
         format("no frame fits: each is exposed for {}, and between the video's start and end are {}",
                duration_text(length_ns), duration_text(std::max<std::int64_t>(end_ns - start_ns, 0))));
   }
+}
+
+}  // namespace
+
+std::string FramesRequest::text() const {
+  std::string text = format("{} frames a second", rate.text());
+  if (exposure.is_plain()) text += format(", {} degrees", angle.text());
+  if (curve) text += format(", by {}", curve->name);
+  if (speed != Rational{1, 1}) text += format(", speed {}", speed.text());
+  if (!keys.functions.empty()) text += format(", {} keys of functions", keys.functions.size());
+  if (!keys.masks.empty()) text += format(", {} keys of masks", keys.masks.size());
+  return text;
+}
+
+Exposure Frames::span() const {
+  Exposure span = exposure(numbers.front());
+  for (const std::uint64_t k : numbers) {
+    const Exposure one = exposure(k);
+    span = {std::min(span.start_ns, one.start_ns), std::max(span.end_ns, one.end_ns)};
+  }
+  return span;
+}
+
+Frames frames_of(const FramesRequest& request, const Timeline& timeline) {
+  Frames frames{FrameTimes(exact_time(request.from, "the video's start", timeline), request.rate,
+                           request.speed, request.angle),
+                0,
+                {},
+                {}};
+  if (request.curve || !request.keys.empty()) frames.film = request.film_times();
+  if (request.curve) {
+    put_on_curve(frames, request, timeline);
+  } else {
+    put_evenly(frames, request, timeline);
+  }
+  frames.numbers = chosen_numbers(request.numbers, frames.count, "frames", "film");
+  if (request.curve) frames.warning = outside_text(frames, request.curve->name, timeline);
   return frames;
+}
+
+ExposureRequest exposure_of(const FramesRequest& request, const Frames& frames, std::uint64_t frame) {
+  if (request.keys.empty()) return request.exposure;
+  return request.keys.exposure_at(frames.film->start_ns(frame), request.exposure);
 }
 
 NeedsOfFormat video_needs(std::uint32_t encoder_frames,

@@ -7,6 +7,7 @@
 
 #include "capture/error.hpp"
 #include "session/requests/exposure_request.hpp"
+#include "session/requests/frame_ranges.hpp"
 
 namespace nutik {
 
@@ -16,6 +17,7 @@ struct SeriesRequest {
 
   StatedTime every;                    // longer than nothing; pictures are whole ones
   std::optional<std::uint64_t> count;  // none: as many as end within the capture
+  std::optional<FrameRanges> numbers = {};  // of the exposures to make; none: all
 
   friend bool operator==(const SeriesRequest&, const SeriesRequest&) = default;
 };
