@@ -51,6 +51,9 @@ struct Options {
   // What is written.
   Value output, depth, quality, negative, out_transfer, activity;
   bool json = false, no_recipe = false, quiet = false, verbose = false;
+
+  // A recording of events.
+  Value contrast, start_picture, tick;
 };
 
 }  // namespace nutik::app
