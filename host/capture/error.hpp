@@ -41,7 +41,10 @@ enum class Setting {
   unmapped,
   video_codec,
   white_code,
-  width
+  width,
+  contrast,  // of an event
+  start_picture,
+  tick
 };
 
 class Error : public std::runtime_error {

@@ -6,9 +6,12 @@
 #include <cstring>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "imev/changed_row.hpp"
 #include "imev/expected_values.hpp"
 #include "imev/tile_log.hpp"
 #include "imev/tile_step.hpp"
@@ -107,14 +110,22 @@ void for_each_strip(const CaptureFormat& source, const TileGrid& grid,
   }
 }
 
+void check_white(const CaptureFormat& source, std::uint32_t largest, std::uint64_t sample) {
+  if (largest <= source.white_code) return;
+  throw InputError(format("sample {} has a code of {}, above the white code {}; state the right one", sample,
+                          largest, source.white_code),
+                   {Setting::white_code});
+}
+
 void check_white(const CaptureFormat& source, std::span<const std::byte> raster, std::uint64_t sample) {
   const std::uint32_t largest_possible = source.code_bytes == 1 ? 255 : 65'535;
   if (source.white_code >= largest_possible) return;
-  const std::uint32_t largest = largest_code(raster, source.code_bytes);
-  if (largest > source.white_code) {
-    throw InputError(format("sample {} has a code of {}, above the white code {}; state the right one",
-                            sample, largest, source.white_code),
-                     {Setting::white_code});
+  check_white(source, largest_code(raster, source.code_bytes), sample);
+}
+
+void check_white(const CaptureFormat& source, const PixelChange& change, std::uint64_t sample) {
+  for (std::uint32_t channel = 0; channel < source.shape.channels; ++channel) {
+    check_white(source, change.codes[channel], sample);
   }
 }
 
@@ -150,6 +161,15 @@ class BlockBuilder::Implementation {
       rasters = rasters.subspan(count);
     }
   }
+
+  void add_changes(std::span<const PixelChange> changes) {
+    if (room() == 0 || is_empty() || !takes_changes()) {
+      throw std::logic_error("a block was told changes of a sample that it does not take like this");
+    }
+    add_sample_of(changes);
+    ++samples_;
+  }
+  [[nodiscard]] virtual bool takes_changes() const { return false; }
 
   [[nodiscard]] std::uint32_t room() const {
     if (is_empty()) return std::min(limits_.samples, busy_samples(source_, limits_));
@@ -189,6 +209,7 @@ class BlockBuilder::Implementation {
  protected:
   // At most kStepSamples; a block's first one alone.
   virtual void add_samples(std::span<const std::span<const std::byte>> rasters) = 0;
+  virtual void add_sample_of(std::span<const PixelChange> /*changes*/) {}
   // How many more samples the block's memory takes.
   [[nodiscard]] virtual std::uint64_t fitting_memory() const { return limits_.samples; }
   // Keeps what the next block starts from, before this one is closed.
@@ -222,6 +243,8 @@ class BlockBuilder::Comparing final : public Implementation {
         step_(step_function(source)),
         held_(source.noise.tolerance == 0 ? 0 : grid_.tile_count() * row_bytes_),
         log_(source, limits.samples, policy, limits.memory_bytes) {}
+
+  [[nodiscard]] bool takes_changes() const override { return policy_ != TilePolicy::dense; }
 
  private:
   // One at a time where tiles that all moved to larger rooms might come to more than twice the limit.
@@ -270,6 +293,40 @@ class BlockBuilder::Comparing final : public Implementation {
     for_each_strip(source_, grid_, samples, step.rasters, visit);
   }
 
+  void add_sample_of(std::span<const PixelChange> changes) override {
+    changed_tiles_.clear();
+    for (const PixelChange& change : changes) {
+      if (change.pixel >= source_.shape.pixel_count()) {
+        throw std::logic_error("a change lies outside the picture");
+      }
+      check_white(source_, change, first_sample_ + samples_);
+      const std::uint32_t x = change.pixel % source_.shape.width, y = change.pixel / source_.shape.width;
+      changed_tiles_.emplace_back(grid_.tile_of(x, y), &change);
+    }
+    // Changes of one tile side by side, in the order in which they came.
+    std::ranges::sort(changed_tiles_);
+    const BlockCourse course{samples_ + 1, expected_samples(samples_ + 1)};
+    for (auto at = changed_tiles_.begin(); at != changed_tiles_.end();) {
+      const std::uint64_t tile = at->first;
+      alignas(64) std::array<std::byte, kTilePixels * 3 * 2> row;
+      std::memcpy(row.data(), log_.last_row(tile), row_bytes_);
+      for (; at != changed_tiles_.end() && at->first == tile; ++at) write_change(source_, *at->second, row.data());
+      add_row(tile, row.data(), course);
+    }
+  }
+
+  // What a tile holds from this sample on, as far as it differs from what it held by more than the tolerance.
+  void add_row(std::uint64_t tile, std::byte* row, BlockCourse course) {
+    const std::byte* const held = log_.last_row(tile);
+    const std::uint64_t changed = differing_lanes(source_, held, row);
+    if (changed == 0) return;
+    if (!log_.has_room(tile, 1)) log_.make_room(tile, 1, course);
+    std::memcpy(log_.next_row(tile), row, row_bytes_);
+    const auto at = static_cast<std::uint16_t>(samples_);
+    log_.add_rows(tile, {&at, 1}, static_cast<std::uint32_t>(std::popcount(changed)));
+    changed_bytes_ += row_bytes_;
+  }
+
   // How many samples the block will have if it goes on changing as it did so far: before that is known, as many as the
   // one before it. `samples` is how many there are with those that are being added.
   [[nodiscard]] std::uint32_t expected_samples(std::uint32_t samples) const {
@@ -302,6 +359,7 @@ class BlockBuilder::Comparing final : public Implementation {
 
   std::uint64_t row_bytes_;
   StepFunction step_;
+  std::vector<std::pair<std::uint64_t, const PixelChange*>> changed_tiles_;  // of a sample
   PageBuffer held_;  // [tile][C][64] codes at the end of the block before, where there is a tolerance
   TileLog log_;
   std::uint32_t samples_before_ = 0;  // of the block before
@@ -388,6 +446,10 @@ BlockBuilder& BlockBuilder::operator=(BlockBuilder&&) noexcept = default;
 
 void BlockBuilder::add(std::span<const std::byte> raster) { implementation_->add({&raster, 1}); }
 void BlockBuilder::add(std::span<const std::span<const std::byte>> rasters) { implementation_->add(rasters); }
+bool BlockBuilder::takes_changes() const { return implementation_->takes_changes(); }
+void BlockBuilder::add_changes(std::span<const PixelChange> changes) {
+  implementation_->add_changes(changes);
+}
 std::uint32_t BlockBuilder::room() const { return implementation_->room(); }
 bool BlockBuilder::is_empty() const { return implementation_->is_empty(); }
 BlockExtent BlockBuilder::extent() const { return implementation_->extent(); }

@@ -13,6 +13,7 @@
 #include <span>
 
 #include "capture/picture.hpp"
+#include "capture/pixel_change.hpp"
 #include "imev/block.hpp"
 #include "imev/tile_cost.hpp"
 #include "system/page_buffer.hpp"
@@ -70,6 +71,14 @@ class BlockBuilder {
   // The next samples, of which the block has room() for as many: faster than one by one.
   void add(std::span<const std::span<const std::byte>> rasters);
   static constexpr std::uint32_t kSamplesAtOnce = 4;  // no more are compared in one go
+
+  // Whether a sample within a block can be told by what changes in it: it takes no longer then than that is much. Not
+  // where a camera's noise is known, nor where all tiles are to be dense.
+  [[nodiscard]] bool takes_changes() const;
+  // Adds the next sample, which is not the block's first: the one before it with these pixels changed; of several
+  // changes of a pixel the last counts. The block is the same as if the sample had been added whole. Throws as add()
+  // does.
+  void add_changes(std::span<const PixelChange> changes);
 
   // How many more samples the block surely takes: none where it is full. It may take others after those.
   [[nodiscard]] std::uint32_t room() const;

@@ -9,6 +9,7 @@
 #include "capture/format.hpp"
 #include "capture/seconds_text.hpp"
 #include "media/clip_part.hpp"
+#include "media/event_clip.hpp"
 #include "media/module.hpp"
 #include "media/photron_clip.hpp"
 #include "media/photron_header.hpp"
@@ -80,6 +81,10 @@ class PerhapsDamaged final : public Clip {
     }
   }
 
+  [[nodiscard]] bool tells_changes() const override { return clip_->tells_changes(); }
+  [[nodiscard]] bool makes_codes() const override { return clip_->makes_codes(); }
+  std::optional<std::span<const PixelChange>> read_changes() override { return clip_->read_changes(); }
+
   [[nodiscard]] std::optional<std::string> ended_early() const override {
     return has_ended_ ? std::optional(reason_) : std::nullopt;
   }
@@ -123,18 +128,22 @@ std::unique_ptr<Clip> open_raw(const std::filesystem::path& path, const ClipOpti
   return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
 }
 
-// Event cameras write no pictures: lines of text first, each behind `% ` (Prophesee) or starting with `#!AER-DAT`.
-void refuse_events(const std::filesystem::path& path) {
-  const std::string start = first_bytes(path);
-  if (!start.starts_with("% ") && !start.starts_with("#!AER-DAT")) return;
-  throw InputError(
-      format("{} is the recording of an event camera, which holds changes of single pixels and no "
-             "pictures: such are not read. Make a video of it with its camera's program",
-             input_title(path.string())));
+void refuse_event_options(const std::filesystem::path& path, const EventOptions& events) {
+  std::vector<Setting> stated;
+  if (events.contrast) stated.push_back(Setting::contrast);
+  if (events.start) stated.push_back(Setting::start_picture);
+  if (events.tick_ns) stated.push_back(Setting::tick);
+  if (stated.empty()) return;
+  throw UsageError(format("{} holds pictures, of which nothing is said by events; leave that out",
+                          input_title(path.string())),
+                   std::move(stated));
 }
 
 // All of it, as its files have it.
 std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOptions& options) {
+  const bool holds_events = !options.raw && is_event_recording(path);
+  if (holds_events) return open_event_clip(path, options);
+  refuse_event_options(path, options.events);
   if (!options.raw) {
     if (is_stills_table(path)) return open_table(path, options);
     if (const auto stills = list_stills(path)) return open_stills(path, *stills, options);
@@ -144,7 +153,6 @@ std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOp
     throw InputError(format("{} cannot be read: no such file", input_title(path.string())));
   }
   if (options.raw) return open_raw(path, options);
-  refuse_events(path);
   return is_photron_clip(path) ? open_photron_clip(path, options) : video_module().open(path, options);
 }
 

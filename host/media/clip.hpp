@@ -14,7 +14,9 @@
 #include "capture/error.hpp"
 #include "capture/fact.hpp"
 #include "capture/picture.hpp"
+#include "capture/pixel_change.hpp"
 #include "capture/timeline.hpp"
+#include "media/event_options.hpp"
 
 namespace nutik {
 
@@ -107,6 +109,7 @@ struct ClipOptions {
   std::optional<ClipScale> scale = std::nullopt;
   Interlaced interlaced = Interlaced::refused;
   bool ends_at_damage = false;  // instead of being an error
+  EventOptions events = {};
   // What its decoder may hold: it works on no more pictures at a time than fit, one at least. None: on one for each
   // core.
   std::optional<std::uint64_t> decoder_bytes = std::nullopt;
@@ -129,10 +132,21 @@ class Clip {
 
   // After it has ended, what was done to its pictures that only they told.
   [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
+
+  // Whether samples can also be read as the pixels that change: where there are many, and most pixels stay as they were.
+  [[nodiscard]] virtual bool tells_changes() const { return false; }
+
+  // Reads the next sample, after the first: pixels that it may hold other codes of than the one before it, until the
+  // next call; if a pixel is among them twice, the later counts. Returns none at the end.
+  virtual std::optional<std::span<const PixelChange>> read_changes() { return std::nullopt; }
+
+  // Whether codes are made here of what the files hold: a stated white is none of them.
+  [[nodiscard]] virtual bool makes_codes() const { return false; }
 };
 
-// Opens a video (`-` is one from standard input), a sequence of stills (media/still_sequence.hpp), a table of stills (media/stills_table.hpp), or a
-// Photron camera's pictures (media/photron_clip.hpp). Their times do not count where a rate is stated. Throws InputError where there is
+// Opens a video (`-` is one from standard input), a sequence of stills (media/still_sequence.hpp), a table of stills
+// (media/stills_table.hpp), a Photron camera's pictures (media/photron_clip.hpp), or a recording without pictures
+// (media/event_clip.hpp). Their times do not count where a rate is stated. Throws InputError where there is
 // none, or none that can be read.
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options);
 

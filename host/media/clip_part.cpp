@@ -127,6 +127,25 @@ class ClipPart final : public Clip {
     return true;
   }
 
+  [[nodiscard]] bool tells_changes() const override { return clip_->tells_changes() && !means_; }
+  [[nodiscard]] bool makes_codes() const override { return clip_->makes_codes(); }
+
+  std::optional<std::span<const PixelChange>> read_changes() override {
+    if (next_ >= end_) return std::nullopt;
+    auto changes = clip_->read_changes();
+    if (!changes) return std::nullopt;
+    ++next_;
+    if (raster_.empty()) return changes;
+    changes_.clear();
+    for (PixelChange change : *changes) {
+      const std::uint32_t x = change.pixel % whole_.shape.width, y = change.pixel / whole_.shape.width;
+      if (x < crop_.x || y < crop_.y || x >= crop_.x + crop_.width || y >= crop_.y + crop_.height) continue;
+      change.pixel = (y - crop_.y) * crop_.width + x - crop_.x;
+      changes_.push_back(change);
+    }
+    return changes_;
+  }
+
   [[nodiscard]] std::optional<std::string> ended_early() const override { return clip_->ended_early(); }
   [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
 
@@ -134,7 +153,7 @@ class ClipPart final : public Clip {
   // Pictures before the part are decoded, for the others may refer to them.
   void skip(std::span<std::byte> raster) {
     for (; next_ < first_; ++next_) {
-      if (clip_->read(raster)) continue;
+      if (clip_->tells_changes() ? clip_->read_changes().has_value() : clip_->read(raster)) continue;
       next_ = end_ = first_;
       return;
     }
@@ -237,6 +256,7 @@ class ClipPart final : public Clip {
   std::uint64_t first_ = 0, end_ = kMostSamples, next_ = 0;  // of the clip's pictures
   std::vector<std::byte> raster_;                            // one of them, unless it is taken as it is
   std::optional<LightMeans> means_;
+  std::vector<PixelChange> changes_;  // within the rectangle
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "capture/format.hpp"
 #include "imev/each_block.hpp"
 #include "imev/expected_values.hpp"
+#include "media/event_clip.hpp"
 #include "render/picture_memory.hpp"
 #include "render/plan_cache.hpp"
 #include "session/clips/clip_memory.hpp"
@@ -110,7 +111,8 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
                                         const Terms& terms)
     : source_(source),
       devices_(needed(std::move(devices))),
-      reading_(terms.reading),
+      // Only of a file can what changes be exposed without looking at what does not.
+      reading_(terms.reading == Reading::forward && is_event_recording(source.path) ? Reading::whole : terms.reading),
       besides_(terms.besides),
       is_clip_(terms.open_clip || !is_tik(source.path)),
       plans_(memory().table_bytes()) {

@@ -24,6 +24,8 @@ def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[N
          deinterlace: Optional[str] = None, as_far_as_it_goes: bool = False, align: Optional[str] = None,
          align_to: Optional[Time] = None, unseen: Optional[str] = None, deflicker: bool = False,
          tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
+         contrast: Union[str, Number, None] = None, start_picture: Union[Path, Number, None] = None,
+         tick: Optional[Time] = None,
          device: Optional[str] = None, memory: Union[int, str, None] = None, renderer: Optional[str] = None) -> Capture:
     """Opens a capture (.tik), or a clip, which is encoded into a temporary capture first: a video, a folder of stills,
     'frames/*.png', a table of stills (docs/reference/input.md).
@@ -32,7 +34,9 @@ def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[N
     shutter_angle in degrees, transfer, white, primaries, pixel_aspect; raw, matrix, range, chroma_at of video. Part of it:
     begin and end, crop (x, y, width, height) or 'WxH+X+Y', scale '1/2'. align ('translation', 'rigid', 'homography')
     moves pictures of a camera that moved onto the first one, or that at align_to. Changes are kept beyond `tolerance`
-    codes, or beyond `sigmas` of the camera's noise: 'auto', or a noise file.
+    codes, or beyond `sigmas` of the camera's noise: 'auto', or a noise file. Of a recording of events: contrast, the step
+    of log light that an event is (0.2, '0.3:0.17'); start_picture, light before the first, a picture or a number; tick, in
+    which changes count together.
 
     device: an OpenCL device, by number or part of its name; None: NUTIK_DEVICE, else the first. memory: bytes or '2GB';
     None: half of the machine's. renderer: 'reference' computes without OpenCL, slowly.

@@ -184,14 +184,14 @@ def settings_of(stated: dict[str, Any]) -> dict[str, str]:
                 value, str):
             settings[name] = number_word(value, name) if name not in ("sigmas", "gain", "shutter_error") else repr(
                 float(value))
-        elif name in ("begin", "end", "align_to", "start", "exposure"):
+        elif name in ("begin", "end", "align_to", "start", "exposure", "tick"):
             settings[name] = time_word(value, name)
         elif name == "crop" and not isinstance(value, str):
             x, y, width, height = box_of(value, name)
             settings[name] = f"{width}x{height}+{x}+{y}"
         elif name == "memory":
             settings[name] = bytes_word(value, name)
-        elif name == "noise":
+        elif name == "noise" or (name == "start_picture" and not isinstance(value, (int, float))):
             settings[name] = path_word(value)
         else:
             settings[name] = "1" if value is True else str(value)

@@ -122,6 +122,7 @@ std::string_view argument_of(Setting setting) {
     case Setting::block_samples: return "block_samples=";
     case Setting::chroma_place: return "chroma_at=";
     case Setting::columns: return "columns=";
+    case Setting::contrast: return "contrast=";
     case Setting::count_redrawn: return "count_redrawn=";
     case Setting::crop: return "crop=";
     case Setting::deflicker: return "deflicker=";
@@ -142,6 +143,8 @@ std::string_view argument_of(Setting setting) {
     case Setting::renderer: return "renderer=";
     case Setting::scale: return "scale=";
     case Setting::shutter_angle: return "shutter_angle=";
+    case Setting::start_picture: return "start_picture=";
+    case Setting::tick: return "tick=";
     case Setting::to: return "end=";
     case Setting::transfer: return "transfer=";
     case Setting::unmapped: return "unmapped='zero'";

@@ -122,6 +122,16 @@ def texts(tests):
     yield "recordings", (b"<cih><imageDataInfo><resolution><width>8</width><height>5</height></resolution><colorInfo>"
                          b"<type>Raw</type><bit>16</bit></colorInfo></imageDataInfo><frameInfo><totalFrame>3</totalFrame>"
                          b"</frameInfo><recordInfo><recordRate>4000</recordRate></recordInfo></cih>")
+    # A time and two events of each format of tests/fuzz/events.cpp, by the number of how the file begins.
+    little = lambda size, *words: b"".join(word.to_bytes(size, "little") for word in words)
+    yield "events", b"\0" + little(4, 8 << 28 | 5, 1 << 28 | 3 << 22 | 9 << 11 | 4, 9 << 11 | 4)
+    yield "events", b"\1" + little(4, 8 << 28 | 5, 0, 1 << 28 | 3 << 22 | 9 << 11 | 4, 0x8001)
+    yield "events", b"\2" + little(4, 0, 8 << 28 | 5, 0x8001, 1 << 28 | 3 << 22 | 9 << 11 | 4)
+    yield "events", b"\3" + little(2, 0x8005, 0x6003, 4, 0x2809, 0x3009, 0x4081, 0x4003, 0x5001)
+    yield "events", b"\4" + little(4, 7, 1 << 28 | 4 << 14 | 9, 8, 4 << 14 | 9)
+    big = lambda *words: b"".join(word.to_bytes(size, "big") for word, size in words)
+    adder = big((5, 2), (3, 2), (120000, 4), (5000, 4), (50000, 4), (9, 1), (1, 1), (0, 4), (1, 4), (1, 4))
+    yield "events", b"\5" + adder + big((1, 2), (2, 2), (6, 1), (900, 4), (1, 2), (2, 2), (255, 1), (1900, 4)) + b"\xff" * 9
     for word in ("t0.4s", "t10ms", "t1/100s", "t37f", "t250us", "r29.97", "r30000/1001", "sbox", "strapezoid:0.2",
                  "shann", "sgaussian", "sstrobe:5", "sstrobe:3,0.25", "sspline:0=0,0.5=1,1=0.25", "striangle"):
         yield "words", word.encode()

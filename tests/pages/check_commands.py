@@ -49,6 +49,11 @@ def make_more(folder, program):
     blocks = numpy.random.default_rng(1).integers(-40, 40, (HEIGHT // 8, WIDTH // 8)).repeat(8, 0).repeat(8, 1)
     write_clip(folder / "clip.mp4", (frame(k, blocks[..., None]) for k in range(COUNT)))
     shutil.copy(folder / "clip.mp4", folder / "tape.mov")
+    # Two events each 100 us, of a pixel that goes up and down for 96 ms.
+    words = [word for k in range(960) for word in
+             (8 << 28 | (k * 100 >> 6), (k % 2) << 28 | (k * 100 & 63) << 22 | (k % 640) << 11 | 99)]
+    (folder / "events.raw").write_bytes(b"% format EVT2;height=480;width=640\n% end\n" +
+                                        numpy.array(words, "<u4").tobytes())
     run(program, "-q", "mask", "--size", "640x360", "--tag", "1", "--rectangle", "300,150,60,60", "-o", "marks.pgm")
     run(program, "-q", "mask", "--base", "regions.pgm", "--feather", "6px", "-o", "layer-%d.png")
     shades = numpy.tile(numpy.linspace(0, 65_535, WIDTH).astype(numpy.uint16), (HEIGHT, 1))

@@ -106,6 +106,16 @@ constexpr Option kRows[] = {
     {0, "sigmas", "K", encoding, kReadsClips, &Options::sigmas,
      "with --noise: how many standard deviations from the held light are no change (default: 3)"},
 
+    heading("A recording of events"),
+    {0, "contrast", "STEP", decoding, kDecodesClips, &Options::contrast,
+     "of an event camera: by how much the natural logarithm of light changes with an event, 0.2, or up and down apart, "
+     "0.3:0.17 (default: 0.2)"},
+    {0, "start-picture", "FILE|LIGHT", decoding, bit(Id::encode), &Options::start_picture,
+     "light before the first event: a picture's of the same pixels, or the same everywhere, 1 being white (default: "
+     "0.18)"},
+    {0, "tick", "TIME", decoding, kDecodesClips, &Options::tick,
+     "changes count at the start of the tick that they are in, 100us: fewer samples (default: the file's own times)"},
+
     heading("A camera that moved"),
     {0, "align", "MOTION", encoding, kEncodesClips, &Options::align,
      "move each picture onto the first one, so that the camera stands still: by translation, rigid (turning, "

@@ -53,6 +53,9 @@ struct Options {
   Value output, depth, quality, negative, out_transfer, activity;
   bool json = false, no_recipe = false, quiet = false, verbose = false;
   bool progress = false, skip_existing = false;
+
+  // A recording of events.
+  Value contrast, start_picture, tick;
 };
 
 }  // namespace nutik::app

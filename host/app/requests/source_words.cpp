@@ -87,6 +87,9 @@ SourceRequest clip_request(const Options& options, const std::string& name) {
   if (options.deinterlace) request.clip.interlaced = parse_deinterlacing(*options.deinterlace);
   request.clip.ends_at_damage = options.as_far_as_it_goes;
   request.deflickered = options.deflicker;
+  if (options.contrast) request.clip.events.contrast = parse_contrast(*options.contrast);
+  if (options.start_picture) request.clip.events.start = parse_start_light(*options.start_picture);
+  if (options.tick) request.clip.events.tick_ns = tick_ns(StatedTime::parse(*options.tick, "--tick"), "--tick");
   if (options.crop) request.clip.crop = parse_crop(*options.crop);
   if (options.scale) request.clip.scale = parse_scale(*options.scale);
   request.align = align_request(options);

@@ -38,6 +38,7 @@ std::string_view option_of(Setting setting) {
     case Setting::block_samples: return "--block-samples";
     case Setting::chroma_place: return "--chroma-at";
     case Setting::columns: return "--columns";
+    case Setting::contrast: return "--contrast";
     case Setting::count_redrawn: return "--count-redrawn";
     case Setting::crop: return "--crop";
     case Setting::deflicker: return "--deflicker";
@@ -58,6 +59,8 @@ std::string_view option_of(Setting setting) {
     case Setting::renderer: return "--renderer";
     case Setting::scale: return "--scale";
     case Setting::shutter_angle: return "--shutter-angle";
+    case Setting::start_picture: return "--start-picture";
+    case Setting::tick: return "--tick";
     case Setting::to: return "--to";
     case Setting::transfer: return "--transfer";
     case Setting::unmapped: return "--unmapped zero";

@@ -6,7 +6,7 @@
 namespace nutik::app {
 namespace {
 
-enum class About { times, part, colour };
+enum class About { times, part, events, colour };
 
 About subject_of(const Fact& fact) {
   switch (fact.setting) {
@@ -17,6 +17,9 @@ About subject_of(const Fact& fact) {
     case Setting::crop:
     case Setting::deflicker:
     case Setting::scale: return About::part;
+    case Setting::contrast:
+    case Setting::start_picture:
+    case Setting::tick: return About::events;
     case Setting::deinterlace: return fact.origin == Origin::assumed ? About::colour : About::part;
     default: return About::colour;
   }
@@ -49,6 +52,8 @@ std::vector<std::string> fact_lines(std::span<const Fact> facts) {
   for (const Fact& fact : facts) {
     if (fact.origin == Origin::assumed) assumed.push_back(fact.setting);
   }
+  if (const std::string events = facts_text(facts, About::events); !events.empty())
+    lines.push_back("events: " + events);
   if (const std::string colours = facts_text(facts, About::colour); !colours.empty()) {
     const std::string others = options_text(assumed);
     lines.push_back(

@@ -46,6 +46,10 @@ void set_blocks(ClipMemory& memory, const ClipToRead& clip, std::uint64_t closin
                                               clip.capture, std::min(kDefaultBlockBytes, closing_bytes))));
   memory.blocks = clip.block_samples ? BlockLimits(*clip.block_samples)
                                      : default_block_limits(clip.capture, closing_bytes);
+  // Samples in which little changes: blocks end by that alone.
+  if (clip.tells_changes && !clip.block_samples && memory.blocks.changed_bytes != BlockLimits::kAnyChanges) {
+    memory.blocks.samples = kLargestBlockSamples;
+  }
   memory.blocks.samples = announced(clip, memory.blocks.samples);
   if (!clip.block_samples && !clip.capture.noise.camera) memory.blocks.memory_bytes = closing_bytes;
 }

@@ -29,6 +29,7 @@ struct ClipToRead {
   std::uint64_t decoder_bytes = 0;
   std::optional<std::uint32_t> block_samples;  // as stated
   std::uint64_t announced_samples = 0;         // 0: they are not
+  bool tells_changes = false;                  // rather than pictures
 };
 
 // For encoding. `rendering` is what a later render will need; blocks stay small enough to fit beside it.

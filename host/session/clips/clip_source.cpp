@@ -74,6 +74,12 @@ CameraNoise own_noise(ClipSource& source, const OpenClip& open, const MemoryBudg
 
 NoiseModel noise_model(ClipSource& source, const OpenClip& open, const MemoryBudget& memory) {
   const SourceRequest& request = source.request;
+  if (source.clip->tells_changes() && !std::holds_alternative<NoNoise>(request.noise)) {
+    throw UsageError(format("{} holds events: its pixels' noise is not that of pictures, which is measured "
+                            "between one and the next; state a tolerance instead",
+                            source.name()),
+                     {Setting::automatic_noise});
+  }
   NoiseModel model{request.tolerance, std::nullopt, request.sigmas};
   if (std::holds_alternative<NoiseOfClip>(request.noise)) {
     model.camera = own_noise(source, open, memory);
@@ -159,7 +165,7 @@ std::optional<Shape> known_shape(const std::filesystem::path& path) {
 CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
   CaptureFormat capture = clip.info().format;
   if (options.transfer) capture.transfer = *options.transfer;
-  if (options.white_code) {
+  if (options.white_code && !clip.makes_codes()) {
     if (capture.code_bytes == 1 && *options.white_code > 255) {
       throw UsageError(
           format("white code {} does not fit the clip's 8-bit codes (255 at most)", *options.white_code));
@@ -220,7 +226,8 @@ std::vector<Note> ClipSource::all_notes(const Timeline& timeline) const {
 }
 
 ClipToRead ClipSource::clip_to_read() const {
-  return {capture, clip->info().decoder_bytes, request.block_samples, announced_samples()};
+  return {capture, clip->info().decoder_bytes, request.block_samples, announced_samples(),
+          clip->tells_changes()};
 }
 
 ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory,

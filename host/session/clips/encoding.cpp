@@ -1,6 +1,7 @@
 // Three stages side by side, so that decoding goes on while a block is closed, packed and written.
 //
-//   a thread        decodes samples               │ rasters, reused (media/read_ahead.hpp)
+//   a thread        decodes samples               │ rasters, reused (media/read_ahead.hpp); not of clips that tell
+//                                                 │ changes, which are decoded already
 //   the caller's    builds blocks from them       │ payloads, reused
 //   another         packs and writes the blocks
 #include "session/clips/encoding.hpp"
@@ -42,8 +43,10 @@ class Encoding {
   };
 
   [[nodiscard]] std::vector<std::string> warnings(std::uint64_t samples) const;
-  // Returns how many samples there were.
+  // Return how many samples there were.
   std::uint64_t build(const ReportedProgress& progress, const std::stop_token& stop);
+  std::uint64_t build_of_changes(const ReportedProgress& progress, const std::stop_token& stop);
+  void read_first(std::uint64_t read_ahead_bytes);
   bool hand_over_block();  // false where nobody stores blocks any more
   void store();
 
@@ -52,7 +55,9 @@ class Encoding {
   Timeline times_;  // as announced
   std::optional<tik::Writer> writer_;
 
-  ReadAhead samples_;
+  std::optional<ReadAhead> samples_;  // none of a clip whose changes are read
+  std::vector<std::byte> raster_;     // of such a clip
+  std::span<const std::byte> raster_span_;
   std::span<const std::span<const std::byte>> first_;  // the first sample, until the next are asked for
   Channel<Block> blocks_;                              // built
   Channel<PageBuffer> spare_payloads_;
@@ -63,10 +68,9 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMe
       builder_(source_.capture, memory.blocks, source_.request.tiles),
       // Before anything is read, so that times that cannot be used are said at once.
       times_(source_.timeline(std::max<std::uint64_t>(source_.announced_samples(), 1))),
-      samples_(*source_.clip, memory.read_ahead_bytes),
-      first_(samples_.next(1)),
       blocks_(kPayloads),
       spare_payloads_(kPayloads) {
+  read_first(memory.read_ahead_bytes);
   if (first_.empty()) throw InputError(format("{} has no picture", source_.name()));
   tik::Header header;
   header.capture = held_format(source_.capture);
@@ -81,9 +85,20 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMe
   for (std::size_t i = 0; i < kPayloads; ++i) spare_payloads_.push(PageBuffer());
 }
 
+void Encoding::read_first(std::uint64_t read_ahead_bytes) {
+  if (!source_.clip->tells_changes() || !builder_.takes_changes()) {
+    samples_.emplace(*source_.clip, read_ahead_bytes);
+    first_ = samples_->next(1);
+    return;
+  }
+  raster_.resize(source_.capture.sample_bytes());
+  raster_span_ = raster_;
+  if (source_.clip->read(raster_)) first_ = {&raster_span_, 1};
+}
+
 EncodedCapture Encoding::run(const ReportedProgress& progress, const std::stop_token& stop) {
   auto storing = std::async(std::launch::async, [this] { store(); });
-  const std::uint64_t samples = build(progress, stop);
+  const std::uint64_t samples = samples_ ? build(progress, stop) : build_of_changes(progress, stop);
   storing.get();
   Timeline timeline = source_.timeline(samples);
   writer_->finish(timeline);
@@ -110,13 +125,39 @@ std::uint64_t Encoding::build(const ReportedProgress& progress, const std::stop_
   const ClosedAtEnd closed(blocks_);
   std::uint64_t samples = 0;
   for (auto rasters = first_; !rasters.empty();
-       rasters = samples_.next(std::min(builder_.room(), BlockBuilder::kSamplesAtOnce))) {
+       rasters = samples_->next(std::min(builder_.room(), BlockBuilder::kSamplesAtOnce))) {
     check_interruption();
     if (stop.stop_requested()) throw Cancelled();
     samples += rasters.size();
     if (progress) progress(samples, source_.announced_samples());
     builder_.add(rasters);
     if (builder_.is_full() && !hand_over_block()) return samples;
+  }
+  if (!builder_.is_empty()) hand_over_block();
+  return samples;
+}
+
+std::uint64_t Encoding::build_of_changes(const ReportedProgress& progress, const std::stop_token& stop) {
+  constexpr std::uint64_t kSamplesBetweenLooks = 256;
+  const ClosedAtEnd closed(blocks_);
+  std::uint64_t samples = 0;
+  for (bool is_read = true;; ++samples) {
+    if (samples % kSamplesBetweenLooks == 0) {
+      check_interruption();
+      if (stop.stop_requested()) throw Cancelled();
+      if (progress) progress(samples, source_.announced_samples());
+    }
+    // A block starts from all pixels.
+    if (builder_.is_empty()) {
+      if (!is_read && !source_.clip->read(raster_)) break;
+      builder_.add(raster_);
+    } else {
+      const auto changes = source_.clip->read_changes();
+      if (!changes) break;
+      builder_.add_changes(*changes);
+    }
+    is_read = false;
+    if (builder_.is_full() && !hand_over_block()) return samples + 1;
   }
   if (!builder_.is_empty()) hand_over_block();
   return samples;

@@ -13,6 +13,11 @@ ClipMoment clip_moment(const StatedTime& time, std::string_view what) {
   return {time.number.numerator, true};
 }
 
+std::int64_t tick_ns(const StatedTime& time, std::string_view what) {
+  if (!time.counts_samples() && time.nanoseconds() > 0) return time.nanoseconds();
+  throw UsageError(format("{} {} is no length of time of 1 ns or more: 100us, 1ms", what, time.text()));
+}
+
 bool SourceRequest::describes_clip() const {
   SourceRequest plain;
   plain.path = path;

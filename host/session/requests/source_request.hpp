@@ -19,6 +19,9 @@
 
 namespace nutik {
 
+// The length of a tick. Throws UsageError naming `what` if it is a number of pictures, or shorter than 1 ns.
+[[nodiscard]] std::int64_t tick_ns(const StatedTime& time, std::string_view what);
+
 // The camera's noise: unknown, measured on the clip itself, or stated.
 struct NoNoise {
   friend bool operator==(const NoNoise&, const NoNoise&) = default;

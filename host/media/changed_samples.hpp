@@ -1,0 +1,66 @@
+// The samples of a recording without pictures, as what changes with each.
+//
+//   in:      changes of pixels in the order of their times
+//   out:     a sample for each moment, or tick, in which something changes
+//   always:  the first sample begins at 0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "capture/pixel_change.hpp"
+#include "capture/timeline.hpp"
+
+namespace nutik {
+
+class ChangedSamples {
+ public:
+  // Changes count at the start of the tick that they are in; ticks begin at 0.
+  explicit ChangedSamples(std::int64_t tick_ns) : tick_ns_(tick_ns) { begin(0); }
+
+  // `time_ns` is not before that of the change before.
+  void add(std::int64_t time_ns, const PixelChange& change) {
+    const std::int64_t start_ns = time_ns / tick_ns_ * tick_ns_;
+    if (start_ns > starts_ns_.back()) begin(start_ns);
+    changes_.push_back(change);
+  }
+
+  [[nodiscard]] std::uint64_t count() const { return starts_ns_.size(); }
+  // What changes with a sample; with the first one, from what was before it.
+  [[nodiscard]] std::span<const PixelChange> of(std::uint64_t sample) const {
+    const std::size_t end = sample + 1 < firsts_.size() ? firsts_[sample + 1] : changes_.size();
+    return std::span(changes_).subspan(firsts_[sample], end - firsts_[sample]);
+  }
+
+  // Each sample is exposed until the next, the last until `end_ns`, and for a nanosecond at least.
+  [[nodiscard]] std::vector<Exposure> exposures(std::int64_t end_ns) const {
+    std::vector<Exposure> exposures;
+    exposures.reserve(starts_ns_.size());
+    for (std::size_t k = 0; k < starts_ns_.size(); ++k) {
+      const bool is_last = k + 1 == starts_ns_.size();
+      exposures.push_back({starts_ns_[k], is_last ? std::max(end_ns, starts_ns_[k] + 1) : starts_ns_[k + 1]});
+    }
+    return exposures;
+  }
+
+  [[nodiscard]] std::uint64_t bytes() const {
+    return changes_.capacity() * sizeof(PixelChange) +
+           starts_ns_.capacity() * (sizeof(std::int64_t) + sizeof(std::uint64_t));
+  }
+
+ private:
+  void begin(std::int64_t start_ns) {
+    starts_ns_.push_back(start_ns);
+    firsts_.push_back(changes_.size());
+  }
+
+  std::int64_t tick_ns_;
+  std::vector<std::int64_t> starts_ns_;
+  std::vector<std::uint64_t> firsts_;  // of each sample, among the changes
+  std::vector<PixelChange> changes_;
+};
+
+}  // namespace nutik

@@ -1,0 +1,274 @@
+#!/usr/bin/env python3
+"""Recordings of events, against a decoder and integrals of their own.
+
+    check_events.py --program PATH [--media DIR] --work DIR [--only SECTION]
+
+recording   a real recording: its counts and times by another decoder, and exposures of it against exact integrals
+scenes      random light whose changes are known: what is exposed of EVT 2.0, EVT 3.0, DAT and ADΔER, with functions of
+            both signs, against the integral over the true times
+cost        a thousand changes in a million ticks: bytes and time against the same changes in a thousand ticks
+
+Exit status 0 if everything agrees, 1 otherwise; a section that cannot run prints SKIPPED.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+from pictures import read_pfm
+
+HALF_CODE = 0.5 / 65535
+# Of a PFM's single precision and of the arithmetic, whose bound `auto` keeps within a share of a code of 16 bits.
+ARITHMETIC = 1e-6
+
+
+def run(program, *words, folder, fails=False):
+    result = subprocess.run([program, *map(str, words)], cwd=folder, capture_output=True, text=True)
+    if (result.returncode != 0) != fails:
+        sys.exit(f"{' '.join(map(str, words))}: {result.returncode}\n{result.stderr}")
+    return result.stdout + result.stderr
+
+
+def decode_evt2(path):
+    """Times in us, x, y and polarity of all events."""
+    data = path.read_bytes()
+    start = 0
+    while data[start:start + 2] == b"% ":
+        start = data.index(b"\n", start) + 1
+    words = np.frombuffer(data[start:start + (len(data) - start) // 4 * 4], "<u4")
+    kinds = words >> 28
+    highs = np.where(kinds == 8, (words & 0xFFFFFFF).astype(np.int64) << 6, -1)
+    last = np.maximum.accumulate(np.where(highs >= 0, np.arange(len(words)), -1))
+    chosen = (kinds <= 1) & (last >= 0)
+    times = highs[last[chosen]] + (words[chosen] >> 22 & 63)
+    return times, words[chosen] >> 11 & 0x7FF, words[chosen] & 0x7FF, kinds[chosen].astype(bool)
+
+
+def integrals(shape, times_ns, pixels, light, start, end_ns, weigh):
+    """Per pixel, the sum of light times what weigh(from, to) gives, over the stretches between its changes."""
+    order = np.lexsort((np.arange(len(pixels)), times_ns, pixels))
+    times, pixels, light = times_ns[order], pixels[order], light[order]
+    total = start * weigh(np.zeros(len(start)), np.full(len(start), float(end_ns)))
+    is_last = np.append(pixels[1:] != pixels[:-1], True)
+    until = np.where(is_last, end_ns, np.append(times[1:], end_ns))
+    # From its time on a change replaces the light before it, until the next one does.
+    np.add.at(total, pixels, light * weigh(times.astype(float), until.astype(float)))
+    first = np.append(True, pixels[1:] != pixels[:-1])
+    np.add.at(total, pixels[first], -start[pixels[first]] * weigh(times[first].astype(float),
+                                                                np.full(first.sum(), float(end_ns))))
+    return total.reshape(shape)
+
+
+def boxcar(begin, end):
+    return lambda a, b: np.maximum(0, np.minimum(b, end) - np.maximum(a, begin)) / (end - begin)
+
+
+def piecewise(points):
+    """The integral of a piecewise linear gain, by its support."""
+    xs, ys = np.array([p[0] for p in points], float), np.array([p[1] for p in points], float)
+    areas = np.append(0, np.cumsum((ys[1:] + ys[:-1]) / 2 * np.diff(xs)))
+
+    def integral(t):
+        t = np.clip(t, xs[0], xs[-1])
+        i = np.clip(np.searchsorted(xs, t, "right") - 1, 0, len(xs) - 2)
+        slope = (ys[i + 1] - ys[i]) / (xs[i + 1] - xs[i])
+        return areas[i] + ys[i] * (t - xs[i]) + slope * (t - xs[i]) ** 2 / 2
+
+    support = xs[-1] - xs[0]
+    scale = sum(abs(y0 + y1) / 2 * (x1 - x0) if y0 * y1 >= 0 else (y0 * y0 + y1 * y1) / (2 * abs(y1 - y0)) * (x1 - x0)
+                for (x0, y0), (x1, y1) in zip(points, points[1:])) / support
+    return lambda a, b: (integral(b) - integral(a)) / support, scale
+
+
+def light_of_steps(pixels, ups, count, start, up, down):
+    """After each event, in the files' order."""
+    order = np.argsort(pixels, kind="stable")
+    steps = np.where(ups, up, -down)[order]
+    sums = np.cumsum(steps)
+    first = np.append(True, pixels[order][1:] != pixels[order][:-1])
+    before = np.maximum.accumulate(np.where(first, np.arange(len(sums)), 0))
+    result = np.empty(len(sums))
+    result[order] = np.minimum(1, start * np.exp(sums - (sums - steps)[before]))
+    return result
+
+
+def close(name, found, expected, bound):
+    worst = float(np.max(np.abs(found - expected)))
+    print(f"{name}: off by {worst:.2e}, allowed {bound:.2e}")
+    if not worst <= bound:
+        sys.exit(f"{name}: {worst} is more than {bound}")
+
+
+def recording(program, media, work):
+    path = media / "evt2.raw" if media else Path("none")
+    if not path.exists():
+        print(f"SKIPPED: no recording {path}")
+        return
+    times, x, y, ups = decode_evt2(path)
+    facts = (len(times), int(ups.sum()), int((~ups).sum()), int(times[0]), int(times[-1]))
+    if facts != (521252, 185861, 335391, 913716224, 913812095):
+        sys.exit(f"the decoder here found {facts}")
+    told = run(program, "encode", path, "real.tik", folder=work)
+    for text in ("185861 events up and 335391 down", "time 0 at 913716224 us", "EVT 2.0, 640 x 480 (from plugin_name hal_plugin_gen3_fx3)"):
+        if text not in told:
+            sys.exit(f"no '{text}' in:\n{told}")
+    info = json.loads(run(program, "info", "--json", "real.tik", folder=work))
+    samples, seconds = info["samples"], info["duration_ns"]
+    if samples != len(np.unique(times)) or seconds != 1000 * (times[-1] - times[0] + 1):
+        sys.exit(f"{samples} samples, {seconds} ns")
+    print(f"recording: {samples} samples, {(work / 'real.tik').stat().st_size} bytes")
+    pixels = y.astype(np.int64) * 640 + x
+    light = light_of_steps(pixels, ups, 640 * 480, 0.18, 0.2, 0.2)
+    times_ns = (times - times[0]) * 1000
+    for begin, length in ((0, 95_872_000), (20_000_000, 5_000_000), (61_234_567, 1_001), (95_000_000, 872_000)):
+        run(program, "expose", "real.tik", "--start", f"{begin}ns", "--exposure", f"{length}ns", "real.pfm", folder=work)
+        expected = integrals((480, 640), times_ns, pixels, light, np.full(640 * 480, 0.18), 95_872_000,
+                             boxcar(begin, begin + length))
+        close(f"recording, {length} ns from {begin}", read_pfm(work / "real.pfm")[:, :, 0], expected,
+              HALF_CODE + ARITHMETIC)
+
+
+def random_events(random, width, height, count, span_us):
+    times = np.sort(random.integers(0, span_us, count))
+    times[0] = 0
+    return times, random.integers(0, width, count), random.integers(0, height, count), random.random(count) < 0.5
+
+
+def dat(width, height, times, x, y, ups):
+    header = f"% Data file containing CD events\n% Version 2\n% Width {width}\n% Height {height}\n".encode() + b"\x0c\x08"
+    words = np.empty((len(times), 2), "<u4")
+    words[:, 0] = times
+    words[:, 1] = x | y << 14 | ups.astype(np.int64) << 28
+    return header + words.tobytes()
+
+
+def evt2(width, height, times, x, y, ups):
+    words = []
+    for t, a, b, up in zip(times.tolist(), x.tolist(), y.tolist(), ups.tolist()):
+        words += [8 << 28 | t >> 6, up << 28 | (t & 63) << 22 | a << 11 | b]
+    return f"% format EVT2;width={width};height={height}\n% end\n".encode() + np.array(words, "<u4").tobytes()
+
+
+def evt3(width, height, times, x, y, ups):
+    words = []
+    for t, a, b, up in zip(times.tolist(), x.tolist(), y.tolist(), ups.tolist()):
+        words += [8 << 12 | t >> 12 & 0xFFF, 6 << 12 | t & 0xFFF, b, 2 << 12 | up << 11 | a]
+    return f"% geometry {width}x{height}\n% evt 3.0\n% end\n".encode() + np.array(words, "<u2").tobytes()
+
+
+def functions(random, span_ns):
+    """Control points in whole nanoseconds within the capture, with gains of both signs."""
+    inner = sorted(set(random.integers(1, span_ns - 1, 6).tolist()))
+    return [(t, round(float(random.uniform(-2, 2)), 3)) for t in inner]
+
+
+def with_ends(points):
+    return [(points[0][0] - 1, 0.0), *points, (points[-1][0] + 1, 0.0)]
+
+
+def exposed(program, work, capture, points):
+    text = "M0{" + " , ".join(f"[{t}:{g}]" for t, g in points) + "}\n"
+    (work / "random.fn").write_text(text)
+    run(program, "expose", capture, "-k", "random.fn", "random.pfm", folder=work)
+    return read_pfm(work / "random.pfm")
+
+
+def scenes(program, _media, work):
+    width, height, span_us = 37, 21, 400_000
+    for seed, (kind, write) in enumerate((("a.dat", dat), ("b.raw", evt2), ("c.raw", evt3), ("d.dat", dat))):
+        random = np.random.default_rng(seed)
+        times, x, y, ups = random_events(random, width, height, 3000, span_us)
+        (work / kind).write_bytes(write(width, height, times, x, y, ups))
+        run(program, "encode", "--contrast", "0.23:0.19", "--start-picture", "0.3", kind, "scene.tik", folder=work)
+        pixels = y * width + x
+        light = light_of_steps(pixels, ups, width * height, 0.3, 0.23, 0.19)
+        end_ns = 1000 * (int(times[-1]) + 1)
+        points = with_ends(functions(random, end_ns))
+        weigh, scale = piecewise(points)
+        expected = integrals((height, width), times * 1000, pixels, light, np.full(width * height, 0.3), end_ns, weigh)
+        found = exposed(program, work, "scene.tik", points)[:, :, 0]
+        close(f"scene {kind}", found, expected, scale * (HALF_CODE + ARITHMETIC))
+    adder(program, work)
+
+
+def adder(program, work):
+    """Pixels that gather light until they have 2^D units of it, as the paper's cameras do."""
+    random = np.random.default_rng(77)
+    width, height, rate, interval = 11, 6, 120_000, 5000
+    file = b"adder\x03b" + b"".join(int(n).to_bytes(b, "big") for n, b in (
+        (width, 2), (height, 2), (rate, 4), (interval, 4), (interval * 10, 4), (9, 1), (1, 1), (6, 4), (1, 4), (1, 4)))
+    events, stretches = [], []
+    for pixel in range(width * height):
+        now = 0
+        while now < 100_000:
+            length, d = int(random.integers(40, 4000)), int(random.integers(0, 7))
+            events.append((now + length, pixel, d))
+            stretches.append((now, now + length, pixel, min(1.0, 2**d / length * interval / 255)))
+            now += length
+    for t, pixel, d in sorted(events):
+        file += b"".join(int(n).to_bytes(b, "big") for n, b in ((pixel % width, 2), (pixel // width, 2), (d, 1), (t, 4)))
+    (work / "a.adder").write_bytes(file + b"\xff\xff\xff\xff\0\0\0\0\0")
+    run(program, "encode", "a.adder", "adder.tik", folder=work)
+    points = with_ends(functions(random, 700_000_000))
+    weigh, scale = piecewise(points)
+    expected = np.zeros(width * height)
+    last = {pixel: end for _, end, pixel, _ in stretches}
+    whole = max(last.values())
+    for begin, end, pixel, light in stretches:
+        end = whole if end == last[pixel] else end
+        expected[pixel] += light * weigh(np.array(begin * 1e9 / rate), np.array(end * 1e9 / rate))
+    # Ticks of 8333.3 ns: each change is half a nanosecond off at most.
+    jitter = 2 * len(stretches) / (width * height) * 0.5 * 2 / (points[-1][0] - points[0][0])
+    found = exposed(program, work, "adder.tik", points)[:, :, 0]
+    close("scene a.adder", found, expected.reshape(height, width), scale * (HALF_CODE + ARITHMETIC) + jitter)
+
+
+def cost(program, _media, work):
+    random = np.random.default_rng(5)
+    x, y, ups = random.integers(0, 64, 1000), random.integers(0, 64, 1000), random.random(1000) < 0.5
+    wide = np.sort(random.choice(1_000_000, 1000, replace=False))
+    wide[0], wide[-1] = 0, 999_999
+    seconds = {}
+    for name, times in (("wide", wide), ("narrow", np.arange(1000))):
+        (work / f"{name}.dat").write_bytes(dat(64, 64, times, x, y, ups))
+        run(program, "encode", f"{name}.dat", f"{name}.tik", "--codec", "none", folder=work)
+        size = (work / f"{name}.tik").stat().st_size
+        info = json.loads(run(program, "info", "--json", f"{name}.tik", folder=work))
+        print(f"cost, {name}: {info['samples']} samples in {info['duration_ns'] // 1000} ticks, {size} bytes unpacked")
+        if size > 2_000_000 or info["samples"] > 1000:
+            sys.exit("a thousand changes cost more than 2 MB, or more samples than there are")
+        half = info["duration_ns"] // 2
+        best = 1e9
+        for _ in range(5):
+            begin = time.monotonic()
+            run(program, "expose", f"{name}.tik", "--start", "0s", "--exposure", f"{half}ns", f"{name}.pfm", folder=work)
+            best = min(best, time.monotonic() - begin)
+        seconds[name] = best
+    ratio = seconds["wide"] / seconds["narrow"]
+    print(f"cost: a boxcar takes {seconds['wide']:.3f} s of a million ticks, {seconds['narrow']:.3f} s of a thousand")
+    if ratio > 5:
+        sys.exit(f"a boxcar over a million ticks takes {ratio:.1f} times as long")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", required=True, type=Path)
+    parser.add_argument("--media", type=Path)
+    parser.add_argument("--work", required=True, type=Path)
+    parser.add_argument("--only", default="")
+    words = parser.parse_args()
+    for name, section in (("recording", recording), ("scenes", scenes), ("cost", cost)):
+        if words.only in name:
+            work = words.work.resolve() / name
+            work.mkdir(parents=True, exist_ok=True)
+            section(words.program.resolve(), words.media and words.media.resolve(), work)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

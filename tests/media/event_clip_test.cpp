@@ -1,0 +1,272 @@
+// Recordings of event cameras: all formats give the events that were written, as light and as times; what is wrong with
+// a file is told, or refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "capture/error.hpp"
+#include "media/event_clip.hpp"
+#include "media/event_files.hpp"
+#include "support/clips.hpp"
+#include "support/messages.hpp"
+#include "support/random_case.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+using test::Event;
+using test::Events;
+using test::message_of;
+using test::open_test_clip;
+using test::Scratch;
+
+constexpr unsigned kWidth = 70, kHeight = 9;
+
+// Some alone, some in runs side by side, from `start` on.
+Events random_events(std::uint64_t seed, std::uint64_t start_us) {
+  test::Random random(seed);
+  Events events;
+  std::uint64_t now = start_us;
+  while (events.size() < 400) {
+    now += static_cast<std::uint64_t>(random.chance(0.1) ? random.whole(0, 30'000) : random.whole(0, 3));
+    const auto y = static_cast<unsigned>(random.whole(0, kHeight - 1));
+    const bool up = random.chance(0.5);
+    auto x = static_cast<unsigned>(random.whole(0, kWidth - 1));
+    const std::int64_t run = random.chance(0.3) ? random.whole(2, 40) : 1;
+    for (std::int64_t i = 0; i < run && x < kWidth; ++i, x += static_cast<unsigned>(random.whole(1, 3))) {
+      events.push_back({now, x, y, up});
+    }
+  }
+  return events;
+}
+
+std::uint16_t code_at(const std::vector<std::byte>& raster, std::size_t pixel) {
+  std::uint16_t code = 0;
+  std::memcpy(&code, raster.data() + 2 * pixel, sizeof code);
+  return code;
+}
+
+// The clip holds these events, and nothing else: at each sample, the codes of all pixels, by their own count of steps.
+void expect_events(Clip& clip, const Events& events, double up = 0.2, double down = 0.2) {
+  const ClipInfo& info = clip.info();
+  ASSERT_EQ(info.format.shape, (Shape{kWidth, kHeight, 1}));
+  std::map<std::uint64_t, Events> by_time;
+  for (const Event& event : events) by_time[event.us].push_back(event);
+  ASSERT_EQ(info.sample_count, by_time.size());
+  const auto rasters = test::read_all(clip);
+  ASSERT_EQ(rasters.size(), by_time.size());
+  std::vector<int> ups(kWidth * kHeight), downs(kWidth * kHeight);
+  std::size_t k = 0;
+  for (const auto& [us, changes] : by_time) {
+    EXPECT_EQ(info.timing.exposures[k].start_ns, static_cast<std::int64_t>(us - events.front().us) * 1000);
+    for (const Event& event : changes) ++(event.up ? ups : downs)[event.y * kWidth + event.x];
+    for (std::size_t pixel = 0; pixel < ups.size(); ++pixel) {
+      const double light = 0.18 * std::exp(up * ups[pixel] - down * downs[pixel]);
+      // Half a code, and as much as sums of steps may be rounded differently.
+      ASSERT_NEAR(code_at(rasters[k], pixel), std::min(light, 1.0) * 65535, 0.5 + 1e-6)
+          << "sample " << k << ", pixel " << pixel;
+    }
+    ++k;
+  }
+  EXPECT_EQ(info.timing.exposures.back().end_ns, static_cast<std::int64_t>(events.back().us - events.front().us + 1) * 1000);
+}
+
+std::string raw(const std::string& format, const std::string& words) {
+  return test::raw_header(format, kWidth, kHeight) + words;
+}
+
+TEST(EventClip, HoldsTheEventsOfEveryFormat) {
+  const Scratch scratch;
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const Events events = random_events(seed, 1000 + 77'000'000 * seed);
+    const std::map<std::string, std::string> files{
+        {"2.raw", raw("EVT2", test::evt2_words(events))},
+        {"21.raw", raw("EVT21;endianness=little", test::evt21_words(events, false))},
+        {"21l.raw", raw("EVT21;endianness=legacy", test::evt21_words(events, true))},
+        {"21n.raw", raw("EVT21", test::evt21_words(events, false))},
+        {"21ln.raw", raw("EVT21", test::evt21_words(events, true))},
+        {"3.raw", raw("EVT3", test::evt3_words(events))},
+        {"a.dat", test::dat_file(events, kWidth, kHeight)}};
+    for (const auto& [name, content] : files) {
+      const auto clip = open_test_clip(scratch.write(name, content));
+      SCOPED_TRACE(name + ", seed " + std::to_string(seed));
+      expect_events(*clip, events);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+// A sample told by what changes is the sample that is read whole, from wherever a part of the clip begins.
+TEST(EventClip, TellsWhatChanges) {
+  const Scratch scratch;
+  const auto path = scratch.write("a.dat", test::dat_file(random_events(5, 40), kWidth, kHeight));
+  ClipOptions part;
+  part.from = ClipMoment{30, true};
+  part.to = ClipMoment{60, true};
+  part.crop = Rectangle{3, 2, 50, 6};
+  for (const ClipOptions& options : {ClipOptions{}, part}) {
+    const auto whole = open_test_clip(path, options), told = open_test_clip(path, options);
+    ASSERT_TRUE(told->tells_changes());
+    const auto rasters = test::read_all(*whole);
+    std::vector<std::byte> held(told->info().format.sample_bytes());
+    ASSERT_TRUE(told->read(held));
+    for (std::size_t k = 1; k < rasters.size(); ++k) {
+      const auto changes = told->read_changes();
+      ASSERT_TRUE(changes.has_value());
+      for (const PixelChange& change : *changes) std::memcpy(held.data() + 2 * change.pixel, change.codes.data(), 2);
+      ASSERT_EQ(held, rasters[k]) << k;
+    }
+    EXPECT_FALSE(told->read_changes());
+  }
+}
+
+TEST(EventClip, GoesOnWhereTheCamerasClockBeginsAgain) {
+  const Scratch scratch;
+  const auto shifted = [](std::uint64_t period) { return random_events(3, period - 5000); };
+  auto clip = open_test_clip(scratch.write("2.raw", raw("EVT2", test::evt2_words(shifted(1ull << 34)))));
+  expect_events(*clip, shifted(1ull << 34));
+  clip = open_test_clip(scratch.write("3.raw", raw("EVT3", test::evt3_words(shifted(1ull << 24)))));
+  expect_events(*clip, shifted(1ull << 24));
+  clip = open_test_clip(scratch.write("a.dat", test::dat_file(shifted(1ull << 32), kWidth, kHeight)));
+  expect_events(*clip, shifted(1ull << 32));
+}
+
+TEST(EventClip, TakesLightAsItIsStated) {
+  const Scratch scratch;
+  const Events events = random_events(1, 0);
+  const auto path = scratch.write("a.dat", test::dat_file(events, kWidth, kHeight));
+  ClipOptions options;
+  options.events.contrast = parse_contrast("0.31:0.17");
+  expect_events(*open_test_clip(path, options), events, 0.31, 0.17);
+  EXPECT_EQ(test::facts_of(*open_test_clip(path, options)).at(Setting::contrast).line(),
+            "an event is 0.31 of log light up, 0.17 down, as stated");
+  EXPECT_EQ(test::facts_of(*open_test_clip(path)).at(Setting::start_picture).line(),
+            "light 0.18 at the start, assumed");
+
+  options.events.start = parse_start_light("0.5");
+  std::vector<std::byte> raster(2 * kWidth * kHeight);
+  ASSERT_TRUE(open_test_clip(path, options)->read(raster));
+  EXPECT_EQ(code_at(raster, kWidth * kHeight - 1), 32768);
+
+  // A picture's, which is sRGB of 8 bits: code 188 is light 0.502887.
+  std::string picture = "P5 70 9 255\n" + std::string(kWidth * kHeight, '\xbc');
+  picture.back() = '\0';
+  options.events.start = parse_start_light(scratch.write("start.pgm", picture).string());
+  ASSERT_TRUE(open_test_clip(path, options)->read(raster));
+  EXPECT_EQ(code_at(raster, kWidth * 5), 32957);
+  // No light is half a code, so that steps lead on from it.
+  EXPECT_EQ(code_at(raster, kWidth * kHeight - 1), 1);
+
+  options.events.start = parse_start_light(scratch.write("small.pgm", "P5 2 1 255\nab").string());
+  EXPECT_NE(message_of<InputError>([&] { open_test_clip(path, options); })
+                .find("has 2 x 1 pixels, and the recording 70 x 9"),
+            std::string::npos);
+}
+
+TEST(EventClip, CountsChangesAtTheStartOfTheirTick) {
+  const Scratch scratch;
+  const Events events{{1000, 1, 1, true}, {1099, 2, 1, true}, {1100, 1, 1, true}, {1350, 3, 1, true}};
+  ClipOptions options;
+  options.events.tick_ns = 100'000;
+  const auto clip = open_test_clip(scratch.write("a.dat", test::dat_file(events, 8, 8)), options);
+  const std::vector<Exposure> expected{{0, 100'000}, {100'000, 300'000}, {300'000, 351'000}};
+  EXPECT_EQ(clip->info().timing.exposures, expected);
+}
+
+// Light above white is held at white in codes, and comes back as it went.
+TEST(EventClip, KeepsLightAboveWhiteForTheWayBack) {
+  const Scratch scratch;
+  Events events;
+  for (std::uint64_t k = 0; k < 30; ++k) events.push_back({k, 4, 4, k < 15});
+  const auto clip = open_test_clip(scratch.write("a.dat", test::dat_file(events, 8, 8)));
+  const auto rasters = test::read_all(*clip);
+  EXPECT_EQ(code_at(rasters[14], 36), 65535);
+  EXPECT_EQ(code_at(rasters[29], 36), std::lround(0.18 * 65535));
+  ASSERT_EQ(clip->info().notes.size(), 1u);
+  EXPECT_NE(clip->info().notes[0].text.find("15 events up and 15 down, of 1 pixels, whose light ends at 1 times"),
+            std::string::npos)
+      << clip->info().notes[0].text;
+  EXPECT_NE(clip->info().notes[0].text.find("1 pixels become brighter than white"), std::string::npos);
+}
+
+std::string notes_of(const std::filesystem::path& path) {
+  std::string all;
+  const auto clip = open_test_clip(path);
+  for (const Note& note : clip->info().notes) all += note.text + "\n";
+  return all;
+}
+
+TEST(EventClip, TellsWhatIsWrongWithAFile) {
+  const Scratch scratch;
+  const Events events = random_events(8, 500'000);
+  const std::string words = test::evt2_words(events);
+  EXPECT_NE(notes_of(scratch.write("cut.raw", raw("EVT2", words + "ab"))).find("its last 2 bytes are left out"),
+            std::string::npos);
+  EXPECT_NE(notes_of(scratch.write("early.raw", raw("EVT2", test::little_endian(1 << 28, 4) + words)))
+                .find("1 events come before the first time"),
+            std::string::npos);
+  Events back = events;
+  back[200].us -= 30;
+  std::ranges::stable_sort(back.begin(), back.begin() + 200, {}, &Event::us);
+  EXPECT_NE(notes_of(scratch.write("back.dat", test::dat_file(back, kWidth, kHeight))).find("events come after later ones, by up to"),
+            std::string::npos);
+  Events outside = events;
+  outside[7].x = kWidth;
+  EXPECT_NE(notes_of(scratch.write("outside.dat", test::dat_file(outside, kWidth, kHeight)))
+                .find("lie outside the sensor's 70 x 9 pixels (the file), the first at 70,"),
+            std::string::npos);
+  // Without a size in the header: by the sensor, else by the events.
+  EXPECT_EQ(open_test_clip(scratch.write("gen.raw", "% plugin_name hal_plugin_gen41_evk3\n% evt 2.0\n" + words))
+                ->info()
+                .format.shape,
+            (Shape{1280, 720, 1}));
+  EXPECT_NE(notes_of(scratch.write("none.raw", "% evt 2.0\n" + words)).find("does not say how many pixels"),
+            std::string::npos);
+}
+
+TEST(EventClip, RefusesWhatItCannotRead) {
+  const Scratch scratch;
+  const std::string words = test::evt2_words(random_events(2, 0));
+  const auto expect = [&](const std::string& name, const std::string& content, const std::string& part) {
+    const auto path = scratch.write(name, content);
+    EXPECT_TRUE(is_event_recording(path));
+    const std::string message = message_of<InputError>([&] { open_test_clip(path); });
+    EXPECT_NE(message.find(part), std::string::npos) << "no '" << part << "' in: " << message;
+  };
+  expect("narrow.raw", test::raw_header("EVT2", 8, 8) + words, "correct the size in its header");
+  expect("empty.raw", test::raw_header("EVT3", 8, 8), "holds no event (EVT 3.0, 0 bytes after its header)");
+  expect("4.raw", test::raw_header("EVT4", 8, 8) + words, "is in the format EVT4; EVT 2.0, 2.1 and 3.0 are read");
+  expect("trigger.dat", "% Version 2\n\x0e\x08", "holds events of the type 14, of 8 bytes");
+  expect("short.dat", "% Version 2\n\x0c", "ends within its header");
+  expect("c.adder", "addec...", "is a compressed ADΔER file, which is not read; save it uncompressed");
+  expect("a.hdf5", "\x89HDF\r\n\x1a\n....", "is an HDF5 file, which is not read; if it holds events, convert");
+  expect("a.aedat", "#!AER-DAT4.0\r\n", "is an AEDAT file, which is not read");
+}
+
+TEST(EventClip, RefusesWhatIsSaidOfPictures) {
+  const Scratch scratch;
+  const auto path = scratch.write("a.dat", test::dat_file(random_events(1, 0), kWidth, kHeight));
+  ClipOptions options;
+  options.rate = Rational{100, 1};
+  EXPECT_NE(message_of<UsageError>([&] { open_test_clip(path, options); }).find("times of its own at every pixel"),
+            std::string::npos);
+  options = {};
+  options.white_code = 255;
+  EXPECT_NE(message_of<UsageError>([&] { open_test_clip(path, options); }).find("holds events and no codes"),
+            std::string::npos);
+  for (const char* text : {"", "0", "-0.2", "0.2:", "0.2:0", "11", "nan", "0.2,0.3"}) {
+    EXPECT_THROW(static_cast<void>(parse_contrast(text)), UsageError) << text;
+  }
+  EXPECT_THROW(static_cast<void>(parse_start_light("0")), UsageError);
+  EXPECT_THROW(static_cast<void>(parse_start_light("2")), UsageError);
+  options = {};
+  options.events.contrast = Contrast{0.2, 0.2};
+  const auto picture = scratch.write("a.pgm", "P5 2 1 255\nab");
+  EXPECT_NE(message_of<UsageError>([&] { open_test_clip(picture, options); }).find("holds pictures"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace nutik
