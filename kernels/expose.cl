@@ -124,7 +124,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
       if (region.is_uniform) {
         region.is_uniform = true;
         const BlockPart part = block_parts[region.function];
-        const uint kept_as = part.steady & NUTIK_IN_BUNDLE ? NUTIK_BUNDLE_KEPT : part.steady ? NUTIK_BLOCK_KEPT : 0;
+        const uint kept_as = part.steady ? 1u << (part.steady >> NUTIK_BUNDLE_SHIFT) : 0;
         const bool is_of_kept = entry.kept & kept_as;
         bool adds = part.first < part.last && is_kept == is_of_kept;
         if (adds && is_kept) {

@@ -167,7 +167,13 @@ std::int64_t Timeline::end_ns(std::uint64_t k) const {
 std::vector<SampleTimes> Timeline::times(SampleRange samples) const {
   std::vector<SampleTimes> times;
   times.reserve(samples.size());
-  for (std::uint64_t k = samples.first; k < samples.last; ++k) times.push_back(this->times(k));
+  if (samples.empty()) return times;
+  // Neighbours share what each is a division to find.
+  SampleTimes next = this->times(samples.first);
+  for (std::uint64_t k = samples.first; k < samples.last; ++k) {
+    times.push_back(next);
+    if (k + 1 < samples.last) next = {next.end_ns, next.after_ns, end_ns(k + 1), reach_end_ns(k + 1)};
+  }
   return times;
 }
 

@@ -73,20 +73,25 @@ std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, 
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     const PlannedBlock& block = plan.blocks[b];
     const std::uint64_t last_row = block.table_row + block.row_count();
-    if (!fits(block.row_count())) {
-      throw too_large(device, block.row_count() * row_bytes,
+    const bool is_corrected = precision != Precision::fixed && plan.is_corrected(block);
+    const std::uint64_t rows = (is_corrected ? 2 : 1) * block.row_count();
+    if (!fits(rows)) {
+      throw too_large(device, rows * row_bytes,
                       format("a table of {} functions for a block of {} samples", plan.function_count(),
                              block.extent.sample_count),
                       "use fewer functions at a time, or encode with fewer samples a block",
                       {Setting::block_samples});
     }
-    if (slices.empty() || !fits(last_row - slices.back().first_row) ||
-        (last_row - slices.back().first_row) * row_bytes > most_bytes ||
+    if (slices.empty() || !fits(slices.back().row_count() + rows) ||
+        (slices.back().row_count() + rows) * row_bytes > most_bytes ||
         b - slices.back().first_block == most_blocks) {
       slices.push_back({b, b, block.table_row, block.table_row});
     }
     slices.back().last_block = b + 1;
     slices.back().last_row = last_row;
+    if (!is_corrected) continue;
+    slices.back().corrected.push_back(b);
+    slices.back().corrected_rows += block.row_count();
   }
   return slices;
 }

@@ -50,12 +50,17 @@ struct Band {
   }
 };
 
-// Planned blocks [first_block, last_block), and their rows of the plan's tables, [first_row, last_row).
+// Planned blocks [first_block, last_block), and their rows of the plan's tables, [first_row, last_row). Behind these
+// come those of the corrections of some of the blocks, as many for each as it has itself.
 struct TableSlice {
   std::size_t first_block;
   std::size_t last_block;
   std::uint64_t first_row;
   std::uint64_t last_row;
+  std::vector<std::size_t> corrected{};  // planned blocks, in time order
+  std::uint64_t corrected_rows = 0;
+
+  [[nodiscard]] std::uint64_t row_count() const { return last_row - first_row + corrected_rows; }
 };
 
 // Of the sums of so many tiles.

@@ -48,7 +48,7 @@ std::vector<TableColumnSource> column_sources(const RenderPlan& plan, Precision 
 
 std::uint64_t DeviceTables::Slice::bytes() const {
   return columns.size() * (2 * row_count * weight_bytes(precision) +
-                           blocks.size() * (sizeof(BlockPart) + weight_bytes(precision)));
+                           part_count() * (sizeof(BlockPart) + weight_bytes(precision)));
 }
 
 SliceTables DeviceTables::slice(const RenderPlan& plan, const TableSlice& slice, Precision precision,
@@ -77,25 +77,25 @@ SliceTables DeviceTables::slice(const RenderPlan& plan, const TableSlice& slice,
 DeviceTables::Slice& DeviceTables::slice_for(const RenderPlan& plan, const TableSlice& slice,
                                              Precision precision, DeviceMemory& memory) {
   const std::uint64_t functions = plan.function_count();
-  const std::uint64_t row_count = slice.last_row - slice.first_row;
+  const std::uint64_t row_count = slice.row_count();
   Slice* const kept = recent_.find([&](const Slice& each) {
     return each.precision == precision && each.columns.size() == functions && each.row_count == row_count &&
-           is_of(each.blocks, plan, slice);
+           each.corrected == slice.corrected && is_of(each.blocks, plan, slice);
   });
   if (kept != nullptr) {
     memory.count(kept->bytes());
     return *kept;
   }
-  Slice made{precision, {}, row_count, {}, {}};
+  Slice made{precision, {}, slice.corrected, row_count, {}, {}};
   for (std::size_t b = slice.first_block; b < slice.last_block; ++b)
     made.blocks.push_back(plan.blocks[b].block);
   made.columns.resize(functions);
   const std::uint64_t bytes = made.row_count * functions * weight_bytes(precision);
   made.tables.weights = memory.allocate(bytes, CL_MEM_READ_ONLY);
   made.tables.boundaries = memory.allocate(bytes, CL_MEM_READ_ONLY);
-  made.tables.parts = memory.allocate(made.blocks.size() * functions * sizeof(BlockPart), CL_MEM_READ_ONLY);
+  made.tables.parts = memory.allocate(made.part_count() * functions * sizeof(BlockPart), CL_MEM_READ_ONLY);
   made.tables.gains =
-      memory.allocate(made.blocks.size() * functions * weight_bytes(precision), CL_MEM_READ_ONLY);
+      memory.allocate(made.part_count() * functions * weight_bytes(precision), CL_MEM_READ_ONLY);
   return recent_.keep(std::move(made));
 }
 
@@ -104,7 +104,7 @@ void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice,
   const std::uint64_t functions = plan.function_count();
   const std::size_t number = weight_bytes(to.precision);
   Bytes weights(to.row_count * functions * number), boundaries(weights.size());
-  std::vector<BlockPart> parts(to.blocks.size() * functions);
+  std::vector<BlockPart> parts(to.part_count() * functions);
   Bytes gains(parts.size() * number);
   const auto pack = [&](std::uint64_t f) {
     pack_column(*columns[f].table, plan, slice, to.precision, columns[f].exponent,
@@ -143,8 +143,8 @@ void DeviceTables::write_column(const RenderPlan& plan, const TableSlice& slice,
   write_in_order(queue_, [&] {
     write(to.tables.weights, number, to.row_count, weights.data(), false);
     write(to.tables.boundaries, number, to.row_count, boundaries.data(), false);
-    write(to.tables.gains, number, to.blocks.size(), of_function.gains.data(), false);
-    write(to.tables.parts, sizeof(BlockPart), to.blocks.size(), of_function.parts.data(), true);
+    write(to.tables.gains, number, to.part_count(), of_function.gains.data(), false);
+    write(to.tables.parts, sizeof(BlockPart), to.part_count(), of_function.parts.data(), true);
   });
 }
 

@@ -1,7 +1,7 @@
 // The tables of gain functions that kernels read, on the device from one exposure to the next.
 //
 //   in:      a plan, a slice of it, an arithmetic
-//   out:     buffers of weights and boundaries [row][function], of parts and gains [block][function]
+//   out:     buffers of weights and boundaries [row][function], of parts and gains [block][function], corrections last
 //   always:  what a buffer holds already is not written again: a function that changed costs its own column
 //
 // Rows of functions side by side suit pixels that have many functions among them
@@ -53,11 +53,14 @@ class DeviceTables {
  private:
   struct Slice {
     Precision precision;
-    std::vector<std::uint64_t> blocks;  // of the capture
+    std::vector<std::uint64_t> blocks;   // of the capture
+    std::vector<std::size_t> corrected;  // planned blocks
     std::uint64_t row_count;
     std::vector<TableColumnSource> columns;
     SliceTables tables;
 
+    // Of blocks and corrections.
+    [[nodiscard]] std::size_t part_count() const { return blocks.size() + corrected.size(); }
     [[nodiscard]] std::uint64_t bytes() const;
   };
 

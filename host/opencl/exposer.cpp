@@ -106,6 +106,22 @@ void Exposer::add_kept(const TableSlice& slice, std::size_t last, std::size_t& n
   }
 }
 
+// The same block once more, for the functions that correct samples of it.
+void Exposer::add_correction(const TableSlice& slice, std::size_t planned,
+                             std::vector<BlockEntry>& entries) const {
+  const auto found = std::ranges::lower_bound(slice.corrected, planned);
+  if (found == slice.corrected.end() || *found != planned) return;
+  BlockEntry entry = entries.back();
+  entry.kept = 0;
+  entry.table_row = slice.last_row - slice.first_row;
+  for (auto before = slice.corrected.begin(); before != found; ++before) {
+    entry.table_row += plan_.blocks[*before].row_count();
+  }
+  entry.part_row =
+      slice.last_block - slice.first_block + static_cast<std::size_t>(found - slice.corrected.begin());
+  entries.push_back(entry);
+}
+
 // Σ_k v_k w_k of every pixel of the bands, slice by slice, chunk by chunk. Kept sums stand between the blocks around
 // them: each pixel's are added in time order.
 void Exposer::sum_up(std::span<const ExposedBand> bands, std::span<const TableSlice> slices,
@@ -133,6 +149,7 @@ void Exposer::sum_up(std::span<const ExposedBand> bands, std::span<const TableSl
         add_kept(slice, planned, next_kept, entries);
         if (!kept_.kept.empty()) entry.kept = kept_.kept[planned];
         entries.push_back(entry);
+        add_correction(slice, planned, entries);
       }
       launch(chunk.payload, entries, tables, bands, std::exchange(is_first, false));
       blocks -= chunk.entries.size();

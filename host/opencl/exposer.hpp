@@ -72,6 +72,7 @@ class Exposer {
   // Those of a slice whose blocks are not behind planned block `last`, from `next` on.
   void add_kept(const TableSlice& slice, std::size_t last, std::size_t& next,
                 std::vector<BlockEntry>& entries) const;
+  void add_correction(const TableSlice& slice, std::size_t planned, std::vector<BlockEntry>& entries) const;
   BlockFeed::Chunk next_chunk();
 
   const ExposingDevice& device_;

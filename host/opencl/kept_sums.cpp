@@ -15,8 +15,16 @@ constexpr double kMost = 0.75;
 constexpr double kLeast = 0.25;
 
 // Exposures for which a sum that nobody wants stays all the same: where more are wanted than there is room for, some
-// stay rather than all go by turns.
+// stay rather than all go by turns. A bundle of some of its group's blocks is soon made again.
 constexpr std::uint64_t kIdleExposures = 64;
+constexpr std::uint64_t kIdleExposuresOfPart = 8;
+
+// Room for bundles of some of their group's blocks.
+constexpr std::uint64_t kParts = 32;
+
+bool is_part_of_group(const SummedBlocks& blocks) {
+  return blocks.is_bundle() && blocks.count < kGroupBlocks;
+}
 
 // Of one function in one planned block.
 struct Part {
@@ -24,16 +32,17 @@ struct Part {
   std::optional<SummedBlocks> sum;  // none where its gain is not steady
 };
 
-Part part_of(const RenderPlan& plan, const PlannedFunction& function, const PlannedBlock& planned) {
+Part part_of(const PlannedFunction& function, const PlannedBlock& planned) {
   if (function.table->span_in(planned.extent).empty()) return {false, {}};
   const SteadyGain steady = function.table->steady_in(planned.block);
   if (!steady.is_steady()) return {true, {}};
-  if (!steady.in_bundle || plan.sums_light) return {true, SummedBlocks{planned.block, 1}};
-  return {true, SummedBlocks{planned.block / kBundleBlocks * kBundleBlocks, kBundleBlocks}};
+  return {true, steady.bundle};
 }
 
-std::uint32_t kept_as(const SummedBlocks& blocks) {
-  return blocks.count == 1 ? BlockEntry::kBlockKept : BlockEntry::kBundleKept;
+std::uint32_t kept_as(const SummedBlocks& blocks) { return 1u << blocks.index(); }
+
+bool is_corrected(const PlannedFunction& function, const PlannedBlock& planned) {
+  return function.table->has_corrected() && !function.table->steady_in(planned.block).corrected.empty();
 }
 
 bool has_mixed_tiles(std::span<const ExposedBand> bands) {
@@ -58,14 +67,14 @@ std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
   slot_bytes_ = slot_bytes;
   const std::uint64_t blocks = plan.layout->blocks.size();
   if (precision == Precision::fixed) return {};
-  if (capacity_ == 0) capacity_ = std::min(room, blocks + blocks / kBundleBlocks);
+  if (capacity_ == 0) capacity_ = std::min(room, blocks + blocks / kGroupBlocks + kParts);
   ++exposure_;
 
   std::map<SummedBlocks, std::uint64_t> pixels;  // that want it
   for (std::size_t f = 0; f < plan.functions.size(); ++f) {
     if (!exposes[f]) continue;
     for (const PlannedBlock& planned : plan.blocks) {
-      const Part part = part_of(plan, plan.functions[f], planned);
+      const Part part = part_of(plan.functions[f], planned);
       if (part.sum && part.sum->first == planned.block) pixels[*part.sum] += plan.functions[f].pixel_count;
     }
   }
@@ -83,20 +92,23 @@ std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
   std::uint64_t rooms = capacity_ - slots_.size();
   for (const Slot& slot : slots_) rooms += is_idle(slot);
   // A boxcar that moves on wants the blocks of the bundle that it leaves: they are read for the bundle anyhow.
-  std::vector<SummedBlocks> with_blocks = worth;
+  std::set<SummedBlocks> with_blocks(worth.begin(), worth.end());
   for (const SummedBlocks& sum : worth) {
     for (std::uint64_t block = sum.first; sum.count > 1 && block < sum.first + sum.count; ++block) {
-      if (!slot_of_.contains({block, 1})) with_blocks.push_back({block, 1});
+      if (!slot_of_.contains({block, 1})) with_blocks.insert({block, 1});
     }
   }
-  if (with_blocks.size() <= rooms) worth = std::move(with_blocks);
+  if (with_blocks.size() <= rooms) worth.assign(with_blocks.begin(), with_blocks.end());
   if (worth.size() > rooms) worth.resize(rooms);
   // Bundles last, of blocks that are there by then.
   std::stable_partition(worth.begin(), worth.end(), [](const SummedBlocks& sum) { return sum.count == 1; });
   return worth;
 }
 
-bool KeptSums::is_idle(const Slot& slot) const { return slot.exposure + kIdleExposures < exposure_; }
+bool KeptSums::is_idle(const Slot& slot) const {
+  const bool is_part = slot.blocks && is_part_of_group(*slot.blocks);
+  return slot.exposure + (is_part ? kIdleExposuresOfPart : kIdleExposures) < exposure_;
+}
 
 std::size_t KeptSums::slot_for(DeviceMemory& memory) {
   if (sums_() == nullptr) sums_ = memory.allocate(capacity_ * slot_bytes_, CL_MEM_READ_WRITE);
@@ -104,7 +116,10 @@ std::size_t KeptSums::slot_for(DeviceMemory& memory) {
     slots_.push_back({{}, 0});
     return slots_.size() - 1;
   }
-  const auto oldest = std::ranges::min_element(slots_, {}, &Slot::exposure);
+  const auto age = [this](const Slot& slot) {
+    return std::pair(!(is_idle(slot) && slot.blocks && is_part_of_group(*slot.blocks)), slot.exposure);
+  };
+  const auto oldest = std::ranges::min_element(slots_, {}, age);
   if (oldest->blocks) slot_of_.erase(*oldest->blocks);
   *oldest = {{}, 0};
   return static_cast<std::size_t>(oldest - slots_.begin());
@@ -140,28 +155,56 @@ void KeptSums::keep(std::size_t slot, const SummedBlocks& blocks) {
   slot_of_[blocks] = slot;
 }
 
+std::uint64_t KeptSums::slot_sums() const {
+  return slot_bytes_ / (precision_ == Precision::double_ ? sizeof(double) : sizeof(float));
+}
+
+// Of the blocks of a bundle as many as a shorter one has, which begins with the same, then one by one: what their sum is
+// where rows are read, for it is added up from the first block on.
+SumsInUse KeptSums::parts_of_light(const RenderPlan& of_light) const {
+  const std::size_t blocks = of_light.blocks.size();
+  SumsInUse used{sums_, {}, std::vector<std::uint32_t>(blocks), std::vector<bool>(blocks)};
+  const std::uint64_t first = of_light.blocks.front().block;
+  std::size_t next = 0;
+  for (std::size_t count = blocks - 1; count > 0 && next == 0; --count) {
+    const auto slot = slot_of_.find({first, count});
+    if (slot == slot_of_.end()) continue;
+    next = count;
+    std::fill_n(used.skipped.begin(), next, true);
+    used.entries.push_back({next - 1, kept_as({first, 1}) | BlockEntry::kIsKept, slot->second * slot_sums()});
+  }
+  for (; next < blocks; ++next) {
+    const SummedBlocks block{first + next, 1};
+    const auto slot = blocks > 1 ? slot_of_.find(block) : slot_of_.end();
+    if (slot == slot_of_.end()) continue;
+    used.skipped[next] = true;
+    used.entries.push_back({next, kept_as(block) | BlockEntry::kIsKept, slot->second * slot_sums()});
+  }
+  return used;
+}
+
 SumsInUse KeptSums::in_use(const RenderPlan& plan, std::span<const std::uint8_t> exposes,
                            std::span<const ExposedBand> bands) const {
   if (slot_of_.empty() && std::ranges::find(exposes, 0) == exposes.end()) return {};
+  if (plan.sums_light) return parts_of_light(plan);
   SumsInUse used{
       sums_, {}, std::vector<std::uint32_t>(plan.blocks.size()), std::vector<bool>(plan.blocks.size())};
   const bool exposes_any = std::ranges::find(exposes, 1) != exposes.end();
   const bool reads_all = exposes_any && has_mixed_tiles(bands);
-  const std::uint64_t slot_sums =
-      slot_bytes_ / (precision_ == Precision::double_ ? sizeof(double) : sizeof(float));
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     bool is_read = reads_all;
     for (std::size_t f = 0; f < plan.functions.size(); ++f) {
-      const Part part = exposes[f] ? part_of(plan, plan.functions[f], plan.blocks[b]) : Part{false, {}};
+      const Part part = exposes[f] ? part_of(plan.functions[f], plan.blocks[b]) : Part{false, {}};
       if (!part.is_live) continue;
+      is_read |= is_corrected(plan.functions[f], plan.blocks[b]);
       const auto slot = part.sum ? slot_of_.find(*part.sum) : slot_of_.end();
       if (slot == slot_of_.end()) {
         is_read = true;
         continue;
       }
       const std::uint32_t as = kept_as(*part.sum);
-      if ((used.kept[b] & as) == 0 && part.sum->first == plan.blocks[b].block) {
-        used.entries.push_back({b, as | BlockEntry::kIsKept, slot->second * slot_sums});
+      if ((used.kept[b] & as) == 0 && part.sum->last() == plan.blocks[b].block) {
+        used.entries.push_back({b, as | BlockEntry::kIsKept, slot->second * slot_sums()});
       }
       used.kept[b] |= as;
     }

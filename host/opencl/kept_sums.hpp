@@ -21,17 +21,10 @@
 
 namespace nutik {
 
-// Blocks of a capture whose sum is kept: one, or a bundle.
-struct SummedBlocks {
-  std::uint64_t first = 0;
-  std::uint64_t count = 1;
-  friend auto operator<=>(const SummedBlocks&, const SummedBlocks&) = default;
-};
-
 // What an exposure need not read.
 struct SumsInUse {
   struct Entry {
-    std::size_t planned;   // its block in the plan, of a bundle the first
+    std::size_t planned;   // its block in the plan, of a bundle the last
     std::uint32_t kept;    // as in BlockEntry
     std::uint64_t offset;  // in sums
   };
@@ -76,6 +69,8 @@ class KeptSums {
 
   // Whether it may go.
   [[nodiscard]] bool is_idle(const Slot& slot) const;
+  [[nodiscard]] std::uint64_t slot_sums() const;
+  [[nodiscard]] SumsInUse parts_of_light(const RenderPlan& of_light) const;
 
   Precision precision_ = Precision::single_;  // always the same
   std::optional<Transfer> transfer_;

@@ -45,12 +45,13 @@ RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, co
     const std::uint64_t tile_sums = std::uint64_t{picture.channels} * kTilePixels * sum_bytes(precision);
     needs.add("shares of functions", more_tiles * 2 * tile_sums + (tiles + more_tiles) * kMapBytes);
   }
-  const std::uint64_t least_tables = block_rows * row_bytes(plan, precision);
+  const bool has_corrected = precision != Precision::fixed && plan.has_corrected();
+  const std::uint64_t least_tables = (has_corrected ? 2 : 1) * block_rows * row_bytes(plan, precision);
   needs.add("gain tables of a block", least_tables);
   needs.add("a block", block_bytes);
   std::uint64_t rest = needs.rest_of(allowed);
 
-  const std::uint64_t all_tables = plan.row_count() * row_bytes(plan, precision);
+  const std::uint64_t all_tables = std::max(plan.row_count() * row_bytes(plan, precision), least_tables);
   const std::uint64_t more_tables = std::min(all_tables - least_tables, rest / 4);
   rest -= more_tables;
   RenderMemory memory;

@@ -5,14 +5,16 @@
 namespace nutik {
 
 std::shared_ptr<const CaptureLayout> CaptureLayout::of(const CaptureSource& source) {
-  auto layout = std::make_shared<CaptureLayout>(CaptureLayout{source.timeline(), {}, {}});
+  auto layout = std::make_shared<CaptureLayout>(CaptureLayout{source.timeline(), {}, {}, {}});
   std::uint64_t samples = kRunSamples;
   for (std::uint64_t block = 0; block < source.block_count(); ++block) {
     if (samples >= kRunSamples) {
       layout->run_starts.push_back(block);
       samples = 0;
     }
-    layout->blocks.push_back(source.block_extent(block));
+    const BlockExtent& extent = layout->blocks.emplace_back(source.block_extent(block));
+    layout->reaches.push_back({layout->timeline.reach_begin_ns(extent.first_sample),
+                               layout->timeline.reach_end_ns(extent.range().last - 1)});
     samples += layout->blocks.back().sample_count;
   }
   layout->run_starts.push_back(layout->blocks.size());

@@ -12,12 +12,19 @@
 
 namespace nutik {
 
+// Of a block's samples, from the first one's to the last one's.
+struct BlockReach {
+  std::int64_t begin_ns;
+  std::int64_t end_ns;
+};
+
 struct CaptureLayout {
   // Samples of a run of blocks at least, so that neither a table's runs nor the bookkeeping of them take much.
   static constexpr std::uint64_t kRunSamples = 1u << 14;
 
   Timeline timeline;
   std::vector<BlockExtent> blocks;
+  std::vector<BlockReach> reaches;        // of the blocks
   std::vector<std::uint64_t> run_starts;  // the first block of each run, and one behind the last
 
   [[nodiscard]] static std::shared_ptr<const CaptureLayout> of(const CaptureSource& source);

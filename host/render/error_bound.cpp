@@ -18,6 +18,9 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // to light in double 16.
 constexpr double kDoubleRoundings = 26 + 30 + 16;
 
+// In u₆₄ of corrected blocks and their corrections: a steady weight is a product, a correction a difference.
+constexpr double kCorrectedRoundings = 2;
+
 // Light of a code in single precision by a curve or by pieces, for any white code and any device.
 constexpr double kCurveLight = 3.3e-7;
 
@@ -173,13 +176,14 @@ ErrorBound error_bound(const RenderPlan& plan, Precision precision, const Output
     const GainSummary& gain = plan.functions[f].summary;
     PictureError error;
     if (gain.support_ns > 0) {
-      const FunctionCourse& course = plan.functions[f].table->course();
+      const GainTable& table = *plan.functions[f].table;
+      const FunctionCourse& course = precision == Precision::fixed ? table.course() : table.parted_course();
       const double sums = precision == Precision::fixed
                               ? fixed_error(course, scale, f, plan.capture.transfer.is_linear())
                               : floating_error(course, precision, roundings);
       const double tables =
           kRoundoff64 * (kDoubleRoundings * gain.absolute_integral_ns / static_cast<double>(gain.support_ns) +
-                         course.boundaries);
+                         kCorrectedRoundings * course.corrected_magnitude + course.boundaries);
       error.light = std::scalbn(sums + tables, gain.exponent) + kSmallest;
       error.steps = in_steps(plan, gain.error_scale(), error.light, threshold_error(roundings), output);
     }

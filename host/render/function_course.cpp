@@ -57,6 +57,19 @@ void CourseMeter::add(const BlockTable& table, const SteadyGain& steady) {
   course_.sample_count += static_cast<double>(table.weights.size());
 }
 
+void CourseMeter::add_corrected(const BlockTable& table, const SteadyGain& steady, const HatNumbers& hats) {
+  const double before = capture_.above + capture_.below;
+  const auto with_gain = [&](std::vector<double> numbers) {
+    for (double& number : numbers) number *= steady.per_ns;
+    return numbers;
+  };
+  const std::vector<double> weights = with_gain(hats.weights), boundaries = with_gain(hats.boundaries);
+  add({{}, weights, boundaries, {}}, steady);
+  const CorrectionNumbers correction = correction_of(steady, hats, table.span, table.weights);
+  add({{}, correction.weights, correction.boundaries, {}}, {});
+  course_.corrected_magnitude += capture_.above + capture_.below - before;
+}
+
 FunctionCourse CourseMeter::course() const {
   FunctionCourse course = course_;
   course.magnitude = capture_.above + capture_.below;

@@ -23,6 +23,7 @@ struct FunctionCourse {
   std::uint64_t weight_count = 0;      // that are not 0
   double compensated_magnitude = 0.0;  // Σ|w|, without the error of a running sum
   double steady_magnitude = 0.0;       // Σ|w| of steady blocks
+  double corrected_magnitude = 0.0;    // Σ|w| of steady blocks with corrected samples, and of corrections
 
   // Σ of what the kernel's table misses of each boundary.
   [[nodiscard]] double boundary_errors(Precision precision) const;
@@ -35,6 +36,8 @@ struct FunctionCourse {
 class CourseMeter {
  public:
   void add(const BlockTable& table, const SteadyGain& steady);
+  // A block with corrected samples: what its steady gain makes of all samples, and after that the correction.
+  void add_corrected(const BlockTable& table, const SteadyGain& steady, const HatNumbers& hats);
   [[nodiscard]] FunctionCourse course() const;
 
  private:

@@ -1,7 +1,6 @@
 #include "render/gain_table.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "exposure/boundary_table.hpp"
@@ -10,8 +9,11 @@
 namespace nutik {
 namespace {
 
-// A smaller one could leave the range of single precision with the light · ns that it is multiplied to.
-constexpr double kLeastSteadyGain = 0x1p-100;
+// Of a shifted function, whose divisor is the unshifted one's.
+GainSummary supported(GainSummary summary, std::optional<std::int64_t> support_ns) {
+  if (support_ns) summary.support_ns = *support_ns;
+  return summary;
+}
 
 }  // namespace
 
@@ -35,12 +37,10 @@ GainTable::GainTable(GainFunction function, bool live_all, std::shared_ptr<const
       layout_(std::move(layout)),
       memory_(std::move(memory)),
       id_(memory_->new_table()),
-      summary_(summarize(function_, layout_->timeline.duration_ns())),
+      summary_(supported(summarize(function_, layout_->timeline.duration_ns()), support_ns)),
       findings_(check_domain(function_, summary_, {.duration_ns = layout_->timeline.duration_ns()})),
-      live_(live_samples(summary_, layout_->timeline, live_all)) {
-  if (support_ns) summary_.support_ns = *support_ns;
-  steady_ = steady_stretches();
-}
+      live_(live_samples(summary_, layout_->timeline, live_all)),
+      steady_(function_, summary_, *layout_) {}
 
 GainTable::~GainTable() { memory_->forget(id_); }
 
@@ -53,53 +53,18 @@ SampleSpan GainTable::span_in(const BlockExtent& block) const {
           static_cast<std::uint16_t>(last - samples.first)};
 }
 
-std::vector<GainTable::SteadyStretch> GainTable::steady_stretches() const {
-  std::vector<SteadyStretch> stretches;
-  for (const GainPiece& piece : function_.pieces(layout_->timeline.duration_ns())) {
-    if (piece.begin_gain != piece.end_gain) continue;
-    const double gain_per_ns =
-        std::scalbn(piece.begin_gain, -summary_.exponent) / static_cast<double>(summary_.support_ns);
-    if (!(std::fabs(gain_per_ns) >= kLeastSteadyGain)) continue;
-    if (!stretches.empty() && stretches.back().end_ns == piece.begin_ns &&
-        stretches.back().gain_per_ns == gain_per_ns) {
-      stretches.back().end_ns = piece.end_ns;
-    } else {
-      stretches.push_back({piece.begin_ns, piece.end_ns, gain_per_ns});
-    }
-  }
-  return stretches;
-}
-
-const GainTable::SteadyStretch* GainTable::stretch_of(std::uint64_t first_block,
-                                                      std::uint64_t last_block) const {
-  const Timeline& timeline = layout_->timeline;
-  const std::int64_t begin_ns = timeline.reach_begin_ns(layout_->blocks[first_block].first_sample);
-  const std::int64_t end_ns = timeline.reach_end_ns(layout_->blocks[last_block].range().last - 1);
-  const auto after = std::ranges::upper_bound(steady_, begin_ns, {}, &SteadyStretch::begin_ns);
-  if (after == steady_.begin()) return nullptr;
-  const SteadyStretch& stretch = *std::prev(after);
-  return end_ns <= stretch.end_ns ? &stretch : nullptr;
-}
-
-SteadyGain GainTable::steady_in(std::uint64_t block) const {
-  if (steady_.empty() || layout_->blocks[block].sample_count < kLeastSteadySamples) return {};
-  const SteadyStretch* const stretch = stretch_of(block, block);
-  if (stretch == nullptr) return {};
-  const std::uint64_t first = block / kBundleBlocks * kBundleBlocks, last = first + kBundleBlocks;
-  const auto is_long = [](const BlockExtent& extent) { return extent.sample_count >= kLeastSteadySamples; };
-  const bool in_bundle = last <= layout_->blocks.size() && stretch_of(first, last - 1) == stretch &&
-                         std::all_of(layout_->blocks.begin() + static_cast<std::ptrdiff_t>(first),
-                                     layout_->blocks.begin() + static_cast<std::ptrdiff_t>(last), is_long);
-  return {stretch->gain_per_ns, in_bundle};
-}
-
 const FunctionCourse& GainTable::course() const {
   std::call_once(measured_, [this] { measure(); });
   return *course_;
 }
 
+const FunctionCourse& GainTable::parted_course() const {
+  const FunctionCourse& whole = course();
+  return parted_course_ ? *parted_course_ : whole;
+}
+
 void GainTable::measure() const {
-  CourseMeter meter;
+  CourseMeter meter, parted;
   CompensatedSum sum;
   before_runs_.clear();
   for (std::size_t r = 0; r < layout_->run_count(); ++r) {
@@ -107,12 +72,21 @@ void GainTable::measure() const {
     if (!touches(r)) continue;
     const auto made = make_run(r, sum);
     for (std::uint64_t block = layout_->run_starts[r]; block < layout_->run_starts[r + 1]; ++block) {
-      meter.add(made->table(block), steady_in(block));
+      const SteadyGain steady = steady_in(block);
+      meter.add(made->table(block), steady);
+      if (!has_corrected()) continue;
+      if (steady.corrected.empty()) {
+        parted.add(made->table(block), steady);
+      } else {
+        const HatNumbers hats = hats_of(layout_->blocks[block], layout_->timeline);
+        parted.add_corrected(made->table(block), steady, hats);
+      }
     }
     sum = made->after;
     memory_->keep(id_, r, made);
   }
   course_ = std::make_unique<FunctionCourse>(meter.course());
+  if (has_corrected()) parted_course_ = std::make_unique<FunctionCourse>(parted.course());
   is_measured_ = true;
 }
 

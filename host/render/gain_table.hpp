@@ -20,36 +20,12 @@
 #include "exposure/function_check.hpp"
 #include "exposure/gain_function.hpp"
 #include "render/capture_layout.hpp"
+#include "render/steady_gain.hpp"
 #include "render/table_memory.hpp"
 
 namespace nutik {
 
 struct FunctionCourse;
-
-// Samples of a block, from its first on: [first, last).
-struct SampleSpan {
-  std::uint16_t first = 0;
-  std::uint16_t last = 0;
-
-  [[nodiscard]] bool empty() const { return first == last; }
-  friend bool operator==(const SampleSpan&, const SampleSpan&) = default;
-};
-static_assert(sizeof(SampleSpan) == 4);
-
-// What a block's light · ns is multiplied by where a function's gain is steady: the same over the whole reach of all
-// its samples, and not 0 (docs/explanation/model.md, "Steady gain").
-struct SteadyGain {
-  double per_ns = 0.0;     // scaled gain / D; 0: the block is not steady
-  bool in_bundle = false;  // so are all blocks of its bundle
-
-  [[nodiscard]] bool is_steady() const { return per_ns != 0.0; }
-};
-
-// Shorter blocks are not called steady: nothing is gained by what their sums have in common.
-inline constexpr std::uint32_t kLeastSteadySamples = 16;
-
-// Blocks b with the same b / kBundleBlocks are a bundle. The capture's last ones are none where some are missing.
-inline constexpr std::uint64_t kBundleBlocks = 8;
 
 // The samples that a function needs: whose reach meets its live interval, or all of them.
 [[nodiscard]] SampleRange live_samples(const GainSummary& summary, const Timeline& timeline, bool live_all);
@@ -97,10 +73,13 @@ class GainTable {
   // The samples that it needs, in the capture and in a block.
   [[nodiscard]] const SampleRange& live() const { return live_; }
   [[nodiscard]] SampleSpan span_in(const BlockExtent& block) const;
-  [[nodiscard]] SteadyGain steady_in(std::uint64_t block) const;
+  [[nodiscard]] SteadyGain steady_in(std::uint64_t block) const { return steady_.in(block, *layout_); }
+  [[nodiscard]] bool has_corrected() const { return steady_.has_corrected(); }
 
-  // Goes through the whole table the first time.
+  // Of its weights, and of what arithmetics in floating point add up: steady blocks, and their corrections besides. Goes
+  // through the whole table the first time.
   [[nodiscard]] const FunctionCourse& course() const;
+  [[nodiscard]] const FunctionCourse& parted_course() const;
   [[nodiscard]] bool is_measured() const { return is_measured_; }
 
   // Reads blocks one after another.
@@ -116,16 +95,6 @@ class GainTable {
   };
 
  private:
-  // Where the gain is the same, longer than a piece perhaps.
-  struct SteadyStretch {
-    std::int64_t begin_ns;
-    std::int64_t end_ns;
-    double gain_per_ns;
-  };
-
-  [[nodiscard]] std::vector<SteadyStretch> steady_stretches() const;
-  // That holds the reach of these blocks' samples; null where none does.
-  [[nodiscard]] const SteadyStretch* stretch_of(std::uint64_t first_block, std::uint64_t last_block) const;
   void measure() const;
   [[nodiscard]] bool touches(std::size_t run) const;
   [[nodiscard]] std::shared_ptr<const TableRun> run(std::size_t run) const;
@@ -139,12 +108,13 @@ class GainTable {
   GainSummary summary_;
   std::vector<FunctionFinding> findings_;
   SampleRange live_;
-  std::vector<SteadyStretch> steady_;  // in time order
+  SteadyStretches steady_;
 
   mutable std::once_flag measured_;
   mutable std::atomic<bool> is_measured_{false};
   mutable std::unique_ptr<FunctionCourse> course_;
-  mutable std::vector<CompensatedSum> before_runs_;  // of the weights before each run
+  mutable std::unique_ptr<FunctionCourse> parted_course_;  // none where it is the same
+  mutable std::vector<CompensatedSum> before_runs_;        // of the weights before each run
 };
 
 }  // namespace nutik

@@ -14,9 +14,20 @@ std::uint64_t RenderPlan::row_count() const {
 bool RenderPlan::has_bundles() const {
   return std::ranges::any_of(blocks, [this](const PlannedBlock& planned) {
     return std::ranges::any_of(functions, [&](const PlannedFunction& function) {
-      return function.table->steady_in(planned.block).in_bundle;
+      return function.table->steady_in(planned.block).bundle.is_bundle();
     });
   });
+}
+
+bool RenderPlan::is_corrected(const PlannedBlock& planned) const {
+  return std::ranges::any_of(functions, [&](const PlannedFunction& function) {
+    return function.table->has_corrected() && !function.table->steady_in(planned.block).corrected.empty();
+  });
+}
+
+bool RenderPlan::has_corrected() const {
+  return std::ranges::any_of(functions,
+                             [](const PlannedFunction& function) { return function.table->has_corrected(); });
 }
 
 double RenderPlan::error_scale(std::uint64_t pixel) const {

@@ -84,6 +84,9 @@ struct RenderPlan {
   [[nodiscard]] std::uint64_t row_count() const;
   // Whether some function's gain is steady over a bundle of blocks.
   [[nodiscard]] bool has_bundles() const;
+  // Whether some function corrects samples of a block that counts as steady; whether any does of any block.
+  [[nodiscard]] bool is_corrected(const PlannedBlock& planned) const;
+  [[nodiscard]] bool has_corrected() const;
   // The samples that some function exposes.
   [[nodiscard]] std::uint64_t exposed_sample_count() const;
 };

@@ -111,6 +111,27 @@ TEST(Timeline, FindsTheSamplesThatReachAnInterval) {
   }
 }
 
+TEST(Timeline, TimesOfARangeAreThoseOfItsSamples) {
+  const Timeline constant = Timeline::constant({30000, 1001}, {123, 1}, 9);
+  const Timeline irregular = Timeline::irregular({0, 7, 12, 40, 41, 90}, {180, 1});
+  for (const Timeline* timeline : {&constant, &irregular}) {
+    const std::uint64_t count = timeline->sample_count();
+    for (const SampleRange range :
+         {SampleRange{0, count}, SampleRange{2, count - 1}, SampleRange{count - 1, count}}) {
+      const std::vector<SampleTimes> times = timeline->times(range);
+      ASSERT_EQ(times.size(), range.size());
+      for (std::uint64_t i = 0; i < times.size(); ++i) {
+        const SampleTimes one = timeline->times(range.first + i);
+        EXPECT_EQ(times[i].before_ns, one.before_ns);
+        EXPECT_EQ(times[i].start_ns, one.start_ns);
+        EXPECT_EQ(times[i].end_ns, one.end_ns);
+        EXPECT_EQ(times[i].after_ns, one.after_ns);
+      }
+    }
+  }
+  EXPECT_TRUE(constant.times(SampleRange{3, 3}).empty());
+}
+
 TEST(Timeline, TellsAMeanRateHoweverSlow) {
   for (const std::int64_t period_ns :
        {1ll, 7'000'000ll, 999'999'999ll, 1'000'000'000ll, 2'000'000'001'000ll, 3'600'000'000'000ll,

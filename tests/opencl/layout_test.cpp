@@ -30,8 +30,7 @@ TEST(KernelLayout, IsTheHosts) {
                                       BlockPart::kInBundle,
                                       BlockPart::kBundleStart,
                                       BlockPart::kBundleEnd,
-                                      BlockEntry::kBlockKept,
-                                      BlockEntry::kBundleKept,
+                                      BlockPart::kBundleShift,
                                       BlockEntry::kIsKept};
   for (const cl::Device& device : all_devices()) {
     const cl::Context context(device);

@@ -8,15 +8,17 @@
 //   drag    five functions in columns, everything changes all the time: the control point with the longest neighbours
 //           is moved (target: 40 ms in the median, 60 ms at the 95th percentile)
 //   scrub   the same capture: a boxcar of 10 ms is moved (20 ms)
-//   long    10 000 samples at 1000 a second: boxcars of 5 s beside some of 10 ms, in turns (twice as long; 1.6 times
-//           with --width 480 --height 270)
+//   long    10 000 samples at 1000 a second: boxcars of 5 s beside some of 10 ms, in turns, over a capture of which no
+//           sums are there, and once more where they are (twice as long)
 //
 // The first three have 240 samples of 1280 x 720, the last 640 x 360, all 8 bits, srgb, kept where kernels read them. A
-// time is that of a plan and its whole picture, by the host's clock; kernels' are by the device's own.
+// time is that of a plan and its whole picture, by the host's clock; processor time is that of all threads, which other
+// programs hardly change; kernels' are by the device's own.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <optional>
 #include <string>
@@ -60,15 +62,16 @@ Settings parse(int argc, char** argv) {
 
 // Renders of one kind.
 struct Times {
-  std::vector<double> wall_ms, kernel_ms;
+  std::vector<double> wall_ms, processor_ms, kernel_ms;
   RenderStatistics last;
 
   void print(const char* name) const {
     std::vector<double> sorted = wall_ms;
     std::ranges::sort(sorted);
     std::printf(
-        "  %-26s %8.2f ms, %8.2f at the 95th percentile; kernels %8.2f; %llu blocks read, %llu sums kept\n",
-        name, median(wall_ms), sorted[sorted.size() * 95 / 100], median(kernel_ms),
+        "  %-26s %8.2f ms, %8.2f at the 95th percentile; of processors %8.2f, of kernels %8.2f; "
+        "%llu blocks read, %llu sums kept\n",
+        name, median(wall_ms), sorted[sorted.size() * 95 / 100], median(processor_ms), median(kernel_ms),
         static_cast<unsigned long long>(last.blocks), static_cast<unsigned long long>(last.kept_sums));
   }
 };
@@ -95,11 +98,13 @@ class Scene {
 
   void render(Times* times = nullptr) {
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start_clock = std::clock();
     const Rendered rendered =
         renderer_.render(plans_->plan(capture_, functions, mask, {}), capture_, {ValueType::code8, 255});
     if (times == nullptr) return;
     times->wall_ms.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    times->processor_ms.push_back(1e3 * static_cast<double>(std::clock() - start_clock) / CLOCKS_PER_SEC);
     times->kernel_ms.push_back(rendered.statistics.expose_ms + rendered.statistics.develop_ms);
     times->last = rendered.statistics;
   }
@@ -191,8 +196,8 @@ void drag(const Settings& settings) {
 }
 
 // Boxcars of one length, each a little later.
-void move_boxcar(Scene& scene, std::int64_t length_ns, int run, Times* times) {
-  const std::int64_t start_ns = (scene.duration_ns() - length_ns) * run / (2 * scene.runs());
+void move_boxcar(Scene& scene, std::int64_t length_ns, int run, Times* times, std::int64_t later_ns = 0) {
+  const std::int64_t start_ns = (scene.duration_ns() - length_ns) * run / (2 * scene.runs()) + later_ns;
   scene.functions.insert_or_assign(0, GainFunction::boxcar(start_ns, start_ns + length_ns));
   scene.render(times);
 }
@@ -210,12 +215,16 @@ void long_boxcars(const Settings& settings) {
   Scene scene(settings, "long", {640, 360, 3}, 10'000, Content::dense);
   scene.paint([](auto, auto) { return 0; });
   move_boxcar(scene, 10 * kMs, 0, nullptr);
-  Times first, second, brief, lasting;
+  Times first, second, brief, lasting, brief_again, lasting_again;
   move_boxcar(scene, scene.duration_ns() / 2, 0, &first);
   move_boxcar(scene, scene.duration_ns() / 2, 1, &second);
   for (int run = 2; run <= scene.runs() + 1; ++run) {
     move_boxcar(scene, 10 * kMs, run, &brief);
     move_boxcar(scene, scene.duration_ns() / 2, run, &lasting);
+  }
+  for (int run = 2; run <= scene.runs() + 1; ++run) {
+    move_boxcar(scene, 10 * kMs, run, &brief_again, 3 * kMs);
+    move_boxcar(scene, scene.duration_ns() / 2, run, &lasting_again, 3 * kMs);
   }
   first.print("half of it, for once");
   second.print("and again: sums are made");
@@ -224,8 +233,14 @@ void long_boxcars(const Settings& settings) {
   double all_brief = 0.0, all_lasting = first.wall_ms[0] + second.wall_ms[0];
   for (const double ms : brief.wall_ms) all_brief += ms;
   for (const double ms : lasting.wall_ms) all_lasting += ms;
+  brief_again.print("10 ms, once more");
+  lasting_again.print("half of it, once more");
   std::printf("  half of it beside 10 ms: %.2f in the median, %.2f of all %d with the sums that were made\n",
               median(lasting.wall_ms) / median(brief.wall_ms), all_lasting / all_brief, settings.runs);
+  std::printf("  once more: %.2f in the median, %.2f of processor time, %.2f of the kernels'\n",
+              median(lasting_again.wall_ms) / median(brief_again.wall_ms),
+              median(lasting_again.processor_ms) / median(brief_again.processor_ms),
+              median(lasting_again.kernel_ms) / median(brief_again.kernel_ms));
 }
 
 int run(const Settings& settings) {

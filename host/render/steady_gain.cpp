@@ -1,0 +1,155 @@
+#include "render/steady_gain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "exposure/compensated_sum.hpp"
+
+namespace nutik {
+namespace {
+
+// A smaller one could leave the range of single precision with the light · ns that it is multiplied to.
+constexpr double kLeastSteadyGain = 0x1p-100;
+
+// Blocks that a stretch covers wholly before those that its ends cut are corrected: what is read of these besides, where
+// no sums are kept, is little beside all that is read.
+constexpr std::uint64_t kLeastCorrectedBlocks = kGroupBlocks;
+
+bool is_long(const BlockExtent& block) { return block.sample_count >= kLeastSteadySamples; }
+
+// The first of a block's samples, from its first on, that `is_it`, as are all behind it.
+template <typename Is>
+std::uint32_t first_sample(const BlockExtent& block, Is is_it) {
+  std::uint32_t first = 0, last = block.sample_count;
+  while (first < last) {
+    const std::uint32_t middle = (first + last) / 2;
+    if (is_it(block.first_sample + middle)) {
+      last = middle;
+    } else {
+      first = middle + 1;
+    }
+  }
+  return first;
+}
+
+SampleSpan span_of(std::uint32_t first, std::uint32_t last) {
+  return {static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(last)};
+}
+
+}  // namespace
+
+std::uint32_t SummedBlocks::index() const {
+  if (count == 1) return 0;
+  const std::uint64_t at = first % kGroupBlocks;
+  // From the group's first block on 2 … 16 of them, else from a later one on all that are left.
+  return static_cast<std::uint32_t>(at == 0 ? kGroupBlocks - 3 + count : at);
+}
+
+HatNumbers hats_of(const BlockExtent& block, const Timeline& timeline) {
+  HatNumbers hats{{}, {0.0}};
+  hats.weights.reserve(block.sample_count);
+  hats.boundaries.reserve(block.sample_count + 1);
+  std::uint64_t halves = 0;
+  for (const SampleTimes& sample : timeline.times(block.range())) {
+    const auto exposed = static_cast<std::uint64_t>(sample.end_ns - sample.start_ns);
+    const auto before = static_cast<std::uint64_t>(sample.start_ns - sample.before_ns);
+    const auto after = static_cast<std::uint64_t>(sample.after_ns - sample.end_ns);
+    const bool holds_to_the_end = sample.after_ns == timeline.duration_ns();
+    const std::uint64_t hat = 2 * exposed + before + (holds_to_the_end ? 2 : 1) * after;
+    halves += hat;
+    hats.weights.push_back(static_cast<double>(hat) / 2);
+    hats.boundaries.push_back(static_cast<double>(halves) / 2);
+  }
+  return hats;
+}
+
+CorrectionNumbers correction_of(const SteadyGain& steady, const HatNumbers& hats, SampleSpan live,
+                                std::span<const double> weights) {
+  CorrectionNumbers numbers{{}, {0.0}};
+  CompensatedSum boundary;
+  for (std::uint32_t k = steady.corrected.first; k < steady.corrected.last; ++k) {
+    const double weight = k >= live.first && k < live.last ? weights[k - live.first] : 0.0;
+    numbers.weights.push_back(weight - steady.per_ns * hats.weights[k]);
+    boundary.add(numbers.weights.back());
+    numbers.boundaries.push_back(boundary.value());
+  }
+  return numbers;
+}
+
+SteadyStretches::SteadyStretches(const GainFunction& function, const GainSummary& summary,
+                                 const CaptureLayout& layout) {
+  std::int64_t begin_ns = 0, end_ns = 0;
+  double per_ns = 0.0;
+  const auto close = [&] {
+    if (per_ns == 0.0) return;
+    const auto first = std::ranges::lower_bound(layout.reaches, begin_ns, {}, &BlockReach::begin_ns);
+    const auto last = std::ranges::upper_bound(layout.reaches, end_ns, {}, &BlockReach::end_ns);
+    if (first >= last) return;
+    Stretch stretch{per_ns,
+                    static_cast<std::uint64_t>(first - layout.reaches.begin()),
+                    static_cast<std::uint64_t>(last - layout.reaches.begin()),
+                    {},
+                    {}};
+    extend(stretch, begin_ns, end_ns, layout);
+    has_corrected_ |= !stretch.corrected_of_first.empty() || !stretch.corrected_of_last.empty();
+    stretches_.push_back(stretch);
+  };
+  for (const GainPiece& piece : function.pieces(layout.timeline.duration_ns())) {
+    if (piece.begin_gain != piece.end_gain) continue;
+    const double gain_per_ns =
+        std::scalbn(piece.begin_gain, -summary.exponent) / static_cast<double>(summary.support_ns);
+    if (!(std::fabs(gain_per_ns) >= kLeastSteadyGain)) continue;
+    if (end_ns != piece.begin_ns || per_ns != gain_per_ns) {
+      close();
+      begin_ns = piece.begin_ns;
+      per_ns = gain_per_ns;
+    }
+    end_ns = piece.end_ns;
+  }
+  close();
+}
+
+void SteadyStretches::extend(Stretch& stretch, std::int64_t begin_ns, std::int64_t end_ns,
+                             const CaptureLayout& layout) {
+  if (stretch.last - stretch.first < kLeastCorrectedBlocks) return;
+  const Timeline& timeline = layout.timeline;
+  if (stretch.first > 0 && is_long(layout.blocks[stretch.first - 1])) {
+    const BlockExtent& block = layout.blocks[stretch.first - 1];
+    const std::uint32_t steady =
+        first_sample(block, [&](std::uint64_t k) { return timeline.reach_begin_ns(k) >= begin_ns; });
+    if (2 * steady < block.sample_count) {
+      stretch.corrected_of_first = span_of(0, steady);
+      --stretch.first;
+    }
+  }
+  if (stretch.last < layout.blocks.size() && is_long(layout.blocks[stretch.last])) {
+    const BlockExtent& block = layout.blocks[stretch.last];
+    const std::uint32_t steady =
+        first_sample(block, [&](std::uint64_t k) { return timeline.reach_end_ns(k) > end_ns; });
+    if (2 * (block.sample_count - steady) < block.sample_count) {
+      stretch.corrected_of_last = span_of(steady, block.sample_count);
+      ++stretch.last;
+    }
+  }
+}
+
+SteadyGain SteadyStretches::in(std::uint64_t block, const CaptureLayout& layout) const {
+  if (!is_long(layout.blocks[block])) return {};
+  const auto after = std::ranges::upper_bound(stretches_, block, {}, &Stretch::first);
+  if (after == stretches_.begin()) return {};
+  const Stretch& stretch = *std::prev(after);
+  if (block >= stretch.last) return {};
+  SteadyGain steady{stretch.per_ns, {block, 1}, {}};
+  if (block == stretch.first) steady.corrected = stretch.corrected_of_first;
+  if (block + 1 == stretch.last && steady.corrected.empty()) steady.corrected = stretch.corrected_of_last;
+  // As far as steady blocks reach in the group.
+  const std::uint64_t group = block / kGroupBlocks * kGroupBlocks;
+  const std::uint64_t group_end = std::min<std::uint64_t>(group + kGroupBlocks, layout.blocks.size());
+  std::uint64_t first = block, last = block + 1;
+  while (first > std::max(group, stretch.first) && is_long(layout.blocks[first - 1])) --first;
+  while (last < std::min(group_end, stretch.last) && is_long(layout.blocks[last])) ++last;
+  if (first == group || last == group_end) steady.bundle = {first, last - first};
+  return steady;
+}
+
+}  // namespace nutik

@@ -1,0 +1,98 @@
+// Where a function's gain is steady, and which blocks are added up before it is multiplied
+// (docs/explanation/model.md, "Steady gain").
+//
+//   in:      a gain function, the layout of a capture
+//   out:     by block its steady gain, the bundle that it is one of, and the samples of which the gain is another one
+//   always:  a function of the function, the timeline and the blocks alone
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "exposure/gain_function.hpp"
+#include "render/capture_layout.hpp"
+
+namespace nutik {
+
+// Samples of a block, from its first on: [first, last).
+struct SampleSpan {
+  std::uint16_t first = 0;
+  std::uint16_t last = 0;
+
+  [[nodiscard]] bool empty() const { return first == last; }
+  friend bool operator==(const SampleSpan&, const SampleSpan&) = default;
+};
+static_assert(sizeof(SampleSpan) == 4);
+
+// Shorter blocks are not called steady: nothing is gained by what their sums have in common.
+inline constexpr std::uint32_t kLeastSteadySamples = 16;
+
+// Blocks b with the same b / kGroupBlocks are a group; the capture's last one may have fewer.
+inline constexpr std::uint64_t kGroupBlocks = 16;
+
+// Neighbouring blocks whose light · ns is added up: one, or a bundle. A bundle is of one group, and has its first block
+// or its last one.
+struct SummedBlocks {
+  std::uint64_t first = 0;
+  std::uint64_t count = 1;
+
+  [[nodiscard]] std::uint64_t last() const { return first + count - 1; }
+  [[nodiscard]] bool is_bundle() const { return count > 1; }
+  // Among all of its group: 0 for one block, less than 30.
+  [[nodiscard]] std::uint32_t index() const;
+  friend auto operator<=>(const SummedBlocks&, const SummedBlocks&) = default;
+};
+
+// What a block's light · ns is multiplied by: the function's gain over the reach of its samples, the same for all of
+// them but the corrected ones, and not 0.
+struct SteadyGain {
+  double per_ns = 0.0;  // scaled gain / D; 0: the block is not steady
+  SummedBlocks bundle;  // that the block is one of
+  SampleSpan
+      corrected;  // samples that are given another weight besides: less than half of the block, at one end
+
+  [[nodiscard]] bool is_steady() const { return per_ns != 0.0; }
+};
+
+// ∫φ of a block's samples in ns, and their sums from its first one on. All are whole halves of nanoseconds.
+struct HatNumbers {
+  std::vector<double> weights;
+  std::vector<double> boundaries;
+};
+[[nodiscard]] HatNumbers hats_of(const BlockExtent& block, const Timeline& timeline);
+
+// What a block's corrected samples have beside its steady gain, and sums of that from the first of them on. `weights`
+// are those of the samples in `live`, the function's own.
+struct CorrectionNumbers {
+  std::vector<double> weights;
+  std::vector<double> boundaries;
+};
+[[nodiscard]] CorrectionNumbers correction_of(const SteadyGain& steady, const HatNumbers& hats,
+                                              SampleSpan live, std::span<const double> weights);
+
+class SteadyStretches {
+ public:
+  SteadyStretches(const GainFunction& function, const GainSummary& summary, const CaptureLayout& layout);
+
+  [[nodiscard]] SteadyGain in(std::uint64_t block, const CaptureLayout& layout) const;
+  // Whether some block has corrected samples.
+  [[nodiscard]] bool has_corrected() const { return has_corrected_; }
+
+ private:
+  // Blocks [first, last) over the reach of whose samples the gain is the same, those with corrected samples included.
+  struct Stretch {
+    double per_ns;
+    std::uint64_t first;
+    std::uint64_t last;
+    SampleSpan corrected_of_first;
+    SampleSpan corrected_of_last;
+  };
+  static void extend(Stretch& stretch, std::int64_t begin_ns, std::int64_t end_ns,
+                     const CaptureLayout& layout);
+
+  std::vector<Stretch> stretches_;  // in time order
+  bool has_corrected_ = false;
+};
+
+}  // namespace nutik
