@@ -118,6 +118,40 @@ class Interruptions(support.TestCase):
             nutik.encode(endless(), rate=1e5)
 
 
+class Progress(support.TestCase):
+    def test_it_is_told(self):
+        pictures = support.moving_box()
+        for work in (lambda told: nutik.encode(pictures, rate=960, progress=told),
+                     lambda told: nutik.encode(iter(pictures), self.path("clip.tik"), rate=960, progress=told),
+                     lambda told: nutik.encode(pictures, rate=960).activity(progress=told)):
+            steps, threads = [], set()
+
+            def told(done, total):
+                steps.append((done, total))
+                threads.add(threading.get_ident())
+
+            work(told)
+            self.assertTrue(steps)
+            self.assertEqual(threads, {threading.get_ident()}, "somebody else's thread")
+            for done, total in steps:
+                self.assertTrue(0 < done and (total == 0 or done <= total), (done, total))
+
+    def test_what_it_raises_ends_the_work(self):
+        class Enough(Exception):
+            pass
+
+        def endless():
+            for k in itertools.count():
+                yield np.full((32, 32), k % 251, np.uint8)
+
+        def told(done, total):
+            raise Enough
+
+        with self.assertRaises(Enough):
+            nutik.encode(endless(), self.path("clip.tik"), rate=1e5, progress=told)
+        self.assertEqual(list(self.folder.iterdir()), [], "it left a file behind")
+
+
 class Threads(support.TestCase):
     def test_an_iterable_may_wait_for_another_thread(self):
         first, second = threading.Event(), threading.Event()
