@@ -99,6 +99,18 @@ class Interruptions(support.TestCase):
         small = capture.render(start=0, exposure="1f", region=(0, 0, 8, 8))
         self.assertEqual(small.shape, (8, 8, 3))
 
+    def test_a_trace_ends(self):
+        """Of a region of noise, block by block: the whole takes some seconds."""
+        pictures = np.random.default_rng(1).integers(0, 256, (512, 192, 256, 3), np.uint8)
+        capture = nutik.encode(pictures, rate=960)
+        times = np.arange(0, capture.duration_ns, 20000)
+        zigzag = nutik.Function.from_ns(times, np.arange(len(times)) % 2)
+        timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        self.addCleanup(timer.cancel)
+        with self.assertRaises(KeyboardInterrupt):
+            capture.trace(tag=0, functions={0: zigzag}, mask=np.zeros((192, 256), np.uint8))
+
     def test_a_handlers_own_exception_comes_through(self):
         class Enough(Exception):
             pass
