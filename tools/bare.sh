@@ -35,6 +35,7 @@ in_bare() {
     bare=$1
     shift
     mount -t proc proc "$bare/proc"
+    mount -t sysfs -o ro sysfs "$bare/sys"  # PoCL ends the program without it
     for each in null zero random urandom; do
       [ -c "$bare/dev/$each" ] || { touch "$bare/dev/$each"; mount --bind "/dev/$each" "$bare/dev/$each"; }
     done
