@@ -22,7 +22,7 @@ FURTHER = {
     "devices": "environment.md#devices", "info": "input.md#colour-shape-and-rate", "encode": "input.md", "expose": "picture.md", "mask": "masks.md",
     "noise": "../how-to/reduce-noise.md", "plate": "../how-to/plate.md", "recover": "tik-format.md#damage",
     "retime": "input.md#colour-shape-and-rate", "shutter": "shutters.md", "solve": "../how-to/solve.md",
-    "study": "../how-to/study.md", "sweep": "../how-to/find-the-moment.md", "completion": "environment.md#shells",
+    "study": "../how-to/study.md", "sweep": "../how-to/find-the-moment.md", "thumbnail": "../how-to/install.md#file-managers", "completion": "environment.md#shells",
     "trace": "../how-to/check-a-picture.md#following-a-pixel", "man": "environment.md#shells",
     "validate": "../how-to/check-a-picture.md#how-right-a-picture-is", "video": "../how-to/video.md",
 }

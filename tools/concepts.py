@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""Draws the pictures of docs/explanation/concepts.md from the demo's clip.
+"""Draws the pictures of docs/explanation/concepts.md from the demo's clip, and those of other pages that explain.
 
     tools/concepts.py --program build/nutik-cl --demo demo --output docs/images/concepts
+    tools/concepts.py --only tiles               one of flow, pixel, rates, tiles, negative, tolerance
 
 --demo is the folder that tools/demo makes.
 """
@@ -134,18 +135,98 @@ def draw_rates(demo, output):
     save(figure, output / "rates.png")
 
 
+def draw_tiles(output):
+    """What each kind of tile stores: eight of its 64 pixels over sixteen samples."""
+    rng = np.random.default_rng(4)
+    samples, pixels = 16, 8
+
+    def changes(share):
+        """Samples at which each pixel changes; all have a value at the first."""
+        changed = rng.random((pixels, samples)) < share
+        changed[:, 0] = True
+        return changed
+
+    still, busy, calm, ragged = changes(0), changes(0.85), np.zeros((pixels, samples), bool), changes(0.1)
+    calm[:, [0, 5, 6, 11]] = rng.random((pixels, 4)) < 0.7
+    calm[:, 0] = True
+    stored = {"still": (still, still), "rows": (calm, calm | calm.any(axis=0)),
+              "dense": (busy, np.ones_like(busy)), "records": (ragged, ragged)}
+    said = {"still": "one row of codes", "rows": "a row at each sample\nat which any pixel changed",
+            "dense": "a row at every sample", "records": "for each pixel\nits own changes"}
+    figure, axes = plt.subplots(1, 4, figsize=(13, 3.1))
+    figure.subplots_adjust(left=0.045, right=0.995, top=0.88, bottom=0.3, wspace=0.1)
+    for axis, (kind, (changed, kept)) in zip(axes, stored.items()):
+        for pixel in range(pixels):
+            for sample in range(samples):
+                color = ORANGE if changed[pixel, sample] else BLUE if kept[pixel, sample] else "#f0f0f0"
+                axis.add_patch(plt.Rectangle((sample + 0.06, pixel + 0.06), 0.88, 0.88, color=color,
+                                             alpha=0.45 if color == BLUE else 1))
+        axis.set(xlim=(0, samples), ylim=(pixels, 0), yticks=[])
+        axis.set_xticks([0.5, samples - 0.5], ["sample 0", str(samples - 1)], fontsize=9)
+        axis.tick_params(length=0)
+        axis.set_title(kind, fontsize=12, fontweight="bold")
+        axis.text(0.5, -0.16, said[kind], transform=axis.transAxes, ha="center", va="top", fontsize=10, linespacing=1.3)
+        axis.spines[:].set_visible(False)
+    axes[0].set_ylabel("pixels of the tile", fontsize=10)
+    figure.text(0.99, 0.025, "orange: changed, stored   blue: not changed, stored   grey: held, not stored", ha="right",
+                fontsize=9, color=GREY)
+    save(figure, output / "tiles.png")
+
+
+def draw_negative(program, demo, output):
+    """A difference of two exposures, with each way to show light below 0 in codes."""
+    with tempfile.TemporaryDirectory() as folder:
+        functions = Path(folder) / "difference.fn"
+        functions.write_text("M0 [399999999:0], [400000000:-1], [410000000:-1], [410000001:0], [799999999:0], "
+                             "[800000000:1], [810000000:1], [810000001:0]\n")
+        figure, axes = plt.subplots(1, 3, figsize=(13, 2.85))
+        figure.subplots_adjust(left=0.005, right=0.995, top=0.88, bottom=0.1, wspace=0.03)
+        for axis, (way, below) in zip(axes, {"saturate": "light below 0 is black", "offset": "light 0 is mid-grey",
+                                             "abs": "−x is as bright as +x"}.items()):
+            show(axis, picture_of(program, "-k", functions, "--negative", way, demo / "clip.tik"), way, below)
+    save(figure, output / "negative.png")
+
+
+def draw_tolerance(program, demo, output):
+    """How large the capture is with three tolerances, beside a part of the same moment."""
+    tolerances = (0, 2, 8)
+    figure, axes = plt.subplots(1, len(tolerances), figsize=(13, 3.4))
+    figure.subplots_adjust(left=0.005, right=0.995, top=0.88, bottom=0.1, wspace=0.03)
+    with tempfile.TemporaryDirectory() as folder:
+        for axis, tolerance in zip(axes, tolerances):
+            capture = Path(folder) / f"{tolerance}.tik"
+            subprocess.run([program, "-q", "--tolerance", str(tolerance), demo / "clip.mkv", capture], check=True)
+            picture = picture_of(program, "--start", "0.8s", "--exposure", "1f", capture)
+            show(axis, picture[150:270, 340:540], f"--tolerance {tolerance}",
+                 f"{capture.stat().st_size / 1e6:.1f} MB")
+            capture.unlink()
+    save(figure, output / "tolerance.png")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", type=Path, default="build/nutik-cl")
     parser.add_argument("--demo", type=Path, default="demo")
     parser.add_argument("--output", type=Path, default="docs/images/concepts")
+    parser.add_argument("--only", choices=("flow", "pixel", "rates", "tiles", "negative", "tolerance"))
     options = parser.parse_args()
+    options.output.mkdir(parents=True, exist_ok=True)
+    if options.only in (None, "pixel"):
+        draw_pixel(options.output)
+    if options.only in (None, "tiles"):
+        draw_tiles(options.output)
+    if options.only in ("pixel", "tiles"):
+        return
     if not (options.demo / "clip.tik").exists():
         sys.exit(f"{options.demo}/clip.tik is not there; tools/demo makes it")
-    options.output.mkdir(parents=True, exist_ok=True)
-    draw_flow(options.program, options.demo, options.output)
-    draw_pixel(options.output)
-    draw_rates(options.demo, options.output)
+    if options.only in (None, "flow"):
+        draw_flow(options.program, options.demo, options.output)
+    if options.only in (None, "rates"):
+        draw_rates(options.demo, options.output)
+    if options.only in (None, "negative"):
+        draw_negative(options.program, options.demo, options.output)
+    if options.only in (None, "tolerance"):
+        draw_tolerance(options.program, options.demo, options.output)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -11,6 +12,9 @@
 
 #ifndef NUTIK_INSTALLED_MODULES
 #error "NUTIK_INSTALLED_MODULES is not set: the folder of installed modules, relative to the program's"
+#endif
+#ifndef NUTIK_VERSION
+#error "NUTIK_VERSION is not set: modules of other versions have other tables of functions"
 #endif
 
 namespace nutik {
@@ -55,8 +59,14 @@ const void* load_module(const char* name, const char* symbol, const char* withou
       tried += format("\n  {}", dlerror());  // which names the file
       continue;
     }
-    if (const void* module = dlsym(library, symbol)) return module;
-    tried += format("\n  {}: not a module of this program", file.string());
+    const void* module = dlsym(library, symbol);
+    const auto* version = static_cast<const char*>(dlsym(library, "nutik_module_version"));
+    if (module == nullptr || version == nullptr) {
+      tried += format("\n  {}: not a module of this program", file.string());
+      continue;
+    }
+    if (std::string_view(version) == NUTIK_VERSION) return module;
+    tried += format("\n  {}: of version {}, and this program is of {}", file.string(), version, NUTIK_VERSION);
   }
   throw InputError(
       format("{}: {} was not found; install it beside the program, or set NUTIK_MODULES to its folder. "

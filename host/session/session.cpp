@@ -26,6 +26,37 @@ SessionIsSpent::SessionIsSpent()
           "the session reads its capture forward, for one picture and nothing else; open it to be read "
           "whole") {}
 
+namespace {
+
+// A capture that lends no more blocks once it is stopped: Cancelled.
+class StoppableSource final : public CaptureSource {
+ public:
+  StoppableSource(CaptureSource& source, std::stop_token stop) : source_(source), stop_(std::move(stop)) {}
+
+  [[nodiscard]] const CaptureFormat& format() const override { return source_.format(); }
+  [[nodiscard]] const Timeline& timeline() const override { return source_.timeline(); }
+  [[nodiscard]] std::uint64_t block_count() const override { return source_.block_count(); }
+  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
+    return source_.block_extent(block);
+  }
+  [[nodiscard]] bool is_forward_only() const override { return source_.is_forward_only(); }
+  [[nodiscard]] std::uint64_t lent_bytes(std::uint64_t block) const override {
+    return source_.lent_bytes(block);
+  }
+  void preload(std::uint64_t block) override { source_.preload(block); }
+
+ private:
+  BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override {
+    if (stop_.stop_requested()) throw Cancelled();
+    return source_.acquire(block, terms);
+  }
+
+  CaptureSource& source_;
+  std::stop_token stop_;
+};
+
+}  // namespace
+
 class Session::Implementation {
  public:
   Implementation(const SourceRequest& source, std::shared_ptr<Devices> devices, const Terms& terms);
@@ -51,7 +82,7 @@ class Session::Implementation {
                                       const PlanOptions& options, const OutputFormat& output,
                                       const RenderControl& control);
   template <typename Follow>
-  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const Follow& follow);
+  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, std::stop_token stop, const Follow& follow);
   [[nodiscard]] ValidatedExposure validate(const ExposureRequest& request, const OutputFormat& output,
                                            std::uint32_t runs, const ReportedProgress& progress);
   [[nodiscard]] SourceCheck compare_with(const SourceRequest& clip, const ReportedProgress& progress);
@@ -270,10 +301,12 @@ void keep_traced(RenderPlan& plan, std::vector<Trace>& traces) {
 }  // namespace
 
 template <typename Follow>
-TracedExposure Session::Implementation::trace(const ExposureRequest& request, const Follow& follow) {
+TracedExposure Session::Implementation::trace(const ExposureRequest& request, std::stop_token stop,
+                                              const Follow& follow) {
   RenderPlan planned = plan(request);
   check_reading(mask_needs(format_));
-  std::vector<Trace> traces = follow(planned, *reader_);
+  StoppableSource blocks(*reader_, std::move(stop));
+  std::vector<Trace> traces = follow(planned, blocks);
   std::vector<std::string> warnings = std::move(planned.warnings);
   keep_traced(planned, traces);
   return {std::move(traces), ExposureFigures::of(std::move(planned), timeline(), reader_->block_count()),
@@ -340,14 +373,15 @@ ExposedPicture Session::render(const FunctionSet& functions, const Mask& mask, c
   return implementation_->render(functions, mask, options, output, control);
 }
 
-TracedExposure Session::trace(const ExposureRequest& request, const TracedPixel& pixel) {
-  return implementation_->trace(request, [&](const RenderPlan& plan, CaptureSource& source) {
+TracedExposure Session::trace(const ExposureRequest& request, const TracedPixel& pixel,
+                              std::stop_token stop) {
+  return implementation_->trace(request, std::move(stop), [&](const RenderPlan& plan, CaptureSource& source) {
     return trace_pixel(plan, source, pixel.x, pixel.y);
   });
 }
 
-TracedExposure Session::trace(const ExposureRequest& request, const TracedTag& tag) {
-  return implementation_->trace(request, [&](const RenderPlan& plan, CaptureSource& source) {
+TracedExposure Session::trace(const ExposureRequest& request, const TracedTag& tag, std::stop_token stop) {
+  return implementation_->trace(request, std::move(stop), [&](const RenderPlan& plan, CaptureSource& source) {
     return std::vector{trace_region(plan, source, tag.tag)};
   });
 }

@@ -114,9 +114,11 @@ class Session {
                                       const PlanOptions& options, const OutputFormat& output,
                                       const RenderControl& control = {});
 
-  // How the light of a pixel came about, and of the mean of all pixels of a mask value.
-  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const TracedPixel& pixel);
-  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const TracedTag& tag);
+  // How the light of a pixel came about, and of the mean of all pixels of a mask value. Cancelled between blocks.
+  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const TracedPixel& pixel,
+                                     std::stop_token stop = {});
+  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const TracedTag& tag,
+                                     std::stop_token stop = {});
 
   // Every arithmetic of the OpenCL device against the reference.
   [[nodiscard]] ValidatedExposure validate(const ExposureRequest& request, const OutputFormat& output,

@@ -69,4 +69,12 @@ Picture thumbnail(const Picture& picture, std::uint32_t width, std::uint32_t hei
   return small;
 }
 
+Picture fitted_thumbnail(const Picture& picture, const Shape& shown, std::uint32_t side) {
+  const double scale = std::min(1.0, static_cast<double>(side) / std::max(shown.width, shown.height));
+  const auto pixels = [&](std::uint32_t length) {
+    return static_cast<std::uint32_t>(std::max(1L, std::lround(scale * length)));
+  };
+  return thumbnail(picture, pixels(shown.width), pixels(shown.height));
+}
+
 }  // namespace nutik::sheet

@@ -10,4 +10,8 @@ namespace nutik::sheet {
 // stand for are taken to be sRGB.
 [[nodiscard]] Picture thumbnail(const Picture& picture, std::uint32_t width, std::uint32_t height);
 
+// The same as large as fits into a square of `side` pixels, and no larger than the picture is shown: with
+// CaptureFormat::shown_shape(), in square pixels.
+[[nodiscard]] Picture fitted_thumbnail(const Picture& picture, const Shape& shown, std::uint32_t side);
+
 }  // namespace nutik::sheet

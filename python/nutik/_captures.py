@@ -14,7 +14,7 @@ from ._functions import Function, FunctionLike, function_of, read_functions
 from ._masks import Mask, MaskLike, mask_of
 from ._nutik import UsageError
 from ._pictures import Picture
-from ._words import Array, Path, Time, box_of, count_of, settings_of, tag_of, time_word, warn
+from ._words import Array, Path, Progress, Time, box_of, count_of, settings_of, tag_of, time_word, warn
 
 Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
 
@@ -179,28 +179,29 @@ class Capture:
         return [Trace._of(arrays) for arrays in traces]
 
     def plate(self, *, by: Optional[int] = None, codes: bool = False, dtype: Any = None,
-              transfer: Optional[str] = None) -> _finds.Plate:
+              transfer: Optional[str] = None, progress: Progress = None) -> _finds.Plate:
         """The scene without what moves in it (docs/how-to/plate.md). by: codes that the same light may differ by; None: by the
-        capture's own noise. codes, dtype and transfer as of render(), but for float64."""
+        capture's own noise. codes, dtype and transfer as of render(), but for float64. progress: as of nutik.open()."""
         return _finds.plate(self._held, None if by is None else count_of(by, "by"),
-                            self._output(codes, dtype, transfer, None))
+                            self._output(codes, dtype, transfer, None), progress)
 
     def activity(self, mask: Optional[MaskLike] = None, *, tag: Optional[int] = None, by: int = 0,
-                 count_redrawn: bool = False) -> _finds.Activity:
+                 count_redrawn: bool = False, progress: Progress = None) -> _finds.Activity:
         """When it changes, and where. Only pixels of `mask` with `tag` count, or with any tag but 0; changes of no more
         than `by` codes are none. Samples at which a codec drew its picture anew count as those beside them, unless
-        count_redrawn."""
+        count_redrawn. progress: as of nutik.open()."""
         return _finds.activity(self._held, mask_of(mask), None if tag is None else tag_of(tag), count_of(by, "by"),
-                               count_redrawn)
+                               count_redrawn, progress)
 
     def study(self, style: str = "trail", *, moments: Union[int, Sequence[Time], None] = None, spacing: str = "time",
               trail: Optional[str] = None, slit_from: str = "left", regions: Sequence[Sequence[int]] = (),
-              codes: bool = False, dtype: Any = None, transfer: Optional[str] = None) -> _finds.Study:
+              codes: bool = False, dtype: Any = None, transfer: Optional[str] = None,
+              progress: Progress = None) -> _finds.Study:
         """A motion study that finds its subject by itself (docs/how-to/study.md).
 
         style: 'trail', 'strobe', 'rear-curtain', 'frozen', 'clean' or 'slit'. moments: how many, or which times. spacing:
         'time' or 'distance'. trail: 'even', 'fade', 'ramp' or 'none'. slit_from: 'left', 'right', 'top' or 'bottom'.
-        regions: (x, y, width, height) each with a subject of its own.
+        regions: (x, y, width, height) each with a subject of its own. progress: as of nutik.open().
 
         Raises InputError where nothing moves or everything does: the camera must stand still (align='rigid' where it is
         encoded).
@@ -217,24 +218,26 @@ class Capture:
             warn([f"{moved}; align='rigid' moves the clip's pictures back when it is encoded"])
         settings = settings_of({"style": style, "spacing": spacing, "trail": trail, "slit_from": slit_from})
         boxes = [box_of(each, "a region") for each in regions]
-        return _finds.study(self._held, settings, asked, boxes, self._output(codes, dtype, transfer, None))
+        return _finds.study(self._held, settings, asked, boxes, self._output(codes, dtype, transfer, None),
+                            progress)
 
     def solve(self, functions: str, wishes: Sequence[str], *,
               free: Mapping[str, Union[str, tuple[Any, ...]]] = {}, mask: Optional[MaskLike] = None,
               regions: Optional[MaskLike] = None, start: Optional[Time] = None,
               feather: Union[str, float, None] = None, normalize: str = "support", gain: float = 1.0,
-              unmapped: Optional[str] = None) -> _finds.Solution:
+              unmapped: Optional[str] = None, progress: Progress = None) -> _finds.Solution:
         """Gains and times that make a picture as it is wished (docs/how-to/solve.md).
 
         functions: the text of a function file with names in place of numbers, 'M0{[0:0], [1:1], [1000000000:rest]}'.
         wishes: 'M0 = plate', '500,120,80,60 gone', 'R1 <= 0.5'. free: of a gain (least, most), of a time (from, to) or
         (from, to, step). mask: whose tags M0 ... are; regions: a second mask, whose values R0 ... are.
+        progress: as of nutik.open().
         """
         asked = self._asked(None, mask, feather, dict(start=start, normalize=normalize, gain=gain, unmapped=unmapped))
         words = [_finds.freedom_word(name, each, functions) for name, each in free.items()]
         region_mask = mask_of(regions)
         return _finds.solve(self._held, functions, list(wishes), words, asked,
-                            None if region_mask is None else region_mask._held)
+                            None if region_mask is None else region_mask._held, progress)
 
     def _asked(self, functions: Optional[dict[int, Function]], mask: Optional[MaskLike],
                feather: Union[str, float, None], stated: dict[str, Any]) -> _nutik.Exposure:

@@ -13,7 +13,7 @@ from ._functions import Function, parse_functions
 from ._masks import Mask
 from ._nutik import UsageError
 from ._pictures import Picture
-from ._words import Array, NutikNote, time_word, warn
+from ._words import Array, NutikNote, Progress, time_word, warn
 
 
 @dataclass(frozen=True)
@@ -81,10 +81,11 @@ class Solution:
     is_kept: bool               # whether every wish is
 
 
-def plate(capture: _nutik.Capture, by: Optional[int], output: dict[str, str]) -> Plate:
+def plate(capture: _nutik.Capture, by: Optional[int], output: dict[str, str],
+          progress: Progress = None) -> Plate:
     if output["dtype"] == "float64":
         raise UsageError("a plate's light is float32")
-    picture, uncertain, is_noise_known = _nutik.plate(capture, by, output)
+    picture, uncertain, is_noise_known = _nutik.plate(capture, by, output, progress)
     if not is_noise_known:
         warn(["nothing in the capture is still for long enough to tell its noise: codes that differ by up to 1/32 of "
               "white were taken for the same light; by= states another difference"])
@@ -93,10 +94,10 @@ def plate(capture: _nutik.Capture, by: Optional[int], output: dict[str, str]) ->
 
 
 def activity(capture: _nutik.Capture, mask: Optional[Mask], tag: Optional[int], by: int,
-             count_redrawn: bool) -> Activity:
+             count_redrawn: bool, progress: Progress = None) -> Activity:
     if tag is not None and mask is None:
         raise UsageError("tag= is a value of a mask; add mask=")
-    told = _nutik.activity(capture, None if mask is None else mask._held, tag, by, count_redrawn)
+    told = _nutik.activity(capture, None if mask is None else mask._held, tag, by, count_redrawn, progress)
     warn(told.pop("notes"), NutikNote)
     for name in ("changed_pixels", "changes", "redrawn"):
         told[name].flags.writeable = False
@@ -106,10 +107,10 @@ def activity(capture: _nutik.Capture, mask: Optional[Mask], tag: Optional[int], 
 
 
 def study(capture: _nutik.Capture, settings: dict[str, str], moments: Union[int, list[str]], regions: list[Any],
-          output: dict[str, str]) -> Study:
+          output: dict[str, str], progress: Progress = None) -> Study:
     if settings["style"] == "clean" and output["dtype"] == "float64":
         raise UsageError("a plate's light is float32")
-    told = _nutik.study(capture, settings, moments, regions, output)
+    told = _nutik.study(capture, settings, moments, regions, output, progress)
     warn(told["notes"], NutikNote)
     picture = Picture(told["picture"])
     warn(picture._held.figures.get("warnings", []))
@@ -131,8 +132,8 @@ def freedom_word(name: str, free: Union[str, tuple[Any, ...]], functions: str) -
 
 
 def solve(capture: _nutik.Capture, functions: str, wishes: list[str], free: list[str], asked: _nutik.Exposure,
-          regions: Optional[_nutik.Mask]) -> Solution:
-    told = _nutik.solve(capture, functions, wishes, free, asked, regions)
+          regions: Optional[_nutik.Mask], progress: Progress = None) -> Solution:
+    told = _nutik.solve(capture, functions, wishes, free, asked, regions, progress)
     told_wishes = [SolvedWish(**wish) for wish in told.pop("wishes")]
     warnings = told.pop("warnings")
     if not told["is_kept"]:

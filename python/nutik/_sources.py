@@ -12,7 +12,7 @@ import numpy as np
 from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
-from ._words import Array, NutikNote, Number, Path, Time, half_up, path_word, seconds_of, settings_of, time_ns, times_ns, warn
+from ._words import Array, NutikNote, Number, Path, Progress, Time, half_up, path_word, seconds_of, settings_of, time_ns, times_ns, warn
 
 
 
@@ -26,7 +26,8 @@ def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[N
          tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
          contrast: Union[str, Number, None] = None, start_picture: Union[Path, Number, None] = None,
          tick: Optional[Time] = None,
-         device: Optional[str] = None, memory: Union[int, str, None] = None, renderer: Optional[str] = None) -> Capture:
+         device: Optional[str] = None, memory: Union[int, str, None] = None, renderer: Optional[str] = None,
+         progress: Progress = None) -> Capture:
     """Opens a capture (.tik), or a clip, which is encoded into a temporary capture first: a video, a folder of stills,
     'frames/*.png', a table of stills (docs/reference/input.md).
 
@@ -40,13 +41,15 @@ def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[N
 
     device: an OpenCL device, by number or part of its name; None: NUTIK_DEVICE, else the first. memory: bytes or '2GB';
     None: half of the machine's. renderer: 'reference' computes without OpenCL, slowly.
+    progress: called with (samples done, of how many; 0: not known) while a clip is read, by the thread that asked and at
+    most 20 times a second. What it raises ends the work, and comes through.
 
     Raises InputError where it cannot be read, UsageError where what is stated does not fit, MemoryTooLittle;
     KeyboardInterrupt at Ctrl-C.
     """
-    stated = {name: value for name, value in locals().items() if name not in _COMPUTING and name != "path"}
+    stated = {name: value for name, value in locals().items() if name not in (*_COMPUTING, "path", "progress")}
     computing = _computing(device, memory, renderer)
-    return _told(_nutik.open(path_word(path), settings_of(stated), computing))
+    return _told(_nutik.open(path_word(path), settings_of(stated), computing, progress))
 
 
 def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number] = None,
@@ -57,7 +60,7 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
            tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
            codec: str = "zstd", tiles: Optional[str] = None, block_samples: Optional[int] = None,
            device: Optional[str] = None, memory: Union[int, str, None] = None, renderer: Optional[str] = None,
-           name: str = "array", **clip: Any) -> Capture:
+           progress: Progress = None, name: str = "array", **clip: Any) -> Capture:
     """Makes a capture of pictures, and opens it.
 
     source: an array [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16,
@@ -69,7 +72,7 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
     transfer: what codes stand for, 'srgb', 'bt709', 'linear', 'gamma:G', 'hlg', 'pq'; without it 'srgb' of uint8, 'linear'
         of uint16. white: the code of white, 255 or 65535 without it; no code may be larger.
     tolerance, noise, sigmas, align, ...: as of nutik.open(), which takes more of a path: begin, crop, raw, ... codec, of an
-        output: 'none', 'lz4', 'zstd', 'zstd:9'.
+        output: 'none', 'lz4', 'zstd', 'zstd:9'. progress: as of nutik.open().
 
     Raises UsageError where arguments do not fit, InputError where pictures are unlike or times out of order,
     OutputError; what an iterable raises; KeyboardInterrupt at Ctrl-C. No file is left behind then.
@@ -79,7 +82,7 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
     stated = dict(rate=rate, shutter_angle=shutter_angle, transfer=transfer, white=white, primaries=primaries,
                   pixel_aspect=pixel_aspect, deflicker=deflicker, align=align, align_to=align_to, unseen=unseen,
                   tolerance=tolerance, noise=noise, sigmas=sigmas, tiles=tiles, block_samples=block_samples)
-    of_files = set(inspect.signature(open).parameters) - {"path"} - set(_COMPUTING) - set(stated)
+    of_files = set(inspect.signature(open).parameters) - {"path", "progress"} - set(_COMPUTING) - set(stated)
     for argument in clip:
         if argument not in of_files:
             raise TypeError(f"encode() has no argument {argument!r}")
@@ -89,12 +92,13 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
         stated.update(clip)
         if times is not None or exposures is not None:
             raise UsageError("times= and exposures= are those of arrays; a table of stills lists those of files")
-        return _told(_nutik.encode_clip(path_word(source), path, codec, settings_of(stated), computing))
+        return _told(_nutik.encode_clip(path_word(source), path, codec, settings_of(stated), computing,
+                                        progress))
     pictures, first = _pictures_of(source)
     count = len(pictures) if isinstance(pictures, np.ndarray) else None
     starts, intervals, exposed = _timing(rate, times, exposures, shutter_angle, count)
     return _told(_nutik.encode_pictures(pictures, first, name, starts, intervals, exposed, path, codec,
-                                        settings_of(stated), computing))
+                                        settings_of(stated), computing, progress))
 
 
 _COMPUTING = ("device", "memory", "renderer")

@@ -9,7 +9,7 @@ from decimal import Decimal
 from fractions import Fraction
 from os import PathLike, fsdecode
 from os.path import dirname
-from typing import Any, Iterable, Union
+from typing import Any, Callable, Iterable, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,7 @@ Time = Union[str, float, int, Fraction, Decimal, np.timedelta64, datetime.timede
 Number = Union[str, float, int, Fraction, Decimal]
 Path = Union[str, "PathLike[str]"]
 Array = NDArray[Any]
+Progress = Optional[Callable[[int, int], Any]]  # progress(done, total); total is 0 where it is not known
 
 _MOST_DIGITS = 10 ** 15 - 1  # that the engine reads above and below a fraction line
 _SECOND_NS = 10 ** 9

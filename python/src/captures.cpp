@@ -36,7 +36,7 @@ struct Terms {
   OpenClip open;
 };
 
-std::shared_ptr<OpenCapture> opened(const Terms& terms) {
+std::shared_ptr<OpenCapture> opened(const Terms& terms, const py::object& progress) {
   return without_lock([&](const Stopping& stopping) {
     Session::Terms how;
     how.progress = stopping.progress();
@@ -44,7 +44,7 @@ std::shared_ptr<OpenCapture> opened(const Terms& terms) {
     how.open_clip = terms.open;
     auto session = std::make_unique<Session>(terms.source, terms.devices, how);
     return std::make_shared<OpenCapture>(OpenCapture{terms.source.path.string(), std::move(session)});
-  });
+  }, progress);
 }
 
 // A capture, what is doubtful about it, and what a person should know of the clip.
@@ -53,36 +53,39 @@ py::tuple told_of(std::shared_ptr<OpenCapture> capture, std::vector<std::string>
   return py::make_tuple(std::move(capture), std::move(warnings), note_texts(notes));
 }
 
-py::tuple opened_and_told(const Terms& terms) {
-  std::shared_ptr<OpenCapture> capture = opened(terms);
+py::tuple opened_and_told(const Terms& terms, const py::object& progress) {
+  std::shared_ptr<OpenCapture> capture = opened(terms, progress);
   const Session& session = *capture->session;
   return told_of(capture, session.warnings(), session.notes());
 }
 
 // To a file, or to a temporary capture.
-py::tuple encoded(const Terms& terms, const std::optional<std::string>& output, const std::string& codec) {
-  if (!output) return opened_and_told(terms);
+py::tuple encoded(const Terms& terms, const std::optional<std::string>& output, const std::string& codec,
+                  const py::object& progress) {
+  if (!output) return opened_and_told(terms, progress);
   const EncodeRequest request{*output, tik::Codec::parse(codec)};
   EncodedCapture made = without_lock([&](const Stopping& stopping) {
     const MemoryBudget& memory = terms.devices->request().memory;
     return terms.open ? encode(terms.source, terms.open, request, memory, stopping.progress(), stopping.stop)
                       : encode(terms.source, request, memory, stopping.progress(), stopping.stop);
-  });
+  }, progress);
   Terms of_file;
   of_file.source.path = *output;
   of_file.devices = terms.devices;
-  return told_of(opened(of_file), std::move(made.warnings), made.notes);
+  return told_of(opened(of_file, py::none()), std::move(made.warnings), made.notes);
 }
 
-py::tuple open(const std::string& path, const Settings& settings, const Settings& computing) {
-  return opened_and_told({source_request(path, settings), devices_for(computing_request(computing)), {}});
+py::tuple open(const std::string& path, const Settings& settings, const Settings& computing,
+               const py::object& progress) {
+  return opened_and_told({source_request(path, settings), devices_for(computing_request(computing)), {}}, progress);
 }
 
 py::tuple encode_clip(const std::string& path, const std::optional<std::string>& output,
-                      const std::string& codec, const Settings& settings, const Settings& computing) {
+                      const std::string& codec, const Settings& settings, const Settings& computing,
+                      const py::object& progress) {
   if (is_tik(path)) throw UsageError(format("{} is a capture already; nutik.open() opens it", path));
   return encoded({source_request(path, settings), devices_for(computing_request(computing)), {}}, output,
-                 codec);
+                 codec, progress);
 }
 
 // `first` is a picture: of an iterator its first one, which it will return again. Times are those of ClipTiming.
@@ -90,7 +93,8 @@ py::tuple encode_pictures(const py::object& pictures, const py::array& first, co
                           const std::vector<std::int64_t>& starts_ns,
                           const std::vector<std::pair<std::int64_t, std::int64_t>>& exposures_ns,
                           std::optional<std::int64_t> exposed_ns, const std::optional<std::string>& output,
-                          const std::string& codec, const Settings& settings, const Settings& computing) {
+                          const std::string& codec, const Settings& settings, const Settings& computing,
+                          const py::object& progress) {
   PictureNotes notes;
   notes.shape = {static_cast<std::uint32_t>(first.shape(1)), static_cast<std::uint32_t>(first.shape(0)),
                  first.ndim() == 3 ? static_cast<std::uint32_t>(first.shape(2)) : 1U};
@@ -108,7 +112,7 @@ py::tuple encode_pictures(const py::object& pictures, const py::array& first, co
     notes.sample_count = std::max(starts_ns.size(), exposures_ns.size());
     terms.open = open_iterator(py::iter(pictures), std::move(notes), terms.source.clip, name);
   }
-  return encoded(terms, output, codec);
+  return encoded(terms, output, codec, progress);
 }
 
 py::array times_ns(const OpenCapture& capture) {
@@ -192,12 +196,12 @@ void bind_captures(py::module_& module) {
       .def("times_ns", &times_ns)
       .def("figures", &figures)
       .def("moved_camera", &moved_camera_text);
-  module.def("open", &open, py::arg("path"), py::arg("settings"), py::arg("computing"));
+  module.def("open", &open, py::arg("path"), py::arg("settings"), py::arg("computing"), py::arg("progress"));
   module.def("encode_clip", &encode_clip, py::arg("path"), py::arg("output"), py::arg("codec"),
-             py::arg("settings"), py::arg("computing"));
+             py::arg("settings"), py::arg("computing"), py::arg("progress"));
   module.def("encode_pictures", &encode_pictures, py::arg("pictures"), py::arg("first"), py::arg("name"),
              py::arg("starts_ns"), py::arg("exposures_ns"), py::arg("exposed_ns"), py::arg("output"),
-             py::arg("codec"), py::arg("settings"), py::arg("computing"));
+             py::arg("codec"), py::arg("settings"), py::arg("computing"), py::arg("progress"));
 }
 
 }  // namespace nutik::python

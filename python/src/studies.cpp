@@ -74,7 +74,8 @@ StudyRequest study_request(const Settings& settings,
 // A study of a capture as it is, whose pictures lie on each other.
 py::dict study(const OpenCapture& capture, const Settings& settings,
                const std::variant<std::uint32_t, std::vector<std::string>>& moments,
-               const std::vector<std::array<std::uint32_t, 4>>& regions, const Settings& output) {
+               const std::vector<std::array<std::uint32_t, 4>>& regions, const Settings& output,
+               const py::object& progress) {
   Session& session = *capture.session;
   const StudyRequest request = study_request(settings, moments, regions);
   const OutputFormat format = output_of(output, session.format());
@@ -98,7 +99,7 @@ py::dict study(const OpenCapture& capture, const Settings& settings,
     found.exposed =
         session.render(study_exposure(found.study, request.style, found.mask->mask), format, control);
     return found;
-  });
+  }, progress);
   py::dict told;
   told["moments"] = made.study.moments;
   told["functions"] = held_functions(made.study.functions);
@@ -113,13 +114,14 @@ py::dict study(const OpenCapture& capture, const Settings& settings,
   return told;
 }
 
-py::tuple plate(const OpenCapture& capture, std::optional<std::uint32_t> by, const Settings& output) {
+py::tuple plate(const OpenCapture& capture, std::optional<std::uint32_t> by, const Settings& output,
+                const py::object& progress) {
   Session& session = *capture.session;
   const OutputFormat format = output_of(output, session.format());
   MadePlate made = without_lock([&](const Stopping& stopping) {
     return make_plate(session.capture(), capture.name, {by}, format, session.devices().request().memory,
                       stopping.progress());
-  });
+  }, progress);
   const Shape& shape = made.picture.shape;
   Mask uncertain = Mask::uniform(shape.width, shape.height, 0);
   paint(uncertain, made.uncertain, 1);
@@ -146,7 +148,8 @@ py::object stretch_of(const Timeline& timeline, const std::optional<ActivityMome
 }
 
 py::dict activity(const OpenCapture& capture, const std::optional<HeldMask>& mask,
-                  std::optional<std::uint8_t> tag, std::uint32_t ignored_codes, bool counts_redrawn) {
+                  std::optional<std::uint8_t> tag, std::uint32_t ignored_codes, bool counts_redrawn,
+                  const py::object& progress) {
   Session& session = *capture.session;
   ActivityRequest request;
   if (mask) request.mask = mask->mask;
@@ -154,7 +157,8 @@ py::dict activity(const OpenCapture& capture, const std::optional<HeldMask>& mas
   request.ignored_codes = ignored_codes;
   request.counts_redrawn = counts_redrawn;
   const MeasuredActivity measured = without_lock(
-      [&](const Stopping& stopping) { return measure_activity(session, request, stopping.progress()); });
+      [&](const Stopping& stopping) { return measure_activity(session, request, stopping.progress()); },
+      progress);
   const Shape& shape = session.format().shape;
   py::dict told;
   told["changed_pixels"] = array_of(measured.activity.changed_pixels());
@@ -183,7 +187,7 @@ py::dict told_wish(const SolvedWish& wish, std::size_t channels) {
 
 py::dict solve(const OpenCapture& capture, const std::string& functions,
                const std::vector<std::string>& wishes, const std::vector<std::string>& free,
-               const AskedExposure& asked, const std::optional<HeldMask>& regions) {
+               const AskedExposure& asked, const std::optional<HeldMask>& regions, const py::object& progress) {
   SolveRequest request;
   for (const std::string& wish : wishes) request.wishes.push_back(StatedWish::parse(wish));
   TemplateInput input = read_template(functions, "the functions");
@@ -201,7 +205,7 @@ py::dict solve(const OpenCapture& capture, const std::string& functions,
   if (regions) request.marks = regions->mask;
   const SolvedExposure solved = without_lock([&](const Stopping& stopping) {
     return nutik::solve(*capture.session, capture.name, request, stopping.progress(), stopping.progress());
-  });
+  }, progress);
   py::dict gains, times;
   for (std::size_t i = 0; i < request.functions.gains.size(); ++i)
     gains[py::str(request.functions.gains[i])] = solved.numbers.gains[i];
@@ -232,12 +236,12 @@ py::dict solve(const OpenCapture& capture, const std::string& functions,
 
 void bind_studies(py::module_& module) {
   module.def("study", &study, py::arg("capture"), py::arg("settings"), py::arg("moments"), py::arg("regions"),
-             py::arg("output"));
-  module.def("plate", &plate, py::arg("capture"), py::arg("by"), py::arg("output"));
+             py::arg("output"), py::arg("progress"));
+  module.def("plate", &plate, py::arg("capture"), py::arg("by"), py::arg("output"), py::arg("progress"));
   module.def("activity", &activity, py::arg("capture"), py::arg("mask"), py::arg("tag"),
-             py::arg("ignored_codes"), py::arg("counts_redrawn"));
+             py::arg("ignored_codes"), py::arg("counts_redrawn"), py::arg("progress"));
   module.def("solve", &solve, py::arg("capture"), py::arg("functions"), py::arg("wishes"), py::arg("free"),
-             py::arg("exposure"), py::arg("regions"));
+             py::arg("exposure"), py::arg("regions"), py::arg("progress"));
 }
 
 }  // namespace nutik::python

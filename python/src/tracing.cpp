@@ -45,9 +45,9 @@ py::tuple trace(const OpenCapture& capture, const AskedExposure& asked,
                 std::optional<std::uint8_t> tag) {
   const ExposureRequest request = exposure_request(asked);
   Session& session = *capture.session;
-  const TracedExposure exposure = without_lock([&](const Stopping&) {
-    return pixel ? session.trace(request, TracedPixel{pixel->first, pixel->second})
-                 : session.trace(request, TracedTag{tag.value_or(0)});
+  const TracedExposure exposure = without_lock([&](const Stopping& stopping) {
+    return pixel ? session.trace(request, TracedPixel{pixel->first, pixel->second}, stopping.stop)
+                 : session.trace(request, TracedTag{tag.value_or(0)}, stopping.stop);
   });
   py::list traces;
   for (const Trace& each : exposure.traces) traces.append(arrays_of(exposure, each));

@@ -3,13 +3,17 @@
 //   in:      what is to be done, on a thread of its own
 //   out:     what it returns or throws
 //   always:  Python's other threads go on meanwhile. Ctrl-C stops it and becomes KeyboardInterrupt, which only Python's
-//            main thread hears; nothing of a stopped piece of work is left running
+//            main thread hears; nothing of a stopped piece of work is left running. Who wants to be told of progress is
+//            called on the thread that waits, and what that raises stops the work, too
 #pragma once
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <future>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <utility>
@@ -20,28 +24,37 @@ namespace nutik::python {
 
 namespace py = pybind11;
 
-// What a piece of work looks at to end early.
+// How far a piece of work has come, of how many steps (0: not known).
+struct Steps {
+  std::atomic<std::uint64_t> done = 0, total = 0;
+};
+
+// What a piece of work looks at to end early, and tells how far it is.
 struct Stopping {
   std::stop_token stop;
+  std::shared_ptr<Steps> steps;
   // Throws Cancelled where it is told of progress after Ctrl-C.
   [[nodiscard]] ReportedProgress progress() const;
 };
 
 // Waits without Python's lock until is_done(), asked every 50 ms with how long it may wait; asks for a stop at Ctrl-C.
-// Returns what a signal's handler raised.
+// Calls told(done, total), unless that is None, when steps were done, and at the end. Returns what a signal's handler or
+// that raised.
 [[nodiscard]] std::optional<py::error_already_set> wait_for(const std::function<bool()>& is_done,
-                                                            std::stop_source& stopping);
+                                                            std::stop_source& stopping, const Steps& steps,
+                                                            const py::object& told);
 // Throws InputError where a mapped file was lost meanwhile.
 void check_files();
 
 // Calls work(Stopping) and returns what that does.
 template <typename Work>
-auto without_lock(Work work) {
+auto without_lock(Work work, const py::object& progress = py::none()) {
   std::stop_source source;
-  const Stopping stopping{source.get_token()};
+  const Stopping stopping{source.get_token(), std::make_shared<Steps>()};
   auto future = std::async(std::launch::async, [&] { return work(stopping); });
   const auto raised = wait_for(
-      [&] { return future.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready; }, source);
+      [&] { return future.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready; }, source,
+      *stopping.steps, progress);
   if (raised) throw *raised;
   if constexpr (std::is_void_v<decltype(future.get())>) {
     future.get();

@@ -242,6 +242,27 @@ TEST_F(Aligning, IsNotLookedForWithoutItsModule) {
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "m.pgm"));
 }
 
+TEST_F(Aligning, RefusesAModuleOfAnotherVersion) {
+  ASSERT_EQ(run(encoding({"frames", "plain.tik"})).status, 0);
+  const std::string told = run({"--version"}).out;
+  const std::size_t begin = told.find_first_of("0123456789");
+  const std::string version = told.substr(begin, told.find_last_of("0123456789") + 1 - begin);
+  std::string module = test::read_file(std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path() / "nutik-motion.so");
+  std::string other = version;
+  for (char& each : other) each = each == '.' ? '.' : '9';
+  const std::string ended = version + '\0';
+  std::size_t changed = 0;
+  for (std::size_t at = module.find(ended); at != std::string::npos; at = module.find(ended, at + 1), ++changed)
+    module.replace(at, version.size(), other);
+  ASSERT_GE(changed, 1u);
+  scratch_.write("nutik-motion.so", module);
+  std::filesystem::copy_file(NUTIK_TEST_PROGRAM, scratch_ / "alone");
+  const auto checked = test::run_shell("env -u NUTIK_MODULES ./alone check plain.tik", scratch_.folder());
+  EXPECT_NE(checked.out.find("nutik-motion.so: of version " + other + ", and this program is of " + version),
+            std::string::npos)
+      << checked.out;
+}
+
 TEST_F(Aligning, IsPartOfARecipe) {
   ASSERT_EQ(
       run({"-f", "100", "--align", "rigid", "--start", "0f", "--exposure", "12f", "frames", "-o", "mean.png"})

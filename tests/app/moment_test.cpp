@@ -364,5 +364,18 @@ TEST_F(Moment, SweepRefusesWhatMakesNoSense) {
   expect_refused({"sweep", "--shift", "0..1f/1f"}, 2, "an input is missing");
 }
 
+TEST_F(Moment, ThumbnailShowsTheFirstSample) {
+  ASSERT_EQ(run({"thumbnail", "clip.tik"}).status, 0);
+  const cv::Mat small = picture("clip-thumbnail.png");
+  ASSERT_EQ(small.size(), cv::Size(96, 48)) << "no picture is enlarged";
+  for (int i = 0; i < 96 * 48; ++i) ASSERT_EQ(small.data[i], scene_.pictures[0][std::size_t(i)]) << i;
+  EXPECT_EQ(json_of({"thumbnail", "--width", "24", "clip.tik", "small.png"})["height"], 12);
+  EXPECT_EQ(picture("small.png").size(), cv::Size(24, 12));
+  expect_refused({"thumbnail", "frames/00.pgm", "t.png"}, 3, "is a Netpbm picture, not a .tik file");
+  expect_refused({"thumbnail", "clip.tik", "clip.tik"}, 2, "clip.tik");
+  expect_refused({"thumbnail", "--width", "0", "clip.tik", "t.png"}, 2, "--width");
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "t.png"));
+}
+
 }  // namespace
 }  // namespace nutik

@@ -80,6 +80,7 @@ LINES = (
     Line(f"encode --deflicker -f 10 --raw {SIDE}x{SIDE}:gray busy.gray o.tik", 4 * BLOCK_MB),
     Line("noise huge.tif -o o.noise", 0, (3,)),
     Line("recover cut.tik o.tik"),
+    Line("thumbnail dense.tik o.png", 2 * BLOCK_MB),
     Line("retime -f 20 dense.tik o.tik"),
     Line("again text.png", 0, (3,)),
 )

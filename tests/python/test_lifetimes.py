@@ -99,6 +99,18 @@ class Interruptions(support.TestCase):
         small = capture.render(start=0, exposure="1f", region=(0, 0, 8, 8))
         self.assertEqual(small.shape, (8, 8, 3))
 
+    def test_a_trace_ends(self):
+        """Of a region of noise, block by block: the whole takes some seconds."""
+        pictures = np.random.default_rng(1).integers(0, 256, (512, 192, 256, 3), np.uint8)
+        capture = nutik.encode(pictures, rate=960)
+        times = np.arange(0, capture.duration_ns, 20000)
+        zigzag = nutik.Function.from_ns(times, np.arange(len(times)) % 2)
+        timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        self.addCleanup(timer.cancel)
+        with self.assertRaises(KeyboardInterrupt):
+            capture.trace(tag=0, functions={0: zigzag}, mask=np.zeros((192, 256), np.uint8))
+
     def test_a_handlers_own_exception_comes_through(self):
         class Enough(Exception):
             pass
@@ -116,6 +128,40 @@ class Interruptions(support.TestCase):
         self.addCleanup(signal.signal, signal.SIGUSR1, before)
         with self.assertRaises(Enough):
             nutik.encode(endless(), rate=1e5)
+
+
+class Progress(support.TestCase):
+    def test_it_is_told(self):
+        pictures = support.moving_box()
+        for work in (lambda told: nutik.encode(pictures, rate=960, progress=told),
+                     lambda told: nutik.encode(iter(pictures), self.path("clip.tik"), rate=960, progress=told),
+                     lambda told: nutik.encode(pictures, rate=960).activity(progress=told)):
+            steps, threads = [], set()
+
+            def told(done, total):
+                steps.append((done, total))
+                threads.add(threading.get_ident())
+
+            work(told)
+            self.assertTrue(steps)
+            self.assertEqual(threads, {threading.get_ident()}, "somebody else's thread")
+            for done, total in steps:
+                self.assertTrue(0 < done and (total == 0 or done <= total), (done, total))
+
+    def test_what_it_raises_ends_the_work(self):
+        class Enough(Exception):
+            pass
+
+        def endless():
+            for k in itertools.count():
+                yield np.full((32, 32), k % 251, np.uint8)
+
+        def told(done, total):
+            raise Enough
+
+        with self.assertRaises(Enough):
+            nutik.encode(endless(), self.path("clip.tik"), rate=1e5, progress=told)
+        self.assertEqual(list(self.folder.iterdir()), [], "it left a file behind")
 
 
 class Threads(support.TestCase):

@@ -95,7 +95,8 @@ class Stubs(unittest.TestCase):
         stated = set()
         for function in (nutik.open, nutik.encode):
             stated |= set(inspect.signature(function).parameters)
-        besides = {"path", "source", "output", "times", "exposures", "codec", "name", "device", "memory", "renderer", "clip"}
+        besides = {"path", "source", "output", "times", "exposures", "codec", "name", "device", "memory", "renderer", "progress",
+                   "clip"}
         self.assertEqual(stated - besides, known)
 
 

@@ -87,5 +87,15 @@ TEST(Thumbnail, KeepsTheMeanLightOfAnyPicture) {
   }
 }
 
+TEST(Thumbnail, FitsIntoASquareAndIsNeverLarger) {
+  const auto size = [](const Picture& picture) { return std::pair(picture.shape.width, picture.shape.height); };
+  const Picture wide = grey(8, 4, std::vector<std::uint8_t>(32, 9));
+  EXPECT_EQ(size(fitted_thumbnail(wide, wide.shape, 4)), std::pair(4u, 2u));
+  EXPECT_EQ(size(fitted_thumbnail(wide, wide.shape, 100)), std::pair(8u, 4u));
+  EXPECT_EQ(size(fitted_thumbnail(wide, {8, 8, 1}, 6)), std::pair(6u, 6u)) << "pixels twice as high as wide";
+  EXPECT_EQ(size(fitted_thumbnail(grey(64, 1, std::vector<std::uint8_t>(64, 9)), {64, 1, 1}, 4)), std::pair(4u, 1u))
+      << "no side is nothing";
+}
+
 }  // namespace
 }  // namespace nutik::sheet

@@ -37,6 +37,11 @@ constexpr Command kCommands[] = {
     {Id::recover, "recover", "DAMAGED.tik WHOLE.tik",
      "Save the whole blocks of a .tik file that was cut off.", "nutik-cl recover damaged.tik -o whole.tik",
      run_recover, kCaptures},
+    {Id::thumbnail, "thumbnail", "CAPTURE.tik [PICTURE.png]",
+     "Write a capture's first sample as a small picture, as file managers show it.",
+     "nutik-cl thumbnail clip.tik\n"
+     "nutik-cl thumbnail --width 512 clip.tik first.png",
+     run_thumbnail, kCaptures},
     {Id::retime, "retime", "CAPTURE.tik [CORRECTED.tik]",
      "Correct what a capture says of itself, without encoding its clip again: rate, shutter angle, transfer "
      "function, primaries, pixel aspect. Without a second name the capture itself is replaced.",

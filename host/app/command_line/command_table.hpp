@@ -32,6 +32,7 @@ enum class CommandId {
   plate,
   study,
   solve,
+  thumbnail,
   completion,
   man
 };

@@ -390,6 +390,8 @@ constexpr Option kRows[] = {
     {0, "activity", "MAP.png", output, bit(Id::info), &Options::activity,
      "also write how often each pixel changes, as a grey picture: black never, white most often, between "
      "them sRGB"},
+    {0, "width", "PIXELS", output, bit(Id::thumbnail), &Options::width,
+     "of the longer side (default: 256); no picture is enlarged"},
     {0, "json", "", answer, kAll & ~kOnlyPrints, &Options::json, "answer with one JSON object, for scripts"},
     {0, "no-recipe", "", output, kExposes & ~bit(Id::mask), &Options::no_recipe,
      "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},

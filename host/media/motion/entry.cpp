@@ -4,3 +4,5 @@
 
 extern "C" __attribute__((visibility("default")))
 const nutik::MotionModule nutik_motion_module{nutik::use_shared_state, nutik::motion::open_registrar};
+
+extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;

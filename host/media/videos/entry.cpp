@@ -16,3 +16,5 @@ std::unique_ptr<Clip> open_video_clip(const std::filesystem::path& path, const C
 
 extern "C" __attribute__((visibility("default"))) const nutik::VideoModule nutik_video_module{
     nutik::use_shared_state, nutik::videos::open_video_clip, nutik::videos::open_libav_writer};
+
+extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;
