@@ -160,6 +160,10 @@ TEST_F(Solve, TellsWhatCannotBeKept) {
       run({"solve", "-k", "figure14.fn", "--free", "rest=-20..0", "--wish", "72,22,6,6 gone", "clip.tik"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.err.find("not all wishes could be kept"), std::string::npos) << result.err;
+  EXPECT_NE(
+      result.err.find("; rest came to an end of its range (--free): what lies beyond may come nearer"),
+      std::string::npos)
+      << result.err;
   EXPECT_NE(result.out.find("figure14-solved.fn: rest = -20;"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("try: nutik-cl -k figure14-solved.fn clip.tik picture.png"), std::string::npos)
       << result.out;
@@ -171,6 +175,16 @@ TEST_F(Solve, TellsWhatCannotBeKept) {
   EXPECT_EQ(untold.status, 0) << untold.err;
   EXPECT_NE(untold.err.find("no wish depends on late; it stays where it began, at 1"), std::string::npos)
       << untold.err;
+}
+
+TEST_F(Solve, NamesTheTimesThatCameToAnEndOfTheirRange) {
+  scratch_.write("moved.fn", "M0{[when-1:0], [when:1], [when+10000000:1], [when+10000001:0]}");
+  const auto at_ends = [&](const std::string& range) {
+    return solved({"-k", "moved.fn", "--wish", "70,20,10,10 like 0.9s", "--free", "when=" + range, "clip.tik", "-o",
+                   "s.fn"})["at_ends"];
+  };
+  EXPECT_EQ(at_ends("0.1s..0.3s"), json({"when"}));
+  EXPECT_EQ(at_ends("0.1s..0.8s"), json::array());
 }
 
 TEST_F(Solve, SaysWhatMakesNoSense) {

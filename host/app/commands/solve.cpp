@@ -34,13 +34,14 @@ std::string numbers_text(const std::vector<double>& numbers, std::string_view sp
   return text;
 }
 
-// `rest = -25.0113, when = 612.5 ms`
+// `rest = -25.0113, when = 0.612500305 s`: to the nanosecond, as it is written.
 std::string found_text(const FunctionTemplate& functions, const NamedNumbers& numbers) {
   std::vector<std::string> found;
   for (std::size_t i = 0; i < functions.gains.size(); ++i)
     found.push_back(format("{} = {:.9g}", functions.gains[i], numbers.gains[i]));
   for (std::size_t i = 0; i < functions.times.size(); ++i)
-    found.push_back(format("{} = {}", functions.times[i], duration_text(numbers.times_ns[i])));
+    found.push_back(
+        format("{} = {:.15g} s", functions.times[i], static_cast<double>(numbers.times_ns[i]) * 1e-9));
   return joined(found);
 }
 
@@ -75,6 +76,7 @@ Json json_of(const std::filesystem::path& output, const SolveRequest& request, c
                               {"cost", wish.cost},
                               {"kept", wish.is_kept()}});
   }
+  json["at_ends"] = solved.at_ends;
   json["untold"] = Json::array();
   for (const std::size_t gain : solved.untold) json["untold"].push_back(request.functions.gains[gain]);
   json.update({{"kept", solved.is_kept()},
@@ -98,6 +100,13 @@ std::string next_command(const Options& options, const std::filesystem::path& ou
   }
   return format("nutik-cl{} -k {} {} picture.png", words, shell_word(output.string()),
                 shell_word(options.operands.front()));
+}
+
+// What may have kept a wish from being kept.
+std::string stopped_text(const SolvedExposure& solved) {
+  if (solved.at_ends.empty()) return "";
+  return format("; {} came to {} (--free): what lies beyond may come nearer", joined(solved.at_ends),
+                solved.at_ends.size() == 1 ? "an end of its range" : "ends of their ranges");
 }
 
 // What a person should know of it.
@@ -132,8 +141,8 @@ int run_solve(const Options& options) {
   std::vector<std::string> warnings = solved.warnings;
   if (!solved.is_kept()) {
     warnings.push_back(
-        format("not all wishes could be kept: the numbers are those with the least cost of all, {:.2g}",
-               solved.cost()));
+        format("not all wishes could be kept: the numbers are those with the least cost of all, {:.2g}{}",
+               solved.cost(), stopped_text(solved)));
   }
   print_warnings(warnings);
   write_text(output, solved.text);

@@ -52,6 +52,7 @@ class Solver {
     solved.untold = search.untold();
     solved.open_count = search.open_count();
     solved.text = request_.functions.text_with(solved.numbers);
+    solved.at_ends = names_at_ends(solved.numbers, candidates);
     expose(search, solved);
     warn_of_white(white, solved);
     return solved;
@@ -252,6 +253,25 @@ class Solver {
     const auto number = static_cast<std::size_t>(found - regions_.begin());
     if (found == regions_.end()) regions_.push_back(region);
     return number;
+  }
+
+  [[nodiscard]] std::vector<std::string> names_at_ends(const NamedNumbers& numbers,
+                                                       const std::vector<CandidateTimes>& candidates) const {
+    const FunctionTemplate& functions = request_.functions;
+    std::vector<std::string> names;
+    for (const StatedFreedom& free : request_.free) {
+      const auto* const bounds = std::get_if<Bounds>(&free.range);
+      const auto gain = std::ranges::find(functions.gains, free.name);
+      if (bounds == nullptr || gain == functions.gains.end()) continue;
+      const double found = numbers.gains[static_cast<std::size_t>(gain - functions.gains.begin())];
+      if (found <= bounds->low || found >= bounds->high) names.push_back(free.name);
+    }
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const std::int64_t found_ns = numbers.times_ns[i];
+      if (found_ns <= candidates[i].times_ns.front() || found_ns >= candidates[i].times_ns.back())
+        names.push_back(functions.times[i]);
+    }
+    return names;
   }
 
   // The exposure that a person makes with what was found, and what wishes got.

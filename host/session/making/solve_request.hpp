@@ -57,6 +57,7 @@ struct SolvedExposure {
   NamedNumbers numbers;
   std::string text;  // the function file
   std::vector<SolvedWish> wishes;
+  std::vector<std::string> at_ends;  // names of the gains and times that came to an end of their range
   std::vector<std::size_t> untold;  // gains that no wish depends on
   std::size_t open_count = 0;       // by how many gains the others are more than wishes tell
   std::uint64_t tried = 0;          // candidate exposures

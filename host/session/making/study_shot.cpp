@@ -98,6 +98,17 @@ class ShotPlanner {
         name_, aligned->residual_pixels, most));
   }
 
+  // A region is stated in pixels of a clip that nobody knew to be cropped.
+  void check_regions(const Shape& aligned) const {
+    for (const Rectangle& region : request_.regions) {
+      if (region.lies_in(aligned)) continue;
+      throw UsageError(format(
+          "region {},{},{},{} does not lie in the {} x {} pixels that every picture of {} saw: the camera moved, so "
+          "the pictures are moved onto each other and cropped to these, and regions are taken of the result",
+          region.x, region.y, region.width, region.height, aligned.width, aligned.height, name_));
+    }
+  }
+
   [[nodiscard]] PlannedStudy plan_as_it_is(Session session, std::optional<MovedCamera> moved) const {
     check_alignment(session.capture());
     Study study = plan_study(session.capture(), name_, request_, terms_.devices->request().memory,
@@ -120,6 +131,7 @@ class ShotPlanner {
         if (reference == samples / 2) throw;
         continue;
       }
+      check_regions(session->format().shape);
       PlannedStudy planned = plan_as_it_is(std::move(*session), {});
       planned.aligned_to = reference;
       return planned;
@@ -169,7 +181,10 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
           std::vector{Setting::from, Setting::to});
       return planned;
     } catch (const InputError& reason) {
-      reasons += format("\n  {} … {}: {}", shot.first, shot.last - 1, reason.what());
+      const std::string_view text = reason.what();
+      const std::string named = name + ": ";
+      reasons += format("\n  {} … {}: {}", shot.first, shot.last - 1,
+                        text.starts_with(named) ? text.substr(named.size()) : text);
     }
   }
   throw InputError(format("{}: none of its {} shots, which begin at pictures {}, makes a study:{}", name,
