@@ -34,7 +34,7 @@ std::string flaw_of(const BlockHeader& header, const HeaderPlace& place, std::ui
     return format("its header tells of {} samples; it can have 1 … {}", header.sample_count,
                   kLargestBlockSamples);
   }
-  if (header.codec > static_cast<std::uint32_t>(CodecId::zstd)) {
+  if (header.codec > static_cast<std::uint32_t>(CodecId::rice)) {
     return format("its codec {} is not known", header.codec);
   }
   const std::uint64_t exposure_bytes = place.is_regular ? 0 : header.sample_count * sizeof(Exposure);

@@ -13,6 +13,7 @@
 #include "capture/format.hpp"
 #include "system/parallel.hpp"
 #include "tik/prediction.hpp"
+#include "tik/rice.hpp"
 
 namespace nutik::tik {
 namespace {
@@ -20,6 +21,9 @@ namespace {
 // Large enough for the compressor to learn each part of a group, small enough to keep all cores busy.
 constexpr std::uint64_t kGroupBytes = 2 << 20;
 constexpr int kUsualZstdLevel = 1;
+
+// What packs the counts of tiles and the heads of groups.
+Codec general_codec(const Codec& codec) { return codec.id == CodecId::rice ? Codec{CodecId::zstd, 0} : codec; }
 
 std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> plain) {
   std::vector<std::byte> packed;
@@ -55,6 +59,11 @@ bool decompress(CodecId codec, std::span<const std::byte> packed, std::span<std:
   return ZSTD_decompress(plain.data(), plain.size(), packed.data(), packed.size()) == plain.size();
 }
 
+void append(std::vector<std::byte>& to, const void* from, std::size_t bytes) {
+  const auto* first = static_cast<const std::byte*>(from);
+  to.insert(to.end(), first, first + bytes);
+}
+
 struct StoredGroup {
   std::uint32_t tile_count;
   std::uint32_t packed_bytes;
@@ -63,7 +72,33 @@ struct StoredGroup {
 // The packed sizes of a group's head and parts, in front of them.
 using GroupSizes = std::array<std::uint32_t, 1 + kPlainParts>;
 
-std::vector<std::byte> pack_group(const Codec& codec, const PlainGroup& plain) {
+// A group of codec `rice`: the packed bytes of its head, these, and its body.
+std::vector<std::byte> pack_rice_group(const TileGroup& group, std::span<const std::byte> payload) {
+  const RiceGroup coded = encode_rice(group, payload);
+  const std::vector<std::byte> head = compress({CodecId::zstd, 0}, coded.head);
+  const auto head_bytes = static_cast<std::uint32_t>(head.size());
+  std::vector<std::byte> packed;
+  packed.reserve(sizeof head_bytes + head.size() + coded.body.size());
+  append(packed, &head_bytes, sizeof head_bytes);
+  packed.insert(packed.end(), head.begin(), head.end());
+  packed.insert(packed.end(), coded.body.begin(), coded.body.end());
+  return packed;
+}
+
+bool unpack_rice_group(const TileGroup& group, std::span<const std::byte> packed, std::span<std::byte> payload) {
+  std::uint32_t head_bytes;
+  if (packed.size() < sizeof head_bytes) return false;
+  std::memcpy(&head_bytes, packed.data(), sizeof head_bytes);
+  packed = packed.subspan(sizeof head_bytes);
+  if (head_bytes > packed.size()) return false;
+  std::vector<std::byte> head(rice_head_bytes(group));
+  return decompress(CodecId::zstd, packed.first(head_bytes), head) &&
+         decode_rice(group, head, packed.subspan(head_bytes), payload);
+}
+
+std::vector<std::byte> pack_group(const Codec& codec, const TileGroup& group, std::span<const std::byte> payload) {
+  if (codec.id == CodecId::rice) return pack_rice_group(group, payload);
+  const PlainGroup plain = predict(group, payload);
   GroupSizes sizes{};
   std::vector<std::byte> packed(sizeof sizes);
   const auto add = [&](std::size_t at, std::span<const std::byte> part) {
@@ -79,7 +114,9 @@ std::vector<std::byte> pack_group(const Codec& codec, const PlainGroup& plain) {
 }
 
 bool unpack_group(CodecId codec, const TileGroup& group, std::span<const std::byte> packed,
-                  PlainGroup& plain) {
+                  std::span<std::byte> payload) {
+  if (codec == CodecId::rice) return unpack_rice_group(group, packed, payload);
+  PlainGroup plain;
   GroupSizes sizes;
   if (packed.size() < sizeof sizes) return false;
   std::memcpy(sizes.data(), packed.data(), sizeof sizes);
@@ -91,13 +128,15 @@ bool unpack_group(CodecId codec, const TileGroup& group, std::span<const std::by
     packed = packed.subspan(sizes[at]);
     return bytes == 0 || decompress(codec, from, part);
   };
-  if (!take(0, group.head_bytes(), plain.head)) return false;
+  if (!take(0, head_bytes(group), plain.head)) return false;
   const auto bytes = part_bytes(group, plain.head);
   if (!bytes) return false;
   for (std::size_t part = 0; part < kPlainParts; ++part) {
     if (!take(1 + part, (*bytes)[part], plain.parts[part])) return false;
   }
-  return packed.empty();
+  if (!packed.empty()) return false;
+  reconstruct(group, plain, payload);
+  return true;
 }
 
 // Cuts tiles into groups of about kGroupBytes.
@@ -114,11 +153,6 @@ std::vector<std::uint32_t> group_sizes(std::span<const TileEntry> entries, const
     ++sizes.back();
   }
   return sizes;
-}
-
-void append(std::vector<std::byte>& to, const void* from, std::size_t bytes) {
-  const auto* first = static_cast<const std::byte*>(from);
-  to.insert(to.end(), first, first + bytes);
 }
 
 [[noreturn]] void fail_damaged() { throw InputError("its packed payload is damaged"); }
@@ -164,7 +198,7 @@ StoredFront read_front(CodecId codec, const BlockGeometry& geometry, std::span<c
   const auto counts_bytes = reader.take<std::uint32_t>();
   reader.take<std::uint32_t>();
   std::vector<std::uint32_t> counts(geometry.tile_count);
-  if (!decompress(codec, reader.take(counts_bytes), std::as_writable_bytes(std::span(counts)))) {
+  if (!decompress(general_codec({codec, 0}).id, reader.take(counts_bytes), std::as_writable_bytes(std::span(counts)))) {
     fail_damaged();
   }
 
@@ -187,6 +221,7 @@ StoredFront read_front(CodecId codec, const BlockGeometry& geometry, std::span<c
 
 Codec Codec::parse(std::string_view text) {
   if (text == "none") return {CodecId::none, 0};
+  if (text == "rice") return {CodecId::rice, 0};
   if (text == "lz4") return {CodecId::lz4, 0};
   if (text == "zstd") return {CodecId::zstd, 0};
   constexpr std::string_view kZstd = "zstd:";
@@ -198,12 +233,13 @@ Codec Codec::parse(std::string_view text) {
       return {CodecId::zstd, level};
     }
   }
-  throw UsageError(format("codec '{}' is not known; choose none, lz4, zstd or zstd:1 … zstd:19", text));
+  throw UsageError(format("codec '{}' is not known; choose none, rice, lz4, zstd or zstd:1 … zstd:19", text));
 }
 
 std::string Codec::text() const {
   switch (id) {
     case CodecId::none: return "none";
+    case CodecId::rice: return "rice";
     case CodecId::lz4: return "lz4";
     case CodecId::zstd: return level == 0 ? "zstd" : format("zstd:{}", level);
   }
@@ -227,7 +263,7 @@ std::vector<std::byte> pack(const Codec& codec, const BlockGeometry& geometry,
       sizes.size(),
       [&](std::uint64_t g) {
         const TileGroup group{std::span(entries).subspan(firsts[g], sizes[g]), geometry};
-        packed[g] = pack_group(codec, predict(group, payload));
+        packed[g] = pack_group(codec, group, payload);
         packed[g].shrink_to_fit();  // it grew part by part
       },
       most_threads);
@@ -242,7 +278,8 @@ std::vector<std::byte> pack(const Codec& codec, const BlockGeometry& geometry,
     const StoredGroup group{sizes[g], static_cast<std::uint32_t>(packed[g].size())};
     append(stored, &group, sizeof group);
   }
-  const std::vector<std::byte> packed_counts = compress(codec, std::as_bytes(std::span(counts)));
+  const std::vector<std::byte> packed_counts =
+      compress(general_codec(codec), std::as_bytes(std::span(counts)));
   const std::array<std::uint32_t, 2> counts_head{static_cast<std::uint32_t>(packed_counts.size()), 0};
   append(stored, counts_head.data(), sizeof counts_head);
   append(stored, packed_counts.data(), packed_counts.size());
@@ -290,12 +327,7 @@ void unpack(CodecId codec, const BlockGeometry& geometry, std::span<const std::b
   std::atomic<bool> good{true};
   parallel_for(wanted.size(), [&](std::uint64_t g) {
     const TileGroup group{wanted[g].tiles, geometry};
-    PlainGroup plain;
-    if (unpack_group(codec, group, wanted[g].bytes, plain)) {
-      reconstruct(group, plain, payload);
-    } else {
-      good = false;
-    }
+    if (!unpack_group(codec, group, wanted[g].bytes, payload)) good = false;
   });
   if (!good) fail_damaged();
 }

@@ -1,14 +1,15 @@
 // Packs a block's payload for the file and unpacks it again, bit for bit.
 //
 // With codec `none` the payload is stored as it is and can be used straight from a mapped file. With
-// `lz4` and `zstd` it is stored as
+// the others it is stored as
 //
 //   u32 group count, u32 0
 //   {u32 tile count, u32 packed bytes} for each group
 //   u32 packed bytes of the tile counts, u32 0
 //   the packed tile counts: TileEntry.count of every tile
-//   the packed groups: consecutive tiles each; the packed sizes of head and parts (u32 each), then those
-//   that are not empty, in the plain form of tik/prediction.hpp, each packed on its own
+//   the packed groups: consecutive tiles each. With `lz4` and `zstd` the packed sizes of head and parts (u32 each), then
+//   those that are not empty, in the plain form of tik/prediction.hpp, each packed on its own; with `rice` the packed
+//   bytes of the head (u32), the head, packed with zstd, and the body of tik/rice.hpp
 //
 // Offsets in the tile directory are not stored: bodies lie one behind the other. Groups are packed and
 // unpacked side by side on all cores.
@@ -31,7 +32,7 @@ struct Codec {
   CodecId id = CodecId::none;
   int level = 0;  // zstd: 1 … 19; 0: the codec's usual one
 
-  // `none`, `lz4`, `zstd` or `zstd:9`; throws UsageError listing these.
+  // `none`, `rice`, `lz4`, `zstd` or `zstd:9`; throws UsageError listing these.
   static Codec parse(std::string_view text);
   [[nodiscard]] std::string text() const;
   friend bool operator==(const Codec&, const Codec&) = default;

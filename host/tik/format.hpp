@@ -33,7 +33,7 @@ inline constexpr std::uint64_t kAlignment = 64;
 inline constexpr char kBlockMagic[8] = {'T', 'I', 'K', 'b', 'l', 'o', 'c', 'k'};
 inline constexpr char kFooterMagic[8] = {'T', 'I', 'K', 'e', 'n', 'd', ' ', '0'};
 
-enum class CodecId : std::uint32_t { none = 0, lz4 = 1, zstd = 2 };
+enum class CodecId : std::uint32_t { none = 0, lz4 = 1, zstd = 2, rice = 3 };
 
 struct BlockHeader {
   char magic[8];

@@ -24,10 +24,11 @@ constexpr std::string_view kPurpose =
 constexpr std::string_view kNoise = "noise";
 constexpr std::size_t kLongestHeader = 65'536;
 
-// Tags of fields. Those that are not written yet have a name, so that nobody takes it for something else.
+// Tags of fields. `rice` stands where blocks may be packed with that codec, which earlier programs do not know. Those that are not written yet have a name, so that nobody takes it for something else.
 constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = "fact", kAligned = "algn",
-                           kMeans = "mean";
-constexpr std::array<std::string_view, 5> kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned, kMeans};
+                           kMeans = "mean", kRice = "rice";
+constexpr std::array<std::string_view, 6> kKnownFields{kPixelAspect, kPrimaries, kFacts,
+                                                       kAligned,     kMeans,     kRice};
 
 bool is_netpbm(std::string_view text) {
   return text.size() > 2 && text[0] == 'P' && text[1] >= '1' && text[1] <= '7' &&
@@ -290,6 +291,7 @@ std::vector<Field> Header::fields() const {
   if (!lines.empty()) fields.push_back({std::string(kFacts), false, lines});
   if (alignment) fields.push_back({std::string(kAligned), false, text_of(*alignment)});
   if (is_scaled) fields.push_back({std::string(kMeans), false, "scaled"});
+  if (codec == kRice) fields.push_back({std::string(kRice), true, "1"});
   return fields;
 }
 

@@ -13,7 +13,7 @@
 //   # TIK pixel aspect: 1:1
 //   # TIK primaries: bt709
 //   # TIK tolerance: 0 codes
-//   # TIK codec: zstd
+//   # TIK codec: rice
 //   640 480
 //   255
 //

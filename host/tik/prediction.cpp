@@ -25,10 +25,6 @@ std::uint64_t index_count(const TileEntry& entry, const BlockGeometry& geometry)
   return geometry.row_index_bytes(entry.rows()) == 0 ? 0 : entry.rows();
 }
 
-std::uint32_t row_count(const TileEntry& entry) {
-  return entry.is_records() ? entry.slots() + 1 : entry.rows();
-}
-
 std::uint64_t index_bytes(const TileGroup& group) {
   std::uint64_t count = 0;
   for (const TileEntry& entry : group.entries) count += index_count(entry, group.geometry);
@@ -39,18 +35,6 @@ std::uint64_t row_total(const TileGroup& group) {
   std::uint64_t rows = 0;
   for (const TileEntry& entry : group.entries) rows += row_count(entry);
   return rows;
-}
-
-// Offset of a slot within a records tile's body.
-std::uint64_t slot_offset(const BlockGeometry& geometry, std::uint32_t slot) {
-  return geometry.row_bytes() + slot * geometry.slot_bytes();
-}
-
-// Offset of row r within a body. In records tiles slots follow the start, each with its index first.
-std::uint64_t row_offset(const TileEntry& entry, const BlockGeometry& geometry, std::uint32_t row) {
-  if (!entry.is_records()) return geometry.row_index_bytes(entry.rows()) + row * geometry.row_bytes();
-  if (row == 0) return 0;
-  return slot_offset(geometry, row - 1) + kTilePixels * geometry.index_bytes();
 }
 
 // Calls visit(offset in the body, entries) for each run of index entries that are kept side by side.
@@ -205,8 +189,8 @@ auto with_predictor(const BlockGeometry& geometry, Use use) {
 
 }  // namespace
 
-std::uint64_t TileGroup::head_bytes() const {
-  return index_bytes(*this) + row_total(*this) * geometry.channels;
+std::uint64_t head_bytes(const TileGroup& group) {
+  return index_bytes(group) + row_total(group) * group.geometry.channels;
 }
 
 PlainGroup predict(const TileGroup& group, std::span<const std::byte> payload) {

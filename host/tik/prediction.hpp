@@ -19,18 +19,12 @@
 #include <span>
 #include <vector>
 
-#include "imev/block.hpp"
 #include "tik/residual_packing.hpp"
+#include "tik/tile_rows.hpp"
 
 namespace nutik::tik {
 
-// Consecutive tiles of a payload.
-struct TileGroup {
-  std::span<const TileEntry> entries;
-  const BlockGeometry& geometry;
-
-  [[nodiscard]] std::uint64_t head_bytes() const;
-};
+[[nodiscard]] std::uint64_t head_bytes(const TileGroup& group);
 
 inline constexpr std::size_t kPlainParts = 3 * kReaches;  // [channel][reach]; grey uses the first third
 

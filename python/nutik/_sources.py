@@ -58,7 +58,7 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
            primaries: Optional[str] = None, pixel_aspect: Union[str, Number, None] = None, deflicker: bool = False,
            align: Optional[str] = None, align_to: Optional[Time] = None, unseen: Optional[str] = None,
            tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
-           codec: str = "zstd", tiles: Optional[str] = None, block_samples: Optional[int] = None,
+           codec: str = "rice", tiles: Optional[str] = None, block_samples: Optional[int] = None,
            device: Optional[str] = None, memory: Union[int, str, None] = None, renderer: Optional[str] = None,
            progress: Progress = None, name: str = "array", **clip: Any) -> Capture:
     """Makes a capture of pictures, and opens it.
@@ -72,7 +72,7 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
     transfer: what codes stand for, 'srgb', 'bt709', 'linear', 'gamma:G', 'hlg', 'pq'; without it 'srgb' of uint8, 'linear'
         of uint16. white: the code of white, 255 or 65535 without it; no code may be larger.
     tolerance, noise, sigmas, align, ...: as of nutik.open(), which takes more of a path: begin, crop, raw, ... codec, of an
-        output: 'none', 'lz4', 'zstd', 'zstd:9'. progress: as of nutik.open().
+        output: 'none', 'rice', 'lz4', 'zstd', 'zstd:9'. progress: as of nutik.open().
 
     Raises UsageError where arguments do not fit, InputError where pictures are unlike or times out of order,
     OutputError; what an iterable raises; KeyboardInterrupt at Ctrl-C. No file is left behind then.

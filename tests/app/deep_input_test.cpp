@@ -100,7 +100,7 @@ TEST_F(DeepInput, EveryCodecAndNoneGiveTheSamePicture) {
   for (const auto& [channels, white] : {std::pair{1u, 4095u}, {3u, 65'535u}, {3u, 255u}}) {
     write_netpbm("frames", test::random_stills({70, 41, channels}, white, 9, white));
     std::string first;
-    for (const std::string codec : {"none", "lz4", "zstd", "zstd:19"}) {
+    for (const std::string codec : {"none", "rice", "lz4", "zstd", "zstd:19"}) {
       succeed({"encode", "-q", "-f", "100", "-a", "200", "--codec", codec, "frames", "x.tik"});
       succeed({"-k", "f.fn", "x.tik", "x.pfm"});
       const std::string picture = test::read_file(scratch_ / "x.pfm");

@@ -34,7 +34,7 @@ TEST_F(MadeUpFiles, AreRefusedAlikeByEveryRendererAndByCheck) {
        MadeUpTile::slots({3, 9}, 0, {16, 9})},
   };
   for (const Case& made_up : cases) {
-    for (const char* codec : {"none", "lz4", "zstd"}) {
+    for (const char* codec : {"none", "rice", "lz4", "zstd"}) {
       SCOPED_TRACE(made_up.complaint + ", " + codec);
       test::write_made_up_tik(scratch_ / "c.tik", made_up.tile, tik::Codec::parse(codec));
       for (const char* renderer : {"reference", "opencl"}) {

@@ -157,7 +157,7 @@ def packed_payloads(tik):
         if codec != 0 and width <= 40 and height <= 40 and samples <= 70 and payload % 64 == 0:
             words = payload // 64
             yield bytes([width - 1, height - 1, channels == 3, deep, samples - 1, words % 256, words // 256,
-                         codec == 2]) + data[start:start + stored]
+                         codec - 1]) + data[start:start + stored]
         at = data.find(b"TIKblock", at + 1)
 
 

@@ -18,7 +18,8 @@ void read(Bytes input) {
   format.white_code = format.code_bytes == 1 ? 255 : 4095;
   const BlockGeometry geometry(format, 1 + choice(4) % 70);
   std::vector<std::byte> payload((choice(5) + 256 * choice(6)) * 64);
-  const tik::CodecId codec = choice(7) % 2 == 0 ? tik::CodecId::lz4 : tik::CodecId::zstd;
+  constexpr tik::CodecId kPacking[] = {tik::CodecId::lz4, tik::CodecId::zstd, tik::CodecId::rice};
+  const tik::CodecId codec = kPacking[choice(7) % 3];
   static_cast<void>(tik::unpack_directory(codec, geometry, input.subspan(kChoices), payload.size()));
   tik::unpack(codec, geometry, input.subspan(kChoices), payload);
 }

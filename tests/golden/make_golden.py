@@ -81,6 +81,10 @@ SPECIAL = [
          options=("--primaries", "bt2020", "--pixel-aspect", "32:27")),
     Case("lz4", "auto", 8, "grey", "irregular", "tolerance", "gamma:1.8", name="version-1-narrow-irregular",
          options=("--pixel-aspect", "3:4")),
+    # Rice codes: of each width, in records, and with an index of two bytes.
+    Case("rice", "auto", 8, "colour", "constant", "lossless", "srgb", name="rice-colour"),
+    Case("rice", "records", 12, "grey", "irregular", "points", "linear", name="rice-records-wide"),
+    Case("rice", "rows", 8, "grey", "constant", "lossless", "srgb", 310, 300, 9, 3, "rice-long-block-rows"),
     # A packed group of tiles has up to 2 MiB unpacked.
     Case("zstd", "dense", 12, "colour", "constant", "lossless", "bt709", 100, 100, 131, 67, "several-groups-of-tiles"),
 ]

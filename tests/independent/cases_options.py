@@ -17,7 +17,7 @@ SHAPE, RATE, ANGLE = (150, 9, 17, 3), "240", "180"
 
 # How a capture is kept: none of it may show in a picture.
 STORED = [
-    ["--codec", "none"], ["--codec", "lz4"], ["--codec", "zstd"], ["--codec", "zstd:19"],
+    ["--codec", "none"], ["--codec", "rice"], ["--codec", "lz4"], ["--codec", "zstd"], ["--codec", "zstd:19"],
     ["--tiles", "dense"], ["--tiles", "rows"], ["--tiles", "records"],
     ["--block-samples", "1"], ["--block-samples", "7"], ["--block-samples", "64"],
 ]

@@ -13,7 +13,7 @@ namespace {
 
 using test::RandomCase;
 
-const Codec kCodecs[] = {{CodecId::none, 0}, {CodecId::lz4, 0}, {CodecId::zstd, 0}, {CodecId::zstd, 9}};
+const Codec kCodecs[] = {{CodecId::none, 0}, {CodecId::lz4, 0}, {CodecId::zstd, 0}, {CodecId::rice, 0}, {CodecId::zstd, 9}};
 
 TEST(Codec, GivesEveryPayloadBackBitForBit) {
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
@@ -67,7 +67,7 @@ TEST(Codec, SurvivesDamage) {
     const RandomCase random(seed);
     const MemoryCapture capture = random.encode();
     const BlockView view = capture.view(0);
-    for (const Codec& codec : {kCodecs[0], kCodecs[1], kCodecs[2]}) {
+    for (const Codec& codec : {kCodecs[0], kCodecs[1], kCodecs[2], kCodecs[3]}) {
       const std::vector<std::byte> stored = pack(codec, view.geometry(), view.payload());
       test::Random draw(seed);
       for (int i = 0; i < 30; ++i) {
@@ -108,7 +108,7 @@ TEST(Codec, RefusesWhatNoPayloadIsStoredAs) {
     std::memcpy(&value, stored.data() + word * 4, sizeof value);
     return value;
   };
-  for (const Codec& codec : {kCodecs[1], kCodecs[2]}) {
+  for (const Codec& codec : {kCodecs[1], kCodecs[2], kCodecs[3]}) {
     const std::vector<std::byte> stored = pack(codec, geometry, view.payload());
     const auto message = [&](const std::vector<std::byte>& damaged, std::uint64_t payload_bytes) {
       std::vector<std::byte> payload(payload_bytes);
@@ -157,7 +157,7 @@ TEST(Codec, RefusesATileThatNoBlockCanHave) {
     const TileEntry entry{1, count};
     std::vector<std::byte> payload(longer.directory_bytes() + longer.body_bytes(entry));
     std::memcpy(payload.data(), &entry, sizeof entry);
-    for (const Codec& codec : {kCodecs[1], kCodecs[2]}) {
+    for (const Codec& codec : {kCodecs[1], kCodecs[2], kCodecs[3]}) {
       const std::vector<std::byte> stored = pack(codec, longer, payload);
       std::vector<std::byte> unpacked(payload.size());
       unpack(codec.id, longer, stored, unpacked);
@@ -177,7 +177,7 @@ TEST(Codec, RefusesATileThatNoBlockCanHave) {
 TEST(Codec, ReadsItsNames) {
   EXPECT_EQ(Codec::parse("none").id, CodecId::none);
   EXPECT_EQ(Codec::parse("zstd:19").level, 19);
-  for (const char* text : {"", "zip", "zstd:", "zstd:0", "zstd:20", "zstd:3x", "lz4:1"}) {
+  for (const char* text : {"", "zip", "zstd:", "zstd:0", "zstd:20", "zstd:3x", "lz4:1", "rice:1"}) {
     EXPECT_THROW(static_cast<void>(Codec::parse(text)), UsageError) << text;
   }
 }

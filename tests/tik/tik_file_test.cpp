@@ -144,7 +144,7 @@ TEST(TikFile, UnpacksToWhereThereIsRoom) {
   const RandomCase random(5);
   MemoryCapture capture = random.encode();
   const std::vector<std::byte> expected = test::payload_of(capture, 0);
-  for (const CodecId codec : {CodecId::none, CodecId::lz4, CodecId::zstd}) {
+  for (const CodecId codec : {CodecId::none, CodecId::rice, CodecId::lz4, CodecId::zstd}) {
     const Scratch scratch;
     Reader reader(write_tik(random, {codec, 0}, scratch));
     PageBuffer room(expected.size() + 1);

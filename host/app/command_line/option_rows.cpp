@@ -380,8 +380,9 @@ constexpr Option kRows[] = {
      "with its own white code (default: srgb, white being the largest code)",
      "srgb source linear bt709 gamma:"},
     {0, "codec", "NAME", encoding, bit(Id::encode), &Options::codec,
-     "pack blocks with none (large, quickest to expose), lz4, zstd or zstd:1 … zstd:19 (default: zstd)",
-     "none lz4 zstd zstd:"},
+     "pack blocks with none (large, quickest to expose), rice (quick to pack and unpack), lz4, zstd (small) or "
+     "zstd:1 … zstd:19 (smaller, slower) (default: rice)",
+     "none rice lz4 zstd zstd:"},
     {0, "tiles", "KIND", encoding, kEncodesClips, &Options::tiles,
      "auto, or all tiles as dense, rows or records, for experiments (default: auto)",
      "auto dense rows records"},

@@ -20,7 +20,7 @@ int run_encode(const Options& options) {
   const std::filesystem::path output = output_name(options, "encode", ".tik");
   const std::string& input = options.operands.front();
   const SourceRequest source = clip_request(options, input);
-  const tik::Codec codec = tik::Codec::parse(options.codec.value_or("zstd"));
+  const tik::Codec codec = tik::Codec::parse(options.codec.value_or("rice"));
   if (is_tik(input) && std::filesystem::exists(input)) {
     throw UsageError(
         format("{} is a capture already; to expose a picture from it: nutik-cl --start 0s "
