@@ -20,7 +20,7 @@ from fnplot.times import parse_time  # noqa: E402
 
 LONGEST_TITLE = 50  # characters
 FILE_PAGE_HEIGHT, WINDOW_PAGE_HEIGHT = 11.5, 8.5  # inches
-GRAPHS_PER_PAGE, MOST_GRAPHS_PER_PAGE = 8, 32
+GRAPHS_PER_PAGE, MAX_GRAPHS_PER_PAGE = 8, 32
 
 DESCRIPTION = """\
 Draws every function of a function file, one below the other on a common time axis: areas that add
@@ -62,7 +62,7 @@ def command_line():
     parser.add_argument("--program", metavar="PATH", help=program_help)
     parser.add_argument("--mask", metavar="MASK", help="a mask (PGM or PNG): draw only the functions it uses")
     parser.add_argument("--zoom", metavar="FROM..TO", help="the time to draw; before 0: --zoom=-1ms..5ms")
-    per_page_help = f"functions to a page, 1 to {MOST_GRAPHS_PER_PAGE} (default: {GRAPHS_PER_PAGE})"
+    per_page_help = f"functions to a page, 1 to {MAX_GRAPHS_PER_PAGE} (default: {GRAPHS_PER_PAGE})"
     parser.add_argument("--per-page", metavar="N", default=str(GRAPHS_PER_PAGE), help=per_page_help)
     return parser
 
@@ -85,8 +85,8 @@ def parse_zoom(text):
 
 
 def parse_per_page(text):
-    if not text.isascii() or not text.isdigit() or not 1 <= int(text[:9]) <= MOST_GRAPHS_PER_PAGE:
-        raise UsageError(f"--per-page '{text}' is no whole number 1 … {MOST_GRAPHS_PER_PAGE}")
+    if not text.isascii() or not text.isdigit() or not 1 <= int(text[:9]) <= MAX_GRAPHS_PER_PAGE:
+        raise UsageError(f"--per-page '{text}' is no whole number 1 … {MAX_GRAPHS_PER_PAGE}")
     return int(text)
 
 

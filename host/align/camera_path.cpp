@@ -44,11 +44,11 @@ MemoryNeeds registrar_needs(const CaptureFormat& format, Reach reach) {
   constexpr std::uint64_t kFeatureBytes =
       240;  // a pixel of what features are looked for in: twice its size, in
             // eleven layers of floats, and all smaller ones
-  constexpr std::uint64_t kMostFeaturePixels = 480 * 480;
+  constexpr std::uint64_t kMaxFeaturePixels = 480 * 480;
   const std::uint64_t pixels = format.shape.pixel_count();
   MemoryNeeds needs{{"a picture that is registered", kPyramidBytes * pixels}, {"its texture", kTextureBytes}};
   if (reach == Reach::anywhere)
-    needs.add("its features", kFeatureBytes * std::min(pixels, kMostFeaturePixels));
+    needs.add("its features", kFeatureBytes * std::min(pixels, kMaxFeaturePixels));
   return needs;
 }
 
@@ -61,7 +61,7 @@ CameraPath::Step CameraPath::step(std::uint64_t picture) const {
 
 std::uint64_t CameraPath::furthest() const { return largest(*this, distance); }
 
-std::uint64_t CameraPath::most_turned() const {
+std::uint64_t CameraPath::max_turned() const {
   return largest(*this, [](const Step& step) { return std::abs(step.degrees); });
 }
 
@@ -72,7 +72,7 @@ double CameraPath::residual_pixels() const {
 std::string CameraPath::summary() const {
   std::string text = format("moved by up to {:.2f} pixels", distance(step(furthest())));
   if (motion == CameraMotion::translation) return text;
-  return text + format(", turned by up to {:.3f} degrees", std::abs(step(most_turned()).degrees));
+  return text + format(", turned by up to {:.3f} degrees", std::abs(step(max_turned()).degrees));
 }
 
 }  // namespace nutik

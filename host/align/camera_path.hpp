@@ -24,7 +24,7 @@ struct CameraPath {
   [[nodiscard]] Step step(std::uint64_t picture) const;
   // The pictures in which it is furthest away, and turned most.
   [[nodiscard]] std::uint64_t furthest() const;
-  [[nodiscard]] std::uint64_t most_turned() const;
+  [[nodiscard]] std::uint64_t max_turned() const;
   // The largest of all pictures.
   [[nodiscard]] double residual_pixels() const;
   // `moved by up to 12.3 pixels, turned by up to 0.41 degrees`

@@ -75,10 +75,10 @@ class PathParser {
   // It must lead each corner of the picture to a place, and leave it no mirror picture.
   void check_warp(const Warp& warp) const {
     const auto& m = warp.m;
-    constexpr double kMostEntry = 1e6;  // far beyond any picture, and all that follows from it is a number
+    constexpr double kMaxEntry = 1e6;  // far beyond any picture, and all that follows from it is a number
     for (const double entry : m) {
-      if (!(std::abs(entry) <= kMostEntry))
-        fail(format("the warp has {}, and {} is the most", entry, kMostEntry));
+      if (!(std::abs(entry) <= kMaxEntry))
+        fail(format("the warp has {}, and {} is the most", entry, kMaxEntry));
     }
     const double right = path_.shape.width, bottom = path_.shape.height;
     for (const double x : {0.0, right}) {

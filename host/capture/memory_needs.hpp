@@ -43,7 +43,7 @@ struct MemoryTooLittle : UsageError {
   MemoryNeeds needs;
 
   MemoryTooLittle(std::uint64_t allowed, MemoryNeeds least);
-  [[nodiscard]] std::uint64_t least_bytes() const { return needs.bytes(); }
+  [[nodiscard]] std::uint64_t min_bytes() const { return needs.bytes(); }
 };
 
 }  // namespace nutik

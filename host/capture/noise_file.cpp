@@ -14,7 +14,7 @@ namespace nutik {
 namespace {
 
 constexpr std::string_view kFirstLine = "nutik noise 0";
-constexpr std::size_t kMostMistakes = 20;
+constexpr std::size_t kMaxMistakes = 20;
 
 struct Word {
   std::size_t at;
@@ -26,7 +26,7 @@ class Parser {
   Parser(std::string_view bytes, const std::string& name) : text_(bytes), name_(name) {}
 
   CameraNoise parse() {
-    for (std::size_t at = 0; at < text_.size() && mistakes_.size() < kMostMistakes;
+    for (std::size_t at = 0; at < text_.size() && mistakes_.size() < kMaxMistakes;
          at = text_.line_end(at) + 1) {
       parse_line(at);
     }
@@ -187,8 +187,8 @@ class Parser {
     const auto sd = number(words[2], "standard deviation", 1e-3, noise_.white_code);
     const auto pixels = number(words[3], "pixels", 0, 0x1p62);
     if (!code || !sd || !pixels) return;
-    if (channel.points.size() == kMostNoisePoints) {
-      report(words.front().at, format("there are more than {} points in this channel", kMostNoisePoints));
+    if (channel.points.size() == kMaxNoisePoints) {
+      report(words.front().at, format("there are more than {} points in this channel", kMaxNoisePoints));
       return;
     }
     if (!channel.points.empty() && !(*code > channel.points.back().code)) {

@@ -24,7 +24,7 @@
 
 namespace nutik {
 
-inline constexpr std::size_t kMostNoisePoints = 256;  // of a channel
+inline constexpr std::size_t kMaxNoisePoints = 256;  // of a channel
 
 // Throws InputError with every mistake as `name:line:column: what is wrong`, one below the other.
 [[nodiscard]] CameraNoise parse_noise(std::string_view bytes, const std::string& name);

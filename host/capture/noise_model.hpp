@@ -75,11 +75,11 @@ struct CameraNoise {
 // `tolerance` codes, 0 keeping every change (lossless); or, where the camera's noise is known, more than
 // `sigmas` standard deviations. The tolerance is 0 then.
 struct NoiseModel {
-  static constexpr double kUsualSigmas = 3.0;
+  static constexpr double kDefaultSigmas = 3.0;
 
   std::uint32_t tolerance = 0;  // codes
   std::optional<CameraNoise> camera;
-  double sigmas = kUsualSigmas;
+  double sigmas = kDefaultSigmas;
 
   [[nodiscard]] bool is_lossless() const { return tolerance == 0 && !camera; }
   friend bool operator==(const NoiseModel&, const NoiseModel&) = default;

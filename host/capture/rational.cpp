@@ -12,15 +12,15 @@ constexpr std::int64_t kLargest = 999'999'999'999'999;  // 15 digits: products o
 
 // `e-3` behind a decimal: moves its point. Returns false where it is anything else, or more than 15 places away.
 bool read_exponent(std::string_view text, std::int64_t& digits, std::int64_t& scale) {
-  constexpr std::int64_t kMostPlaces = 15;
+  constexpr std::int64_t kMaxPlaces = 15;
   const bool is_negative = text.starts_with('-');
   if (is_negative || text.starts_with('+')) text.remove_prefix(1);
   std::int64_t places = 0;
   for (const char c : text) {
-    if (c < '0' || c > '9' || places > kMostPlaces) return false;
+    if (c < '0' || c > '9' || places > kMaxPlaces) return false;
     places = places * 10 + (c - '0');
   }
-  if (text.empty() || places > kMostPlaces) return false;
+  if (text.empty() || places > kMaxPlaces) return false;
   std::int64_t& grows = is_negative ? scale : digits;
   std::int64_t& shrinks = is_negative ? digits : scale;
   for (; places > 0; --places) {

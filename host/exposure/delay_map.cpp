@@ -10,7 +10,7 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint32_t kFinestSteps = DelayMap::kMostDelays - 1;
+constexpr std::uint32_t kFinestSteps = DelayMap::kMaxDelays - 1;
 
 // step_of(pixel) is in [0, steps].
 template <typename StepOf>
@@ -41,10 +41,10 @@ DelayMap made(const Shape& shape, const DelayRange& range, std::uint32_t steps, 
 }
 
 void check_side(std::uint32_t length, const char* what) {
-  if (length <= DelayMap::kMostDelays) return;
+  if (length <= DelayMap::kMaxDelays) return;
   throw UsageError(
       format("the picture has {} {}, and at most {} can have a delay of their own; crop it, or take a map",
-             length, what, DelayMap::kMostDelays));
+             length, what, DelayMap::kMaxDelays));
 }
 
 // What is no light between black and white has no place in the range.

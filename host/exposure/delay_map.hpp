@@ -23,7 +23,7 @@ struct DelayRange {
 
 struct DelayMap {
   // Kernels count pairs of a function and a delay in 16 bits.
-  static constexpr std::size_t kMostDelays = 1u << 16;
+  static constexpr std::size_t kMaxDelays = 1u << 16;
   // Distances from the centre are whole steps of the range, so that some functions of a mask fit, too.
   static constexpr std::uint32_t kRadialSteps = (1u << 14) - 1;
 

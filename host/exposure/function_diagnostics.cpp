@@ -20,7 +20,7 @@ void Diagnostics::add(Diagnostic::Severity severity, const SourceText& source, s
   ++count;
   const TextPlace place = source.place_of(at);
   const auto is_alike = [&](const Diagnostic& diagnostic) { return diagnostic.severity == severity; };
-  if (count > kMostShown) {
+  if (count > kMaxShown) {
     // A mistake may be found after those behind it: an open brace at the end of the file.
     const auto last = std::find_if(shown_.rbegin(), shown_.rend(), is_alike);
     if (place >= last->place) return;
@@ -39,8 +39,8 @@ std::string Diagnostics::report(std::string_view file_name) const {
   };
   for (const Diagnostic& diagnostic : shown_) append(diagnostic.text(file_name));
   const auto append_more = [&](Diagnostic::Severity severity, std::string_view name) {
-    if (count(severity) <= kMostShown) return;
-    const std::size_t more = count(severity) - kMostShown;
+    if (count(severity) <= kMaxShown) return;
+    const std::size_t more = count(severity) - kMaxShown;
     append(format("{}: and {} more {}{}", file_name, more, name, more == 1 ? "" : "s"));
   };
   append_more(Diagnostic::Severity::error, "mistake");

@@ -1,7 +1,7 @@
 // What is wrong with a function file: for each mistake its place, what is wrong, what would be right, and
 // the line.
 //
-//   always:  in the order of the text; of each severity at most kMostShown are kept, the first in the
+//   always:  in the order of the text; of each severity at most kMaxShown are kept, the first in the
 //            file, and the others are counted: a file of a million mistakes costs no more than one of 20
 #pragma once
 
@@ -29,7 +29,7 @@ struct Diagnostic {
 
 class Diagnostics {
  public:
-  static constexpr std::size_t kMostShown = 20;
+  static constexpr std::size_t kMaxShown = 20;
 
   // Of several at one place the first added stands first.
   void add(Diagnostic::Severity severity, const SourceText& source, std::size_t at, std::string message);

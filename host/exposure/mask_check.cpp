@@ -9,7 +9,7 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint64_t kMostSpeckPixels = 16;
+constexpr std::uint64_t kMaxSpeckPixels = 16;
 constexpr std::uint64_t kPixelsPerSpeckPixel = 1000;
 constexpr std::uint64_t kBlendedShare = 100;
 constexpr int kJpegReach = 8;
@@ -85,7 +85,7 @@ std::vector<BlendedValue> find_blended(const Mask& mask, const std::array<bool, 
 
 std::vector<MaskSpeck> find_specks(const Mask& mask, const std::vector<BlendedValue>& blended) {
   const std::uint64_t most =
-      std::min<std::uint64_t>(kMostSpeckPixels, mask.tags.size() / kPixelsPerSpeckPixel);
+      std::min<std::uint64_t>(kMaxSpeckPixels, mask.tags.size() / kPixelsPerSpeckPixel);
   std::array<bool, kMaskValues> is_blended{};
   for (const BlendedValue& value : blended) is_blended[value.value] = true;
   std::vector<MaskSpeck> specks;
@@ -143,15 +143,15 @@ std::string size_mistake(const Mask& mask, const Shape& capture) {
 
 std::string unmapped_mistake(const std::array<std::uint64_t, kMaskValues>& pixels_per_tag,
                              const std::array<bool, kMaskValues>& is_mapped) {
-  constexpr std::size_t kMostShown = 20;
+  constexpr std::size_t kMaxShown = 20;
   std::string values;
   std::size_t count = 0;
   for (std::uint32_t tag = 0; tag < kMaskValues; ++tag) {
-    if (pixels_per_tag[tag] == 0 || is_mapped[tag] || ++count > kMostShown) continue;
+    if (pixels_per_tag[tag] == 0 || is_mapped[tag] || ++count > kMaxShown) continue;
     values += format("{}{} ({} pixels)", values.empty() ? "" : ", ", tag, pixels_per_tag[tag]);
   }
   if (values.empty()) return {};
-  if (count > kMostShown) values += format(" and {} more", count - kMostShown);
+  if (count > kMaxShown) values += format(" and {} more", count - kMaxShown);
   return format("mask values without a function: {}; add a line M<value> for each, or expose them to black",
                 values);
 }

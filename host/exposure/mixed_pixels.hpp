@@ -39,7 +39,7 @@ class MixedPixels {
     return shares(static_cast<std::size_t>(found - pixels_.begin()));
   }
   // How many functions a pixel has at most; 1 where none is mixed.
-  [[nodiscard]] std::size_t most_functions() const { return most_functions_; }
+  [[nodiscard]] std::size_t max_functions() const { return max_functions_; }
   [[nodiscard]] std::uint64_t bytes() const {
     return pixels_.size() * (sizeof(std::uint64_t) + sizeof(std::size_t)) + shares_.size() * sizeof(Share);
   }
@@ -58,7 +58,7 @@ class MixedPixels {
     pixels_.push_back(pixel);
     shares_.insert(shares_.end(), shares.begin(), shares.end());
     ends_.push_back(shares_.size());
-    most_functions_ = std::max(most_functions_, shares.size());
+    max_functions_ = std::max(max_functions_, shares.size());
   }
 
   // The same mixtures of things with other names, which must be in the same order. Names before are mask values or as
@@ -76,7 +76,7 @@ class MixedPixels {
   std::vector<std::uint64_t> pixels_;  // row by row
   std::vector<std::size_t> ends_;      // of each pixel's shares
   std::vector<Share> shares_;
-  std::size_t most_functions_ = 1;
+  std::size_t max_functions_ = 1;
 };
 
 }  // namespace nutik

@@ -44,7 +44,7 @@ double Normalization::divided_by(const GainSummary& summary, const std::string& 
   switch (divisor_) {
     case Divisor::support: return 1.0;
     case Divisor::integral:
-      if (std::fabs(summary.integral_ns) <= kLeastIntegralShare * summary.absolute_integral_ns) {
+      if (std::fabs(summary.integral_ns) <= kMinIntegralShare * summary.absolute_integral_ns) {
         throw InputError(
             format("{}: the positive and negative parts of its gains cancel (the still gain is {:.3g}), so "
                    "there is no integral to divide by; use support, absolute or seconds:S",

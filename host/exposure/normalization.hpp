@@ -24,7 +24,7 @@ class Normalization {
 
   // ∫g is taken for 0 where it is no more than this share of ∫|g|: rounding and the 1 ns steps of function
   // files leave such remainders of functions that were meant to cancel.
-  static constexpr double kLeastIntegralShare = 1e-6;
+  static constexpr double kMinIntegralShare = 1e-6;
 
   Normalization() = default;  // support
 

@@ -18,9 +18,9 @@ namespace {
 
 constexpr std::string_view kNames =
     "box, trapezoid:R, triangle, gaussian, hann, strobe:N[,R] or spline:0=G,…,1=G";
-constexpr std::uint32_t kMostFlashes = 1'000'000;
+constexpr std::uint32_t kMaxFlashes = 1'000'000;
 constexpr std::int64_t kFinestShare = 1'000'000;  // denominator of a flash's share
-constexpr std::size_t kMostKnots = 1000;
+constexpr std::size_t kMaxKnots = 1000;
 
 // A curve is sampled so closely that between two samples it leaves their chord by at most this share of the
 // error: the fit may use up the rest.
@@ -89,9 +89,9 @@ ShutterShape ShutterShape::strobe(std::string_view text) {
   const std::string_view count = text.substr(0, comma);
   std::uint32_t flashes = 0;
   const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), flashes);
-  if (error != std::errc() || end != count.data() + count.size() || flashes < 1 || flashes > kMostFlashes) {
+  if (error != std::errc() || end != count.data() + count.size() || flashes < 1 || flashes > kMaxFlashes) {
     throw UsageError(format("the strobe's number of flashes '{}' is no whole number of 1 … {}: strobe:5",
-                            count, kMostFlashes));
+                            count, kMaxFlashes));
   }
   Rational open{1, 2};
   if (comma != std::string_view::npos) {
@@ -139,16 +139,16 @@ ShutterShape ShutterShape::spline(std::string_view list) {
       throw UsageError(format("the spline ends with a comma: '{}'", list));
     }
   }
-  if (knots.size() < 2 || knots.size() > kMostKnots || knots.front().at != 0.0 || knots.back().at != 1.0) {
+  if (knots.size() < 2 || knots.size() > kMaxKnots || knots.front().at != 0.0 || knots.back().at != 1.0) {
     throw UsageError(
         format("a spline has 2 … {} points, the first at share 0 of the exposure and the last at 1: {}",
-               kMostKnots, kExample));
+               kMaxKnots, kExample));
   }
   ShutterShape shape;
   shape.corners_.clear();
   const auto by_value = [](const auto& a, const auto& b) { return a.value < b.value; };
-  shape.least_ = std::min_element(knots.begin(), knots.end(), by_value)->value;
-  shape.most_ = std::max_element(knots.begin(), knots.end(), by_value)->value;
+  shape.min_ = std::min_element(knots.begin(), knots.end(), by_value)->value;
+  shape.max_ = std::max_element(knots.begin(), knots.end(), by_value)->value;
   if (shape.largest_gain() == 0.0) throw UsageError("the spline is zero everywhere");
   const MonotoneSpline spline(knots);
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
@@ -197,7 +197,7 @@ std::vector<ControlPoint> ShutterShape::curved_points(std::int64_t length_ns, do
                                        "largest gain",
                                        error));
     }
-    const auto fit = fit_corridor(run, allowed - chord, least_, most_);
+    const auto fit = fit_corridor(run, allowed - chord, min_, max_);
     points.insert(points.end(), fit.begin() + (points.empty() ? 0 : 1), fit.end());
     run.clear();
   };

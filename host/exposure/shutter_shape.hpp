@@ -34,8 +34,8 @@ namespace nutik {
 
 class ShutterShape {
  public:
-  static constexpr double kUsualError = 1e-3;
-  static constexpr double kLeastError = 1e-6;  // finer ones would take more control points than clips samples
+  static constexpr double kDefaultError = 1e-3;
+  static constexpr double kMinError = 1e-6;  // finer ones would take more control points than clips samples
 
   ShutterShape() = default;  // box
 
@@ -45,11 +45,11 @@ class ShutterShape {
 
   // The gain at share x of the exposure, 0 <= x <= 1; at a jump, that of the later side.
   [[nodiscard]] double gain(double x) const;
-  [[nodiscard]] double largest_gain() const { return std::max(-least_, most_); }  // of |gain|
+  [[nodiscard]] double largest_gain() const { return std::max(-min_, max_); }  // of |gain|
 
-  // The function of an exposure [begin_ns, end_ns]. kLeastError <= error < 1. Throws UsageError where it is too
+  // The function of an exposure [begin_ns, end_ns]. kMinError <= error < 1. Throws UsageError where it is too
   // short for the shape's corners, or for whole nanoseconds to keep within the error.
-  [[nodiscard]] GainFunction function(Interval exposure, double error = kUsualError) const;
+  [[nodiscard]] GainFunction function(Interval exposure, double error = kDefaultError) const;
 
   [[nodiscard]] bool is_curve() const { return corners_.empty(); }
   // Whether they are one shape, however it was written; of curves, whether they were written alike.
@@ -83,14 +83,14 @@ class ShutterShape {
   std::vector<Corner> corners_{{{0, 1}, 1.0}, {{1, 1}, 1.0}};  // empty for a curve
   std::function<double(double)> curve_;                        // empty for straight lines
   std::vector<Section> sections_;                              // of a curve, from 0 to 1 without gaps
-  double least_ = 0.0;                                         // the range of its gains
-  double most_ = 1.0;
+  double min_ = 0.0;                                         // the range of its gains
+  double max_ = 1.0;
 };
 
 // A shape and its error, for exposure after exposure: a length is fitted once, for this shutter and its copies.
 class Shutter {
  public:
-  Shutter() : Shutter(ShutterShape(), ShutterShape::kUsualError) {}
+  Shutter() : Shutter(ShutterShape(), ShutterShape::kDefaultError) {}
   Shutter(ShutterShape shape, double error);
 
   // As ShutterShape::function(). Safe for several threads at a time.

@@ -38,9 +38,9 @@ struct BlockLimits {
   // much and a sample it may come to (builder_bytes()).
   std::uint64_t memory_bytes = kAnyChanges;
 
-  BlockLimits(std::uint32_t most_samples,
-              std::uint64_t most_changed_bytes = kAnyChanges)  // NOLINT: so many samples
-      : samples(most_samples), changed_bytes(most_changed_bytes == 0 ? 1 : most_changed_bytes) {}
+  BlockLimits(std::uint32_t max_samples,
+              std::uint64_t max_changed_bytes = kAnyChanges)  // NOLINT: so many samples
+      : samples(max_samples), changed_bytes(max_changed_bytes == 0 ? 1 : max_changed_bytes) {}
 };
 
 // Limits that depend on samples' size alone: 64 of them, or fewer so that their raw bytes stay within `block_bytes` (21

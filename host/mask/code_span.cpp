@@ -23,8 +23,8 @@ void for_each_code(const Picture& picture, Use use) {
 CodeSpan::CodeSpan(const CaptureFormat& capture, SampleRange samples)
     : capture_(capture),
       samples_(samples),
-      least_(capture.shape.value_count(), 0xFFFF),
-      most_(capture.shape.value_count(), 0) {}
+      min_(capture.shape.value_count(), 0xFFFF),
+      max_(capture.shape.value_count(), 0) {}
 
 void CodeSpan::add(const BlockView& block) {
   const SampleRange held = block.extent().range();
@@ -41,8 +41,8 @@ void CodeSpan::add(const BlockView& block) {
         const std::uint64_t until = r + 1 < history.size() ? held.first + history[r + 1].sample : held.last;
         if (until <= samples_.first || from >= samples_.last) continue;
         for (std::uint32_t channel = 0; channel < channels; ++channel) {
-          std::uint16_t& least = least_[pixel * channels + channel];
-          std::uint16_t& most = most_[pixel * channels + channel];
+          std::uint16_t& least = min_[pixel * channels + channel];
+          std::uint16_t& most = max_[pixel * channels + channel];
           least = std::min(least, history[r].codes[channel]);
           most = std::max(most, history[r].codes[channel]);
         }
@@ -54,9 +54,9 @@ void CodeSpan::add(const BlockView& block) {
 std::vector<std::uint32_t> CodeSpan::spans() const {
   const std::uint32_t channels = capture_.shape.channels;
   std::vector<std::uint32_t> spans(capture_.shape.pixel_count());
-  for (std::size_t value = 0; value < least_.size(); ++value) {
+  for (std::size_t value = 0; value < min_.size(); ++value) {
     std::uint32_t& span = spans[value / channels];
-    span = std::max<std::uint32_t>(span, most_[value] < least_[value] ? 0u : most_[value] - least_[value]);
+    span = std::max<std::uint32_t>(span, max_[value] < min_[value] ? 0u : max_[value] - min_[value]);
   }
   return spans;
 }
@@ -72,7 +72,7 @@ std::vector<std::uint32_t> differences(const Picture& a, const Picture& b) {
   return spans;
 }
 
-std::uint32_t usual_noise(std::vector<std::uint32_t> spans, std::uint32_t white_code) {
+std::uint32_t default_noise(std::vector<std::uint32_t> spans, std::uint32_t white_code) {
   const auto quarter = spans.begin() + static_cast<std::ptrdiff_t>(spans.size() / 4);
   std::nth_element(spans.begin(), quarter, spans.end());
   // Twice as much may be more than codes can differ by; what is left above it is halved then.

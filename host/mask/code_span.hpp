@@ -33,8 +33,8 @@ class CodeSpan {
  private:
   CaptureFormat capture_;
   SampleRange samples_;
-  std::vector<std::uint16_t> least_;  // interleaved
-  std::vector<std::uint16_t> most_;
+  std::vector<std::uint16_t> min_;  // interleaved
+  std::vector<std::uint16_t> max_;
 };
 
 // The largest difference of a pixel in two pictures of one shape and white code, of all channels: its span
@@ -44,7 +44,7 @@ class CodeSpan {
 // Up to which span a pixel is taken to be still: twice what a quarter of all pixels do not pass, for most
 // scenes are still in a quarter at least and what happens there is noise; and no less than 1/16 of white. Where that
 // comes near white, or above it, half way from the quarter's span to white: below white, which no span passes.
-[[nodiscard]] std::uint32_t usual_noise(std::vector<std::uint32_t> spans, std::uint32_t white_code);
+[[nodiscard]] std::uint32_t default_noise(std::vector<std::uint32_t> spans, std::uint32_t white_code);
 
 // The pixels whose span is more than `codes`.
 [[nodiscard]] Region spanning_more(const Shape& shape, std::span<const std::uint32_t> spans,

@@ -148,7 +148,7 @@ std::int32_t parse_reach(std::string_view text, const std::string& all) {
   for (const char c : number) {
     if (c == '.' && !has_point) {
       has_point = true;
-    } else if (c >= '0' && c <= '9' && hundredths <= Feather::kMost) {
+    } else if (c >= '0' && c <= '9' && hundredths <= Feather::kMax) {
       hundredths = hundredths * 10 + (c - '0');
       decimals += has_point;
     } else {
@@ -162,9 +162,9 @@ std::int32_t parse_reach(std::string_view text, const std::string& all) {
                quoted(all)));
   }
   for (; decimals < 2; ++decimals) hundredths *= 10;
-  if (hundredths > Feather::kMost) {
+  if (hundredths > Feather::kMax) {
     throw UsageError(
-        format("the feather {} reaches too far; at most {} pixels", quoted(all), Feather::kMost / 100));
+        format("the feather {} reaches too far; at most {} pixels", quoted(all), Feather::kMax / 100));
   }
   return static_cast<std::int32_t>(hundredths);
 }

@@ -16,7 +16,7 @@ namespace nutik {
 
 // How far an edge reaches to either side, in hundredths of a pixel.
 struct Feather {
-  static constexpr std::int32_t kMost = 500 * 100;
+  static constexpr std::int32_t kMax = 500 * 100;
 
   std::int32_t everywhere = 0;
   std::map<std::uint8_t, std::int32_t> of_tag;  // where it is another

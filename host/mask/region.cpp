@@ -99,13 +99,13 @@ Region intersection(const Region& a, const Region& b) {
   return result;
 }
 
-std::vector<std::vector<std::size_t>> parts_of(const Region& region, std::size_t least_pixels) {
+std::vector<std::vector<std::size_t>> parts_of(const Region& region, std::size_t min_pixels) {
   Region rest = region;
   std::vector<std::vector<std::size_t>> parts;
   for (std::size_t pixel = 0; pixel < rest.inside.size(); ++pixel) {
     if (rest.inside[pixel] == 0) continue;
     std::vector<std::size_t> part = take_part(rest, pixel);
-    if (part.size() >= least_pixels) parts.push_back(std::move(part));
+    if (part.size() >= min_pixels) parts.push_back(std::move(part));
   }
   std::ranges::stable_sort(parts, std::greater(), &std::vector<std::size_t>::size);
   return parts;

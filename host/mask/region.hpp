@@ -59,7 +59,7 @@ struct Point {
 
 // The parts that hang together, also over corners, of so many pixels or more, as pixels counted row by row: the largest
 // first.
-[[nodiscard]] std::vector<std::vector<std::size_t>> parts_of(const Region& region, std::size_t least_pixels);
+[[nodiscard]] std::vector<std::vector<std::size_t>> parts_of(const Region& region, std::size_t min_pixels);
 
 // Gives the region's pixels a tag; the others keep theirs. Mask and region have one size.
 void paint(Mask& mask, const Region& region, std::uint8_t tag);

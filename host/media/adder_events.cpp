@@ -46,8 +46,8 @@ class BigEndianReader {
 };
 
 AdderHeader read_header(Bytes file, const std::string& name) {
-  constexpr std::size_t kMagicBytes = 5, kLeastBytes = 25;
-  if (file.size() < kLeastBytes) throw InputError(format("{} ends within its header", name));
+  constexpr std::size_t kMagicBytes = 5, kMinBytes = 25;
+  if (file.size() < kMinBytes) throw InputError(format("{} ends within its header", name));
   BigEndianReader reader(file, kMagicBytes);
   AdderHeader header{};
   header.version = reader.take(1);
@@ -67,7 +67,7 @@ AdderHeader read_header(Bytes file, const std::string& name) {
     if (time > 1) throw InputError(format("{} has times of the mode {}; 0 and 1 are read", name, time));
     header.counts_from_start = time == 1;
   }
-  header.bytes = file.size() - file.subspan(kLeastBytes + more).size();
+  header.bytes = file.size() - file.subspan(kMinBytes + more).size();
   if (header.event_bytes == 10) header.event_bytes = 11;  // as old writers counted
   const bool has_size = header.width > 0 && header.height > 0 && (header.channels == 1 || header.channels == 3);
   if (!is_big || header.version > kNewestVersion || !has_size ||
@@ -150,7 +150,7 @@ void AdderEvents::read(Bytes file) {
 }
 
 void AdderEvents::add(std::size_t value, std::uint32_t d, std::uint32_t time) {
-  constexpr std::uint32_t kRepeats = 255, kNoEvent = 253, kLeastOfNoLight = 128;
+  constexpr std::uint32_t kRepeats = 255, kNoEvent = 253, kMinOfNoLight = 128;
   if (d == kNoEvent) return;
   const std::int64_t from = ticks_[value];
   std::int64_t until = header_.counts_from_start ? std::int64_t{time} : from + time;
@@ -161,7 +161,7 @@ void AdderEvents::add(std::size_t value, std::uint32_t d, std::uint32_t time) {
   }
   std::uint16_t code = held_[value];
   if (d != kRepeats) {
-    const double light = d >= kLeastOfNoLight ? 0.0
+    const double light = d >= kMinOfNoLight ? 0.0
                                               : std::ldexp(light_of_unit_, static_cast<int>(d)) /
                                                     static_cast<double>(until - from);
     if (light > 1) ++above_white;

@@ -251,12 +251,12 @@ ChromaPlace parse_chroma_place(std::string_view text) {
 }
 
 Rational parse_pixel_aspect(std::string_view text) {
-  constexpr double kMost = 64.0;
+  constexpr double kMax = 64.0;
   const auto colon = text.find(':');
   std::string fraction(text);
   if (colon != std::string_view::npos) fraction[colon] = '/';
   const Rational aspect = Rational::parse(fraction, "pixel aspect");
-  if (!(aspect.value() >= 1 / kMost && aspect.value() <= kMost)) {
+  if (!(aspect.value() >= 1 / kMax && aspect.value() <= kMax)) {
     throw UsageError(format("pixel aspect '{}' lies outside 1:64 … 64:1", text));
   }
   return aspect;

@@ -17,7 +17,7 @@ namespace nutik {
 namespace {
 
 // A clip without an announced end may go on for so long.
-constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 40;
+constexpr std::uint64_t kMaxSamples = std::uint64_t{1} << 40;
 
 // A whole number at the start of a text, which is cut off; false where there is none.
 bool take_number(std::string_view& text, std::uint32_t& number) {
@@ -39,7 +39,7 @@ class Starts {
   Starts(const std::string& name, const ClipInfo& info, const ClipOptions& options)
       : timeline_(timeline_of(name, info, options, Timeline::kFullShutter,
                               std::max<std::uint64_t>(info.sample_count, 1))),
-        count_(info.sample_count == 0 ? kMostSamples : info.sample_count) {}
+        count_(info.sample_count == 0 ? kMaxSamples : info.sample_count) {}
 
   [[nodiscard]] std::int64_t of(std::uint64_t sample) const {
     if (!timeline_.is_constant()) return timeline_.start_ns(sample);
@@ -182,7 +182,7 @@ class ClipPart final : public Clip {
     keep(info_.timing.exposures, first_, end_);
     if (count > 0) info_.sample_count = end_ - first_;
     std::string text =
-        format("pictures {} … {}", first_, end_ == kMostSamples ? "" : std::to_string(end_ - 1));
+        format("pictures {} … {}", first_, end_ == kMaxSamples ? "" : std::to_string(end_ - 1));
     if (count > 0) text += format(" of {}", count);
     if (first_ > 0 && (options.rate || info.timing.is_known())) {
       text += format(", whose time 0 is {:.6g} s after the clip's",
@@ -240,8 +240,8 @@ class ClipPart final : public Clip {
   [[nodiscard]] static Rational product(const Rational& a, const Rational& b) {
     const Rational left = Rational::of(a.numerator, b.denominator),
                    right = Rational::of(b.numerator, a.denominator);
-    constexpr std::int64_t kMost = INT32_MAX;
-    if (left.numerator <= kMost / right.numerator && left.denominator <= kMost / right.denominator) {
+    constexpr std::int64_t kMax = INT32_MAX;
+    if (left.numerator <= kMax / right.numerator && left.denominator <= kMax / right.denominator) {
       return Rational::of(left.numerator * right.numerator, left.denominator * right.denominator);
     }
     constexpr std::int64_t kParts = 1'000'000;
@@ -253,7 +253,7 @@ class ClipPart final : public Clip {
   ClipInfo info_;
   CaptureFormat whole_;  // of the clip's pictures
   Rectangle crop_;
-  std::uint64_t first_ = 0, end_ = kMostSamples, next_ = 0;  // of the clip's pictures
+  std::uint64_t first_ = 0, end_ = kMaxSamples, next_ = 0;  // of the clip's pictures
   std::vector<std::byte> raster_;                            // one of them, unless it is taken as it is
   std::optional<LightMeans> means_;
   std::vector<PixelChange> changes_;  // within the rectangle

@@ -72,8 +72,8 @@ void describe(cmsHPROFILE profile, const std::string& words) {
 }
 
 std::string name_of(cmsHPROFILE profile) {
-  constexpr std::size_t kMost = 60;
-  std::array<char, kMost + 1> text{};
+  constexpr std::size_t kMax = 60;
+  std::array<char, kMax + 1> text{};
   cmsGetProfileInfoASCII(profile, cmsInfoDescription, "en", "US", text.data(), text.size());
   std::string name;
   for (const char c : std::string_view(text.data())) {

@@ -12,10 +12,10 @@ namespace nutik {
 namespace {
 
 constexpr std::uint32_t kBlockSide = 4;           // pixels; means of them have little noise
-constexpr std::uint32_t kMostBlocksToASide = 48;  // spread over the picture
+constexpr std::uint32_t kMaxBlocksToASide = 48;  // spread over the picture
 constexpr double kCode8 = 1.0 / 255;
 // A correction that would be this much another is left as it is, so that still pixels keep their codes.
-constexpr double kLeastChange = 0.75 * kCode8;
+constexpr double kMinChange = 0.75 * kCode8;
 
 // Tukey's: nothing from 4.685 standard deviations on, as usual.
 double trust(double error, double deviation) {
@@ -43,7 +43,7 @@ class Blocks {
  private:
   static std::vector<std::uint32_t> places(std::uint32_t length) {
     const std::uint32_t blocks = std::max(length / kBlockSide, 1u);
-    const std::uint32_t count = std::min(blocks, kMostBlocksToASide);
+    const std::uint32_t count = std::min(blocks, kMaxBlocksToASide);
     std::vector<std::uint32_t> starts;
     for (std::uint64_t i = 0; i < count; ++i) {
       starts.push_back(static_cast<std::uint32_t>(i * blocks / count) * kBlockSide);
@@ -120,7 +120,7 @@ class DeflickeredClip final : public Clip {
     std::vector<std::string> remarks = clip_->remarks();
     if (corrected_ > 0) {
       remarks.push_back(format("the exposure of {} of {} pictures was corrected, by up to {:.0f} of {} codes",
-                               corrected_.load(), pictures_.load(), most_ * info_.format.white_code,
+                               corrected_.load(), pictures_.load(), max_ * info_.format.white_code,
                                info_.format.white_code));
     }
     if (untold_ > 0) {
@@ -143,7 +143,7 @@ class DeflickeredClip final : public Clip {
       change = std::max(change, shift->distance_to(shifts_[channel]));
       shifts.push_back(*shift);
     }
-    if (change < kLeastChange) return true;
+    if (change < kMinChange) return true;
     shifts_ = std::move(shifts);
     is_shifted_ = false;
     double most = 0;
@@ -151,8 +151,8 @@ class DeflickeredClip final : public Clip {
       most = std::max(most, shifts_[channel].distance_to({}));
       fill(tables_[channel], shifts_[channel]);
     }
-    is_shifted_ = most >= kLeastChange;
-    if (most > most_) most_ = most;
+    is_shifted_ = most >= kMinChange;
+    if (most > max_) max_ = most;
     return true;
   }
 
@@ -191,7 +191,7 @@ class DeflickeredClip final : public Clip {
   bool is_shifted_ = false;
   // Asked for while another thread reads.
   std::atomic<std::uint64_t> pictures_ = 0, corrected_ = 0, untold_ = 0;
-  std::atomic<double> most_ = 0;
+  std::atomic<double> max_ = 0;
 };
 
 }  // namespace
@@ -201,7 +201,7 @@ class DeflickeredClip final : public Clip {
 std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::span<const double> wanted) {
   constexpr int kTimesEach = 4;
   // Codes of one place stray, by shadows too. Followed more closely, that would be taken for a bent curve.
-  constexpr double kLeastReach = 4;
+  constexpr double kMinReach = 4;
   CodeShift shift;
   std::vector<double> left(codes.size()), sizes(codes.size());
   for (std::size_t i = 0; i < codes.size(); ++i) left[i] = wanted[i] / std::max(codes[i], kCode8);
@@ -210,7 +210,7 @@ std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::
     shift.shifts_[knot] = (ratio - 1) * static_cast<double>(knot) / (kKnots - 1);
   }
   double deviation = 0;
-  for (double reach = kKnots - 1; reach >= kLeastReach; reach /= 2) {
+  for (double reach = kKnots - 1; reach >= kMinReach; reach /= 2) {
     for (int time = 0; time < kTimesEach; ++time) {
       for (std::size_t i = 0; i < codes.size(); ++i) {
         left[i] = wanted[i] - codes[i] - shift.at(codes[i]);
@@ -243,8 +243,8 @@ std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::
     }
   }
   const auto trusted = std::ranges::count_if(left, [&](double each) { return trust(each, deviation) > 0; });
-  constexpr double kMostDeviation = 12 * kCode8;
-  if (deviation > kMostDeviation || 2 * static_cast<std::size_t>(trusted) < codes.size()) return std::nullopt;
+  constexpr double kMaxDeviation = 12 * kCode8;
+  if (deviation > kMaxDeviation || 2 * static_cast<std::size_t>(trusted) < codes.size()) return std::nullopt;
   // A camera neither swallows differences nor makes them several times as large.
   for (std::size_t knot = 1; knot < kKnots; ++knot) {
     const double slope = 1 + (shift.shifts_[knot] - shift.shifts_[knot - 1]) * (kKnots - 1);

@@ -12,7 +12,7 @@ namespace nutik {
 namespace {
 
 // Most sensors' thresholds are set to 0.1 … 0.3. Mid-grey leaves room for eight such steps up, and for fifty down.
-constexpr Contrast kUsualContrast{0.2, 0.2};
+constexpr Contrast kDefaultContrast{0.2, 0.2};
 constexpr double kMidGrey = 0.18;
 constexpr std::int64_t kMicrosecondNs = 1000;
 
@@ -98,7 +98,7 @@ EventLight light_of_events(const CameraEvents& recording, const std::string& nam
   info.facts.push_back(std::move(sensor));
   const std::uint64_t pixels = capture.shape.pixel_count();
   const Contrast contrast = settle(info.facts, options.events.contrast, std::optional<Contrast>(),
-                                   kUsualContrast, Setting::contrast, contrast_text);
+                                   kDefaultContrast, Setting::contrast, contrast_text);
   std::vector<double> start(pixels, kMidGrey);
   std::string started = format("light {} at the start", kMidGrey);
   if (options.events.start) {

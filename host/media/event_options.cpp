@@ -17,8 +17,8 @@ std::optional<double> number_of(std::string_view text) {
   return number;
 }
 
-constexpr double kLeastContrast = 0.001, kMostContrast = 10;
-constexpr double kLeastStart = 0.0001;
+constexpr double kMinContrast = 0.001, kMaxContrast = 10;
+constexpr double kMinStart = 0.0001;
 
 }  // namespace
 
@@ -27,13 +27,13 @@ Contrast parse_contrast(std::string_view text) {
   const auto up = number_of(text.substr(0, colon));
   const auto down = colon == text.npos ? up : number_of(text.substr(colon + 1));
   const auto is_possible = [](std::optional<double> step) {
-    return step && *step >= kLeastContrast && *step <= kMostContrast;
+    return step && *step >= kMinContrast && *step <= kMaxContrast;
   };
   if (!is_possible(up) || !is_possible(down)) {
     throw UsageError(
         format("contrast '{}' is no step of log light; write 0.2, or one for up and one for down, 0.3:0.17, "
                "each from {} to {}",
-               text, kLeastContrast, kMostContrast));
+               text, kMinContrast, kMaxContrast));
   }
   return {*up, *down};
 }
@@ -41,9 +41,9 @@ Contrast parse_contrast(std::string_view text) {
 StartLight parse_start_light(std::string_view text) {
   const auto light = number_of(text);
   if (!light) return std::filesystem::path(text);
-  if (*light >= kLeastStart && *light <= 1) return *light;
+  if (*light >= kMinStart && *light <= 1) return *light;
   throw UsageError(
-      format("light {} at the start is outside {} … 1, of which 1 is white", text, kLeastStart));
+      format("light {} at the start is outside {} … 1, of which 1 is white", text, kMinStart));
 }
 
 }  // namespace nutik

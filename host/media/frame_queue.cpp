@@ -4,8 +4,8 @@
 
 namespace nutik {
 
-FrameQueue::FrameQueue(std::function<std::unique_ptr<VideoWriter>()> open, std::size_t most_waiting)
-    : frames_(most_waiting),
+FrameQueue::FrameQueue(std::function<std::unique_ptr<VideoWriter>()> open, std::size_t max_waiting)
+    : frames_(max_waiting),
       writing_(std::async(std::launch::async, [this, open = std::move(open)] { write(open); })) {}
 
 FrameQueue::~FrameQueue() { frames_.close(); }

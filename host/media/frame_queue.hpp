@@ -20,11 +20,11 @@ namespace nutik {
 class FrameQueue {
  public:
   // Enough that a frame which takes longer than others, to expose or to encode, stops nobody.
-  static constexpr std::size_t kUsuallyWaiting = 4;
+  static constexpr std::size_t kDefaultWaiting = 4;
 
   // `open` is called on that thread: what encodes takes a while to load. So many frames may wait.
   explicit FrameQueue(std::function<std::unique_ptr<VideoWriter>()> open,
-                      std::size_t most_waiting = kUsuallyWaiting);
+                      std::size_t max_waiting = kDefaultWaiting);
   // Without finish() the video is dropped.
   ~FrameQueue();
   FrameQueue(const FrameQueue&) = delete;

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kLeastEndBytes = 4 << 10;
-constexpr std::uint64_t kMostEndBytes = 1 << 20;
+constexpr std::uint64_t kMinEndBytes = 4 << 10;
+constexpr std::uint64_t kMaxEndBytes = 1 << 20;
 constexpr std::size_t kPieceBytes = 1 << 20;
 
 void add_size(Checksum& to, std::uint64_t size) {
@@ -49,7 +49,7 @@ std::string files_checksum(std::span<const fs::path> files) {
   for (const fs::path& file : files) total += size_of(file);
   const bool whole = total <= kWholeChecksumBytes;
   const std::uint64_t end_bytes =
-      std::clamp<std::uint64_t>(kWholeChecksumBytes / (2 * files.size()), kLeastEndBytes, kMostEndBytes);
+      std::clamp<std::uint64_t>(kWholeChecksumBytes / (2 * files.size()), kMinEndBytes, kMaxEndBytes);
   Checksum checksum;
   for (const fs::path& file : files) {
     add_size(checksum, size_of(file));

@@ -19,7 +19,7 @@ namespace nutik {
 namespace {
 
 // Of a segment: its length, which counts its own two bytes, has 16 bits.
-constexpr std::size_t kMostCommentBytes = 65'533;
+constexpr std::size_t kMaxCommentBytes = 65'533;
 
 std::string message_of(j_common_ptr jpeg) {
   std::array<char, JMSG_LENGTH_MAX> text{};
@@ -91,8 +91,8 @@ struct Decompressor : jpeg_decompress_struct {
 
 // Pixels for the same length, of no unit: the wider a pixel, the fewer. Each has 16 bits.
 void set_density(jpeg_compress_struct& jpeg, const Rational& aspect) {
-  constexpr std::int64_t kMost = 65'535;
-  const std::int64_t part = 1 + (std::max(aspect.numerator, aspect.denominator) - 1) / kMost;
+  constexpr std::int64_t kMax = 65'535;
+  const std::int64_t part = 1 + (std::max(aspect.numerator, aspect.denominator) - 1) / kMax;
   const auto density = [&](std::int64_t of) {
     return static_cast<UINT16>(std::max<std::int64_t>(round_half_up(of, part), 1));
   };
@@ -131,8 +131,8 @@ void write_jpeg(OutputFile& file, const Picture& picture, const std::string& tex
     jpeg_write_icc_profile(&jpeg, reinterpret_cast<const JOCTET*>(profile.data()),
                            static_cast<unsigned>(profile.size()));
   }
-  for (std::size_t at = 0; at < text.size(); at += kMostCommentBytes) {
-    const std::string_view part = std::string_view(text).substr(at, kMostCommentBytes);
+  for (std::size_t at = 0; at < text.size(); at += kMaxCommentBytes) {
+    const std::string_view part = std::string_view(text).substr(at, kMaxCommentBytes);
     jpeg_write_marker(&jpeg, JPEG_COM, reinterpret_cast<const JOCTET*>(part.data()),
                       static_cast<unsigned>(part.size()));
   }

@@ -60,8 +60,8 @@ std::uint64_t number_of(std::string_view text, const Names& names) {
   const std::string_view value = value_of(text, names);
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 32;
-  return error == std::errc() && end == value.data() + value.size() && number < kMost ? number : 0;
+  constexpr std::uint64_t kMax = std::uint64_t{1} << 32;
+  return error == std::errc() && end == value.data() + value.size() && number < kMax ? number : 0;
 }
 
 std::string word_of(std::string_view text, const Names& names) {

@@ -21,10 +21,10 @@ inline constexpr const char* kPictureTextKeyword = "nutik-cl";
 inline constexpr std::string_view kPictureTextStart = "{\"nutik-cl\":";
 
 // How long such a text may be, for pictures come from anyone and a PNG's text may be compressed a thousandfold.
-inline constexpr std::size_t kMostPictureTextBytes = std::size_t{64} << 20;
+inline constexpr std::size_t kMaxPictureTextBytes = std::size_t{64} << 20;
 
 // Nothing where the picture carries no such text. Throws InputError where the file cannot be read, is no
-// picture of these formats, is cut off before the text, or the text is longer than kMostPictureTextBytes.
+// picture of these formats, is cut off before the text, or the text is longer than kMaxPictureTextBytes.
 [[nodiscard]] std::optional<std::string> read_picture_text(const std::filesystem::path& path);
 
 }  // namespace nutik

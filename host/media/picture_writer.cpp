@@ -19,7 +19,7 @@ namespace {
 
 struct FileKind {
   const char* extension;
-  bool is_usual = true;             // of several extensions
+  bool is_preferred = true;             // of several extensions
   std::uint32_t code_bits = 0;      // that it holds at most; 0: no codes
   bool holds_light = false;         // in 32 bits
   bool holds_half = false;          // in 16
@@ -49,13 +49,13 @@ void write_exr_file(OutputFile& file, const Picture& picture, const std::string&
 constexpr std::array<FileKind, 10> kKinds{{
     {.extension = ".png", .code_bits = 16, .write = write_png_file},
     {.extension = ".tif", .code_bits = 16, .holds_light = true, .write = write_tiff_file},
-    {.extension = ".tiff", .is_usual = false, .code_bits = 16, .holds_light = true, .write = write_tiff_file},
+    {.extension = ".tiff", .is_preferred = false, .code_bits = 16, .holds_light = true, .write = write_tiff_file},
     {.extension = ".jpg", .code_bits = 8, .is_lossy = true, .write = write_jpeg_file},
-    {.extension = ".jpeg", .is_usual = false, .code_bits = 8, .is_lossy = true, .write = write_jpeg_file},
+    {.extension = ".jpeg", .is_preferred = false, .code_bits = 8, .is_lossy = true, .write = write_jpeg_file},
     {.extension = ".exr", .holds_light = true, .holds_half = true, .write = write_exr_file},
     {.extension = ".ppm", .code_bits = 16, .only_channels = 3, .write = write_netpbm},
     {.extension = ".pgm", .code_bits = 16, .only_channels = 1, .write = write_netpbm},
-    {.extension = ".pnm", .is_usual = false, .code_bits = 16, .write = write_netpbm},
+    {.extension = ".pnm", .is_preferred = false, .code_bits = 16, .write = write_netpbm},
     {.extension = ".pfm", .holds_light = true, .write = write_netpbm},
 }};
 
@@ -79,7 +79,7 @@ template <typename Wanted>
 std::string extensions_of(Wanted wanted) {
   std::vector<std::string> names;
   for (const FileKind& kind : kKinds) {
-    if (kind.is_usual && wanted(kind)) names.emplace_back(kind.extension);
+    if (kind.is_preferred && wanted(kind)) names.emplace_back(kind.extension);
   }
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {

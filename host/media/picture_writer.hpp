@@ -34,8 +34,8 @@ enum class Depth { bits8, bits16, half, floating };
 
 // What a person asked of a file beside its values.
 struct FileWishes {
-  static constexpr int kUsualQuality = 90;
-  int quality = kUsualQuality;  // 1 … 100, of lossy files
+  static constexpr int kDefaultQuality = 90;
+  int quality = kDefaultQuality;  // 1 … 100, of lossy files
   bool as_half = false;         // light in 16 bits
 };
 

@@ -36,7 +36,7 @@ void refuse_lost_text(png_structp png, png_const_charp message) {
   if (!text.starts_with("tEXt") && !text.starts_with("zTXt")) return;
   throw InputError(format("{}: a text in it cannot be read ({}); it may have {} MiB at most",
                           *static_cast<std::string*>(png_get_error_ptr(png)), message,
-                          kMostPictureTextBytes >> 20));
+                          kMaxPictureTextBytes >> 20));
 }
 
 struct ByteReader {
@@ -112,7 +112,7 @@ void write_coding_points(png_structp png, const Picture& picture) {
   png_write_chunk(png, kName, points.data(), points.size());
 }
 
-constexpr std::uint64_t kMostExpansion = 1032;  // of Deflate
+constexpr std::uint64_t kMaxExpansion = 1032;  // of Deflate
 
 // From here on a text is compressed.
 constexpr std::size_t kLongText = 1024;
@@ -166,7 +166,7 @@ Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
   const Shape shape{png_get_image_width(read.png, read.info), png_get_image_height(read.png, read.info),
                     (colour & PNG_COLOR_MASK_COLOR) != 0 ? 3u : 1u};
   if (check_size) check_size(shape.width, shape.height);
-  if (shape.pixel_count() > file.size() * kMostExpansion) {
+  if (shape.pixel_count() > file.size() * kMaxExpansion) {
     throw InputError(
         format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged",
                name, shape.width, shape.height, file.size()));
@@ -199,7 +199,7 @@ std::optional<std::string> read_png_text(std::span<const std::byte> file, const 
   png_set_read_fn(read.png, &reader, read_bytes);
   // libpng's own 8 MB are less than function files, and more than a small file can hold.
   png_set_chunk_malloc_max(read.png,
-                           std::min<std::uint64_t>(kMostPictureTextBytes, file.size() * kMostExpansion));
+                           std::min<std::uint64_t>(kMaxPictureTextBytes, file.size() * kMaxExpansion));
   png_read_info(read.png, read.info);
   png_textp texts = nullptr;
   const int count = png_get_text(read.png, read.info, &texts, nullptr);

@@ -25,14 +25,14 @@ Value settle(std::vector<Fact>& facts, const std::optional<Value>& stated, const
 // The white of codes of 16 bits; `named` where files say how many of these are used.
 inline std::uint32_t settle_white(ClipInfo& info, const std::optional<std::uint32_t>& stated,
                                   const std::optional<std::uint32_t>& named) {
-  constexpr std::uint32_t kUsual = 65'535;
+  constexpr std::uint32_t kDefault = 65'535;
   if (!stated && !named) {
     info.notes.emplace_back(
         "the files do not say how many of their 16 bits are used: white is taken to be 65535; state "
         "another, 4095 for 12 bits",
         std::vector{Setting::white_code});
   }
-  return settle(info.facts, stated, named, kUsual, Setting::white_code,
+  return settle(info.facts, stated, named, kDefault, Setting::white_code,
                 [](std::uint32_t code) { return format("white {}", code); });
 }
 

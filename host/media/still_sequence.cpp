@@ -127,8 +127,8 @@ std::optional<std::string> number_of(const fs::path& file, const NumberedName& n
   digits.erase(0, digits.find_first_not_of(' '));
   if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) return std::nullopt;
   digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
-  constexpr std::size_t kMostDigits = 18;  // fit 64 bits
-  if (digits.size() > kMostDigits) return std::nullopt;
+  constexpr std::size_t kMaxDigits = 18;  // fit 64 bits
+  if (digits.size() > kMaxDigits) return std::nullopt;
   return digits;
 }
 
@@ -174,13 +174,13 @@ struct CountedName {
 // Empty where the name has no number, or none of 64 bits.
 std::optional<CountedName> counted_name(const fs::path& file) {
   constexpr const char* kDigits = "0123456789";
-  constexpr std::size_t kMostDigits = 18;
+  constexpr std::size_t kMaxDigits = 18;
   const std::string stem = file.stem().string();
   const auto last = stem.find_last_of(kDigits);
   if (last == stem.npos) return std::nullopt;
   const auto other = stem.find_last_not_of(kDigits, last);
   const std::size_t first = other == stem.npos ? 0 : other + 1;
-  if (last + 1 - first > kMostDigits) return std::nullopt;
+  if (last + 1 - first > kMaxDigits) return std::nullopt;
   CountedName name{stem.substr(0, first), stem.substr(first, last + 1 - first),
                    stem.substr(last + 1) + file.extension().string()};
   name.number = std::stoul(name.digits);

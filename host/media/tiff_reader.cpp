@@ -20,9 +20,9 @@ constexpr std::uint64_t kLargestPage = std::uint64_t{16} << 30;  // bytes
 
 // What a page may take that lies in a file of so many bytes. LZW, which packs most of what photographs are kept in,
 // makes 2558 bytes of one at most; blank fax pages, of which more can be made, are small.
-std::uint64_t most_page_bytes(std::uint64_t file_bytes) {
-  constexpr std::uint64_t kMostExpansion = 2560, kSmallPage = 64 << 20;
-  return std::min(kLargestPage, std::max(kSmallPage, file_bytes * kMostExpansion));
+std::uint64_t max_page_bytes(std::uint64_t file_bytes) {
+  constexpr std::uint64_t kMaxExpansion = 2560, kSmallPage = 64 << 20;
+  return std::min(kLargestPage, std::max(kSmallPage, file_bytes * kMaxExpansion));
 }
 
 // One page of an open file.
@@ -74,7 +74,7 @@ class PageReader {
     // Before anything is allocated.
     const std::uint64_t stored_bytes = (shape_.value_count() * bits_ + 7) / 8;
     const bool is_packed = field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE;
-    if (stored_bytes > (is_packed ? most_page_bytes(file_bytes_) : file_bytes_)) {
+    if (stored_bytes > (is_packed ? max_page_bytes(file_bytes_) : file_bytes_)) {
       fail(format("it states {} x {} pixels, which its {} bytes do not hold; it is damaged or was cut off",
                   shape_.width, shape_.height, file_bytes_));
     }
@@ -167,7 +167,7 @@ class PageReader {
   void read_rows(Picture& picture, std::uint16_t plane) const {
     const std::uint64_t row_bytes = TIFFScanlineSize64(file_);
     const std::uint64_t together = separate_ ? 1 : shape_.channels;
-    if (row_bytes < (shape_.width * together * bits_ + 7) / 8 || row_bytes > most_page_bytes(file_bytes_)) {
+    if (row_bytes < (shape_.width * together * bits_ + 7) / 8 || row_bytes > max_page_bytes(file_bytes_)) {
       fail(format("it states rows of {} bytes", row_bytes));
     }
     std::vector<std::uint8_t> row(row_bytes);
@@ -187,7 +187,7 @@ class PageReader {
     const std::uint64_t together = separate_ ? 1 : shape_.channels;
     if (width == 0 || height == 0 || width > kLargestSide || height > kLargestSide ||
         row_bytes < (width * together * bits_ + 7) / 8 || tile_bytes < row_bytes * height ||
-        tile_bytes > most_page_bytes(file_bytes_)) {
+        tile_bytes > max_page_bytes(file_bytes_)) {
       fail(format("it states tiles of {} x {} pixels", width, height));
     }
     std::vector<std::uint8_t> tile(tile_bytes);
@@ -253,7 +253,7 @@ struct TiffReader::File {
     std::error_code error;
     const std::uint64_t file_bytes = std::filesystem::file_size(path, error);
     if (!error) {
-      TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), static_cast<tmsize_t>(most_page_bytes(file_bytes)));
+      TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), static_cast<tmsize_t>(max_page_bytes(file_bytes)));
     }
     handle.reset(
         TIFFOpenExt(path.c_str(), "rm", options.get()));  // m: not mapped, so that it may become shorter

@@ -21,7 +21,7 @@ constexpr std::array<VideoCodec, 6> kCodecs{{
 
 struct Container {
   std::string_view extension;
-  std::string_view usual_codec;
+  std::string_view default_codec;
 };
 
 constexpr std::array<Container, 6> kContainers{{{".mp4", "h264"},
@@ -63,7 +63,7 @@ const VideoCodec& video_codec_for(const std::filesystem::path& path, const std::
   std::string all, fitting;
   for (const VideoCodec& codec : kCodecs) {
     const bool held = is_held(codec, container->extension);
-    if (held && codec.name == name.value_or(std::string(container->usual_codec))) return codec;
+    if (held && codec.name == name.value_or(std::string(container->default_codec))) return codec;
     all += format("{}{}", all.empty() ? "" : ", ", codec.name);
     if (held) fitting += format("{}{}", fitting.empty() ? "" : ", ", codec.name);
   }

@@ -12,10 +12,10 @@
 namespace nutik {
 namespace {
 
-constexpr std::size_t kMostKept = 2 << 20;  // pixels of a channel
+constexpr std::size_t kMaxKept = 2 << 20;  // pixels of a channel
 constexpr double kGroups = 48;              // that the range of codes is cut into
 constexpr std::size_t kGroupPixels = 512;   // or more, where codes are frequent
-constexpr std::size_t kLeastGroupPixels = 64;
+constexpr std::size_t kMinGroupPixels = 64;
 constexpr double kSparseWidth = 3;    // group widths that rare codes may be spread over
 constexpr double kRangeTail = 0.001;  // pixels at either end that do not make the range
 constexpr int kPasses = 50;           // they settle after a few
@@ -25,7 +25,7 @@ constexpr double kJoinedWidth = 0.5;  // group widths within which points of sev
 constexpr double kTold =
     1.0;  // variance from which on rounding to codes does not make pixels stray unlike each other
 constexpr double kUneven = 0.25;         // standard deviation of the pixels' own variances, of their mean
-constexpr double kLeastDistance = 1e-5;  // of points, in white codes: six digits tell them apart
+constexpr double kMinDistance = 1e-5;  // of points, in white codes: six digits tell them apart
 constexpr double kLargestMisfit = 0.04;
 constexpr double kWorstMisfit = 0.10;
 
@@ -110,7 +110,7 @@ double six_digits(double value) {
 std::vector<MeasuredPoint> joined(std::vector<MeasuredPoint> points, std::uint32_t white_code) {
   std::ranges::sort(points, {}, [](const MeasuredPoint& each) { return each.point.code; });
   const double low = points.front().point.code;
-  const double range = std::max(points.back().point.code - low, kLeastDistance * white_code);
+  const double range = std::max(points.back().point.code - low, kMinDistance * white_code);
   const auto place = [&](const MeasuredPoint& each) {
     return std::sqrt((each.point.code - low) / range) * kGroups;
   };
@@ -118,7 +118,7 @@ std::vector<MeasuredPoint> joined(std::vector<MeasuredPoint> points, std::uint32
   for (const MeasuredPoint& each : points) {
     const bool is_far =
         few.empty() || (place(each) - place(few.back()) > kJoinedWidth &&
-                        each.point.code - few.back().point.code > kLeastDistance * white_code);
+                        each.point.code - few.back().point.code > kMinDistance * white_code);
     if (is_far) {
       few.push_back(each);
       continue;
@@ -134,9 +134,9 @@ std::vector<MeasuredPoint> joined(std::vector<MeasuredPoint> points, std::uint32
 }
 
 // Pixels of a channel that are kept of so many samples.
-std::uint64_t most_kept(const Shape& shape, std::uint64_t most_samples) {
-  const std::uint64_t windows = most_samples / kWindowSamples + 1;
-  return std::min<std::uint64_t>(kMostKept, windows * StillWindow::pixel_count(shape));
+std::uint64_t max_kept(const Shape& shape, std::uint64_t max_samples) {
+  const std::uint64_t windows = max_samples / kWindowSamples + 1;
+  return std::min<std::uint64_t>(kMaxKept, windows * StillWindow::pixel_count(shape));
 }
 
 }  // namespace
@@ -144,9 +144,9 @@ std::uint64_t most_kept(const Shape& shape, std::uint64_t most_samples) {
 NoiseEstimator::NoiseEstimator(const CaptureFormat& capture, std::uint32_t threads)
     : capture_(capture), threads_(threads), channels_(capture.shape.channels) {}
 
-MemoryNeeds NoiseEstimator::needs(const CaptureFormat& capture, std::uint64_t most_samples) {
+MemoryNeeds NoiseEstimator::needs(const CaptureFormat& capture, std::uint64_t max_samples) {
   const Shape& shape = capture.shape;
-  const std::uint64_t kept = most_kept(shape, most_samples);
+  const std::uint64_t kept = max_kept(shape, max_samples);
   // Kept are those of each channel; of one they are looked at in the end, beside their variances.
   return {{"a picture", capture.sample_bytes()},
           {"pictures that noise is measured on", StillWindow::window_bytes(shape)},
@@ -155,8 +155,8 @@ MemoryNeeds NoiseEstimator::needs(const CaptureFormat& capture, std::uint64_t mo
 }
 
 std::uint32_t NoiseEstimator::threads_in(std::uint64_t bytes, const CaptureFormat& capture,
-                                         std::uint64_t most_samples) {
-  const std::uint64_t rest = needs(capture, most_samples).rest_of(bytes);
+                                         std::uint64_t max_samples) {
+  const std::uint64_t rest = needs(capture, max_samples).rest_of(bytes);
   return static_cast<std::uint32_t>(
       1 +
       std::min<std::uint64_t>(rest / StillWindow::measuring_bytes(capture.shape), capture.shape.channels));
@@ -166,7 +166,7 @@ void NoiseEstimator::Pixels::add(std::span<const PixelNoise> pixels) {
   for (const PixelNoise& pixel : pixels) {
     if (seen++ % stride != 0) continue;
     kept.push_back(pixel);
-    if (kept.size() < kMostKept) continue;
+    if (kept.size() < kMaxKept) continue;
     for (std::size_t i = 0; i < kept.size() / 2; ++i) kept[i] = kept[2 * i];
     kept.resize(kept.size() / 2);
     stride *= 2;
@@ -174,9 +174,9 @@ void NoiseEstimator::Pixels::add(std::span<const PixelNoise> pixels) {
 }
 
 void NoiseEstimator::add_clip(const std::string& name, const ReadSample& read_sample,
-                              std::uint64_t most_samples) {
+                              std::uint64_t max_samples) {
   std::vector<Pixels> pixels(channels_.size());
-  for (Pixels& channel : pixels) channel.kept.reserve(most_kept(capture_.shape, most_samples));
+  for (Pixels& channel : pixels) channel.kept.reserve(max_kept(capture_.shape, max_samples));
   std::vector<std::byte> raster(capture_.sample_bytes());
   StillWindow window(capture_);
   std::uint64_t samples = 0;
@@ -188,16 +188,16 @@ void NoiseEstimator::add_clip(const std::string& name, const ReadSample& read_sa
         },
         threads_);
   };
-  while (samples < most_samples && read_sample(raster)) {
+  while (samples < max_samples && read_sample(raster)) {
     ++samples;
     window.add(raster);
     if (!window.is_full()) continue;
     measure();
     window.clear();
   }
-  if (samples < kLeastWindowSamples) {
+  if (samples < kMinWindowSamples) {
     throw UnknownNoise(format("{}: {} picture{} of a still scene; noise is measured on {} or more", name,
-                              samples, samples == 1 ? "" : "s", kLeastWindowSamples));
+                              samples, samples == 1 ? "" : "s", kMinWindowSamples));
   }
   // A rest that is shorter than a window would be less sure of itself than what is there already.
   if (samples < kWindowSamples) measure();
@@ -215,7 +215,7 @@ void NoiseEstimator::add_points(ChannelPoints& channel, std::vector<PixelNoise> 
   const auto tail = static_cast<std::size_t>(kRangeTail * static_cast<double>(pixels.size()));
   const double low = pixels[tail].code;
   const double range =
-      std::max(pixels[pixels.size() - 1 - tail].code - low, kLeastDistance * capture_.white_code);
+      std::max(pixels[pixels.size() - 1 - tail].code - low, kMinDistance * capture_.white_code);
   const auto place = [&](const PixelNoise& pixel) {
     return std::sqrt(std::max(pixel.code - low, 0.0) / range) * kGroups;
   };
@@ -242,7 +242,7 @@ void NoiseEstimator::add_points(ChannelPoints& channel, std::vector<PixelNoise> 
     const double span = place(pixels[i]) - place(pixels[begin]);
     const std::size_t count = i - begin;
     if (span > kSparseWidth && count < kGroupPixels) {
-      if (count >= kLeastGroupPixels) {
+      if (count >= kMinGroupPixels) {
         close(i);
       } else {
         begin = i;  // too few to say anything
@@ -251,7 +251,7 @@ void NoiseEstimator::add_points(ChannelPoints& channel, std::vector<PixelNoise> 
       close(i);
     }
   }
-  if (pixels.size() - begin >= kLeastGroupPixels || channel.points.empty()) close(pixels.size());
+  if (pixels.size() - begin >= kMinGroupPixels || channel.points.empty()) close(pixels.size());
 }
 
 NoiseEstimate NoiseEstimator::estimate() const {

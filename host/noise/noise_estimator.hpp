@@ -49,22 +49,22 @@ class NoiseEstimator {
   using ReadSample = std::function<bool(std::span<std::byte> raster)>;
 
   // Enough for any clip: its first minute or so.
-  static constexpr std::uint64_t kMostSamples = 1024;
+  static constexpr std::uint64_t kMaxSamples = 1024;
   static constexpr std::uint32_t kAnyThreads = ~std::uint32_t{0};
 
   // Channels are measured side by side, at most so many at a time.
   explicit NoiseEstimator(const CaptureFormat& capture, std::uint32_t threads = kAnyThreads);
 
   // What a clip of at most so many samples takes while it is measured on, one channel at a time.
-  [[nodiscard]] static MemoryNeeds needs(const CaptureFormat& capture, std::uint64_t most_samples);
+  [[nodiscard]] static MemoryNeeds needs(const CaptureFormat& capture, std::uint64_t max_samples);
   // On how many threads it may be measured in so much memory, which is what it needs at least.
   [[nodiscard]] static std::uint32_t threads_in(std::uint64_t bytes, const CaptureFormat& capture,
-                                                std::uint64_t most_samples);
+                                                std::uint64_t max_samples);
 
-  // Reads up to `most_samples` of the clip `name`. Throws UnknownNoise where there are fewer than
-  // kLeastWindowSamples.
+  // Reads up to `max_samples` of the clip `name`. Throws UnknownNoise where there are fewer than
+  // kMinWindowSamples.
   void add_clip(const std::string& name, const ReadSample& read_sample,
-                std::uint64_t most_samples = kMostSamples);
+                std::uint64_t max_samples = kMaxSamples);
 
   // Throws UnknownNoise where no pixel is still or all are black or white. Numbers have six digits.
   [[nodiscard]] NoiseEstimate estimate() const;

@@ -7,16 +7,16 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint64_t kMostPixels = 512 * 1024;
+constexpr std::uint64_t kMaxPixels = 512 * 1024;
 constexpr int kFlickerPasses = 4;                      // the first with all pixels
 constexpr double kFlickerOutlier = 2.5;                // standard deviations: what moves is no flicker
-constexpr std::size_t kMostFlickerPixels = 32 * 1024;  // two numbers are found with fewer than all
-constexpr double kLeastFlickerPixels = 256;
+constexpr std::size_t kMaxFlickerPixels = 32 * 1024;  // two numbers are found with fewer than all
+constexpr double kMinFlickerPixels = 256;
 
 // Every so many pixels of a row, and every so many rows.
 std::uint32_t step_of(const Shape& shape) {
   std::uint32_t step = 1;
-  while (shape.pixel_count() / step / step > kMostPixels) ++step;
+  while (shape.pixel_count() / step / step > kMaxPixels) ++step;
   return step;
 }
 
@@ -74,7 +74,7 @@ void StillWindow::add(const Code* raster) {
 StillWindow::Flicker StillWindow::flicker(const std::uint16_t* codes, std::span<const float> means) const {
   Flicker line;
   double limit = INFINITY;
-  const std::size_t step = means.size() / kMostFlickerPixels + 1;
+  const std::size_t step = means.size() / kMaxFlickerPixels + 1;
   for (int pass = 0; pass < kFlickerPasses; ++pass) {
     double n = 0, sum_m = 0, sum_mm = 0, sum_d = 0, sum_md = 0, squares = 0;
     for (std::size_t i = 0; i < means.size(); i += step) {
@@ -89,7 +89,7 @@ StillWindow::Flicker StillWindow::flicker(const std::uint16_t* codes, std::span<
       sum_md += mean * difference;
       squares += rest * rest;
     }
-    if (n < kLeastFlickerPixels) return {};
+    if (n < kMinFlickerPixels) return {};
     const double spread = sum_mm - sum_m * sum_m / n;
     line.gain = spread > n ? (sum_md - sum_m * sum_d / n) / spread : 0;  // a picture of one code has no gain
     line.offset = (sum_d - line.gain * sum_m) / n;

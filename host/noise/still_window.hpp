@@ -18,7 +18,7 @@ namespace nutik {
 
 // Long enough that a pixel's variance is known to a half, short enough that little moves.
 inline constexpr std::uint32_t kWindowSamples = 16;
-inline constexpr std::uint32_t kLeastWindowSamples = 3;  // of a second difference
+inline constexpr std::uint32_t kMinWindowSamples = 3;  // of a second difference
 
 // Noise of neighbours is a pixel's own; what lies further apart than what a camera makes of a mosaic reaches has
 // nothing in common, unless something moves.
@@ -52,7 +52,7 @@ class StillWindow {
   [[nodiscard]] std::uint32_t sample_count() const { return samples_; }
   [[nodiscard]] bool is_full() const { return samples_ == kWindowSamples; }
 
-  // One entry for every pixel of a channel. At least kLeastWindowSamples samples are there.
+  // One entry for every pixel of a channel. At least kMinWindowSamples samples are there.
   [[nodiscard]] std::vector<PixelNoise> measure(std::uint32_t channel) const;
 
   // Of a variance that was measured on so many samples.

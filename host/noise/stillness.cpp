@@ -10,10 +10,10 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint64_t kMostPixels = 16 * 1024;
+constexpr std::uint64_t kMaxPixels = 16 * 1024;
 constexpr std::uint64_t kRegionPixels = 64;  // looked at, or more
-constexpr std::uint32_t kMostRegions = 8;    // in a row, and in a column
-constexpr double kLeastTold = 16;  // pixels of a region, over all stretches: fewer tell nothing of it
+constexpr std::uint32_t kMaxRegions = 8;    // in a row, and in a column
+constexpr double kMinTold = 16;  // pixels of a region, over all stretches: fewer tell nothing of it
 // Standard deviations of a difference of means from which on a capture sees a change in it: 1.5 times the three that
 // its band has where nothing else is said.
 constexpr float kChange = 4.5F;
@@ -56,7 +56,7 @@ std::uint32_t pitch_of(const Shape& shape) {
   const auto count = [&] {
     return std::uint64_t{places(shape.width, pitch).size()} * places(shape.height, pitch).size();
   };
-  while (count() > kMostPixels) pitch = std::max(pitch + 1, kNeighbourPixels + 1);
+  while (count() > kMaxPixels) pitch = std::max(pitch + 1, kNeighbourPixels + 1);
   return pitch;
 }
 
@@ -101,8 +101,8 @@ struct Excess {
 };
 
 // A capture's mean of so many samples is as unsure: where that is more, movement may add as much as noise leaves.
-double most_excess(std::uint64_t samples) {
-  return std::max(StillnessWatch::kMostStray * StillnessWatch::kMostStray, 1 / static_cast<double>(samples));
+double max_excess(std::uint64_t samples) {
+  return std::max(StillnessWatch::kMaxStray * StillnessWatch::kMaxStray, 1 / static_cast<double>(samples));
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ struct StillnessWatch::Sums {
       double count = 0, variance = 0, squares = 0;
       for (const Sums& region : regions) {
         const Mean& mean = region.ways[way];
-        if (mean.count < kLeastTold && regions.size() > 1) continue;
+        if (mean.count < kMinTold && regions.size() > 1) continue;
         count += 1;
         variance += mean.value();
         squares += mean.uncertainty() * mean.uncertainty();
@@ -250,15 +250,15 @@ class StillnessWatch::Stretch {
   std::vector<std::uint8_t> is_told_;  // [pixel]: its codes are not cut off
 };
 
-StillnessWatch::StillnessWatch(const CaptureFormat& capture, std::uint64_t most_samples)
-    : format_(capture), most_samples_(most_samples) {
+StillnessWatch::StillnessWatch(const CaptureFormat& capture, std::uint64_t max_samples)
+    : format_(capture), max_samples_(max_samples) {
   const Shape& shape = capture.shape;
   const std::uint32_t pitch = pitch_of(shape);
   const std::vector<std::uint32_t> columns = places(shape.width, pitch), rows = places(shape.height, pitch);
   const std::vector<std::uint32_t> right = neighbours(columns), down = neighbours(rows);
   const auto wide = static_cast<std::uint32_t>(columns.size());
   const double side = std::sqrt(static_cast<double>(columns.size() * rows.size()) / kRegionPixels);
-  regions_ = std::clamp(static_cast<std::uint32_t>(side), 1U, kMostRegions);
+  regions_ = std::clamp(static_cast<std::uint32_t>(side), 1U, kMaxRegions);
   for (std::uint32_t j = 0; j < rows.size(); ++j) {
     for (std::uint32_t i = 0; i < wide; ++i) {
       pixels_.push_back(std::uint64_t{rows[j]} * shape.width + columns[i]);
@@ -271,11 +271,11 @@ StillnessWatch::StillnessWatch(const CaptureFormat& capture, std::uint64_t most_
   }
 }
 
-std::uint64_t StillnessWatch::bytes(const Shape& shape, std::uint64_t most_samples) {
+std::uint64_t StillnessWatch::bytes(const Shape& shape, std::uint64_t max_samples) {
   const std::uint32_t pitch = pitch_of(shape);
   const std::uint64_t pixels =
       std::uint64_t{places(shape.width, pitch).size()} * places(shape.height, pitch).size();
-  const std::uint64_t kept = most_samples * shape.channels * sizeof(std::uint16_t);
+  const std::uint64_t kept = max_samples * shape.channels * sizeof(std::uint16_t);
   const std::uint64_t places_of_it = sizeof(std::uint64_t) + 3 * sizeof(std::uint32_t);
   const std::uint64_t judged = (kStretchSamples + 1) * sizeof(std::uint32_t) +
                                (kStretchSamples + 7) * sizeof(float) +
@@ -284,8 +284,8 @@ std::uint64_t StillnessWatch::bytes(const Shape& shape, std::uint64_t most_sampl
 }
 
 void StillnessWatch::add(std::span<const std::byte> raster) {
-  if (samples_ == most_samples_) return;
-  if (samples_ == 0) codes_.reserve(most_samples_ * format_.shape.channels * pixels_.size());
+  if (samples_ == max_samples_) return;
+  if (samples_ == 0) codes_.reserve(max_samples_ * format_.shape.channels * pixels_.size());
   const std::uint32_t channels = format_.shape.channels;
   for (std::uint32_t channel = 0; channel < channels; ++channel) {
     for (const std::uint64_t pixel : pixels_) {
@@ -311,9 +311,9 @@ Stillness StillnessWatch::judge(const CameraNoise& noise, std::uint32_t channel)
   Stillness found;
   std::vector<Sums> regions(std::size_t{regions_} * regions_);
   Mean of_pixels, of_all;
-  double most_in_time = -1;
+  double max_in_time = -1;
   const std::uint64_t stretches = (samples_ + kStretchSamples - 1) / kStretchSamples;
-  const double may_be = most_excess(samples_ / stretches);
+  const double may_be = max_excess(samples_ / stretches);
   for (std::uint64_t s = 0; s < stretches; ++s) {
     const std::uint64_t begin = samples_ * s / stretches, end = samples_ * (s + 1) / stretches;
     const Stretch stretch(*this, noise, channel, begin, end);
@@ -322,8 +322,8 @@ Stillness StillnessWatch::judge(const CameraNoise& noise, std::uint32_t channel)
     stretch.add_brightness(of_pixels, of_all);
     for (std::size_t r = 0; r < regions.size(); ++r) regions[r].add(of_stretch[r]);
     const double strays = Sums::mean_of(of_stretch, may_be).stray();
-    if (strays <= most_in_time) continue;
-    most_in_time = strays;
+    if (strays <= max_in_time) continue;
+    max_in_time = strays;
     found.first_sample = begin;
     found.last_sample = end - 1;
   }
@@ -341,15 +341,15 @@ Stillness StillnessWatch::judge(const CameraNoise& noise, std::uint32_t channel)
   for (std::uint32_t r = 0; r < regions.size(); ++r) {
     const Excess here = regions[r].worst(may_be);
     straying += here.is_above();
-    if (regions[r].ways[0].count < kLeastTold || here.share() <= most.share()) continue;
+    if (regions[r].ways[0].count < kMinTold || here.share() <= most.share()) continue;
     most = here;
     const std::uint32_t x = edge(r % regions_, format_.shape.width);
     const std::uint32_t y = edge(r / regions_, format_.shape.height);
     found.region = {x, y, edge(r % regions_ + 1, format_.shape.width) - x,
                     edge(r / regions_ + 1, format_.shape.height) - y};
   }
-  found.most_stray = most.stray();
-  found.most_limit = std::sqrt(most.limit);
+  found.max_stray = most.stray();
+  found.max_limit = std::sqrt(most.limit);
   found.stray_share = static_cast<double>(straying) / static_cast<double>(regions.size());
   return found;
 }

@@ -29,8 +29,8 @@ struct Stillness {
   // Whether most of what pixels stray and change by is common to all of them: brightness, and no movement.
   bool is_brightness = false;
 
-  double most_stray = 0;   // of one region
-  double most_limit = 0;   // of it
+  double max_stray = 0;   // of one region
+  double max_limit = 0;   // of it
   double stray_share = 0;  // of the regions: those that stray by more than their limit
   Rectangle region;        // that strays most
   std::uint64_t first_sample = 0, last_sample = 0;  // of the stretch in which most strays
@@ -40,13 +40,13 @@ class StillnessWatch {
  public:
   // Light that is held is off by a fifth of the noise's standard deviation where all stands still (imev_tests,
   // docs/explanation/noise.md); what is no noise may add as much.
-  static constexpr double kMostStray = 0.2;
+  static constexpr double kMaxStray = 0.2;
 
-  StillnessWatch(const CaptureFormat& capture, std::uint64_t most_samples);
+  StillnessWatch(const CaptureFormat& capture, std::uint64_t max_samples);
 
-  [[nodiscard]] static std::uint64_t bytes(const Shape& shape, std::uint64_t most_samples);
+  [[nodiscard]] static std::uint64_t bytes(const Shape& shape, std::uint64_t max_samples);
 
-  // Adds a sample of CaptureFormat::sample_bytes(); those beyond `most_samples` are left out.
+  // Adds a sample of CaptureFormat::sample_bytes(); those beyond `max_samples` are left out.
   void add(std::span<const std::byte> raster);
 
   // Of at least three samples; noise as it was measured on them.
@@ -62,7 +62,7 @@ class StillnessWatch {
   }
 
   CaptureFormat format_;
-  std::uint64_t most_samples_;
+  std::uint64_t max_samples_;
   std::uint64_t samples_ = 0;
   std::uint32_t regions_;              // in a row, and in a column
   std::vector<std::uint64_t> pixels_;  // that are looked at, row-major

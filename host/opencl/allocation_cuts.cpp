@@ -14,7 +14,7 @@ std::uint64_t sums_bytes(std::uint64_t tile_count, std::uint32_t channels, Preci
 }
 
 std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle, Precision precision,
-                              const DeviceInfo& device, std::uint64_t most_bytes,
+                              const DeviceInfo& device, std::uint64_t max_bytes,
                               std::span<const MixedTile> mixed) {
   const TileGrid grid(shape);
   const std::uint32_t left = rectangle.x / kTileSide;
@@ -36,9 +36,9 @@ std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle, Pr
                            precision == Precision::single_ ? "" : "single precision, "),
                     {Setting::precision, Setting::renderer});
   }
-  const std::uint64_t most_rows =
-      std::max<std::uint64_t>(1, std::min(device.largest_allocation_bytes, most_bytes) / row_bytes);
-  const std::uint64_t band_count = (rows + most_rows - 1) / most_rows;
+  const std::uint64_t max_rows =
+      std::max<std::uint64_t>(1, std::min(device.largest_allocation_bytes, max_bytes) / row_bytes);
+  const std::uint64_t band_count = (rows + max_rows - 1) / max_rows;
   const auto band_rows = static_cast<std::uint32_t>((rows + band_count - 1) / band_count);
   const std::uint32_t first_column = left * kTileSide;
   const std::uint32_t width = std::min(columns * kTileSide, shape.width - first_column);
@@ -61,14 +61,14 @@ std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle, Pr
 }
 
 std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, const DeviceInfo& device,
-                                   std::uint64_t most_bytes) {
+                                   std::uint64_t max_bytes) {
   const std::uint64_t row_bytes = plan.function_count() * weight_bytes(precision);
   // Spans never decide: a block has one row of them, no wider than its rows of weights, of which it has two or more.
-  const std::uint64_t most_blocks = device.largest_allocation_bytes / sizeof(BlockEntry);
+  const std::uint64_t max_blocks = device.largest_allocation_bytes / sizeof(BlockEntry);
   // Kernels count the elements of a block's tables in 32 bits.
-  const std::uint64_t most_bytes_of_block =
+  const std::uint64_t max_bytes_of_block =
       std::min(device.largest_allocation_bytes, std::uint64_t{0xFFFF'FFFF} * weight_bytes(precision));
-  const auto fits = [&](std::uint64_t rows) { return rows * row_bytes <= most_bytes_of_block; };
+  const auto fits = [&](std::uint64_t rows) { return rows * row_bytes <= max_bytes_of_block; };
   std::vector<TableSlice> slices;
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     const PlannedBlock& block = plan.blocks[b];
@@ -83,8 +83,8 @@ std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, 
                       {Setting::block_samples});
     }
     if (slices.empty() || !fits(slices.back().row_count() + rows) ||
-        (slices.back().row_count() + rows) * row_bytes > most_bytes ||
-        b - slices.back().first_block == most_blocks) {
+        (slices.back().row_count() + rows) * row_bytes > max_bytes ||
+        b - slices.back().first_block == max_blocks) {
       slices.push_back({b, b, block.table_row, block.table_row});
     }
     slices.back().last_block = b + 1;

@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::uint64_t kPageBytes = 4096;
 // Where a payload lies wider apart, copying it costs less than what a device may do with the room between.
-constexpr std::uint64_t kMostSpread = 4;
+constexpr std::uint64_t kMaxSpread = 4;
 // Copying fewer bytes than these into a chunk of many blocks costs less than a launch of their own.
-constexpr std::uint64_t kLeastLent = 1 << 20;
+constexpr std::uint64_t kMinLent = 1 << 20;
 
 }  // namespace
 
@@ -224,8 +224,8 @@ bool BlockFeed::lies_in_place(const BlockLease& lease) const {
 }
 
 bool BlockFeed::is_read_where_it_lies(const BlockLease& lease) const {
-  return info_.shares_host_memory && !is_resident() && lease.bytes() >= kLeastLent &&
-         lease.payload().size() <= std::min(info_.largest_allocation_bytes, kMostSpread * lease.bytes());
+  return info_.shares_host_memory && !is_resident() && lease.bytes() >= kMinLent &&
+         lease.payload().size() <= std::min(info_.largest_allocation_bytes, kMaxSpread * lease.bytes());
 }
 
 bool BlockFeed::has_room(Filling& filling, std::uint64_t bytes) {

@@ -14,11 +14,11 @@ std::vector<double> code_thresholds(const Transfer& transfer, std::uint32_t whit
 }
 
 std::optional<CodeSearch> code_search(std::vector<double> thresholds, double white_light, double roundoff) {
-  constexpr std::uint32_t kMostGuesses = 1u << 22;
+  constexpr std::uint32_t kMaxGuesses = 1u << 22;
   const double slack = 16 * roundoff;  // the device's √ times the number of steps errs by less
   const std::size_t white_code = thresholds.size() - 1;
   CodeSearch search{std::move(thresholds), {}};
-  for (std::uint32_t steps = 1024; steps <= kMostGuesses; steps *= 2) {
+  for (std::uint32_t steps = 1024; steps <= kMaxGuesses; steps *= 2) {
     search.guesses.assign(steps, 0);
     std::size_t code = 0;
     bool fits = true;

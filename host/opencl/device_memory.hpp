@@ -29,11 +29,11 @@ class DeviceMemory {
   // Counts what others allocated.
   void count(std::uint64_t bytes) {
     held_bytes_ += bytes;
-    most_bytes_ = std::max(most_bytes_, held_bytes_);
+    max_bytes_ = std::max(max_bytes_, held_bytes_);
   }
 
   // The largest sum at a time.
-  [[nodiscard]] std::uint64_t most_bytes() const { return most_bytes_; }
+  [[nodiscard]] std::uint64_t max_bytes() const { return max_bytes_; }
 
   // What is made in a scope no longer counts when it ends.
   class Scope {
@@ -54,7 +54,7 @@ class DeviceMemory {
   cl::Context context_;
   const DeviceInfo& device_;
   std::uint64_t held_bytes_ = 0;
-  std::uint64_t most_bytes_ = 0;
+  std::uint64_t max_bytes_ = 0;
 };
 
 }  // namespace nutik

@@ -41,9 +41,9 @@ struct TableColumnSource {
 
 class DeviceTables {
  public:
-  // `most_bytes` are kept; a slice that is in use counts as one of them.
-  DeviceTables(cl::CommandQueue queue, std::uint64_t most_bytes)
-      : queue_(std::move(queue)), recent_(most_bytes) {}
+  // `max_bytes` are kept; a slice that is in use counts as one of them.
+  DeviceTables(cl::CommandQueue queue, std::uint64_t max_bytes)
+      : queue_(std::move(queue)), recent_(max_bytes) {}
 
   // A slice's tables, which no kernel may read any more when the next slice is asked for. What it takes is counted in
   // `memory`, what had to be written is added to `written_bytes`.

@@ -24,12 +24,12 @@ class StoppedAtEnd {
 
 // A chunk's blocks, cut so that no launch reads more samples, but one block at least.
 std::vector<std::span<const BlockEntry>> launches_of(std::span<const BlockEntry> entries,
-                                                     std::uint64_t most_samples) {
+                                                     std::uint64_t max_samples) {
   std::vector<std::span<const BlockEntry>> launches;
   std::size_t first = 0;
   std::uint64_t samples = 0;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (i > first && samples + entries[i].sample_count > most_samples) {
+    if (i > first && samples + entries[i].sample_count > max_samples) {
       launches.push_back(entries.subspan(first, i - first));
       first = i;
       samples = 0;
@@ -163,11 +163,11 @@ void Exposer::sum_up(std::span<const ExposedBand> bands, std::span<const TableSl
 void Exposer::launch(const cl::Buffer& payload, std::span<const BlockEntry> entries,
                      const SliceTables& tables, std::span<const ExposedBand> bands, bool is_first) {
   ExposeKernel kernel(kernel_);
-  const std::uint64_t most_samples = most_samples_a_launch(device_.info, work_.shape);
+  const std::uint64_t max_samples = max_samples_a_launch(device_.info, work_.shape);
   // Every argument is a buffer, though it may not be read.
   const cl::Buffer exposes = memory_.upload(exposes_);
   const cl::Buffer& kept = kept_.entries.empty() ? light_ : kept_.sums;
-  for (const std::span<const BlockEntry> part : launches_of(entries, most_samples)) {
+  for (const std::span<const BlockEntry> part : launches_of(entries, max_samples)) {
     const cl::Buffer entries_of_part = memory_.upload(part);
     for (const ExposedBand& exposed : bands) {
       const Band& band = exposed.band;

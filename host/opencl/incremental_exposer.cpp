@@ -31,10 +31,10 @@ void IncrementalExposer::expose(const Means& means, const RenderPlan& plan, cons
 // Some of which it makes first.
 SumsInUse IncrementalExposer::sums_in_use(const Means& means, const RenderPlan& plan,
                                           const CaptureSource& source, Precision precision,
-                                          std::uint64_t most_bytes, std::span<const std::uint8_t> exposes,
+                                          std::uint64_t max_bytes, std::span<const std::uint8_t> exposes,
                                           std::span<const ExposedBand> bands) {
   KeptSums& kept = kept_[precision];
-  for (const SummedBlocks& blocks : kept.worth_making(plan, exposes, precision, most_bytes, means.info)) {
+  for (const SummedBlocks& blocks : kept.worth_making(plan, exposes, precision, max_bytes, means.info)) {
     const RenderPlan& of_light = kept.plan_for(blocks, plan, source);
     const std::size_t slot = kept.slot_for(means.memory);
     const DeviceMemory::Scope scope(means.memory);

@@ -37,7 +37,7 @@ class IncrementalExposer {
 
  private:
   SumsInUse sums_in_use(const Means& means, const RenderPlan& plan, const CaptureSource& source,
-                        Precision precision, std::uint64_t most_bytes, std::span<const std::uint8_t> exposes,
+                        Precision precision, std::uint64_t max_bytes, std::span<const std::uint8_t> exposes,
                         std::span<const ExposedBand> bands);
 
   std::map<Precision, KeptSums> kept_;

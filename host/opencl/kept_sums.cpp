@@ -11,8 +11,8 @@ namespace {
 // A sum is of the whole picture. Where most of it is exposed with a steady gain there, making it takes as long as
 // reading rows; it is worth it at once, but for the first exposure, which may be the last. Where less is, it is worth it
 // when it is wanted again.
-constexpr double kMost = 0.75;
-constexpr double kLeast = 0.25;
+constexpr double kMax = 0.75;
+constexpr double kMin = 0.25;
 
 // Exposures for which a sum that nobody wants stays all the same: where more are wanted than there is room for, some
 // stay rather than all go by turns. A bundle of some of its group's blocks is soon made again.
@@ -57,10 +57,10 @@ void KeptSums::clear() { *this = KeptSums(); }
 
 std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
                                                  std::span<const std::uint8_t> exposes, Precision precision,
-                                                 std::uint64_t most_bytes, const DeviceInfo& device) {
+                                                 std::uint64_t max_bytes, const DeviceInfo& device) {
   const std::uint64_t slot_bytes =
       sums_bytes(TileGrid(plan.capture.shape).tile_count(), plan.capture.shape.channels, precision);
-  const std::uint64_t room = std::min(most_bytes, device.largest_allocation_bytes) / slot_bytes;
+  const std::uint64_t room = std::min(max_bytes, device.largest_allocation_bytes) / slot_bytes;
   if (plan.capture.transfer != transfer_ || room < slots_.size()) clear();
   precision_ = precision;
   transfer_ = plan.capture.transfer;
@@ -87,7 +87,7 @@ std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
     }
     const double share = static_cast<double>(count) / all;
     const bool was_wanted = !was_wanted_.insert(sum).second;
-    if (share >= (was_wanted ? kLeast : kMost) && exposure_ > 1) worth.push_back(sum);
+    if (share >= (was_wanted ? kMin : kMax) && exposure_ > 1) worth.push_back(sum);
   }
   std::uint64_t rooms = capacity_ - slots_.size();
   for (const Slot& slot : slots_) rooms += is_idle(slot);

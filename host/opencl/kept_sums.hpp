@@ -40,10 +40,10 @@ class KeptSums {
   void clear();
 
   // An exposure of the resident capture begins. The sums that it is worth to make before it, for which there is room
-  // within `most_bytes`.
+  // within `max_bytes`.
   [[nodiscard]] std::vector<SummedBlocks> worth_making(const RenderPlan& plan,
                                                        std::span<const std::uint8_t> exposes,
-                                                       Precision precision, std::uint64_t most_bytes,
+                                                       Precision precision, std::uint64_t max_bytes,
                                                        const DeviceInfo& device);
 
   // Makes room for one of them. It is kept once all bands of the picture are stored, whole rows of it.

@@ -60,8 +60,8 @@ struct DeviceMap {
 
 class KernelConstants {
  public:
-  // Maps of `most_map_bytes` are kept.
-  explicit KernelConstants(std::uint64_t most_map_bytes) : maps_(most_map_bytes) {}
+  // Maps of `max_map_bytes` are kept.
+  explicit KernelConstants(std::uint64_t max_map_bytes) : maps_(max_map_bytes) {}
 
   // `permutes_pieces` as for light_source(). What is returned counts in `memory`; it stays until the next of its kind
   // is asked for.

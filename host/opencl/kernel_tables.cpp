@@ -35,8 +35,8 @@ double value_of(const FloatPair& pair) { return static_cast<double>(pair.high) +
 // are cut: sums are scaled by them only to codes, which are black or white long before.
 template <typename Real>
 LightScale<Real> power_of_two(int exponent) {
-  constexpr int kMost = std::numeric_limits<Real>::max_exponent - 1;
-  const int inside = std::clamp(exponent, -2 * (kMost - 1), 2 * kMost);
+  constexpr int kMax = std::numeric_limits<Real>::max_exponent - 1;
+  const int inside = std::clamp(exponent, -2 * (kMax - 1), 2 * kMax);
   const int half = inside / 2;
   return {std::scalbn(Real{1}, half), std::scalbn(Real{1}, inside - half)};
 }

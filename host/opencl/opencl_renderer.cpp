@@ -263,7 +263,7 @@ class OpenClRenderer::Implementation {
     rendered.picture = developer.take_picture();
     rendered.saturation = developer.saturation();
     rendered.statistics.develop_ms = developer.develop_ms();
-    rendered.statistics.device_bytes = memory.most_bytes();
+    rendered.statistics.device_bytes = memory.max_bytes();
   }
 
   // Sums of nothing are 0 in every arithmetic.
@@ -285,7 +285,7 @@ class OpenClRenderer::Implementation {
     if (rendered.choice->is_right_enough()) return;
     rendered.warnings.push_back(format(
         "no arithmetic of {} is sure to be right to {} of a code here; {} is the closest: {}", info_.name,
-        kMostSteps, to_text(rendered.precision), error_text(rendered.choice->bound.worst, output)));
+        kMaxSteps, to_text(rendered.precision), error_text(rendered.choice->bound.worst, output)));
   }
 
   [[nodiscard]] Work work_for(Precision precision) const {

@@ -14,7 +14,7 @@ namespace nutik {
 template <typename Value>
 class Recent {
  public:
-  explicit Recent(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+  explicit Recent(std::uint64_t max_bytes) : max_bytes_(max_bytes) {}
 
   // The one that `is_it`; null if there is none.
   template <typename Is>
@@ -32,14 +32,14 @@ class Recent {
     auto last = values_.begin();
     for (; last != values_.end(); ++last) {
       bytes += last->bytes();
-      if (bytes > most_bytes_ && last != values_.begin()) break;
+      if (bytes > max_bytes_ && last != values_.begin()) break;
     }
     values_.erase(last, values_.end());
     return values_.front();
   }
 
  private:
-  std::uint64_t most_bytes_;
+  std::uint64_t max_bytes_;
   std::list<Value> values_;
 };
 

@@ -46,16 +46,16 @@ RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, co
     needs.add("shares of functions", more_tiles * 2 * tile_sums + (tiles + more_tiles) * kMapBytes);
   }
   const bool has_corrected = precision != Precision::fixed && plan.has_corrected();
-  const std::uint64_t least_tables = (has_corrected ? 2 : 1) * block_rows * row_bytes(plan, precision);
-  needs.add("gain tables of a block", least_tables);
+  const std::uint64_t min_tables = (has_corrected ? 2 : 1) * block_rows * row_bytes(plan, precision);
+  needs.add("gain tables of a block", min_tables);
   needs.add("a block", block_bytes);
   std::uint64_t rest = needs.rest_of(allowed);
 
-  const std::uint64_t all_tables = std::max(plan.row_count() * row_bytes(plan, precision), least_tables);
-  const std::uint64_t more_tables = std::min(all_tables - least_tables, rest / 4);
+  const std::uint64_t all_tables = std::max(plan.row_count() * row_bytes(plan, precision), min_tables);
+  const std::uint64_t more_tables = std::min(all_tables - min_tables, rest / 4);
   rest -= more_tables;
   RenderMemory memory;
-  memory.slice_bytes = (least_tables + more_tables) / row_bytes(plan, precision) * plan.function_count() *
+  memory.slice_bytes = (min_tables + more_tables) / row_bytes(plan, precision) * plan.function_count() *
                        weight_bytes(precision);
   const std::uint64_t blocks = block_bytes + rest;
   memory.feed.reads_ahead = blocks >= 2 * block_bytes;

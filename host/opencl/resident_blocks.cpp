@@ -15,15 +15,15 @@ void ResidentBlocks::clear() {
   bytes_ = 0;
 }
 
-void ResidentBlocks::begin(std::span<const PlannedBlock> needed, std::uint64_t most_bytes) {
-  most_bytes_ = most_bytes;
+void ResidentBlocks::begin(std::span<const PlannedBlock> needed, std::uint64_t max_bytes) {
+  max_bytes_ = max_bytes;
   ++exposure_;
   if (places_.empty()) return;
   for (const PlannedBlock& planned : needed) {
     const auto found = places_.find(planned.block);
     if (found != places_.end()) found->second.slab->exposure = exposure_;
   }
-  while (bytes_ > most_bytes_) drop(std::ranges::min_element(slabs_, {}, &Slab::exposure));
+  while (bytes_ > max_bytes_) drop(std::ranges::min_element(slabs_, {}, &Slab::exposure));
 }
 
 void ResidentBlocks::drop(std::list<Slab>::iterator slab) {
@@ -33,8 +33,8 @@ void ResidentBlocks::drop(std::list<Slab>::iterator slab) {
 }
 
 bool ResidentBlocks::drop_others(std::uint64_t bytes) {
-  if (bytes > most_bytes_) return false;
-  while (bytes_ + bytes > most_bytes_) {
+  if (bytes > max_bytes_) return false;
+  while (bytes_ + bytes > max_bytes_) {
     const auto oldest = std::ranges::min_element(slabs_, {}, &Slab::exposure);
     if (oldest == slabs_.end() || oldest->exposure == exposure_) return false;
     drop(oldest);

@@ -43,7 +43,7 @@ class ResidentBlocks {
   void clear();
 
   // An exposure begins, which needs these blocks; so many bytes are the limit.
-  void begin(std::span<const PlannedBlock> needed, std::uint64_t most_bytes);
+  void begin(std::span<const PlannedBlock> needed, std::uint64_t max_bytes);
 
   // A slab for so many bytes, to be filled from its front; null where there is no room. `make_room(slab, bytes)` gives
   // one that is too small a larger memory.
@@ -68,7 +68,7 @@ class ResidentBlocks {
   // Makes room for so many bytes; false where what the exposure needs leaves none.
   bool drop_others(std::uint64_t bytes);
 
-  std::uint64_t most_bytes_ = 0;
+  std::uint64_t max_bytes_ = 0;
   std::uint64_t bytes_ = 0;
   std::uint64_t exposure_ = 0;
   std::list<Slab> slabs_;

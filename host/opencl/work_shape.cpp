@@ -28,7 +28,7 @@ WorkShape work_shape(const OpenClOptions& options, Precision precision, const De
   return shape;
 }
 
-std::uint64_t most_samples_a_launch(const DeviceInfo& device, const WorkShape& shape) {
+std::uint64_t max_samples_a_launch(const DeviceInfo& device, const WorkShape& shape) {
   if (device.loop_limit == 0) return std::numeric_limits<std::uint64_t>::max();
   // If nothing is unrolled: a row, its channels and groups, and the coefficients of a curve for each of them.
   const std::uint64_t vectors = 3 * shape.item_pixels / shape.lanes;

@@ -31,6 +31,6 @@ struct WorkShape {
                                    const DeviceInfo& device);
 
 // The samples of a tile that one launch may read so that no loop of the kernels reaches the device's loop_limit.
-[[nodiscard]] std::uint64_t most_samples_a_launch(const DeviceInfo& device, const WorkShape& shape);
+[[nodiscard]] std::uint64_t max_samples_a_launch(const DeviceInfo& device, const WorkShape& shape);
 
 }  // namespace nutik

@@ -15,7 +15,7 @@ struct TimeUnit {
   int decimals;  // of a nanosecond in it
 };
 constexpr std::array<TimeUnit, 4> kTimeUnits{{{"s", 9}, {"ms", 6}, {"µs", 3}, {"ns", 0}}};
-constexpr int kMostDecimals = 3;
+constexpr int kMaxDecimals = 3;
 
 // The least of 1, 2, 5 times a power of ten that is not below `least`.
 struct RoundStep {
@@ -42,7 +42,7 @@ Ticks time_ticks(std::int64_t begin_ns, std::int64_t end_ns, int most) {
   const auto step_ns = std::max<std::int64_t>(1, std::llround(step.value()));
   const std::int64_t largest_ns = std::max(std::abs(begin_ns), std::abs(end_ns));
   const auto fits = [&](const TimeUnit& unit) {
-    return std::max(0, unit.decimals - step.exponent) <= kMostDecimals &&
+    return std::max(0, unit.decimals - step.exponent) <= kMaxDecimals &&
            static_cast<double>(largest_ns) >= std::pow(10.0, unit.decimals);
   };
   const auto found = std::find_if(kTimeUnits.begin(), kTimeUnits.end(), fits);

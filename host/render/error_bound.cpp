@@ -136,13 +136,13 @@ double threshold_error(const Roundings& roundings) {
 
 // Of any mixture of the plan's functions: no larger than the worst of them, and what blending that rounds.
 void add_blending(const RenderPlan& plan, const Roundings& roundings, ErrorBound& bound) {
-  double largest = 0.0, least_scale = kInfinite;
+  double largest = 0.0, min_scale = kInfinite;
   for (std::size_t f = 0; f < plan.functions.size(); ++f) {
     const double scale = plan.functions[f].summary.error_scale();
     largest = std::max(largest, scale + bound.functions[f].light);
-    if (scale > 0.0) least_scale = std::min(least_scale, scale / kWholeShare);  // of a mixture with zeros
+    if (scale > 0.0) min_scale = std::min(min_scale, scale / kWholeShare);  // of a mixture with zeros
   }
-  const std::size_t functions = plan.map->mixed.most_functions();
+  const std::size_t functions = plan.map->mixed.max_functions();
   const double light = bound.worst.light + blend_error(roundings, bound.output, functions, largest) +
                        fixed_blend_error(plan, bound);
   bound.worst.light = light;
@@ -150,9 +150,9 @@ void add_blending(const RenderPlan& plan, const Roundings& roundings, ErrorBound
     bound.worst.steps = in_steps(plan, largest, light, threshold_error(roundings), bound.output);
   } else if (largest > 0.0) {
     // Relative to the pixel's own S, of which each function's error and every rounding are a share.
-    const double blend = blend_error(roundings, bound.output, functions, least_scale);
+    const double blend = blend_error(roundings, bound.output, functions, min_scale);
     bound.worst.steps =
-        bound.worst.steps * (1 + blend / least_scale) + in_steps(plan, least_scale, blend, 0.0, bound.output);
+        bound.worst.steps * (1 + blend / min_scale) + in_steps(plan, min_scale, blend, 0.0, bound.output);
   }
 }
 

@@ -100,11 +100,11 @@ std::shared_ptr<const MaskMap> MaskMap::of(const Mask& mask, std::shared_ptr<con
       pixels[tag][delay] = map->regions.size() - 1;
     }
   }
-  if (map->regions.size() > kMostRegions) {
+  if (map->regions.size() > kMaxRegions) {
     throw InputError(format(
         "the mask and the map of delays make {} different pairs of a function and a delay, and there can be "
         "{}; use a map with fewer values, of 8 bits for example, or a mask with fewer",
-        map->regions.size(), kMostRegions));
+        map->regions.size(), kMaxRegions));
   }
   const auto region_of = [&](std::uint16_t tag, std::uint64_t pixel) {
     return static_cast<std::uint16_t>(pixels[tag][delays->delay_of_pixel[pixel]]);

@@ -33,7 +33,7 @@ struct MixedTile {
 
 struct MaskMap {
   // Kernels count regions in 16 bits where pixels have delays, else in 8.
-  static constexpr std::size_t kMostRegions = 1u << 16;
+  static constexpr std::size_t kMaxRegions = 1u << 16;
 
   std::uint32_t width = 0;
   std::uint32_t height = 0;

@@ -9,11 +9,11 @@
 namespace nutik {
 
 // Of sums in the widest arithmetics.
-inline constexpr std::size_t kMostSumBytes = 8;
+inline constexpr std::size_t kMaxSumBytes = 8;
 
 // Sums and functions of all pixels, the picture itself, and as much again where it is developed. Holds for every
 // renderer that keeps sums of `sum_bytes` a value.
 [[nodiscard]] MemoryNeeds picture_needs(const Shape& shape, ValueType type,
-                                        std::size_t sum_bytes = kMostSumBytes);
+                                        std::size_t sum_bytes = kMaxSumBytes);
 
 }  // namespace nutik

@@ -15,7 +15,7 @@ constexpr std::size_t kKeptMaps = 2;
 constexpr std::size_t kKeptTables = 4 * kMaskValues;  // their numbers count in bytes besides
 
 // Every delayed function has control points of its own, here and where it is exposed: half a gigabyte of them at most.
-constexpr std::uint64_t kMostDelayedPoints = 1u << 24;
+constexpr std::uint64_t kMaxDelayedPoints = 1u << 24;
 
 // The first of a list that `is_it`, which becomes the list's first; null if there is none.
 template <typename Part, typename Is>
@@ -59,11 +59,11 @@ void check_point_count(const MaskMap& map, const FunctionSet& functions) {
     const auto found = functions.find(region.tag);
     count += found == functions.end() ? 1 : found->second.points().size();
   }
-  if (count <= kMostDelayedPoints) return;
+  if (count <= kMaxDelayedPoints) return;
   throw InputError(
       format("{} pairs of a function and a delay have {} control points, and there can be {}; use functions "
              "with fewer points, or a map of delays with fewer values, of 8 bits for example",
-             map.regions.size(), count, kMostDelayedPoints));
+             map.regions.size(), count, kMaxDelayedPoints));
 }
 
 void plan_blocks(RenderPlan& plan) {

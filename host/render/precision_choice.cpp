@@ -14,7 +14,7 @@ PrecisionChoice choose_precision(const RenderPlan& plan, const OutputFormat& out
   std::vector<ErrorBound> rejected;
   for (const Precision precision : available) {
     ErrorBound bound = error_bound(plan, precision, output);
-    if (bound.worst.steps <= kMostSteps) return {std::move(bound), std::move(rejected)};
+    if (bound.worst.steps <= kMaxSteps) return {std::move(bound), std::move(rejected)};
     rejected.push_back(std::move(bound));
   }
   const auto best = std::min_element(rejected.begin(), rejected.end(), [](const auto& a, const auto& b) {

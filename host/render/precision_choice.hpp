@@ -14,17 +14,17 @@
 namespace nutik {
 
 // The largest error that a picture is given, in steps of its format (PictureError::steps).
-inline constexpr double kMostSteps = 0.5;
+inline constexpr double kMaxSteps = 0.5;
 
 struct PrecisionChoice {
   ErrorBound bound;                  // of the arithmetic that was chosen
-  std::vector<ErrorBound> rejected;  // faster ones that may err by more than kMostSteps
+  std::vector<ErrorBound> rejected;  // faster ones that may err by more than kMaxSteps
 
   [[nodiscard]] Precision precision() const { return bound.precision; }
-  [[nodiscard]] bool is_right_enough() const { return bound.worst.steps <= kMostSteps; }
+  [[nodiscard]] bool is_right_enough() const { return bound.worst.steps <= kMaxSteps; }
 };
 
-// The first of `available` (fastest first, not empty) whose bound keeps the format within kMostSteps; where none
+// The first of `available` (fastest first, not empty) whose bound keeps the format within kMaxSteps; where none
 // does, the one with the least bound.
 [[nodiscard]] PrecisionChoice choose_precision(const RenderPlan& plan, const OutputFormat& output,
                                                std::span<const Precision> available);

@@ -162,7 +162,7 @@ std::uint32_t rows_at_once(const RenderPlan& plan, const CaptureSource& source, 
     block_bytes = std::max(block_bytes, source.lent_bytes(planned.block));
   }
   const std::uint64_t tile_row =
-      std::uint64_t{shape.width} * shape.channels * kTileSide * kWalkBytes * plan.map->mixed.most_functions();
+      std::uint64_t{shape.width} * shape.channels * kTileSide * kWalkBytes * plan.map->mixed.max_functions();
   const MemoryNeeds needs{{"the picture", shape.value_count() * value_bytes(type)},
                           {"a block", block_bytes},
                           {"sums of a row of tiles", tile_row}};

@@ -9,13 +9,13 @@ namespace nutik {
 namespace {
 
 // A smaller one could leave the range of single precision with the light · ns that it is multiplied to.
-constexpr double kLeastSteadyGain = 0x1p-100;
+constexpr double kMinSteadyGain = 0x1p-100;
 
 // Blocks that a stretch covers wholly before those that its ends cut are corrected: what is read of these besides, where
 // no sums are kept, is little beside all that is read.
-constexpr std::uint64_t kLeastCorrectedBlocks = kGroupBlocks;
+constexpr std::uint64_t kMinCorrectedBlocks = kGroupBlocks;
 
-bool is_long(const BlockExtent& block) { return block.sample_count >= kLeastSteadySamples; }
+bool is_long(const BlockExtent& block) { return block.sample_count >= kMinSteadySamples; }
 
 // The first of a block's samples, from its first on, that `is_it`, as are all behind it.
 template <typename Is>
@@ -98,7 +98,7 @@ SteadyStretches::SteadyStretches(const GainFunction& function, const GainSummary
     if (piece.begin_gain != piece.end_gain) continue;
     const double gain_per_ns =
         std::scalbn(piece.begin_gain, -summary.exponent) / static_cast<double>(summary.support_ns);
-    if (!(std::fabs(gain_per_ns) >= kLeastSteadyGain)) continue;
+    if (!(std::fabs(gain_per_ns) >= kMinSteadyGain)) continue;
     if (end_ns != piece.begin_ns || per_ns != gain_per_ns) {
       close();
       begin_ns = piece.begin_ns;
@@ -111,7 +111,7 @@ SteadyStretches::SteadyStretches(const GainFunction& function, const GainSummary
 
 void SteadyStretches::extend(Stretch& stretch, std::int64_t begin_ns, std::int64_t end_ns,
                              const CaptureLayout& layout) {
-  if (stretch.last - stretch.first < kLeastCorrectedBlocks) return;
+  if (stretch.last - stretch.first < kMinCorrectedBlocks) return;
   const Timeline& timeline = layout.timeline;
   if (stretch.first > 0 && is_long(layout.blocks[stretch.first - 1])) {
     const BlockExtent& block = layout.blocks[stretch.first - 1];

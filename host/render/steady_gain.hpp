@@ -26,7 +26,7 @@ struct SampleSpan {
 static_assert(sizeof(SampleSpan) == 4);
 
 // Shorter blocks are not called steady: nothing is gained by what their sums have in common.
-inline constexpr std::uint32_t kLeastSteadySamples = 16;
+inline constexpr std::uint32_t kMinSteadySamples = 16;
 
 // Blocks b with the same b / kGroupBlocks are a group; the capture's last one may have fewer.
 inline constexpr std::uint64_t kGroupBlocks = 16;

@@ -25,7 +25,7 @@ void TableMemory::keep(std::uint64_t table, std::size_t run, std::shared_ptr<con
   bytes_ += made->bytes();
   recent_.push_front({key, std::move(made)});
   places_.emplace(key, recent_.begin());
-  while (bytes_ > most_bytes_) drop(std::prev(recent_.end()));
+  while (bytes_ > max_bytes_) drop(std::prev(recent_.end()));
 }
 
 void TableMemory::forget(std::uint64_t table) {

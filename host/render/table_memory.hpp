@@ -16,7 +16,7 @@ struct TableRun;
 
 class TableMemory {
  public:
-  explicit TableMemory(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
+  explicit TableMemory(std::uint64_t max_bytes) : max_bytes_(max_bytes) {}
 
   // A number for a table, of its own.
   [[nodiscard]] std::uint64_t new_table();
@@ -39,7 +39,7 @@ class TableMemory {
   void drop(std::list<Kept>::iterator kept);
 
   mutable std::mutex mutex_;
-  std::uint64_t most_bytes_;
+  std::uint64_t max_bytes_;
   std::uint64_t bytes_ = 0;
   std::uint64_t tables_ = 0;
   std::uint64_t runs_made_ = 0;

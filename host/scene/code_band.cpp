@@ -22,7 +22,7 @@ CodeBand CodeBand::of_codes(const CaptureFormat& capture, std::uint32_t codes) {
 CodeBand CodeBand::of_noise(const CaptureFormat& capture, const CameraNoise& noise) {
   constexpr double kSigmas = 3.0;
   constexpr std::uint32_t kBinsToASide = 8;
-  const double least = std::max(1.0, kLeastShare * capture.white_code);
+  const double least = std::max(1.0, kMinShare * capture.white_code);
   CodeBand band;
   for (std::uint32_t channel = 0; channel < capture.shape.channels; ++channel) {
     std::vector<std::uint32_t>& bins = band.bins_.emplace_back();

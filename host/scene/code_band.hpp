@@ -15,11 +15,11 @@ namespace nutik {
 class CodeBand {
  public:
   // Codes stray at least so far, in shares of white: compression and a camera that corrects its exposure see to that.
-  static constexpr double kLeastShare = 1.0 / 32;
+  static constexpr double kMinShare = 1.0 / 32;
 
   // Codes stray by up to `codes` to either side.
   static CodeBand of_codes(const CaptureFormat& capture, std::uint32_t codes);
-  // By three standard deviations of the capture's noise, or kLeastShare where that is more.
+  // By three standard deviations of the capture's noise, or kMinShare where that is more.
   static CodeBand of_noise(const CaptureFormat& capture, const CameraNoise& noise);
 
   [[nodiscard]] std::uint32_t bin(std::uint32_t channel, std::uint32_t code) const {

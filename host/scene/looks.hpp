@@ -12,11 +12,11 @@ namespace nutik {
 
 class Looks {
  public:
-  static constexpr std::uint64_t kMost = 256, kFew = 128;
+  static constexpr std::uint64_t kMax = 256, kFew = 128;
 
   // All of few samples, every other one of more.
   explicit Looks(std::uint64_t sample_count)
-      : Looks(sample_count, std::clamp(sample_count / 2, kFew, kMost)) {}
+      : Looks(sample_count, std::clamp(sample_count / 2, kFew, kMax)) {}
   Looks(std::uint64_t sample_count, std::uint64_t most)
       : samples_(sample_count), count_(std::min(sample_count, most)) {}
 

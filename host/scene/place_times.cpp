@@ -11,9 +11,9 @@ namespace {
 constexpr std::uint32_t kCellsToASide = 48;
 constexpr std::uint32_t kManyUncertain = 16;  // one of so many pixels, or more: cells hang together
 constexpr std::uint32_t kSpotsToASide = 3;    // of a cell
-constexpr double kMostOfAPlace = 0.6;         // looks the same at two looks
+constexpr double kMaxOfAPlace = 0.6;         // looks the same at two looks
 // A place that never looks the same for so much of the time has no look of its own: leaves, or noise.
-constexpr double kLeastAlike = 1.0 / 8;
+constexpr double kMinAlike = 1.0 / 8;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ MemoryNeeds PlaceTimes::needs(const CaptureFormat& capture) {
       ((capture.shape.width - 1) / side + 1) * ((capture.shape.height - 1) / side + 1);
   const std::uint64_t spots = std::min(cells * kSpotsToASide * kSpotsToASide, capture.shape.pixel_count());
   return {{"uncertain places at some samples",
-           spots * Looks::kMost * capture.shape.channels * sizeof(std::uint16_t)}};
+           spots * Looks::kMax * capture.shape.channels * sizeof(std::uint16_t)}};
 }
 
 PlaceTimes::PlaceTimes(CaptureSource& capture, const Region& uncertain, const CodeBand& band)
@@ -132,10 +132,10 @@ PlaceTimes::Clock PlaceTimes::clock_of(const std::vector<std::uint16_t>& bins, s
   std::vector<std::uint8_t> runs;
   std::int64_t alike_ns = 0;
   for (std::size_t look = 0; look < looks; ++look) {
-    runs.push_back(same[best * looks + look] >= kMostOfAPlace ? 1 : 0);
+    runs.push_back(same[best * looks + look] >= kMaxOfAPlace ? 1 : 0);
     if (runs.back() != 0) alike_ns += starts_ns_[look + 1] - starts_ns_[look];
   }
-  if (static_cast<double>(alike_ns) < kLeastAlike * static_cast<double>(timeline_.duration_ns())) {
+  if (static_cast<double>(alike_ns) < kMinAlike * static_cast<double>(timeline_.duration_ns())) {
     runs.assign(looks, 1);
   }
   Clock clock;

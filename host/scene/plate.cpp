@@ -246,7 +246,7 @@ MemoryNeeds plate_needs(const CaptureFormat& capture) {
 }
 
 Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t memory_bytes,
-                 std::uint64_t most_samples,
+                 std::uint64_t max_samples,
                  const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
   const std::uint32_t rows = TileGrid(capture.format().shape).rows();
   std::uint64_t unpacked_bytes = 0;
@@ -258,7 +258,7 @@ Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t mem
   needs.add("a row of tiles at all samples", row_bytes);
   const auto at_once =
       static_cast<std::uint32_t>(std::min<std::uint64_t>(1 + needs.rest_of(memory_bytes) / row_bytes, rows));
-  PlateMaker maker(capture, band, Looks(capture.timeline().sample_count(), most_samples));
+  PlateMaker maker(capture, band, Looks(capture.timeline().sample_count(), max_samples));
   for (std::uint32_t row = 0; row < rows; row += at_once) {
     if (progress) progress(row, rows);
     maker.make(row, std::min(row + at_once, rows));

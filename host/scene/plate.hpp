@@ -34,7 +34,7 @@ struct Plate {
 // strips. Packed blocks are unpacked strip by strip, so that they and the plate stay within `memory_bytes`. Throws
 // MemoryTooLittle, InputError where the capture is damaged.
 [[nodiscard]] Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t memory_bytes,
-                               std::uint64_t most_samples = ~std::uint64_t{0},
+                               std::uint64_t max_samples = ~std::uint64_t{0},
                                const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});
 
 }  // namespace nutik

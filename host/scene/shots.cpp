@@ -10,16 +10,16 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint32_t kMostCellsToASide = 48;
-constexpr double kLeastChange = 1.0 / 16;  // of a cell's mean, as a share of white
-constexpr double kLeastChanged = 0.6;      // of all cells, at a cut
-constexpr double kMostBeside = 0.6;        // of that, from each of the two pictures to the next on its side
+constexpr std::uint32_t kMaxCellsToASide = 48;
+constexpr double kMinChange = 1.0 / 16;  // of a cell's mean, as a share of white
+constexpr double kMinChanged = 0.6;      // of all cells, at a cut
+constexpr double kMaxBeside = 0.6;        // of that, from each of the two pictures to the next on its side
 
 using Means = std::vector<float>;
 
 // Of large cells 64 pixels are looked at, or more.
 std::uint32_t step_of(const Shape& shape) {
-  return std::max((std::max(shape.width, shape.height) - 1) / kMostCellsToASide / 8, 1u);
+  return std::max((std::max(shape.width, shape.height) - 1) / kMaxCellsToASide / 8, 1u);
 }
 
 // Means of channels over cells, as shares of white.
@@ -27,7 +27,7 @@ template <typename Code>
 Means means_of(const CaptureFormat& format, std::span<const std::byte> raster) {
   const auto [width, height, channels] = format.shape;
   const auto* codes = reinterpret_cast<const Code*>(raster.data());
-  const std::uint32_t side = (std::max(width, height) - 1) / kMostCellsToASide + 1;
+  const std::uint32_t side = (std::max(width, height) - 1) / kMaxCellsToASide + 1;
   const std::uint32_t columns = (width - 1) / side + 1, rows = (height - 1) / side + 1;
   std::vector<std::uint64_t> sums(std::size_t{columns} * rows * channels);
   std::vector<std::uint32_t> counts(std::size_t{columns} * rows);
@@ -53,7 +53,7 @@ double changed(const Means& a, const Means& b, std::uint32_t channels) {
   std::size_t count = 0;
   for (std::size_t cell = 0; cell < a.size(); cell += channels) {
     bool differs = false;
-    for (std::size_t i = cell; i < cell + channels; ++i) differs |= std::abs(a[i] - b[i]) > kLeastChange;
+    for (std::size_t i = cell; i < cell + channels; ++i) differs |= std::abs(a[i] - b[i]) > kMinChange;
     count += differs ? 1 : 0;
   }
   return static_cast<double>(count * channels) / static_cast<double>(a.size());
@@ -79,7 +79,7 @@ double correlation(const Means& a, const Means& b) {
 double step_between(const Means& a, const Means& b, std::uint32_t channels) {
   constexpr double kSameScene = 0.8;
   const double share = changed(a, b, channels);
-  return share >= kLeastChanged && correlation(a, b) > kSameScene ? 0 : share;
+  return share >= kMinChanged && correlation(a, b) > kSameScene ? 0 : share;
 }
 
 }  // namespace
@@ -102,9 +102,9 @@ std::vector<SampleRange> shots_of(CaptureSource& capture) {
   std::vector<SampleRange> shots;
   std::uint64_t first = 0;
   for (std::uint64_t k = 1; k < count; ++k) {
-    if (steps[k] < kLeastChanged) continue;
-    if (k > 1 && steps[k - 1] > kMostBeside * steps[k]) continue;
-    if (k + 1 < count && (steps[k + 1] > kMostBeside * steps[k] || double_steps[k] < kLeastChanged)) continue;
+    if (steps[k] < kMinChanged) continue;
+    if (k > 1 && steps[k - 1] > kMaxBeside * steps[k]) continue;
+    if (k + 1 < count && (steps[k + 1] > kMaxBeside * steps[k] || double_steps[k] < kMinChanged)) continue;
     shots.push_back({first, k});
     first = k;
   }

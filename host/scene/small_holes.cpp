@@ -10,8 +10,8 @@ enum class Seen : std::uint8_t { no, now, open };  // open: it belongs to more t
 
 class HoleFiller {
  public:
-  HoleFiller(Region& region, std::size_t most_pixels)
-      : region_(region), most_pixels_(most_pixels), seen_(region.inside.size(), Seen::no) {}
+  HoleFiller(Region& region, std::size_t max_pixels)
+      : region_(region), max_pixels_(max_pixels), seen_(region.inside.size(), Seen::no) {}
 
   void fill() {
     for (std::size_t pixel = 0; pixel < seen_.size(); ++pixel) {
@@ -41,19 +41,19 @@ class HoleFiller {
           part_.push_back(beside);
         }
       }
-      if (part_.size() > most_pixels_) return false;
+      if (part_.size() > max_pixels_) return false;
     }
     return true;
   }
 
   Region& region_;
-  std::size_t most_pixels_;
+  std::size_t max_pixels_;
   std::vector<Seen> seen_;
   std::vector<std::size_t> part_;
 };
 
 }  // namespace
 
-void fill_small_holes(Region& region, std::size_t most_pixels) { HoleFiller(region, most_pixels).fill(); }
+void fill_small_holes(Region& region, std::size_t max_pixels) { HoleFiller(region, max_pixels).fill(); }
 
 }  // namespace nutik

@@ -8,7 +8,7 @@
 namespace nutik {
 
 // Adds them to the region. A hole that hangs together, also over corners, with the picture's border or with more than
-// `most_pixels` stays. Takes a byte a pixel.
-void fill_small_holes(Region& region, std::size_t most_pixels);
+// `max_pixels` stays. Takes a byte a pixel.
+void fill_small_holes(Region& region, std::size_t max_pixels);
 
 }  // namespace nutik

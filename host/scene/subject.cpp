@@ -13,7 +13,7 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint64_t kLeastCells = 6;  // fewer are noise
+constexpr std::uint64_t kMinCells = 6;  // fewer are noise
 
 // The cells in which a subject is looked for, the last ones included.
 struct Field {
@@ -89,7 +89,7 @@ class Followed {
  public:
   Followed(SubjectPlace first, std::size_t look) : last_look_(look) { places_.push_back(std::move(first)); }
 
-  [[nodiscard]] bool is_lost(std::size_t look) const { return look > last_look_ + kMostLooksWithout; }
+  [[nodiscard]] bool is_lost(std::size_t look) const { return look > last_look_ + kMaxLooksWithout; }
   [[nodiscard]] bool was_seen(std::size_t look) const { return last_look_ == look; }
 
   // How unlike a place is to what would be seen of this now, going on as it did: how far off it lies, in its own sizes,
@@ -137,7 +137,7 @@ class Followed {
   [[nodiscard]] std::vector<SubjectPlace>&& places() && { return std::move(places_); }
 
  private:
-  static constexpr std::size_t kMostLooksWithout = 3;
+  static constexpr std::size_t kMaxLooksWithout = 3;
 
   std::vector<SubjectPlace> places_;
   std::size_t last_look_, last_step_ = 1;
@@ -152,13 +152,13 @@ class Follower {
   // What differs at the next look.
   void add(const DifferingCells& cells, std::uint64_t sample) {
     std::vector<SubjectPlace> places;
-    for (std::vector<std::size_t>& part : parts_of(cells.region, kLeastCells)) {
-      if (places.size() == kMostParts) break;
+    for (std::vector<std::size_t>& part : parts_of(cells.region, kMinCells)) {
+      if (places.size() == kMaxParts) break;
       places.push_back(place_of(std::move(part), sample, cells, side_, shape_, field_));
     }
     for (SubjectPlace& place : places) {
       Followed* nearest = nullptr;
-      double least = kMostStray;
+      double least = kMaxStray;
       for (Followed& each : followed_) {
         if (each.is_lost(look_) || each.was_seen(look_)) continue;
         const double strays = each.strays(place, look_, side_);
@@ -181,8 +181,8 @@ class Follower {
   }
 
  private:
-  static constexpr std::size_t kMostParts = 12;
-  static constexpr double kMostStray = 4;
+  static constexpr std::size_t kMaxParts = 12;
+  static constexpr double kMaxStray = 4;
 
   Shape shape_;
   std::uint32_t side_;
@@ -193,9 +193,9 @@ class Follower {
 
 // From one place that it stays at to the last there. None where hardly anything would be left of its way.
 std::vector<SampleRange> rests_of(const std::vector<SubjectPlace>& places, std::uint32_t side) {
-  constexpr double kMostStir = 0.25;  // of its size
-  constexpr std::uint64_t kLeastLooks = 4;
-  constexpr std::uint64_t kLeastOfWay = 8;  // one of so many parts of the time
+  constexpr double kMaxStir = 0.25;  // of its size
+  constexpr std::uint64_t kMinLooks = 4;
+  constexpr std::uint64_t kMinOfWay = 8;  // one of so many parts of the time
   std::vector<SampleRange> rests;
   if (places.empty()) return rests;
   const std::uint64_t way = places.back().sample - places.front().sample + 1;
@@ -204,11 +204,11 @@ std::vector<SampleRange> rests_of(const std::vector<SubjectPlace>& places, std::
     const double size = side * std::sqrt(static_cast<double>(places[first].cells.size()));
     last = first;
     while (last + 1 < places.size() &&
-           distance(places[last + 1].centre, places[first].centre) <= kMostStir * size) {
+           distance(places[last + 1].centre, places[first].centre) <= kMaxStir * size) {
       ++last;
     }
     const SampleRange rest{places[first].sample, places[last].sample + 1};
-    if (last - first + 1 < kLeastLooks || kLeastOfWay * rest.size() < way) continue;
+    if (last - first + 1 < kMinLooks || kMinOfWay * rest.size() < way) continue;
     // As one where it only shifted.
     if (!rests.empty() && first > 0 && rests.back().last == places[first - 1].sample + 1) {
       rests.back().last = rest.last;
@@ -217,7 +217,7 @@ std::vector<SampleRange> rests_of(const std::vector<SubjectPlace>& places, std::
     }
   }
   for (const SampleRange& rest : rests) resting += rest.size();
-  if (kLeastOfWay * (way - resting) < way) rests.clear();
+  if (kMinOfWay * (way - resting) < way) rests.clear();
   return rests;
 }
 
@@ -256,7 +256,7 @@ class Tracker {
         static_cast<double>(differing) /
         (static_cast<double>(field_.right - field_.left + 1) *
          static_cast<double>(field_.bottom - field_.top + 1) * static_cast<double>(looks_));
-    without_ = differing >= kLeastCells ? SampleRange()
+    without_ = differing >= kMinCells ? SampleRange()
                                         : SampleRange{without_.empty() ? sample : without_.first, sample + 1};
     if (without_.size() > track_.empty.size()) track_.empty = without_;
     follower_.add(cells, sample);
@@ -268,11 +268,11 @@ class Tracker {
     const Way way(track_.places);
     track_.extent = way.extent();
     // A pendulum turns often on its long way; who stands for a while stirs, and yet goes somewhere.
-    constexpr double kMostTurnsOfLength = 1.3, kMostTurnsOfExtent = 2;
+    constexpr double kMaxTurnsOfLength = 1.3, kMaxTurnsOfExtent = 2;
     track_.fill = middle_of(track_.places, &SubjectPlace::fill);
     track_.share = middle_of(track_.places, &SubjectPlace::share);
     track_.flickers =
-        way.turns_of_length() > kMostTurnsOfLength && way.turns_of_extent() > kMostTurnsOfExtent;
+        way.turns_of_length() > kMaxTurnsOfLength && way.turns_of_extent() > kMaxTurnsOfExtent;
     return std::move(track_);
   }
 
@@ -286,7 +286,7 @@ class Tracker {
 
 }  // namespace
 
-double least_misplaced_pixels(const Shape& shape) { return Difference::side(shape) / 2.0; }
+double min_misplaced_pixels(const Shape& shape) { return Difference::side(shape) / 2.0; }
 
 double SubjectTrack::size() const {
   std::vector<std::size_t> sizes;

@@ -52,7 +52,7 @@ struct SubjectTrack {
 
 // Still things that lie so many pixels from where the plate has them, or more, are taken for what moves: half of a cell
 // along their edges differs.
-[[nodiscard]] double least_misplaced_pixels(const Shape& shape);
+[[nodiscard]] double min_misplaced_pixels(const Shape& shape);
 
 // One in each region, of the pixels there. A pixel is not the plate's where a channel differs from it by more than
 // `by_codes`. What hangs together at a sample is taken for the same as what lay nearest where that went at the samples

@@ -36,7 +36,7 @@ bool share_a_cell(const SubjectPlace& a, const SubjectPlace& b) {
 }  // namespace
 
 Places telling_places(const std::vector<SubjectPlace>& places) {
-  constexpr double kLeastSize = 0.25, kLeastContrast = 0.5, kLeastOfWhole = 0.5;  // shares of medians
+  constexpr double kMinSize = 0.25, kMinContrast = 0.5, kMinOfWhole = 0.5;  // shares of medians
   Places telling;
   std::vector<double> contrasts;
   for (const SubjectPlace& place : places) {
@@ -45,11 +45,11 @@ Places telling_places(const std::vector<SubjectPlace>& places) {
   }
   if (telling.empty()) return telling;
   const double size = median_size(telling), contrast = median_of(std::move(contrasts));
-  erase_smaller(telling, kLeastSize * size, false);
+  erase_smaller(telling, kMinSize * size, false);
   std::erase_if(telling,
-                [&](const SubjectPlace* place) { return place->contrast < kLeastContrast * contrast; });
+                [&](const SubjectPlace* place) { return place->contrast < kMinContrast * contrast; });
   const Places whole = whole_places(telling);
-  if (!whole.empty()) erase_smaller(telling, kLeastOfWhole * median_size(whole), true);
+  if (!whole.empty()) erase_smaller(telling, kMinOfWhole * median_size(whole), true);
   return telling;
 }
 

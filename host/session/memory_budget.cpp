@@ -12,7 +12,7 @@ BlocksTooLong::BlocksTooLong(std::uint64_t bytes, std::uint32_t block_samples, s
     : UsageError(format(
           "blocks of {} samples take {} each, and several are held: more than the {} of memory allowed",
           block_samples, bytes_text(block_samples * sample_bytes), bytes_text(bytes))),
-      most_samples(most) {}
+      max_samples(most) {}
 
 MemoryBudget MemoryBudget::of_machine() {
   return {static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
@@ -26,7 +26,7 @@ MemoryNeeds rendering_needs(const CaptureFormat& capture, ValueType type, std::u
   MemoryNeeds needs = mask_needs(capture);
   needs.add(picture_needs(capture.shape, type));
   needs.add("gain tables of a block",
-            function_count * (block_samples + 1) * (4 * kMostSumBytes + 2 * sizeof(double)));
+            function_count * (block_samples + 1) * (4 * kMaxSumBytes + 2 * sizeof(double)));
   return needs;
 }
 

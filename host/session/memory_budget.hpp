@@ -42,10 +42,10 @@ using NeedsOfFormat = std::function<MemoryNeeds(const CaptureFormat& capture)>;
 
 // Blocks of the stated length do not fit the budget.
 struct BlocksTooLong : UsageError {
-  std::uint64_t most_samples;  // that fit
+  std::uint64_t max_samples;  // that fit
 
   BlocksTooLong(std::uint64_t bytes, std::uint32_t block_samples, std::uint64_t sample_bytes,
-                std::uint64_t most_samples);
+                std::uint64_t max_samples);
 };
 
 }  // namespace nutik

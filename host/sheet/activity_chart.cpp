@@ -28,8 +28,8 @@ void mark(plot::Canvas& canvas, plot::Graph& graph, const Timeline& timeline, co
 // A step for each sample, or for each run of them where they are many: its largest share, in percent.
 std::vector<plot::Point> steps_of(const Timeline& timeline, std::span<const std::uint64_t> changed_pixels,
                                   std::uint64_t pixel_count) {
-  const auto most_steps = static_cast<std::uint64_t>(2 * kBox.width);
-  const std::uint64_t run = (changed_pixels.size() + most_steps - 1) / most_steps;
+  const auto max_steps = static_cast<std::uint64_t>(2 * kBox.width);
+  const std::uint64_t run = (changed_pixels.size() + max_steps - 1) / max_steps;
   std::vector<plot::Point> steps;
   for (std::uint64_t first = 0; first < changed_pixels.size(); first += run) {
     const std::uint64_t last = std::min<std::uint64_t>(first + run, changed_pixels.size());

@@ -15,15 +15,15 @@ constexpr std::uint32_t kMargin = 12;
 constexpr std::uint32_t kGap = 8;
 constexpr std::uint32_t kLabelHeight = 20;  // below each picture
 constexpr std::uint32_t kHeadingHeight = 26;
-constexpr double kUsualCell = 240.0;
-constexpr double kUsualAspect = 1.5;  // of the whole sheet
+constexpr double kDefaultCell = 240.0;
+constexpr double kDefaultAspect = 1.5;  // of the whole sheet
 
 // As many columns as give a sheet of the usual aspect, or nearly as many where these leave no row short; fewer
 // where pictures would be too small to see.
-std::uint32_t usual_columns(const Shape& picture, std::uint32_t count, std::uint32_t width) {
+std::uint32_t default_columns(const Shape& picture, std::uint32_t count, std::uint32_t width) {
   const double aspect = static_cast<double>(picture.width) / picture.height;
-  const double wanted = std::ceil(std::sqrt(count * kUsualAspect / aspect));
-  const double most = std::max(1.0, std::floor(width / std::min<double>(kUsualCell, picture.width + kGap)));
+  const double wanted = std::ceil(std::sqrt(count * kDefaultAspect / aspect));
+  const double most = std::max(1.0, std::floor(width / std::min<double>(kDefaultCell, picture.width + kGap)));
   const auto columns = static_cast<std::uint32_t>(std::clamp(wanted, 1.0, std::min<double>(most, count)));
   if (count % columns == 0) return columns;
   for (const std::uint32_t near : {columns + 1, columns - 1}) {
@@ -40,9 +40,9 @@ std::uint32_t SheetLayout::height() const {
 }
 
 SheetLayout lay_out(const Shape& picture, std::uint32_t count, const SheetWishes& wishes) {
-  const std::uint32_t width = wishes.width.value_or(kUsualWidth);
+  const std::uint32_t width = wishes.width.value_or(kDefaultWidth);
   SheetLayout layout;
-  layout.columns = std::min(wishes.columns.value_or(usual_columns(picture, count, width)), count);
+  layout.columns = std::min(wishes.columns.value_or(default_columns(picture, count, width)), count);
   layout.rows = (count + layout.columns - 1) / layout.columns;
   const std::int64_t room = std::int64_t{width} - 2 * kMargin - std::int64_t{layout.columns - 1} * kGap;
   const std::int64_t cell = room / layout.columns;

@@ -27,11 +27,11 @@ struct SheetLayout {
 // What was asked for, and what is chosen where nothing was.
 struct SheetWishes {
   std::optional<std::uint32_t> columns;
-  std::optional<std::uint32_t> width;  // of the whole sheet; default: up to kUsualWidth
+  std::optional<std::uint32_t> width;  // of the whole sheet; default: up to kDefaultWidth
   friend bool operator==(const SheetWishes&, const SheetWishes&) = default;
 };
-inline constexpr std::uint32_t kUsualWidth = 1600;
-inline constexpr std::uint64_t kMostPictures = 400;  // on a sheet
+inline constexpr std::uint32_t kDefaultWidth = 1600;
+inline constexpr std::uint64_t kMaxPictures = 400;  // on a sheet
 inline constexpr std::uint32_t kNarrowestCell = 48;  // in which a label can be read
 
 // A layout for `count` pictures of this shape. No picture is enlarged where no width was asked for. Throws

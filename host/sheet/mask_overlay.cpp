@@ -21,7 +21,7 @@ constexpr std::size_t kColours = plot::kPalette.size() - 1;  // without black, w
 constexpr double kMargin = 10.0;
 constexpr double kLegendLine = 22.0;
 constexpr double kSwatch = 14.0;
-constexpr std::size_t kMostInLegend = 60;
+constexpr std::size_t kMaxInLegend = 60;
 
 struct Tag {
   std::uint8_t tag = 0;
@@ -110,8 +110,8 @@ void number_region(plot::Canvas& canvas, const Mask& mask, const Tag& tag, doubl
 std::vector<std::string> legend_of(const std::vector<Tag>& tags, std::uint64_t pixel_count) {
   std::vector<std::string> legend;
   for (const Tag& tag : tags) {
-    if (legend.size() == kMostInLegend) {
-      legend.push_back(format("and {} more tags", tags.size() - kMostInLegend));
+    if (legend.size() == kMaxInLegend) {
+      legend.push_back(format("and {} more tags", tags.size() - kMaxInLegend));
       break;
     }
     legend.push_back(format("M{}  {} pixels, {:.3g} %", tag.tag, tag.pixel_count,
@@ -151,7 +151,7 @@ Picture mask_overlay(const Mask& mask, const Picture& picture) {
   for (std::size_t i = 0; i < legend.size(); ++i) {
     const double x = kMargin + static_cast<double>(i % columns) * column;
     const double y = height + kMargin + (static_cast<double>(i / columns) + 0.5) * kLegendLine;
-    if (i < tags.size() && i < kMostInLegend) {
+    if (i < tags.size() && i < kMaxInLegend) {
       const plot::Box swatch{x, y - kSwatch / 2, kSwatch, kSwatch};
       canvas.fill(swatch, tags[i].colour);
       canvas.frame(swatch, {.colour = plot::kNote});

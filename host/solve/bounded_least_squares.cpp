@@ -13,9 +13,9 @@ namespace {
 using Column = Eigen::Index;
 
 // Of a decomposition's largest pivot: what is smaller is taken for 0.
-constexpr double kLeastPivot = 1e-9;
+constexpr double kMinPivot = 1e-9;
 // A gradient this much smaller than its parts is none.
-constexpr double kLeastGradient = 1e-12;
+constexpr double kMinGradient = 1e-12;
 
 Eigen::MatrixXd factors_of(const std::vector<LeastSquaresRow>& rows) {
   Eigen::MatrixXd factors(static_cast<Column>(rows.size()), static_cast<Column>(rows.front().factors.size()));
@@ -41,11 +41,11 @@ class ActiveSet {
   }
 
   std::vector<double> solve() {
-    const auto most_turns = 10 * (bounds_.size() + 1);
-    for (std::size_t turn = 0; turn < most_turns; ++turn) {
+    const auto max_turns = 10 * (bounds_.size() + 1);
+    for (std::size_t turn = 0; turn < max_turns; ++turn) {
       check_interruption();
       descend();
-      const auto freed = most_wanted_within();
+      const auto freed = max_wanted_within();
       if (!freed) break;
       is_held_[*freed] = false;
     }
@@ -63,7 +63,7 @@ class ActiveSet {
       if (free.empty()) return;
       const Eigen::MatrixXd columns = a_(Eigen::all, free);
       Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-      decomposition.setThreshold(kLeastPivot);
+      decomposition.setThreshold(kMinPivot);
       decomposition.compute(columns);
       const Eigen::VectorXd step = decomposition.solve(b_ - a_ * x_);
       if (!go(free, step)) return;
@@ -95,7 +95,7 @@ class ActiveSet {
   }
 
   // Of the x that bounds hold the one that would lessen the squares most within them.
-  [[nodiscard]] std::optional<std::size_t> most_wanted_within() const {
+  [[nodiscard]] std::optional<std::size_t> max_wanted_within() const {
     const Eigen::VectorXd left = b_ - a_ * x_;
     std::optional<std::size_t> best;
     double most = 0.0;
@@ -105,7 +105,7 @@ class ActiveSet {
       const double along = column.dot(left);
       const double inward = x_[static_cast<Column>(i)] == bounds_[i].low ? along : -along;
       const double parts = column.norm() * (b_.norm() + left.norm());
-      if (inward <= kLeastGradient * parts || inward / column.norm() <= most) continue;
+      if (inward <= kMinGradient * parts || inward / column.norm() <= most) continue;
       most = inward / column.norm();
       best = i;
     }
@@ -130,7 +130,7 @@ std::vector<double> least_squares(const std::vector<LeastSquaresRow>& rows, cons
 std::size_t rank_of(const std::vector<LeastSquaresRow>& rows) {
   if (rows.empty() || rows.front().factors.empty()) return 0;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(kLeastPivot);
+  decomposition.setThreshold(kMinPivot);
   decomposition.compute(factors_of(rows));
   return static_cast<std::size_t>(decomposition.rank());
 }

@@ -16,14 +16,14 @@ namespace {
 
 using Kind = LightWish::Kind;
 
-constexpr int kMostSteps = 60;
+constexpr int kMaxSteps = 60;
 // Other places to begin at, where the first led to more cost than that.
 constexpr int kOtherBegins = 15;
-constexpr double kLeastCost = 1e-12;
+constexpr double kMinCost = 1e-12;
 // A step that changes no gain by more than this share of it is none.
-constexpr double kLeastStep = 1e-15;
+constexpr double kMinStep = 1e-15;
 // Nor is one that lessens the cost by a smaller share.
-constexpr double kLeastGain = 1e-12;
+constexpr double kMinGain = 1e-12;
 // How far gains are changed to see what that changes in a divisor, as a share.
 constexpr double kProbe = 1e-4;
 // A gain this much smaller than the largest is what rounding left of 0.
@@ -275,7 +275,7 @@ std::vector<double> GainSearch::stepped() const {
 void GainSearch::descend() {
   if (gains_.empty()) return;
   double cost = cost_at(gains_);
-  for (int step = 0; step < kMostSteps && cost > 0.0; ++step) {
+  for (int step = 0; step < kMaxSteps && cost > 0.0; ++step) {
     check_interruption();
     std::vector<double> towards;
     try {
@@ -288,12 +288,12 @@ void GainSearch::descend() {
       std::vector<double> next = gains_;
       for (std::size_t i = 0; i < next.size(); ++i) {
         next[i] = share == 1.0 ? towards[i] : next[i] + share * (towards[i] - next[i]);
-        is_far |= std::fabs(next[i] - gains_[i]) > kLeastStep * std::fabs(next[i]);
+        is_far |= std::fabs(next[i] - gains_[i]) > kMinStep * std::fabs(next[i]);
       }
       if (!is_far) break;
       const double reached = cost_at(next);
       if (reached >= cost) continue;
-      is_better = reached < cost * (1 - kLeastGain);
+      is_better = reached < cost * (1 - kMinGain);
       cost = reached;
       gains_ = std::move(next);
       if (!is_better) return;
@@ -308,7 +308,7 @@ void GainSearch::descend_from_several() {
   descend();
   double least = cost_at(gains_);
   std::vector<double> best = gains_;
-  for (int begin = 1; begin <= kOtherBegins && least > kLeastCost; ++begin) {
+  for (int begin = 1; begin <= kOtherBegins && least > kMinCost; ++begin) {
     for (std::size_t i = 0; i < bounds_.size(); ++i) {
       const double turn = begin * std::sqrt(static_cast<double>((i + 1) * (i + 2)));  // irrational
       gains_[i] = place_within(bounds_[i], turn - std::floor(turn));

@@ -55,9 +55,9 @@ std::filesystem::path followed(std::filesystem::path path) {
     return error ? path : target;
   }
   for (int links = 0; std::filesystem::is_symlink(path, error); ++links) {
-    constexpr int kMostLinks = 40;  // as many as the system follows
+    constexpr int kMaxLinks = 40;  // as many as the system follows
     const std::filesystem::path target = std::filesystem::read_symlink(path, error);
-    if (error || links == kMostLinks) {
+    if (error || links == kMaxLinks) {
       throw OutputError(format("{} is a link that leads nowhere; choose another name", path.string()));
     }
     path = path.parent_path() / target;
@@ -110,8 +110,8 @@ OutputFile::OutputFile(std::filesystem::path path, Lasting lasting)
   if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored)) {
     throw OutputError(format("{} exists and is no regular file; choose another name", path_.string()));
   }
-  constexpr int kMostTries = 100;
-  for (int tried = 0; descriptor_ < 0 && tried < kMostTries; ++tried) {
+  constexpr int kMaxTries = 100;
+  for (int tried = 0; descriptor_ < 0 && tried < kMaxTries; ++tried) {
     const std::string again = tried == 0 ? "" : format("-{}", tried);
     temporary_path_ = path_.parent_path() / format(".{}.nutik{}.part", path_.filename().string(), again);
     descriptor_ = open_temporary(temporary_path_);

@@ -13,11 +13,11 @@
 
 namespace nutik {
 
-// Calls work(i) for every i in [0, count), each once, on as many threads as there are cores, or `most_threads` if
+// Calls work(i) for every i in [0, count), each once, on as many threads as there are cores, or `max_threads` if
 // that is fewer. The first exception is thrown again when all have stopped; a signal is one
 // (system/interruption.hpp).
 template <typename Work>
-void parallel_for(std::uint64_t count, Work work, std::uint32_t most_threads = ~std::uint32_t{0}) {
+void parallel_for(std::uint64_t count, Work work, std::uint32_t max_threads = ~std::uint32_t{0}) {
   std::atomic<std::uint64_t> next{0};
   std::exception_ptr failure;
   std::mutex failure_mutex;
@@ -35,7 +35,7 @@ void parallel_for(std::uint64_t count, Work work, std::uint32_t most_threads = ~
   };
   {
     const std::uint64_t workers =
-        std::min<std::uint64_t>(count, std::min(most_threads, std::thread::hardware_concurrency()));
+        std::min<std::uint64_t>(count, std::min(max_threads, std::thread::hardware_concurrency()));
     std::vector<std::jthread> helpers;
     for (std::uint64_t i = 1; i < workers; ++i) helpers.emplace_back(run);
     run();

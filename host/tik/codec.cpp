@@ -20,7 +20,7 @@ namespace {
 
 // Large enough for the compressor to learn each part of a group, small enough to keep all cores busy.
 constexpr std::uint64_t kGroupBytes = 2 << 20;
-constexpr int kUsualZstdLevel = 1;
+constexpr int kDefaultZstdLevel = 1;
 
 // What packs the counts of tiles and the heads of groups.
 Codec general_codec(const Codec& codec) { return codec.id == CodecId::rice ? Codec{CodecId::zstd, 0} : codec; }
@@ -41,7 +41,7 @@ std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> p
   } else {
     packed.resize(ZSTD_compressBound(plain.size()));
     const std::size_t bytes = ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(),
-                                            codec.level == 0 ? kUsualZstdLevel : codec.level);
+                                            codec.level == 0 ? kDefaultZstdLevel : codec.level);
     if (ZSTD_isError(bytes)) throw OutputError(format("zstd failed: {}", ZSTD_getErrorName(bytes)));
     packed.resize(bytes);
   }
@@ -247,7 +247,7 @@ std::string Codec::text() const {
 }
 
 std::vector<std::byte> pack(const Codec& codec, const BlockGeometry& geometry,
-                            std::span<const std::byte> payload, std::uint32_t most_threads) {
+                            std::span<const std::byte> payload, std::uint32_t max_threads) {
   if (codec.id == CodecId::none) return {payload.begin(), payload.end()};
   std::vector<TileEntry> entries(geometry.tile_count);
   std::memcpy(entries.data(), payload.data(), entries.size() * sizeof(TileEntry));
@@ -266,7 +266,7 @@ std::vector<std::byte> pack(const Codec& codec, const BlockGeometry& geometry,
         packed[g] = pack_group(codec, group, payload);
         packed[g].shrink_to_fit();  // it grew part by part
       },
-      most_threads);
+      max_threads);
 
   std::vector<std::byte> stored;
   std::size_t packed_bytes = 0;

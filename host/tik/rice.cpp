@@ -204,8 +204,8 @@ RiceGroup encode_rice(const TileGroup& group, std::span<const std::byte> payload
   *marks = static_cast<std::byte>(shift);
   auto* const shapes = reinterpret_cast<std::uint8_t*>(marks + 1);
   // What is never written takes no memory.
-  const auto low = std::make_unique_for_overwrite<std::byte[]>(planes * kMostPlaneBytes);
-  const auto levels = std::make_unique_for_overwrite<std::byte[]>(planes * kMostLevelBytes + 2 * sizeof(std::uint64_t));
+  const auto low = std::make_unique_for_overwrite<std::byte[]>(planes * kMaxPlaneBytes);
+  const auto levels = std::make_unique_for_overwrite<std::byte[]>(planes * kMaxLevelBytes + 2 * sizeof(std::uint64_t));
   RiceWriter writer(shapes, shapes + planes, low.get(), levels.get(), shift);
   with_kernel(group.geometry, instructions, [&](auto kernel) { kernel.encode(group, payload, writer); });
   writer.finish_levels();

@@ -11,11 +11,11 @@
 namespace nutik::tik {
 
 inline constexpr std::uint32_t kLevelBits = 4;
-inline constexpr std::uint32_t kMostLevels = 15;
+inline constexpr std::uint32_t kMaxLevels = 15;
 // At most these bytes of planes and of levels does a plane of codes take: 15 low bits; 15 levels of 64 bits each, and 8 for
 // its lines.
-inline constexpr std::size_t kMostPlaneBytes = 15 * 8;
-inline constexpr std::size_t kMostLevelBytes = 15 * 8 + 8;
+inline constexpr std::size_t kMaxPlaneBytes = 15 * 8;
+inline constexpr std::size_t kMaxLevelBytes = 15 * 8 + 8;
 
 // Its memory must have room for what the planes of a group come to at most.
 class RiceWriter {

@@ -44,10 +44,10 @@ Header with_codec(Header header, const Codec& codec) {
 }  // namespace
 
 Writer::Writer(const std::filesystem::path& path, const Header& header, const Codec& codec,
-               std::span<const std::byte> first_sample, std::uint32_t most_threads,
+               std::span<const std::byte> first_sample, std::uint32_t max_threads,
                OutputFile::Lasting lasting)
     : Writer(path, with_codec(header, codec), codec,
-             NetpbmRaster{netpbm_raster(header.capture, first_sample)}, most_threads, lasting) {}
+             NetpbmRaster{netpbm_raster(header.capture, first_sample)}, max_threads, lasting) {}
 
 Writer Writer::from_raster(const std::filesystem::path& path, const Header& header,
                            std::span<const std::byte> raster) {
@@ -60,8 +60,8 @@ Writer Writer::from_raster(const std::filesystem::path& path, const Header& head
 }
 
 Writer::Writer(const std::filesystem::path& path, Header header, const Codec& codec,
-               const NetpbmRaster& raster, std::uint32_t most_threads, OutputFile::Lasting lasting)
-    : file_(path, lasting), header_(std::move(header)), codec_(codec), most_threads_(most_threads) {
+               const NetpbmRaster& raster, std::uint32_t max_threads, OutputFile::Lasting lasting)
+    : file_(path, lasting), header_(std::move(header)), codec_(codec), max_threads_(max_threads) {
   header_.version = kVersion;
   std::vector<std::byte> front = raster.bytes;
   const std::string text = header_.text();
@@ -84,7 +84,7 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
   std::span<const std::byte> packed_part;
   std::span<const std::span<const std::byte>> stored = parts.parts();
   if (codec_.id != CodecId::none) {
-    packed = pack(codec_, geometry, block.payload, most_threads_);
+    packed = pack(codec_, geometry, block.payload, max_threads_);
     packed_part = packed;
     stored = {&packed_part, 1};
   }

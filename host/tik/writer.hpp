@@ -26,7 +26,7 @@ class Writer {
   // Starts the file with the picture of the first sample: header.capture.sample_bytes() bytes. Nothing
   // stands under `path` before finish(). Throws OutputError where it cannot be written.
   Writer(const std::filesystem::path& path, const Header& header, const Codec& codec,
-         std::span<const std::byte> first_sample, std::uint32_t most_threads = ~std::uint32_t{0},
+         std::span<const std::byte> first_sample, std::uint32_t max_threads = ~std::uint32_t{0},
          OutputFile::Lasting lasting = OutputFile::Lasting::yes);
 
   // The same of a picture that lay at the front of another .tik: a Netpbm raster.
@@ -52,7 +52,7 @@ class Writer {
     std::vector<std::byte> bytes;
   };
   Writer(const std::filesystem::path& path, Header header, const Codec& codec, const NetpbmRaster& raster,
-         std::uint32_t most_threads, OutputFile::Lasting lasting);
+         std::uint32_t max_threads, OutputFile::Lasting lasting);
 
   void append(BlockHeader header, std::span<const std::span<const std::byte>> payload,
               std::span<const Exposure> exposures);
@@ -62,7 +62,7 @@ class Writer {
   OutputFile file_;
   Header header_;
   Codec codec_;
-  std::uint32_t most_threads_;  // that pack
+  std::uint32_t max_threads_;  // that pack
   std::vector<IndexEntry> index_;
   std::uint64_t front_checksum_ = 0;  // of what stands before the first block
   std::uint64_t sample_count_ = 0;

@@ -10,8 +10,8 @@ from . import _nutik
 from ._nutik import UsageError
 from ._words import Array, Path, Time, path_word, tag_of, time_ns, time_word, times_ns, warn
 
-_LEAST_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
-_MOST_SAMPLES = 1 << 20
+_MIN_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
+_MAX_SAMPLES = 1 << 20
 _CHORD_SHARE = 0.1     # of the error, by which a callable may leave the chord of two samples in their middle
 
 
@@ -139,7 +139,7 @@ def fit(gain: Callable[[Any], Any], start: Time, end: Time, *, error: float = 1e
             raise UsageError(f"the function is not finite at {seconds[~np.isfinite(values)][0]!r} s")
         return values
 
-    count = min(_LEAST_SAMPLES, end_ns - begin_ns)
+    count = min(_MIN_SAMPLES, end_ns - begin_ns)
     times = begin_ns + (np.arange(count + 1) * ((end_ns - begin_ns) / count)).round().astype(np.int64)
     times[-1] = end_ns
     times = np.unique(times)
@@ -151,7 +151,7 @@ def fit(gain: Callable[[Any], Any], start: Time, end: Time, *, error: float = 1e
         middle = times[begin] + (times[begin + 1] - times[begin]) // 2
         if not len(middle):
             break
-        if len(times) + len(middle) > _MOST_SAMPLES:
+        if len(times) + len(middle) > _MAX_SAMPLES:
             raise UsageError(f"the function bends in too many places to stay within {error} of it; give its pieces as "
                              "points, or allow a larger error=")
         found = gains_at(middle)

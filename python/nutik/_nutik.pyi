@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __version__: str
-LEAST_ERROR: float
+MIN_ERROR: float
 WHOLE_SHARE: int
 
 class Error(Exception):

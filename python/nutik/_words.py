@@ -23,7 +23,7 @@ Path = Union[str, "PathLike[str]"]
 Array = NDArray[Any]
 Progress = Optional[Callable[[int, int], Any]]  # progress(done, total); total is 0 where it is not known
 
-_MOST_DIGITS = 10 ** 15 - 1  # that the engine reads above and below a fraction line
+_MAX_DIGITS = 10 ** 15 - 1  # that the engine reads above and below a fraction line
 _SECOND_NS = 10 ** 9
 
 
@@ -66,7 +66,7 @@ def number_word(value: Number, what: str) -> str:
     if isinstance(value, str):
         return value
     number = exact(value, what)
-    if max(abs(number.numerator), number.denominator) > _MOST_DIGITS:
+    if max(abs(number.numerator), number.denominator) > _MAX_DIGITS:
         raise UsageError(f"{what} {value!r} needs more than 15 digits; write it as a fraction, '30000/1001'")
     return f"{number.numerator}/{number.denominator}"
 
@@ -100,7 +100,7 @@ def time_word(time: Time, what: str) -> str:
     if isinstance(time, str):
         return time
     seconds = seconds_of(time, what)
-    if max(abs(seconds.numerator), seconds.denominator) > _MOST_DIGITS:
+    if max(abs(seconds.numerator), seconds.denominator) > _MAX_DIGITS:
         return f"{half_up(seconds * _SECOND_NS)}ns"
     return f"{seconds.numerator}/{seconds.denominator}s"
 

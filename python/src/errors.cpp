@@ -34,10 +34,10 @@ ErrorTypes& types() {
 std::string message_text(const std::exception& error) {
   const std::string message = error.what();
   if (const auto* memory = dynamic_cast<const MemoryTooLittle*>(&error))
-    return format("{}; allow more: memory='{}MB'", message, memory->least_bytes() / 1'000'000 + 1);
+    return format("{}; allow more: memory='{}MB'", message, memory->min_bytes() / 1'000'000 + 1);
   if (const auto* blocks = dynamic_cast<const BlocksTooLong*>(&error)) {
     return format("{} (memory=); use fewer samples a block (block_samples={})", message,
-                  blocks->most_samples);
+                  blocks->max_samples);
   }
   if (dynamic_cast<const tik::Recoverable*>(&error) != nullptr)
     return message + "; save what is whole with: nutik-cl recover";

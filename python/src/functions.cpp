@@ -74,8 +74,8 @@ py::tuple points(const HeldFunction& held) {
 }
 
 HeldFunction shutter(const std::string& shape, std::int64_t begin_ns, std::int64_t end_ns, double error) {
-  if (!(error >= ShutterShape::kLeastError && error < 1.0))
-    throw UsageError(format("error={} is no share from {} to 1", error, ShutterShape::kLeastError));
+  if (!(error >= ShutterShape::kMinError && error < 1.0))
+    throw UsageError(format("error={} is no share from {} to 1", error, ShutterShape::kMinError));
   return {ShutterShape::parse(shape).function({begin_ns, end_ns}, error)};
 }
 
@@ -136,7 +136,7 @@ void bind_functions(py::module_& module) {
       py::arg("path"), py::arg("text"));
   module.def("interval_ns", &interval_ns, py::arg("start"), py::arg("length"));
   module.def("nanoseconds", &nanoseconds, py::arg("time"), py::arg("what"));
-  module.attr("LEAST_ERROR") = ShutterShape::kLeastError;
+  module.attr("MIN_ERROR") = ShutterShape::kMinError;
 }
 
 }  // namespace nutik::python

@@ -90,9 +90,9 @@ ExposureRequest exposure_request(const AskedExposure& asked) {
   if (asked.functions) {
     request.gains = Shared(set_of(*asked.functions));
   } else {
-    const double error = number(settings, "shutter_error", ShutterShape::kUsualError);
-    if (!(error >= ShutterShape::kLeastError && error < 1.0))
-      throw UsageError(format("shutter_error={} is no share from {} to 1", error, ShutterShape::kLeastError));
+    const double error = number(settings, "shutter_error", ShutterShape::kDefaultError);
+    if (!(error >= ShutterShape::kMinError && error < 1.0))
+      throw UsageError(format("shutter_error={} is no share from {} to 1", error, ShutterShape::kMinError));
     request.gains = PlainInterval{StatedTime::parse(stated(settings, "exposure", ""), "exposure"),
                                   Shutter(ShutterShape::parse(stated(settings, "shutter", "box")), error)};
   }

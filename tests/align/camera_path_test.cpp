@@ -24,7 +24,7 @@ TEST(CameraPath, SaysHowFarTheCameraMoved) {
   const Warp turned{{std::cos(turn), -std::sin(turn), 0, std::sin(turn), std::cos(turn), 0, 0, 0, 1}};
   const CameraPath path = path_of({Warp(), shifted(3, -4), turned});
   EXPECT_EQ(path.furthest(), 1u);
-  EXPECT_EQ(path.most_turned(), 2u);
+  EXPECT_EQ(path.max_turned(), 2u);
   EXPECT_NEAR(path.step(2).degrees, 0.572958, 1e-6);
   EXPECT_EQ(path.summary(), "moved by up to 5.00 pixels, turned by up to 0.573 degrees");
 }

@@ -16,7 +16,7 @@
 namespace nutik {
 namespace {
 
-constexpr double kMostPixels = 0.05, kMostDegrees = 0.01;  // root of the mean square
+constexpr double kMaxPixels = 0.05, kMaxDegrees = 0.01;  // root of the mean square
 constexpr std::uint32_t kWidth = 320, kHeight = 240;
 constexpr std::size_t kPictures = 8;
 
@@ -173,8 +173,8 @@ TEST_P(Recovery, FindsShiftsAndTurnsWithASubjectOverAFifthOfThePicture) {
   }
   const double pixels = std::sqrt(squared_pixels / static_cast<double>(places));
   const double degrees = std::sqrt(squared_degrees / static_cast<double>(pictures));
-  EXPECT_LE(pixels, kMostPixels);
-  EXPECT_LE(degrees, kMostDegrees);
+  EXPECT_LE(pixels, kMaxPixels);
+  EXPECT_LE(degrees, kMaxDegrees);
   std::printf("%s: off by %.4f pixels and %.5f degrees RMS\n", std::string(to_text(c.motion)).c_str(), pixels,
               degrees);
 }

@@ -179,9 +179,9 @@ TEST_P(MemoryOfCommands, KeepsToIt) {
   const Measured refused = run(*scratch_, words_of(command, false, "1MB"));
   EXPECT_NE(refused.status, 0);
   EXPECT_NE(refused.err.find("1 MB of memory is too little; at least "), std::string::npos) << refused.err;
-  const std::regex least_text("allow more: --memory ([0-9]+)MB");
+  const std::regex min_text("allow more: --memory ([0-9]+)MB");
   std::smatch found;
-  ASSERT_TRUE(std::regex_search(refused.err, found, least_text)) << refused.err;
+  ASSERT_TRUE(std::regex_search(refused.err, found, min_text)) << refused.err;
   const std::uint64_t least = std::stoull(found[1].str());
   ASSERT_EQ(run(*scratch_, words_of(command, false)).status, 0);  // builds kernels
   for (const std::uint64_t megabytes : {least, 2 * least}) {

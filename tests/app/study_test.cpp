@@ -432,14 +432,14 @@ TEST_F(Study, LeavesRestsOutOfTheTrail) {
   // Beside the way the picture is the ground; where it rested, no more than a pass of it is left.
   const cv::Mat study = picture("rests.png"), ground = ground_of(7);
   EXPECT_NEAR(study.at<std::uint8_t>(10, 10), ground.at<std::uint8_t>(10, 10), 1);
-  const auto most_within = [&](int from, int to) {
+  const auto max_within = [&](int from, int to) {
     int most = 0;
     for (int x = from; x < to; ++x) {
       most = std::max(most, std::abs(study.at<std::uint8_t>(46, x) - ground.at<std::uint8_t>(46, x)));
     }
     return most;
   };
-  const int at_rest = most_within(76, 84), before = most_within(32, 68);
+  const int at_rest = max_within(76, 84), before = max_within(32, 68);
   EXPECT_GT(before, 2) << "there is a trail";
   EXPECT_LE(at_rest, before + 2);
 }

@@ -177,7 +177,7 @@ std::filesystem::path kept_kernel(const std::filesystem::path& cache) {
 }
 
 // Where kernels are kept by default: what other tests have built need not be built again.
-std::filesystem::path usual_cache() {
+std::filesystem::path default_cache() {
   const char* cache = std::getenv("XDG_CACHE_HOME");
   if (cache != nullptr && *cache != '\0') return cache;
   const char* home = std::getenv("HOME");
@@ -189,7 +189,7 @@ std::filesystem::path usual_cache() {
 TEST_F(Validate, ExitsWithOneWhereADeviceComputesWrongly) {
   ASSERT_EQ(validate({"clip.tik"}).status, 0);
   const std::filesystem::path cache = scratch_ / "cache", other = scratch_ / "other-cache";
-  const std::string of_pocl = "POCL_CACHE_DIR=" + (usual_cache() / "pocl" / "kcache").string();
+  const std::string of_pocl = "POCL_CACHE_DIR=" + (default_cache() / "pocl" / "kcache").string();
   const auto expose = [&](const std::filesystem::path& folder, const std::vector<std::string>& more) {
     std::vector<std::string> words{"expose", "--precision", "single", "clip.tik", "picture.png"};
     words.insert(words.end(), kInterval.begin(), kInterval.end());
@@ -202,7 +202,7 @@ TEST_F(Validate, ExitsWithOneWhereADeviceComputesWrongly) {
   const std::string wrong =
       split(test::read_file(kept)).key + split(test::read_file(kept_kernel(other))).binary;
   std::ofstream(kept, std::ios::binary) << wrong;
-  std::filesystem::copy(usual_cache() / "nutik-cl", cache / "nutik-cl",
+  std::filesystem::copy(default_cache() / "nutik-cl", cache / "nutik-cl",
                         std::filesystem::copy_options::skip_existing);
   const ProgramResult result = validate({"clip.tik"}, {"XDG_CACHE_HOME=" + cache.string(), of_pocl});
   EXPECT_EQ(result.status, 1) << result.out;

@@ -146,19 +146,19 @@ TEST(Timeline, TellsAMeanRateHoweverSlow) {
 
 // 2^62 ns are documented. Beyond them differences of times leave 64 bits.
 TEST(Timeline, RefusesTimesThatNoCaptureLasts) {
-  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max(),
-                         kLeast = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max(),
+                         kMin = std::numeric_limits<std::int64_t>::min();
   constexpr std::int64_t kLongest = std::int64_t{1} << 62;
   const auto refusal = [](auto make) {
     return test::message_of<InputError>([&] { static_cast<void>(make()); });
   };
   const std::string too_long = "longer than";
-  for (const auto& starts : std::vector<std::vector<std::int64_t>>{{kLeast, kMost},
-                                                                   {kLeast, 0, kMost},
-                                                                   {0, kMost},
+  for (const auto& starts : std::vector<std::vector<std::int64_t>>{{kMin, kMax},
+                                                                   {kMin, 0, kMax},
+                                                                   {0, kMax},
                                                                    {0, kLongest + 1},
                                                                    {0, kLongest},
-                                                                   {kMost, kLeast}}) {
+                                                                   {kMax, kMin}}) {
     EXPECT_NE(refusal([&] {
                 return Timeline::irregular(starts, {360, 1});
               }).find(too_long),
@@ -166,10 +166,10 @@ TEST(Timeline, RefusesTimesThatNoCaptureLasts) {
         << starts[1];
   }
   for (const auto& exposures :
-       std::vector<std::vector<Exposure>>{{{kLeast, kMost}},
+       std::vector<std::vector<Exposure>>{{{kMin, kMax}},
                                           {{0, kLongest + 1}},
-                                          {{0, 1}, {kMost - 1, kMost}},
-                                          {{kMost - 1, kMost}, {kLeast, kLeast + 1}}}) {
+                                          {{0, 1}, {kMax - 1, kMax}},
+                                          {{kMax - 1, kMax}, {kMin, kMin + 1}}}) {
     EXPECT_NE(refusal([&] { return Timeline::explicit_exposures(exposures); }).find(too_long),
               std::string::npos);
   }
@@ -178,7 +178,7 @@ TEST(Timeline, RefusesTimesThatNoCaptureLasts) {
             }).find("146 years"),
             std::string::npos);
   EXPECT_EQ(Timeline::stored({{0, 1}}, kLongest, {360, 1}).duration_ns(), kLongest);
-  EXPECT_EQ(Timeline::irregular({kLeast, kLeast + kLongest / 2}, {360, 1}).duration_ns(), kLongest);
+  EXPECT_EQ(Timeline::irregular({kMin, kMin + kLongest / 2}, {360, 1}).duration_ns(), kLongest);
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ TEST(DelayMap, AllCodesOf16BitsAreDelays) {
   for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = static_cast<std::uint16_t>(i);
   const DelayMap map =
       DelayMap::by_picture(picture_of(ValueType::code16, 65'535, codes), {0, 1'000'000'000}, "a");
-  EXPECT_EQ(map.delays_ns.size(), DelayMap::kMostDelays);
+  EXPECT_EQ(map.delays_ns.size(), DelayMap::kMaxDelays);
   EXPECT_EQ(map.delay_ns(65'535), 1'000'000'000);
 }
 

@@ -18,11 +18,11 @@ struct Ceilings : test::ProgramTest {
     return usage.ru_maxrss / 1024;
   }
   // A program that does nothing takes some 60 MB for its libraries, and small pictures may be up to 64 MB.
-  static constexpr long kMostMb = 250;
+  static constexpr long kMaxMb = 250;
 
   void expect_cheaply_refused(const std::vector<std::string>& words, std::string_view part) const {
     expect_refused(words, 3, part);
-    EXPECT_LT(peak_mb(), kMostMb) << words.back();
+    EXPECT_LT(peak_mb(), kMaxMb) << words.back();
   }
 };
 

@@ -27,7 +27,7 @@ from report import Report  # noqa: E402
 
 MB = 1 << 20
 # Of the program with its libraries and of small pictures, which may be up to 64 MB; and of OpenCL's compiler.
-USUAL_MB = 120
+DEFAULT_MB = 120
 DEVICE_MB = 210
 ANSWER_S, PATIENCE = 1.0, 3.0
 LONGEST_S = 300
@@ -173,7 +173,7 @@ class Bench:
 def check(bench, line):
     """What is printed of a line, and what is wrong."""
     status, seconds, peak_mb = bench.run(line.words)
-    ceiling_mb, wrong = USUAL_MB + DEVICE_MB * line.uses_device + line.needs_mb, []
+    ceiling_mb, wrong = DEFAULT_MB + DEVICE_MB * line.uses_device + line.needs_mb, []
     if status not in line.statuses:
         wrong.append(f"status {status}: {bench.said()}")
     if peak_mb > ceiling_mb:

@@ -10,12 +10,12 @@
 namespace nutik::fuzz {
 namespace {
 
-constexpr std::uint64_t kMostPixels = 4096;  // what the reference exposes in no time
-constexpr std::uint64_t kMostSamples = 2000;
+constexpr std::uint64_t kMaxPixels = 4096;  // what the reference exposes in no time
+constexpr std::uint64_t kMaxSamples = 2000;
 
 void expose(tik::Reader& reader) {
   const Shape& shape = reader.format().shape;
-  if (shape.pixel_count() > kMostPixels || reader.timeline().sample_count() > kMostSamples) return;
+  if (shape.pixel_count() > kMaxPixels || reader.timeline().sample_count() > kMaxSamples) return;
   const FunctionSet functions{{0, GainFunction::boxcar(0, reader.timeline().duration_ns())}};
   const RenderPlan plan = make_plan(reader, functions, Mask::uniform(shape.width, shape.height, 0), {});
   static_cast<void>(ReferenceRenderer().render(plan, reader, {ValueType::light64, 0}));

@@ -15,8 +15,8 @@ namespace {
 constexpr const char* kKinds[] = {NUTIK_FUZZ_KINDS};
 
 // Inputs have a few kilobytes; a file may still tell of pictures without end.
-constexpr std::uint64_t kMostSamples = 100;
-constexpr std::uint64_t kMostSampleBytes = 64 << 20;
+constexpr std::uint64_t kMaxSamples = 100;
+constexpr std::uint64_t kMaxSampleBytes = 64 << 20;
 
 void read(Bytes input) {
   if (input.empty()) return;
@@ -24,10 +24,10 @@ void read(Bytes input) {
   const std::unique_ptr<Clip> clip = open_clip(as_file(input.subspan(1), kKinds[kind]), {});
   const CaptureFormat& format = clip->info().format;
   demand(format.shape.value_count() > 0 && format.white_code > 0, "a clip has pixels and a white");
-  if (format.sample_bytes() > kMostSampleBytes) return;
+  if (format.sample_bytes() > kMaxSampleBytes) return;
   std::vector<std::byte> raster(format.sample_bytes());
   std::uint64_t samples = 0;
-  while (samples < kMostSamples && clip->read(raster)) ++samples;
+  while (samples < kMaxSamples && clip->read(raster)) ++samples;
   static_cast<void>(timeline_of("clip", clip->info(), {}, Timeline::kFullShutter, samples));
 }
 

@@ -15,7 +15,7 @@
 namespace nutik::fuzz {
 namespace {
 
-constexpr double kMostSeconds = 10;
+constexpr double kMaxSeconds = 10;
 
 // Counted by hooks of the allocator, of all threads.
 constexpr std::int64_t kNoCeiling = std::numeric_limits<std::int64_t>::max();
@@ -106,6 +106,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const nutik::Error&) {
   }
   ceiling_bytes = kNoCeiling;
-  demand(cpu_seconds() - begin <= kMostSeconds, "an input takes ten seconds of CPU at most");
+  demand(cpu_seconds() - begin <= kMaxSeconds, "an input takes ten seconds of CPU at most");
   return 0;
 }

@@ -18,7 +18,7 @@ constexpr std::string_view kStarts[] = {
     "adder", "% "};
 
 // Coordinates alone may make a picture of 2048 x 2048 pixels, or in ADΔER of 65535 x 65535.
-constexpr std::uint64_t kMostSampleBytes = 64 << 20;
+constexpr std::uint64_t kMaxSampleBytes = 64 << 20;
 
 void read(Bytes input) {
   if (input.empty()) return;
@@ -29,7 +29,7 @@ void read(Bytes input) {
   const std::unique_ptr<Clip> clip = open_clip(as_file(file, "a.raw"), {});
   const CaptureFormat& format = clip->info().format;
   demand(clip->tells_changes() && format.shape.value_count() > 0, "a recording has pixels, which change");
-  if (format.sample_bytes() > kMostSampleBytes) return;
+  if (format.sample_bytes() > kMaxSampleBytes) return;
   std::uint64_t samples = 0;
   for (auto changes = clip->read_changes(); changes; changes = clip->read_changes()) {
     ++samples;

@@ -18,8 +18,8 @@ import pictures
 import sources
 
 TOLERANCE = 0.10
-LEAST_VALUES = 5000  # second differences: their median absolute deviation is good to 1.6 %
-LEAST_STILL_SHARE = 0.7  # of a stretch's pixels: a median bears no more that are something else
+MIN_VALUES = 5000  # second differences: their median absolute deviation is good to 1.6 %
+MIN_STILL_SHARE = 0.7  # of a stretch's pixels: a median bears no more that are something else
 SKIPPED = "SKIPPED: "
 
 
@@ -50,7 +50,7 @@ def still_pixels(samples):
 def robust_sd(samples, still, inside):
     """Median absolute second difference of pixels of a stretch, as a standard deviation of one sample."""
     step = (samples[2:] - 2 * samples[1:-1] + samples[:-2])[:, still & inside]
-    if step.size < LEAST_VALUES:
+    if step.size < MIN_VALUES:
         return None
     # Codes are whole numbers: a uniform dither makes their distribution one that has quantiles.
     dither = np.random.default_rng(1).uniform(-0.5, 0.5, step.shape)
@@ -71,7 +71,7 @@ def compare(name, samples, points):
     for stretch in stretches:
         margin = 0.5 * np.min(np.diff(codes)) if len(codes) > 1 else 1
         inside = (mean >= codes[stretch[0]] - margin) & (mean <= codes[stretch[-1]] + margin)
-        if not inside.any() or still[inside].mean() < LEAST_STILL_SHARE:
+        if not inside.any() or still[inside].mean() < MIN_STILL_SHARE:
             continue
         want = robust_sd(samples, still, inside)
         if want is None:

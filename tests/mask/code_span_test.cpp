@@ -44,13 +44,13 @@ TEST(CodeSpan, IsThatOfTheSamplesAskedFor) {
 TEST(CodeSpan, NoiseIsWhatTheQuietestQuarterHas) {
   std::vector<std::uint32_t> spans(100, 90);
   std::fill_n(spans.begin(), 30, 12u);
-  EXPECT_EQ(usual_noise(spans, 255), 24u);
-  EXPECT_EQ(usual_noise(std::vector<std::uint32_t>(100, 0), 255), 15u);
-  EXPECT_EQ(usual_noise(std::vector<std::uint32_t>(1, 3), 4095), 255u);
+  EXPECT_EQ(default_noise(spans, 255), 24u);
+  EXPECT_EQ(default_noise(std::vector<std::uint32_t>(100, 0), 255), 15u);
+  EXPECT_EQ(default_noise(std::vector<std::uint32_t>(1, 3), 4095), 255u);
   // A scene that moves everywhere: codes cannot differ by 400, so pixels that move most would be still.
-  EXPECT_EQ(usual_noise(std::vector<std::uint32_t>(100, 200), 255), 227u);
-  EXPECT_EQ(usual_noise(std::vector<std::uint32_t>(100, 255), 255), 254u);
-  EXPECT_EQ(usual_noise(std::vector<std::uint32_t>(100, 1), 1), 0u);
+  EXPECT_EQ(default_noise(std::vector<std::uint32_t>(100, 200), 255), 227u);
+  EXPECT_EQ(default_noise(std::vector<std::uint32_t>(100, 255), 255), 254u);
+  EXPECT_EQ(default_noise(std::vector<std::uint32_t>(100, 1), 1), 0u);
   const Region moving = spanning_more({3, 1, 3}, std::vector<std::uint32_t>{24, 25, 0}, 24);
   EXPECT_EQ(moving.inside, (std::vector<std::uint8_t>{0, 1, 0}));
 }

@@ -139,7 +139,7 @@ TEST(PictureText, HasALimit) {
   const auto path = scratch / "a.png";
   const std::string start(kPictureTextStart);
   write_picture(path, test::random_stills({2, 2, 1}, 255, 1, 5).front(),
-                start + std::string(kMostPictureTextBytes, '#'));
+                start + std::string(kMaxPictureTextBytes, '#'));
   EXPECT_LT(std::filesystem::file_size(path), 1u << 20);
   EXPECT_NE(test::message_of<InputError>([&] {
               static_cast<void>(read_picture_text(path));

@@ -106,9 +106,9 @@ TEST(Stillness, IsSeenInEveryCamera) {
       const Light still = scene(camera, [](Place at, double) { return textured(at); });
       const Stillness found = judged(camera, samples, ++seed, still);
       const std::string what = format("white {}, {} samples, seed {}", each.white, samples, seed);
-      nearest = std::max({nearest, found.stray / found.limit, found.most_stray / found.most_limit});
+      nearest = std::max({nearest, found.stray / found.limit, found.max_stray / found.max_limit});
       EXPECT_LE(found.stray, found.limit) << what;
-      EXPECT_LE(found.most_stray, found.most_limit) << what;
+      EXPECT_LE(found.max_stray, found.max_limit) << what;
       EXPECT_EQ(found.stray_share, 0) << what;
     }
   }
@@ -200,7 +200,7 @@ TEST(Stillness, IsMissedInAnEighth) {
                strays * std::sqrt(camera.read * camera.read + camera.shot * still) * waves(at.x, at.y, k);
       });
       const Stillness found = judged(camera, 128, 5, light);
-      EXPECT_GT(found.most_stray, found.most_limit) << strays;
+      EXPECT_GT(found.max_stray, found.max_limit) << strays;
       EXPECT_FALSE(found.is_brightness);
       EXPECT_GE(found.region.x, 36U);
       EXPECT_LE(found.region.x + found.region.width, 72U);

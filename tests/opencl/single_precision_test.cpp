@@ -63,7 +63,7 @@ TEST(SinglePrecision, TurnsEveryCodeIntoItsLight) {
         double worst = 0.0;
         for (std::uint32_t code = 0; code <= white; ++code) {
           const double error = std::fabs(light.values<double>()[code] - exact[code]);
-          ASSERT_LE(error, test::kCurveLightOfUsualWhites)
+          ASSERT_LE(error, test::kCurveLightOfCommonWhites)
               << transfer.text() << ", " << bytes << " byte codes, code " << code << " of " << white;
           worst = std::max(worst, error);
         }

@@ -26,7 +26,7 @@ using test::NamedHardCase;
 Exact rounding(const Exact& scale, const Exact& least) {
   return scale == 0 ? Exact(0) : Exact(Exact(test::kRoundoff64) * scale + least / 2);
 }
-const Exact kLeastDouble(std::numeric_limits<double>::denorm_min());
+const Exact kMinDouble(std::numeric_limits<double>::denorm_min());
 
 // A code is light put through the inverse of the transfer function, which costs a few roundings on the codes' own
 // scale. On that of light it is 2.3 times as much at most: no transfer function here is steeper.
@@ -56,7 +56,7 @@ TEST_P(ReferenceOnHardCases, StaysWithinAFewUlpOfExactArithmetic) {
     const Exact scale = exact.scale(value);
     const Exact exact_light = exact.light(value);
     const double rendered = light.values<double>()[value];
-    const double roundings = test::error_in(rounding(scale, kLeastDouble), rendered, exact_light);
+    const double roundings = test::error_in(rounding(scale, kMinDouble), rendered, exact_light);
     EXPECT_LE(roundings, test::kReferenceRoundings)
         << "value " << value << " of M" << f << ": " << rendered << ", exactly "
         << exact_light.convert_to<double>() << "; rerun: " << test::rerun();
@@ -89,7 +89,7 @@ TEST_P(ReferenceOnHardCases, PacksWeightsThatExactArithmeticConfirms) {
     const auto magnitudes = test::magnitude_of(gain);
     // What a gain of the tables stands for, and D: entries are divided by both.
     const Exact unit = Exact(std::scalbn(1.0, summary.exponent)) * summary.support_ns;
-    const Exact least = Exact(kLeastDouble) / Exact(std::scalbn(1.0, summary.exponent));
+    const Exact least = Exact(kMinDouble) / Exact(std::scalbn(1.0, summary.exponent));
     for (const PlannedBlock& block : plan.blocks) {
       Exact boundary = 0, boundary_scale = 0;
       for (std::uint32_t i = 0; i < block.extent.sample_count; ++i) {

@@ -113,8 +113,8 @@ TEST(Plate, TakesCodesForOneLightThatDifferByNoMoreThanStated) {
 TEST(Plate, OfFewSamplesTakesWhatTheyHold) {
   MemoryCapture capture = one_pixel({40, 200, 40, 200, 40, 200, 200, 200}, {0, 10, 20, 30, 40, 50, 60, 70});
   const CodeBand band = CodeBand::of_codes(capture.format(), 5);
-  const auto code_of_few = [&](std::uint64_t most_samples) {
-    const Plate plate = make_plate(capture, band, 1 << 20, most_samples);
+  const auto code_of_few = [&](std::uint64_t max_samples) {
+    const Plate plate = make_plate(capture, band, 1 << 20, max_samples);
     return code_of(capture.format(), plate.light.values<double>()[0]);
   };
   EXPECT_NEAR(code_of_few(8), 200, 1e-9);

@@ -75,7 +75,7 @@ TEST(ContactRequest, SaysWhichStepFitsASheet) {
     static_cast<void>(exposures_of({time("0s"), time("1us"), {}}, kTimeline));
     FAIL() << "a sheet has no room for 100 000 pictures";
   } catch (const TooManyForSheet& error) {
-    EXPECT_EQ(error.least_every.text(), "250us");
+    EXPECT_EQ(error.min_every.text(), "250us");
   }
 }
 

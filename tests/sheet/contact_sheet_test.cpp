@@ -11,7 +11,7 @@ TEST(SheetLayout, FitsItsWidthAndEnlargesNothing) {
   for (const Shape shape : {Shape{640, 360, 3}, Shape{100, 800, 1}, Shape{3000, 20, 1}, Shape{8, 8, 1}}) {
     for (const std::uint32_t count : {1u, 2u, 7u, 24u, 97u}) {
       const SheetLayout layout = lay_out(shape, count, {});
-      EXPECT_LE(layout.width(), kUsualWidth);
+      EXPECT_LE(layout.width(), kDefaultWidth);
       EXPECT_GE(layout.columns * layout.rows, count);
       EXPECT_LT(layout.columns * (layout.rows - 1), count) << "an empty row";
       EXPECT_LE(layout.cell_width, std::max(shape.width, 2 * kNarrowestCell));

@@ -17,7 +17,7 @@ namespace nutik::studio {
 
 class StudioTest : public ::testing::Test {
  protected:
-  static constexpr int kMostWaitMs = 60'000;  // kernels may have to be built first
+  static constexpr int kMaxWaitMs = 60'000;  // kernels may have to be built first
 
   StudioTest() {
     square_.write(scratch_);
@@ -30,7 +30,7 @@ class StudioTest : public ::testing::Test {
 
   // Until the picture is that of the document, and nothing is at work.
   [[nodiscard]] bool settles() {
-    return QTest::qWaitFor([this] { return window_.is_settled(); }, kMostWaitMs);
+    return QTest::qWaitFor([this] { return window_.is_settled(); }, kMaxWaitMs);
   }
   void open_clip() {
     window_.open(path("frames/%02d.pgm"), "100");

@@ -126,7 +126,7 @@ TEST_F(WindowTest, OpensAProjectAsItWasSaved) {
 
   MainWindow other;
   other.open(path("saved.nutik"));
-  ASSERT_TRUE(QTest::qWaitFor([&] { return other.is_settled(); }, kMostWaitMs));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return other.is_settled(); }, kMaxWaitMs));
   const DocumentState& loaded = other.document().state();
   EXPECT_EQ(loaded.functions, saved.functions);
   EXPECT_EQ(loaded.looks, saved.looks);
@@ -147,7 +147,7 @@ TEST_F(WindowTest, KeepsWhatIsNotSaved) {
 
   MainWindow next;
   next.recover();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return next.is_settled(); }, kMostWaitMs));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return next.is_settled(); }, kMaxWaitMs));
   EXPECT_TRUE(next.document().state() == changed);
   EXPECT_TRUE(next.isWindowModified()) << "it is to be saved where a person says";
   ASSERT_TRUE(window_.save_project(path("saved.nutik")));
@@ -203,7 +203,7 @@ TEST_F(WindowTest, MayGoAtAnyTime) {
   MainWindow other;
   other.show();
   other.open(path("frames/%02d.pgm"), "100");
-  ASSERT_TRUE(QTest::qWaitFor([&] { return other.document().facts() != nullptr; }, kMostWaitMs));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return other.document().facts() != nullptr; }, kMaxWaitMs));
 }
 
 TEST_F(WindowTest, WritesAPictureAlthoughAnotherCaptureIsOpened) {

@@ -22,6 +22,6 @@ inline constexpr double kDoubleAgainstReference = 1e-12;
 
 // Light of a code in single precision by a fitted curve: enumerated for whites of 2^b - 1, b = 8 … 16; whether
 // or not the device fuses multiplication and addition.
-inline constexpr double kCurveLightOfUsualWhites = 1.7e-7;
+inline constexpr double kCurveLightOfCommonWhites = 1.7e-7;
 
 }  // namespace nutik::test

@@ -15,8 +15,8 @@ namespace nutik::test {
 // length or a little, so that functions leave the capture wholly, in part, or not at all.
 inline std::shared_ptr<const DelayMap> random_delays(Random& random, const Shape& shape,
                                                      std::int64_t duration_ns) {
-  const std::int64_t most_ns = std::max<std::int64_t>(1, random.chance(0.3) ? duration_ns : duration_ns / 10);
-  const DelayRange range{random.whole(-most_ns, most_ns), random.whole(-most_ns, most_ns)};
+  const std::int64_t max_ns = std::max<std::int64_t>(1, random.chance(0.3) ? duration_ns : duration_ns / 10);
+  const DelayRange range{random.whole(-max_ns, max_ns), random.whole(-max_ns, max_ns)};
   switch (random.whole(0, 4)) {
     case 0: return std::make_shared<const DelayMap>(DelayMap::by_rows(shape, range));
     case 1: return std::make_shared<const DelayMap>(DelayMap::by_columns(shape, range));

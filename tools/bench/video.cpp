@@ -25,7 +25,7 @@ namespace {
 using bench::median;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t kMostFrames = 300;
+constexpr std::uint64_t kMaxFrames = 300;
 constexpr Rational kRate{24, 1}, kSpeed{1, 10}, kAngle{180, 1};
 
 template <typename Work>
@@ -40,7 +40,7 @@ int run(const std::filesystem::path& capture, const std::filesystem::path& video
   OpenClRenderer renderer({});
   renderer.keep_resident(&reader);
   const FrameTimes times({0, 1}, kRate, kSpeed, kAngle);
-  const std::uint64_t count = std::min(kMostFrames, times.count_ending_by(reader.timeline().duration_ns()));
+  const std::uint64_t count = std::min(kMaxFrames, times.count_ending_by(reader.timeline().duration_ns()));
   const Shape shape = reader.format().shape;
   const Mask mask = Mask::uniform(shape.width, shape.height, 0);
   const OutputFormat format{ValueType::code8, 255};

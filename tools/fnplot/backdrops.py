@@ -19,10 +19,10 @@ from fnplot.palette import (
     SAMPLE_COLOUR,
 )
 
-LEAST_SAMPLE = 1 / 200  # of a graph's width: narrower samples are not drawn one by one
-MOST_STEPS = 1024
+MIN_SAMPLE = 1 / 200  # of a graph's width: narrower samples are not drawn one by one
+MAX_STEPS = 1024
 HIGHEST_ACTIVITY = 0.5  # of a graph's height: functions and exposures are seen above it
-LEAST_SPACE = 1 / 100  # of a graph's width, between lines that stand for many samples
+MIN_SPACE = 1 / 100  # of a graph's width, between lines that stand for many samples
 
 
 def samples_in(capture, view):
@@ -67,10 +67,10 @@ class SampleGrid:
             return 1
         spans_ns = np.diff(self.capture.starts_ns[self.samples.start : self.samples.stop])
         typical = float(np.mean(spans_ns)) / (view.end_ns - view.begin_ns)
-        if typical >= LEAST_SAMPLE:
+        if typical >= MIN_SAMPLE:
             return 1
         steps = (digit * 10**power for power in range(19) for digit in (1, 2, 5))
-        return next(step for step in steps if step * typical >= LEAST_SPACE)
+        return next(step for step in steps if step * typical >= MIN_SPACE)
 
     def legend_entry(self):
         count = len(self.capture)
@@ -103,7 +103,7 @@ class Activity:
 
     def __init__(self, capture, view):
         samples = samples_in(capture, view)
-        step = max(1, -(-len(samples) // MOST_STEPS))
+        step = max(1, -(-len(samples) // MAX_STEPS))
         edges_ns = np.append(capture.starts_ns, capture.duration_ns)
         edges_ns = np.append(edges_ns[samples.start : samples.stop : step], edges_ns[samples.stop])
         changed = capture.changed[samples.start : samples.stop]

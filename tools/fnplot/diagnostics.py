@@ -1,6 +1,6 @@
 """What is wrong with a function file, shown as nutik-cl shows it.
 
-always:  in the order of the text; of each severity at most MOST_SHOWN are kept, the first in the file, and
+always:  in the order of the text; of each severity at most MAX_SHOWN are kept, the first in the file, and
          the others are counted
 """
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from fnplot.source_text import Excerpt
 
-MOST_SHOWN = 20
+MAX_SHOWN = 20
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Diagnostics:
         """Of several at one place the first added is first; excerpts are only made of what is kept."""
         kind = "warning" if is_warning else "mistake"
         self.counts[kind] += 1
-        if self.counts[kind] > MOST_SHOWN:
+        if self.counts[kind] > MAX_SHOWN:
             # A mistake may be found after those behind it: an open brace at the end of the file.
             last = max(i for i, other in enumerate(self.shown) if other.is_warning == is_warning)
             if place >= self.shown[last].place:
@@ -59,7 +59,7 @@ class Diagnostics:
         """Those that are shown, one below the other, and how many more there are; empty where none are."""
         texts = [diagnostic.text(file_name) for diagnostic in self.shown]
         for kind, count in self.counts.items():
-            if count > MOST_SHOWN:
-                plural = "" if count == MOST_SHOWN + 1 else "s"
-                texts.append(f"{file_name}: and {count - MOST_SHOWN} more {kind}{plural}")
+            if count > MAX_SHOWN:
+                plural = "" if count == MAX_SHOWN + 1 else "s"
+                texts.append(f"{file_name}: and {count - MAX_SHOWN} more {kind}{plural}")
         return "\n".join(texts)

@@ -15,7 +15,7 @@ TOP, BOTTOM = 0.62, 0.52
 TITLE, LEGEND = 0.3, 0.56  # below the page's top
 HEADING = 0.52  # above each graph
 GAIN_LABEL = 0.66  # left of each graph
-LEAST_GRAPH, LARGEST_GRAPH = 0.6, 3.2
+MIN_GRAPH, LARGEST_GRAPH = 0.6, 3.2
 
 SIGN_NAMES = {1: "adds light", -1: "takes light away"}
 
@@ -31,7 +31,7 @@ class Layout:
     def fitting(cls, graph_count, graphs_per_page, page_height):
         """Graphs as high as fit a full page of about page_height, in inches."""
         height = (page_height - TOP - BOTTOM) / min(graph_count, graphs_per_page) - HEADING
-        return cls(graphs_per_page, min(max(height, LEAST_GRAPH), LARGEST_GRAPH))
+        return cls(graphs_per_page, min(max(height, MIN_GRAPH), LARGEST_GRAPH))
 
     def paginate(self, graphs):
         step = self.graphs_per_page

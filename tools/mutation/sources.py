@@ -29,7 +29,7 @@ from mutation.reach import Reach, listed_tests
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 EXPLAINED = Path(__file__).resolve().parent / "explained.txt"
-MOST_BYTES = 6 << 30  # that a test may take: more is noticed, too
+MAX_BYTES = 6 << 30  # that a test may take: more is noticed, too
 LONGEST_S = 1200  # that the tests of a room may take: a loop that never ends is noticed, too
 LONGEST_CPU_S = 200  # the same for each process, so that it does not take the whole while
 LONGEST_SCRIPT_S = 60
@@ -132,7 +132,7 @@ def tests_of(room):
 
 
 def limit():
-    resource.setrlimit(resource.RLIMIT_DATA, (MOST_BYTES, MOST_BYTES))
+    resource.setrlimit(resource.RLIMIT_DATA, (MAX_BYTES, MAX_BYTES))
     resource.setrlimit(resource.RLIMIT_CPU, (LONGEST_CPU_S, LONGEST_CPU_S))
 
 

@@ -18,14 +18,14 @@ namespace nutik::app {
 namespace {
 
 constexpr std::size_t kNarrowest = 60;
-constexpr std::size_t kUsual = 80;
+constexpr std::size_t kDefault = 80;
 constexpr std::size_t kWidest = 100;  // longer lines are hard to read
 constexpr std::size_t kOptionColumn = 32;
 constexpr std::size_t kCommandColumn = 14;
 
 // Of the terminal, or as COLUMNS says.
 std::size_t line_width() {
-  std::size_t width = kUsual;
+  std::size_t width = kDefault;
   winsize size{};
   if (isatty(STDOUT_FILENO) == 1 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
     width = size.ws_col;

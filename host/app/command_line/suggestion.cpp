@@ -32,14 +32,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 // What the word is the beginning of, where that says something: not too little, not too many.
 std::vector<std::string> starting_with(std::string_view word, std::span<const std::string> known) {
   constexpr std::size_t kFewest = 2;  // letters
-  constexpr std::size_t kMost = 4;
+  constexpr std::size_t kMax = 4;
   std::vector<std::string> found;
   if (word.size() - std::min(word.find_first_not_of('-'), word.size()) < kFewest) return found;
   for (const std::string& candidate : known) {
     if (candidate.starts_with(word) && std::ranges::find(found, candidate) == found.end())
       found.push_back(candidate);
   }
-  if (found.size() > kMost) found.clear();
+  if (found.size() > kMax) found.clear();
   return found;
 }
 

@@ -29,7 +29,7 @@ void CameraFiles::write(const CameraPath& path, const Timeline& timeline, const 
                            {"reference", path.reference},
                            {"furthest_picture", path.furthest()},
                            {"furthest_pixels", {furthest.x, furthest.y}},
-                           {"turned_degrees", path.step(path.most_turned()).degrees},
+                           {"turned_degrees", path.step(path.max_turned()).degrees},
                            {"residual_pixels", path.residual_pixels()}};
   const char* const keys[] = {"path", "plot", "coverage"};
   for (std::size_t i = 0; i < std::size(keys); ++i) {

@@ -22,7 +22,7 @@
 namespace nutik::app {
 namespace {
 
-constexpr std::ptrdiff_t kMostTagsListed = 32;
+constexpr std::ptrdiff_t kMaxTagsListed = 32;
 
 // What the command line asks for.
 struct MaskJob {
@@ -136,10 +136,10 @@ Answer answer_of(const MaskJob& job, const MadeMask& made) {
     if (counts[tag] == 0) continue;
     answer.json["tags"].push_back({{"tag", tag}, {"pixel_count", counts[tag]}});
     if (job.layers) answer.json["tags"].back()["layer"] = job.layers->file(tag).string();
-    if (tag_count > kMostTagsListed) continue;
+    if (tag_count > kMaxTagsListed) continue;
     answer.details.push_back(format("  {:<18} M{:<4}{}", "", tag, pixels_text(counts[tag], mask)));
   }
-  if (tag_count > kMostTagsListed) {
+  if (tag_count > kMaxTagsListed) {
     const auto fewest = std::min_element(counts.begin(), counts.end(), [](auto a, auto b) {
       return a != 0 && (b == 0 || a < b);  // tags without a pixel come last
     });

@@ -45,7 +45,7 @@ int run_noise(const Options& options) {
   ClipTold told;
   const NoiseEstimate estimate =
       measure_noise(options.operands, clip_request(options, options.operands.front()).clip,
-                    NoiseEstimator::kMostSamples, memory_budget(options), told);
+                    NoiseEstimator::kMaxSamples, memory_budget(options), told);
   std::vector<std::string> comments;
   for (const std::string& name : options.operands) {
     comments.push_back("measured on " + std::filesystem::path(name).filename().string());

@@ -16,8 +16,8 @@
 namespace nutik::app {
 namespace {
 
-constexpr std::uint32_t kUsualRuns = 5;
-constexpr std::uint32_t kMostRuns = 10'000;
+constexpr std::uint32_t kDefaultRuns = 5;
+constexpr std::uint32_t kMaxRuns = 10'000;
 
 // What codes are may be said of --source, where the capture is a .tik and needs no description.
 Options options_of_capture(const Options& options) {
@@ -51,7 +51,7 @@ int run_validate(const Options& options) {
   }
   const std::string& input = options.operands.front();
   const std::uint32_t runs =
-      options.runs ? parse_whole_number(*options.runs, "--runs", 1, kMostRuns) : kUsualRuns;
+      options.runs ? parse_whole_number(*options.runs, "--runs", 1, kMaxRuns) : kDefaultRuns;
   const ExposureRequest request = exposure_request(options);
   const std::shared_ptr<Devices> devices = make_devices(options);
   const std::string device = devices->opencl().name();  // refused before a clip is read

@@ -20,8 +20,8 @@ namespace {
 struct FunctionTexts {
   template <typename Text>
   FunctionTexts(const ExposureFigures& figures, Text text) {
-    constexpr std::size_t kMost = 6;
-    const std::size_t shown = std::min(figures.functions.size(), kMost);
+    constexpr std::size_t kMax = 6;
+    const std::size_t shown = std::min(figures.functions.size(), kMax);
     std::transform(figures.functions.begin(), figures.functions.begin() + shown, std::back_inserter(texts),
                    text);
     left_out = figures.functions.size() - shown;

@@ -146,12 +146,12 @@ double brightening(const Options& options) {
 }
 
 Shutter parse_shutter(const std::string& shape, const std::optional<std::string>& error_text) {
-  double error = ShutterShape::kUsualError;
+  double error = ShutterShape::kDefaultError;
   if (error_text) {
     error = parse_signed_number(*error_text, "--shutter-error");
-    if (!(error >= ShutterShape::kLeastError && error < 1.0)) {
+    if (!(error >= ShutterShape::kMinError && error < 1.0)) {
       throw UsageError(
-          format("--shutter-error {} is no share from {} to 1", *error_text, ShutterShape::kLeastError));
+          format("--shutter-error {} is no share from {} to 1", *error_text, ShutterShape::kMinError));
     }
   }
   return {ShutterShape::parse(shape), error};
@@ -209,7 +209,7 @@ SeriesRequest series_request(const Options& options) {
   SeriesRequest series{step_of(options), {}, {}};
   if (options.frames) series.numbers = FrameRanges::parse(*options.frames, "--frames");
   if (options.count) {
-    series.count = parse_whole_number(*options.count, "--count", 1, SeriesRequest::kMostExposures);
+    series.count = parse_whole_number(*options.count, "--count", 1, SeriesRequest::kMaxExposures);
   }
   return series;
 }

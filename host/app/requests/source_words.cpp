@@ -48,7 +48,7 @@ void read_noise(SourceRequest& request, const Options& options) {
   }
   if (options.sigmas)
     request.sigmas =
-        parse_number(*options.sigmas, "--sigmas", SourceRequest::kLeastSigmas, SourceRequest::kMostSigmas);
+        parse_number(*options.sigmas, "--sigmas", SourceRequest::kMinSigmas, SourceRequest::kMaxSigmas);
   if (options.noise == kAutomaticNoise) {
     request.noise = NoiseOfClip{};
   } else if (options.noise) {

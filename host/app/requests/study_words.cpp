@@ -13,8 +13,8 @@
 namespace nutik::app {
 namespace {
 
-constexpr std::uint32_t kMostMoments = 50;
-constexpr std::uint32_t kMostStrips = 256;  // of a slit: a mask has no more values
+constexpr std::uint32_t kMaxMoments = 50;
+constexpr std::uint32_t kMaxStrips = 256;  // of a slit: a mask has no more values
 
 // The value that a name stands for; `usual` where nothing was said.
 template <typename Value, std::size_t count>
@@ -57,8 +57,8 @@ constexpr std::array kSides{
 std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(const std::string& text,
                                                                    StudyStyle style) {
   if (text.find_first_not_of("0123456789") == std::string::npos) {
-    return style == StudyStyle::slit ? parse_whole_number(text, "--moments", 2, kMostStrips)
-                                     : parse_whole_number(text, "--moments", 1, kMostMoments);
+    return style == StudyStyle::slit ? parse_whole_number(text, "--moments", 2, kMaxStrips)
+                                     : parse_whole_number(text, "--moments", 1, kMaxMoments);
   }
   if (style == StudyStyle::slit) {
     throw UsageError(
@@ -70,8 +70,8 @@ std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(const std::st
     times.push_back(StatedTime::parse(text.substr(begin, end - begin), "--moments"));
     begin = end + 1;
   }
-  if (times.size() > kMostMoments) {
-    throw UsageError(format("--moments names {} times; a study has {} at most", times.size(), kMostMoments));
+  if (times.size() > kMaxMoments) {
+    throw UsageError(format("--moments names {} times; a study has {} at most", times.size(), kMaxMoments));
   }
   return times;
 }
@@ -114,7 +114,7 @@ StudyRequest study_request(const Options& options) {
                               *options.style));
     }
   }
-  if (is_slit) request.moments = kMostStrips;
+  if (is_slit) request.moments = kMaxStrips;
   if (options.moments) request.moments = parse_moments(*options.moments, request.style);
   const bool shows_one = request.style == StudyStyle::rear_curtain || request.style == StudyStyle::frozen;
   const auto* times = std::get_if<std::vector<StatedTime>>(&request.moments);

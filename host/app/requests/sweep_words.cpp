@@ -117,9 +117,9 @@ SweepRequest sweep_request(const Options& options) {
   std::uint64_t pictures = 1;
   for (const SweepRange& range : ranges) {
     const std::uint64_t count = range.count();
-    if (count > sheet::kMostPictures || pictures * count > sheet::kMostPictures) {
+    if (count > sheet::kMaxPictures || pictures * count > sheet::kMaxPictures) {
       throw UsageError(format("a sheet holds {} pictures and this sweep makes {}{}; take a larger STEP",
-                              sheet::kMostPictures, pictures > 1 ? format("{} x ", pictures) : "", count));
+                              sheet::kMaxPictures, pictures > 1 ? format("{} x ", pictures) : "", count));
     }
     pictures *= count;
   }

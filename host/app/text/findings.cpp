@@ -13,7 +13,7 @@ namespace {
 
 using Severity = Finding::Severity;
 
-constexpr std::size_t kMostOfAKind = 20;
+constexpr std::size_t kMaxOfAKind = 20;
 
 std::string text_of(const Finding& finding) {
   if (finding.place) {
@@ -66,12 +66,12 @@ std::string findings_text(const std::vector<Finding>& findings) {
   std::string text;
   std::map<std::pair<std::string, std::string>, std::size_t> counts;
   for (const Finding& finding : findings) {
-    if (++counts[{finding.file, finding.kind}] > kMostOfAKind) continue;
+    if (++counts[{finding.file, finding.kind}] > kMaxOfAKind) continue;
     text += (text.empty() ? "" : "\n") + text_of(finding);
   }
   for (const auto& [of, count] : counts) {
-    if (count <= kMostOfAKind) continue;
-    text += format("\n{}: and {} more like these ({}); --json lists all", of.first, count - kMostOfAKind,
+    if (count <= kMaxOfAKind) continue;
+    text += format("\n{}: and {} more like these ({}); --json lists all", of.first, count - kMaxOfAKind,
                    of.second);
   }
   return text;

@@ -81,11 +81,11 @@ std::string options_text(const std::vector<Setting>& settings) {
 std::string message_text(const std::exception& error) {
   const std::string message = error.what();
   if (const auto* memory = dynamic_cast<const MemoryTooLittle*>(&error)) {
-    return format("{}; allow more: --memory {}MB", message, memory->least_bytes() / 1'000'000 + 1);
+    return format("{}; allow more: --memory {}MB", message, memory->min_bytes() / 1'000'000 + 1);
   }
   if (const auto* blocks = dynamic_cast<const BlocksTooLong*>(&error)) {
     return format("{} (--memory); use fewer samples a block (--block-samples {})", message,
-                  blocks->most_samples);
+                  blocks->max_samples);
   }
   if (const auto* damaged = dynamic_cast<const tik::Recoverable*>(&error)) {
     return format("{}; save what is whole with: nutik-cl recover {} -o recovered.tik", message,
@@ -121,7 +121,7 @@ std::string message_text(const std::exception& error) {
   }
   if (const auto* sheet = dynamic_cast<const TooManyForSheet*>(&error)) {
     return format("--every {}; take --every {} or more, or begin later with --start", message,
-                  sheet->least_every.text());
+                  sheet->min_every.text());
   }
   if (dynamic_cast<const NoMaskSize*>(&error) != nullptr) return message + ", or say --size 640x360";
   if (dynamic_cast<const NoSinglePicture*>(&error) != nullptr) {

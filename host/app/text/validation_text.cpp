@@ -56,7 +56,7 @@ std::string variants_text(const Validation& validation) {
 std::string choice_text(const Validation& validation) {
   const ErrorBound& bound = validation.variants[validation.chosen].bound;
   return format("* what --precision auto takes: {}{}", error_text(bound.worst, validation.output),
-                bound.worst.steps <= kMostSteps ? "" : "; nothing is sure to be right to half of one");
+                bound.worst.steps <= kMaxSteps ? "" : "; nothing is sure to be right to half of one");
 }
 
 Json variants_json(const Validation& validation, const Shape& shape) {

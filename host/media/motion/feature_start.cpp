@@ -7,8 +7,8 @@ namespace nutik::motion {
 namespace {
 
 constexpr int kFeatures = 1500;
-constexpr float kMostAlike = 0.8F;
-constexpr int kLeastAgreeing = 12;
+constexpr float kMaxAlike = 0.8F;
+constexpr int kMinAgreeing = 12;
 constexpr double kAgreeingPixels = 3;
 
 }  // namespace
@@ -28,15 +28,15 @@ std::optional<Warp> FeatureStart::find(const cv::Mat& picture) {
   std::vector<cv::Point2d> from, to;
   for (const std::vector<cv::DMatch>& two : matches) {
     // Only what looks like nothing else nearly as much.
-    if (two.size() < 2 || two[0].distance > kMostAlike * two[1].distance) continue;
+    if (two.size() < 2 || two[0].distance > kMaxAlike * two[1].distance) continue;
     const cv::DMatch& match = two[0];
     from.push_back(scale_ * cv::Point2d(points_[static_cast<std::size_t>(match.queryIdx)].pt));
     to.push_back(scale_ * cv::Point2d(points[static_cast<std::size_t>(match.trainIdx)].pt));
   }
-  if (from.size() < kLeastAgreeing) return std::nullopt;
+  if (from.size() < kMinAgreeing) return std::nullopt;
   std::vector<unsigned char> agrees;
   const cv::Mat similar = cv::estimateAffinePartial2D(from, to, agrees, cv::RANSAC, scale_ * kAgreeingPixels);
-  if (similar.empty() || cv::countNonZero(agrees) < kLeastAgreeing) return std::nullopt;
+  if (similar.empty() || cv::countNonZero(agrees) < kMinAgreeing) return std::nullopt;
   // Its scale is left out, about the middle of what agrees.
   const double a = similar.at<double>(0, 0), b = similar.at<double>(1, 0), size = std::hypot(a, b);
   cv::Point2d from_middle, to_middle;

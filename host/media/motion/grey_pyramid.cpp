@@ -7,8 +7,8 @@
 namespace nutik::motion {
 namespace {
 
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 21;  // of the finest level: 1080p as it is
-constexpr int kLeastSide = 24;
+constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 21;  // of the finest level: 1080p as it is
+constexpr int kMinSide = 24;
 // So that a cubic between pixels goes through what it is fitted to, and noise counts less.
 constexpr double kBlurPixels = 1.0;
 constexpr int kFeatureSide = 480;
@@ -41,12 +41,12 @@ GreyPyramid::GreyPyramid(const CaptureFormat& format, std::span<const std::byte>
     cv::pyrDown(grey, half);
     grey = half;
   };
-  for (; grey.total() > kMostPixels; ++finest) halve();
+  for (; grey.total() > kMaxPixels; ++finest) halve();
   for (;;) {
     cv::Mat blurred;
     cv::GaussianBlur(grey, blurred, {}, kBlurPixels);
     levels.push_back(blurred);
-    if (std::min(grey.cols, grey.rows) < 2 * kLeastSide) return;
+    if (std::min(grey.cols, grey.rows) < 2 * kMinSide) return;
     halve();
   }
 }

@@ -21,20 +21,20 @@ namespace nutik::motion {
 namespace {
 
 constexpr std::uint32_t kCells = 32;  // along the longer side: the texture is taken from all over the picture
-constexpr std::size_t kMostPoints = 20000;  // of a level
-constexpr std::size_t kLeastPoints = 60;
-constexpr double kLeastGradient = kGreyWhite / 256;  // a pixel
+constexpr std::size_t kMaxPoints = 20000;  // of a level
+constexpr std::size_t kMinPoints = 60;
+constexpr double kMinGradient = kGreyWhite / 256;  // a pixel
 constexpr double kWeakGradient = 0.05;               // of the strongest: mostly noise
 constexpr float kMargin = 4;
-constexpr double kLeastSeen = 0.2;      // of the points
-constexpr double kLeastAcross = 0.01;   // of the texture's strength along its main direction
+constexpr double kMinSeen = 0.2;      // of the points
+constexpr double kMinAcross = 0.01;   // of the texture's strength along its main direction
 constexpr std::size_t kFineLevels = 3;  // that a start from close by needs
 constexpr double kClearlyBetter = 2;    // of residuals
 constexpr double kClearlyMost = 0.7;    // of the texture
 constexpr double kTukey = 4.685;        // 95 % as efficient as least squares where all errors are normal
-constexpr double kLeastSigma = 0.3;     // codes
+constexpr double kMinSigma = 0.3;     // codes
 constexpr int kFirstSteps = 3;          // of a level, in which nothing is excluded yet
-constexpr int kMostSteps = 25;
+constexpr int kMaxSteps = 25;
 constexpr double kSettledPixels = 0.001;
 
 struct Point {
@@ -57,7 +57,7 @@ std::vector<Point> textured_points(const cv::Mat& grey) {
   const int side = std::max(8, std::max(grey.cols, grey.rows) / static_cast<int>(kCells));
   const int columns = (grey.cols - 1) / side + 1, rows = (grey.rows - 1) / side + 1;
   std::vector<std::vector<Point>> cells(static_cast<std::size_t>(columns * rows));
-  const std::size_t most = std::max<std::size_t>(1, kMostPoints / cells.size());
+  const std::size_t most = std::max<std::size_t>(1, kMaxPoints / cells.size());
   const auto keep_strongest = [most](std::vector<Point>& cell) {
     if (cell.size() <= most) return;
     std::ranges::nth_element(cell, cell.begin() + static_cast<std::ptrdiff_t>(most), std::greater(),
@@ -69,7 +69,7 @@ std::vector<Point> textured_points(const cv::Mat& grey) {
     for (int x = static_cast<int>(kMargin); x < grey.cols - static_cast<int>(kMargin); ++x) {
       const Point point{static_cast<float>(x), static_cast<float>(y), row[x], (row[x + 1] - row[x - 1]) / 2,
                         (below[x] - above[x]) / 2};
-      if (gradient_of(point) < kLeastGradient) continue;
+      if (gradient_of(point) < kMinGradient) continue;
       std::vector<Point>& cell = cells[static_cast<std::size_t>(y / side * columns + x / side)];
       cell.push_back(point);
       if (cell.size() >= 4 * most) keep_strongest(cell);
@@ -172,7 +172,7 @@ class RobustRegistrar final : public Registrar {
     for (std::size_t i = 0; i < pyramid.levels.size(); ++i) {
       const cv::Mat& grey = pyramid.levels[i];
       Level level{pyramid.finest + static_cast<int>(i), grey.size(), textured_points(grey)};
-      if (i > 0 && level.points.size() < kLeastPoints) break;
+      if (i > 0 && level.points.size() < kMinPoints) break;
       if (i == 0) check_texture(level.points);
       levels_.push_back(std::move(level));
     }
@@ -203,10 +203,10 @@ class RobustRegistrar final : public Registrar {
   }
 
   static void check_texture(const std::vector<Point>& points) {
-    if (points.size() < kLeastPoints) {
+    if (points.size() < kMinPoints) {
       throw TooLittleTexture(
           format("it has {} pixels whose surroundings can be recognized, and {} are needed", points.size(),
-                 kLeastPoints));
+                 kMinPoints));
     }
     double xx = 0, xy = 0, yy = 0;
     for (const Point& point : points) {
@@ -215,7 +215,7 @@ class RobustRegistrar final : public Registrar {
       yy += point.gradient_y * point.gradient_y;
     }
     const double middle = (xx + yy) / 2, spread = std::hypot((xx - yy) / 2, xy);
-    if (middle - spread < kLeastAcross * (middle + spread)) {
+    if (middle - spread < kMinAcross * (middle + spread)) {
       throw TooLittleTexture(
           "all its edges run in one direction, along which nothing tells where a picture lies");
     }
@@ -280,7 +280,7 @@ class RobustRegistrar final : public Registrar {
       if (!(px >= 2 && py >= 2 && px < grey.cols - 3 && py < grey.rows - 3)) continue;
       seen.push_back({&point, x, y, double{cubic_at(grey, px, py)}});
     }
-    if (static_cast<double>(seen.size()) < kLeastSeen * static_cast<double>(level.points.size()))
+    if (static_cast<double>(seen.size()) < kMinSeen * static_cast<double>(level.points.size()))
       seen.clear();
     return seen;
   }
@@ -307,12 +307,12 @@ class RobustRegistrar final : public Registrar {
     const int motion = frame.count(), count = motion + 2;
     const double per_radius = frame.radius() / level.scale();
     std::vector<double> sizes;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
       const std::vector<Sampled> seen = sampled(level, grey, fit.warp);
       if (seen.empty()) return false;
       sizes.clear();
       for (const Sampled& sample : seen) sizes.push_back(std::abs(residual(sample, fit)));
-      const double limit = kTukey * std::max(kLeastSigma, 1.4826 * median(sizes));
+      const double limit = kTukey * std::max(kMinSigma, 1.4826 * median(sizes));
       cv::Mat squares = cv::Mat::zeros(count, count, CV_64F), right = cv::Mat::zeros(count, 1, CV_64F);
       double column[10];
       for (const Sampled& sample : seen) {

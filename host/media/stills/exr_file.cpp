@@ -150,7 +150,7 @@ std::optional<std::string> read_exr_text(const std::filesystem::path& file, cons
     const Imf::InputFile input(file.c_str(), 0);
     const auto* text = input.header().findTypedAttribute<Imf::StringAttribute>(keyword);
     if (text == nullptr) return std::nullopt;
-    if (text->value().size() > kMostPictureTextBytes) {
+    if (text->value().size() > kMaxPictureTextBytes) {
       throw InputError(format("its text has {} bytes", text->value().size()));
     }
     return text->value();

@@ -39,7 +39,7 @@ std::int32_t read_word(LibRaw_abstract_datastream& stream, unsigned order) {
 
 // LibRaw hands every tag on, the stream at its value. The upper bits of `tag` tell directories from makers' own notes.
 void take_tag(void* tags, int tag, int type, int count, unsigned order, void* stream_data, INT64) {
-  constexpr int kMostText = 64;
+  constexpr int kMaxText = 64;
   constexpr int kNumber = 0xFFFF, kNotes = 0xF0000;
   if ((tag & kNotes) != 0) return;
   auto& found = *static_cast<RawTags*>(tags);
@@ -55,7 +55,7 @@ void take_tag(void* tags, int tag, int type, int count, unsigned order, void* st
           std::max<std::int64_t>(round_half_up(int128{numerator} * kSecondNs, denominator), 1);
     }
   }
-  if ((tag == kDateTimeOriginal || tag == kSubSecTimeOriginal) && count > 0 && count <= kMostText) {
+  if ((tag == kDateTimeOriginal || tag == kSubSecTimeOriginal) && count > 0 && count <= kMaxText) {
     std::string text(static_cast<std::size_t>(count), '\0');
     if (stream.read(text.data(), 1, text.size()) != count) return;
     text.resize(text.find('\0') == std::string::npos ? text.size() : text.find('\0'));

@@ -53,10 +53,10 @@ bool has_extension(const std::filesystem::path& file, std::initializer_list<std:
 // How much wider than high a pixel is of which so many are as long as one and the same length. Pictures state pixels an
 // inch, rounded as they like: what lies within a thousandth of a square is one. None that no pixel has.
 std::optional<Rational> aspect_of(double pixels_across, double pixels_down) {
-  constexpr double kMost = 64.0, kSquare = 1e-3;
+  constexpr double kMax = 64.0, kSquare = 1e-3;
   constexpr std::int64_t kParts = 10'000;
   const double aspect = pixels_down / pixels_across;
-  if (!(aspect >= 1 / kMost && aspect <= kMost)) return std::nullopt;
+  if (!(aspect >= 1 / kMax && aspect <= kMax)) return std::nullopt;
   if (std::abs(aspect - 1.0) <= kSquare) return Rational{1, 1};
   const bool are_whole = pixels_across == std::floor(pixels_across) &&
                          pixels_down == std::floor(pixels_down) && std::max(pixels_across, pixels_down) < 1e9;
@@ -152,7 +152,7 @@ void add_tags(const std::filesystem::path& file, Still& still) {
 // allocates what a file says: Deflate makes 1032 bytes of one at most, which may be 8 pixels each, and a JPEG's block of
 // 64 pixels takes more than that.
 void check_front(const std::filesystem::path& file) {
-  constexpr std::uint64_t kMostPixelsAByte = 1032 * 8, kSmallPixels = 16 << 20;
+  constexpr std::uint64_t kMaxPixelsAByte = 1032 * 8, kSmallPixels = 16 << 20;
   const MappedFile mapped(file);
   const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
   if (!bytes.starts_with("\x89PNG\r\n\x1A\n") && !bytes.starts_with("\xFF\xD8\xFF")) {
@@ -165,7 +165,7 @@ void check_front(const std::filesystem::path& file) {
   if (!size && bytes.starts_with("\xFF\xD8")) {
     throw InputError(format("{} cannot be read: it is damaged or no picture", file.string()));
   }
-  if (!size || size->pixel_count() <= std::max(kSmallPixels, mapped.bytes().size() * kMostPixelsAByte))
+  if (!size || size->pixel_count() <= std::max(kSmallPixels, mapped.bytes().size() * kMaxPixelsAByte))
     return;
   throw InputError(
       format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged",
@@ -236,7 +236,7 @@ class StillClip final : public Clip {
     }
     const bool is_developed = is_raw(pages_.front().file);
     describe_stored_codes(info_, options,
-                          {usual_transfer(first_), first_.transfer, first_.primaries, first_.colours_from,
+                          {default_transfer(first_), first_.transfer, first_.primaries, first_.colours_from,
                            first_.unread_transfer, first_.unread_primaries, first_.pixel_aspect});
     add_unread_colours(options);
     if (is_developed && pages_.size() > 1) {
@@ -327,13 +327,13 @@ class StillClip final : public Clip {
   }
 
   // Deep stills come from scientific cameras, whose codes are linear; shallow ones are made to be seen.
-  [[nodiscard]] static Transfer usual_transfer(const Still& still) {
+  [[nodiscard]] static Transfer default_transfer(const Still& still) {
     return still.code_bytes == 1 ? Transfer::srgb() : Transfer::linear();
   }
 
   void check_colours(const Still& still, const Page& page) const {
     const CaptureFormat& capture = info_.format;
-    const Transfer transfer = still.transfer.value_or(usual_transfer(still));
+    const Transfer transfer = still.transfer.value_or(default_transfer(still));
     const Primaries primaries = still.primaries.value_or(Primaries::bt709);
     const bool other_transfer = !stated_.transfer && transfer != capture.transfer;
     const bool other_primaries =

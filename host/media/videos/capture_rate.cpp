@@ -100,20 +100,20 @@ double median(std::vector<double> values) {
 // How many pictures a second times show where none is missing between them: pictures that were dropped leave gaps of
 // whole periods. 0 where times keep no such period.
 double steady_rate(const std::vector<std::int64_t>& starts_ns) {
-  constexpr int kMostParts = 6;         // of the usual difference, which is no period where most were dropped
+  constexpr int kMaxParts = 6;         // of the usual difference, which is no period where most were dropped
   constexpr double kBetter = 0.5;       // than a longer period, which fits as well by chance
-  constexpr double kMostMisfit = 0.1;   // periods, in the mean; times that keep none are 0.25 off
+  constexpr double kMaxMisfit = 0.1;   // periods, in the mean; times that keep none are 0.25 off
   constexpr double kFewMisfits = 0.03;  // single pictures that came late are no sign of a shorter period
   if (starts_ns.size() < 2) return 0.0;
   std::vector<double> differences;
   for (std::size_t k = 1; k < starts_ns.size(); ++k)
     differences.push_back(static_cast<double>(starts_ns[k] - starts_ns[k - 1]));
-  const double usual_ns = median(differences);
+  const double median_ns = median(differences);
   const double span_ns = static_cast<double>(starts_ns.back() - starts_ns.front());
-  if (!(usual_ns > 0.0 && span_ns > 0.0)) return 0.0;
-  double best_ns = 0.0, least = kMostMisfit / kBetter;
-  for (int parts = 1; parts <= kMostParts && least > kFewMisfits; ++parts) {
-    double period_ns = usual_ns / parts, misfit = 0.0;
+  if (!(median_ns > 0.0 && span_ns > 0.0)) return 0.0;
+  double best_ns = 0.0, least = kMaxMisfit / kBetter;
+  for (int parts = 1; parts <= kMaxParts && least > kFewMisfits; ++parts) {
+    double period_ns = median_ns / parts, misfit = 0.0;
     // Once more with the mean period, for the usual difference was rounded to the container's clock.
     for (int pass = 0; pass < 2; ++pass) {
       double periods = 0.0;
@@ -166,13 +166,13 @@ std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std
 bool has_slow_parts(const std::filesystem::path& path) {
   // The trailer ends with its length and four letters.
   constexpr std::string_view kEnd = "SEFT", kName = "SlowMotion_Data";
-  constexpr std::size_t kTail = 8, kMostBytes = 1u << 20;
+  constexpr std::size_t kTail = 8, kMaxBytes = 1u << 20;
   const MappedFile mapped(path);
   const Bytes file = mapped.bytes();
   if (!is_mp4(file) || std::memcmp(file.data() + file.size() - kEnd.size(), kEnd.data(), kEnd.size()) != 0) {
     return false;
   }
-  const Bytes tail = file.last(std::min(file.size(), kMostBytes + kTail));
+  const Bytes tail = file.last(std::min(file.size(), kMaxBytes + kTail));
   return std::string_view(reinterpret_cast<const char*>(tail.data()), tail.size()).find(kName) !=
          std::string_view::npos;
 }

@@ -112,9 +112,9 @@ void add_crossed_chroma(const std::uint8_t* u, const std::uint8_t* v, std::size_
 
 using AddChroma = decltype(&add_chroma_1);
 AddChroma chroma_adder(int shift, const Weights& weights) {
-  constexpr AddChroma kUsual[] = {&add_chroma_1, &add_chroma_2, &add_chroma_4};
+  constexpr AddChroma kDefault[] = {&add_chroma_1, &add_chroma_2, &add_chroma_4};
   constexpr AddChroma kCrossed[] = {&add_crossed_chroma<0>, &add_crossed_chroma<1>, &add_crossed_chroma<2>};
-  return (weights.are_crossed() ? kCrossed : kUsual)[shift];
+  return (weights.are_crossed() ? kCrossed : kDefault)[shift];
 }
 
 // A channel's code from luma's part and chroma's. Their sum, as 16 bits have it, is right.

@@ -303,7 +303,7 @@ void PixelConverter::scale(const AVFrame& frame, AVPixelFormat wanted, const std
                            std::uint8_t* const* planes, const int* strides) {
   const auto from = static_cast<AVPixelFormat>(frame.format);
   const ChromaPlace at =
-      coding_.chroma_at.value_or(chroma_place(number_of(frame.chroma_location)).value_or(kUsualChromaPlace));
+      coding_.chroma_at.value_or(chroma_place(number_of(frame.chroma_location)).value_or(kDefaultChromaPlace));
   if (!scaler_ || scales_from_ != from || scales_to_ != wanted || chroma_at_ != at) {
     scaler_.reset(new_scaler(frame, wanted, at));
     if (!scaler_) {

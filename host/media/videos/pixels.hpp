@@ -39,7 +39,7 @@ struct Upright {
 [[nodiscard]] Upright upright(const AVStream& stream);
 
 // Where nothing says it: to the left, and between two lines, as in H.264 and most that came after it.
-constexpr ChromaPlace kUsualChromaPlace = ChromaPlace::left;
+constexpr ChromaPlace kDefaultChromaPlace = ChromaPlace::left;
 
 // How YUV becomes RGB.
 struct YuvCoding {
@@ -86,7 +86,7 @@ class PixelConverter {
   YuvCoding coding_;
   ScalerPointer scaler_;
   AVPixelFormat scales_from_ = AV_PIX_FMT_NONE, scales_to_ = AV_PIX_FMT_NONE;
-  ChromaPlace chroma_at_ = kUsualChromaPlace;
+  ChromaPlace chroma_at_ = kDefaultChromaPlace;
   FramePointer scaled_;
   FramePointer rgb_;
 };

@@ -133,10 +133,10 @@ std::optional<std::string> missing_part_note(const AVFormatContext& file, const 
   const double found =
       (static_cast<double>(last_end) - static_cast<double>(start)) * av_q2d(stream.time_base);
   constexpr double kPeriods = 2.5;  // that containers may be off by
-  const double most_off = kPeriods * found / static_cast<double>(pictures);
-  if (*announced - found <= most_off) return {};
+  const double max_off = kPeriods * found / static_cast<double>(pictures);
+  if (*announced - found <= max_off) return {};
   const double first = static_cast<double>(start) * av_q2d(stream.time_base);
-  if (*announced - first - found <= most_off) {
+  if (*announced - first - found <= max_off) {
     return format(
         "the file lasts {:.4g} s from its start on, and its first picture comes after {:.4g} s: those before "
         "it "

@@ -172,7 +172,7 @@ tik::Alignment kept_alignment(const CameraPath& path, Unseen unseen) {
           path.reference,
           unseen == Unseen::held,
           std::hypot(furthest.x, furthest.y),
-          std::abs(path.step(path.most_turned()).degrees),
+          std::abs(path.step(path.max_turned()).degrees),
           path.residual_pixels()};
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kLooks = 9;
 // Less is not told from what compression and rolling shutters do.
-constexpr double kLeastPixels = 1.0;
+constexpr double kMinPixels = 1.0;
 
 // How far the corner that moves furthest does.
 double furthest_corner(const Warp& warp, const Shape& shape) {
@@ -51,7 +51,7 @@ std::optional<MovedCamera> moved_camera(tik::Reader& capture) {
   std::vector<std::byte> raster(format.sample_bytes());
   std::unique_ptr<Registrar> registrar;
   std::optional<MovedCamera> moved;
-  double most = kLeastPixels;
+  double most = kMinPixels;
   for (std::uint64_t look = 0; look < std::min(count, kLooks); ++look) {
     const std::uint64_t sample = count <= kLooks ? look : look * (count - 1) / (kLooks - 1);
     for_each_block(capture, {sample, sample + 1}, [&](const BlockView& block) {

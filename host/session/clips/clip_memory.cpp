@@ -9,8 +9,8 @@ namespace nutik {
 namespace {
 
 // Two are decoded ahead at least, so that decoding goes on while one is looked at.
-constexpr std::uint64_t kLeastRasters = 2;
-constexpr std::uint64_t kMostReadAhead = 64 << 20;
+constexpr std::uint64_t kMinRasters = 2;
+constexpr std::uint64_t kMaxReadAhead = 64 << 20;
 // Of a thread that packs: a group of tiles (tik/codec.cpp) plain, in parts, and packed, and the codec's own.
 constexpr std::uint64_t kPackingBytes = 8 << 20;
 
@@ -23,7 +23,7 @@ std::uint64_t block_units(const CaptureFormat& capture) {
 }
 
 // Blocks of one sample, in each of the places where there is one.
-std::uint64_t least_block_bytes(const CaptureFormat& capture) {
+std::uint64_t min_block_bytes(const CaptureFormat& capture) {
   return (capture.noise.camera ? block_units(capture) : 3) * capture.sample_bytes();
 }
 
@@ -55,7 +55,7 @@ void set_blocks(ClipMemory& memory, const ClipToRead& clip, std::uint64_t closin
 }
 
 std::uint64_t read_ahead(std::uint64_t least, std::uint64_t rest) {
-  return least + std::min(kMostReadAhead - std::min(kMostReadAhead, least), rest / 8);
+  return least + std::min(kMaxReadAhead - std::min(kMaxReadAhead, least), rest / 8);
 }
 
 }  // namespace
@@ -63,11 +63,11 @@ std::uint64_t read_ahead(std::uint64_t least, std::uint64_t rest) {
 ClipMemory memory_for_encoding(const MemoryBudget& budget, const ClipToRead& clip,
                                const MemoryNeeds& rendering) {
   const std::uint64_t sample_bytes = clip.capture.sample_bytes();
-  const std::uint64_t least_ahead = kLeastRasters * sample_bytes;
-  const std::uint64_t least_blocks = least_block_bytes(clip.capture);
+  const std::uint64_t min_ahead = kMinRasters * sample_bytes;
+  const std::uint64_t min_blocks = min_block_bytes(clip.capture);
   const MemoryNeeds needs{{"pictures within the decoder", clip.decoder_bytes},
-                          {"pictures decoded ahead", least_ahead},
-                          {"blocks", least_blocks},
+                          {"pictures decoded ahead", min_ahead},
+                          {"blocks", min_blocks},
                           {"packing them", kPackingBytes}};
   MemoryNeeds rendering_needs = rendering;
   if (!rendering.parts().empty()) rendering_needs.add("blocks", held_format(clip.capture).sample_bytes());
@@ -75,13 +75,13 @@ ClipMemory memory_for_encoding(const MemoryBudget& budget, const ClipToRead& cli
   std::uint64_t rest = needs.rest_of(budget.bytes);
 
   ClipMemory memory;
-  memory.read_ahead_bytes = read_ahead(least_ahead, rest);
-  rest -= memory.read_ahead_bytes - least_ahead;
+  memory.read_ahead_bytes = read_ahead(min_ahead, rest);
+  rest -= memory.read_ahead_bytes - min_ahead;
   const std::uint64_t more_threads = std::min<std::uint64_t>(
       std::max(std::thread::hardware_concurrency(), 1u) - 1, rest / 8 / kPackingBytes);
   memory.threads = static_cast<std::uint32_t>(1 + more_threads);
   rest -= more_threads * kPackingBytes;
-  std::uint64_t closing = (rest + least_blocks) / block_units(clip.capture);
+  std::uint64_t closing = (rest + min_blocks) / block_units(clip.capture);
   if (!clip.capture.noise.camera) closing = std::max(sample_bytes, rest / block_units(clip.capture));
   if (!rendering.parts().empty()) closing = std::min(closing, budget.bytes - rendering.bytes());
   check_stated(budget, clip, closing);
@@ -92,22 +92,22 @@ ClipMemory memory_for_encoding(const MemoryBudget& budget, const ClipToRead& cli
 ClipMemory memory_for_streaming(const MemoryBudget& budget, const ClipToRead& clip,
                                 const MemoryNeeds& rendering) {
   const std::uint64_t sample_bytes = clip.capture.sample_bytes();
-  const std::uint64_t least_ahead = kLeastRasters * sample_bytes;
-  const std::uint64_t least_blocks = least_block_bytes(clip.capture);
+  const std::uint64_t min_ahead = kMinRasters * sample_bytes;
+  const std::uint64_t min_blocks = min_block_bytes(clip.capture);
   MemoryNeeds needs{{"pictures within the decoder", clip.decoder_bytes},
-                    {"pictures decoded ahead", least_ahead},
-                    {"blocks", least_blocks}};
+                    {"pictures decoded ahead", min_ahead},
+                    {"blocks", min_blocks}};
   needs.add(rendering);
   std::uint64_t rest = needs.rest_of(budget.bytes);
 
   ClipMemory memory;
-  memory.read_ahead_bytes = read_ahead(least_ahead, rest);
-  rest -= memory.read_ahead_bytes - least_ahead;
+  memory.read_ahead_bytes = read_ahead(min_ahead, rest);
+  rest -= memory.read_ahead_bytes - min_ahead;
   // Half of the rest: tables and maps share the other one.
-  const std::uint64_t closing = (rest / 2 + least_blocks) / block_units(clip.capture);
+  const std::uint64_t closing = (rest / 2 + min_blocks) / block_units(clip.capture);
   check_stated(budget, clip, closing);
   set_blocks(memory, clip, closing);
-  memory.bytes = clip.decoder_bytes + memory.read_ahead_bytes + least_blocks + rest / 2;
+  memory.bytes = clip.decoder_bytes + memory.read_ahead_bytes + min_blocks + rest / 2;
   return memory;
 }
 

@@ -43,7 +43,7 @@ CameraNoise own_noise(ClipSource& source, const OpenClip& open, const MemoryBudg
     try {
       static_cast<void>(memory_for_encoding(memory, clip));
     } catch (const MemoryTooLittle& error) {
-      if (error.least_bytes() > needs.bytes()) throw;
+      if (error.min_bytes() > needs.bytes()) throw;
     }
     needs.rest_of(memory.bytes);
   }
@@ -243,9 +243,9 @@ ClipSource open_clip_source(const SourceRequest& request, const OpenClip& open_w
                             const MemoryBudget& memory, const ReportedProgress& progress,
                             const std::stop_token& stop) {
   if (request.path.empty()) throw UsageError("no clip is named");
-  if (!(request.sigmas >= SourceRequest::kLeastSigmas && request.sigmas <= SourceRequest::kMostSigmas)) {
+  if (!(request.sigmas >= SourceRequest::kMinSigmas && request.sigmas <= SourceRequest::kMaxSigmas)) {
     throw UsageError(format("{} standard deviations of noise are not within {} … {}", request.sigmas,
-                            SourceRequest::kLeastSigmas, SourceRequest::kMostSigmas));
+                            SourceRequest::kMinSigmas, SourceRequest::kMaxSigmas));
   }
   ClipSource source;
   source.request = request;

@@ -22,7 +22,7 @@ ExposedPicture expose_once(ClipSource& source, std::uint64_t sample_count, const
   options.transfer.reset();  // it went into the capture's format
   // With delays there is a function for each pair of both.
   const std::size_t function_count =
-      options.delays ? std::min(MaskMap::kMostRegions, functions.size() * options.delays->delays_ns.size())
+      options.delays ? std::min(MaskMap::kMaxRegions, functions.size() * options.delays->delays_ns.size())
                      : functions.size();
   MemoryNeeds rendering = rendering_needs(source.capture, type, function_count,
                                           source.request.block_samples.value_or(kDefaultBlockSamples));

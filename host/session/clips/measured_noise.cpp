@@ -44,7 +44,7 @@ std::optional<std::string> transfer_note(const StatedNoise& stated, const Transf
 }
 
 NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOptions& stated,
-                            std::uint64_t most_samples, const MemoryBudget& memory, ClipTold& told) {
+                            std::uint64_t max_samples, const MemoryBudget& memory, ClipTold& told) {
   ClipOptions options = stated;
   options.decoder_bytes = memory.bytes / 8;
   std::optional<CaptureFormat> first;
@@ -57,17 +57,17 @@ NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOption
       told.facts = clip->info().facts;
       const std::uint64_t within_decoder = clip->info().decoder_bytes;
       MemoryNeeds needs{{"pictures within the decoder", within_decoder}};
-      needs.add(NoiseEstimator::needs(format, most_samples));
+      needs.add(NoiseEstimator::needs(format, max_samples));
       static_cast<void>(needs.rest_of(memory.bytes));
       first = format;
       estimator.emplace(format,
-                        NoiseEstimator::threads_in(memory.bytes - within_decoder, format, most_samples));
+                        NoiseEstimator::threads_in(memory.bytes - within_decoder, format, max_samples));
     } else if (format != *first) {
       throw InputError(nutik::format("{} is of another kind than {}: {} where that has {}", name,
                                      clips.front(), format_text(format), format_text(*first)));
     }
     estimator->add_clip(
-        name, [&](std::span<std::byte> raster) { return clip->read(raster); }, most_samples);
+        name, [&](std::span<std::byte> raster) { return clip->read(raster); }, max_samples);
   }
   return estimator->estimate();
 }
@@ -110,14 +110,14 @@ std::optional<Note> check_stillness(const Stillness& stillness, const SourceRequ
                "{:.2f} standard deviations of the noise around what would be held for it, and may by {:.2f} "
                "(most at {}, by {:.2f}, and in {}): {}. {}",
                input_title(request.path.string()), stillness.stray, stillness.limit, where,
-               stillness.most_stray, when, cause, kNoiseElsewhere),
+               stillness.max_stray, when, cause, kNoiseElsewhere),
         way_out);
   }
-  if (stillness.most_stray <= stillness.most_limit) return std::nullopt;
+  if (stillness.max_stray <= stillness.max_limit) return std::nullopt;
   return Note(format("in {:.0f} % of the picture light changes by less than its noise: what is held there is "
                      "off by up to {:.2f} standard deviations of it (at {}), where {:.2f} may be; leave that "
                      "part out, or take a tolerance",
-                     100 * stillness.stray_share, stillness.most_stray, where, stillness.most_limit),
+                     100 * stillness.stray_share, stillness.max_stray, where, stillness.max_limit),
               {Setting::crop, Setting::from, Setting::to});
 }
 

@@ -41,7 +41,7 @@ struct ClipTold {
 // is of another format than the first, naming both; MemoryTooLittle, before any is read, with the least that does.
 // `told` gets what the first clip is taken for, and the notes on all.
 [[nodiscard]] NoiseEstimate measure_noise(std::span<const std::string> clips, const ClipOptions& options,
-                                          std::uint64_t most_samples, const MemoryBudget& memory,
+                                          std::uint64_t max_samples, const MemoryBudget& memory,
                                           ClipTold& told);
 
 // A clip whose own noise was asked for does not stand still, or its brightness does not.

@@ -93,13 +93,13 @@ class PrivateFolder {
 // Whether there is plenty of room for a capture that is not packed: it is read many times, and kept for no longer than
 // that. A packed one is quick to unpack.
 bool has_room_for(const ClipSource& clip, const fs::path& folder) {
-  constexpr double kMostOfRoom = 0.25;
+  constexpr double kMaxOfRoom = 0.25;
   std::error_code error;
   const fs::space_info space = fs::space(folder, error);
   const std::uint64_t samples = clip.announced_samples();
   return !error && samples > 0 &&
          static_cast<double>(samples) * static_cast<double>(held_format(clip.capture).sample_bytes()) <=
-             kMostOfRoom * static_cast<double>(space.available);
+             kMaxOfRoom * static_cast<double>(space.available);
 }
 
 }  // namespace

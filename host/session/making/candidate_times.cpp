@@ -11,10 +11,10 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint64_t kMostCombinations = 1'000'000;
+constexpr std::uint64_t kMaxCombinations = 1'000'000;
 // Candidates where no step is stated: a picture's time apart, further where that is more than so many of all times
 // together.
-constexpr std::uint64_t kUsualCombinations = 20'000;
+constexpr std::uint64_t kDefaultCombinations = 20'000;
 // Which numbers a name may stand for, in nanoseconds.
 struct TimeRange {
   std::int64_t from_ns = 0, to_ns = 0;
@@ -47,7 +47,7 @@ class Candidates {
       }
     }
     // Evenly many of each, a picture's time apart at the closest.
-    const auto share = static_cast<double>(std::max<std::uint64_t>(kUsualCombinations / combinations, 2));
+    const auto share = static_cast<double>(std::max<std::uint64_t>(kDefaultCombinations / combinations, 2));
     for (const std::size_t at : unstepped) {
       CandidateTimes& each = candidates[at];
       const std::int64_t from_ns = each.times_ns.front(), span_ns = each.times_ns.back() - from_ns;
@@ -70,10 +70,10 @@ class Candidates {
 
  private:
   static std::uint64_t multiplied(std::uint64_t combinations, std::uint64_t by) {
-    if (combinations * by > kMostCombinations) {
+    if (combinations * by > kMaxCombinations) {
       throw UsageError(
           format("there are more than {} combinations of times to try; take larger steps or narrower ranges",
-                 kMostCombinations));
+                 kMaxCombinations));
     }
     return combinations * by;
   }

@@ -68,9 +68,9 @@ void InputCheck::add_functions(const std::string& name, std::string_view text) {
   }
   for (const Severity severity : {Severity::error, Severity::warning}) {
     const std::size_t count = diagnostics.count(severity);
-    if (count <= Diagnostics::kMostShown) continue;
+    if (count <= Diagnostics::kMaxShown) continue;
     add({severity, "function_file_more", name,
-         format("and {} more {}", count - Diagnostics::kMostShown,
+         format("and {} more {}", count - Diagnostics::kMaxShown,
                 severity == Severity::error ? "mistakes" : "warnings")});
   }
 }

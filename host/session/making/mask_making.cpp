@@ -197,7 +197,7 @@ class MaskMaker {
       throw UsageError(format("{}: no codes differ by more than {}, for white is {}; state fewer codes",
                               step.name.text, *step.by_codes, white_code));
     }
-    report.by_codes = step.by_codes ? *step.by_codes : usual_noise(spans, white_code);
+    report.by_codes = step.by_codes ? *step.by_codes : default_noise(spans, white_code);
     return spanning_more({mask().width, mask().height, 1}, spans, *report.by_codes);
   }
 
@@ -246,16 +246,16 @@ MadeMask make_mask(const MaskRequest& request, CaptureSource* capture, const std
 }
 
 std::vector<std::string> warnings_of(const MadeMask& made) {
-  constexpr std::size_t kMostShown = 8;
+  constexpr std::size_t kMaxShown = 8;
   std::vector<std::string> warnings;
   for (const StepReport& step : made.steps) {
     if (step.pixel_count == 0) warnings.push_back(format("{} for M{} selects no pixel", step.name, step.tag));
     if (step.covered_tags.empty()) continue;
     std::string tags;
-    for (std::size_t i = 0; i < std::min(step.covered_tags.size(), kMostShown); ++i)
+    for (std::size_t i = 0; i < std::min(step.covered_tags.size(), kMaxShown); ++i)
       tags += format("{}M{}", i == 0 ? "" : ", ", step.covered_tags[i]);
-    if (step.covered_tags.size() > kMostShown)
-      tags += format(" and {} more", step.covered_tags.size() - kMostShown);
+    if (step.covered_tags.size() > kMaxShown)
+      tags += format(" and {} more", step.covered_tags.size() - kMaxShown);
     warnings.push_back(
         format("{}: later steps cover all of {}, which no pixel has in the end", step.name, tags));
   }

@@ -48,9 +48,9 @@ std::string PictureRecipe::text(const std::string& precision, const OwnRecipe& o
   }
   if (!own.options.empty()) std::ranges::sort(recipe.options);
   std::string text = recipe.text();
-  if (text.size() >= kMostPictureTextBytes) {
+  if (text.size() >= kMaxPictureTextBytes) {
     throw RecipeTooLong(format("the recipe has {} bytes and a picture carries {} MiB at most", text.size(),
-                               kMostPictureTextBytes >> 20));
+                               kMaxPictureTextBytes >> 20));
   }
   return text;
 }

@@ -29,7 +29,7 @@ struct OwnRecipe {
 // Of the single picture that a frame of a video is: when it was exposed, of functions their time 0.
 [[nodiscard]] OwnRecipe own_recipe(const Exposure& exposure, bool is_plain);
 
-// The text is longer than a picture carries (kMostPictureTextBytes).
+// The text is longer than a picture carries (kMaxPictureTextBytes).
 struct RecipeTooLong : InputError {
   using InputError::InputError;
 };

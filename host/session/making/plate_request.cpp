@@ -81,10 +81,10 @@ MadePlate make_plate(CaptureSource& capture, const std::string& capture_name, co
   }
   std::optional<CameraNoise> noise;
   if (!request.by_codes) noise = noise_of(capture);
-  const auto least = static_cast<std::uint32_t>(std::ceil(CodeBand::kLeastShare * format.white_code));
+  const auto least = static_cast<std::uint32_t>(std::ceil(CodeBand::kMinShare * format.white_code));
   const CodeBand band = noise ? CodeBand::of_noise(format, *noise)
                               : CodeBand::of_codes(format, request.by_codes.value_or(least));
-  Plate plate = make_plate(capture, band, memory.bytes, request.most_samples, progress);
+  Plate plate = make_plate(capture, band, memory.bytes, request.max_samples, progress);
   MadePlate made{{}, std::move(plate.uncertain), noise || request.by_codes, {}};
   made.picture = stored(std::move(plate.light), format, output, made.saturation);
   state_values(made.picture, format, output);

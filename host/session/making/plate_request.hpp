@@ -20,7 +20,7 @@ struct PlateRequest {
   // capture itself is measured to have, and at least by 1/32 of white.
   std::optional<std::uint32_t> by_codes;
   // Where the capture has more samples, so many are looked at, evenly in time.
-  std::uint64_t most_samples = ~std::uint64_t{0};
+  std::uint64_t max_samples = ~std::uint64_t{0};
 
   friend bool operator==(const PlateRequest&, const PlateRequest&) = default;
 };

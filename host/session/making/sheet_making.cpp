@@ -6,7 +6,7 @@ namespace nutik {
 
 NeedsOfFormat sheet_needs(const sheet::SheetWishes& wishes) {
   constexpr std::uint64_t kPixelBytes = 8;  // on the canvas and in the picture
-  const std::uint64_t width = wishes.width.value_or(sheet::kUsualWidth);
+  const std::uint64_t width = wishes.width.value_or(sheet::kDefaultWidth);
   return [bytes = kPixelBytes * width * width](const CaptureFormat&) {
     return MemoryNeeds{{"the sheet", bytes}};
   };

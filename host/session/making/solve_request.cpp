@@ -20,9 +20,9 @@ namespace nutik {
 namespace {
 
 // A larger share of a region's light at the white code is warned of.
-constexpr double kMostWhite = 0.01;
+constexpr double kMaxWhite = 0.01;
 // What the exposure comes to lies no further from what was reckoned, unless it is computed in single.
-constexpr double kMostApart = 1e-6;
+constexpr double kMaxApart = 1e-6;
 
 class Solver {
  public:
@@ -292,7 +292,7 @@ class Solver {
         apart = std::max(apart, std::fabs(reckoned[i][channel] - region_light[i][channel]));
     }
     solved.warnings = std::move(exposed.warnings);
-    if (apart > kMostApart) {
+    if (apart > kMaxApart) {
       solved.warnings.push_back(
           format("the exposure is {:.2g} of white from what the numbers were found with, which is computed "
                  "in double",
@@ -320,7 +320,7 @@ class Solver {
 
   void warn_of_white(const std::vector<double>& shares, SolvedExposure& solved) const {
     for (std::size_t i = 0; i < shares.size(); ++i) {
-      if (shares[i] <= kMostWhite) continue;
+      if (shares[i] <= kMaxWhite) continue;
       solved.warnings.push_back(
           format("the wish {}: {:.2g} % of its region's light is held at the white code, where the "
                  "scene may have been brighter than the capture tells",

@@ -19,16 +19,16 @@ namespace {
 
 // Of a subject that covers a place of its way for a share of the time, the trail shows so much there.
 constexpr double kTrailOpacity = 0.5;
-constexpr double kMostStrength = 8;  // more shows the noise of the empty scene
-constexpr double kMostMoving = 0.2;  // of the picture, on average
-constexpr std::uint64_t kLeastEmptySamples = 4;
-constexpr double kLeastExtent = 1.0 / 16;  // of the picture's longer side, that a subject goes
+constexpr double kMaxStrength = 8;  // more shows the noise of the empty scene
+constexpr double kMaxMoving = 0.2;  // of the picture, on average
+constexpr std::uint64_t kMinEmptySamples = 4;
+constexpr double kMinExtent = 1.0 / 16;  // of the picture's longer side, that a subject goes
 // In pixels: without specks, without holes, and with the subject's soft border.
 constexpr double kSmoothRadius = 1, kGrowRadius = 9, kShrinkRadius = 7;
 
 bool shows_one(StudyStyle style) { return style == StudyStyle::rear_curtain || style == StudyStyle::frozen; }
 
-TrailShape usual_trail(StudyStyle style) {
+TrailShape default_trail(StudyStyle style) {
   switch (style) {
     case StudyStyle::trail: return TrailShape::even;
     case StudyStyle::rear_curtain: return TrailShape::ramp;
@@ -57,7 +57,7 @@ class StudyPlanner {
   StudyPlanner(const StudyRequest& request, const Timeline& timeline, const std::string& name,
                std::vector<SubjectTrack> tracks, const std::vector<Rectangle>& regions)
       : request_(request), timeline_(timeline), name_(name), tracks_(std::move(tracks)), regions_(regions) {
-    shape_ = request.trail.value_or(usual_trail(request.style));
+    shape_ = request.trail.value_or(default_trail(request.style));
   }
 
   // Subject by subject.
@@ -68,11 +68,11 @@ class StudyPlanner {
         subjects_.push_back(i);
       }
     }
-    constexpr std::size_t kMostTags = 255;
-    if (study.moments.size() > kMostTags) {
+    constexpr std::size_t kMaxTags = 255;
+    if (study.moments.size() > kMaxTags) {
       throw UsageError(format("{} moments of {} subjects are {}; a mask has room for {}",
                               study.moments.size() / tracks_.size(), tracks_.size(), study.moments.size(),
-                              kMostTags));
+                              kMaxTags));
     }
   }
 
@@ -105,7 +105,7 @@ class StudyPlanner {
       study.functions.emplace(static_cast<std::uint8_t>(i + 1), moment.function());
     }
     study.empty = empty_of_all();
-    if (study.empty.size() < kLeastEmptySamples) study.empty = {};
+    if (study.empty.size() < kMinEmptySamples) study.empty = {};
     study.functions.emplace(std::uint8_t{0}, shape_ == TrailShape::none ? background(study) : trail(study));
   }
 
@@ -221,7 +221,7 @@ class StudyPlanner {
       return pieces.function();
     }
     const double wanted = kTrailOpacity / covered;
-    study.trail_strength = std::round(10 * std::clamp(wanted, 1.0, kMostStrength)) / 10;
+    study.trail_strength = std::round(10 * std::clamp(wanted, 1.0, kMaxStrength)) / 10;
     const double taken =
         -(1 - 1 / study.trail_strength) * way_ns / static_cast<double>(without.end_ns - without.begin_ns);
     const double rounded = std::round(1000 * taken) / 1000;
@@ -290,7 +290,7 @@ double uncertain_share(const Region& uncertain, const std::vector<Rectangle>& re
 // Throws what makes no study. Moments that are stated are shown wherever the subject goes.
 void check_track(const SubjectTrack& track, const std::string& where, std::uint32_t by_codes,
                  std::uint32_t side, bool is_stated) {
-  if (track.moving_share > kMostMoving) {
+  if (track.moving_share > kMaxMoving) {
     throw EverythingMoves(format(
         "{}: {:.0f} % of the picture differ from the scene at rest on average: everything moves, as it "
         "does where the camera did. A study needs a scene that rests, and something that moves in it",
@@ -302,7 +302,7 @@ void check_track(const SubjectTrack& track, const std::string& where, std::uint3
                where, by_codes));
   }
   if (is_stated) return;
-  if (kLeastExtent * side > track.extent) {
+  if (kMinExtent * side > track.extent) {
     throw NoSubject(
         format("{}: nothing goes anywhere: what moves most goes {:.0f} pixels of {}, and is {:.0f} pixels "
                "large. Take a part of the picture, or name the moments to show",
@@ -352,7 +352,7 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
   const std::vector<Rectangle> regions = regions_of(request, capture_name, format.shape);
   MadePlate plate = make_rough_plate(capture, capture_name, memory, progress);
   const double moving = uncertain_share(plate.uncertain, regions);
-  if (moving > kMostMoving) {
+  if (moving > kMaxMoving) {
     throw EverythingMoves(
         nutik::format("{}: {:.0f} % of the pixels hold no light for half of the time: everything moves, as "
                       "it does where nobody held "
@@ -364,7 +364,7 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
     study.plate = std::move(plate.picture);
     return study;
   }
-  const auto by_codes = static_cast<std::uint32_t>(std::ceil(2 * CodeBand::kLeastShare * format.white_code));
+  const auto by_codes = static_cast<std::uint32_t>(std::ceil(2 * CodeBand::kMinShare * format.white_code));
   std::vector<SubjectTrack> tracks = track_subjects(capture, plate.picture, by_codes, regions, progress);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const bool is_stated = std::holds_alternative<std::vector<StatedTime>>(request.moments);

@@ -14,9 +14,9 @@ namespace nutik {
 namespace {
 
 // What regions are grown by, and the soft edge of them: less hides in these.
-constexpr double kMostCameraPixels = 4;
+constexpr double kMaxCameraPixels = 4;
 // Shorter shots show nothing that goes anywhere.
-constexpr std::uint64_t kLeastSamples = 8;
+constexpr std::uint64_t kMinSamples = 8;
 
 MemoryNeeds study_needs(const CaptureFormat& capture) {
   MemoryNeeds needs = mask_making_needs(capture);
@@ -40,11 +40,11 @@ class ShotPlanner {
 
   // What rendering takes at the end is there, or is said to be missing before the work begins.
   [[nodiscard]] Session open(const SourceRequest& source) const {
-    constexpr std::uint64_t kUsualFunctions = 8;
+    constexpr std::uint64_t kDefaultFunctions = 8;
     Session session(source, terms_.devices, {.progress = progress("reading"), .besides = study_needs});
     const CaptureFormat& format = session.format();
     MemoryNeeds needs = study_needs(format);
-    needs.add(rendering_needs(format, output_format(terms_.output, format).type, kUsualFunctions,
+    needs.add(rendering_needs(format, output_format(terms_.output, format).type, kDefaultFunctions,
                               kDefaultBlockSamples));
     needs.add("a block", largest_block(session.capture()));
     needs.rest_of(session.devices().request().memory.bytes);
@@ -57,7 +57,7 @@ class ShotPlanner {
     const bool may_align = session.is_clip() && !source.align;
     const std::uint64_t samples = session.timeline().sample_count();
     std::optional<MovedCamera> moved = moved_camera(session.capture());
-    if (moved && moved->pixels > kMostCameraPixels) {
+    if (moved && moved->pixels > kMaxCameraPixels) {
       if (!session.is_clip()) {
         throw EverythingMoves(
             format("{}: {}. A study needs pictures that lie on each other: encode the clip again", name_,
@@ -88,7 +88,7 @@ class ShotPlanner {
     const bool looks_for_subject = request_.style != StudyStyle::slit &&
                                    request_.style != StudyStyle::clean &&
                                    std::holds_alternative<std::uint32_t>(request_.moments);
-    const double most = least_misplaced_pixels(capture.format().shape);
+    const double most = min_misplaced_pixels(capture.format().shape);
     if (!aligned || !looks_for_subject || aligned->residual_pixels < most) return;
     throw NoSubject(format(
         "{}: one motion of the camera does not explain the pictures: moved back, half of the "
@@ -164,7 +164,7 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
   }
   const std::string starts = starts_of(shots);
   const std::size_t count = shots.size();
-  std::erase_if(shots, [](const SampleRange& shot) { return shot.size() < kLeastSamples; });
+  std::erase_if(shots, [](const SampleRange& shot) { return shot.size() < kMinSamples; });
   std::ranges::stable_sort(shots, std::ranges::greater(), &SampleRange::size);
   std::string reasons;
   for (const SampleRange& shot : shots) {

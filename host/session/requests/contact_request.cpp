@@ -9,19 +9,19 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint64_t kUsualCount = 24;
+constexpr std::uint64_t kDefaultCount = 24;
 
 void check_count(int128 count, const StatedTime& every, std::int64_t span_ns) {
-  if (count <= static_cast<int128>(sheet::kMostPictures)) return;
-  constexpr auto kMost = static_cast<std::int64_t>(sheet::kMostPictures);
-  std::int64_t least_ns = std::max<std::int64_t>((span_ns - 1) / kMost + 1, 1);
+  if (count <= static_cast<int128>(sheet::kMaxPictures)) return;
+  constexpr auto kMax = static_cast<std::int64_t>(sheet::kMaxPictures);
+  std::int64_t min_ns = std::max<std::int64_t>((span_ns - 1) / kMax + 1, 1);
   std::int64_t unit_ns = 1;
-  while (least_ns / unit_ns >= 1000) unit_ns *= 10;
-  least_ns = (least_ns + unit_ns - 1) / unit_ns * unit_ns;
+  while (min_ns / unit_ns >= 1000) unit_ns *= 10;
+  min_ns = (min_ns + unit_ns - 1) / unit_ns * unit_ns;
   throw TooManyForSheet(
       format("{} makes {} pictures and a sheet holds {}", every.text(),
-             static_cast<std::uint64_t>(std::min<int128>(count, INT64_MAX)), sheet::kMostPictures),
-      StatedTime::of_nanoseconds(least_ns));
+             static_cast<std::uint64_t>(std::min<int128>(count, INT64_MAX)), sheet::kMaxPictures),
+      StatedTime::of_nanoseconds(min_ns));
 }
 
 std::vector<ExactTime> starts_of(const ContactRequest& request, const Timeline& timeline) {
@@ -30,7 +30,7 @@ std::vector<ExactTime> starts_of(const ContactRequest& request, const Timeline& 
   if (!request.every || request.every->counts_samples()) {
     const std::uint64_t samples = timeline.sample_count() - first;
     const std::uint64_t stride = request.every ? static_cast<std::uint64_t>(request.every->number.numerator)
-                                               : (samples + kUsualCount - 1) / kUsualCount;
+                                               : (samples + kDefaultCount - 1) / kDefaultCount;
     if (request.every) {
       check_count((samples + stride - 1) / stride, *request.every,
                   timeline.duration_ns() - timeline.start_ns(first));

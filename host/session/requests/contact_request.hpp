@@ -22,8 +22,8 @@ struct ContactRequest {
 // More exposures than a sheet has room for.
 struct TooManyForSheet : UsageError {
   TooManyForSheet(const std::string& message, const StatedTime& least)
-      : UsageError(message), least_every(least) {}
-  StatedTime least_every;  // that would do, of three digits
+      : UsageError(message), min_every(least) {}
+  StatedTime min_every;  // that would do, of three digits
 };
 
 // Sample by sample where pictures are counted or nothing is stated, else at exact multiples of a time. An exposure

@@ -68,8 +68,8 @@ FilmCurve FilmCurve::parse(std::string_view text, const std::string& title, cons
   return curve;
 }
 
-CapturedCurve::CapturedCurve(const FilmCurve& curve, const Timeline& timeline, std::int64_t least_ns)
-    : duration_ns_(timeline.duration_ns()), least_ns_(std::min(least_ns, timeline.duration_ns())) {
+CapturedCurve::CapturedCurve(const FilmCurve& curve, const Timeline& timeline, std::int64_t min_ns)
+    : duration_ns_(timeline.duration_ns()), min_ns_(std::min(min_ns, timeline.duration_ns())) {
   for (const FilmCurve::Point& point : curve.points) {
     const ExactTime time = exact_time(point.capture, format("{}: the capture's time", curve.name), timeline);
     points_.push_back({point.film_ns, round_half_up(time.numerator, time.denominator)});
@@ -100,9 +100,9 @@ Exposure CapturedCurve::exposure(const Exposure& film) const {
   Exposure exposure = passed(film);
   exposure.start_ns = std::clamp<std::int64_t>(exposure.start_ns, 0, duration_ns_);
   exposure.end_ns = std::clamp<std::int64_t>(exposure.end_ns, 0, duration_ns_);
-  if (exposure.end_ns - exposure.start_ns >= least_ns_) return exposure;
-  const std::int64_t start_ns = std::min(exposure.start_ns, duration_ns_ - least_ns_);
-  return {start_ns, start_ns + least_ns_};
+  if (exposure.end_ns - exposure.start_ns >= min_ns_) return exposure;
+  const std::int64_t start_ns = std::min(exposure.start_ns, duration_ns_ - min_ns_);
+  return {start_ns, start_ns + min_ns_};
 }
 
 bool CapturedCurve::leaves(const Exposure& film) const {

@@ -35,9 +35,9 @@ struct FilmCurve {
 // A curve on a capture.
 class CapturedCurve {
  public:
-  // `least_ns` is how long a frame is exposed at least, above 0. Throws UsageError where a point names a picture that is
+  // `min_ns` is how long a frame is exposed at least, above 0. Throws UsageError where a point names a picture that is
   // not there.
-  CapturedCurve(const FilmCurve& curve, const Timeline& timeline, std::int64_t least_ns);
+  CapturedCurve(const FilmCurve& curve, const Timeline& timeline, std::int64_t min_ns);
 
   // What the curve passes while a shutter is open, from its earliest to its latest time, before it is cut to the
   // capture. `film` may go on behind the curve's end, where its last time holds.
@@ -56,7 +56,7 @@ class CapturedCurve {
     std::int64_t film_ns, capture_ns;
   };
   std::vector<Point> points_;
-  std::int64_t duration_ns_, least_ns_;
+  std::int64_t duration_ns_, min_ns_;
 };
 
 }  // namespace nutik

@@ -10,12 +10,12 @@
 namespace nutik {
 namespace {
 
-constexpr std::size_t kMostDigits = 12;
+constexpr std::size_t kMaxDigits = 12;
 
 // Digits at the start of a text, which loses them.
 std::optional<std::uint64_t> take_number(std::string_view& text) {
   const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
-  if (digits == 0 || digits > kMostDigits) return std::nullopt;
+  if (digits == 0 || digits > kMaxDigits) return std::nullopt;
   std::uint64_t number = 0;
   for (const char c : text.substr(0, digits)) number = number * 10 + static_cast<std::uint64_t>(c - '0');
   text.remove_prefix(digits);

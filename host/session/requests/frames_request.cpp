@@ -11,13 +11,13 @@ namespace nutik {
 namespace {
 
 // Smooth shutters have some tens of control points, which need room.
-constexpr std::int64_t kLeastShapedNs = 1'000;
-constexpr std::uint64_t kMostCurveFrames = 100'000'000;
+constexpr std::int64_t kMinShapedNs = 1'000;
+constexpr std::uint64_t kMaxCurveFrames = 100'000'000;
 
 // How long a frame is exposed at least where a curve stands still.
-std::int64_t least_ns(const FramesRequest& request) {
+std::int64_t min_ns(const FramesRequest& request) {
   const auto* plain = std::get_if<PlainInterval>(&request.exposure.gains);
-  return plain == nullptr || plain->shutter == Shutter() ? 1 : kLeastShapedNs;
+  return plain == nullptr || plain->shutter == Shutter() ? 1 : kMinShapedNs;
 }
 
 // From the start of a frame to the last time that its functions gather light.
@@ -46,14 +46,14 @@ std::string outside_text(const Frames& frames, const std::string& name, const Ti
 
 // The frames whose shutter is closed, or with functions whose moment has come, before the curve ends.
 void put_on_curve(Frames& frames, const FramesRequest& request, const Timeline& timeline) {
-  frames.curve.emplace(*request.curve, timeline, least_ns(request));
+  frames.curve.emplace(*request.curve, timeline, min_ns(request));
   const std::int64_t end_ns = frames.curve->film_end_ns();
   frames.count = request.exposure.is_plain() ? frames.film->count_ending_by(end_ns)
                                              : frames.film->count_starting_by(end_ns - 1);
-  if (frames.count == 0 || frames.count > kMostCurveFrames) {
+  if (frames.count == 0 || frames.count > kMaxCurveFrames) {
     throw UsageError(format("{} lasts {}, which are {} frames of {} a second; a film by a curve has 1 to {}",
                             request.curve->name, duration_text(end_ns), frames.count, request.rate.text(),
-                            kMostCurveFrames));
+                            kMaxCurveFrames));
   }
 }
 

@@ -107,10 +107,10 @@ std::int64_t film_moment_ns(const StatedTime& time, const std::string& what, con
     throw UsageError(format("{} {} lies before the film, which begins at 0s", what, time.text()));
   }
   if (!time.counts_samples()) return time.nanoseconds();
-  constexpr std::int64_t kMostFrames = 1'000'000'000;
-  if (time.number.denominator != 1 || time.number.numerator > kMostFrames) {
+  constexpr std::int64_t kMaxFrames = 1'000'000'000;
+  if (time.number.denominator != 1 || time.number.numerator > kMaxFrames) {
     throw UsageError(format("{} {} is no frame of a film; frames have whole numbers up to {}", what,
-                            time.text(), kMostFrames));
+                            time.text(), kMaxFrames));
   }
   return film.start_ns(static_cast<std::uint64_t>(time.number.numerator));
 }

@@ -43,7 +43,7 @@ std::variant<Transfer, SourceCodes> parse_out_transfer(std::string_view text) {
 }
 
 FileWishes file_wishes(const OutputRequest& request) {
-  return {request.quality.value_or(FileWishes::kUsualQuality), request.depth == Depth::half};
+  return {request.quality.value_or(FileWishes::kDefaultQuality), request.depth == Depth::half};
 }
 
 void check_quality(const OutputRequest& request, const std::filesystem::path& output) {

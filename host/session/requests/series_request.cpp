@@ -66,8 +66,8 @@ std::vector<StatedTime> starts_of(const SeriesRequest& series, const ExposureReq
                         : format(" at {}", duration_text(timeline.duration_ns()))),
           k);
     }
-    if (k == SeriesRequest::kMostExposures)
-      throw SeriesTooLong(format("the series has more than {} exposures", SeriesRequest::kMostExposures));
+    if (k == SeriesRequest::kMaxExposures)
+      throw SeriesTooLong(format("the series has more than {} exposures", SeriesRequest::kMaxExposures));
     starts.push_back(next);
   }
   if (starts.empty()) {

@@ -13,7 +13,7 @@ namespace nutik {
 
 struct SeriesRequest {
   // More pictures than a folder is pleasant with, and than anybody means.
-  static constexpr std::uint32_t kMostExposures = 1'000'000;
+  static constexpr std::uint32_t kMaxExposures = 1'000'000;
 
   StatedTime every;                    // longer than nothing; pictures are whole ones
   std::optional<std::uint64_t> count;  // none: as many as end within the capture
@@ -22,7 +22,7 @@ struct SeriesRequest {
   friend bool operator==(const SeriesRequest&, const SeriesRequest&) = default;
 };
 
-// More exposures than kMostExposures fit in the capture, and no count was stated.
+// More exposures than kMaxExposures fit in the capture, and no count was stated.
 struct SeriesTooLong : UsageError {
   using UsageError::UsageError;
 };

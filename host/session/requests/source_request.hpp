@@ -62,8 +62,8 @@ struct SourceRequest {
   // What counts as no change.
   std::uint32_t tolerance = 0;  // codes
   std::variant<NoNoise, NoiseOfClip, StatedNoise> noise;
-  static constexpr double kLeastSigmas = 0.1, kMostSigmas = 100;
-  double sigmas = NoiseModel::kUsualSigmas;  // of the camera's noise
+  static constexpr double kMinSigmas = 0.1, kMaxSigmas = 100;
+  double sigmas = NoiseModel::kDefaultSigmas;  // of the camera's noise
 
   TilePolicy tiles = TilePolicy::automatic;
   std::optional<std::uint32_t> block_samples;  // none: as many as fit a block of usual size

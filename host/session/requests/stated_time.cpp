@@ -94,12 +94,12 @@ std::int64_t StatedTime::nanoseconds() const {
 }
 
 Rational StatedTime::modest_nanoseconds() const {
-  constexpr int128 kMost = 999'999'999'999'999;
+  constexpr int128 kMax = 999'999'999'999'999;
   constexpr std::int64_t kFinest = 999'999;
   const std::int64_t shared = std::gcd(unit_ns, number.denominator);
   const int128 above = static_cast<int128>(number.numerator) * (unit_ns / shared);
   const std::int64_t below = number.denominator / shared;
-  if (above > kMost || above < -kMost || below > kFinest) return {nanoseconds(), 1};
+  if (above > kMax || above < -kMax || below > kFinest) return {nanoseconds(), 1};
   return {static_cast<std::int64_t>(above), below};
 }
 

@@ -106,10 +106,10 @@ plot::Extent extent_of(std::span<const std::vector<Point>> lines) {
 
 // As large as fits, without its beginning where it would be too small: of a long path that says least.
 void draw_heading(plot::Canvas& canvas, std::string heading) {
-  constexpr double kLargest = 16, kLeast = 10;
+  constexpr double kLargest = 16, kMin = 10;
   const double room = kWidth - kLeft - kRight;
   plot::TextStyle style{.size = kLargest, .bold = true};
-  style.size = std::max(kLeast, std::min(kLargest, kLargest * room / canvas.text_width(heading, style)));
+  style.size = std::max(kMin, std::min(kLargest, kLargest * room / canvas.text_width(heading, style)));
   if (canvas.text_width(heading, style) > room) {
     while (!heading.empty() && canvas.text_width("…" + heading, style) > room) {
       heading.erase(0, 1);

@@ -26,14 +26,14 @@ void View::fit() {
   if (picture_.isEmpty() || widget_.isEmpty()) return;
   const double wide = static_cast<double>(widget_.width()) / picture_.width();
   const double high = static_cast<double>(widget_.height()) / picture_.height();
-  zoom_ = std::clamp(std::min(wide, high), kLeastZoom, kMostZoom);
+  zoom_ = std::clamp(std::min(wide, high), kMinZoom, kMaxZoom);
   origin_ =
       QPointF(widget_.width() - zoom_ * picture_.width(), widget_.height() - zoom_ * picture_.height()) / 2;
 }
 
 void View::set_zoom(double zoom, QPointF at) {
   const QPointF fixed = to_picture(at);
-  zoom_ = std::clamp(zoom, kLeastZoom, kMostZoom);
+  zoom_ = std::clamp(zoom, kMinZoom, kMaxZoom);
   origin_ = at - fixed * zoom_;
   is_fitted_ = false;
   keep_in_sight();

@@ -13,7 +13,7 @@ namespace nutik::studio {
 
 class View {
  public:
-  static constexpr double kLeastZoom = 1.0 / 32, kMostZoom = 64;
+  static constexpr double kMinZoom = 1.0 / 32, kMaxZoom = 64;
 
   void set_sizes(QSize picture, QSize widget);  // fits anew where it did
   [[nodiscard]] QSize picture() const { return picture_; }

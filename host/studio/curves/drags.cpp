@@ -10,8 +10,8 @@ namespace nutik::studio {
 namespace {
 
 std::int64_t whole(double ns) {
-  constexpr auto kMost = static_cast<double>(kLargestTimeNs);
-  return std::llround(std::clamp(ns, -kMost, kMost));
+  constexpr auto kMax = static_cast<double>(kLargestTimeNs);
+  return std::llround(std::clamp(ns, -kMax, kMax));
 }
 
 // The nearest multiple of a power of ten: what is written with few digits.
@@ -101,9 +101,9 @@ class BoxDrag : public Drag {
     dragged.time_snap = snapper_.time(at, shift.time_reach_ns);
     if (dragged.time_snap) at = dragged.time_snap->time_ns;
     // It does not turn over.
-    constexpr double kLeast = 1e-6;
+    constexpr double kMin = 1e-6;
     const double factor =
-        std::max(static_cast<double>(at - fixed) / static_cast<double>(held - fixed), kLeast);
+        std::max(static_cast<double>(at - fixed) / static_cast<double>(held - fixed), kMin);
     dragged.points = at == held ? points_ : spread(points_, chosen_, factor, fixed);
     const std::int64_t length = dragged.points[end].time_ns - dragged.points[begin].time_ns;
     const double times =

@@ -120,7 +120,7 @@ std::optional<BoxPart> TransformBox::part_under(QPointF at) const {
 
 BoxcarHandles BoxcarHandles::of(const PlotFrame& frame, const GainBoxcar& boxcar, double lane_top) {
   const double begin = frame.x_of(boxcar.begin_ns), end = frame.x_of(boxcar.end_ns);
-  const double middle = (begin + end) / 2, half = std::max(end - begin, kLeastBarPixels) / 2;
+  const double middle = (begin + end) / 2, half = std::max(end - begin, kMinBarPixels) / 2;
   constexpr double kEndPixels = 7;
   BoxcarHandles handles;
   handles.bar = {middle - half, lane_top + 1, 2 * half, kLanePixels - 2};

@@ -20,7 +20,7 @@ namespace nutik::studio {
 
 inline constexpr double kReachPixels = 7;      // how near to a thing the pointer has to be
 inline constexpr double kLanePixels = 12;      // height of the boxcars' lane
-inline constexpr double kLeastBarPixels = 26;  // a bar is never shorter, so that it can be seized
+inline constexpr double kMinBarPixels = 26;  // a bar is never shorter, so that it can be seized
 inline constexpr double kHandlePixels = 8;
 
 // The nearest point within reach. Of points at one place the later one, a selected one before others.

@@ -8,8 +8,8 @@ namespace nutik::studio {
 namespace {
 
 double finite(double gain) {
-  constexpr double kMost = std::numeric_limits<double>::max();
-  return std::clamp(gain, -kMost, kMost);
+  constexpr double kMax = std::numeric_limits<double>::max();
+  return std::clamp(gain, -kMax, kMax);
 }
 
 bool is_step(const Points& points, std::size_t first) {
@@ -29,9 +29,9 @@ bool has_increasing_times(const Points& points) {
 }
 
 std::int64_t scaled_time(std::int64_t time_ns, double factor, std::int64_t fixed_ns) {
-  constexpr auto kMost = static_cast<double>(kLargestTimeNs);
+  constexpr auto kMax = static_cast<double>(kLargestTimeNs);
   const double distance = static_cast<double>(time_ns - fixed_ns) * factor;
-  return fixed_ns + static_cast<std::int64_t>(std::llround(std::clamp(distance, -kMost, kMost)));
+  return fixed_ns + static_cast<std::int64_t>(std::llround(std::clamp(distance, -kMax, kMax)));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace nutik::studio {
 namespace {
 
 // Of a function of more points the first ones are snapped to: nobody aligns with one of a million by eye.
-constexpr std::size_t kMostPoints = 10'000;
+constexpr std::size_t kMaxPoints = 10'000;
 
 bool is_earlier(const TimeSnap& a, const TimeSnap& b) { return a.time_ns < b.time_ns; }
 
@@ -32,7 +32,7 @@ Snapper::Snapper(const Timeline* timeline, const FunctionSet& functions, std::ui
     if (tag == moved_tag) continue;
     const QString what = QString("point of M%1").arg(tag);
     const auto points = function.points();
-    for (const ControlPoint& point : points.first(std::min(points.size(), kMostPoints))) {
+    for (const ControlPoint& point : points.first(std::min(points.size(), kMaxPoints))) {
       times_.push_back({point.time_ns, what});
       gains_.push_back({point.gain, what});
     }

@@ -11,7 +11,7 @@
 namespace nutik::studio {
 namespace {
 
-constexpr double kLeastSide = 0.5;  // of a shape, in pixels: less is a click
+constexpr double kMinSide = 0.5;  // of a shape, in pixels: less is a click
 
 QString tr(const char* text) { return Document::tr(text); }
 
@@ -112,7 +112,7 @@ class BoxTool : public CanvasTool {
     drag(at, keys);
     is_drawn_ = false;
     const QRectF box = QRectF(from_, to_).normalized();
-    if (box.width() < kLeastSide || box.height() < kLeastSide) return;
+    if (box.width() < kMinSide || box.height() < kMinSide) return;
     const Shape& shape = document_.facts()->format.shape;
     const Region region =
         is_ellipse_

@@ -18,7 +18,7 @@ namespace nutik::studio {
 namespace {
 
 constexpr int kTagRole = Qt::UserRole;
-constexpr double kMostRadius = 100, kMostFeather = 100;  // pixels
+constexpr double kMaxRadius = 100, kMaxFeather = 100;  // pixels
 
 QIcon swatch(const QColor& colour) {
   QPixmap pixmap(32, 32);
@@ -91,9 +91,9 @@ void RegionList::build_buttons() {
   grow_ = button("grow", tr("Grow"), tr("By so many pixels"));
   shrink_ = button("shrink", tr("Shrink"), tr("By so many pixels"));
   smooth_ = button("smooth", tr("Smooth"), tr("Without parts and holes narrower than twice that"));
-  radius_ = pixel_box(kMostRadius, 2, tr("Pixels to grow, shrink or smooth by"), this);
+  radius_ = pixel_box(kMaxRadius, 2, tr("Pixels to grow, shrink or smooth by"), this);
   radius_->setObjectName("radius");
-  feather_ = pixel_box(kMostFeather, 0, tr("Feather: how far all edges are blended, to either side"), this);
+  feather_ = pixel_box(kMaxFeather, 0, tr("Feather: how far all edges are blended, to either side"), this);
   feather_->setObjectName("feather");
   feather_->setKeyboardTracking(false);
 

@@ -7,7 +7,7 @@ namespace nutik::studio {
 namespace {
 
 constexpr double kMargin = 0.02;      // of the capture, beyond each end
-constexpr double kLeastShownNs = 20;  // steps of 1 ns stand for jumps: they can be looked at
+constexpr double kMinShownNs = 20;  // steps of 1 ns stand for jumps: they can be looked at
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void TimeAxis::show(double begin_ns, double end_ns) {
   const auto duration = static_cast<double>(duration_ns_);
   const double margin = kMargin * duration;
   const double length =
-      std::clamp(end_ns - begin_ns, std::min(kLeastShownNs, duration), duration + 2 * margin);
+      std::clamp(end_ns - begin_ns, std::min(kMinShownNs, duration), duration + 2 * margin);
   const double begin = std::clamp(begin_ns, -margin, duration + margin - length);
   if (begin == begin_ns_ && begin + length == end_ns_) return;
   begin_ns_ = begin;

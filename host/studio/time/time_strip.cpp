@@ -182,8 +182,8 @@ void TimeStrip::paint_thumbnails(QPainter& painter, const QRectF& row) const {
 void TimeStrip::paint_boxcar(QPainter& painter, const TimeColours& colours) const {
   const QRectF track = this->track();
   QRectF area = boxcar_area();
-  constexpr double kLeast = 2;  // it can be seen however short it is
-  if (area.width() < kLeast) area.adjust(-(kLeast - area.width()) / 2, 0, (kLeast - area.width()) / 2, 0);
+  constexpr double kMin = 2;  // it can be seen however short it is
+  if (area.width() < kMin) area.adjust(-(kMin - area.width()) / 2, 0, (kMin - area.width()) / 2, 0);
   if (area.right() < track.left() || area.left() > track.right()) return;
   const bool is_exposed = document_.mode() == ExposureMode::boxcar;
   painter.save();

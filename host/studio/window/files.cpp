@@ -18,7 +18,7 @@ namespace nutik::studio {
 namespace {
 
 constexpr const char* kRecentKey = "recent";
-constexpr int kMostRecent = 10;
+constexpr int kMaxRecent = 10;
 
 }  // namespace
 
@@ -203,7 +203,7 @@ void MainWindow::remember(const QString& path) {
   const QString absolute = QFileInfo(path).absoluteFilePath();
   recent.removeAll(absolute);
   recent.prepend(absolute);
-  settings.setValue(kRecentKey, recent.mid(0, kMostRecent));
+  settings.setValue(kRecentKey, recent.mid(0, kMaxRecent));
 }
 
 void MainWindow::fill_recent(QMenu& menu) {

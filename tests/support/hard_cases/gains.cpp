@@ -115,12 +115,12 @@ HardCase a_function_of_100000_points() {
 HardCase subnormal_gains() {
   const Timeline timeline = Timeline::constant({25, 1}, kHalfShutter, 8);
   const std::int64_t end_ns = timeline.duration_ns();
-  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  constexpr double kMin = std::numeric_limits<double>::denorm_min();
   return noisy_case(
       format_of({8, 5, 1}, Transfer::srgb()), timeline,
-      {GainFunction::boxcar(0, end_ns, kLeast), GainFunction({{-end_ns, 3 * kLeast}, {2 * end_ns, kLeast}}),
+      {GainFunction::boxcar(0, end_ns, kMin), GainFunction({{-end_ns, 3 * kMin}, {2 * end_ns, kMin}}),
        GainFunction({{0, 1e-310}, {end_ns, -2e-312}}),
-       GainFunction({{0, 1e-300}, {end_ns / 2, 1e-320}, {end_ns, -1e-301}}), pulse(50'000'000, kLeast)});
+       GainFunction({{0, 1e-300}, {end_ns / 2, 1e-320}, {end_ns, -1e-301}}), pulse(50'000'000, kMin)});
 }
 
 // The largest finite double itself would round to infinity where a pixel is white.
