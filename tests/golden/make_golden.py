@@ -85,6 +85,7 @@ SPECIAL = [
     Case("rice", "auto", 8, "colour", "constant", "lossless", "srgb", name="rice-colour"),
     Case("rice", "records", 12, "grey", "irregular", "points", "linear", name="rice-records-wide"),
     Case("rice", "rows", 8, "grey", "constant", "lossless", "srgb", 310, 300, 9, 3, "rice-long-block-rows"),
+    Case("rice", "dense", 16, "colour", "fractional", "tolerance", "bt709", name="rice-dense-wide"),
     # A packed group of tiles has up to 2 MiB unpacked.
     Case("zstd", "dense", 12, "colour", "constant", "lossless", "bt709", 100, 100, 131, 67, "several-groups-of-tiles"),
 ]
