@@ -318,7 +318,7 @@ NUTIK_INLINE void levels_of(const CodeLanes<Code>& values, std::uint32_t low, By
 // Writes a plane's values as they were shaped; returns whether its lines are told.
 template <typename Code>
 NUTIK_INLINE bool write_plane(const CodeLanes<Code>& values, std::uint8_t shape, RiceWriter& to) {
-  const std::uint32_t low = shape >> kLevelBits, most = shape & kMostLevels;
+  const std::uint32_t low = shape >> kLevelBits, most = shape & kMaxLevels;
   ByteLanes bytes;
   levels_of(values, 0, bytes);
   for (std::uint32_t bit = 0; bit < low; ++bit) {
@@ -356,7 +356,7 @@ NUTIK_INLINE bool write_plane(const CodeLanes<Code>& values, std::uint8_t shape,
 
 template <typename Code>
 NUTIK_INLINE void read_plane(std::uint8_t shape, bool tells_lines, RiceReader& from, CodeLanes<Code>& values) {
-  const std::uint32_t low = shape >> kLevelBits, most = shape & kMostLevels;
+  const std::uint32_t low = shape >> kLevelBits, most = shape & kMaxLevels;
   ByteLanes levels{};
   std::uint64_t lanes = ~std::uint64_t{0};
   for (std::uint32_t level = 1; level <= most; ++level) {
