@@ -171,6 +171,11 @@ void AdderEvents::add(std::size_t value, std::uint32_t d, std::uint32_t time) {
   held_[value] = code;
   // Of frames one ends before the next begins: what is left of the interval has no event of its own.
   if (header_.is_framed()) until = (until + header_.interval - 1) / header_.interval * header_.interval;
+  // So that times in nanoseconds have 62 bits.
+  constexpr std::int64_t kLongest = std::int64_t{1} << 62;
+  if (until > kLongest || until > static_cast<int128>(header_.ticks_a_second) * (kLongest / kSecondNs)) {
+    throw InputError("its events last longer than 146 years: its ticks a second or its times are damaged");
+  }
   end_tick = std::max(end_tick, until);
   ticks_[value] = until;
 }

@@ -74,7 +74,11 @@ Note drift_note(const CameraEvents& recording, const Contrast& contrast, std::ui
 
 void check_picture_size(const Shape& shape, std::uint64_t events, const std::string& name) {
   constexpr std::uint64_t kValuesOfAnySensor = 1 << 22, kValuesOfAnEvent = 16;
-  if (shape.value_count() <= kValuesOfAnySensor || shape.value_count() / kValuesOfAnEvent <= events) return;
+  constexpr std::uint64_t kMaxValues = std::uint64_t{1} << 32;  // they are counted in 32 bits
+  if (shape.value_count() <= kValuesOfAnySensor ||
+      (shape.value_count() <= kMaxValues && shape.value_count() / kValuesOfAnEvent <= events)) {
+    return;
+  }
   throw InputError(format("{} has {} x {} pixels by its header, and {} events: one of the two is wrong", name,
                           shape.width, shape.height, events));
 }

@@ -49,6 +49,10 @@ class CameraClock {
     if (is_set_ && now < time_ - period_ / 2) {
       loops_ += period_;
       now += period_;
+      constexpr std::int64_t kLongestUs = (std::int64_t{1} << 62) / 1000;  // as nanoseconds, too, it has 62 bits
+      if (loops_ > kLongestUs) {
+        throw InputError("its clock begins again so often that it lasts longer than 146 years: its times are damaged");
+      }
     } else if (loops_ > 0 && now > time_ + period_ / 2) {
       now -= period_;  // a straggler from before it began again
     }
@@ -150,7 +154,7 @@ Decoder decode_evt3(Bytes words) {
     if (!clock.is_set()) {
       ++decoder.untimed;
     } else if (is_this_camera) {
-      decoder.add(clock.time_us(), x, y, up);
+      decoder.add(clock.time_us(), std::min(x, 0xFFFFu), y, up);  // vectors may go on and on to the right
     }
   };
   decoder.for_each_word([&](std::uint64_t word) {

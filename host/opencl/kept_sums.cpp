@@ -66,7 +66,9 @@ std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
   transfer_ = plan.capture.transfer;
   slot_bytes_ = slot_bytes;
   const std::uint64_t blocks = plan.layout->blocks.size();
-  if (precision == Precision::fixed) return {};
+  // With delays nearly all tiles have several functions and are read all the same; and the sums' own kernels, of plans
+  // without delays, are not the ones that were tested for this plan.
+  if (precision == Precision::fixed || plan.map->has_delays()) return {};
   if (capacity_ == 0) capacity_ = std::min(room, blocks + blocks / kGroupBlocks + kParts);
   ++exposure_;
 

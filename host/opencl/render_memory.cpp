@@ -38,12 +38,20 @@ RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, co
   if (const MaskMap& map = *plan.map; !map.mixed.empty()) {
     // Sums of a tile for each of its functions but one, which counts above, on the device and where they are blended;
     // functions and shares of pixels here and there.
-    constexpr std::uint64_t kMapBytes = 2 * (1 + sizeof(std::uint16_t)) * kTilePixels;
+    const std::uint64_t map_bytes =
+        2 * ((map.has_delays() ? sizeof(std::uint16_t) : 1) + sizeof(std::uint16_t)) * kTilePixels;
     const std::uint64_t tiles = TileGrid(plan.capture.shape).tile_count();
     std::uint64_t more_tiles = 0;
     for (const MixedTile& tile : map.mixed_tiles) more_tiles += tile.tags.size() - 1;
     const std::uint64_t tile_sums = std::uint64_t{picture.channels} * kTilePixels * sum_bytes(precision);
-    needs.add("shares of functions", more_tiles * 2 * tile_sums + (tiles + more_tiles) * kMapBytes);
+    needs.add("shares of functions", more_tiles * 2 * tile_sums + (tiles + more_tiles) * map_bytes);
+  }
+  if (plan.map->has_delays()) {
+    constexpr std::uint64_t kFunctionBytes = 1024;  // as it is planned, with its table's head
+    std::uint64_t points = 0;
+    for (const PlannedFunction& function : plan.functions) points += function.function.points().size();
+    needs.add("delays", 2 * plan.map->bytes() + plan.function_count() * kFunctionBytes +
+                            2 * points * sizeof(ControlPoint));
   }
   const bool has_corrected = precision != Precision::fixed && plan.has_corrected();
   const std::uint64_t min_tables = (has_corrected ? 2 : 1) * block_rows * row_bytes(plan, precision);

@@ -16,6 +16,7 @@ std::vector<PlannedFunction> by_mask_value(const RenderPlan& plan) {
     if (functions.empty() || functions.back().tag != delayed.tag) {
       PlannedFunction& function = functions.emplace_back(delayed);
       function.summary = summarize_course(function.function, plan.duration_ns);
+      function.summary.support_ns = delayed.summary.support_ns;  // a traced one is moved already: D is not
       continue;
     }
     PlannedFunction& function = functions.back();

@@ -194,6 +194,16 @@ TEST(AdderClip, TellsWhatIsWrongWithAFile) {
   expect(whole + file.event(1, 1, 0, 60, 1800) + file.end(), "1 events are brighter than white");
 }
 
+TEST(AdderClip, RefusesTimesThatNobodyFilmed) {
+  const Scratch scratch;
+  const File file{0, 1, 1, 1, 1};
+  std::string content = file.header();
+  for (const unsigned d : {20u, 255u, 255u, 200u}) content += file.event(0, 0, 0, d, 0xFFFFFFFF);
+  const auto path = scratch.write("long.adder", content);
+  EXPECT_NE(message_of<InputError>([&] { open_test_clip(path); }).find("its events last longer than 146 years"),
+            std::string::npos);
+}
+
 TEST(AdderClip, RefusesWhatItCannotRead) {
   const Scratch scratch;
   const auto expect = [&](const std::string& content, const std::string& part) {

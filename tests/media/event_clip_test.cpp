@@ -226,6 +226,18 @@ TEST(EventClip, TellsWhatIsWrongWithAFile) {
             std::string::npos);
 }
 
+// A vector of EVT 3.0 advances the column on and on, also past 16 bits.
+TEST(EventClip, LeavesOutVectorsThatRunPastTheSensor) {
+  const Scratch scratch;
+  const Events events = random_events(1, 0);
+  std::string words = test::evt3_words(events);
+  words += test::little_endian(0x3000, 2);
+  for (int i = 0; i < 5462; ++i) words += test::little_endian(0x4000, 2);
+  words += test::little_endian(0x4001, 2);
+  const auto clip = open_test_clip(scratch.write("far.raw", raw("EVT3", words)));
+  expect_events(*clip, events);
+}
+
 TEST(EventClip, RefusesWhatItCannotRead) {
   const Scratch scratch;
   const std::string words = test::evt2_words(random_events(2, 0));

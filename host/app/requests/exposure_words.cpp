@@ -98,6 +98,19 @@ ExposureRequest timeless_request(const Options& options,
   return request;
 }
 
+// A value that only a later mask has would end the film in the middle.
+void check_mapped(const FramesRequest& request) {
+  if (request.keys.masks.empty() || request.exposure.unmapped_is_zero) return;
+  const FunctionSet& functions = *std::get<Shared<FunctionSet>>(request.exposure.gains);
+  for (const MaskKey& key : request.keys.masks) {
+    for (const MaskRegion& region : regions_of(*key.mask)) {
+      if (functions.contains(region.tag)) continue;
+      throw InputError(format("{}: mask value {} has no function; add M{}, or --unmapped zero", key.name, region.tag,
+                              region.tag));
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<DelayRequest> delay_request(const Options& options) {
@@ -259,6 +272,7 @@ FramesRequest frames_request(const Options& options) {
     read_mask_keys(request, options, rest);
   }
   request.keys.check();
+  check_mapped(request);
   request.curve = film_curve(options, request);
   if (options.frames) request.numbers = FrameRanges::parse(*options.frames, "--frames");
   return request;
