@@ -219,6 +219,7 @@ TEST_F(Film, SaysWhatMakesNoSense) {
   write_two_masks_and_functions();
   write_mask("large.pgm", 3);
   scratch_.write("large.pgm", "P5 9 8 255\n" + std::string(72, '\0'));
+  scratch_.write("third.pgm", "P5 8 8 255\n" + std::string(64, '\3'));
   scratch_.write("one.fn", boxcar("M0", 0, 1));
   scratch_.write("other.fn", boxcar("M0", 0, 1) + boxcar("M9", 0, 1));
   scratch_.write("bad.fn", "M0 [0:1], [0:2]\n");
@@ -250,6 +251,9 @@ TEST_F(Film, SaysWhatMakesNoSense) {
       {{"--mask-key", "0s", "a.pgm", "--mask-key", "1s", "b.pgm", "-k", "f.fn", "--mask-blend", "fast"},
        2,
        "--mask-blend fast is not known; choose distance or alpha"},
+      {{"--mask-key", "0s", "a.pgm", "--mask-key", "1s", "third.pgm", "-k", "f.fn", "--mask-blend", "alpha"},
+       3,
+       "third.pgm: mask value 3 has no function; add M3, or --unmapped zero"},
       {{"--curve", "ramp.csv", "--speed", "2"}, 2, "--speed says what of the capture the film shows, and so does"},
       {{"--curve", "ramp.csv", "--from", "0s"}, 2, "--from says what"},
       {{"--curve", "back.csv"}, 3, "back.csv:3: the film's time 500 ms is not after 1 s"},
