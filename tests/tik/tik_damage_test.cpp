@@ -156,7 +156,7 @@ TEST(TikDamage, BelievesNoHeaderThatCannotBe) {
       {"its header tells of 0 samples; it can have 1 … 65535",
        [](BlockHeader& header) { header.sample_count = 0; }},
       {"its header tells of 65536 samples", [](BlockHeader& header) { header.sample_count = 65'536; }},
-      {"its codec 3 is not known", [](BlockHeader& header) { header.codec = 3; }},
+      {"its codec 4 is not known", [](BlockHeader& header) { header.codec = 4; }},
       {"bytes of exposures, not", [](BlockHeader& header) { header.exposure_bytes += 16; }},
       {"bytes of exposures, not", [](BlockHeader& header) { header.exposure_bytes += 8; }},
       {"bytes of exposures, not", [&](BlockHeader& header) { header.exposure_bytes = most; }},
