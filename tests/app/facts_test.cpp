@@ -69,7 +69,9 @@ class Facts : public test::ProgramTest {
   static void expect_origins(const Told& told, const fs::path& clip) {
     std::set<std::string> assumed, named;
     for (const auto& [subject, fact] : told.facts) {
-      const std::string said = fact.substr(std::min(fact.find(", "), fact.size()));
+      // A fact may have commas of its own before that.
+      const std::size_t origin = std::min({fact.find(", from "), fact.find(", as stated"), fact.find(", assumed")});
+      const std::string said = fact.substr(std::min(origin, fact.size()));
       EXPECT_TRUE(said.starts_with(", from ") || said == ", as stated" || said.starts_with(", assumed"))
           << clip << ": " << fact;
       if (said.starts_with(", assumed")) assumed.insert(subject);
