@@ -70,27 +70,27 @@ std::vector<std::byte> packed_fields(std::span<const Field> fields) {
 }
 
 ReadFields read_fields(std::span<const std::byte> bytes, const std::string& name) {
-  const auto fail = [&] [[noreturn]] () {
-    throw InputError(
+  const auto damaged = [&] {
+    return InputError(
         format("{}: the list of fields that says what its samples are is damaged; encode the clip "
                "again",
                name));
   };
-  if (bytes.size() < sizeof(ListHeader) + sizeof(std::uint64_t)) fail();
+  if (bytes.size() < sizeof(ListHeader) + sizeof(std::uint64_t)) throw damaged();
   const auto header = load<ListHeader>(bytes, 0);
   if (std::memcmp(header.magic, kMagic, sizeof header.magic) != 0 || header.bytes > bytes.size() ||
       header.bytes < sizeof(ListHeader) + sizeof(std::uint64_t)) {
-    fail();
+    throw damaged();
   }
   const auto list = bytes.first(header.bytes - sizeof(std::uint64_t));
-  if (load<std::uint64_t>(bytes, list.size()) != checksum(list)) fail();
+  if (load<std::uint64_t>(bytes, list.size()) != checksum(list)) throw damaged();
   ReadFields read{{}, header.bytes};
   std::size_t at = sizeof header;
   for (std::uint32_t i = 0; i < header.count; ++i) {
-    if (list.size() - at < sizeof(FieldHeader)) fail();
+    if (list.size() - at < sizeof(FieldHeader)) throw damaged();
     const auto field = load<FieldHeader>(list, at);
     at += sizeof field;
-    if (field.bytes > list.size() - at) fail();
+    if (field.bytes > list.size() - at) throw damaged();
     read.fields.push_back({std::string(field.tag, sizeof field.tag), (field.flags & kMustBeUnderstood) != 0,
                            std::string(reinterpret_cast<const char*>(list.data()) + at, field.bytes)});
     at = std::min<std::size_t>(align_up(at + field.bytes, kFieldAlignment), list.size());

@@ -74,8 +74,8 @@ PictureSource picture_or_time(const std::string& word) {
 // `100..255`, `100` (and above), or shares of white: `40%..100%`.
 Selection threshold_of(const Said& said) {
   const std::string& text = said.words[1];
-  const auto fail = [&] [[noreturn]] () {
-    throw UsageError(format(
+  const auto refusal = [&] {
+    return UsageError(format(
         "--threshold {} {}: '{}' is no range of codes; write LOW..HIGH (100..255), LOW alone for that and "
         "brighter, or shares of white (40%..100%)",
         said.words[0], text, text));
@@ -88,12 +88,12 @@ Selection threshold_of(const Said& said) {
   threshold.is_share = low.ends_with('%');
   if (threshold.is_share) {
     low.pop_back();
-    if (!high.empty() && !high.ends_with('%')) fail();
+    if (!high.empty() && !high.ends_with('%')) throw refusal();
     if (!high.empty()) high.pop_back();
   }
   const auto low_code = parse_number(low);
   const auto high_code = dots == std::string::npos ? std::optional(HUGE_VAL) : parse_number(high);
-  if (!low_code || !high_code || *low_code > *high_code) fail();
+  if (!low_code || !high_code || *low_code > *high_code) throw refusal();
   threshold.low = *low_code;
   threshold.high = *high_code;
   return threshold;
