@@ -6,13 +6,15 @@
 recording   a real recording: its counts and times by another decoder, and exposures of it against exact integrals
 scenes      random light whose changes are known: what is exposed of EVT 2.0, EVT 3.0, DAT and ADΔER, with functions of
             both signs, against the integral over the true times
-cost        a thousand changes in a million ticks: bytes and time against the same changes in a thousand ticks
+cost        a thousand changes in a million ticks: bytes of the file and of memory, and time against the same changes in
+            a thousand ticks
 
 Exit status 0 if everything agrees, 1 otherwise; a section that cannot run prints SKIPPED.
 """
 
 import argparse
 import json
+import re
 import subprocess
 import sys
 import time
@@ -228,6 +230,63 @@ def adder(program, work):
     close("scene a.adder", found, expected.reshape(height, width), scale * (HALF_CODE + ARITHMETIC) + jitter)
 
 
+MAX_COST = 2_000_000  # bytes, of a file and of memory
+
+
+# A process counts as its own peak what its parent held when it was made, so a small one starts the program.
+STARTER = """
+import os, resource, subprocess, sys
+process = subprocess.Popen(sys.argv[1:], stdout=subprocess.DEVNULL)
+_, status, usage = os.wait4(process.pid, 0)
+process.returncode = os.waitstatus_to_exitcode(status)
+print(process.returncode, usage.ru_maxrss, int(open('/proc/self/statm').read().split()[1]) * resource.getpagesize() >> 10)
+"""
+
+
+def peak_bytes(program, *words, folder):
+    """The most that the program ever held: the least of some runs, for what libraries take varies."""
+    peaks = []
+    for _ in range(5):
+        line = [sys.executable, "-I", "-S", "-c", STARTER, program, *map(str, words), "-q"]
+        told = subprocess.run(line, cwd=folder, check=True, stdout=subprocess.PIPE, text=True).stdout
+        status, peak_kb, starter_kb = map(int, told.split())
+        if status != 0:
+            sys.exit(f"{' '.join(map(str, words))}: {status}")
+        if peak_kb <= starter_kb:
+            sys.exit(f"the program's peak, {peak_kb} kB, cannot be told from that of what started it")
+        peaks.append(peak_kb * 1024)
+    return min(peaks)
+
+
+def table_bytes(told):
+    """Of the plan that -v tells: tables and maps, and all that is on the device."""
+    units = {"bytes": 1, "kB": 1e3, "MB": 1e6}
+    tables = re.search(r"tables of gains: ([0-9.]+) (\w+); map of functions: ([0-9.]+) (\w+)", told)
+    device = re.search(r"at most ([0-9.]+) MB on the device", told)
+    if not tables or not device:
+        sys.exit(f"no tables in:\n{told}")
+    return (float(tables[1]) * units[tables[2]] + float(tables[3]) * units[tables[4]], float(device[1]) * 1e6)
+
+
+def memory(program, work):
+    """What a thousand changes in a million ticks take beside a capture of the same size in which one pixel changes twice."""
+    (work / "still.dat").write_bytes(dat(64, 64, *(np.array(n) for n in ([0, 999_999], [5, 5], [5, 5], [True, False]))))
+    half = ("--start", "0s", "--exposure", "500ms")
+    lines = {"encode": lambda name: ("encode", f"{name}.dat", f"{name}-m.tik"),
+             "expose": lambda name: ("expose", f"{name}.tik", *half, f"{name}.pfm"),
+             "expose, reference": lambda name: ("expose", "--renderer", "reference", f"{name}.tik", *half, f"{name}.pfm")}
+    run(program, "encode", "still.dat", "still.tik", "--codec", "none", folder=work)
+    for what, words in lines.items():
+        more = peak_bytes(program, *words("wide"), folder=work) - peak_bytes(program, *words("still"), folder=work)
+        print(f"cost, memory: {what} takes {more} bytes more than where two things change")
+        if more > MAX_COST:
+            sys.exit(f"{what} of a million ticks takes {more} bytes")
+    tables, device = table_bytes(run(program, *lines["expose"]("wide"), "-v", folder=work))
+    print(f"cost, memory: {tables:.0f} bytes of tables and maps, {device:.0f} on the device")
+    if tables > MAX_COST or device > MAX_COST:
+        sys.exit("tables of a million ticks take more than 2 MB")
+
+
 def cost(program, _media, work):
     random = np.random.default_rng(5)
     x, y, ups = random.integers(0, 64, 1000), random.integers(0, 64, 1000), random.random(1000) < 0.5
@@ -240,7 +299,7 @@ def cost(program, _media, work):
         size = (work / f"{name}.tik").stat().st_size
         info = json.loads(run(program, "info", "--json", f"{name}.tik", folder=work))
         print(f"cost, {name}: {info['samples']} samples in {info['duration_ns'] // 1000} ticks, {size} bytes unpacked")
-        if size > 2_000_000 or info["samples"] > 1000:
+        if size > MAX_COST or info["samples"] > 1000:
             sys.exit("a thousand changes cost more than 2 MB, or more samples than there are")
         half = info["duration_ns"] // 2
         best = 1e9
@@ -253,6 +312,7 @@ def cost(program, _media, work):
     print(f"cost: a boxcar takes {seconds['wide']:.3f} s of a million ticks, {seconds['narrow']:.3f} s of a thousand")
     if ratio > 5:
         sys.exit(f"a boxcar over a million ticks takes {ratio:.1f} times as long")
+    memory(program, work)
 
 
 def main():
