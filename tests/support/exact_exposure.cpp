@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "support/random_case.hpp"
 
@@ -21,30 +22,34 @@ bool is_reached(const std::vector<ExactStretch>& gain, const Timeline& timeline,
 
 }  // namespace
 
-ExactExposure::ExactExposure(const RenderPlan& plan, const Timeline& timeline, const DrawSample& sample)
-    : plan_(plan) {
-  for (const PlannedFunction& planned : plan.functions) {
-    const std::vector<ExactStretch> gain = exact_gain(planned.function, plan.duration_ns, planned.delay_ns);
-    Function& function = functions_.emplace_back();
-    function.summary = exact_summary(gain);
-    if (planned.is_delayed) {
-      function.summary.support_ns = exact_course_support_ns(planned.function, plan.duration_ns);
-    }
-    for (std::uint64_t k = 0; k < timeline.sample_count(); ++k) {
-      if (!is_reached(gain, timeline, k)) continue;
-      function.weights_ns.emplace_back(k, exact_weight_ns(gain, timeline, k));
-      if (!rasters_.contains(k)) rasters_.emplace(k, sample(k));
-    }
+ExactExposure::ExactExposure(const RenderPlan& plan, const Timeline& timeline, DrawSample sample)
+    : plan_(plan), timeline_(timeline), sample_(std::move(sample)) {}
+
+const ExactExposure::Function& ExactExposure::function_at(std::size_t index) const {
+  const auto [at, is_new] = functions_.try_emplace(index);
+  Function& function = at->second;
+  if (!is_new) return function;
+  const PlannedFunction& planned = plan_.functions[index];
+  const std::vector<ExactStretch> gain = exact_gain(planned.function, plan_.duration_ns, planned.delay_ns);
+  function.summary = exact_summary(gain);
+  if (planned.is_delayed) {
+    function.summary.support_ns = exact_course_support_ns(planned.function, plan_.duration_ns);
   }
+  for (std::uint64_t k = 0; k < timeline_.sample_count(); ++k) {
+    if (!is_reached(gain, timeline_, k)) continue;
+    function.weights_ns.emplace_back(k, exact_weight_ns(gain, timeline_, k));
+    if (!rasters_.contains(k)) rasters_.emplace(k, sample_(k));
+  }
+  return function;
 }
 
 template <typename Of>
 Exact ExactExposure::mixed(std::uint64_t i, Of of) const {
   const std::uint64_t pixel = i / plan_.capture.shape.channels;
   const std::span<const Share> shares = plan_.shares_of(pixel);
-  if (shares.empty()) return of(functions_[plan_.function_of(pixel)]);
+  if (shares.empty()) return of(function_at(plan_.function_of(pixel)));
   Exact sum = 0;
-  for (const Share& share : shares) sum += Exact(share.size) / kWholeShare * of(functions_[share.of]);
+  for (const Share& share : shares) sum += Exact(share.size) / kWholeShare * of(function_at(share.of));
   return sum;
 }
 
@@ -77,7 +82,8 @@ std::vector<std::uint64_t> values_to_compare(const RenderPlan& plan, std::size_t
   const std::uint32_t channels = plan.capture.shape.channels;
   std::vector<std::size_t> left(plan.function_count(),
                                 std::max<std::size_t>(1, most / plan.function_count()));
-  for (std::uint64_t pixel = 0; pixel < plan.capture.shape.pixel_count(); ++pixel) {
+  const bool takes_each = plan.function_count() <= kMaxComparedFunctions;
+  for (std::uint64_t pixel = 0; takes_each && pixel < plan.capture.shape.pixel_count(); ++pixel) {
     std::size_t& wanted = left[plan.function_of(pixel)];
     if (wanted == 0) continue;
     --wanted;

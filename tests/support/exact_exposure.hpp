@@ -2,7 +2,8 @@
 // shares of that.
 //
 //   in:      a plan (its functions and which pixel has which; none of its tables), the timeline, and the
-//            codes that each sample holds
+//            codes that each sample holds; plan and timeline must live longer
+//   cost:    a function's weights are made when the first value asks for them, and then kept
 //   exact:   everything but the light of a code, which is the transfer function's in double, as it is
 //            for the reference
 #pragma once
@@ -19,12 +20,12 @@ namespace nutik::test {
 
 class ExactExposure {
  public:
-  ExactExposure(const RenderPlan& plan, const Timeline& timeline, const DrawSample& sample);
+  ExactExposure(const RenderPlan& plan, const Timeline& timeline, DrawSample sample);
 
   // Of value i of the picture; 0 where D is 0.
   [[nodiscard]] Exact light(std::uint64_t i) const;
   [[nodiscard]] const ExactSummary& summary(std::size_t function) const {
-    return functions_[function].summary;
+    return function_at(function).summary;
   }
   // S of value i's function, or its shares of them.
   [[nodiscard]] Exact scale(std::uint64_t i) const;
@@ -35,18 +36,22 @@ class ExactExposure {
     std::vector<std::pair<std::uint64_t, Exact>> weights_ns;  // by sample; those that are not 0
   };
 
+  [[nodiscard]] const Function& function_at(std::size_t index) const;
   [[nodiscard]] Exact light(const Function& function, std::uint64_t i) const;
   // Σ share · of(function) over the functions of value i.
   template <typename Of>
   [[nodiscard]] Exact mixed(std::uint64_t i, Of of) const;
 
   const RenderPlan& plan_;
-  std::vector<Function> functions_;
-  std::map<std::uint64_t, std::vector<std::byte>> rasters_;  // of the samples that some weight needs
+  const Timeline& timeline_;
+  DrawSample sample_;
+  mutable std::map<std::size_t, Function> functions_;
+  mutable std::map<std::uint64_t, std::vector<std::byte>> rasters_;  // of the samples that some weight needs
 };
 
 // Values of a picture to compare: all of them where there are at most `most`, else some of every function
-// and as many more, drawn with `seed`.
+// and as many more, drawn with `seed`. Of more functions than `kMaxComparedFunctions` only those that are drawn.
+constexpr std::size_t kMaxComparedFunctions = 256;
 [[nodiscard]] std::vector<std::uint64_t> values_to_compare(const RenderPlan& plan, std::size_t most,
                                                            std::uint64_t seed);
 
