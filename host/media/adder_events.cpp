@@ -110,6 +110,13 @@ class AdderEvents {
   std::size_t left_over = 0;
   bool has_end = false;
 
+  // What `found` comes to; it is kept where that is known already.
+  std::uint64_t found_count = 0;
+  void keep(std::uint64_t count) {
+    found.reserve(count);
+    is_keeping_ = true;
+  }
+
   // Values that no event tells of.
   [[nodiscard]] std::uint64_t untold() const {
     return static_cast<std::uint64_t>(std::ranges::count(ticks_, 0));
@@ -118,6 +125,7 @@ class AdderEvents {
  private:
   void add(std::size_t value, std::uint32_t d, std::uint32_t time);
 
+  bool is_keeping_ = false;
   AdderHeader header_;
   const LightCodes& codes_;
   double light_of_unit_;              // a unit in one tick
@@ -167,7 +175,10 @@ void AdderEvents::add(std::size_t value, std::uint32_t d, std::uint32_t time) {
     if (light > 1) ++above_white;
     code = static_cast<std::uint16_t>(codes_.code_of(std::min(light, 1.0)));
   }
-  if (code != held_[value] || from == 0) found.push_back({from, static_cast<std::uint32_t>(value), code});
+  if (code != held_[value] || from == 0) {
+    ++found_count;
+    if (is_keeping_) found.push_back({from, static_cast<std::uint32_t>(value), code});
+  }
   held_[value] = code;
   // Of frames one ends before the next begins: what is left of the interval has no event of its own.
   if (header_.is_framed()) until = (until + header_.interval - 1) / header_.interval * header_.interval;
@@ -213,9 +224,17 @@ EventLight read_adder_file(Bytes file, const std::string& name, const ClipOption
                                header.ticks_a_second),
                         Origin::file, Setting::tick});
   const LightCodes codes(capture.transfer, capture.white_code);
-  AdderEvents events(header, codes, white_of(header, options, info));
+  const std::uint32_t white = white_of(header, options, info);
+  const std::uint64_t count = [&] {
+    AdderEvents counted(header, codes, white);
+    counted.read(file);
+    return counted.found_count;
+  }();
+  if (count == 0) throw InputError(format("{} holds no event", name));
+  check_event_memory({sizeof(LightFrom), count, 1}, capture.shape, options);
+  AdderEvents events(header, codes, white);
+  events.keep(count);
   events.read(file);
-  if (events.found.empty()) throw InputError(format("{} holds no event", name));
 
   const auto ns_of = [&](std::int64_t tick) {
     return round_half_up(static_cast<int128>(tick) * kSecondNs, header.ticks_a_second);
@@ -223,6 +242,10 @@ EventLight read_adder_file(Bytes file, const std::string& name, const ClipOption
   std::ranges::stable_sort(events.found, {}, &LightFrom::tick);
   EventLight result{std::vector<std::uint16_t>(capture.shape.value_count()),
                     ChangedSamples(options.events.tick_ns.value_or(1)), ns_of(events.end_tick)};
+  const std::uint64_t samples =
+      count_samples(result.samples, events.found, [&](const LightFrom& light) { return ns_of(light.tick); });
+  check_event_memory({sizeof(LightFrom), count, samples}, capture.shape, options);
+  result.samples.reserve(count, samples);
   std::vector<std::uint16_t> held(result.start);
   for (const LightFrom& light : events.found) {
     held[light.value] = light.code;
@@ -231,8 +254,8 @@ EventLight read_adder_file(Bytes file, const std::string& name, const ClipOption
     result.samples.add(ns_of(light.tick), change);
   }
 
-  const auto note = [&](std::uint64_t count, const char* text) {
-    if (count > 0) info.notes.emplace_back(format("{} {}", count, text));
+  const auto note = [&](std::uint64_t events_of_it, const char* text) {
+    if (events_of_it > 0) info.notes.emplace_back(format("{} {}", events_of_it, text));
   };
   note(events.outside, "events lie outside the picture: they are left out");
   note(events.backward, "events end before the one before them at the same pixel: they are left out");

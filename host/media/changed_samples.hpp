@@ -23,9 +23,18 @@ class ChangedSamples {
 
   // `time_ns` is not before that of the change before.
   void add(std::int64_t time_ns, const PixelChange& change) {
-    const std::int64_t start_ns = time_ns / tick_ns_ * tick_ns_;
+    const std::int64_t start_ns = start_of(time_ns);
     if (start_ns > starts_ns_.back()) begin(start_ns);
     changes_.push_back(change);
+  }
+
+  // Of the tick that a time is in.
+  [[nodiscard]] std::int64_t start_of(std::int64_t time_ns) const { return time_ns / tick_ns_ * tick_ns_; }
+  // Room for no more than so many changes in so many samples.
+  void reserve(std::uint64_t changes, std::uint64_t samples) {
+    changes_.reserve(changes);
+    starts_ns_.reserve(samples);
+    firsts_.reserve(samples);
   }
 
   [[nodiscard]] std::uint64_t count() const { return starts_ns_.size(); }
@@ -46,10 +55,12 @@ class ChangedSamples {
     return exposures;
   }
 
-  [[nodiscard]] std::uint64_t bytes() const {
-    return changes_.capacity() * sizeof(PixelChange) +
-           starts_ns_.capacity() * (sizeof(std::int64_t) + sizeof(std::uint64_t));
+  // Of so many changes in so many samples, with the times that a clip tells of these.
+  [[nodiscard]] static std::uint64_t bytes_of(std::uint64_t changes, std::uint64_t samples) {
+    return changes * sizeof(PixelChange) +
+           samples * (sizeof(std::int64_t) + sizeof(std::uint64_t) + sizeof(Exposure));
   }
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_of(changes_.capacity(), starts_ns_.capacity()); }
 
  private:
   void begin(std::int64_t start_ns) {

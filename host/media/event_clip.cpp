@@ -95,7 +95,7 @@ std::unique_ptr<Clip> open_event_clip(const std::filesystem::path& path, const C
     EventLight light = read_adder_file(file.bytes(), name, options, info);
     return std::make_unique<EventClip>(std::move(info), std::move(light));
   }
-  CameraEvents recording = read_prophesee_events(file.bytes(), name);
+  CameraEvents recording = read_prophesee_events(file.bytes(), name, options);
   info.notes = std::move(recording.notes);
   EventLight light = light_of_events(recording, name, options, info);
   return std::make_unique<EventClip>(std::move(info), std::move(light));

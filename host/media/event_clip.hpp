@@ -5,7 +5,8 @@
 //   always:  codes of 16 bits, made here of what the file tells of light. Everything costs by changes, whatever the
 //            file's ticks are: a sample is exposed until the next one
 //
-// The recording is held in memory: 12 bytes for each change, 40 for each sample; while it is opened, as much again.
+// The recording is held in memory: 12 bytes for each change, 32 for each sample; while it is opened, 16 more for each
+// event. That is counted before it is held, and is refused where it is more than ClipOptions::decoder_bytes.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +20,7 @@ namespace nutik {
 [[nodiscard]] bool is_event_recording(const std::filesystem::path& path);
 
 // Throws InputError if the file is damaged, holds no event, or is of a kind that is not read, with the way out;
-// UsageError if what is stated cannot be said of it.
+// UsageError if what is stated cannot be said of it, MemoryTooLittle.
 [[nodiscard]] std::unique_ptr<Clip> open_event_clip(const std::filesystem::path& path,
                                                     const ClipOptions& options);
 

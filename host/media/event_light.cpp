@@ -6,6 +6,7 @@
 
 #include "capture/format.hpp"
 #include "capture/light_codes.hpp"
+#include "capture/memory_needs.hpp"
 #include "media/settled_fact.hpp"
 
 namespace nutik {
@@ -83,6 +84,16 @@ void check_picture_size(const Shape& shape, std::uint64_t events, const std::str
                           shape.width, shape.height, events));
 }
 
+void check_event_memory(const EventSizes& sizes, const Shape& shape, const ClipOptions& options) {
+  if (!options.decoder_bytes) return;
+  // Two numbers of each value, whether it was seen, and its codes at the start and by now.
+  constexpr std::uint64_t kValueBytes = 2 * sizeof(double) + 1 + 2 * sizeof(std::uint16_t);
+  const MemoryNeeds needs{{"events as they are read", sizes.events * sizes.event_bytes},
+                          {"what changes with each moment", ChangedSamples::bytes_of(sizes.events, sizes.samples)},
+                          {"light of its pixels", shape.value_count() * kValueBytes}};
+  needs.rest_of(*options.decoder_bytes);
+}
+
 EventLight light_of_events(const CameraEvents& recording, const std::string& name, const ClipOptions& options,
                            ClipInfo& info) {
   CaptureFormat& capture = info.format;
@@ -131,14 +142,17 @@ EventLight light_of_events(const CameraEvents& recording, const std::string& nam
   enum : std::uint8_t { kStill = 0, kActive = 1, kAboveWhite = 2 };
   std::vector<std::uint8_t> seen(pixels, kStill);
   const std::int64_t origin_us = recording.events.front().time_us;
+  const auto time_ns = [&](const CameraEvent& event) { return (event.time_us - origin_us) * kMicrosecondNs; };
+  const std::uint64_t samples = count_samples(result.samples, recording.events, time_ns);
+  check_event_memory({sizeof(CameraEvent), recording.events.size(), samples}, capture.shape, options);
+  result.samples.reserve(recording.events.size(), samples);
   for (const CameraEvent& event : recording.events) {
     const std::uint64_t pixel = std::uint64_t{event.y} * recording.width + event.x;
     logs[pixel] += event.is_up ? contrast.up : -contrast.down;
     const double light = std::exp(logs[pixel]);
     seen[pixel] |= light > 1 ? kActive | kAboveWhite : kActive;
     const auto code = static_cast<std::uint16_t>(codes.code_of(std::min(light, 1.0)));
-    result.samples.add((event.time_us - origin_us) * kMicrosecondNs,
-                       {static_cast<std::uint32_t>(pixel), {code}});
+    result.samples.add(time_ns(event), {static_cast<std::uint32_t>(pixel), {code}});
   }
   result.end_ns = (recording.events.back().time_us - origin_us + 1) * kMicrosecondNs;
   const auto count = [&](std::uint8_t of) {

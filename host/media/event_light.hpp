@@ -27,7 +27,29 @@ struct EventLight {
 // events.
 void check_picture_size(const Shape& shape, std::uint64_t events, const std::string& name);
 
-// `info` is given the codes' format, facts and notes. `name` is the recording's.
+// How many samples changes make, in the order of their times.
+template <typename Changes, typename TimeOf>
+[[nodiscard]] std::uint64_t count_samples(const ChangedSamples& samples, const Changes& changes, TimeOf time_ns) {
+  std::uint64_t count = 1;
+  std::int64_t last_ns = 0;
+  for (const auto& change : changes) {
+    const std::int64_t start_ns = samples.start_of(time_ns(change));
+    if (start_ns > last_ns) ++count;
+    last_ns = start_ns;
+  }
+  return count;
+}
+
+// What a recording takes while it is opened.
+struct EventSizes {
+  std::uint64_t event_bytes = 0;  // of each event, as it is read
+  std::uint64_t events = 0;
+  std::uint64_t samples = 0;  // the moments at which something changes
+};
+// Throws MemoryTooLittle if that is more than ClipOptions::decoder_bytes.
+void check_event_memory(const EventSizes& sizes, const Shape& shape, const ClipOptions& options);
+
+// `info` is given the codes' format, facts and notes. `name` is the recording's. Throws MemoryTooLittle.
 [[nodiscard]] EventLight light_of_events(const CameraEvents& recording, const std::string& name,
                                          const ClipOptions& options, ClipInfo& info);
 

@@ -17,14 +17,18 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <optional>
 
 #include "capture/format.hpp"
+#include "media/event_light.hpp"
 #include "media/prophesee_header.hpp"
 
 namespace nutik {
 namespace {
 
 using Bytes = std::span<const std::byte>;
+
+constexpr std::int64_t kMicrosecondNs = 1000;
 
 std::uint32_t bits(std::uint64_t word, unsigned first, unsigned count) {
   return static_cast<std::uint32_t>(word >> first & ((std::uint64_t{1} << count) - 1));
@@ -67,10 +71,22 @@ class CameraClock {
   bool is_set_ = false;
 };
 
+// What a file holds, without holding it.
+struct EventTally {
+  std::uint64_t events = 0;
+  std::uint64_t moments = 0;  // events at another time than the one before
+  std::uint32_t right_of_all = 0, below_all = 0;
+};
+using KnownCount = std::optional<std::uint64_t>;  // of events
+
 class Decoder {
  public:
-  // `size` is that of a word. What does not fill one at the end is left over.
-  Decoder(Bytes words, std::size_t size) : words_(words), size_(size) {}
+  // `size` is that of a word. What does not fill one at the end is left over. Events are kept where it is known how many
+  // there are; else they are counted.
+  Decoder(Bytes words, std::size_t size, KnownCount known)
+      : words_(words), size_(size), is_keeping_(known.has_value()) {
+    events.reserve(known.value_or(0));
+  }
 
   template <typename Each>
   void for_each_word(Each each) {
@@ -79,9 +95,18 @@ class Decoder {
     left_over = words_.size() - at;
   }
   void add(std::int64_t time_us, std::uint32_t x, std::uint32_t y, bool is_up) {
-    events.push_back({time_us, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), is_up});
+    if (is_keeping_) {
+      events.push_back({time_us, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), is_up});
+      return;
+    }
+    if (tally.events == 0 || time_us != last_us_) ++tally.moments;
+    ++tally.events;
+    last_us_ = time_us;
+    tally.right_of_all = std::max(tally.right_of_all, x + 1);
+    tally.below_all = std::max(tally.below_all, y + 1);
   }
 
+  EventTally tally;
   std::vector<CameraEvent> events;
   std::size_t left_over = 0;  // bytes
   std::uint64_t untimed = 0;  // events before the first time
@@ -89,6 +114,8 @@ class Decoder {
  private:
   Bytes words_;
   std::size_t size_;
+  bool is_keeping_;
+  std::int64_t last_us_ = 0;
 };
 
 enum Type32 : std::uint32_t { kDown = 0, kUp = 1, kTime = 8 };
@@ -111,8 +138,8 @@ void add_evt2(Decoder& decoder, CameraClock& high, std::uint32_t word, std::uint
 
 constexpr unsigned kEvt2ClockBits = 34;
 
-Decoder decode_evt2(Bytes words) {
-  Decoder decoder(words, 4);
+Decoder decode_evt2(Bytes words, KnownCount known) {
+  Decoder decoder(words, 4, known);
   CameraClock high(kEvt2ClockBits);
   decoder.for_each_word([&](std::uint64_t word) { add_evt2(decoder, high, static_cast<std::uint32_t>(word), 1); });
   return decoder;
@@ -134,8 +161,8 @@ bool has_type_above(Bytes words, const std::string& endianness) {
   return unknown[1] <= unknown[0];
 }
 
-Decoder decode_evt21(Bytes words, bool type_is_above) {
-  Decoder decoder(words, 8);
+Decoder decode_evt21(Bytes words, bool type_is_above, KnownCount known) {
+  Decoder decoder(words, 8, known);
   CameraClock high(kEvt2ClockBits);
   decoder.for_each_word([&](std::uint64_t word) {
     const std::uint32_t lower = bits(word, 0, 32), upper = bits(word, 32, 32);
@@ -144,9 +171,9 @@ Decoder decode_evt21(Bytes words, bool type_is_above) {
   return decoder;
 }
 
-Decoder decode_evt3(Bytes words) {
+Decoder decode_evt3(Bytes words, KnownCount known) {
   enum Type : std::uint32_t { kY = 0, kX = 2, kBaseX = 3, kVector12 = 4, kVector8 = 5, kLow = 6, kHigh = 8 };
-  Decoder decoder(words, 2);
+  Decoder decoder(words, 2, known);
   CameraClock clock(24);
   std::uint32_t y = 0, base_x = 0, high = 0;
   bool is_this_camera = true, is_up = false;
@@ -193,8 +220,8 @@ Decoder decode_evt3(Bytes words) {
   return decoder;
 }
 
-Decoder decode_dat(Bytes words) {
-  Decoder decoder(words, 8);
+Decoder decode_dat(Bytes words, KnownCount known) {
+  Decoder decoder(words, 8, known);
   CameraClock clock(32);
   decoder.for_each_word([&](std::uint64_t word) {
     clock.set(bits(word, 0, 32));
@@ -225,7 +252,7 @@ struct Sensor {
 constexpr Sensor kSensors[] = {{"genx320", 320, 320},  {"gen3", 640, 480},    {"gen4", 1280, 720},
                                {"imx636", 1280, 720}, {"imx646", 1280, 720}};
 
-void set_size(CameraEvents& recording, const PropheseeHeader& header) {
+void set_size(CameraEvents& recording, const PropheseeHeader& header, const EventTally& tally) {
   recording.width = header.pixels("width");
   recording.height = header.pixels("height");
   recording.size_from = "the file";
@@ -239,11 +266,8 @@ void set_size(CameraEvents& recording, const PropheseeHeader& header) {
     return;
   }
   recording.size_from.clear();
-  recording.width = recording.height = 1;
-  for (const CameraEvent& event : recording.events) {
-    recording.width = std::max<std::uint32_t>(recording.width, event.x + 1u);
-    recording.height = std::max<std::uint32_t>(recording.height, event.y + 1u);
-  }
+  recording.width = tally.right_of_all;
+  recording.height = tally.below_all;
   recording.notes.emplace_back(format(
       "the file does not say how many pixels the sensor has; its events lie within {} x {}, which are taken",
       recording.width, recording.height));
@@ -284,21 +308,22 @@ void put_in_order(CameraEvents& recording) {
       format("{} events come after later ones, by up to {} us: they are put in order", back, furthest));
 }
 
-Decoder decode(Bytes file, const PropheseeHeader& header, const std::string& name, std::string& kind) {
+Decoder decode(Bytes file, const PropheseeHeader& header, const std::string& name, std::string& kind,
+               KnownCount known) {
   const Bytes words = file.subspan(header.bytes);
   const std::string& format_name = header.of("format");
   const std::string& evt = header.of("evt");
   if (format_name == "EVT2" || (format_name.empty() && evt == "2.0")) {
     kind = "EVT 2.0";
-    return decode_evt2(words);
+    return decode_evt2(words, known);
   }
   if (format_name == "EVT21" || (format_name.empty() && evt == "2.1")) {
     kind = "EVT 2.1";
-    return decode_evt21(words, has_type_above(words, header.of("endianness")));
+    return decode_evt21(words, has_type_above(words, header.of("endianness")), known);
   }
   if (format_name == "EVT3" || (format_name.empty() && evt == "3.0")) {
     kind = "EVT 3.0";
-    return decode_evt3(words);
+    return decode_evt3(words, known);
   }
   if (!format_name.empty() || !evt.empty()) {
     throw InputError(nutik::format(
@@ -306,20 +331,27 @@ Decoder decode(Bytes file, const PropheseeHeader& header, const std::string& nam
         name, format_name.empty() ? "EVT " + evt : format_name, name));
   }
   kind = "DAT";
-  return decode_dat(dat_words(file, header, name));
+  return decode_dat(dat_words(file, header, name), known);
 }
 
 }  // namespace
 
-CameraEvents read_prophesee_events(Bytes file, const std::string& name) {
+CameraEvents read_prophesee_events(Bytes file, const std::string& name, const ClipOptions& options) {
   const PropheseeHeader header = read_prophesee_header(file);
   CameraEvents recording;
-  Decoder decoder = decode(file, header, name, recording.kind);
-  recording.events = std::move(decoder.events);
-  if (recording.events.empty()) {
+  const EventTally tally = decode(file, header, name, recording.kind, std::nullopt).tally;
+  if (tally.events == 0) {
     throw InputError(format("{} holds no event ({}, {} bytes after its header)", name, recording.kind,
                             file.size() - header.bytes));
   }
+  set_size(recording, header, tally);
+  const Shape shape{recording.width, recording.height, 1};
+  check_picture_size(shape, tally.events, name);
+  // Ticks of more than a microsecond may make one sample of several moments: that is counted when they are in order.
+  const bool counts_moments = options.events.tick_ns.value_or(kMicrosecondNs) <= kMicrosecondNs;
+  check_event_memory({sizeof(CameraEvent), tally.events, counts_moments ? tally.moments : 1}, shape, options);
+  Decoder decoder = decode(file, header, name, recording.kind, tally.events);
+  recording.events = std::move(decoder.events);
   if (decoder.left_over > 0) {
     recording.notes.emplace_back(
         format("{} was cut off within an event: its last {} bytes are left out", name, decoder.left_over));
@@ -328,7 +360,6 @@ CameraEvents read_prophesee_events(Bytes file, const std::string& name) {
     recording.notes.emplace_back(format(
         "{} events come before the first time in the file: they are left out", decoder.untimed));
   }
-  set_size(recording, header);
   leave_out_others(recording, name);
   put_in_order(recording);
   return recording;

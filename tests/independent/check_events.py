@@ -287,6 +287,22 @@ def memory(program, work):
         sys.exit("tables of a million ticks take more than 2 MB")
 
 
+def little_memory(program, work):
+    """With the least memory that the program asks for, samples in which little changes are still not written whole."""
+    words = ["encode", "wide.dat", "little.tik", "--codec", "none", "--memory", "1MB"]
+    for _ in range(2):  # what reading the recording takes is known before what its blocks do
+        told = run(program, *words, folder=work, fails=True)
+        words[-1] = re.search(r"allow more: --memory ([0-9]+MB)", told)[1]
+        if subprocess.run([program, *words], cwd=work, capture_output=True).returncode == 0:
+            break
+    else:
+        sys.exit(f"{words[-1]} is too little, too")
+    size = (work / "little.tik").stat().st_size
+    print(f"cost, little memory: {size} bytes with --memory {words[-1]}")
+    if size > MAX_COST:
+        sys.exit(f"with little memory the file takes {size} bytes")
+
+
 def cost(program, _media, work):
     random = np.random.default_rng(5)
     x, y, ups = random.integers(0, 64, 1000), random.integers(0, 64, 1000), random.random(1000) < 0.5
@@ -313,6 +329,7 @@ def cost(program, _media, work):
     if ratio > 5:
         sys.exit(f"a boxcar over a million ticks takes {ratio:.1f} times as long")
     memory(program, work)
+    little_memory(program, work)
 
 
 def main():

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "capture/error.hpp"
+#include "capture/memory_needs.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
@@ -202,6 +203,26 @@ TEST(AdderClip, RefusesTimesThatNobodyFilmed) {
   const auto path = scratch.write("long.adder", content);
   EXPECT_NE(message_of<InputError>([&] { open_test_clip(path); }).find("its events last longer than 146 years"),
             std::string::npos);
+}
+
+TEST(AdderClip, CountsMemoryBeforeItIsTaken) {
+  const Scratch scratch;
+  const File file{3, 1, 1};
+  std::string content = file.header();
+  for (unsigned t = 1; t <= 1000; ++t) content += file.event(0, 0, 0, t % 2 == 0 ? 128 : 0, t);
+  const auto path = scratch.write("long.adder", content);
+  ClipOptions options;
+  const auto open_in = [&](std::uint64_t bytes) {
+    options.decoder_bytes = bytes;
+    return open_test_clip(path, options);
+  };
+  // Each event is a moment of its own; one pixel of 21 bytes.
+  constexpr std::uint64_t kLeast = 1000 * (16 + 12 + 32) + 21;
+  for (const std::uint64_t bytes : {std::uint64_t{1000}, kLeast - 1}) {
+    const std::string message = message_of<MemoryTooLittle>([&] { open_in(bytes); });
+    EXPECT_NE(message.find("events as they are read 0.016 MB"), std::string::npos) << message;
+  }
+  EXPECT_LE(open_in(kLeast)->info().decoder_bytes, kLeast);
 }
 
 TEST(AdderClip, RefusesWhatItCannotRead) {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "capture/error.hpp"
+#include "capture/memory_needs.hpp"
 #include "media/event_clip.hpp"
 #include "media/event_files.hpp"
 #include "support/clips.hpp"
@@ -255,6 +256,27 @@ TEST(EventClip, RefusesWhatItCannotRead) {
   expect("c.adder", "addec...", "is a compressed ADΔER file, which is not read; save it uncompressed");
   expect("a.hdf5", "\x89HDF\r\n\x1a\n....", "is an HDF5 file, which is not read; if it holds events, convert");
   expect("a.aedat", "#!AER-DAT4.0\r\n", "is an AEDAT file, which is not read");
+}
+
+// A vector of EVT 3.0 has 12 events in 2 bytes, of which each takes 28 bytes and more.
+TEST(EventClip, CountsMemoryBeforeItIsTaken) {
+  const Scratch scratch;
+  std::string words = test::little_endian(0x8000, 2);
+  for (int i = 0; i < 1000; ++i) words += test::little_endian(0x3000, 2) + test::little_endian(0x4FFF, 2);
+  const auto path = scratch.write("full.raw", test::raw_header("EVT3", 12, 1) + words);
+  ClipOptions options;
+  const auto open_in = [&](std::uint64_t bytes) {
+    options.decoder_bytes = bytes;
+    return open_test_clip(path, options);
+  };
+  // One sample of 32 bytes, 12 pixels of 21.
+  constexpr std::uint64_t kLeast = 12'000 * (16 + 12) + 32 + 12 * 21;
+  const std::string message = message_of<MemoryTooLittle>([&] { open_in(kLeast - 1); });
+  EXPECT_NE(message.find("of memory is too little; at least 0.3363 MB is needed: events as they are read 0.192 MB, "
+                         "what changes with each moment 0.144 MB"),
+            std::string::npos)
+      << message;
+  EXPECT_LE(open_in(kLeast)->info().decoder_bytes, kLeast);
 }
 
 TEST(EventClip, RefusesWhatIsSaidOfPictures) {

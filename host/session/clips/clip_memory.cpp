@@ -22,9 +22,17 @@ std::uint64_t block_units(const CaptureFormat& capture) {
   return 1 + 3 * held_format(capture).sample_bytes() / capture.sample_bytes();
 }
 
+// Of samples in which little changes, blocks have room for changes of two whole samples, beside the first sample and the
+// one that is one too many (default_block_limits()): with less each of thousands of samples would be written whole.
+constexpr std::uint64_t kMinRastersOfChanges = 4;
+
 // Blocks of one sample, in each of the places where there is one.
-std::uint64_t min_block_bytes(const CaptureFormat& capture) {
-  return (capture.noise.camera ? block_units(capture) : 3) * capture.sample_bytes();
+std::uint64_t min_block_bytes(const ClipToRead& clip) {
+  const std::uint64_t sample_bytes = clip.capture.sample_bytes();
+  if (clip.tells_changes && !clip.block_samples) {
+    return kMinRastersOfChanges * block_units(clip.capture) * sample_bytes;
+  }
+  return (clip.capture.noise.camera ? block_units(clip.capture) : 3) * sample_bytes;
 }
 
 void check_stated(const MemoryBudget& budget, const ClipToRead& clip, std::uint64_t closing_bytes) {
@@ -64,13 +72,16 @@ ClipMemory memory_for_encoding(const MemoryBudget& budget, const ClipToRead& cli
                                const MemoryNeeds& rendering) {
   const std::uint64_t sample_bytes = clip.capture.sample_bytes();
   const std::uint64_t min_ahead = kMinRasters * sample_bytes;
-  const std::uint64_t min_blocks = min_block_bytes(clip.capture);
+  const std::uint64_t min_blocks = min_block_bytes(clip);
   const MemoryNeeds needs{{"pictures within the decoder", clip.decoder_bytes},
                           {"pictures decoded ahead", min_ahead},
                           {"blocks", min_blocks},
                           {"packing them", kPackingBytes}};
   MemoryNeeds rendering_needs = rendering;
-  if (!rendering.parts().empty()) rendering_needs.add("blocks", held_format(clip.capture).sample_bytes());
+  if (!rendering.parts().empty()) {
+    rendering_needs.add("blocks", (clip.tells_changes ? kMinRastersOfChanges : 1) *
+                                      held_format(clip.capture).sample_bytes());
+  }
   if (rendering_needs.bytes() > needs.bytes()) rendering_needs.rest_of(budget.bytes);
   std::uint64_t rest = needs.rest_of(budget.bytes);
 
@@ -82,7 +93,9 @@ ClipMemory memory_for_encoding(const MemoryBudget& budget, const ClipToRead& cli
   memory.threads = static_cast<std::uint32_t>(1 + more_threads);
   rest -= more_threads * kPackingBytes;
   std::uint64_t closing = (rest + min_blocks) / block_units(clip.capture);
-  if (!clip.capture.noise.camera) closing = std::max(sample_bytes, rest / block_units(clip.capture));
+  if (!clip.capture.noise.camera && !clip.tells_changes) {
+    closing = std::max(sample_bytes, rest / block_units(clip.capture));
+  }
   if (!rendering.parts().empty()) closing = std::min(closing, budget.bytes - rendering.bytes());
   check_stated(budget, clip, closing);
   set_blocks(memory, clip, closing);
@@ -93,7 +106,7 @@ ClipMemory memory_for_streaming(const MemoryBudget& budget, const ClipToRead& cl
                                 const MemoryNeeds& rendering) {
   const std::uint64_t sample_bytes = clip.capture.sample_bytes();
   const std::uint64_t min_ahead = kMinRasters * sample_bytes;
-  const std::uint64_t min_blocks = min_block_bytes(clip.capture);
+  const std::uint64_t min_blocks = min_block_bytes(clip);
   MemoryNeeds needs{{"pictures within the decoder", clip.decoder_bytes},
                     {"pictures decoded ahead", min_ahead},
                     {"blocks", min_blocks}};

@@ -4,6 +4,7 @@
 
 #include "capture/format.hpp"
 #include "media/deflicker.hpp"
+#include "media/event_clip.hpp"
 #include "session/clips/evened_times.hpp"
 #include "session/clips/measured_noise.hpp"
 #include "session/text/time_text.hpp"
@@ -234,7 +235,8 @@ ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& me
                             const ReportedProgress& progress, const std::stop_token& stop) {
   refuse_streams(request.path);
   ClipOptions options = request.clip;
-  options.decoder_bytes = memory.bytes / 8;
+  // Pictures are decoded beside much else; a recording of events is held whole before anything else is.
+  options.decoder_bytes = is_event_recording(request.path) ? memory.bytes : memory.bytes / 8;
   return open_clip_source(
       request, [path = request.path, options] { return open_clip(path, options); }, memory, progress, stop);
 }
