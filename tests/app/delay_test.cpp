@@ -71,6 +71,34 @@ class DelayCommand : public testing::Test {
   test::Scratch scratch_;
 };
 
+// A mask value has few of a map's delays: 16 values and 4096 delays make 4096 tables, and not 65,536 of 200 MB.
+TEST_F(DelayCommand, TakesMemoryForThePairsThatOccur) {
+  constexpr int kSide = 64;
+  std::filesystem::create_directory(scratch_ / "squares");
+  cv::Mat map(kSide, kSide, CV_16UC1), mask(kSide, kSide, CV_8UC1);
+  for (int pixel = 0; pixel < kSide * kSide; ++pixel) {
+    map.at<std::uint16_t>(pixel / kSide, pixel % kSide) = static_cast<std::uint16_t>(16 * pixel);
+    mask.at<std::uint8_t>(pixel / kSide, pixel % kSide) = static_cast<std::uint8_t>(pixel / 256);
+  }
+  cv::imwrite((scratch_ / "each.tif").string(), map);
+  cv::imwrite((scratch_ / "sixteen.png").string(), mask);
+  std::string functions;
+  for (int value = 0; value < 16; ++value) {
+    functions += "M" + std::to_string(value) + " {[0:1],[10000000:1],[10000001:0]}\n";
+  }
+  scratch_.write("sixteen.fn", functions);
+  for (int k = 0; k < 8; ++k) {
+    cv::imwrite((scratch_ / ("squares/" + std::to_string(k) + ".pgm")).string(),
+                cv::Mat(kSide, kSide, CV_8UC1, cv::Scalar::all(10 * k)));
+  }
+  const auto exposed = [&](const std::string& name, const std::string& memory) {
+    return std::vector<std::string>{"-f", "100", "--transfer", "linear", "--memory", memory, "-k", "sixteen.fn", "-m",
+                                    "sixteen.png", "--delay", "each.tif:0s..70ms", name, "o.pfm"};
+  };
+  expect_refused(exposed("squares", "8MB"), 2, "gain tables of a block");
+  done(exposed("squares", "60MB"));
+}
+
 TEST_F(DelayCommand, SweepsThroughTheCaptureInEveryArithmetic) {
   for (const char* precision : {"auto", "single", "compensated", "double", "fixed"}) {
     done(exposing("rows:60ms", {"--precision", precision, "clip.tik", "out.pgm"}));

@@ -1,6 +1,5 @@
 #include "session/clips/forward_clip.hpp"
 
-#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -20,10 +19,9 @@ ExposedPicture expose_once(ClipSource& source, std::uint64_t sample_count, const
   const Mask mask = mask_of(request, source.capture.shape);
   PlanOptions options = plan_options_of(request, source.capture.shape);
   options.transfer.reset();  // it went into the capture's format
-  // With delays there is a function for each pair of both.
+  // With delays there is a function for each pair of both that occurs.
   const std::size_t function_count =
-      options.delays ? std::min(MaskMap::kMaxRegions, functions.size() * options.delays->delays_ns.size())
-                     : functions.size();
+      options.delays ? MaskMap::of(mask, options.delays)->regions.size() : functions.size();
   MemoryNeeds rendering = rendering_needs(source.capture, type, function_count,
                                           source.request.block_samples.value_or(kDefaultBlockSamples));
   rendering.add(besides);
