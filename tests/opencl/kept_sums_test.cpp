@@ -61,6 +61,11 @@ struct SteadyCase {
     format.code_bytes = 1;
     format.white_code = 255;
     format.transfer = random.chance(0.5) ? Transfer::srgb() : Transfer::linear();
+    if (random.chance(0.2)) {
+      format.noise = {};
+      format.noise.camera = CameraNoise{
+          255, format.transfer, {{NoiseCurve::sensor, random.real(1e-3, 0.02), random.real(1e-4, 1e-2), {}}}};
+    }
     const auto samples = static_cast<std::uint64_t>(random.whole(150, 900));
     const auto block_samples = static_cast<std::uint32_t>(random.whole(16, 24));
     capture.emplace(format, test::random_timeline(random, samples),
@@ -91,7 +96,7 @@ class KeptSumsOf : public testing::TestWithParam<Precision> {
 // NUTIK_TEST_CASES=10000 is the full run.
 TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
   const test::Seeds seeds = test::seeds(0, 60);
-  std::uint64_t kept = 0, bundles = 0, corrected = 0;
+  std::uint64_t kept = 0, bundles = 0, corrected = 0, noisy = 0;
   double worst = 0.0;
   ReferenceRenderer reference;
   for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
@@ -99,6 +104,7 @@ TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
     const RenderPlan plan = random.plan();
     bundles += plan.has_bundles();
     corrected += plan.has_corrected();
+    noisy += random.capture->format().noise.camera.has_value();
     const Picture expected = reference.render(plan, *random.capture, kLight).picture;
     const Picture made = fresh_.render(plan, *random.capture, kLight).picture;
     const LightErrors errors = light_errors(plan, error_bound(plan, GetParam(), kLight), expected, made);
@@ -110,9 +116,6 @@ TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
       const Rendered again = renderer_.render(random.plan(), *random.capture, kLight);
       ASSERT_TRUE(again.picture.bytes == made.bytes) << test::rerun(seed);
       kept += again.statistics.kept_sums;
-      if (time == 0) {
-        ASSERT_EQ(again.statistics.kept_sums, 0u);
-      }
       if (time == 2) {
         ASSERT_EQ(again.statistics.made_sums, 0u) << test::rerun(seed);
       }
@@ -126,9 +129,12 @@ TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
   }
   renderer_.keep_resident(nullptr);
   std::printf(
-      "%s: %llu sums kept, %llu cases with bundles, %llu with corrections, worst error %.2f of its bound\n",
+      "%s: %llu sums kept, %llu cases with bundles, %llu with corrections, %llu of known noise, worst error "
+      "%.2f of "
+      "its bound\n",
       to_text(GetParam()).c_str(), static_cast<unsigned long long>(kept),
-      static_cast<unsigned long long>(bundles), static_cast<unsigned long long>(corrected), worst);
+      static_cast<unsigned long long>(bundles), static_cast<unsigned long long>(corrected),
+      static_cast<unsigned long long>(noisy), worst);
   if (seeds.last - seeds.first >= 60) {
     EXPECT_EQ(kept > 0, GetParam() != Precision::fixed);
     EXPECT_GT(bundles, 0u);
@@ -161,11 +167,12 @@ TEST_P(KeptSumsOf, AMovedBoxcarReadsItsEnds) {
     for (const RenderStatistics& each : all) EXPECT_EQ(each.kept_sums + each.made_sums, 0u);
     return;
   }
-  EXPECT_EQ(all[0].made_sums, 0u);
+  EXPECT_GT(all[0].made_sums, 8u);
   EXPECT_GT(all[0].blocks, 70u);
-  EXPECT_GT(all[1].made_sums, 8u);
-  EXPECT_EQ(all[2].made_sums, 0u);
-  EXPECT_EQ(all[2].blocks, 2u);  // the ends
+  for (const std::size_t k : {1u, 2u}) {
+    EXPECT_EQ(all[k].made_sums, 0u);
+    EXPECT_EQ(all[k].blocks, 2u);  // the ends
+  }
   EXPECT_LE(all[3].blocks, 2u + 1u);
 }
 
