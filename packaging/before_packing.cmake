@@ -6,7 +6,7 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   set(tree ${CPACK_TEMPORARY_DIRECTORY}/${component}${CPACK_PACKAGING_INSTALL_PREFIX})
   set(documents ${tree}/share/doc/${CPACK_DEBIAN_${COMPONENT}_PACKAGE_NAME})
   file(MAKE_DIRECTORY ${documents})
-  file(COPY ${CPACK_NUTIK_PACKAGING}/copyright ${CPACK_NUTIK_PACKAGING}/changelog DESTINATION ${documents}
+  file(COPY ${CPACK_NUTIK_PACKAGING}/copyright ${CPACK_NUTIK_CHANGELOG} DESTINATION ${documents}
        FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
   set(overrides ${CPACK_NUTIK_PACKAGING}/${CPACK_DEBIAN_${COMPONENT}_PACKAGE_NAME}/lintian-overrides)
   if(EXISTS ${overrides})

@@ -4,14 +4,15 @@
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME nutik)
-set(CPACK_PACKAGE_VENDOR "the nutik-cl authors")
-set(CPACK_PACKAGE_CONTACT "the nutik-cl authors <nutik-cl@users.noreply.example.org>")
+set(CPACK_PACKAGE_VENDOR "${authors}")
+set(CPACK_PACKAGE_CONTACT "${authors} <${contact}>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_SOURCE_DIR}/before_packing.cmake)
 # What before_packing.cmake is told.
 set(CPACK_NUTIK_PACKAGING ${CMAKE_CURRENT_SOURCE_DIR})
+set(CPACK_NUTIK_CHANGELOG ${CMAKE_CURRENT_BINARY_DIR}/changelog)
 set(CPACK_NUTIK_STRIP ${CMAKE_STRIP})
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)

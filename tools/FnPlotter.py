@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Draws the gain functions of a function file, to see what they do. docs/reference/functions.md has the format."""
 
 import argparse

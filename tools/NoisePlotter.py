@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Draws a camera's noise: measured points and the curve that is used. docs/reference/noise-files.md has the format."""
 
 import argparse

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Writes docs/reference/commands.md from the manual page, which the program makes from its table of options.
 
     tools/commands_page.py --program build/nutik-cl            writes the page

@@ -87,7 +87,7 @@ def draw_flow(program, demo, output):
     save(figure, output / "flow.png")
 
 
-def draw_pixel(output):
+def draw_pixel(_program, _demo, output):
     """One pixel: its light, times the gain, is what adds up."""
     ends_ms = np.array([0, 10, 20, 30, 40, 50])
     light = np.array([0.2, 0.2, 0.8, 0.5, 0.2])
@@ -119,7 +119,7 @@ def draw_pixel(output):
     save(figure, output / "pixel.png")
 
 
-def draw_rates(demo, output):
+def draw_rates(_program, demo, output):
     """The same fifth of a second at four rates, each picture as short as the clip's."""
     clip = cv2.VideoCapture(str(demo / "clip.mkv"), cv2.CAP_FFMPEG)
     frames = []
@@ -135,7 +135,7 @@ def draw_rates(demo, output):
     save(figure, output / "rates.png")
 
 
-def draw_tiles(output):
+def draw_tiles(_program, _demo, output):
     """What each kind of tile stores: eight of its 64 pixels over sixteen samples."""
     rng = np.random.default_rng(4)
     samples, pixels = 16, 8
@@ -188,19 +188,27 @@ def draw_negative(program, demo, output):
 
 
 def draw_tolerance(program, demo, output):
-    """How large the capture is with three tolerances, beside a part of the same moment."""
-    tolerances = (0, 2, 8)
-    figure, axes = plt.subplots(1, len(tolerances), figsize=(13, 3.4))
-    figure.subplots_adjust(left=0.005, right=0.995, top=0.88, bottom=0.1, wspace=0.03)
+    """How large the capture is with four tolerances, a part of the same moment, and what it lost."""
+    tolerances, times = (0, 2, 8, 24), 8
+    figure, axes = plt.subplots(2, len(tolerances), figsize=(13, 4.6))
+    figure.subplots_adjust(left=0.03, right=0.995, top=0.92, bottom=0.01, wspace=0.03, hspace=0.14)
+    lossless = None
     with tempfile.TemporaryDirectory() as folder:
-        for axis, tolerance in zip(axes, tolerances):
+        for tolerance, (above, below) in zip(tolerances, axes.T):
             capture = Path(folder) / f"{tolerance}.tik"
             subprocess.run([program, "-q", "--tolerance", str(tolerance), demo / "clip.mkv", capture], check=True)
-            picture = picture_of(program, "--start", "0.8s", "--exposure", "1f", capture)
-            show(axis, picture[150:270, 340:540], f"--tolerance {tolerance}",
-                 f"{capture.stat().st_size / 1e6:.1f} MB")
+            picture = picture_of(program, "--start", "0.8s", "--exposure", "1f", capture)[100:250, 290:540].astype(int)
+            lossless = picture if lossless is None else lossless
+            show(above, picture, f"--tolerance {tolerance}", f"{capture.stat().st_size / 1e6:.0f} MB")
+            show(below, np.minimum(np.abs(picture - lossless) * times, 255), "", "")
             capture.unlink()
+    axes[0, 0].set_ylabel("picture")
+    axes[1, 0].set_ylabel(f"what it lost, × {times}")
     save(figure, output / "tolerance.png")
+
+
+DRAWINGS = {"flow": draw_flow, "pixel": draw_pixel, "rates": draw_rates, "tiles": draw_tiles, "negative": draw_negative,
+            "tolerance": draw_tolerance}
 
 
 def main():
@@ -208,25 +216,13 @@ def main():
     parser.add_argument("--program", type=Path, default="build/nutik-cl")
     parser.add_argument("--demo", type=Path, default="demo")
     parser.add_argument("--output", type=Path, default="docs/images/concepts")
-    parser.add_argument("--only", choices=("flow", "pixel", "rates", "tiles", "negative", "tolerance"))
+    parser.add_argument("--only", choices=DRAWINGS)
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
-    if options.only in (None, "pixel"):
-        draw_pixel(options.output)
-    if options.only in (None, "tiles"):
-        draw_tiles(options.output)
-    if options.only in ("pixel", "tiles"):
-        return
-    if not (options.demo / "clip.tik").exists():
-        sys.exit(f"{options.demo}/clip.tik is not there; tools/demo makes it")
-    if options.only in (None, "flow"):
-        draw_flow(options.program, options.demo, options.output)
-    if options.only in (None, "rates"):
-        draw_rates(options.demo, options.output)
-    if options.only in (None, "negative"):
-        draw_negative(options.program, options.demo, options.output)
-    if options.only in (None, "tolerance"):
-        draw_tolerance(options.program, options.demo, options.output)
+    for name in [options.only] if options.only else DRAWINGS:
+        if name not in ("pixel", "tiles") and not (options.demo / "clip.tik").exists():
+            sys.exit(f"{options.demo}/clip.tik is not there; tools/demo makes it")
+        DRAWINGS[name](options.program, options.demo, options.output)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Fits the polynomials that turn codes into light in single precision (host/opencl/light_curve.cpp).
 
 Above its straight toe a transfer function is a power of a straight line, ((x + a) / (1 + a))^p. Of all

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Draws docs/images/house.svg: the rooms of host/, what stands on them, and who uses whom, as CMakeLists.txt say.
 
     tools/house.py            draws it (needs graphviz: apt install graphviz)

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Draws the shutter shapes that nutik-cl prints: the picture of docs/reference/shutters.md."""
 
 import argparse

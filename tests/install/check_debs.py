@@ -23,7 +23,7 @@ HOLDS = {
                  "share/mime/packages/nutik.xml", "share/thumbnailers/nutik.thumbnailer"),
     "nutik-modules": tuple(f"lib/.*nutik/nutik-{name}.so" for name in ("videos", "stills", "motion")),
     "nutik-studio": ("bin/nutik-studio", "share/man/man1/nutik-studio.1.gz", "share/applications/nutik-studio.desktop",
-                     "share/metainfo/org.nutik.Studio.metainfo.xml", "share/icons/hicolor/scalable/apps/nutik-studio.svg",
+                     "share/metainfo/.*[.]studio[.]metainfo.xml", "share/icons/hicolor/scalable/apps/nutik-studio.svg",
                      "share/icons/hicolor/48x48/apps/nutik-studio.png"),
     "nutik-plotters": ("bin/FnPlotter.py", "bin/NoisePlotter.py", "share/nutik/fnplot/.*.py", "share/nutik/noiseplot/.*.py"),
     "python3-nutik": ("lib/python3.*/nutik/_nutik.*.so", "lib/python3.*/nutik/__init__.py", "lib/python3.*/nutik/py.typed",
@@ -76,7 +76,7 @@ def check_package(deb, expected, mistakes):
 def check_desktop(tree, mistakes):
     """What desktops read, by those who define it, as far as they are installed."""
     checkers = (("desktop-file-validate", ("share/applications/nutik-studio.desktop",), ()),
-                ("appstreamcli", ("share/metainfo/org.nutik.Studio.metainfo.xml",), ("validate", "--no-net", "--pedantic")))
+                ("appstreamcli", ("share/metainfo/*.studio.metainfo.xml",), ("validate", "--no-net", "--pedantic")))
     for program, files, words in checkers:
         if shutil.which(program) is None:
             print(f"{program} is not installed")

@@ -5,6 +5,7 @@ in a folder of their own and moved to their places when all are there.
 """
 
 import os
+import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -26,7 +27,8 @@ def check_output(output, inputs):
 
 def missing_matplotlib(error):
     """The error to raise where drawing cannot be imported."""
-    return OutputError(f"Matplotlib cannot be loaded ({error}); on Debian: apt install python3-matplotlib")
+    return OutputError(f"Matplotlib cannot be loaded by {sys.executable} ({error}); "
+                       "Debian has it for /usr/bin/python3: apt install python3-matplotlib")
 
 
 def put_out(drawings, output):

@@ -1,5 +1,6 @@
 """Exit statuses and messages."""
 
+import sys
 import unittest
 
 from fnplotter.setting import expectations, needs_matplotlib, paths, run, write
@@ -95,7 +96,8 @@ class Mistakes(unittest.TestCase):
         folder = paths.work / "without-matplotlib"
         folder.mkdir(exist_ok=True)
         (folder / "matplotlib.py").write_text("raise ImportError('it is not here')\n", encoding="utf-8")
-        words = "Matplotlib cannot be loaded (it is not here); on Debian: apt install python3-matplotlib"
+        words = (f"Matplotlib cannot be loaded by {sys.executable} (it is not here); Debian has it for /usr/bin/python3: "
+                 "apt install python3-matplotlib")
         arguments = [paths.corpus / "figure04.fn", "-o", paths.work / "none.png"]
         self.check(arguments, 5, words, PYTHONPATH=str(folder))
 
