@@ -19,7 +19,7 @@ constexpr OutputFormat kLight{ValueType::light64, 0};
 // NUTIK_TEST_CASES=10000 is the full run (docs/explanation/accuracy.md). Every third mask is soft.
 TEST(Delays, StayWithinTheirBoundsOnRandomCases) {
   test::PrecisionCheck check;
-  const test::Seeds seeds = test::seeds(0, 200);
+  const test::Seeds seeds = test::seeds(0, 60);
   for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
     RandomCase random(seed);
     test::Random draw(seed * 31 + 7);
