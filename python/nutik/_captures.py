@@ -14,7 +14,7 @@ from ._functions import Function, FunctionLike, function_of, read_functions
 from ._masks import Mask, MaskLike, mask_of
 from ._nutik import UsageError
 from ._pictures import Picture
-from ._words import Array, Path, Progress, Time, box_of, count_of, settings_of, tag_of, time_word, warn
+from ._words import Array, DelayLike, Path, Progress, Time, box_of, count_of, delays_ns, settings_of, tag_of, time_word, warn
 
 Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
 
@@ -120,8 +120,8 @@ class Capture:
     def render(self, functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, *,
                start: Optional[Time] = None, exposure: Optional[Time] = None, shutter: Optional[str] = None,
                shutter_error: Optional[float] = None, feather: Union[str, float, None] = None,
-               normalize: str = "support", gain: float = 1.0, unmapped: Optional[str] = None,
-               precision: Optional[str] = None, codes: bool = False, dtype: Any = None,
+               delay: Optional[DelayLike] = None, normalize: str = "support", gain: float = 1.0,
+               unmapped: Optional[str] = None, precision: Optional[str] = None, codes: bool = False, dtype: Any = None,
                transfer: Optional[str] = None, negative: Optional[str] = None,
                region: Optional[Sequence[int]] = None) -> Picture:
         """Exposes a picture.
@@ -133,6 +133,8 @@ class Capture:
 
         mask: tags [height, width], or {tag: alpha} of shares (the first function gets what they leave), a nutik.Mask, or
             a file. feather: pixels that tags are blended over, 6 or '6px'.
+        delay: how much later each pixel is exposed (docs/how-to/delay.md): 'rows:15ms', 'columns:0s..0.5s',
+            'radial:-20ms..20ms', 'map.tif:0s..1s', or an array [height, width] of seconds or timedelta64.
         normalize: 'support', 'integral', 'absolute' or 'seconds:S' (docs/explanation/model.md). gain: multiplies the light.
         unmapped: 'zero' lets tags without a function expose to black.
         precision: 'single', 'compensated', 'double' or 'fixed'; None: the fastest whose error bound is small enough.
@@ -144,8 +146,8 @@ class Capture:
         Raises UsageError where the request does not fit the capture, InputError where mask and functions do not or the
         capture is damaged, DeviceError; KeyboardInterrupt at Ctrl-C.
         """
-        asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, normalize, gain,
-                               unmapped)
+        asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, delay,
+                               normalize, gain, unmapped)
         output = self._output(codes, dtype, transfer, negative)
         box = None if region is None else box_of(region, "region")
         held = _nutik.render(self._held, asked, output, box, None if precision is None else str(precision))
@@ -160,8 +162,8 @@ class Capture:
     def trace(self, x: Optional[int] = None, y: Optional[int] = None, *, tag: Optional[int] = None,
               functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, start: Optional[Time] = None,
               exposure: Optional[Time] = None, shutter: Optional[str] = None, shutter_error: Optional[float] = None,
-              feather: Union[str, float, None] = None, normalize: str = "support", gain: float = 1.0,
-              unmapped: Optional[str] = None) -> list[Trace]:
+              feather: Union[str, float, None] = None, delay: Optional[DelayLike] = None, normalize: str = "support",
+              gain: float = 1.0, unmapped: Optional[str] = None) -> list[Trace]:
         """How the light of pixel x, y came about, or the mean of all pixels with a `tag` of the mask: a Trace for each
         function that has a share. The other arguments are those of render().
 
@@ -171,8 +173,8 @@ class Capture:
             raise UsageError("what should be followed? Either a pixel, x and y, or a tag of the mask, tag=")
         if tag is not None and mask is None:
             raise UsageError("tag= is a value of a mask; add mask=")
-        asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, normalize, gain,
-                               unmapped)
+        asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, delay,
+                               normalize, gain, unmapped)
         pixel = None if x is None else (count_of(x, "x"), count_of(y, "y"))
         traces, _, told = _nutik.trace(self._held, asked, pixel, None if tag is None else tag_of(tag))
         warn(told)
@@ -233,14 +235,16 @@ class Capture:
         (from, to, step). mask: whose tags M0 ... are; regions: a second mask, whose values R0 ... are.
         progress: as of nutik.open().
         """
-        asked = self._asked(None, mask, feather, dict(start=start, normalize=normalize, gain=gain, unmapped=unmapped))
+        asked = self._asked(None, mask, feather, dict(start=start, normalize=normalize, gain=gain, unmapped=unmapped),
+                            None)
         words = [_finds.freedom_word(name, each, functions) for name, each in free.items()]
         region_mask = mask_of(regions)
         return _finds.solve(self._held, functions, list(wishes), words, asked,
                             None if region_mask is None else region_mask._held, progress)
 
     def _asked(self, functions: Optional[dict[int, Function]], mask: Optional[MaskLike],
-               feather: Union[str, float, None], stated: dict[str, Any]) -> _nutik.Exposure:
+               feather: Union[str, float, None], stated: dict[str, Any],
+               delay: Optional[DelayLike]) -> _nutik.Exposure:
         if feather is not None and mask is None:
             raise UsageError("feather= blends functions along the edges of a mask; add mask= and functions=")
         first = min(functions) if functions else 0
@@ -250,11 +254,14 @@ class Capture:
         if stated.get("unmapped") not in (None, "zero"):
             raise UsageError(f"unmapped={stated['unmapped']!r} is not known; the only choice is 'zero'")
         held = None if functions is None else {tag: each._held for tag, each in functions.items()}
-        return _nutik.Exposure(held, None if made is None else made._held, settings_of(stated))
+        if isinstance(delay, str):
+            stated = {**stated, "delay": delay}
+        times = None if delay is None or isinstance(delay, str) else delays_ns(delay)
+        return _nutik.Exposure(held, None if made is None else made._held, settings_of(stated), times)
 
     def _exposure(self, functions: Optional[Functions], mask: Optional[MaskLike], start: Optional[Time],
                   exposure: Optional[Time], shutter: Optional[str], shutter_error: Optional[float],
-                  feather: Union[str, float, None], normalize: str, gain: float,
+                  feather: Union[str, float, None], delay: Optional[DelayLike], normalize: str, gain: float,
                   unmapped: Optional[str]) -> _nutik.Exposure:
         stated = dict(start=start, exposure=exposure, shutter=shutter, shutter_error=shutter_error,
                       normalize=normalize, gain=gain, unmapped=unmapped)
@@ -263,11 +270,11 @@ class Capture:
                 raise UsageError("a mask goes with functions=, not with a plain interval")
             if exposure is None:
                 raise UsageError("an exposure needs a plain interval (start='0.4s', exposure='10ms') or functions=")
-            return self._asked(None, None, feather, stated)
+            return self._asked(None, None, feather, stated, delay)
         for name in ("exposure", "shutter", "shutter_error"):
             if stated[name] is not None:
                 raise UsageError(f"{name}= describes a plain interval, functions= say themselves how long; use one")
-        return self._asked(self._functions(functions, mask is not None), mask, feather, stated)
+        return self._asked(self._functions(functions, mask is not None), mask, feather, stated, delay)
 
     def _functions(self, functions: Functions, has_mask: bool) -> dict[int, Function]:
         if isinstance(functions, (str, PathLike)):

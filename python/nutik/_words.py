@@ -9,7 +9,7 @@ from decimal import Decimal
 from fractions import Fraction
 from os import PathLike, fsdecode
 from os.path import dirname
-from typing import Any, Callable, Iterable, Optional, Union
+from typing import Any, Callable, Iterable, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from . import _nutik
 from ._nutik import UsageError
 
 Time = Union[str, float, int, Fraction, Decimal, np.timedelta64, datetime.timedelta]
+DelayLike = Union[str, NDArray[Any], Sequence[Any]]
 Number = Union[str, float, int, Fraction, Decimal]
 Path = Union[str, "PathLike[str]"]
 Array = NDArray[Any]
@@ -124,6 +125,21 @@ def times_ns(times: Any, what: str) -> Array:
         return np.array(values, np.int64)
     except OverflowError:
         raise UsageError(f"{what}: a time lies further away than 126 years") from None
+
+
+def delays_ns(delays: Any) -> Array:
+    """The delay of each pixel, of seconds or timedelta64, in whole nanoseconds, int64."""
+    delays = np.asarray(delays)
+    if delays.dtype.kind == "m":
+        if np.isnat(delays).any() or np.datetime_data(delays.dtype)[0] in ("generic", "Y", "M"):
+            raise UsageError("delay=: an array of timedelta64 needs a unit of a fixed length, 'ns', and no NaT")
+        return delays.astype("timedelta64[ns]").astype(np.int64)
+    if delays.dtype.kind not in "iuf":
+        raise UsageError(f"delay= is 'rows:15ms', 'map.tif:0s..1s' or an array of seconds, and this has dtype {delays.dtype}")
+    nanoseconds = np.floor(delays.astype(np.float64) * _SECOND_NS + 0.5)
+    if not (np.abs(nanoseconds) < 2.0 ** 62).all():
+        raise UsageError("delay=: some pixel's delay is no number of seconds, or further away than 146 years")
+    return nanoseconds.astype(np.int64)
 
 
 def bytes_word(size: Union[int, str], what: str) -> str:

@@ -73,6 +73,7 @@ struct AskedExposure {
   std::optional<HeldFunctions> functions;
   std::optional<HeldMask> mask;
   Settings settings;
+  std::optional<DelayRequest> delay;
 };
 [[nodiscard]] ExposureRequest exposure_request(const AskedExposure& asked);
 // How values are stored: `dtype`, `transfer`, `negative`.

@@ -76,6 +76,23 @@ HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const
   return {std::move(exposed.picture), std::move(figures)};
 }
 
+// In words, or the time of each pixel in nanoseconds, [height, width].
+using DelayTimes = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+std::optional<DelayRequest> delay_of(const std::optional<DelayTimes>& times_ns, const Settings& settings) {
+  if (times_ns) {
+    if (times_ns->ndim() != 2 || times_ns->size() == 0)
+      throw UsageError("delay= is an array of two axes, the picture's height and its width, none of them empty");
+    return DelayRequest::of_times(static_cast<std::uint32_t>(times_ns->shape(1)),
+                                  static_cast<std::uint32_t>(times_ns->shape(0)),
+                                  {times_ns->data(), static_cast<std::size_t>(times_ns->size())});
+  }
+  const auto stated = settings.find("delay");
+  if (stated == settings.end()) return std::nullopt;
+  DelayRequest request = DelayRequest::parse(stated->second, "delay");
+  request.read();
+  return request;
+}
+
 }  // namespace
 
 ExposureRequest exposure_request(const AskedExposure& asked) {
@@ -97,6 +114,7 @@ ExposureRequest exposure_request(const AskedExposure& asked) {
                                   Shutter(ShutterShape::parse(stated(settings, "shutter", "box")), error)};
   }
   if (asked.mask) request.mask = Shared(MaskWithRegions(*asked.mask->mask));
+  request.delay = asked.delay;
   return request;
 }
 
@@ -151,10 +169,12 @@ py::dict figures_of(const ExposedPicture& exposed) {
 void bind_rendering(py::module_& module) {
   py::class_<AskedExposure>(module, "Exposure")
       .def(py::init(
-               [](std::optional<HeldFunctions> functions, std::optional<HeldMask> mask, Settings settings) {
-                 return AskedExposure{std::move(functions), std::move(mask), std::move(settings)};
+               [](std::optional<HeldFunctions> functions, std::optional<HeldMask> mask, Settings settings,
+                  const std::optional<DelayTimes>& delays_ns) {
+                 auto delay = delay_of(delays_ns, settings);
+                 return AskedExposure{std::move(functions), std::move(mask), std::move(settings), std::move(delay)};
                }),
-           py::arg("functions"), py::arg("mask"), py::arg("settings"));
+           py::arg("functions"), py::arg("mask"), py::arg("settings"), py::arg("delays_ns"));
   module.def("render", &render, py::arg("capture"), py::arg("exposure"), py::arg("output"), py::arg("region"),
              py::arg("precision"));
 }

@@ -39,6 +39,13 @@ PNG_MB = PNG_SIDE * PNG_SIDE / MB
 POINTS = 300_000
 POINTS_MB = POINTS * (16 + 20) / MB    # as the program keeps them, and their text
 
+SENSOR_W, SENSOR_H, EVENT_SWEEPS = 1280, 720, 6
+# An event as it is read and as it is kept, and what is known of a pixel, of which blocks hold copies.
+EVENTS_MB = SENSOR_W * SENSOR_H * (EVENT_SWEEPS * (16 + 12) + 21 + 8 * 2) / MB
+DELAYS = 65_536
+# A function with its course, and its table of a block's samples, here and on the device.
+DELAYS_MB = DELAYS * (600 + 2 * 16 * (SAMPLES + 1)) / MB
+
 
 class Line(NamedTuple):
     words: str
@@ -83,6 +90,9 @@ LINES = (
     Line("thumbnail dense.tik o.png", 2 * BLOCK_MB),
     Line("retime -f 20 dense.tik o.tik"),
     Line("again text.png", 0, (3,)),
+    Line("encode full.raw o.tik", EVENTS_MB),
+    Line("encode --memory 100MB full.raw o.tik", 0, (2,)),
+    Line("--start 0s --exposure 1s --delay each.pgm:0s..5s dense.tik o.png", DELAYS_MB + 2 * BLOCK_MB, uses_device=True),
 )
 
 
@@ -108,9 +118,18 @@ def tiff_of_few_bytes():
     return file + b"".join(struct.pack("<HHII", tag, kind, 1, value) for tag, kind, value in entries) + bytes(4)
 
 
+def events_of_few_bytes():
+    """EVT 3.0 of full vectors: 12 events in 2 bytes, of all pixels, again and again."""
+    lines = b"".join(struct.pack("<HH", y, 0x3800) + struct.pack("<H", 0x4FFF) * (SENSOR_W // 12) for y in range(SENSOR_H))
+    return b"%% evt 3.0\n%% geometry %dx%d\n%% end\n" % (SENSOR_W, SENSOR_H) + struct.pack("<H", 0x8000) + lines * EVENT_SWEEPS
+
+
 def write_inputs(folder, run):
     (folder / "huge.tif").write_bytes(tiff_of_few_bytes())
     (folder / "black.png").write_bytes(png(PNG_SIDE, PNG_SIDE))
+    (folder / "full.raw").write_bytes(events_of_few_bytes())
+    delays = [DELAYS * pixel // (SIDE * SIDE) for pixel in range(SIDE * SIDE)]
+    (folder / "each.pgm").write_bytes(b"P5 %d %d 65535\n" % (SIDE, SIDE) + struct.pack(f">{len(delays)}H", *delays))
     (folder / "text.png").write_bytes(png(8, 8, *(chunk(b"tEXt", b"nutik-cl\0{" + b"[" * 60_000) for _ in range(40))))
     with (folder / "black.gray").open("wb") as black:
         black.truncate(SIDE * SIDE * SAMPLES)

@@ -47,6 +47,34 @@ class Pictures(support.TestCase):
                     "16", "--gain", "0.5"], functions=self.path("gains.fn"), mask=self.path("mask.pgm"),
                    negative="offset", transfer="linear", dtype=np.uint16, gain=0.5, codes=True)
 
+    def test_delays(self):
+        interval = ["--start", "5ms", "--exposure", "12ms", "--delay"]
+        ours = dict(start="5ms", exposure="12ms", codes=True)
+        height, width = self.tags.shape
+        for delay in ("rows:30ms", "columns:30ms..-4ms", "radial:-2ms..20ms"):
+            self.check([*interval, delay], delay=delay, **ours)
+        self.check(["-m", "mask.pgm", "-k", "gains.fn", "--feather", "3px", "--delay", "rows:10ms"], "light.pfm",
+                   functions=self.functions, mask=self.tags, feather=3, delay="rows:10ms")
+        # The same from arrays: of seconds, and of a map's codes.
+        rows = np.linspace(0, 0.030, height)[:, None].repeat(width, axis=1)
+        self.check([*interval, "rows:30ms"], delay=rows, **ours)
+        self.check([*interval, "rows:30ms"], delay=np.round(rows * 1e9).astype("timedelta64[ns]"), **ours)
+        codes = np.random.default_rng(3).integers(0, 256, (height, width)).astype(np.uint8)
+        support.write_pgm(self.path("delays.pgm"), codes)
+        self.check([*interval, "delays.pgm:0s..25.5ms"], delay=codes * np.timedelta64(100, "us"), **ours)
+        self.check([*interval, "delays.pgm:0s..25.5ms"], delay=self.path("delays.pgm") + ":0s..25.5ms", **ours)
+        # A pixel is traced with its own delay.
+        trace = self.capture.trace(3, height - 1, start="5ms", exposure="12ms", delay=rows)[0]
+        light = self.capture.render(start="5ms", exposure="12ms", delay=rows, precision="double", dtype=np.float64)
+        np.testing.assert_allclose(light.array[height - 1, 3], trace.exposed, rtol=1e-12)
+
+    def test_delays_that_are_none(self):
+        for delay, said in (("rows", "does not say where and by how much"), (np.zeros((3, 4)), "3 x 4|4 x 3"),
+                            (np.full(self.tags.shape, np.nan), "no number of seconds"), (np.zeros(5), "two axes"),
+                            (np.zeros(self.tags.shape, bool), "dtype bool")):
+            with self.subTest(delay=str(delay)), self.assertRaisesRegex(nutik.Error, said):
+                self.capture.render(start="5ms", exposure="12ms", delay=delay)
+
     def test_soft_masks_from_alphas(self):
         height, width = self.tags.shape
         ramp = np.linspace(0, 1, width, dtype=np.float64)[None].repeat(height, 0)

@@ -1,5 +1,8 @@
 #include "session/requests/delay_request.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "session/requests/picture_input.hpp"
@@ -50,6 +53,26 @@ DelayRequest DelayRequest::parse(std::string_view text, std::string_view what) {
   return request;
 }
 
+DelayRequest DelayRequest::of_times(std::uint32_t width, std::uint32_t height,
+                                    std::span<const std::int64_t> times_ns) {
+  DelayMap map{width, height, {times_ns.begin(), times_ns.end()}, {}};
+  std::ranges::sort(map.delays_ns);
+  map.delays_ns.erase(std::unique(map.delays_ns.begin(), map.delays_ns.end()), map.delays_ns.end());
+  if (map.delays_ns.size() > DelayMap::kMaxDelays) {
+    throw UsageError(format("there are {} different delays, and there can be {}; round them to fewer",
+                            map.delays_ns.size(), DelayMap::kMaxDelays));
+  }
+  map.delay_of_pixel.reserve(times_ns.size());
+  for (const std::int64_t time_ns : times_ns) {
+    const auto at = std::ranges::lower_bound(map.delays_ns, time_ns);
+    map.delay_of_pixel.push_back(static_cast<std::uint16_t>(at - map.delays_ns.begin()));
+  }
+  DelayRequest request;
+  request.course = Course::times;
+  request.map = std::make_shared<const DelayMap>(std::move(map));
+  return request;
+}
+
 std::string DelayRequest::range_text() const { return format("{}{}{}", from.text(), kTo, to.text()); }
 
 void DelayRequest::read() {
@@ -68,6 +91,12 @@ std::shared_ptr<const DelayMap> delays_of(const DelayRequest& request, const Sha
     case DelayRequest::Course::rows: return shared(DelayMap::by_rows(shape, range));
     case DelayRequest::Course::columns: return shared(DelayMap::by_columns(shape, range));
     case DelayRequest::Course::radial: return shared(DelayMap::by_radius(shape, range));
+    case DelayRequest::Course::times:
+      if (request.map->width != shape.width || request.map->height != shape.height) {
+        throw InputError(format("the delays are for {} x {} pixels and the pictures are {} x {}", request.map->width,
+                                request.map->height, shape.width, shape.height));
+      }
+      return request.map;
     case DelayRequest::Course::picture: break;
   }
   if (!request.picture) throw UsageError(format("the map of delays {} was not read", request.file));

@@ -3,11 +3,12 @@
 //   rows:15ms   columns:0s..0.5s   radial:-20ms..20ms   map.tif:0s..1s
 //
 // From the first row or column to the last, from the centre to the corners, from black to white; one time is where it
-// ends, and it starts at 0.
+// ends, and it starts at 0. Or each pixel's own time, which has no words.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -19,27 +20,32 @@
 namespace nutik {
 
 struct DelayRequest {
-  enum class Course { picture, rows, columns, radial };
+  enum class Course { picture, rows, columns, radial, times };
 
   Course course = Course::rows;
   StatedTime from, to;
   // Of a picture:
   std::string file;
   std::optional<Shared<Picture>> picture;  // read
+  // Of times:
+  std::shared_ptr<const DelayMap> map;
 
   // Throws UsageError naming `what` for anything else. Reads nothing.
   static DelayRequest parse(std::string_view text, std::string_view what);
+  // Of whole nanoseconds, row by row. Throws UsageError where they are more than there can be different delays.
+  static DelayRequest of_times(std::uint32_t width, std::uint32_t height, std::span<const std::int64_t> times_ns);
   // `0s..15ms`
   [[nodiscard]] std::string range_text() const;
   // Reads the picture, if there is one. Throws as read_picture() does, UsageError if it is no single picture.
   void read();
 
   friend bool operator==(const DelayRequest& a, const DelayRequest& b) {
-    return a.course == b.course && a.from == b.from && a.to == b.to && a.picture == b.picture;
+    return a.course == b.course && a.from == b.from && a.to == b.to && a.picture == b.picture &&
+           a.map == b.map;
   }
 };
 
-// For pictures of this shape. Throws InputError if it is a picture of another size, UsageError if it was not read.
+// For pictures of this shape. Throws InputError if it has another size, UsageError if its picture was not read.
 [[nodiscard]] std::shared_ptr<const DelayMap> delays_of(const DelayRequest& request, const Shape& shape);
 
 }  // namespace nutik
