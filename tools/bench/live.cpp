@@ -1,6 +1,6 @@
 // What a change costs that somebody waits for, against what a window that answers in time may take.
 //
-//   bench_live [--part edits|drag|scrub|long] [--width N] [--height N] [--samples N] [--runs N] [--device I]
+//   bench_live [--part edits|drag|scrub|long|batch] [--width N] [--height N] [--samples N] [--runs N] [--device I]
 //              [--precision P]
 //
 //   edits   64 functions in squares of the picture, a tenth of all samples: a point moved, the mask painted, the same
@@ -10,8 +10,10 @@
 //   scrub   the same capture: a boxcar of 10 ms is moved (20 ms)
 //   long    10 000 samples at 1000 a second: boxcars of 5 s beside some of 10 ms, in turns, over a capture of which no
 //           sums are there, and once more where they are (twice as long)
+//   batch   10 000 samples of 480 x 270, a tenth of them all: forty boxcars of 5 s beside forty of 10 ms, each forty
+//           from nothing, in turns (1.6 times as long). A run is such a pair: --runs 5 is enough
 //
-// The first three have 240 samples of 1280 x 720, the last 640 x 360, all 8 bits, srgb, kept where kernels read them. A
+// The first three have 240 samples of 1280 x 720, `long` 640 x 360, all 8 bits, srgb, kept where kernels read them. A
 // time is that of a plan and its whole picture, by the host's clock; processor time is that of all threads, which other
 // programs hardly change; kernels' are by the device's own.
 #include <algorithm>
@@ -20,6 +22,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -109,6 +112,12 @@ class Scene {
     times->last = rendered.statistics;
   }
   void forget_plans() { plans_.emplace(); }
+  // Plans, and all that is on the device.
+  void forget() {
+    forget_plans();
+    renderer_.keep_resident(nullptr);
+    renderer_.keep_resident(&capture_);
+  }
 
   [[nodiscard]] std::uint32_t width() const { return capture_.format().shape.width; }
   [[nodiscard]] std::uint32_t height() const { return capture_.format().shape.height; }
@@ -243,9 +252,41 @@ void long_boxcars(const Settings& settings) {
               median(lasting_again.kernel_ms) / median(brief_again.kernel_ms));
 }
 
+double total(const std::vector<double>& of) { return std::accumulate(of.begin(), of.end(), 0.0); }
+
+void batch(const Settings& settings) {
+  constexpr int kPictures = 40;
+  Scene scene(settings, "batch", {480, 270, 3}, 10'000, Content::records);
+  scene.paint([](auto, auto) { return 0; });
+  const std::int64_t long_ns = scene.duration_ns() / 2;
+  const auto forty = [&](std::int64_t length_ns) {
+    Times times;
+    scene.forget();
+    for (int k = 0; k < kPictures; ++k) {
+      const std::int64_t start_ns = long_ns / kPictures * k;
+      scene.functions.insert_or_assign(0, GainFunction::boxcar(start_ns, start_ns + length_ns));
+      scene.render(&times);
+    }
+    return times;
+  };
+  static_cast<void>(forty(10 * kMs));
+  std::vector<double> brief_ms, lasting_ms, wall, processor;
+  for (int run = 0; run < scene.runs(); ++run) {
+    const Times brief = forty(10 * kMs), lasting = forty(long_ns);
+    brief_ms.push_back(total(brief.wall_ms));
+    lasting_ms.push_back(total(lasting.wall_ms));
+    wall.push_back(lasting_ms.back() / brief_ms.back());
+    processor.push_back(total(lasting.processor_ms) / total(brief.processor_ms));
+  }
+  std::printf(
+      "  forty of 10 ms %8.1f ms, of half of it %8.1f ms: %.2f times as long, %.2f times the processor "
+      "time\n",
+      median(brief_ms), median(lasting_ms), median(wall), median(processor));
+}
+
 int run(const Settings& settings) {
   const std::pair<const char*, void (*)(const Settings&)> parts[]{
-      {"edits", edits}, {"drag", drag}, {"scrub", scrub}, {"long", long_boxcars}};
+      {"edits", edits}, {"drag", drag}, {"scrub", scrub}, {"long", long_boxcars}, {"batch", batch}};
   bool is_known = settings.part.empty();
   for (const auto& [name, part] : parts) {
     if (!settings.part.empty() && settings.part != name) continue;
