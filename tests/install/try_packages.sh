@@ -98,6 +98,7 @@ if [ -d "$work/../source" ]; then
 fi
 
 said "and gone again"
-apt-get purge -q -y nutik-cl nutik-modules nutik-studio python3-nutik nutik-plotters libnutik-dev
+# dpkg passes over one that is gone already, where apt-get ends.
+dpkg --purge nutik-cl nutik-modules nutik-studio python3-nutik nutik-plotters libnutik-dev
 test ! -e /usr/share/nutik -a ! -e /usr/lib/python3/dist-packages/nutik -a ! -e /usr/bin/nutik-cl
 said "everything worked"

@@ -8,7 +8,7 @@ samples.
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import FuncFormatter, MaxNLocator
+from matplotlib.ticker import FuncFormatter
 
 from fnplot.palette import (
     ACTIVITY_COLOUR,
@@ -21,7 +21,7 @@ from fnplot.palette import (
 
 MIN_SAMPLE = 1 / 200  # of a graph's width: narrower samples are not drawn one by one
 MAX_STEPS = 1024
-HIGHEST_ACTIVITY = 0.5  # of a graph's height: functions and exposures are seen above it
+HIGHEST_ACTIVITY = 0.15  # of a graph's height: it lies below functions, which are what a plot is about
 MIN_SPACE = 1 / 100  # of a graph's width, between lines that stand for many samples
 
 
@@ -120,9 +120,9 @@ class Activity:
         axes.fill_between(self.x, 0, height, transform=across, **look)
         scale = axes.twinx()
         scale.set_ylim(0, top)
-        scale.yaxis.set_major_locator(MaxNLocator(nbins=2, steps=[1, 2, 5, 10]))
+        scale.set_yticks([0, self.highest])
         scale.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g} %"))
         scale.tick_params(axis="y", labelsize=7, colors=ACTIVITY_TEXT_COLOUR)
         scale.tick_params(axis="x", bottom=False, labelbottom=False)
         scale.spines[:].set_visible(False)
-        scale.set_ylabel("change", fontsize=7, color=ACTIVITY_TEXT_COLOUR)
+        scale.set_ylabel("change", loc="bottom", fontsize=7, color=ACTIVITY_TEXT_COLOUR)

@@ -6,7 +6,7 @@ nutik-cl activity --by 6 -m regions.pgm --tag all --moment quietest clip.tik |
   xargs -L1 nutik-cl shutter box clip.tik > picture.fn
 nutik-cl -m regions.pgm -k picture.fn clip.tik picture.png
 head -n 8 picture.fn > first-four.fn
-FnPlotter.py first-four.fn --capture clip.tik -o plot.png
+FnPlotter.py first-four.fn --duration 9s -o plot.png
 
 # The same in one command, which asks each pixel for itself.
 nutik-cl plate clip.tik plate.png

@@ -9,4 +9,4 @@ nutik-cl mask --tag 255 --difference 1.65s 0s --grow 1 \
 nutik-cl shutter box --tag 0 --exposure 1.2s > picture.fn
 nutik-cl shutter box --tag 255 --fps 120 --start 1.65s --exposure 1f >> picture.fn
 nutik-cl -m regions.pgm -k picture.fn clip.tik picture.png
-FnPlotter.py picture.fn --capture clip.tik -o plot.png
+FnPlotter.py picture.fn --duration 2.25s -o plot.png

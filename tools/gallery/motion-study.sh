@@ -19,4 +19,4 @@ nutik-cl shutter box --tag 3 --fps 240 --start 1.27s --exposure 1f >> picture.fn
 nutik-cl shutter box --tag 4 --fps 240 --start 1.78s --exposure 1f >> picture.fn
 nutik-cl shutter box --tag 5 --fps 240 --start 2.20s --exposure 1f >> picture.fn
 nutik-cl -m regions.pgm -k picture.fn clip.tik picture.png
-FnPlotter.py picture.fn --capture clip.tik -o plot.png
+FnPlotter.py picture.fn --duration 2.8s -o plot.png

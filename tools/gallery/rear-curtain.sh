@@ -7,4 +7,4 @@ M0{[0:-26.5], [150000000:-26.5], [150000001:0],
    [1791666668:210], [1800000000:210], [1800000001:0]}
 END
 nutik-cl -k picture.fn clip.tik picture.png
-FnPlotter.py picture.fn --capture clip.tik -o plot.png
+FnPlotter.py picture.fn --duration 2s -o plot.png

@@ -7,4 +7,4 @@ for column in {0..255}; do
 done > picture.fn
 nutik-cl -m regions.pgm -k picture.fn clip.tik picture.png
 head -n 8 picture.fn > first-four.fn
-FnPlotter.py first-four.fn --capture clip.tik --zoom 0ms..50ms -o plot.png
+FnPlotter.py first-four.fn --duration 13/6s --zoom 0ms..50ms -o plot.png

@@ -15,4 +15,4 @@ flashes --tag 1 --gain 20 | sed '$s/^M1/M1 [0:-18], [100000000:-18], [100000001:
 flashes --tag 2 >> picture.fn
 nutik-cl shutter box --tag 255 --fps 240 --start 0.6s --exposure 1f >> picture.fn
 nutik-cl -m regions.pgm -k picture.fn --feather 6px clip.tik picture.png
-FnPlotter.py picture.fn --capture clip.tik -o plot.png
+FnPlotter.py picture.fn --duration 1.25s -o plot.png
