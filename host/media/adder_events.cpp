@@ -110,7 +110,7 @@ class AdderEvents {
   std::size_t left_over = 0;
   bool has_end = false;
 
-  // What `found` comes to; it is kept where that is known already.
+  // Size of `found`. Events go into it only after keep().
   std::uint64_t found_count = 0;
   void keep(std::uint64_t count) {
     found.reserve(count);
@@ -225,6 +225,7 @@ EventLight read_adder_file(Bytes file, const std::string& name, const ClipOption
                         Origin::file, Setting::tick});
   const LightCodes codes(capture.transfer, capture.white_code);
   const std::uint32_t white = white_of(header, options, info);
+  check_event_memory({sizeof(LightFrom), 0, 1}, capture.shape, options);  // of its pixels, before any is counted
   const std::uint64_t count = [&] {
     AdderEvents counted(header, codes, white);
     counted.read(file);
@@ -254,8 +255,8 @@ EventLight read_adder_file(Bytes file, const std::string& name, const ClipOption
     result.samples.add(ns_of(light.tick), change);
   }
 
-  const auto note = [&](std::uint64_t events_of_it, const char* text) {
-    if (events_of_it > 0) info.notes.emplace_back(format("{} {}", events_of_it, text));
+  const auto note = [&](std::uint64_t number, const char* text) {
+    if (number > 0) info.notes.emplace_back(format("{} {}", number, text));
   };
   note(events.outside, "events lie outside the picture: they are left out");
   note(events.backward, "events end before the one before them at the same pixel: they are left out");

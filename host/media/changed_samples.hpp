@@ -55,10 +55,10 @@ class ChangedSamples {
     return exposures;
   }
 
-  // Of so many changes in so many samples, with the times that a clip tells of these.
+  // Of so many changes in so many samples, with the times that a clip tells of these and two timelines made of them.
   [[nodiscard]] static std::uint64_t bytes_of(std::uint64_t changes, std::uint64_t samples) {
     return changes * sizeof(PixelChange) +
-           samples * (sizeof(std::int64_t) + sizeof(std::uint64_t) + sizeof(Exposure));
+           samples * (sizeof(std::int64_t) + sizeof(std::uint64_t) + 3 * sizeof(Exposure));
   }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_of(changes_.capacity(), starts_ns_.capacity()); }
 

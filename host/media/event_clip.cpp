@@ -78,7 +78,9 @@ class EventClip final : public Clip {
 
 }  // namespace
 
-bool is_event_recording(const std::filesystem::path& path) { return kind_of(path) != nullptr; }
+bool is_event_recording(const std::filesystem::path& path) {
+  return kind_of(is_standard_input(path.string()) ? standard_input_file() : path) != nullptr;
+}
 
 std::unique_ptr<Clip> open_event_clip(const std::filesystem::path& path, const ClipOptions& options) {
   const std::string name = input_title(path.string());

@@ -5,7 +5,7 @@
 //   always:  codes of 16 bits, made here of what the file tells of light. Everything costs by changes, whatever the
 //            file's ticks are: a sample is exposed until the next one
 //
-// The recording is held in memory: 12 bytes for each change, 32 for each sample; while it is opened, 16 more for each
+// The recording is held in memory: 12 bytes for each change, 64 for each sample; while it is opened, 16 more for each
 // event. That is counted before it is held, and is refused where it is more than ClipOptions::decoder_bytes.
 #pragma once
 

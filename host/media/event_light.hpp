@@ -29,7 +29,8 @@ void check_picture_size(const Shape& shape, std::uint64_t events, const std::str
 
 // How many samples changes make, in the order of their times.
 template <typename Changes, typename TimeOf>
-[[nodiscard]] std::uint64_t count_samples(const ChangedSamples& samples, const Changes& changes, TimeOf time_ns) {
+[[nodiscard]] std::uint64_t count_samples(const ChangedSamples& samples, const Changes& changes,
+                                          TimeOf time_ns) {
   std::uint64_t count = 1;
   std::int64_t last_ns = 0;
   for (const auto& change : changes) {

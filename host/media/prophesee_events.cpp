@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 #include <optional>
 
 #include "capture/format.hpp"
@@ -99,9 +100,9 @@ class Decoder {
       events.push_back({time_us, static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), is_up});
       return;
     }
-    if (tally.events == 0 || time_us != last_us_) ++tally.moments;
+    if (tally.events == 0 || time_us > latest_us_) ++tally.moments;
     ++tally.events;
-    last_us_ = time_us;
+    latest_us_ = std::max(latest_us_, time_us);
     tally.right_of_all = std::max(tally.right_of_all, x + 1);
     tally.below_all = std::max(tally.below_all, y + 1);
   }
@@ -115,7 +116,7 @@ class Decoder {
   Bytes words_;
   std::size_t size_;
   bool is_keeping_;
-  std::int64_t last_us_ = 0;
+  std::int64_t latest_us_ = std::numeric_limits<std::int64_t>::min();
 };
 
 enum Type32 : std::uint32_t { kDown = 0, kUp = 1, kTime = 8 };
@@ -238,7 +239,7 @@ Bytes dat_words(Bytes file, const PropheseeHeader& header, const std::string& na
   if ((type != kEvent2d && type != kEventCd) || size != kEventBytes || header.of("version") == "1") {
     throw InputError(
         format("{} holds events of the type {}, of {} bytes{}; of .dat files those of contrast (type 0 or 12, 8 "
-               "bytes, version 2) are read",
+               "bytes, version 2) are read, and of .raw files those whose header names their format (% evt 2.0)",
                name, type, size, header.of("version") == "1" ? " and version 1" : ""));
   }
   return rest.subspan(2);

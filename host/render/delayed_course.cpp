@@ -1,5 +1,6 @@
 #include "render/delayed_course.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "capture/format.hpp"
@@ -28,7 +29,18 @@ void DelayedCourse::count(const MaskRegion& region, const GainSummary& delayed) 
 void DelayedCourse::warn(std::vector<std::string>& warnings, const std::string& name) const {
   const std::string function = name.empty() ? format("M{}", tag_) : name;
   const std::string end = seconds_text(duration_ns_);
-  const auto add = [&](const std::string& sentence) { warnings.push_back(function + ": " + sentence); };
+  // What holds of several functions is said once.
+  const auto add = [&](const std::string& sentence) {
+    const std::string end_of_line = ": " + sentence;
+    const auto said = std::find_if(warnings.begin(), warnings.end(), [&](const std::string& warning) {
+      return warning.ends_with(end_of_line);
+    });
+    if (said == warnings.end()) {
+      warnings.push_back(function + end_of_line);
+    } else {
+      said->insert(said->size() - end_of_line.size(), ", " + function);
+    }
+  };
   if (summary_.support_ns == 0) {
     if (is_mapped_) add("the function is zero everywhere; its pixels are 0");
     return;
@@ -42,19 +54,20 @@ void DelayedCourse::warn(std::vector<std::string>& warnings, const std::string& 
     if (pixels == 0) return;
     add(
         format("of {} of {} pixels the delay moves a part of the function {}; nothing is added there, though "
-               "D counts "
-               "it, so they are darker",
+               "D counts it, so they are darker",
                pixels, pixels_, where));
   };
   add_part(before_pixels_, "before the capture's start");
   add_part(after_pixels_, "behind the capture's end at " + end);
-  if (function_.first_gain() != 0.0 || function_.last_gain() != 0.0) {
-    add(format(
-        "its {} gain is not 0 and is held to the capture's {}, so a delay makes the time longer or shorter "
-        "for "
-        "which pixels are exposed, and them brighter or darker; put a gain of 0 beside it if it should not",
-        function_.first_gain() != 0.0 ? "first" : "last", function_.first_gain() != 0.0 ? "start" : "end"));
-  }
+  const auto add_held = [&](double gain, const char* which, const char* end_of_capture) {
+    if (gain == 0.0) return;
+    add(format("its {} gain is not 0 and is held to the capture's {}, so a delay makes the time longer or "
+               "shorter for which pixels are exposed, and them brighter or darker; put a gain of 0 beside it "
+               "if it should not",
+               which, end_of_capture));
+  };
+  add_held(function_.first_gain(), "first", "start");
+  add_held(function_.last_gain(), "last", "end");
 }
 
 std::vector<std::string> delay_warnings(const MaskMap& map, const FunctionSet& functions,

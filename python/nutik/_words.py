@@ -118,8 +118,6 @@ def time_ns(time: Time, what: str) -> int:
 
 def times_ns(times: Any, what: str) -> Array:
     """Times one after another in whole nanoseconds, int64."""
-    if isinstance(times, np.ndarray) and times.dtype.kind == "m":
-        return np.array([time_ns(time, f"{what}[{i}]") for i, time in enumerate(times)], np.int64)
     values = [time_ns(time, f"{what}[{i}]") for i, time in enumerate(times)]
     try:
         return np.array(values, np.int64)
@@ -133,13 +131,17 @@ def delays_ns(delays: Any) -> Array:
     if delays.dtype.kind == "m":
         if np.isnat(delays).any() or np.datetime_data(delays.dtype)[0] in ("generic", "Y", "M"):
             raise UsageError("delay=: an array of timedelta64 needs a unit of a fixed length, 'ns', and no NaT")
-        return delays.astype("timedelta64[ns]").astype(np.int64)
+        different, place = np.unique(delays, return_inverse=True)
+        return _checked_delays(times_ns(different, "delay=")[place].reshape(delays.shape))
     if delays.dtype.kind not in "iuf":
         raise UsageError(f"delay= is 'rows:15ms', 'map.tif:0s..1s' or an array of seconds, and this has dtype {delays.dtype}")
-    nanoseconds = np.floor(delays.astype(np.float64) * _SECOND_NS + 0.5)
-    if not (np.abs(nanoseconds) < 2.0 ** 62).all():
+    return _checked_delays(np.floor(delays.astype(np.float64) * _SECOND_NS + 0.5)).astype(np.int64)
+
+
+def _checked_delays(nanoseconds: Array) -> Array:
+    if not (np.abs(nanoseconds.astype(np.float64)) < 2.0 ** 62).all():
         raise UsageError("delay=: some pixel's delay is no number of seconds, or further away than 146 years")
-    return nanoseconds.astype(np.int64)
+    return nanoseconds
 
 
 def bytes_word(size: Union[int, str], what: str) -> str:

@@ -81,7 +81,8 @@ using DelayTimes = py::array_t<std::int64_t, py::array::c_style | py::array::for
 std::optional<DelayRequest> delay_of(const std::optional<DelayTimes>& times_ns, const Settings& settings) {
   if (times_ns) {
     if (times_ns->ndim() != 2 || times_ns->size() == 0)
-      throw UsageError("delay= is an array of two axes, the picture's height and its width, none of them empty");
+      throw UsageError(
+          "delay= is an array of two axes, the picture's height and its width, none of them empty");
     return DelayRequest::of_times(static_cast<std::uint32_t>(times_ns->shape(1)),
                                   static_cast<std::uint32_t>(times_ns->shape(0)),
                                   {times_ns->data(), static_cast<std::size_t>(times_ns->size())});
@@ -168,12 +169,12 @@ py::dict figures_of(const ExposedPicture& exposed) {
 
 void bind_rendering(py::module_& module) {
   py::class_<AskedExposure>(module, "Exposure")
-      .def(py::init(
-               [](std::optional<HeldFunctions> functions, std::optional<HeldMask> mask, Settings settings,
-                  const std::optional<DelayTimes>& delays_ns) {
-                 auto delay = delay_of(delays_ns, settings);
-                 return AskedExposure{std::move(functions), std::move(mask), std::move(settings), std::move(delay)};
-               }),
+      .def(py::init([](std::optional<HeldFunctions> functions, std::optional<HeldMask> mask,
+                       Settings settings, const std::optional<DelayTimes>& delays_ns) {
+             auto delay = delay_of(delays_ns, settings);
+             return AskedExposure{std::move(functions), std::move(mask), std::move(settings),
+                                  std::move(delay)};
+           }),
            py::arg("functions"), py::arg("mask"), py::arg("settings"), py::arg("delays_ns"));
   module.def("render", &render, py::arg("capture"), py::arg("exposure"), py::arg("output"), py::arg("region"),
              py::arg("precision"));

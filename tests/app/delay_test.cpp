@@ -92,8 +92,9 @@ TEST_F(DelayCommand, TakesMemoryForThePairsThatOccur) {
                 cv::Mat(kSide, kSide, CV_8UC1, cv::Scalar::all(10 * k)));
   }
   const auto exposed = [&](const std::string& name, const std::string& memory) {
-    return std::vector<std::string>{"-f", "100", "--transfer", "linear", "--memory", memory, "-k", "sixteen.fn", "-m",
-                                    "sixteen.png", "--delay", "each.tif:0s..70ms", name, "o.pfm"};
+    return std::vector<std::string>{
+        "-f",         "100", "--transfer",  "linear",  "--memory",          memory, "-k",
+        "sixteen.fn", "-m",  "sixteen.png", "--delay", "each.tif:0s..70ms", name,   "o.pfm"};
   };
   expect_refused(exposed("squares", "8MB"), 2, "gain tables of a block");
   done(exposed("squares", "60MB"));

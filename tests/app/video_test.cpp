@@ -223,7 +223,7 @@ TEST_F(Video, SaysWhatMakesNoSense) {
       {{"v.mp4", "--from", "0.5s", "--to", "0.5s"}, 2, "no frame fits"},
       {{"v.mp4", "--out-fps", "1", "--out-angle", "360"}, 2, "each is exposed for 1 s, and between"},
       {{"v.mp4", "-k", "f.fn", "--out-angle", "90"}, 2, "with -k the functions say"},
-      {{"v.mp4", "-k", "long.fn"}, 2, "no frame fits: each is exposed for 900 ms"},
+      {{"v.mp4", "-k", "long.fn"}, 2, "no frame fits: the longest is exposed for 900 ms"},
       {{"v.mp4", "-m", "m.pgm"}, 2, "a mask goes with gain functions (-k)"},
       {{"v.mp4", "--start", "0s"}, 2, "--start does not go with video"},
       {{"v.png"}, 2, "v.png is one picture and a video has many; number them: v-%05d.png"},

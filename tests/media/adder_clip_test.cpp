@@ -217,10 +217,10 @@ TEST(AdderClip, CountsMemoryBeforeItIsTaken) {
     return open_test_clip(path, options);
   };
   // Each event is a moment of its own; one pixel of 21 bytes.
-  constexpr std::uint64_t kLeast = 1000 * (16 + 12 + 32) + 21;
+  constexpr std::uint64_t kLeast = 1000 * (16 + 12 + 64) + 21;
   for (const std::uint64_t bytes : {std::uint64_t{1000}, kLeast - 1}) {
     const std::string message = message_of<MemoryTooLittle>([&] { open_in(bytes); });
-    EXPECT_NE(message.find("events as they are read 0.016 MB"), std::string::npos) << message;
+    EXPECT_NE(message.find("of memory is too little; at least"), std::string::npos) << message;
   }
   EXPECT_LE(open_in(kLeast)->info().decoder_bytes, kLeast);
 }

@@ -269,11 +269,11 @@ TEST(EventClip, CountsMemoryBeforeItIsTaken) {
     options.decoder_bytes = bytes;
     return open_test_clip(path, options);
   };
-  // One sample of 32 bytes, 12 pixels of 21.
-  constexpr std::uint64_t kLeast = 12'000 * (16 + 12) + 32 + 12 * 21;
+  // One sample of 64 bytes, 12 pixels of 21.
+  constexpr std::uint64_t kLeast = 12'000 * (16 + 12) + 64 + 12 * 21;
   const std::string message = message_of<MemoryTooLittle>([&] { open_in(kLeast - 1); });
-  EXPECT_NE(message.find("of memory is too little; at least 0.3363 MB is needed: events as they are read 0.192 MB, "
-                         "what changes with each moment 0.144 MB"),
+  EXPECT_NE(message.find("of memory is too little; at least 0.3363 MB is needed: events as they are read "
+                         "0.192 MB, what changes with each moment 0.144 MB"),
             std::string::npos)
       << message;
   EXPECT_LE(open_in(kLeast)->info().decoder_bytes, kLeast);

@@ -121,6 +121,16 @@ TEST_F(DelayedRows, AreWarnedOfWithNumbersOfPixels) {
   EXPECT_NE(held.warnings[0].find("its last gain is not 0"), std::string::npos) << held.warnings[0];
 }
 
+TEST_F(DelayedRows, AreWarnedOfOnceWhereItHoldsOfSeveralFunctions) {
+  const GainFunction held({{10 * kMs, 0.0}, {10 * kMs, 1.0}});
+  Mask mask = Mask::uniform(1, 4, 0);
+  mask.tags = {0, 1, 0, 1};
+  const RenderPlan both = make_plan(capture_, {{0, held}, {1, held}}, mask,
+                                    delayed_by(DelayMap::by_rows(format().shape, {0, 30 * kMs})));
+  ASSERT_EQ(both.warnings.size(), 1u);
+  EXPECT_TRUE(both.warnings[0].starts_with("M0, M1: its last gain is not 0")) << both.warnings[0];
+}
+
 TEST_F(DelayedRows, AreTracedTogetherWithTheirDelay) {
   const RenderPlan swept = plan(GainFunction::boxcar(0, 10 * kMs), {10 * kMs, 70 * kMs});
   const auto traces = trace_pixel(swept, capture_, 0, 2);

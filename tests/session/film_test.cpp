@@ -89,12 +89,16 @@ TEST(FilmCurve, NamesTheLineOfAMistake) {
             "ramp.csv:2: '1s 0.5s' is no point; write a time of the film and one of the capture: 1.5s,0.4s");
   EXPECT_EQ(message("-1s,0s"), "ramp.csv:1: the film's time -1s lies before the film, which begins at 0s");
   EXPECT_EQ(message("0s,0s # alone"),
-            "ramp.csv has 1 points; a curve has two or more, a line each: 0s,0.2s and 2s,0.7s show half a second of "
-            "the capture in two of the film");
+            "ramp.csv is too short, with 1 of the points that a curve has: two or more, a line each: 0s,0.2s and 2s,0.7s "
+            "show half a second of the capture in two of the film");
+  EXPECT_EQ(message(std::string("0s\0,0s\n1s,1s", 12)),
+            "ramp.csv holds a zero byte: this is no text file, or one in UTF-16; save it as UTF-8");
+  EXPECT_EQ(message("\xEF\xBB\xBF" "0s,0s\n1s"),
+            "ramp.csv:2: '1s' is no point; write a time of the film and one of the capture: 1.5s,0.4s");
   const auto refusal = [](std::string_view text) {
     return test::message_of<UsageError>([&] { static_cast<void>(frames_on(text)); });
   };
-  EXPECT_NE(refusal("0s,0f\n1s,200f").find("picture 200 is outside the capture"), std::string::npos);
+  EXPECT_NE(refusal("0s,0f\n1s,200f").find("ramp.csv: picture 200 is outside the capture"), std::string::npos);
   EXPECT_NE(refusal("0s,0s\n10ms,1s").find("ramp.csv lasts 10 ms, which are 0 frames"), std::string::npos);
 }
 

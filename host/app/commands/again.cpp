@@ -75,7 +75,7 @@ class RecipeFiles {
     fs::create_directories(path.parent_path());
     write_text(path, text.bytes);
     print_warning(format("{} {}; the {} that the picture was made with were written to {}", shown(text.name),
-                         is_changed ? "was changed since" : "is gone", what,
+                         is_changed ? "was changed since" : "is not there", what,
                          (path.parent_path() / shown(text.name)).string()));
   }
 

@@ -22,8 +22,8 @@ std::uint64_t block_units(const CaptureFormat& capture) {
   return 1 + 3 * held_format(capture).sample_bytes() / capture.sample_bytes();
 }
 
-// Of samples in which little changes, blocks have room for changes of two whole samples, beside the first sample and the
-// one that is one too many (default_block_limits()): with less each of thousands of samples would be written whole.
+// If little changes from sample to sample, a block has room for four rasters: its first sample, changes as large as two,
+// and the sample that is one too many (default_block_limits()). With less, each sample would be written whole.
 constexpr std::uint64_t kMinRastersOfChanges = 4;
 
 // Blocks of one sample, in each of the places where there is one.
@@ -79,7 +79,7 @@ ClipMemory memory_for_encoding(const MemoryBudget& budget, const ClipToRead& cli
                           {"packing them", kPackingBytes}};
   MemoryNeeds rendering_needs = rendering;
   if (!rendering.parts().empty()) {
-    rendering_needs.add("blocks", (clip.tells_changes ? kMinRastersOfChanges : 1) *
+    rendering_needs.add("blocks", (clip.tells_changes && !clip.block_samples ? kMinRastersOfChanges : 1) *
                                       held_format(clip.capture).sample_bytes());
   }
   if (rendering_needs.bytes() > needs.bytes()) rendering_needs.rest_of(budget.bytes);

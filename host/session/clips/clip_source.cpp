@@ -235,7 +235,7 @@ ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& me
                             const ReportedProgress& progress, const std::stop_token& stop) {
   refuse_streams(request.path);
   ClipOptions options = request.clip;
-  // Pictures are decoded beside much else; a recording of events is held whole before anything else is.
+  // Pictures are decoded beside much else; a recording of events is held whole before anything else is allocated.
   options.decoder_bytes = is_event_recording(request.path) ? memory.bytes : memory.bytes / 8;
   return open_clip_source(
       request, [path = request.path, options] { return open_clip(path, options); }, memory, progress, stop);

@@ -79,7 +79,8 @@ void DelayRequest::read() {
   if (course != Course::picture) return;
   try {
     picture = Shared(read_picture(file));
-  } catch (const NoSinglePicture& error) {
+  } catch (const InputError& error) {
+    if (dynamic_cast<const NoSinglePicture*>(&error) == nullptr && file.find('.') != std::string::npos) throw;
     throw UsageError(format("{}; or, without a picture, rows:, columns: or radial:", error.what()));
   }
 }
@@ -93,8 +94,8 @@ std::shared_ptr<const DelayMap> delays_of(const DelayRequest& request, const Sha
     case DelayRequest::Course::radial: return shared(DelayMap::by_radius(shape, range));
     case DelayRequest::Course::times:
       if (request.map->width != shape.width || request.map->height != shape.height) {
-        throw InputError(format("the delays are for {} x {} pixels and the pictures are {} x {}", request.map->width,
-                                request.map->height, shape.width, shape.height));
+        throw InputError(format("the delays are for {} x {} pixels and the pictures are {} x {}",
+                                request.map->width, request.map->height, shape.width, shape.height));
       }
       return request.map;
     case DelayRequest::Course::picture: break;

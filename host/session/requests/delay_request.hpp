@@ -3,7 +3,7 @@
 //   rows:15ms   columns:0s..0.5s   radial:-20ms..20ms   map.tif:0s..1s
 //
 // From the first row or column to the last, from the centre to the corners, from black to white; one time is where it
-// ends, and it starts at 0. Or each pixel's own time, which has no words.
+// ends, and it starts at 0. Or the delay of each pixel, not written in words.
 #pragma once
 
 #include <memory>

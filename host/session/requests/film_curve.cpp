@@ -43,6 +43,12 @@ void check_order(const std::vector<FilmCurve::Point>& points) {
 }  // namespace
 
 FilmCurve FilmCurve::parse(std::string_view text, const std::string& title, const FrameTimes& film) {
+  if (text.find('\0') != std::string_view::npos) {
+    throw InputError(format("{} holds a zero byte: this is no text file, or one in UTF-16; save it as UTF-8", title));
+  }
+  if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; text.starts_with(kByteOrderMark)) {
+    text.remove_prefix(kByteOrderMark.size());  // spreadsheets write it
+  }
   FilmCurve curve{title, {}};
   std::size_t number = 0;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -61,7 +67,7 @@ FilmCurve FilmCurve::parse(std::string_view text, const std::string& title, cons
   }
   if (curve.points.size() < 2) {
     throw InputError(
-        format("{} has {} points; a curve has two or more, a line each: 0s,0.2s and 2s,0.7s show half a second "
+        format("{} is too short, with {} of the points that a curve has: two or more, a line each: 0s,0.2s and 2s,0.7s show half a second "
                "of the capture in two of the film",
                title, curve.points.size()));
   }
@@ -71,8 +77,12 @@ FilmCurve FilmCurve::parse(std::string_view text, const std::string& title, cons
 CapturedCurve::CapturedCurve(const FilmCurve& curve, const Timeline& timeline, std::int64_t min_ns)
     : duration_ns_(timeline.duration_ns()), min_ns_(std::min(min_ns, timeline.duration_ns())) {
   for (const FilmCurve::Point& point : curve.points) {
-    const ExactTime time = exact_time(point.capture, format("{}: the capture's time", curve.name), timeline);
-    points_.push_back({point.film_ns, round_half_up(time.numerator, time.denominator)});
+    try {
+      const ExactTime time = exact_time(point.capture, "the capture's time", timeline);
+      points_.push_back({point.film_ns, round_half_up(time.numerator, time.denominator)});
+    } catch (const UsageError& error) {
+      throw UsageError(format("{}: {}", curve.name, error.what()));
+    }
   }
 }
 

@@ -81,8 +81,8 @@ void put_evenly(Frames& frames, const FramesRequest& request, const Timeline& ti
                           : frames.times.count_starting_by(end_ns - std::max<std::int64_t>(length_ns, 1));
   if (frames.count == 0) {
     throw UsageError(
-        format("no frame fits: each is exposed for {}, and between the video's start and end are {}",
-               duration_text(length_ns), duration_text(std::max<std::int64_t>(end_ns - start_ns, 0))));
+        format("no frame fits: {} is exposed for {}, and between the video's start and end are {}",
+               is_plain ? "each" : "the longest", duration_text(length_ns), duration_text(std::max<std::int64_t>(end_ns - start_ns, 0))));
   }
 }
 
