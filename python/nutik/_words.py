@@ -85,15 +85,16 @@ def seconds_of(time: Time, what: str) -> Fraction:
     return exact(time, what)
 
 
+_UNITS_NS = {"W": Fraction(604_800 * 10 ** 9), "D": Fraction(86_400 * 10 ** 9), "h": Fraction(3_600 * 10 ** 9),
+             "m": Fraction(60 * 10 ** 9), "s": Fraction(10 ** 9), "ms": Fraction(10 ** 6), "us": Fraction(10 ** 3),
+             "ns": Fraction(1), "ps": Fraction(1, 10 ** 3), "fs": Fraction(1, 10 ** 6), "as": Fraction(1, 10 ** 9)}
+
+
 def nanoseconds_of_delta(time: np.timedelta64, what: str) -> int:
     unit = np.datetime_data(time.dtype)[0]
     if unit in ("generic", "Y", "M"):
         raise UsageError(f"{what} {time!r} has no unit of a fixed length; say numpy.timedelta64(10, 'ms')")
-    finest = {"ps": 10 ** 3, "fs": 10 ** 6, "as": 10 ** 9}
-    if unit in finest:
-        count = int(time.astype(np.int64)) * np.datetime_data(time.dtype)[1]
-        return round(Fraction(count, finest[unit]))
-    return int(time.astype("timedelta64[ns]").astype(np.int64))
+    return half_up(int(time.astype(np.int64)) * np.datetime_data(time.dtype)[1] * _UNITS_NS[unit])
 
 
 def time_word(time: Time, what: str) -> str:

@@ -3,6 +3,7 @@
 import unittest
 
 import nutik
+from nutik import _words
 import numpy as np
 
 import support
@@ -68,9 +69,15 @@ class Pictures(support.TestCase):
         light = self.capture.render(start="5ms", exposure="12ms", delay=rows, precision="double", dtype=np.float64)
         np.testing.assert_allclose(light.array[height - 1, 3], trace.exposed, rtol=1e-12)
 
+    def test_delays_are_rounded_halves_upward(self):
+        picoseconds = np.array([[1500, -1500, 1499]], "timedelta64[ps]")
+        self.assertEqual(_words.delays_ns(picoseconds).tolist(), [[2, -1, 1]])
+        self.assertEqual(_words.delays_ns(np.array([[2.5e-9, -2.5e-9]])).tolist(), [[3, -2]])
+
     def test_delays_that_are_none(self):
         for delay, said in (("rows", "does not say where and by how much"), (np.zeros((3, 4)), "3 x 4|4 x 3"),
-                            (np.full(self.tags.shape, np.nan), "no number of seconds"), (np.zeros(5), "two axes"),
+                            (np.full(self.tags.shape, np.nan), "no number of seconds"),
+                            (np.full(self.tags.shape, 200_000, "timedelta64[D]"), "126 years"), (np.zeros(5), "two axes"),
                             (np.zeros(self.tags.shape, bool), "dtype bool")):
             with self.subTest(delay=str(delay)), self.assertRaisesRegex(nutik.Error, said):
                 self.capture.render(start="5ms", exposure="12ms", delay=delay)
