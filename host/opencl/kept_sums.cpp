@@ -9,8 +9,8 @@ namespace nutik {
 namespace {
 
 // A sum is of the whole picture. Where most of it is exposed with a steady gain there, making it takes as long as
-// reading rows, and it is worth it at once: of a resident capture more exposures usually follow. Where less is,
-// it is worth it when it is wanted again.
+// reading rows; it is worth it at once, but for the first exposure, which may be the last. Where less is, it is worth it
+// when it is wanted again.
 constexpr double kMax = 0.75;
 constexpr double kMin = 0.25;
 
@@ -89,7 +89,7 @@ std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
     }
     const double share = static_cast<double>(count) / all;
     const bool was_wanted = !was_wanted_.insert(sum).second;
-    if (share >= (was_wanted ? kMin : kMax)) worth.push_back(sum);
+    if (share >= (was_wanted ? kMin : kMax) && exposure_ > 1) worth.push_back(sum);
   }
   std::uint64_t rooms = capacity_ - slots_.size();
   for (const Slot& slot : slots_) rooms += is_idle(slot);

@@ -116,6 +116,9 @@ TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
       const Rendered again = renderer_.render(random.plan(), *random.capture, kLight);
       ASSERT_TRUE(again.picture.bytes == made.bytes) << test::rerun(seed);
       kept += again.statistics.kept_sums;
+      if (time == 0) {
+        ASSERT_EQ(again.statistics.kept_sums, 0u);
+      }
       if (time == 2) {
         ASSERT_EQ(again.statistics.made_sums, 0u) << test::rerun(seed);
       }
@@ -167,12 +170,11 @@ TEST_P(KeptSumsOf, AMovedBoxcarReadsItsEnds) {
     for (const RenderStatistics& each : all) EXPECT_EQ(each.kept_sums + each.made_sums, 0u);
     return;
   }
-  EXPECT_GT(all[0].made_sums, 8u);
+  EXPECT_EQ(all[0].made_sums, 0u);
   EXPECT_GT(all[0].blocks, 70u);
-  for (const std::size_t k : {1u, 2u}) {
-    EXPECT_EQ(all[k].made_sums, 0u);
-    EXPECT_EQ(all[k].blocks, 2u);  // the ends
-  }
+  EXPECT_GT(all[1].made_sums, 8u);
+  EXPECT_EQ(all[2].made_sums, 0u);
+  EXPECT_EQ(all[2].blocks, 2u);  // the ends
   EXPECT_LE(all[3].blocks, 2u + 1u);
 }
 
