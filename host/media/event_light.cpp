@@ -60,14 +60,14 @@ Note drift_note(const CameraEvents& recording, const Contrast& contrast, std::ui
   std::uint64_t up = 0;
   for (const CameraEvent& event : recording.events) up += event.is_up ? 1 : 0;
   const std::uint64_t down = recording.events.size() - up;
-  const double drift = (contrast.up * static_cast<double>(up) - contrast.down * static_cast<double>(down)) /
-                       static_cast<double>(active);
+  const double drift =
+      (contrast.up * static_cast<double>(up) - contrast.down * static_cast<double>(down)) /
+      static_cast<double>(active);
   std::string text = format(
       "{} events up and {} down, of {} pixels, whose light ends at {:.3g} times what it was in the mean "
       "(geometric): steps that are not quite those of the sensor add up to a drift",
       up, down, active, std::exp(drift));
-  if (above_white > 0)
-    text += format("; {} pixels become brighter than white, which holds them", above_white);
+  if (above_white > 0) text += format("; {} pixels become brighter than white, which holds them", above_white);
   return {std::move(text), {Setting::contrast, Setting::start_picture}};
 }
 
@@ -127,8 +127,8 @@ EventLight light_of_events(const CameraEvents& recording, const std::string& nam
       started = format("light of {} at the start", picture.filename().string());
     }
   }
-  info.facts.push_back(
-      {std::move(started), options.events.start ? Origin::stated : Origin::assumed, Setting::start_picture});
+  info.facts.push_back({std::move(started), options.events.start ? Origin::stated : Origin::assumed,
+                        Setting::start_picture});
 
   const LightCodes codes(capture.transfer, capture.white_code);
   EventLight result{std::vector<std::uint16_t>(pixels),

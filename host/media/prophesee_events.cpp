@@ -75,7 +75,7 @@ class CameraClock {
 // What a file holds, without holding it.
 struct EventTally {
   std::uint64_t events = 0;
-  std::uint64_t moments = 0;  // events at another time than the one before
+  std::uint64_t moments = 0;  // events later than all before them: at least as many samples
   std::uint32_t right_of_all = 0, below_all = 0;
 };
 using KnownCount = std::optional<std::uint64_t>;  // of events

@@ -80,9 +80,10 @@ HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const
 using DelayTimes = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 std::optional<DelayRequest> delay_of(const std::optional<DelayTimes>& times_ns, const Settings& settings) {
   if (times_ns) {
-    if (times_ns->ndim() != 2 || times_ns->size() == 0)
+    if (times_ns->ndim() != 2 || times_ns->size() == 0) {
       throw UsageError(
           "delay= is an array of two axes, the picture's height and its width, none of them empty");
+    }
     return DelayRequest::of_times(static_cast<std::uint32_t>(times_ns->shape(1)),
                                   static_cast<std::uint32_t>(times_ns->shape(0)),
                                   {times_ns->data(), static_cast<std::size_t>(times_ns->size())});

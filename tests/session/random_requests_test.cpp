@@ -166,8 +166,7 @@ TEST(RandomRequests, OfFourThreadsGetWhatASessionOfTheirOwnGets) {
   const double grown_mb = resident_mb() - quarter_mb;
   std::printf(
       "%.0f s: %llu pictures of %llu kept sums, %llu cancelled, %llu live answers, %llu traces; %.1f MB, "
-      "%.1f more than "
-      "after a quarter of it\n",
+      "%.1f more than after a quarter of it\n",
       duration.count(), static_cast<unsigned long long>(pictures), static_cast<unsigned long long>(kept),
       static_cast<unsigned long long>(cancelled), static_cast<unsigned long long>(live_answers),
       static_cast<unsigned long long>(traces), quarter_mb + grown_mb, grown_mb);
