@@ -260,6 +260,24 @@ TEST(Registrar, TakesNoThingBeforeABareWallForTheCamera) {
   EXPECT_FALSE(is_sure(registrar->find(wall(125), Warp(), Reach::near)));
 }
 
+// A pole swings by up to three pixels, and of a fainter edge that rests parts lie within a pixel of where that leads.
+TEST(Registrar, TakesNoPoleThatSwingsBesideWhatRestsForTheCamera) {
+  const auto wall = [](double turn) {
+    std::vector<std::byte> raster(kWidth * kHeight);
+    for (int y = 0; y < static_cast<int>(kHeight); ++y) {
+      for (int x = 0; x < static_cast<int>(kWidth); ++x) {
+        const double pole = std::clamp(8.5 - std::abs(x - 140 + turn * y), 0.0, 1.0);
+        const double light = std::lerp(x < 300 ? 20 : 60, y % 40 < 6 ? 60 : 200, pole);
+        raster[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)] =
+            static_cast<std::byte>(std::round(light));
+      }
+    }
+    return raster;
+  };
+  const auto registrar = registrar_of(format_of({}), CameraMotion::rigid, wall(0));
+  EXPECT_EQ(registrar->find(wall(0.012), Warp(), Reach::near).warp, Warp());
+}
+
 TEST(Registrar, IsNotSureOfAnotherScene) {
   const Look look;
   Scene scene(look);

@@ -5,6 +5,7 @@
 #include "media/motion/registrar.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
@@ -31,6 +32,8 @@ constexpr double kMinAcross = 0.01;   // of the texture's strength along its mai
 constexpr std::size_t kFineLevels = 3;  // that a start from close by needs
 constexpr double kClearlyBetter = 2;    // of residuals
 constexpr double kClearlyMost = 0.7;    // of the texture
+constexpr std::size_t kPartsToASide = 8;
+constexpr std::size_t kMinOfPart = 8;   // places of texture: fewer tell little
 constexpr double kTukey = 4.685;        // 95 % as efficient as least squares where all errors are normal
 constexpr double kMinSigma = 0.3;     // codes
 constexpr int kFirstSteps = 3;          // of a level, in which nothing is excluded yet
@@ -164,6 +167,8 @@ struct Sampled {
   double grey;  // of the picture that is registered, where the warp says
 };
 
+using Parts = std::array<std::vector<double>, kPartsToASide * kPartsToASide>;
+
 class RobustRegistrar final : public Registrar {
  public:
   RobustRegistrar(const CaptureFormat& format, CameraMotion motion, std::span<const std::byte> reference)
@@ -245,26 +250,39 @@ class RobustRegistrar final : public Registrar {
     if (seen.empty()) return best;
     const Registered rests = judged(level, grey, {guess, 1, brighter_by(seen)});
     if (rests.residual_pixels <= kClearlyBetter * best.residual_pixels) return rests;
-    const bool is_clear = best.agreeing >= kClearlyMost && is_spread(level, grey, best.warp);
+    const bool is_clear = best.agreeing >= kClearlyMost && is_spread(level, grey, guess, best.warp);
     return is_clear ? best : Registered{guess, 0, rests.residual_pixels};
   }
 
-  // Whether what follows a warp lies in a quarter of the picture's parts or more.
-  [[nodiscard]] static bool is_spread(const Level& level, const cv::Mat& grey, const Warp& warp) {
-    constexpr int kParts = 8;  // to a side
-    const std::vector<Sampled> seen = sampled(level, grey, warp);
-    if (seen.empty()) return false;
-    const Fit fit{warp, 1, brighter_by(seen)};
-    bool has[kParts][kParts] = {};
-    int parts = 0;
-    for (const Sampled& sample : seen) {
-      if (std::abs(residual(sample, fit)) > gradient_of(*sample.point)) continue;
-      bool& part = has[static_cast<int>(sample.point->y) * kParts / level.size.height]
-                      [static_cast<int>(sample.point->x) * kParts / level.size.width];
-      parts += part ? 0 : 1;
-      part = true;
+  // Whether a quarter of the picture's parts or more follow a warp, and clearly not what is expected: noise over a dark
+  // wall is as near to any place.
+  [[nodiscard]] static bool is_spread(const Level& level, const cv::Mat& grey, const Warp& guess,
+                                      const Warp& warp) {
+    Parts expected = parts_of(level, grey, guess), followed = parts_of(level, grey, warp);
+    std::size_t parts = 0;
+    for (std::size_t i = 0; i < followed.size(); ++i) {
+      if (std::min(expected[i].size(), followed[i].size()) < kMinOfPart) continue;
+      const double away = median(followed[i]);
+      parts += away <= 1 && median(expected[i]) > kClearlyBetter * away ? 1 : 0;
     }
-    return 4 * parts >= kParts * kParts;
+    return 4 * parts >= followed.size();
+  }
+
+  // How far texture lies from where a warp says, in pixels of the level, for each part of the picture.
+  [[nodiscard]] static Parts parts_of(const Level& level, const cv::Mat& grey, const Warp& warp) {
+    Parts parts;
+    const std::vector<Sampled> seen = sampled(level, grey, warp);
+    if (seen.empty()) return parts;
+    const Fit fit{warp, 1, brighter_by(seen)};
+    for (const Sampled& sample : seen) {
+      const auto column = static_cast<std::size_t>(sample.point->x) * kPartsToASide /
+                          static_cast<std::size_t>(level.size.width);
+      const auto row = static_cast<std::size_t>(sample.point->y) * kPartsToASide /
+                       static_cast<std::size_t>(level.size.height);
+      parts[row * kPartsToASide + column].push_back(std::abs(residual(sample, fit)) /
+                                                    gradient_of(*sample.point));
+    }
+    return parts;
   }
 
   // The points that the picture shows, too. Empty where these are few.
