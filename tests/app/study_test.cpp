@@ -351,6 +351,14 @@ TEST_F(Study, ShowsOneShotOfAClipWithCuts) {
             std::string::npos)
       << result.err;
   EXPECT_NE(test::read_file(scratch_ / "shots.txt").find("--from 24f --to 44f"), std::string::npos);
+  clip.add(cv::Mat(96, 160, CV_8UC1, cv::Scalar::all(252)));  // as some cameras end a recording
+  const auto ended = run({"study", "-f", "100", "shots", "-o", "shots.png"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.err.find("the clip has 4 shots, which begin at pictures 0, 12, 24, 44 (a single one): of the "
+                           "longest that makes a study, pictures 24 … 43 were taken"),
+            std::string::npos)
+      << ended.err;
+  std::filesystem::remove(scratch_ / "shots" / "1044.png");
   ASSERT_EQ(run({"encode", "-f", "100", "shots", "shots.tik"}).status, 0);
   const auto refused = run({"study", "shots.tik", "-o", "none.png"});
   EXPECT_EQ(refused.status, 3);
@@ -373,6 +381,19 @@ TEST_F(Study, RefusesWhatGoesLessThanItsOwnSize) {
       << result.err;
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "stirs.png"));
   EXPECT_EQ(run({"study", "-f", "100", "stirs", "--style", "frozen", "-o", "stirs.png"}).status, 0);
+}
+
+// A ball of 126 pixels that falls by 18 before and after the middle of the clip: it is in the plate, and its edges alone
+// differ from that.
+TEST_F(Study, SaysOfAThingThatNeverLeavesItsPlaceThatItCannotBeShownTwice) {
+  const std::filesystem::path clip = std::filesystem::path(NUTIK_TEST_MEDIA) / "ball_12bit.cihx";
+  if (!std::filesystem::exists(clip)) GTEST_SKIP() << clip << " is not there";
+  const auto result = run({"study", clip.c_str(), "-o", "falls.png"});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_NE(result.err.find("goes less than its own size, and never leaves its place"), std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("Take a clip in which it goes further"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "falls.png"));
 }
 
 TEST_F(Study, RefusesWhatFlickersHereAndThere) {

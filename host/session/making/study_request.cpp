@@ -311,9 +311,10 @@ void check_track(const SubjectTrack& track, const std::string& where, std::uint3
   if (track.is_scraps()) {
     throw NoSubject(format(
         "{}: what goes furthest are scraps: they fill {:.0f} % of their box and are {:.0f} % of what differs "
-        "from the scene at rest, and a thing that goes its way is at least half of one of these. Edges of "
-        "something that shakes, grows or shines look so. Name a region with a single subject, or the moments "
-        "to show",
+        "from the scene at rest, and a thing that goes its way is at least half of one of these. So do edges look of a "
+        "thing that goes less than its own size, and never leaves its place, or that shakes, grows or shines: it cannot "
+        "be shown twice. Take a clip in which it goes further, name a region with a single subject, or the moments to "
+        "show",
         where, 100 * track.fill, 100 * track.share));
   }
   if (track.flickers) {

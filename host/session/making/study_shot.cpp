@@ -27,7 +27,9 @@ MemoryNeeds study_needs(const CaptureFormat& capture) {
 
 std::string starts_of(const std::vector<SampleRange>& shots) {
   std::string text;
-  for (const SampleRange& shot : shots) text += format("{}{}", text.empty() ? "" : ", ", shot.first);
+  for (const SampleRange& shot : shots) {
+    text += format("{}{}{}", text.empty() ? "" : ", ", shot.first, shot.size() == 1 ? " (a single one)" : "");
+  }
   return text;
 }
 
