@@ -24,6 +24,8 @@ test_packages=(clang libclang-rt-14-dev oclgrind mesa-opencl-icd libgtest-dev li
 # The Python package, its wheel and its notebooks.
 test_packages+=(pybind11-dev python3-dev python3-pip python3-setuptools python3-wheel python3-venv
   python3-nbclient python3-nbformat python3-ipykernel)
+# A screen that nobody sees, for the studio.
+test_packages+=(xvfb xauth)
 # What packages are made and looked at with.
 test_packages+=(dpkg-dev lintian desktop-file-utils appstream shared-mime-info)
 

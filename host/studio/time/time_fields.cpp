@@ -54,6 +54,8 @@ void TimeFields::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
 }
 
+void TimeFields::resizeEvent(QResizeEvent*) { show_values(); }
+
 QLineEdit* TimeFields::add_field(const QString& name, const QString& help, void (TimeFields::*enter)()) {
   auto* label = new QLabel(name, this);
   auto* field = new QLineEdit(this);
@@ -84,7 +86,9 @@ void TimeFields::show_values() {
   normal.setColor(QPalette::WindowText, TimeColours::of(palette()).label);
   said_->setPalette(normal);
   const QString text = interval_text(document_.boxcar(), facts->timeline);
-  said_->setText(text.mid(text.lastIndexOf(", ") + 2));
+  said_->setWordWrap(false);
+  said_->setText(said_->fontMetrics().elidedText(text.mid(text.lastIndexOf(", ") + 2), Qt::ElideRight,
+                                                 said_->width()));
   said_->setToolTip(text);
 }
 
@@ -92,6 +96,7 @@ void TimeFields::refuse(QLineEdit& field, const QString& mistake) {
   QPalette warning = palette();
   warning.setColor(QPalette::WindowText, TimeColours::of(palette()).warning);
   said_->setPalette(warning);
+  said_->setWordWrap(true);  // it is read whole
   said_->setText(mistake);
   said_->setToolTip(mistake);
   field.setAccessibleDescription(mistake);

@@ -23,6 +23,7 @@ class TimeFields : public QWidget {
 
  protected:
   void changeEvent(QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   QLineEdit* add_field(const QString& name, const QString& help, void (TimeFields::*enter)());
