@@ -127,6 +127,67 @@ TEST_F(CanvasTest, ToolsPaintTheSelectedRegionAndUndoTakesItBack) {
   EXPECT_EQ(canvas().image(), before);
 }
 
+TEST_F(CanvasTest, ToolsPaintByKeyboard) {
+  open_clip();
+  click_button("add_region");
+  const std::uint8_t tag = document().selected_tag();
+  document().set_points(tag, {{0, 0.5}, {1'000'000, 0.0}}, "Begin");
+  ASSERT_TRUE(settles());
+  const QImage before = canvas().image();
+  canvas().setFocus();
+  const auto key = [&](Qt::Key which, Qt::KeyboardModifiers keys = {}) {
+    QTest::keyClick(&canvas(), which, keys);
+  };
+  key(Qt::Key_R);
+  QTest::mouseMove(&canvas(), at(20.5, 20.5));
+  key(Qt::Key_Space);
+  for (int i = 0; i < 2; ++i) key(Qt::Key_Right, Qt::ShiftModifier);
+  for (int i = 0; i < 6; ++i) key(Qt::Key_Down);
+  EXPECT_EQ(pixels_of(tag), 0u) << "the stroke goes on";
+  key(Qt::Key_Space);
+  EXPECT_EQ(pixels_of(tag), 120u) << "20 x 6 pixels";
+  EXPECT_EQ(document().undo_stack().undoText(), "Rectangle");
+  ASSERT_TRUE(settles());
+  EXPECT_NE(difference(canvas().image(), before), "") << "the picture follows";
+
+  key(Qt::Key_Backspace);  // from there on half of it is erased
+  key(Qt::Key_Left, Qt::ShiftModifier);
+  for (int i = 0; i < 6; ++i) key(Qt::Key_Up);
+  key(Qt::Key_Backspace);
+  EXPECT_EQ(pixels_of(tag), 60u);
+
+  key(Qt::Key_B);
+  key(Qt::Key_Space);
+  EXPECT_TRUE(document().is_dragging());
+  EXPECT_GT(pixels_of(tag), 60u);
+  child<QToolBar>("tools").setFocusPolicy(Qt::StrongFocus);
+  child<QToolBar>("tools").setFocus();
+  EXPECT_FALSE(document().is_dragging()) << "who leaves the picture ends the stroke";
+  canvas().setFocus();
+  key(Qt::Key_Space);
+  key(Qt::Key_Escape);
+  EXPECT_FALSE(document().is_dragging());
+  while (document().undo_stack().canUndo()) QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_FALSE(document().state().mask);
+}
+
+TEST_F(CanvasTest, APixelIsTakenAndMovedByKeyboard) {
+  open_clip();
+  QTest::mouseMove(&canvas(), at(30.5, 24.5));
+  QTest::keyClick(&canvas(), Qt::Key_Space);
+  EXPECT_EQ(document().probe(), QPoint(30, 24));
+  QTest::keyClick(&canvas(), Qt::Key_Right, Qt::ShiftModifier);
+  QTest::keyClick(&canvas(), Qt::Key_Up);
+  EXPECT_EQ(document().probe(), QPoint(40, 23));
+  for (int i = 0; i < 20; ++i) QTest::keyClick(&canvas(), Qt::Key_Right, Qt::ShiftModifier);
+  EXPECT_EQ(document().probe(), QPoint(95, 23)) << "it stays in the picture";
+  ASSERT_TRUE(settles());
+  ASSERT_TRUE(document().waveform());
+  EXPECT_EQ(document().waveform()->pixel, QPoint(95, 23));
+  QTest::keyClick(&canvas(), Qt::Key_Escape);
+  EXPECT_FALSE(document().probe());
+}
+
 TEST_F(CanvasTest, EscapeTakesBackAStrokeThatIsNotFinished) {
   open_clip();
   click_button("add_region");

@@ -184,6 +184,20 @@ TEST_F(CurveEditorTest, StretchesAndMultipliesByTheBoxRoundSelectedPoints) {
   EXPECT_EQ(document_.undo_stack().count(), 3);
 }
 
+TEST_F(CurveEditorTest, StretchesTimeAndGainTogetherByACornerOfTheBox) {
+  key(Qt::Key_A, Qt::ControlModifier);
+  const auto box = TransformBox::round(editor_.frame(), points(), {0, 1, 2, 3});
+  const auto handles = box->handles();
+  const auto corner = std::find_if(handles.begin(), handles.end(),
+                                   [](const auto& each) { return each.first == BoxPart::top_right; });
+  ASSERT_NE(corner, handles.end());
+  const QPoint from = corner->second.center().toPoint(), by = at(700 * kMs, 0.5) - at(500 * kMs, 1.0);
+  drag(from, from + by);
+  EXPECT_EQ(points(),
+            (Points{{300 * kMs - 1, 0.0}, {300 * kMs, 0.5}, {700 * kMs, 0.5}, {700 * kMs + 1, 0.0}}));
+  EXPECT_EQ(document_.undo_stack().count(), 1);
+}
+
 TEST_F(CurveEditorTest, MovesABoxcarItsEndsAndItsGain) {
   const auto handles = [&] {
     return BoxcarHandles::of(editor_.frame(), boxcars_of(points()).front(), editor_.lane_top());

@@ -41,7 +41,8 @@ class RandomEventsTest : public StudioTest {
         return QTest::keyClick(&widget,
                                random_.pick(std::vector<Qt::Key>{
                                    Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down, Qt::Key_Escape,
-                                   Qt::Key_Tab, Qt::Key_Insert, Qt::Key_Delete, Qt::Key_Plus, Qt::Key_Minus}),
+                                   Qt::Key_Tab, Qt::Key_Insert, Qt::Key_Delete, Qt::Key_Plus, Qt::Key_Minus,
+                                   Qt::Key_Space, Qt::Key_Backspace, Qt::Key_Return}),
                                modifiers);
       case 4:
         return QTest::keyClick(&window_, random_.chance(0.7) ? Qt::Key_Z : Qt::Key_Y, Qt::ControlModifier);

@@ -5,7 +5,10 @@
 //   FOLDER/drag/NN.png  a control point on its way there and back, with the hand that drags it
 #include <QAction>
 #include <QApplication>
+#include <QDialog>
 #include <QDir>
+#include <QMenu>
+#include <QMenuBar>
 #include <QPainter>
 #include <QTest>
 #include <cmath>
@@ -37,7 +40,7 @@ class Photographer {
     const QSize picture = window_.canvas().image().size();
     document.set_probe(QPoint(picture.width() / 2, picture.height() / 2));
     document.select_tag(document.functions().rbegin()->first);
-    return take("studio") && take_looks() && take_drag();
+    return take("studio") && take_looks() && take_dialogs("dark") && take_drag();
   }
 
  private:
@@ -45,15 +48,13 @@ class Photographer {
     return QTest::qWaitFor([&] { return window_.is_settled(); }, kMaxWaitMs) &&
            (QApplication::processEvents(), true);
   }
-  bool save(const QImage& image, const QString& name) {
-    return image.save(folder_.filePath(name + ".png"));
-  }
+  bool save(const QImage& image, const QString& name) { return image.save(folder_.filePath(name + ".png")); }
   bool take(const QString& name) { return settles() && save(window_.grab().toImage(), name); }
 
   bool take_looks() {
     const QSize size = window_.size();
     set_appearance(Appearance::light);
-    bool is_taken = take("light");
+    bool is_taken = take("light") && take_dialogs("light");
     window_.resize(2560, 1600);
     window_.findChild<QAction*>("tool_brush")->trigger();
     is_taken = is_taken && take("light-large");
@@ -62,6 +63,26 @@ class Photographer {
     window_.findChild<QAction*>("tool_look")->trigger();
     window_.resize(size);
     return is_taken;
+  }
+
+  // Menus and dialogs are windows of their own.
+  bool take_dialogs(const QString& look) {
+    bool is_taken = true;
+    for (QAction* action : window_.menuBar()->actions()) {
+      const QString name = action->text().remove('&').section(' ', 0, 0).toLower();
+      is_taken = is_taken && save(action->menu()->grab().toImage(), QString("menu-%1-%2").arg(name, look));
+    }
+    QTest::keyClick(&window_, Qt::Key_D, Qt::ControlModifier);
+    auto* dialog = window_.findChild<QDialog*>();
+    if (dialog == nullptr) return false;
+    QApplication::processEvents();
+    QTest::keyClicks(dialog->focusWidget(), "soon");
+    QTest::keyClick(dialog->focusWidget(), Qt::Key_Return);
+    QApplication::processEvents();
+    is_taken = is_taken && save(dialog->grab().toImage(), "difference-" + look);
+    dialog->reject();
+    window_.activateWindow();
+    return QTest::qWaitForWindowActive(&window_) && is_taken;
   }
 
   // The background's exposure grows from a hundredth of the clip to a third of it, and shrinks again.

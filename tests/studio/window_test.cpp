@@ -282,6 +282,31 @@ TEST_F(WindowTest, AsksBeforeItReplacesWhatChangedOutside) {
   EXPECT_NE(test::read_file(scratch_ / "saved.fn"), "M0 [0:1]\n") << window_.notice().text().toStdString();
 }
 
+TEST_F(WindowTest, SaysOnceWhatHappenedToItsFilesOutside) {
+  open_clip();
+  add_region(document());
+  ASSERT_TRUE(window_.save_project(path("saved.nutik")));
+  const auto come_back = [&] {
+    window_.notice().clear();
+    QEvent back(QEvent::WindowActivate);
+    QApplication::sendEvent(&window_, &back);
+    return window_.notice().text();
+  };
+  EXPECT_EQ(come_back(), "") << "nothing happened";
+  std::filesystem::remove(scratch_ / "saved.pgm");
+  scratch_.write("saved.fn", "M0 [0:0.5]\n");
+  std::filesystem::last_write_time(scratch_ / "saved.fn",
+                                   std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
+  const QString said = come_back();
+  EXPECT_TRUE(said.contains("saved.pgm is gone")) << said.toStdString();
+  EXPECT_TRUE(said.contains("saved.fn was changed by another program")) << said.toStdString();
+  EXPECT_EQ(come_back(), "") << "once";
+  save_mask(path("saved.pgm"), (*document().state().mask)->mask);
+  QTest::keyClick(&window_, Qt::Key_F5);
+  ASSERT_TRUE(settles());
+  EXPECT_EQ(document().points(0), (std::vector<ControlPoint>{{0, 0.5}})) << "F5 takes the change";
+}
+
 TEST_F(WindowTest, ChoosesToolsByKeyboard) {
   open_clip();
   const std::pair<Qt::Key, const char*> keys[] = {{Qt::Key_B, "tool_brush"},   {Qt::Key_R, "tool_rectangle"},

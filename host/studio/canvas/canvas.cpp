@@ -1,19 +1,12 @@
 #include "studio/canvas/canvas.hpp"
 
-#include <QKeyEvent>
-#include <QMouseEvent>
+#include <QPaintEvent>
 #include <QPainter>
-#include <QWheelEvent>
-#include <cmath>
 
 namespace nutik::studio {
 namespace {
 
-constexpr double kClickPixels = 3;  // a press that moves no further is a click
-constexpr double kPanByKey = 48;    // widget pixels
-constexpr double kZoomByKey = 1.25;
-constexpr double kZoomByNotch = 1.2;  // of a mouse wheel
-const QColor kSurround(36, 36, 36);   // neutral, so that it does not tint what is seen
+const QColor kSurround(36, 36, 36);  // neutral, so that it does not tint what is seen
 const QColor kDarkened(0, 0, 0, 170);
 
 }  // namespace
@@ -25,7 +18,11 @@ Canvas::Canvas(Document& document, QWidget* parent) : QWidget(parent), document_
   setAttribute(Qt::WA_OpaquePaintEvent);
   setAccessibleName(tr("Picture"));
   setAccessibleDescription(
-      tr("The exposure. Plus and minus zoom, arrow keys pan, 1 shows pixel for pixel, 0 all of it."));
+      tr("The exposure. Plus and minus zoom, Ctrl+1 shows pixel for pixel, Ctrl+0 all of it; arrow keys pan. "
+         "Space "
+         "takes a pixel, which arrow keys then move. With a tool arrow keys move the pointer, Space begins "
+         "and ends a "
+         "stroke, Backspace one that erases."));
   connect(&document_, &Document::changed, this, &Canvas::follow_mask);
   connect(&document_, &Document::selection_changed, this, &Canvas::follow_mask);
   connect(&document_, &Document::capture_changed, this, &Canvas::follow_mask);
@@ -76,7 +73,7 @@ void Canvas::set_hint(const QString& hint) {
 void Canvas::set_tool(CanvasTool* tool) {
   if (tool_ != nullptr) tool_->give_up();
   tool_ = tool;
-  is_stroking_ = false;
+  is_stroking_ = is_key_stroke_ = false;
   setCursor(tool_ != nullptr ? Qt::CrossCursor : Qt::ArrowCursor);
   update();
 }
@@ -129,6 +126,7 @@ void Canvas::paintEvent(QPaintEvent* event) {
   paint_solo(painter);
   paint_regions(painter);
   if (tool_ != nullptr && is_inside_) tool_->paint(painter, view_.to_picture(pointer_));
+  if (tool_ != nullptr && is_by_keys_) paint_cross(painter, view_.to_picture(pointer_));
 }
 
 void Canvas::paint_regions(QPainter& painter) {
@@ -147,16 +145,17 @@ void Canvas::paint_regions(QPainter& painter) {
       }
     }
   }
-  if (document_.probe()) {
-    const QPointF at = QPointF(*document_.probe()) + QPointF(0.5, 0.5);
-    const double arm = 6 / view_.zoom();
-    for (const QColor& colour : {QColor(Qt::black), QColor(Qt::white)}) {
-      QPen pen(colour, colour == QColor(Qt::black) ? 3 : 1);
-      pen.setCosmetic(true);
-      painter.setPen(pen);
-      painter.drawLine(at - QPointF(arm, 0), at + QPointF(arm, 0));
-      painter.drawLine(at - QPointF(0, arm), at + QPointF(0, arm));
-    }
+  if (document_.probe()) paint_cross(painter, QPointF(*document_.probe()) + QPointF(0.5, 0.5));
+}
+
+void Canvas::paint_cross(QPainter& painter, QPointF at) const {
+  const double arm = 6 / view_.zoom();
+  for (const QColor& colour : {QColor(Qt::black), QColor(Qt::white)}) {
+    QPen pen(colour, colour == QColor(Qt::black) ? 3 : 1);
+    pen.setCosmetic(true);
+    painter.setPen(pen);
+    painter.drawLine(at - QPointF(arm, 0), at + QPointF(arm, 0));
+    painter.drawLine(at - QPointF(0, arm), at + QPointF(0, arm));
   }
 }
 
@@ -173,107 +172,6 @@ void Canvas::paint_solo(QPainter& painter) {
     }
   }
   painter.drawImage(0, 0, solo_);
-}
-
-std::optional<QPoint> Canvas::pixel_at(QPointF widget) const {
-  const QPointF at = view_.to_picture(widget);
-  const QPoint pixel(static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())));
-  return image_.rect().contains(pixel) ? std::optional(pixel) : std::nullopt;
-}
-
-void Canvas::resizeEvent(QResizeEvent*) {
-  view_.set_sizes(view_.picture(), size());
-  view_moved();
-}
-
-void Canvas::mousePressEvent(QMouseEvent* event) {
-  pointer_ = pressed_ = event->position();
-  is_inside_ = true;
-  has_moved_ = false;
-  if (image_.isNull() || document_.facts() == nullptr || is_first_look_) return;
-  if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && tool_ == nullptr)) {
-    is_panning_ = true;
-  } else if (event->button() == Qt::LeftButton) {
-    is_stroking_ = true;
-    tool_->press(view_.to_picture(pointer_), event->modifiers());
-    update();
-  }
-}
-
-void Canvas::mouseMoveEvent(QMouseEvent* event) {
-  const QPointF before = pointer_;
-  pointer_ = event->position();
-  is_inside_ = true;
-  if (is_panning_) {
-    if (!has_moved_ && (pointer_ - pressed_).manhattanLength() <= kClickPixels) return;
-    view_.pan(pointer_ - (has_moved_ ? before : pressed_));
-    has_moved_ = true;
-    view_moved();
-  } else if (is_stroking_) {
-    tool_->drag(view_.to_picture(pointer_), event->modifiers());
-    update();
-  } else if (tool_ != nullptr) {
-    update();
-  }
-  Q_EMIT pointed(pixel_at(pointer_));
-}
-
-void Canvas::mouseReleaseEvent(QMouseEvent* event) {
-  if (is_panning_) {
-    is_panning_ = false;
-    if (!has_moved_ && event->button() == Qt::LeftButton) document_.set_probe(pixel_at(event->position()));
-  } else if (is_stroking_ && event->button() == Qt::LeftButton) {
-    is_stroking_ = false;
-    tool_->release(view_.to_picture(event->position()), event->modifiers());
-    update();
-  }
-}
-
-void Canvas::mouseDoubleClickEvent(QMouseEvent* event) {
-  if (tool_ != nullptr && event->button() == Qt::LeftButton) {
-    tool_->finish();
-    update();
-  } else {
-    mousePressEvent(event);
-  }
-}
-
-void Canvas::wheelEvent(QWheelEvent* event) {
-  if (image_.isNull()) return;
-  const double notches = event->angleDelta().y() / 120.0;
-  view_.set_zoom(view_.zoom() * std::pow(kZoomByNotch, notches), event->position());
-  view_moved();
-}
-
-void Canvas::keyPressEvent(QKeyEvent* event) {
-  const auto pan = [&](double x, double y) {
-    view_.pan(QPointF(x, y) * kPanByKey);
-    view_moved();
-  };
-  switch (event->key()) {
-    case Qt::Key_Left: return pan(1, 0);
-    case Qt::Key_Right: return pan(-1, 0);
-    case Qt::Key_Up: return pan(0, 1);
-    case Qt::Key_Down: return pan(0, -1);
-    case Qt::Key_Plus:
-    case Qt::Key_Equal: return zoom_by(kZoomByKey);
-    case Qt::Key_Minus: return zoom_by(1 / kZoomByKey);
-    case Qt::Key_Return:
-    case Qt::Key_Enter:
-      if (tool_ != nullptr) tool_->finish();
-      return update();
-    case Qt::Key_Escape:
-      if (tool_ != nullptr) tool_->give_up();
-      is_stroking_ = false;
-      return update();
-    default: QWidget::keyPressEvent(event);
-  }
-}
-
-void Canvas::leaveEvent(QEvent*) {
-  is_inside_ = false;
-  update();
-  Q_EMIT pointed({});
 }
 
 }  // namespace nutik::studio

@@ -2,7 +2,7 @@
 //
 //   in:      pictures as they are exposed; the mouse and the keyboard
 //   out:     which pixels are visible, the pixel under the pointer; clicks and strokes, to whoever is its tool
-//   always:  the middle button pans, the wheel zooms to the pointer, whatever the tool
+//   always:  the middle button pans, the wheel zooms to the pointer, whatever the tool; what the mouse does keys do, too
 #pragma once
 
 #include <QImage>
@@ -68,13 +68,24 @@ class Canvas : public QWidget {
   void wheelEvent(QWheelEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void leaveEvent(QEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
   QSize sizeHint() const override { return {640, 400}; }
 
  private:
   void view_moved();
   void follow_mask();
   void paint_regions(QPainter& painter);
+  void paint_cross(QPainter& painter, QPointF at) const;
   void paint_solo(QPainter& painter);
+
+  // canvas_input.cpp
+  [[nodiscard]] bool is_workable() const;
+  void follow_arrow(QPoint way);
+  void press_key(Qt::KeyboardModifiers keys);
+  void end_key_stroke();
+  [[nodiscard]] QPointF key_pointer() const;
+  void move_pointer(QPointF picture);
+  void keep_in_sight(QPointF picture);
   [[nodiscard]] std::optional<QPoint> pixel_at(QPointF widget) const;
 
   Document& document_;
@@ -89,6 +100,9 @@ class Canvas : public QWidget {
   bool is_inside_ = false;  // the pointer
   bool is_first_look_ = false;
   bool is_panning_ = false, is_stroking_ = false, has_moved_ = false;
+  bool is_by_keys_ = false;     // the pointer was moved by them last
+  bool is_key_stroke_ = false;  // begun by a key, which also ends it
+  Qt::KeyboardModifiers stroke_keys_;
 };
 
 }  // namespace nutik::studio

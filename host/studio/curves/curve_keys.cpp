@@ -233,6 +233,7 @@ QString CurveEditor::text_at(QPointF at) const {
   if (part == BoxPart::top || part == BoxPart::bottom) return "Drag to multiply the selected points' gains";
   if (is_on_curve(frame, points_, at)) return "Click for a new point";
   if (part == BoxPart::inside) return "Drag to move the selected points";
+  if (part) return "Drag to stretch the selected points in time and to multiply their gains";
   return said;
 }
 

@@ -22,6 +22,10 @@ Qt::CursorShape shape_of(BoxPart part) {
     case BoxPart::right: return Qt::SizeHorCursor;
     case BoxPart::top:
     case BoxPart::bottom: return Qt::SizeVerCursor;
+    case BoxPart::top_left:
+    case BoxPart::bottom_right: return Qt::SizeFDiagCursor;
+    case BoxPart::top_right:
+    case BoxPart::bottom_left: return Qt::SizeBDiagCursor;
     case BoxPart::inside: return Qt::SizeAllCursor;
   }
   return Qt::ArrowCursor;

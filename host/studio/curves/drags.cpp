@@ -74,8 +74,10 @@ class BoxDrag : public Drag {
 
   Dragged by(const HandShift& shift) const override {
     if (part_ == BoxPart::inside) return PointDrag(points_, chosen_, chosen_.front(), snapper_).by(shift);
-    if (part_ == BoxPart::left || part_ == BoxPart::right) return spread_by(shift);
-    return amplified_by(shift);
+    Dragged dragged{points_, {}, {}, {}};
+    if (moves_left(part_) || moves_right(part_)) dragged = spread_by(shift);
+    if (moves_top(part_) || moves_bottom(part_)) amplify(dragged, shift);
+    return dragged;
   }
   QString name() const override {
     switch (part_) {
@@ -84,13 +86,17 @@ class BoxDrag : public Drag {
       case BoxPart::right: return "Stretch points in time";
       case BoxPart::top:
       case BoxPart::bottom: return "Multiply gains";
+      case BoxPart::top_left:
+      case BoxPart::top_right:
+      case BoxPart::bottom_left:
+      case BoxPart::bottom_right: return "Stretch points in time and gain";
     }
     return {};
   }
 
  private:
   Dragged spread_by(const HandShift& shift) const {
-    const bool is_left = part_ == BoxPart::left;
+    const bool is_left = moves_left(part_);
     // Steps are aligned by the points that stand for their moments.
     const std::size_t begin = step_anchor(points_, chosen_.front()),
                       end = step_anchor(points_, chosen_.back());
@@ -102,8 +108,7 @@ class BoxDrag : public Drag {
     if (dragged.time_snap) at = dragged.time_snap->time_ns;
     // It does not turn over.
     constexpr double kMin = 1e-6;
-    const double factor =
-        std::max(static_cast<double>(at - fixed) / static_cast<double>(held - fixed), kMin);
+    const double factor = std::max(static_cast<double>(at - fixed) / static_cast<double>(held - fixed), kMin);
     dragged.points = at == held ? points_ : spread(points_, chosen_, factor, fixed);
     const std::int64_t length = dragged.points[end].time_ns - dragged.points[begin].time_ns;
     const double times =
@@ -112,15 +117,15 @@ class BoxDrag : public Drag {
     return dragged;
   }
 
-  Dragged amplified_by(const HandShift& shift) const {
-    const double held = part_ == BoxPart::top ? box_.high() : box_.low();
-    Dragged dragged;
+  // Whatever their times are already.
+  void amplify(Dragged& dragged, const HandShift& shift) const {
+    const double held = moves_top(part_) ? box_.high() : box_.low();
     double to = higher(held, shift);
     dragged.gain_snap = snapper_.gain(to, shift.gain_reach);
     if (dragged.gain_snap) to = dragged.gain_snap->gain;
-    dragged.points = to == held ? points_ : amplified(points_, chosen_, to / held);
-    dragged.text = QString("gain %1, × %2").arg(short_gain(to), short_gain(to / held));
-    return dragged;
+    if (to != held) dragged.points = amplified(dragged.points, chosen_, to / held);
+    const QString text = QString("gain %1, × %2").arg(short_gain(to), short_gain(to / held));
+    dragged.text = dragged.text.isEmpty() ? text : dragged.text + "; " + text;
   }
 
   PointIndices chosen_;

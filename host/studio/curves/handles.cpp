@@ -100,14 +100,19 @@ std::optional<TransformBox> TransformBox::round(const PlotFrame& frame, const Po
 }
 
 std::vector<std::pair<BoxPart, QRectF>> TransformBox::handles() const {
-  const QPointF middle = box_.center();
+  constexpr BoxPart kParts[] = {BoxPart::top_left,     BoxPart::top_right, BoxPart::bottom_left,
+                                BoxPart::bottom_right, BoxPart::left,      BoxPart::right,
+                                BoxPart::top,          BoxPart::bottom};
   std::vector<std::pair<BoxPart, QRectF>> handles;
-  if (is_long_) {
-    handles.emplace_back(BoxPart::left, square_at(box_.left(), middle.y()));
-    handles.emplace_back(BoxPart::right, square_at(box_.right(), middle.y()));
+  for (const BoxPart part : kParts) {
+    const bool is_sideways = moves_left(part) || moves_right(part);
+    if ((is_sideways && !is_long_) || (moves_top(part) && high_ == 0.0) ||
+        (moves_bottom(part) && low_ == 0.0))
+      continue;
+    const double x = moves_left(part) ? box_.left() : moves_right(part) ? box_.right() : box_.center().x();
+    const double y = moves_top(part) ? box_.top() : moves_bottom(part) ? box_.bottom() : box_.center().y();
+    handles.emplace_back(part, square_at(x, y));
   }
-  if (high_ != 0.0) handles.emplace_back(BoxPart::top, square_at(middle.x(), box_.top()));
-  if (low_ != 0.0) handles.emplace_back(BoxPart::bottom, square_at(middle.x(), box_.bottom()));
   return handles;
 }
 

@@ -2,10 +2,10 @@
 //
 //   units:   pixels
 //
-//        ┌──────■──────┐  the box round selected points: its sides spread them in time, its top and bottom multiply
-//        │  o      o   │  their gains, its inside moves them
+//        ■──────■──────■  the box round selected points: its sides spread them in time, its top and bottom multiply
+//        │  o      o   │  their gains, its corners do both, its inside moves them
 //        ■      o      ■
-//        └──────■──────┘
+//        ■──────■──────■
 //        [=============]  a boxcar's bar in the lane at the bottom: its ends, and what is between them
 #pragma once
 
@@ -18,8 +18,8 @@
 
 namespace nutik::studio {
 
-inline constexpr double kReachPixels = 7;      // how near to a thing the pointer has to be
-inline constexpr double kLanePixels = 12;      // height of the boxcars' lane
+inline constexpr double kReachPixels = 7;    // how near to a thing the pointer has to be
+inline constexpr double kLanePixels = 12;    // height of the boxcars' lane
 inline constexpr double kMinBarPixels = 26;  // a bar is never shorter, so that it can be seized
 inline constexpr double kHandlePixels = 8;
 
@@ -31,7 +31,21 @@ inline constexpr double kHandlePixels = 8;
 // Points whose places lie in a rectangle.
 [[nodiscard]] PointIndices points_within(const PlotFrame& frame, const Points& points, const QRectF& area);
 
-enum class BoxPart { inside, left, right, top, bottom };
+enum class BoxPart { inside, left, right, top, bottom, top_left, top_right, bottom_left, bottom_right };
+
+// Which sides a part moves.
+[[nodiscard]] constexpr bool moves_left(BoxPart part) {
+  return part == BoxPart::left || part == BoxPart::top_left || part == BoxPart::bottom_left;
+}
+[[nodiscard]] constexpr bool moves_right(BoxPart part) {
+  return part == BoxPart::right || part == BoxPart::top_right || part == BoxPart::bottom_right;
+}
+[[nodiscard]] constexpr bool moves_top(BoxPart part) {
+  return part == BoxPart::top || part == BoxPart::top_left || part == BoxPart::top_right;
+}
+[[nodiscard]] constexpr bool moves_bottom(BoxPart part) {
+  return part == BoxPart::bottom || part == BoxPart::bottom_left || part == BoxPart::bottom_right;
+}
 
 // Round two selected points and more.
 class TransformBox {

@@ -37,7 +37,7 @@ QPalette palette_of(int window, int base, int button, int text, int dim) {
   return palette;
 }
 
-// Fusion, whose boxes in lists cannot be told from a dark ground, and whose shadows double texts that are disabled there.
+// Fusion, whose boxes to check cannot be told from a dark ground, and whose shadows double texts that are disabled there.
 class Style : public QProxyStyle {
  public:
   Style() : QProxyStyle(QStringLiteral("Fusion")) {}
@@ -49,7 +49,7 @@ class Style : public QProxyStyle {
 
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget) const override {
-    if (element != PE_IndicatorItemViewItemCheck)
+    if (element != PE_IndicatorItemViewItemCheck && element != PE_IndicatorCheckBox)
       return QProxyStyle::drawPrimitive(element, option, painter, widget);
     const QRectF box = QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5);
     painter->save();

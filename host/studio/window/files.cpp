@@ -10,6 +10,8 @@
 
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
+#include "session/output_check.hpp"
+#include "studio/document/texts.hpp"
 #include "studio/window/main_window.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio/window/starting_points.hpp"
@@ -72,15 +74,42 @@ void MainWindow::note_files() {
   known_.clear();
   for (const QString& file : {project_, files_.functions, files_.mask})
     known_[file] = QFileInfo(file).lastModified();
+  if (document_.facts() != nullptr)
+    known_[document_.facts()->path] = QFileInfo(document_.facts()->path).lastModified();
+  told_changes_.clear();
 }
 
 QStringList MainWindow::changed_outside() const {
   QStringList changed;
   for (const auto& [file, time] : known_) {
     const QFileInfo info(file);
-    if (info.exists() && info.lastModified() != time) changed += file;
+    const bool is_written = document_.facts() == nullptr || file != document_.facts()->path;
+    if (is_written && info.exists() && info.lastModified() != time) changed += file;
   }
   return changed;
+}
+
+// Whoever comes back to the window hears at once what happened to its files, and once.
+void MainWindow::tell_changes() {
+  const QString capture = document_.facts() == nullptr ? QString() : document_.facts()->path;
+  QStringList lines;
+  for (const auto& [file, time] : known_) {
+    const QFileInfo info(file);
+    const bool is_gone = time.isValid() && !info.exists();
+    if (!is_gone && (!info.exists() || info.lastModified() == time)) continue;
+    const QString what =
+        is_gone ? tr("%1 is gone").arg(file) : tr("%1 was changed by another program").arg(file);
+    if (file == capture)
+      lines += tr("%1: the window goes on with what it read.").arg(what);
+    else if (is_gone)
+      lines += tr("%1: saving the project writes it again.").arg(what);
+    else
+      lines += tr("%1: File, Open again (F5) takes the change; saving replaces it.").arg(what);
+  }
+  const QString text = lines.join('\n');
+  if (text == told_changes_) return;
+  told_changes_ = text;
+  if (!text.isEmpty()) notice_->say(Notice::Kind::note, text);
 }
 
 void MainWindow::recover() {
@@ -178,6 +207,43 @@ void MainWindow::use_mask(const QString& path) {
     state.mode = ExposureMode::functions;
     document_.apply(std::move(state), tr("Load mask"));
   });
+}
+
+void MainWindow::write_functions(const QString& path) {
+  if (document_.facts() == nullptr) return;
+  try_to([&] {
+    check_output(path.toStdString(), OutputKind::functions,
+                 std::vector{document_.facts()->path.toStdString()});
+    save_functions(path, document_.functions());
+    notice_->say(Notice::Kind::note, tr("Written: %1").arg(path));
+  });
+}
+
+void MainWindow::write_mask(const QString& path) {
+  if (document_.facts() == nullptr) return;
+  try_to([&] {
+    if (!document_.state().mask)
+      throw InputError("there is no mask yet: all of the picture is the background, M0. Add a region first");
+    check_mask_output(path.toStdString(), std::vector{document_.facts()->path.toStdString()});
+    save_mask(path, (*document_.state().mask)->mask);
+    const int feather = document_.state().feather;
+    const QString soft = feather == 0 ? QString()
+                                      : tr(" Its edges are hard: --feather %1 blends them.")
+                                            .arg(QString::fromStdString(feather_text(feather)));
+    notice_->say(Notice::Kind::note, tr("Written: %1.%2").arg(path, soft));
+  });
+}
+
+void MainWindow::save_functions_as() {
+  const QString path = QFileDialog::getSaveFileName(this, tr("Save the functions"), suggested(".fn"),
+                                                    tr("Function files (*.fn)"));
+  if (!path.isEmpty()) write_functions(path);
+}
+
+void MainWindow::save_mask_as() {
+  const QString path =
+      QFileDialog::getSaveFileName(this, tr("Save the mask"), suggested(".pgm"), tr("Masks (*.pgm *.png)"));
+  if (!path.isEmpty()) write_mask(path);
 }
 
 void MainWindow::choose_plate() {

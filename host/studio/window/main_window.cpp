@@ -13,7 +13,10 @@
 #include "session/below/error.hpp"
 #include "studio/curves/curve_editor.hpp"
 #include "studio/live/overview.hpp"
+#include "studio/regions/difference_dialog.hpp"
+#include "studio/regions/region_edits.hpp"
 #include "studio/regions/region_list.hpp"
+#include "studio/regions/selections.hpp"
 #include "studio/time/time_fields.hpp"
 #include "studio/time/time_strip.hpp"
 #include "studio/window/picture_export.hpp"
@@ -112,6 +115,7 @@ void MainWindow::open(const QString& path, const QString& rate) {
   if (!path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive)) {
     project_.clear();
     files_ = {};
+    known_.clear();
     return open_capture_file(QFileInfo(path).absoluteFilePath(), rate, {});
   }
   try_to([&] {
@@ -178,6 +182,7 @@ void MainWindow::take(Opened opened, std::optional<DocumentState> state) {
   document_.start(std::move(opened.facts), std::move(state));
   if (is_recovered) document_.undo_stack().resetClean();
   axis_.set_duration(document_.duration_ns());
+  known_[document_.facts()->path] = QFileInfo(document_.facts()->path).lastModified();
   live_.show(session_);
   follow_title();
   if (!opened.notes.isEmpty() && notice_->text().isEmpty())
@@ -233,6 +238,32 @@ void MainWindow::start_study(StudyStyle style) {
               }));
 }
 
+bool MainWindow::has_region() {
+  if (document_.selected_tag() != kBackground) return true;
+  notice_->say(Notice::Kind::error,
+               tr("Select a region first, or add one: the background is what no region has."));
+  return false;
+}
+
+void MainWindow::select_motion() {
+  if (!session_ || !has_region()) return;
+  const auto told = [this](const QString& line) { notice_->say(Notice::Kind::note, line); };
+  jobs_.start(tr("Looking for what moves"), selecting_motion(document_, session_, told));
+}
+
+void MainWindow::choose_difference() {
+  if (!session_ || !has_region()) return;
+  auto* dialog = new DifferenceDialog(document_.facts()->timeline, axis_.mark_in().value_or(0),
+                                      document_.boxcar().start_ns, this);
+  connect(dialog, &QDialog::accepted, this, [this, dialog, session = session_] {
+    if (session != session_) return;
+    const auto told = [this](const QString& line) { notice_->say(Notice::Kind::note, line); };
+    jobs_.start(tr("Looking for what differs"),
+                selecting_difference(document_, session_, dialog->chosen(), told));
+  });
+  dialog->open();
+}
+
 void MainWindow::use_tool(ToolKind kind) {
   canvas_->set_tool(nullptr);
   tool_ = make_tool(kind, document_, tool_settings_, [this]() -> const QImage& { return canvas_->image(); });
@@ -249,6 +280,11 @@ void MainWindow::follow_title() {
   setWindowTitle(name.isEmpty() ? tr("nutik studio")
                                 : tr("%1[*] – nutik studio").arg(QFileInfo(name).fileName()));
   setWindowModified(!document_.undo_stack().isClean());
+}
+
+bool MainWindow::event(QEvent* event) {
+  if (event->type() == QEvent::WindowActivate) tell_changes();
+  return QMainWindow::event(event);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

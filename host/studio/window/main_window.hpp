@@ -43,6 +43,9 @@ class MainWindow : public QMainWindow {
   // Of an open capture; why a file is refused is said above the picture.
   void use_functions(const QString& path);
   void use_mask(const QString& path);
+  // Into files of their own, which the project does not name; why that fails is said above the picture.
+  void write_functions(const QString& path);
+  void write_mask(const QString& path);
   // In the background. Needs a saved project unless an interval is exposed.
   void export_picture(const QString& path);
   void start_study(StudyStyle style);
@@ -65,6 +68,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] ToolSettings& tool_settings() { return tool_settings_; }
 
  protected:
+  bool event(QEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
@@ -77,6 +81,9 @@ class MainWindow : public QMainWindow {
   void take(Opened opened, std::optional<DocumentState> state);
   void ask_rate(const QString& path, const QString& why);
   void look_at_capture();
+  void select_motion();
+  void choose_difference();
+  [[nodiscard]] bool has_region();  // selected, to be painted; else it is said
   void look_at_pixel();
   void follow_title();
 
@@ -99,10 +106,13 @@ class MainWindow : public QMainWindow {
   bool ensure_files();
   void note_files();
   [[nodiscard]] QStringList changed_outside() const;
+  void tell_changes();
   void choose_export();
   void copy_command();
   void choose_functions();
   void choose_mask();
+  void save_functions_as();
+  void save_mask_as();
   void choose_plate();
   void remember(const QString& path);
   void fill_recent(QMenu& menu);
@@ -120,8 +130,10 @@ class MainWindow : public QMainWindow {
   std::shared_ptr<Session> session_;
   QString project_;
   CommandFiles files_;
-  // When this window read or wrote the project's files: later changes are somebody else's.
+  // When this window read or wrote the project's files and the capture: later changes are somebody else's. And what was
+  // said of them.
   std::map<QString, QDateTime> known_;
+  QString told_changes_;
   ToolSettings tool_settings_;
   std::unique_ptr<CanvasTool> tool_;
 

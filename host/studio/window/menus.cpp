@@ -82,6 +82,10 @@ void MainWindow::build_file_menu() {
   connect(&recent, &QMenu::aboutToShow, this, [this, &recent] { fill_recent(recent); });
   QAction* kept = add_action(menu, tr("Reco&ver unsaved work"), {}, [this] { recover(); });
   connect(&menu, &QMenu::aboutToShow, kept, [kept] { kept->setEnabled(!Autosave::found().isEmpty()); });
+  needs_capture_ += add_action(menu, tr("Open a&gain"), QKeySequence::Refresh, [this] {
+    const QString rate = document_.facts()->rate;
+    if (may_leave()) project_.isEmpty() ? open(document_.facts()->path, rate) : open(project_);
+  });
   needs_capture_ += add_action(menu, tr("Frame ra&te…"), {}, [this] {
     if (may_leave()) ask_rate(document_.facts()->path, tr("The clip is opened again."));
   });
@@ -91,6 +95,8 @@ void MainWindow::build_file_menu() {
       add_action(menu, tr("Save project &as…"), Qt::CTRL | Qt::SHIFT | Qt::Key_S, [this] { save_as(); });
   needs_capture_ += add_action(menu, tr("Load &functions…"), {}, [this] { choose_functions(); });
   needs_capture_ += add_action(menu, tr("Load &mask…"), {}, [this] { choose_mask(); });
+  needs_capture_ += add_action(menu, tr("Save f&unctions as…"), {}, [this] { save_functions_as(); });
+  needs_capture_ += add_action(menu, tr("Save mas&k as…"), {}, [this] { save_mask_as(); });
   menu.addSeparator();
   needs_capture_ +=
       add_action(menu, tr("&Export picture…"), Qt::CTRL | Qt::Key_E, [this] { choose_export(); });
@@ -109,9 +115,10 @@ void MainWindow::build_region_menu() {
   needs_capture_ += add_action(menu, tr("&Expose over the interval"), Qt::CTRL | Qt::Key_I,
                                [this] { expose_over_boxcar(document_, document_.selected_tag()); });
   menu.addSeparator();
-  needs_capture_ += add_action(menu, tr("Select what &moves"), Qt::CTRL | Qt::Key_M, [this] {
-    jobs_.start(tr("Looking for what moves"), selecting_motion(document_, session_));
-  });
+  needs_capture_ +=
+      add_action(menu, tr("Select what &moves"), Qt::CTRL | Qt::Key_M, [this] { select_motion(); });
+  needs_capture_ +=
+      add_action(menu, tr("Select what &differs…"), Qt::CTRL | Qt::Key_D, [this] { choose_difference(); });
 }
 
 void MainWindow::build_start_menu() {

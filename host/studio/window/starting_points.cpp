@@ -8,7 +8,6 @@
 #include "session/output_check.hpp"
 #include "session/requests/output_request.hpp"
 #include "session/text/time_text.hpp"
-#include "studio/regions/region_edits.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -92,26 +91,6 @@ Jobs::Work writing_plate(std::shared_ptr<Session> session, const QString& pictur
         Document::tr("%1: the scene without what moves").arg(QString::fromStdString(path.string()));
     return [told, line] { told(line); };
   };
-}
-
-Jobs::Work selecting_motion(Document& document, std::shared_ptr<Session> session) {
-  return
-      [&document, session = std::move(session), tag = document.selected_tag()](const Job&) -> Jobs::Finish {
-        MaskRequest request;
-        MaskStep step;
-        step.name.text = "what moves";
-        step.tag = tag;
-        step.selection = select::Motion();
-        step.changes = {{RegionChange::Kind::smooth, 1.0, {}}};
-        request.steps = {step};
-        MadeMask made = make_mask(request, &session->capture(), session->source().path.string());
-        auto region = std::make_shared<Region>(Region::none(made.mask.width, made.mask.height));
-        for (std::size_t pixel = 0; pixel < made.mask.tags.size(); ++pixel)
-          region->inside[pixel] = made.mask.tags[pixel] == tag;
-        return [&document, region, tag] {
-          paint_region(document, *region, tag, Document::tr("Select what moves"));
-        };
-      };
 }
 
 }  // namespace nutik::studio

@@ -25,7 +25,5 @@ struct StartingPoint {
 // The scene without what moves, as a picture file.
 [[nodiscard]] Jobs::Work writing_plate(std::shared_ptr<Session> session, const QString& picture,
                                        std::function<void(const QString&)> told);
-// The selected region gets what moves in the capture.
-[[nodiscard]] Jobs::Work selecting_motion(Document& document, std::shared_ptr<Session> session);
 
 }  // namespace nutik::studio
