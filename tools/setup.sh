@@ -21,6 +21,8 @@ script_packages=(python3 python3-numpy python3-opencv python3-matplotlib)
 # runs; oclgrind checks kernels while they run; Mesa has a second OpenCL driver for the processor, which shows itself where
 # RUSTICL_ENABLE=llvmpipe is set.
 test_packages=(clang libclang-rt-14-dev oclgrind mesa-opencl-icd libgtest-dev libboost-dev zlib1g-dev netpbm time ffmpeg python3-mpmath zsh fish groff)
+# Schedulers that the job files of tools/farm are run by.
+test_packages+=(slurmctld slurmd slurm-client munge parallel)
 # The Python package, its wheel and its notebooks.
 test_packages+=(pybind11-dev python3-dev python3-pip python3-setuptools python3-wheel python3-venv
   python3-nbclient python3-nbformat python3-ipykernel)

@@ -150,6 +150,13 @@ TEST(Exr, WithAnAttributeLongerThanTheFileIsRefused) {
     scratch.write("cut.exr", bytes.substr(0, count));
     EXPECT_THROW((void)read_picture_text(scratch / "cut.exr"), InputError) << count;
   }
+  // A file of several parts has a header for each; the second one's attribute is too long here.
+  const std::string parts("v/1\x01\x02\x10\0\0a\0b\0\0\0\0\0\0c\0d\0\xff\xff\xff\x7f", 8 + 9 + 8);
+  scratch.write("parts.exr", parts);
+  EXPECT_NE(message_of<InputError>([&] {
+              (void)read_picture_text(scratch / "parts.exr");
+            }).find("an attribute of 2147483647 bytes does not fit into its 25"),
+            std::string::npos);
 }
 
 Picture smooth_picture(const Shape& shape) {

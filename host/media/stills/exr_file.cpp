@@ -91,26 +91,32 @@ std::vector<half> halves(const Picture& picture) {
   return result;
 }
 
-// Each attribute of the header must lie within the file: OpenEXR makes room for what it is said to have, and then reads.
+// Each attribute of each header must lie within the file: OpenEXR makes room for what it is said to have, and then reads.
 void check_attributes(std::string_view bytes) {
-  constexpr std::size_t kMagicAndVersion = 8, kSizeBytes = 4;
+  constexpr std::size_t kMagicAndVersion = 8, kSizeBytes = 4, kFlags = 5;
+  constexpr char kSeveralParts = 0x10;  // a header each, until an empty one
+  const bool several_parts = bytes.size() > kFlags && (bytes[kFlags] & kSeveralParts) != 0;
   std::size_t at = kMagicAndVersion;
-  while (at < bytes.size() && bytes[at] != '\0') {
-    for (int word = 0; word < 2; ++word) {  // name and type
-      at = bytes.find('\0', at);
-      if (at++ == std::string_view::npos) throw InputError("its header has no end");
+  const auto in_header = [&] { return at < bytes.size() && bytes[at] != '\0'; };
+  do {
+    while (in_header()) {
+      for (int word = 0; word < 2; ++word) {  // name and type
+        at = bytes.find('\0', at);
+        if (at++ == std::string_view::npos) throw InputError("its header has no end");
+      }
+      if (bytes.size() - at < kSizeBytes) throw InputError("its header has no end");
+      std::uint32_t size = 0;
+      for (std::size_t i = 0; i < kSizeBytes; ++i) {
+        size |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
+      }
+      at += kSizeBytes;
+      if (size > bytes.size() - at) {
+        throw InputError(format("an attribute of {} bytes does not fit into its {} bytes", size, bytes.size()));
+      }
+      at += size;
     }
-    if (bytes.size() - at < kSizeBytes) throw InputError("its header has no end");
-    std::uint32_t size = 0;
-    for (std::size_t i = 0; i < kSizeBytes; ++i) {
-      size |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
-    }
-    at += kSizeBytes;
-    if (size > bytes.size() - at) {
-      throw InputError(format("an attribute of {} bytes does not fit into its {} bytes", size, bytes.size()));
-    }
-    at += size;
-  }
+    ++at;
+  } while (several_parts && in_header());
 }
 
 }  // namespace

@@ -24,6 +24,12 @@ PictureDecoder::PictureDecoder(OpenedVideo opened, std::string name, Wanted want
   damage_->listen_to(*codec_);
   holes_->listen_to(*opened_.format);
   const int code = avcodec_parameters_to_context(codec_.get(), &parameters);
+  // Memory is counted for pictures of the size that the container tells; a decoder that finds a larger one in its own
+  // data makes room for that. It may round up to its blocks, and rows to its vectors.
+  constexpr std::int64_t kRounding = 128;
+  if (parameters.width > 0 && parameters.height > 0) {
+    codec_->max_pixels = (parameters.width + kRounding) * (parameters.height + kRounding);
+  }
   // Some files give the depth of what the table makes of them.
   if (is_phantom_packed(parameters)) codec_->bits_per_coded_sample = kPhantomPackedBits;
   if (code < 0 || avcodec_open2(codec_.get(), decoder, nullptr) < 0) {
