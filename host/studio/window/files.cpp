@@ -228,7 +228,7 @@ void MainWindow::write_mask(const QString& path) {
     save_mask(path, (*document_.state().mask)->mask);
     const int feather = document_.state().feather;
     const QString soft = feather == 0 ? QString()
-                                      : tr(" Its edges are hard: --feather %1 blends them.")
+                                      : tr(" Its edges are hard; their feather, %1, is not in the file.")
                                             .arg(QString::fromStdString(feather_text(feather)));
     notice_->say(Notice::Kind::note, tr("Written: %1.%2").arg(path, soft));
   });
