@@ -215,11 +215,11 @@ def check_slurm(scene, farm, report):
                   capture_output=True).stdout.strip()
 
         def begun():
-            """The task on the node `two` whose first frame is there and whose last is not."""
+            """1 more than the task on the node `two` whose first frame is there and those from its middle on are not."""
             for line in slurm.ask("squeue", "-h", "-r", "-j", job, "-t", "R", "-w", "two", "-o", "%K").split():
                 made = {path.name for path in (scene.folder / "film").glob("*.png")}
-                first, last = int(line) * CHUNK, min(int(line) * CHUNK + CHUNK, FRAMES) - 1
-                if f"{first:05}.png" in made and f"{last - 1:05}.png" not in made:
+                first = int(line) * CHUNK
+                if f"{first:05}.png" in made and f"{first + CHUNK // 2:05}.png" not in made:
                     return int(line) + 1
             return None
 
