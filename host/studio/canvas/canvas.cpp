@@ -19,10 +19,8 @@ Canvas::Canvas(Document& document, QWidget* parent) : QWidget(parent), document_
   setAccessibleName(tr("Picture"));
   setAccessibleDescription(
       tr("The exposure. Plus and minus zoom, Ctrl+1 shows pixel for pixel, Ctrl+0 all of it; arrow keys pan. "
-         "Space "
-         "takes a pixel, which arrow keys then move. With a tool arrow keys move the pointer, Space begins "
-         "and ends a "
-         "stroke, Backspace one that erases."));
+         "Space takes a pixel, which arrow keys then move. With a tool arrow keys move the pointer, Space begins "
+         "and ends a stroke, Backspace one that erases."));
   connect(&document_, &Document::changed, this, &Canvas::follow_mask);
   connect(&document_, &Document::selection_changed, this, &Canvas::follow_mask);
   connect(&document_, &Document::capture_changed, this, &Canvas::follow_mask);
