@@ -73,8 +73,11 @@ struct Footer {
   std::uint64_t index_checksum;
   std::uint64_t exposures_checksum;
   std::uint64_t fields_offset;  // of fields that were known at the end only, 0 where there are none
-  std::uint8_t reserved[48];    // zeros
-  std::uint64_t checksum;       // of the bytes before it
+  // Of all block headers, one behind the other, so that nobody has to look for them all over a large file;
+  // 0 in files of earlier programs.
+  std::uint64_t headers_checksum;
+  std::uint8_t reserved[40];  // zeros
+  std::uint64_t checksum;     // of the bytes before it
   char magic[8];
 };
 static_assert(sizeof(Footer) == 128 && offsetof(Footer, checksum) == 112);

@@ -81,12 +81,14 @@ void Reader::read_footer() {
 
 std::uint64_t Reader::content_checksum() const {
   const std::span<const std::byte> file = file_.bytes();
+  const std::span<const std::byte> footer = file.last(sizeof(Footer));
+  if (load<Footer>(footer, 0).headers_checksum != 0) return checksum(footer);
   std::vector<std::byte> summary;
   const auto append = [&](std::span<const std::byte> bytes) {
     summary.insert(summary.end(), bytes.begin(), bytes.end());
   };
   for (const IndexEntry& entry : index_) append(file.subspan(entry.offset, sizeof(BlockHeader)));
-  append(file.last(sizeof(Footer)));
+  append(footer);
   return checksum(summary);
 }
 

@@ -63,8 +63,9 @@ class Reader final : public CaptureSource {
 
   [[nodiscard]] const Header& header() const { return header_; }
   [[nodiscard]] std::span<const IndexEntry> index() const { return index_; }
-  // XXH3-64 of all block headers, one behind the other, and the footer. They hold the checksums of everything else,
-  // so this tells any two captures apart and reads next to nothing. Damaged blocks are not noticed.
+  // XXH3-64 of the footer, which holds that of all block headers, which hold those of everything else: so this tells
+  // any two captures apart and reads 128 bytes. Of a file of an earlier program, whose footer lacks it, that of all
+  // block headers, one behind the other, and the footer. Damaged blocks are not noticed.
   [[nodiscard]] std::uint64_t content_checksum() const;
   [[nodiscard]] std::uint64_t file_bytes() const { return file_.bytes().size(); }
 

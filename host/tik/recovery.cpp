@@ -37,6 +37,7 @@ Recovery recover(const std::filesystem::path& damaged, const std::filesystem::pa
   }
   Recovery recovery;
   std::vector<IndexEntry> index;
+  Checksum headers;
   std::vector<Exposure> exposures;
   std::uint64_t offset = parsed.first_block_offset;
   const std::uint64_t front_checksum = checksum(file.first(std::min<std::uint64_t>(offset, file.size())));
@@ -58,6 +59,7 @@ Recovery recover(const std::filesystem::path& damaged, const std::filesystem::pa
     exposures.insert(exposures.end(), block_exposures.begin(), block_exposures.end());
     index.push_back({offset, header.first_sample, header.sample_count, header.codec, header.stored_bytes,
                      header.payload_bytes, header.record_count});
+    headers.add(file.subspan(offset, sizeof header));
     recovery.sample_count += header.sample_count;
     ++recovery.block_count;
     offset = align_up(payload + header.stored_bytes, kAlignment);
@@ -72,7 +74,7 @@ Recovery recover(const std::filesystem::path& damaged, const std::filesystem::pa
   const Timeline timeline = timeline_of(parsed.header, recovery.sample_count, exposures, {}, name);
   OutputFile out(whole);
   out.write(file.first(kept));
-  finish_file(out, index, timeline);
+  finish_file(out, index, headers.value(), timeline);
   return recovery;
 }
 

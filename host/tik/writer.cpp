@@ -8,7 +8,6 @@
 
 #include "capture/error.hpp"
 #include "imev/payload_parts.hpp"
-#include "system/checksum.hpp"
 
 namespace nutik::tik {
 namespace {
@@ -125,6 +124,7 @@ void Writer::append(BlockHeader header, std::span<const std::span<const std::byt
   pad(file_);
   header.header_checksum = checksum_of(header, offsetof(BlockHeader, header_checksum));
   file_.replace(offset, bytes_of(header));
+  headers_.add(bytes_of(header));
   sample_count_ += header.sample_count;
 }
 
@@ -155,10 +155,11 @@ void Writer::finish(const Timeline& timeline) {
   if (timeline.sample_count() != sample_count_ || timeline.is_constant() != header_.rate.has_value()) {
     throw std::logic_error("a .tik file was finished with another timeline");
   }
-  finish_file(file_, index_, timeline);
+  finish_file(file_, index_, headers_.value(), timeline);
 }
 
-void finish_file(OutputFile& file, std::span<const IndexEntry> index, const Timeline& timeline) {
+void finish_file(OutputFile& file, std::span<const IndexEntry> index, std::uint64_t headers_checksum,
+                 const Timeline& timeline) {
   pad(file);  // a file that was cut off right behind a payload lacks its padding
   Footer footer{};
   footer.sample_count = timeline.sample_count();
@@ -166,6 +167,7 @@ void finish_file(OutputFile& file, std::span<const IndexEntry> index, const Time
   footer.duration_ns = timeline.duration_ns();
   footer.index_offset = file.size();
   footer.index_checksum = checksum(std::as_bytes(index));
+  footer.headers_checksum = headers_checksum;
   file.write(std::as_bytes(index));
   pad(file);
   if (!timeline.is_constant()) {

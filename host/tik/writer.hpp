@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "imev/block.hpp"
+#include "system/checksum.hpp"
 #include "system/output_file.hpp"
 #include "tik/codec.hpp"
 #include "tik/format.hpp"
@@ -64,11 +65,14 @@ class Writer {
   Codec codec_;
   std::uint32_t max_threads_;  // that pack
   std::vector<IndexEntry> index_;
+  Checksum headers_;  // of all block headers so far
   std::uint64_t front_checksum_ = 0;  // of what stands before the first block
   std::uint64_t sample_count_ = 0;
 };
 
 // Writes what comes after the blocks (index, exposures, footer) and gives the file its name.
-void finish_file(OutputFile& file, std::span<const IndexEntry> index, const Timeline& timeline);
+// `headers_checksum` is that of all block headers, one behind the other.
+void finish_file(OutputFile& file, std::span<const IndexEntry> index, std::uint64_t headers_checksum,
+                 const Timeline& timeline);
 
 }  // namespace nutik::tik

@@ -14,6 +14,8 @@
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
+#include "system/checksum.hpp"
+#include "tik/block_headers.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik::tik {
@@ -36,6 +38,27 @@ TEST(TikFile, IsKnownAgainByItsContent) {
   EXPECT_NE(Reader(write_tik(random, Codec::parse("none"), other)).content_checksum(), checksum);
   random.timeline = Timeline::constant({7, 1}, {180, 1}, random.timeline.sample_count());
   EXPECT_NE(Reader(write_tik(random, Codec::parse("none"), other)).content_checksum(), checksum);
+}
+
+// An hour of a large clip has hundreds of thousands of blocks, maybe on another machine.
+TEST(TikFile, IsKnownWithoutALookAtItsBlocks) {
+  const Scratch scratch;
+  const RandomCase random(3);
+  const auto path = write_tik(random, Codec::parse("none"), scratch);
+  const std::uint64_t checksum = Reader(path).content_checksum();
+  std::string bytes = test::read_file(path);
+  const std::uint64_t last_header = Reader(path).index().back().offset;
+  bytes[last_header + offsetof(BlockHeader, payload_checksum)] ^= 1;
+  EXPECT_EQ(Reader(scratch.write("damaged.tik", bytes)).content_checksum(), checksum);
+
+  // Files of earlier programs have no such sum in the footer: there all headers are read.
+  auto footer = load<Footer>(std::as_bytes(std::span(bytes)), bytes.size() - sizeof(Footer));
+  footer.headers_checksum = 0;
+  footer.checksum = checksum_of(footer, offsetof(Footer, checksum));
+  std::memcpy(bytes.data() + bytes.size() - sizeof footer, &footer, sizeof footer);
+  const std::uint64_t damaged = Reader(scratch.write("earlier.tik", bytes)).content_checksum();
+  bytes[last_header + offsetof(BlockHeader, payload_checksum)] ^= 1;
+  EXPECT_NE(Reader(scratch.write("earlier.tik", bytes)).content_checksum(), damaged);
 }
 
 TEST(TikFile, CarriesTheNoiseItWasEncodedWith) {

@@ -24,6 +24,7 @@ extern "C" {
 #include <new>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -91,6 +92,27 @@ template <typename Enumeration>
   return number;
 }
 
+// Memory is counted for pictures of the size that the container tells; a decoder that finds a larger one in its own data
+// makes room for that. The limit is rough, since decoders round up to blocks and hold other buffers to it, too: those of
+// MPEG-4 have 280 rows, whatever the picture has. Nothing where the container tells of no size.
+inline std::optional<std::int64_t> most_pixels(const AVCodecParameters& told) {
+  if (told.width <= 0 || told.height <= 0) return {};
+  return (2 * std::int64_t{told.width} + 256) * (std::int64_t{told.height} + 320);
+}
+
+// Of each stream what is not known before some of its pictures are decoded. Returns FFmpeg's error code.
+inline int find_stream_info(AVFormatContext& context) {
+  std::vector<AVDictionary*> settings(context.nb_streams);
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (const auto limit = most_pixels(*context.streams[i]->codecpar)) {
+      av_dict_set_int(&settings[i], "max_pixels", *limit, 0);
+    }
+  }
+  const int code = avformat_find_stream_info(&context, settings.empty() ? nullptr : settings.data());
+  for (AVDictionary*& each : settings) av_dict_free(&each);
+  return code;
+}
+
 // An opened file and the index of its picture stream.
 struct OpenedVideo {
   FormatPointer format;
@@ -122,7 +144,7 @@ inline OpenedVideo open_video(const std::filesystem::path& path, const std::opti
         {Setting::raw_layout});
   }
   OpenedVideo opened{FormatPointer(context), 0};
-  code = avformat_find_stream_info(context, nullptr);
+  code = find_stream_info(*context);
   if (code >= 0) code = av_find_best_stream(context, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (code < 0) throw InputError(format("{} has no video stream", input_title(path.string())));
   opened.stream = code;

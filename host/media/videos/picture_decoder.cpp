@@ -24,12 +24,7 @@ PictureDecoder::PictureDecoder(OpenedVideo opened, std::string name, Wanted want
   damage_->listen_to(*codec_);
   holes_->listen_to(*opened_.format);
   const int code = avcodec_parameters_to_context(codec_.get(), &parameters);
-  // Memory is counted for pictures of the size that the container tells; a decoder that finds a larger one in its own
-  // data makes room for that. The limit is rough, since decoders round up to blocks and hold other buffers to it, too:
-  // those of MPEG-4 have 280 rows, whatever the picture has.
-  if (parameters.width > 0 && parameters.height > 0) {
-    codec_->max_pixels = (2 * std::int64_t{parameters.width} + 256) * (std::int64_t{parameters.height} + 320);
-  }
+  codec_->max_pixels = most_pixels(parameters).value_or(codec_->max_pixels);
   // Some files give the depth of what the table makes of them.
   if (is_phantom_packed(parameters)) codec_->bits_per_coded_sample = kPhantomPackedBits;
   if (code < 0 || avcodec_open2(codec_.get(), decoder, nullptr) < 0) {
