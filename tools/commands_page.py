@@ -21,7 +21,7 @@ FURTHER = {
     "check": "../how-to/check-a-picture.md#checking-before-exposing", "contact": "../how-to/find-the-moment.md",
     "devices": "environment.md#devices", "info": "input.md#colour-shape-and-rate", "encode": "input.md", "expose": "picture.md", "mask": "masks.md",
     "noise": "../how-to/reduce-noise.md", "plate": "../how-to/plate.md", "recover": "tik-format.md#damage",
-    "retime": "input.md#colour-shape-and-rate", "shutter": "shutters.md", "solve": "../how-to/solve.md",
+    "join": "../how-to/farm.md#encoding-in-parts", "retime": "input.md#colour-shape-and-rate", "shutter": "shutters.md", "solve": "../how-to/solve.md",
     "study": "../how-to/study.md", "sweep": "../how-to/find-the-moment.md", "thumbnail": "../how-to/install.md#file-managers", "completion": "environment.md#shells",
     "trace": "../how-to/check-a-picture.md#following-a-pixel", "man": "environment.md#shells",
     "validate": "../how-to/check-a-picture.md#how-right-a-picture-is", "video": "../how-to/video.md",

@@ -46,6 +46,7 @@ class DescribedClip final : public Clip {
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
   bool read(std::span<std::byte> raster) override { return clip_->read(raster); }
+  bool skip(std::span<std::byte> room) override { return clip_->skip(room); }
 
  private:
   std::unique_ptr<Clip> clip_;
@@ -61,9 +62,27 @@ class PerhapsDamaged final : public Clip {
   [[nodiscard]] const ClipInfo& info() const override { return clip_->info(); }
 
   bool read(std::span<std::byte> raster) override {
+    return take([&] { return clip_->read(raster); });
+  }
+  bool skip(std::span<std::byte> room) override {
+    return take([&] { return clip_->skip(room); });
+  }
+
+  [[nodiscard]] bool tells_changes() const override { return clip_->tells_changes(); }
+  [[nodiscard]] bool makes_codes() const override { return clip_->makes_codes(); }
+  std::optional<std::span<const PixelChange>> read_changes() override { return clip_->read_changes(); }
+
+  [[nodiscard]] std::optional<std::string> ended_early() const override {
+    return has_ended_ ? std::optional(reason_) : std::nullopt;
+  }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
+
+ private:
+  template <typename Take>
+  bool take(Take take_next) {
     if (has_ended_) return false;
     try {
-      if (!clip_->read(raster)) return false;
+      if (!take_next()) return false;
       ++samples_read_;
       return true;
     } catch (const InputError& error) {
@@ -81,16 +100,6 @@ class PerhapsDamaged final : public Clip {
     }
   }
 
-  [[nodiscard]] bool tells_changes() const override { return clip_->tells_changes(); }
-  [[nodiscard]] bool makes_codes() const override { return clip_->makes_codes(); }
-  std::optional<std::span<const PixelChange>> read_changes() override { return clip_->read_changes(); }
-
-  [[nodiscard]] std::optional<std::string> ended_early() const override {
-    return has_ended_ ? std::optional(reason_) : std::nullopt;
-  }
-  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
-
- private:
   std::unique_ptr<Clip> clip_;
   std::string name_;
   bool ends_at_damage_;
@@ -322,9 +331,15 @@ Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOp
       return Timeline::explicit_exposures(
           {exposures.begin(), exposures.begin() + static_cast<std::ptrdiff_t>(sample_count)});
     }
-    return Timeline::irregular({info.timing.starts_ns.begin(),
-                                info.timing.starts_ns.begin() + static_cast<std::ptrdiff_t>(sample_count)},
-                               shutter_angle);
+    // Where the picture behind the last one begins, it does not have to be guessed how long the last one holds.
+    const std::vector<std::int64_t>& starts = info.timing.starts_ns;
+    const bool is_next_known = starts.size() > sample_count && sample_count > 0;
+    Timeline timeline = Timeline::irregular(
+        {starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(sample_count + (is_next_known ? 1 : 0))},
+        shutter_angle);
+    if (!is_next_known) return timeline;
+    const auto samples = timeline.table().first(sample_count);
+    return Timeline::stored({samples.begin(), samples.end()}, timeline.start_ns(sample_count), shutter_angle);
   } catch (const InputError& error) {
     throw InputError(format("{}: {}", name, error.what()), error.settings());
   }

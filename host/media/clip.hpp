@@ -13,6 +13,7 @@
 
 #include "capture/error.hpp"
 #include "capture/fact.hpp"
+#include "capture/part_of_clip.hpp"
 #include "capture/picture.hpp"
 #include "capture/pixel_change.hpp"
 #include "capture/timeline.hpp"
@@ -24,7 +25,8 @@ namespace nutik {
 // exposure. One of them, or none.
 struct ClipTiming {
   std::optional<Rational> rate;         // samples a second
-  std::vector<std::int64_t> starts_ns;  // where the rate is not constant
+  // Where the rate is not constant; of a part of a clip also that of the picture behind it.
+  std::vector<std::int64_t> starts_ns;
   std::vector<Exposure> exposures;      // in order, without overlaps
   // Of each sample, beside rate or starts, where the camera wrote it down.
   std::optional<std::int64_t> exposed_ns;
@@ -41,6 +43,7 @@ struct ClipInfo {
   std::uint64_t decoder_bytes = 0;  // of the pictures that its decoder holds, about
   std::vector<Note> notes;
   std::vector<Fact> facts;  // what samples are taken for, each with who said it
+  std::optional<PartOfClip> part = std::nullopt;  // which pictures these are, if not all of a clip's
 };
 
 // How YUV becomes RGB, which codes stand for black and white, and where samples of chroma lie that pixels share, among
@@ -126,6 +129,9 @@ class Clip {
   // Reads the next sample into `raster`, of info().format.sample_bytes(). Returns false at the end.
   // Throws InputError where a sample is damaged or of another size than the first.
   virtual bool read(std::span<std::byte> raster) = 0;
+
+  // Passes over the next sample, as read() reads it; `room` is as large. Returns false at the end.
+  virtual bool skip(std::span<std::byte> room) { return read(room); }
 
   // After it has ended, why that came before its files' end: ClipOptions::ends_at_damage.
   [[nodiscard]] virtual std::optional<std::string> ended_early() const { return std::nullopt; }

@@ -47,6 +47,13 @@ class Starts {
     return round_half_up(static_cast<int128>(sample) * rate.denominator * kSecondNs, rate.numerator);
   }
 
+  // The same of the first of a part. Throws UsageError where it is later than a capture can last.
+  [[nodiscard]] std::int64_t of_part(std::uint64_t first) const {
+    if (timeline_.is_constant())
+      static_cast<void>(Timeline::constant(timeline_.rate(), Timeline::kFullShutter, first + 1));
+    return of(first);
+  }
+
   // The first that begins at or after that time; as many as there are where none does.
   [[nodiscard]] std::uint64_t first_from(std::int64_t time_ns) const {
     std::uint64_t first = 0, end = count_;
@@ -84,6 +91,12 @@ void keep(std::vector<Value>& values, std::uint64_t first, std::uint64_t end) {
                values.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(first, values.size())));
 }
 
+// A clip's name without folders: machines of a farm may have it in different ones.
+std::string file_name(const std::string& title) {
+  const std::filesystem::path path = std::filesystem::path(title).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
 class ClipPart final : public Clip {
  public:
   ClipPart(std::unique_ptr<Clip> clip, const std::filesystem::path& path, const ClipOptions& options)
@@ -104,7 +117,7 @@ class ClipPart final : public Clip {
   bool read(std::span<std::byte> raster) override {
     const bool is_whole = raster_.empty();
     const std::span<std::byte> picture = is_whole ? raster : std::span(raster_);
-    if (next_ < first_) skip(picture);
+    if (next_ < first_) skip_to_part(picture);
     if (next_ >= end_ || !clip_->read(picture)) return false;
     ++next_;
     if (is_whole) return true;
@@ -150,10 +163,9 @@ class ClipPart final : public Clip {
   [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
 
  private:
-  // Pictures before the part are decoded, for the others may refer to them.
-  void skip(std::span<std::byte> raster) {
+  void skip_to_part(std::span<std::byte> raster) {
     for (; next_ < first_; ++next_) {
-      if (clip_->tells_changes() ? clip_->read_changes().has_value() : clip_->read(raster)) continue;
+      if (clip_->tells_changes() ? clip_->read_changes().has_value() : clip_->skip(raster)) continue;
       next_ = end_ = first_;
       return;
     }
@@ -178,17 +190,27 @@ class ClipPart final : public Clip {
       throw UsageError(format("picture {} is not in {}{}", end_, name_, pictures), {Setting::to});
     }
     if (count > 0) end_ = std::min(end_, count);
-    keep(info_.timing.starts_ns, first_, end_);
-    keep(info_.timing.exposures, first_, end_);
+    info_.part = PartOfClip{first_, 0, count, file_name(name_)};
+    if (first_ > 0 && (options.rate || info.timing.is_known()))
+      info_.part->start_ns = Starts(name_, info, options).of_part(first_);
+    keep_times();
     if (count > 0) info_.sample_count = end_ - first_;
-    std::string text =
-        format("pictures {} … {}", first_, end_ == kMaxSamples ? "" : std::to_string(end_ - 1));
-    if (count > 0) text += format(" of {}", count);
-    if (first_ > 0 && (options.rate || info.timing.is_known())) {
-      text += format(", whose time 0 is {:.6g} s after the clip's",
-                     static_cast<double>(Starts(name_, info, options).of(first_)) / kSecondNs);
+    info_.facts.push_back({info_.part->text(end_ == kMaxSamples ? std::nullopt : std::optional(end_)),
+                           Origin::stated, options.from ? Setting::from : Setting::to});
+  }
+
+  // Each picture is exposed, and holds, for as long as it does in the clip.
+  void keep_times() {
+    ClipTiming& timing = info_.timing;
+    const std::vector<std::int64_t>& starts = timing.starts_ns;
+    // The clip's last one holds as long as the one before it.
+    if (const std::size_t count = starts.size(); first_ + 1 == count && count > 1 && !timing.exposed_ns) {
+      const int128 next = int128{2} * starts[count - 1] - starts[count - 2];
+      if (next > starts[count - 1] && next <= INT64_MAX)
+        timing.starts_ns.push_back(static_cast<std::int64_t>(next));
     }
-    info_.facts.push_back({std::move(text), Origin::stated, options.from ? Setting::from : Setting::to});
+    keep(timing.starts_ns, first_, end_ + 1);
+    keep(timing.exposures, first_, end_);
   }
 
   void crop(const Rectangle& wanted) {

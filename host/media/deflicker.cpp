@@ -83,7 +83,7 @@ class DeflickeredClip final : public Clip {
  public:
   explicit DeflickeredClip(std::unique_ptr<Clip> clip)
       : clip_(std::move(clip)), info_(clip_->info()), blocks_(info_.format) {
-    info_.facts.push_back({"exposed as its first picture", Origin::stated, Setting::deflicker});
+    info_.facts.push_back({std::string(kDeflickered), Origin::stated, Setting::deflicker});
     const CaptureFormat& format = info_.format;
     shifts_.resize(format.shape.channels);
     tables_.resize(format.shape.channels);

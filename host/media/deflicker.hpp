@@ -11,10 +11,14 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "media/clip.hpp"
 
 namespace nutik {
+
+// What it says of itself among a clip's facts.
+inline constexpr std::string_view kDeflickered = "exposed as its first picture";
 
 // How far codes of one picture lie from those of another for the same things: by codes, linear between knots.
 class CodeShift {

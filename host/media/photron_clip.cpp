@@ -182,6 +182,12 @@ class PhotronClip final : public Clip {
     return true;
   }
 
+  bool skip(std::span<std::byte> /*room*/) override {
+    if (next_ == count_) return false;
+    ++next_;
+    return true;
+  }
+
  private:
   [[nodiscard]] std::string described() const {
     return format("{} x {} pixels of {} bits", layout_.shape.width, layout_.shape.height,

@@ -26,9 +26,9 @@ constexpr std::size_t kLongestHeader = 65'536;
 
 // Tags of fields. `rice` stands where blocks may be packed with that codec, which earlier programs do not know. Those that are not written yet have a name, so that nobody takes it for something else.
 constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = "fact", kAligned = "algn",
-                           kMeans = "mean", kRice = "rice";
-constexpr std::array<std::string_view, 6> kKnownFields{kPixelAspect, kPrimaries, kFacts,
-                                                       kAligned,     kMeans,     kRice};
+                           kMeans = "mean", kRice = "rice", kPart = "part";
+constexpr std::array<std::string_view, 7> kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned,
+                                                       kMeans,       kRice,      kPart};
 
 bool is_netpbm(std::string_view text) {
   return text.size() > 2 && text[0] == 'P' && text[1] >= '1' && text[1] <= '7' &&
@@ -193,28 +193,60 @@ std::string text_of(const Alignment& alignment) {
                 alignment.residual_pixels);
 }
 
-Alignment parse_alignment(std::string_view text) {
-  const auto word = [&] {
-    const std::size_t end = text.find(' ');
-    const std::string_view first = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+// Takes words off the front of a text.
+class Words {
+ public:
+  Words(std::string_view text, const char* subject) : rest_(text), subject_(subject) {}
+
+  std::string_view next() {
+    const std::size_t end = rest_.find(' ');
+    const std::string_view first = rest_.substr(0, end);
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
     return first;
-  };
-  const auto number = [&](auto& value) {
-    const std::string_view digits = word();
+  }
+  template <typename Value>
+  void take(Value& value) {
+    const std::string_view digits = next();
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc() || end != digits.data() + digits.size()) {
-      throw UsageError("what it says of its alignment is damaged");
-    }
-  };
+    if (error != std::errc() || end != digits.data() + digits.size()) fail();
+  }
+  [[nodiscard]] std::string_view rest() const { return rest_; }
+  [[noreturn]] void fail() const { throw UsageError(format("what it says of its {} is damaged", subject_)); }
+
+ private:
+  std::string_view rest_;
+  const char* subject_;
+};
+
+Alignment parse_alignment(std::string_view text) {
+  Words words(text, "alignment");
   Alignment alignment;
-  alignment.motion = printable(word());
-  number(alignment.reference);
-  alignment.holds_unseen = word() == kHeld;
-  number(alignment.moved_pixels);
-  number(alignment.turned_degrees);
-  number(alignment.residual_pixels);
+  alignment.motion = printable(words.next());
+  words.take(alignment.reference);
+  alignment.holds_unseen = words.next() == kHeld;
+  words.take(alignment.moved_pixels);
+  words.take(alignment.turned_degrees);
+  words.take(alignment.residual_pixels);
   return alignment;
+}
+
+// `2 20000000 6 street.mov`
+std::string text_of(const PartOfClip& part) {
+  return format("{} {} {} {}", part.first, part.start_ns, part.pictures, part.clip);
+}
+
+PartOfClip parse_part(std::string_view text) {
+  constexpr std::uint64_t kMax = std::uint64_t{1} << 62;  // so that pictures and times can be added
+  Words words(text, "place in a clip");
+  PartOfClip part;
+  words.take(part.first);
+  std::uint64_t start_ns = 0;
+  words.take(start_ns);
+  words.take(part.pictures);
+  part.clip = printable(words.rest());
+  if (part.first > kMax || start_ns > kMax) words.fail();
+  part.start_ns = static_cast<std::int64_t>(start_ns);
+  return part;
 }
 
 // Throws UsageError where a value is none.
@@ -232,6 +264,8 @@ void take_fields(std::span<const Field> fields, Header& header) {
       header.alignment = parse_alignment(field.data);
     } else if (field.tag == kMeans) {
       header.is_scaled = true;
+    } else if (field.tag == kPart) {
+      header.part = parse_part(field.data);
     } else if (field.tag == kFacts) {
       for (std::size_t at = 0; at < field.data.size();) {
         const std::size_t end = std::min(field.data.find('\n', at), field.data.size());
@@ -292,6 +326,7 @@ std::vector<Field> Header::fields() const {
   if (alignment) fields.push_back({std::string(kAligned), false, text_of(*alignment)});
   if (is_scaled) fields.push_back({std::string(kMeans), false, "scaled"});
   if (codec == kRice) fields.push_back({std::string(kRice), true, "1"});
+  if (part) fields.push_back({std::string(kPart), false, text_of(*part)});
   return fields;
 }
 

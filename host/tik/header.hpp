@@ -31,6 +31,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/part_of_clip.hpp"
 #include "capture/picture.hpp"
 #include "capture/timeline.hpp"
 #include "tik/fields.hpp"
@@ -60,6 +61,7 @@ struct Header {
   std::vector<std::string> facts;
   std::optional<Alignment> alignment = std::nullopt;
   bool is_scaled = false;  // codes are means of the light of a clip's smaller pixels
+  std::optional<PartOfClip> part = std::nullopt;  // where samples are not all of a clip's pictures
 
   // The header as text, up to and including the line end before the raster.
   [[nodiscard]] std::string text() const;

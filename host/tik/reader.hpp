@@ -54,6 +54,8 @@ class Reader final : public CaptureSource {
     std::span<const std::byte> payload;
   };
   [[nodiscard]] StoredBlock stored(std::uint64_t block) const;
+  // Its payload is not looked at again soon: a capture may be larger than memory.
+  void release(const StoredBlock& block) const { file_.release(block.payload); }
   // The raster of the picture at the front.
   [[nodiscard]] std::span<const std::byte> first_sample() const;
 

@@ -89,6 +89,8 @@ def make_scene(folder, program):
         subprocess.run([program, "-q", *words], cwd=folder, check=True)
 
     run("-f", str(RATE), "clip.mp4", "clip.tik")
+    for number, (first, end) in enumerate(((0, 16), (16, 48), (48, COUNT)), 1):
+        run("encode", "-f", str(RATE), "--from", f"{first}f", "--to", f"{end}f", "clip.mp4", f"part-{number}.tik")
     run("noise", "still-scene.mp4", "-o", "camera.noise")
     run("--start", "0s", "--exposure", "10ms", "clip.tik", "picture.png")
     (folder / "captures").mkdir()

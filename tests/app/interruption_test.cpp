@@ -114,6 +114,23 @@ TEST_F(Interruption, RemovesACaptureThatIsNotWhole) {
   }
 }
 
+TEST_F(Interruption, RemovesAJoinedCaptureThatIsNotWhole) {
+  // As if it were files that follow each other: none says where in a clip it lies.
+  std::ofstream(scratch_ / "short.raw").close();
+  fs::resize_file(scratch_ / "short.raw", 256 * 256 * 8);
+  const auto made = test::run_program(
+      {"--raw", "256x256:gray", "-f", "1000", "--codec", "none", "short.raw", "c.tik"}, scratch_.folder());
+  ASSERT_EQ(made.status, 0) << made.err;
+  std::vector<std::string> words{"join"};
+  words.insert(words.end(), 30'000, "c.tik");
+  words.insert(words.end(), {"-o", "j.tik"});
+  Running running(words, scratch_.folder());
+  ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); }))
+      << test::read_file(scratch_ / "log");
+  EXPECT_EQ(running.end_with(SIGTERM), 128 + SIGTERM);
+  EXPECT_TRUE(files_with(scratch_.folder(), "j.tik").empty());
+}
+
 TEST_F(Interruption, EndsAnExposureOfAClip) {
   make_long_clip();
   Running running(

@@ -1,4 +1,4 @@
-// Tiny files that state a huge size are refused before memory is taken for it.
+// Tiny files that state a huge size are refused before memory is taken for it; large ones are not held whole.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -68,6 +68,20 @@ TEST_F(Ceilings, OfCaptures) {
       expect_cheaply_refused(words, "d.tik: it was cut off or is damaged: it states ");
     }
   }
+}
+
+// Blocks of 16 MB are copied one at a time, from captures of 210 MB.
+TEST_F(Ceilings, OfJoining) {
+  scratch_.write("black.raw", "");
+  std::filesystem::resize_file(scratch_ / "black.raw", 512 * 512 * 800);
+  ASSERT_EQ(run({"encode", "-q", "-f", "100", "--codec", "none", "--tiles", "dense", "--raw", "512x512:gray", "black.raw",
+                 "c.tik"})
+                .status,
+            0);
+  const auto joined = run({"join", "-q", "c.tik", "c.tik", "-o", "j.tik"});
+  EXPECT_EQ(joined.status, 0) << joined.err;
+  EXPECT_GT(std::filesystem::file_size(scratch_ / "j.tik"), 419'000'000U);
+  EXPECT_LT(peak_mb(), 150);
 }
 
 }  // namespace

@@ -56,6 +56,7 @@ COMMANDS = {
     "activity": ("activity clip.tik {}", "new.png"),
     "trace": ("trace --start 10ms --exposure 80ms --pixel 20,20 clip.tik {}", "new.csv"),
     "recover": ("recover cut.tik {}", "new.tik"),
+    "join": ("join clip.tik packed.tik -o {}", "new.tik"),
     "thumbnail": ("thumbnail clip.tik {}", "new.png"),
     "noise": ("noise clip/*.pgm -o {}", "new.noise"),
 }

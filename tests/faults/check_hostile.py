@@ -89,6 +89,7 @@ LINES = (
     Line("recover cut.tik o.tik"),
     Line("thumbnail dense.tik o.png", 2 * BLOCK_MB),
     Line("retime -f 20 dense.tik o.tik"),
+    Line("join dense.tik dense.tik -o o.tik"),
     Line("again text.png", 0, (3,)),
     Line("encode full.raw o.tik", EVENTS_MB),
     Line("encode --memory 100MB full.raw o.tik", 0, (2,)),

@@ -5,6 +5,7 @@
 
 #include "capture/error.hpp"
 #include "support/clips.hpp"
+#include "support/ffmpeg.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
@@ -222,6 +223,52 @@ TEST(ClipPart, KeepsWhenItsPicturesWereExposed) {
   EXPECT_EQ(timeline.end_ns(1), 40);
   ASSERT_FALSE(clip->info().facts.empty());
   EXPECT_EQ(clip->info().facts.back().text, "pictures 1 … 2 of 4, whose time 0 is 1e-08 s after the clip's");
+}
+
+// A part's last picture holds until the clip's next one; the clip's last as long as the one before it.
+TEST(ClipPart, HoldsItsPicturesAsLongAsTheClip) {
+  const Scratch scratch;
+  write_stills(scratch, test::random_stills({4, 3, 1}, 255, 4, 1));
+  const auto table = scratch.write("t.csv", "f0.pgm,0,\nf1.pgm,10,\nf2.pgm,30,\nf3.pgm,70,\n");
+  const std::int64_t starts[] = {0, 10, 30, 70, 110};
+  for (std::uint64_t first = 0; first < 4; ++first) {
+    for (std::uint64_t end = first + 1; end <= 4; ++end) {
+      ClipOptions options;
+      options.from = ClipMoment{static_cast<std::int64_t>(first), true};
+      options.to = ClipMoment{static_cast<std::int64_t>(end), true};
+      const auto clip = open_test_clip(table, options);
+      EXPECT_EQ(clip->info().part, (PartOfClip{first, starts[first], 4, "t.csv"}));
+      const Timeline timeline = timeline_of("", clip->info(), options, {180, 1}, end - first);
+      ASSERT_EQ(timeline.sample_count(), end - first);
+      EXPECT_EQ(timeline.duration_ns(), starts[end] - starts[first]);
+      for (std::uint64_t k = first; k < end; ++k) {
+        EXPECT_EQ(timeline.start_ns(k - first), starts[k] - starts[first]);
+        EXPECT_EQ(timeline.end_ns(k - first), (starts[k] + starts[k + 1]) / 2 - starts[first]);
+      }
+    }
+  }
+}
+
+// Pictures before a part are not decoded where no others are made of them.
+TEST(ClipPart, OfAVideoHasTheSamePictures) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  for (const char* coding :
+       {"-c:v mjpeg -pix_fmt yuvj420p a.avi", "-c:v prores a.mov", "-c:v rawvideo -pix_fmt yuv420p a.avi", "-pix_fmt yuv420p a.y4m",
+        "-c:v huffyuv a.mkv", "-c:v ffv1 a.mkv", "-c:v mpeg4 -bf 2 a.mp4", "-c:v mjpeg -pix_fmt yuvj420p -ss 0.1 a.mov"}) {
+    SCOPED_TRACE(coding);
+    test::make(scratch, std::string("-f lavfi -i testsrc2=size=32x24:rate=25 -frames:v 9 ") + coding);
+    const std::string name = std::string(coding).substr(std::string(coding).rfind(' ') + 1);
+    const auto whole = read_all(*open_test_clip(scratch / name));
+    for (std::size_t first = 0; first < whole.size(); first += 3) {
+      ClipOptions options;
+      options.from = ClipMoment{static_cast<std::int64_t>(first), true};
+      options.to = ClipMoment{static_cast<std::int64_t>(first + 2), true};
+      const auto part = read_all(*open_test_clip(scratch / name, options));
+      ASSERT_EQ(part.size(), std::min<std::size_t>(2, whole.size() - first));
+      for (std::size_t k = 0; k < part.size(); ++k) EXPECT_TRUE(part[k] == whole[first + k]) << first + k;
+    }
+  }
 }
 
 TEST(ClipPart, IsRefusedWhereTheClipHasNone) {

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Films a clip by the job files of tools/farm, and compares the film with the one that is made in one go.
+"""Films a clip by the job files of tools/farm, and compares the film with the one that is made in one go; encodes it in
+parts by the lines of docs/how-to/farm.md, and compares what the joined capture exposes to.
 
     check_farm.py --program nutik-cl --farm tools/farm --work FOLDER --only slurm|parallel|flamenco|deadline
 
@@ -68,6 +69,30 @@ class Scene:
                     f"{len(film)} frames of {FRAMES}, and {len(other)} of them not those of the film in one go")
         left = [path.name for path in (self.folder / "film").iterdir() if path.suffix != ".png"]
         report.hold(not left, f"files that are no frames: {left}")
+
+
+def lines_of_page(farm, command, *more):
+    """Those of the page that run `command` and have these words."""
+    page = (farm.parent.parent / "docs/how-to/farm.md").read_text()
+    lines = [line.strip() for line in page.splitlines() if line.startswith("    ")]
+    return [line for line in lines if command in line and all(word in line for word in more)]
+
+
+def replaced(line, report, *pairs):
+    for shown, here in pairs:
+        report.hold(shown in line, f"the page's line has {shown!r}")
+        line = line.replace(shown, here)
+    return line
+
+
+def compare_capture(scene, report):
+    """Of hour.tik, which was joined of parts of a second, with the capture that was encoded in one go."""
+    expose = "nutik-cl -q --precision fixed --no-recipe --start 0.5s --exposure 1s".split()
+    for capture, picture in ("clip.tik", "one.png"), ("hour.tik", "parts.png"):
+        run(*expose, capture, picture, cwd=scene.folder, env=scene.environment)
+    one, parts = ((scene.folder / name).read_bytes() for name in ("one.png", "parts.png"))
+    report.hold(len(list(scene.folder.glob("part-*.tik"))) == 2 and one == parts,
+                "two parts, and the capture joined of them exposes to the same")
 
 
 class Cluster:
@@ -235,6 +260,8 @@ def check_slurm(scene, farm, report):
                     f"task {task} came back and made what was missing:\n{log}")
         scene.compare(report)
 
+        check_encoding_by_slurm(scene, farm, report, slurm)
+
         # A setting that no other run mends fails at once; a device that is not there, after three more tries.
         for words, setting, exit_code, restarts in ((["--out-angle", "0"], {}, 2, 0),
                                                     ([], {"OCL_ICD_VENDORS": "/nowhere"}, 4, 3)):
@@ -246,6 +273,16 @@ def check_slurm(scene, farm, report):
                         f"exit status {exit_code} after {restarts} restarts")
 
 
+def check_encoding_by_slurm(scene, farm, report, slurm):
+    encode, = lines_of_page(farm, "nutik-cl encode", "sbatch")
+    join, = lines_of_page(farm, "nutik-cl join", "sbatch")
+    encode = replaced(encode, report, ("0-56", "0-1"), ("SLURM_ARRAY_TASK_ID * 64", "SLURM_ARRAY_TASK_ID * 1"),
+                      ("+ 64", "+ 1"), ("hour.mov", "clip.mkv"))
+    run("bash", "-c", f"{encode}; {join}", cwd=scene.folder, env=slurm.environment, capture_output=True)
+    wait_for(lambda: not slurm.ask("squeue", "-h"), "end of the encoding")
+    compare_capture(scene, report)
+
+
 def ended(slurm, job):
     state = slurm.ask("scontrol", "show", "job", job, "-o")
     return state if "JobState=FAILED" in state or "JobState=COMPLETED" in state else None
@@ -253,17 +290,17 @@ def ended(slurm, job):
 
 def check_parallel(scene, farm, report):
     need("parallel")
-    page = (farm.parent.parent / "docs/how-to/farm.md").read_text()
-    lines = [line.strip() for line in page.splitlines() if "| parallel" in line]
-    report.hold(len(lines) == 1, "the page has one line of GNU parallel")
-    line = lines[0]
-    for shown, here in (("seq 0 100 86399", f"seq 0 {CHUNK} {FRAMES - 1}"), ("+ 99", f"+ {CHUNK - 1}"),
-                        ("--out-fps 24 hour.tik", " ".join(FILM))):
-        report.hold(shown in line, f"the page's line has {shown!r}")
-        line = line.replace(shown, here)
+    film, encoding = (lines_of_page(farm, command, "| parallel") for command in ("nutik-cl video", "nutik-cl encode"))
+    report.hold(len(film) == len(encoding) == 1, "the page has a line of GNU parallel for each of both")
+    line = replaced(film[0], report, ("seq 0 100 86399", f"seq 0 {CHUNK} {FRAMES - 1}"), ("+ 99", f"+ {CHUNK - 1}"),
+                    ("--out-fps 24 hour.tik", " ".join(FILM)))
     (scene.folder / "film").mkdir()
     run("bash", "-c", line, cwd=scene.folder, env=scene.environment)
     scene.compare(report)
+    line = replaced(encoding[0], report, ("seq 0 64 3599", "seq 0 1 1"), ("+ 64", "+ 1"), ("hour.mov", "clip.mkv"))
+    run("bash", "-c", line, cwd=scene.folder, env=scene.environment)
+    run("bash", "-c", "nutik-cl join -q part-*.tik -o hour.tik", cwd=scene.folder, env=scene.environment)
+    compare_capture(scene, report)
 
 
 def check_deadline(scene, farm, report):

@@ -37,6 +37,11 @@ constexpr Command kCommands[] = {
     {Id::recover, "recover", "DAMAGED.tik WHOLE.tik",
      "Save the whole blocks of a .tik file that was cut off.", "nutik-cl recover damaged.tik -o whole.tik",
      run_recover, kCaptures},
+    {Id::join, "join", "PART.tik... -o WHOLE.tik",
+     "Make one capture of those of a clip's parts, which encode --from --to makes, on several machines perhaps.",
+     "nutik-cl join part-1.tik part-2.tik part-3.tik -o whole.tik\n"
+     "nutik-cl join part-*.tik -o whole.tik",
+     run_join, kCaptures},
     {Id::thumbnail, "thumbnail", "CAPTURE.tik [PICTURE.png]",
      "Write a capture's first sample as a small picture, as file managers show it.",
      "nutik-cl thumbnail clip.tik\n"

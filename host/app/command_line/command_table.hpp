@@ -17,6 +17,7 @@ enum class CommandId {
   devices,
   recover,
   retime,
+  join,
   batch,
   check,
   trace,

@@ -358,7 +358,7 @@ constexpr Option kRows[] = {
 
     heading("Output"),
     {'o', "output", "FILE", output,
-     (kReadsClips & ~set_of(Id::batch, Id::check, Id::validate)) | set_of(Id::recover, Id::noise, Id::retime),
+     (kReadsClips & ~set_of(Id::batch, Id::check, Id::validate)) | set_of(Id::recover, Id::noise, Id::retime, Id::join),
      &Options::output,
      "where to write; without it the last operand, or a name made from the inputs. A picture goes to "
      "standard output as -, a PNG, or as exr:-, tif:-, …"},
@@ -398,7 +398,7 @@ constexpr Option kRows[] = {
      "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},
     {0, "skip-existing", "", output, kMakesMany, &Options::skip_existing,
      "leave out pictures that are there already with the recipe that they would get"},
-    {0, "progress", "", output, kMakesMany | bit(Id::encode), &Options::progress,
+    {0, "progress", "", output, kMakesMany | set_of(Id::encode, Id::join), &Options::progress,
      "print a line a second on stderr if that is no terminal: Progress: 45% …"},
     {'q', "quiet", "", output, kAll, &Options::quiet, "no progress bar and no summary"},
     {'v', "verbose", "", output, (kExposes & ~set_of(Id::mask, Id::solve)) | bit(Id::trace),

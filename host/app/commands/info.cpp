@@ -36,6 +36,11 @@ Json alignment_json(const std::optional<tik::Alignment>& aligned) {
           {"residual_pixels", aligned->residual_pixels}};
 }
 
+Json part_json(const std::optional<PartOfClip>& part) {
+  if (!part) return nullptr;
+  return {{"clip", part->clip}, {"first_picture", part->first}, {"start_ns", part->start_ns}, {"pictures", part->pictures}};
+}
+
 // What is a change.
 std::string change_text(const NoiseModel& noise) {
   if (noise.camera) return format("beyond {} sigmas of the noise", noise.sigmas);
@@ -82,6 +87,7 @@ int run_info(const Options& options) {
                  {"pixel_aspect", aspect_text(capture.pixel_aspect)},
                  {"facts", facts_json(reader.header().facts)},
                  {"alignment", alignment_json(reader.header().alignment)},
+                 {"part", part_json(reader.header().part)},
                  {"tolerance_codes", capture.noise.tolerance},
                  {"has_camera_noise", capture.noise.camera.has_value()},
                  {"samples", timeline.sample_count()},

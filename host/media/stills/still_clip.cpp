@@ -263,6 +263,13 @@ class StillClip final : public Clip {
     return true;
   }
 
+  bool skip(std::span<std::byte> /*room*/) override {
+    if (next_ == pages_.size()) return false;
+    if (next_ == 0) first_ = {};
+    ++next_;
+    return true;
+  }
+
  private:
   static bool is_raw(const std::filesystem::path& file) { return has_extension(file, {".dng"}); }
   static bool is_tiff(const std::filesystem::path& file) { return has_extension(file, {".tif", ".tiff"}); }

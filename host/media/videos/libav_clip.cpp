@@ -21,12 +21,16 @@ std::uint64_t decoded_bytes(const AVCodecParameters& parameters) {
   return static_cast<std::uint64_t>(parameters.width) * static_cast<std::uint64_t>(parameters.height) * 3 + 1;
 }
 
+// Whether pictures of such a codec may be made of others.
+bool refers_to_others(const AVCodecParameters& parameters) {
+  const AVCodecDescriptor* kind = avcodec_descriptor_get(parameters.codec_id);
+  return kind == nullptr || (kind->props & AV_CODEC_PROP_INTRA_ONLY) == 0;
+}
+
 // Pictures that are kept beside those worked on: the packet and the picture it becomes; where pictures refer to
 // others, those, of which encoders use five or fewer unless they are told otherwise, and those that are shown later.
 std::uint64_t kept_pictures(const AVCodecParameters& parameters) {
-  const AVCodecDescriptor* kind = avcodec_descriptor_get(parameters.codec_id);
-  const bool refers = kind == nullptr || (kind->props & AV_CODEC_PROP_INTRA_ONLY) == 0;
-  return 2 + (refers ? 5 + static_cast<std::uint64_t>(parameters.video_delay) : 0);
+  return 2 + (refers_to_others(parameters) ? 5 + static_cast<std::uint64_t>(parameters.video_delay) : 0);
 }
 
 int decoder_threads(const OpenedVideo& opened, const ClipOptions& options) {
@@ -77,6 +81,18 @@ class LibavClip final : public Clip {
     check_whole();
     if (is_phantom_packed(*decoder_.stream().codecpar)) expand_phantom_codes(*frame_);
     converter_.convert(*frame_, raster, name_);
+    ++frames_read_;
+    return true;
+  }
+
+  bool skip(std::span<std::byte> /*room*/) override {
+    const bool takes_frames = interlaced_ == Interlaced::refused || interlaced_ == Interlaced::ignored;
+    if (takes_frames && !is_decoding_ && !refers_to_others(*decoder_.stream().codecpar)) {
+      if (!decoder_.skip()) return false;
+    } else {
+      if (!next_picture()) return false;
+      check_whole();
+    }
     ++frames_read_;
     return true;
   }
@@ -165,6 +181,7 @@ class LibavClip final : public Clip {
   }
 
   bool next_frame() {
+    is_decoding_ = true;
     if (!decoder_.next(*frame_)) return false;
     has_interlaced_ |= frame_->interlaced_frame != 0;
     return true;
@@ -205,6 +222,7 @@ class LibavClip final : public Clip {
   PictureDecoder decoder_;
   FramePointer frame_;
   std::uint64_t frames_read_ = 0;
+  bool is_decoding_ = false;
   Interlaced interlaced_ = Interlaced::refused;
   std::optional<FieldOrder> fields_;  // as the container says of all frames
   bool is_told_ = false;              // by the container, whether they are interlaced

@@ -53,6 +53,18 @@ bool PictureDecoder::next(AVFrame& picture) {
   }
 }
 
+bool PictureDecoder::skip() {
+  for (bool is_picture = false; !is_picture; av_packet_unref(packet_.get())) {
+    if (av_read_frame(opened_.format.get(), packet_.get()) < 0) return false;
+    const bool is_of_stream = packet_->stream_index == opened_.stream;
+    // What an edit list leaves out is no picture, nor is an empty slot.
+    is_picture = is_of_stream && skipped_ == 0 && packet_->size > 0 && (packet_->flags & AV_PKT_FLAG_DISCARD) == 0;
+    if (is_of_stream && skipped_ > 0) --skipped_;
+  }
+  ++pictures_;
+  return true;
+}
+
 void PictureDecoder::feed() {
   for (;;) {
     if (av_read_frame(opened_.format.get(), packet_.get()) < 0) {

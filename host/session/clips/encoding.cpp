@@ -79,6 +79,7 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMe
   header.shutter_angle = times_.shutter_angle();
   for (const Fact& fact : source_.facts(times_)) header.facts.push_back(fact.line());
   header.is_scaled = source_.request.clip.scale.has_value();
+  header.part = source_.clip->info().part;
   if (source_.camera) header.alignment = kept_alignment(**source_.camera, source_.request.align->unseen);
   writer_.emplace(request.output, header, request.codec, to_held_codes(source_.capture, first_.front()),
                   memory.threads, request.lasting);

@@ -19,17 +19,13 @@
 #include "tik/writer.hpp"
 
 namespace nutik {
-namespace {
 
-// What a fact's line states, without who said so and what else was said.
 std::string_view stated_by(std::string_view line) {
   for (const std::string_view origin : {", from ", ", as stated", ", assumed"}) {
     line = line.substr(0, line.find(origin));
   }
   return line;
 }
-
-}  // namespace
 
 std::optional<Setting> correction_of(std::string_view fact) {
   const std::string_view text = stated_by(fact);
@@ -88,6 +84,8 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
   const std::string shutter = format("shutter {} degrees", timeline.shutter_angle().text());
   for (std::string& fact : facts) {
     if (is_timed_shutter(fact)) fact.replace(0, stated_by(fact).size(), shutter);
+    if (before.part && tells_part(fact))
+      fact.replace(0, stated_by(fact).size(), before.part->text(before.part->first + timeline.sample_count()));
   }
   if (request.rate) state(Setting::frame_rate, rate_text(*request.rate, "picture"));
   if (request.shutter_angle) state(Setting::shutter_angle, shutter);
@@ -140,7 +138,12 @@ Retimed retime(const RetimeRequest& request) {
   capture.transfer = request.transfer.value_or(capture.transfer);
   capture.primaries = request.primaries.value_or(capture.primaries);
   capture.pixel_aspect = request.pixel_aspect.value_or(capture.pixel_aspect);
-  header.facts = facts_of(request, reader.header(), timeline);
+  // A part of a clip begins where the rate says that its first picture does.
+  if (header.part && request.rate)
+    header.part->start_ns =
+        Timeline::constant(*request.rate, Timeline::kFullShutter, header.part->first + timeline.sample_count())
+            .start_ns(header.part->first);
+  header.facts = facts_of(request, header, timeline);
 
   auto writer = tik::Writer::from_raster(request.output, header, reader.first_sample());
   for (std::uint64_t block = 0; block < reader.block_count(); ++block) {

@@ -38,6 +38,9 @@ struct Retimed {
   std::vector<Note> notes;         // on what was lost
 };
 
+// What a line of a capture's facts states, without who said so and what else was said.
+[[nodiscard]] std::string_view stated_by(std::string_view line);
+
 // What states otherwise than a fact that a capture's header tells; none where its clip has to be encoded again.
 [[nodiscard]] std::optional<Setting> correction_of(std::string_view fact);
 

@@ -1,0 +1,47 @@
+// Joins captures of parts of a clip to one.
+//
+//   in:      captures that were encoded alike, of pictures that follow each other
+//   out:     one capture of all these pictures, in the order of their times
+//   always:  blocks are copied as they are, one at a time; before anything is written all captures were looked at
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "capture/picture.hpp"
+#include "capture/timeline.hpp"
+#include "session/reported_progress.hpp"
+
+namespace nutik {
+
+struct JoinRequest {
+  std::vector<std::filesystem::path> captures;
+  std::filesystem::path output;
+  friend bool operator==(const JoinRequest&, const JoinRequest&) = default;
+};
+
+struct JoinedPart {
+  std::string capture;
+  std::uint64_t first_sample = 0;  // in the joined capture
+  std::uint64_t sample_count = 0;
+};
+
+struct Joined {
+  CaptureFormat capture;
+  Timeline timeline;
+  std::vector<JoinedPart> parts;  // in the order of their times
+  std::uint64_t file_bytes = 0;
+  std::vector<std::string> facts;  // as the header tells them
+  std::vector<Note> notes;
+};
+
+// Captures that tell which pictures of a clip they hold (its part was stated when they were encoded) may be named in
+// any order. Others are taken to follow each other at once, as they are named, if they have one constant rate; a note
+// says so. `progress` counts samples. Throws UsageError where fewer than two are named; InputError where one is damaged
+// or cannot follow the one before it: it was encoded otherwise, or pictures are missing or there twice; OutputError.
+[[nodiscard]] Joined join(const JoinRequest& request, const ReportedProgress& progress = {});
+
+}  // namespace nutik
