@@ -7,9 +7,8 @@
 #include <span>
 #include <utility>
 
-#include "capture/error.hpp"
-#include "capture/format.hpp"
 #include "imev/tile.hpp"
+#include "render/delayed_pairs.hpp"
 
 namespace nutik {
 namespace {
@@ -33,17 +32,6 @@ std::vector<MixedTile> mixed_tiles_of(const Mask& mask) {
     }
   }
   return tiles;
-}
-
-// Calls visit(tag) for each mask value that has a share of the pixel; `mixed` counts the mixed ones before it.
-template <typename Visit>
-void for_each_tag(const Mask& mask, std::uint64_t pixel, std::size_t& mixed, Visit visit) {
-  if (mixed == mask.mixed.pixels().size() || mask.mixed.pixels()[mixed] != pixel) {
-    visit(mask.tags[pixel]);
-    return;
-  }
-  for (const Share& share : mask.mixed.shares(mixed)) visit(static_cast<std::uint8_t>(share.of));
-  ++mixed;
 }
 
 }  // namespace
@@ -78,45 +66,29 @@ std::shared_ptr<const MaskMap> MaskMap::of(const Mask& mask) {
 
 std::shared_ptr<const MaskMap> MaskMap::of(const Mask& mask, std::shared_ptr<const DelayMap> delays) {
   if (!delays) return of(mask);
-  if (delays->width != mask.width || delays->height != mask.height) {
-    throw InputError(
-        format("the map of delays is {} x {} pixels and the pictures are {} x {}; it needs their size",
-               delays->width, delays->height, mask.width, mask.height));
-  }
+  const DelayedPairs pairs(mask, *delays);
   auto map = std::make_shared<MaskMap>();
   map->width = mask.width;
   map->height = mask.height;
-  std::array<std::vector<std::uint64_t>, kMaskValues> pixels;  // by mask value and delay
-  for (const MaskRegion& value : regions_of(mask)) pixels[value.tag].resize(delays->delays_ns.size());
-  const std::uint64_t pixel_count = mask.tags.size();
-  std::size_t mixed = 0;
-  for (std::uint64_t pixel = 0; pixel < pixel_count; ++pixel) {
-    for_each_tag(mask, pixel, mixed, [&](std::uint8_t tag) { ++pixels[tag][delays->delay_of_pixel[pixel]]; });
-  }
-  for (std::uint32_t tag = 0; tag < kMaskValues; ++tag) {
-    for (std::size_t delay = 0; delay < pixels[tag].size(); ++delay) {
-      if (pixels[tag][delay] == 0) continue;
-      map->regions.push_back({static_cast<std::uint8_t>(tag), pixels[tag][delay], delays->delays_ns[delay]});
-      pixels[tag][delay] = map->regions.size() - 1;
-    }
-  }
-  if (map->regions.size() > kMaxRegions) {
-    throw InputError(format(
-        "the mask and the map of delays make {} different pairs of a function and a delay, and there can be "
-        "{}; use a map with fewer values, of 8 bits for example, or a mask with fewer",
-        map->regions.size(), kMaxRegions));
-  }
-  const auto region_of = [&](std::uint16_t tag, std::uint64_t pixel) {
-    return static_cast<std::uint16_t>(pixels[tag][delays->delay_of_pixel[pixel]]);
+  map->regions.resize(pairs.count());
+  for_each_share(mask, [&](std::uint64_t pixel, std::uint8_t tag) {
+    const std::uint16_t delay = delays->delay_of_pixel[pixel];
+    MaskRegion& region = map->regions[pairs.number_of(tag, delay)];
+    region = {tag, region.pixel_count + 1, delays->delays_ns[delay]};
+  });
+  const auto region_of = [&](std::uint8_t tag, std::uint64_t pixel) {
+    return pairs.number_of(tag, delays->delay_of_pixel[pixel]);
   };
-  map->delayed_region_of_pixel.resize(pixel_count);
-  for (std::uint64_t pixel = 0; pixel < pixel_count; ++pixel) {
+  map->delayed_region_of_pixel.resize(mask.tags.size());
+  for (std::uint64_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
     map->delayed_region_of_pixel[pixel] = region_of(mask.tags[pixel], pixel);
   }
   for (std::size_t i = 0; i < mask.mixed.pixels().size(); ++i) {
     const std::span<const Share> shares = mask.mixed.shares(i);
     std::vector<Share> renamed(shares.begin(), shares.end());
-    for (Share& share : renamed) share.of = region_of(share.of, mask.mixed.pixels()[i]);
+    for (Share& share : renamed) {
+      share.of = region_of(static_cast<std::uint8_t>(share.of), mask.mixed.pixels()[i]);
+    }
     map->mixed.add(mask.mixed.pixels()[i], renamed);
   }
   if (mask.is_soft()) map->mixed_tiles = mixed_tiles_of(mask);

@@ -204,6 +204,36 @@ INSTANTIATE_TEST_SUITE_P(All, MemoryOfCommands, testing::ValuesIn(kCommands), []
   return name;
 });
 
+// 256 mask values and 65,536 delays: how many pairs of them occur is known before anything is held for each that could.
+TEST(Memory, OfDelaysAndMaskValuesIsAskedForFirst) {
+  constexpr int kSide = 256;
+  const Scratch scratch;
+  write_raw_video(scratch, "clip.gray", kSide * kSide, 4);
+  std::string mask = "P5 256 256 255\n", delays = "P5 256 256 65535\n", functions;
+  for (int y = 0; y < kSide; ++y) {
+    functions += format("M{} [0:1], [10000000:1], [10000001:0]\n", y);
+    for (int x = 0; x < kSide; ++x) {
+      mask += static_cast<char>(y);
+      delays += {static_cast<char>(y), static_cast<char>(x)};
+    }
+  }
+  scratch.write("mask.pgm", mask);
+  scratch.write("delays.pgm", delays);
+  scratch.write("f.fn", functions);
+  const auto exposing = [](const std::string& delay) {
+    return std::vector<std::string>{"-f",   "100", "--raw",    "256x256:gray", "--memory",  "8MB",  "-k", "f.fn",
+                                    "-m",   "mask.pgm", "--delay", delay,  "clip.gray", "o.pfm", "-q"};
+  };
+  ASSERT_EQ(run(scratch, exposing("rows:1ms")).status, 0);  // builds kernels
+  const Measured few = run(scratch, exposing("rows:1ms")), many = run(scratch, exposing("delays.pgm:0s..30ms"));
+  EXPECT_EQ(few.status, 0) << few.err;
+  EXPECT_EQ(many.status, 2) << many.err;
+  EXPECT_NE(many.err.find("gain tables of a block 204 MB"), std::string::npos) << many.err;
+  EXPECT_LE(many.peak_bytes, few.peak_bytes + 16'000'000);
+  std::printf("%.1f MB with 65,536 delays, %.1f MB with 256\n", static_cast<double>(many.peak_bytes) * 1e-6,
+              static_cast<double>(few.peak_bytes) * 1e-6);
+}
+
 TEST(Memory, SaysWhatIsTooLittle) {
   const Scratch scratch;
   write_raw_video(scratch, "clip.gray", 640 * 360, 40);

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <map>
 
 #include "capture/error.hpp"
+#include "render/delayed_pairs.hpp"
 #include "render/plan_cache.hpp"
 #include "render/reference_renderer.hpp"
 #include "render/trace.hpp"
@@ -181,6 +183,42 @@ TEST(DelayedPlan, TellsRegionsByMaskValueAndDelay) {
   EXPECT_NE(cache.plan(capture, functions, mask, delayed_by(DelayMap::by_columns(format.shape, {0, 4}))).map,
             plan.map);
   EXPECT_NE(cache.plan(capture, functions, mask, {}).map, plan.map);
+}
+
+// Against a map of pairs, with delays that fill words of 64 bits, fall short of one or begin another.
+TEST(DelayedPlan, NumbersPairsByMaskValueThenDelay) {
+  const test::Seeds seeds = test::seeds(0, 40);
+  for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
+    SCOPED_TRACE(test::rerun(seed));
+    test::Random random(seed);
+    const auto width = static_cast<std::uint32_t>(random.whole(1, 90));
+    const auto height = static_cast<std::uint32_t>(random.whole(1, 9));
+    Mask mask = Mask::uniform(width, height, 0);
+    DelayMap delays{width, height, {}, {}};
+    const std::int64_t count = random.pick(std::vector<std::int64_t>{1, 63, 64, 65, 700});
+    for (std::int64_t delay = 0; delay < count; ++delay) delays.delays_ns.push_back(3 * delay - 100);
+    std::map<std::pair<int, int>, std::uint64_t> expected;
+    for (std::uint64_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
+      mask.tags[pixel] = random.pick(std::vector<std::uint8_t>{0, 9, 255});
+      delays.delay_of_pixel.push_back(static_cast<std::uint16_t>(random.whole(0, count - 1)));
+      ++expected[{mask.tags[pixel], delays.delay_of_pixel[pixel]}];
+      if (mask.tags[pixel] != 9 || random.chance(0.5)) continue;
+      mask.mixed.add(pixel, std::array<Share, 2>{{{9, 45'535}, {254, 20'000}}});
+      ++expected[{254, delays.delay_of_pixel[pixel]}];
+    }
+    const DelayedPairs pairs(mask, delays);
+    const auto map = MaskMap::of(mask, std::make_shared<const DelayMap>(delays));
+    ASSERT_EQ(pairs.count(), expected.size());
+    ASSERT_EQ(map->regions.size(), expected.size());
+    std::size_t number = 0;
+    for (const auto& [pair, pixels] : expected) {
+      EXPECT_EQ(pairs.number_of(static_cast<std::uint8_t>(pair.first), static_cast<std::uint16_t>(pair.second)), number);
+      const MaskRegion& region = map->regions[number++];
+      EXPECT_EQ(region.tag, pair.first);
+      EXPECT_EQ(region.delay_ns, 3 * pair.second - 100);
+      EXPECT_EQ(region.pixel_count, pixels);
+    }
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/read_ahead.hpp"
+#include "render/delayed_pairs.hpp"
 #include "session/clips/clip_memory.hpp"
 
 namespace nutik {
@@ -21,7 +22,7 @@ ExposedPicture expose_once(ClipSource& source, std::uint64_t sample_count, const
   options.transfer.reset();  // it went into the capture's format
   // With delays there is a function for each pair of both that occurs.
   const std::size_t function_count =
-      options.delays ? MaskMap::of(mask, options.delays)->regions.size() : functions.size();
+      options.delays ? DelayedPairs(mask, *options.delays).count() : functions.size();
   MemoryNeeds rendering = rendering_needs(source.capture, type, function_count,
                                           source.request.block_samples.value_or(kDefaultBlockSamples));
   rendering.add(besides);
