@@ -1,5 +1,5 @@
 // Samples at which a codec drew its picture anew, as it does with its key frames: pixels that are still change there,
-// all at once and a little.
+// all at once and a little. So they do where a camera changes its exposure by a step, which counts as the same.
 #pragma once
 
 #include <cstdint>

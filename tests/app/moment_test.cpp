@@ -161,6 +161,26 @@ TEST_F(Moment, ActivityIsThatOfTheSceneNotOfTheCodec) {
       << said;
 }
 
+// A camera that closes its aperture a little, while a square moves on.
+TEST_F(Moment, ActivityTakesAStepOfTheExposureForNoMotion) {
+  std::filesystem::create_directory(scratch_ / "steps");
+  for (int k = 0; k < 12; ++k) {
+    cv::Mat frame(48, 96, CV_8UC1, cv::Scalar::all(k < 7 ? 120 : 112));
+    frame(cv::Rect(4 + 6 * k, 20, 8, 8)) = 250;
+    cv::imwrite((scratch_ / ("steps/" + std::to_string(10 + k) + ".png")).string(), frame);
+  }
+  const auto json = json_of({"activity", "-f", "100", "steps"});
+  for (std::size_t k = 1; k < 12; ++k) {
+    EXPECT_EQ(json["samples"][k]["redrawn"], k == 7) << k;
+    EXPECT_EQ(json["samples"][k]["changed_pixels"], 2 * 6 * 8) << k;
+  }
+  EXPECT_NE(run({"activity", "-f", "100", "steps"}).err.find("as where a codec draws it anew or a camera changes its "
+                                                             "exposure"),
+            std::string::npos);
+  const std::string help = run({"activity", "--help"}).out;
+  EXPECT_NE(help.find("or the camera changed"), std::string::npos) << help;
+}
+
 TEST_F(Moment, ActivityCountsEachTagForItself) {
   ASSERT_EQ(run({"mask", "--grid", "4x2", "clip.tik", "grid.pgm"}).status, 0);
   const ProgramResult lines =

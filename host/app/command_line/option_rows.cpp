@@ -286,8 +286,8 @@ constexpr Option kRows[] = {
     {0, "by", "CODES", subject, bit(Id::activity), &Options::by,
      "count codes that differ by more than this at a sample (default: 0)"},
     {0, "count-redrawn", "", subject, bit(Id::activity), &Options::counts_redrawn,
-     "also count changes at samples at which the clip's codec drew the whole picture anew, its key frames "
-     "(default: they count as those beside them)"},
+     "also count changes at samples at which the whole picture changed a little at once: its codec drew it anew, as at "
+     "key frames, or the camera changed its exposure (default: they count as those beside them)"},
     {0, "moment", "quietest|busiest", subject, bit(Id::activity), &Options::moment,
      "print nothing but that stretch, as options for another command: --start 12f --exposure 9f"},
     {0, "csv", "FILE.csv", output, bit(Id::activity), &Options::csv,
