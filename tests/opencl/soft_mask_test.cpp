@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "capture/format.hpp"
+#include "opencl/function_map.hpp"
+#include "opencl/kernel_layout.hpp"
 #include "render/fixed_scale.hpp"
 #include "render/reference_renderer.hpp"
 #include "support/precision_check.hpp"
@@ -249,6 +251,46 @@ TEST(SoftMasks, KeepToTheirBoundWhereCodesAreClose) {
       }
     }
   }
+}
+
+// What kernels work through: of a hard mask each tile once and nothing else, of a soft one the mixed tiles once for each
+// of their functions, as tiles that have that function alone.
+TEST(SoftMasks, TakeAUniformTileForEachFunctionAndHardMasksNoMoreThanTheirTiles) {
+  const Scene scene;
+  const Rectangle all = Rectangle::whole(scene.format.shape);
+  const TileGrid grid(scene.format.shape);
+  const auto mapped = [&](const Mask& mask) {
+    const auto map = MaskMap::of(mask);
+    const std::vector<Band> bands =
+        cut_picture(scene.format.shape, all, Precision::single_, test::device_allocating(1 << 30), ~std::uint64_t{0},
+                    map->mixed_tiles);
+    EXPECT_EQ(bands.size(), 1u);
+    FunctionMap functions = map_functions(*map, bands[0]);
+    EXPECT_EQ(functions.tiles.size(), bands[0].sum_tiles);
+    return functions;
+  };
+  const FunctionMap hard = mapped(scene.hard);
+  EXPECT_EQ(hard.tiles.size(), grid.tile_count());
+  EXPECT_TRUE(hard.first_of.empty() && hard.shares.empty());
+  EXPECT_EQ(hard.bytes(), grid.tile_count() * (kTilePixels + 4 + 2));
+
+  const FunctionMap soft = mapped(scene.soft);
+  ASSERT_EQ(soft.first_of.size(), grid.tile_count() + 1);
+  std::uint32_t mixed_tiles = 0;
+  for (std::uint64_t tile = 0; tile < grid.tile_count(); ++tile) {
+    const std::uint64_t x = tile % grid.columns() * kTileSide, y = tile / grid.columns() * kTileSide;
+    const std::uint32_t first = soft.first_of[tile], last = soft.first_of[tile + 1];
+    if (!Scene::is_mixed(x, y)) {
+      EXPECT_EQ(last - first, 1u) << tile;
+      EXPECT_NE(soft.of_tile[first], kMixedFunctions) << tile;
+      continue;
+    }
+    ++mixed_tiles;
+    EXPECT_GE(last - first, 2u) << tile;
+    EXPECT_LE(last - first, 3u) << "a pixel has a share of 9, 100 and 255: " << tile;
+    for (std::uint32_t sum = first; sum < last; ++sum) EXPECT_NE(soft.of_tile[sum], kMixedFunctions) << tile;
+  }
+  EXPECT_EQ(mixed_tiles, 3 * grid.rows() + 1);
 }
 
 }  // namespace
