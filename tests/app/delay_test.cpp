@@ -223,6 +223,15 @@ TEST_F(DelayCommand, SaysWhatIsWrong) {
   const ProgramResult check = run({"check", "--delay", "small.png:1s", "clip.tik"});
   EXPECT_EQ(check.status, 3);
   EXPECT_NE(check.out.find("a map of delays needs their size"), std::string::npos) << check.out;
+
+  scratch_.write("six.pgm", "P5 6 4 255\n" + std::string(24, '\0'));
+  scratch_.write("one.fn", "M0 [0:1], [10000000:1], [10000001:0]\n");
+  const ProgramResult by_mask = run({"check", "-k", "one.fn", "-m", "six.pgm", "--delay", "small.png:1s"});
+  EXPECT_EQ(by_mask.status, 3) << by_mask.out << by_mask.err;
+  EXPECT_NE(by_mask.out.find("a map of delays needs their size"), std::string::npos) << by_mask.out;
+  const ProgramResult alone = run({"check", "-k", "one.fn", "--delay", "rows:1s"});
+  EXPECT_EQ(alone.status, 0) << alone.out << alone.err;
+  EXPECT_NE(alone.out.find("without a capture it is not known which delays leave it"), std::string::npos) << alone.out;
   expect_refused({"trace", "--tag", "0", "-k", "f.fn", "-m", "mask.pgm", "--delay", "rows:1ms", "clip.tik"},
                  3, "f.fn");
   expect_refused(exposing("map.tif:1s", {"clip.tik", "map.tif"}), 2, "map.tif");

@@ -84,7 +84,7 @@ void InputCheck::finish(bool unmapped_is_zero) {
   domain_ = domain_of_inputs();
   if (functions_) check_functions();
   if (mask_) check_mask(unmapped_is_zero);
-  if (delay_ && capture_) check_delay();
+  if (delay_) check_delay();
 }
 
 CheckedDomain InputCheck::domain_of_inputs() const {
@@ -157,10 +157,16 @@ GainSummary InputCheck::summary_of(const GainFunction& function) const {
 
 void InputCheck::check_delay() {
   const std::string name = delay_->file.empty() ? "delays" : delay_->file;
-  const Shape& shape = capture_->format.shape;
+  if (!capture_) {
+    add({Severity::warning, "delay_unchecked", name,
+         format("without a capture it is not known which delays leave it{}; name one, too",
+                mask_ ? "" : ", nor whether their map has its size")});
+  }
+  if (!capture_ && !mask_) return;
+  const Shape shape = capture_ ? capture_->format.shape : Shape{mask_->mask.width, mask_->mask.height, 1};
   try {
     const auto delays = delays_of(*delay_, shape);
-    if (!functions_ || functions_->file.functions.empty() || !capture_->timeline) return;
+    if (!functions_ || functions_->file.functions.empty() || !capture_ || !capture_->timeline) return;
     FunctionSet functions;
     for (const auto& [tag, read] : functions_->file.functions) functions.emplace(tag, read.function);
     if (mask_ && !size_mistake(mask_->mask, shape).empty()) return;
