@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "scene/looks.hpp"
 #include "scene/thin_raster.hpp"
@@ -82,6 +83,17 @@ double step_between(const Means& a, const Means& b, std::uint32_t channels) {
   return share >= kMinChanged && correlation(a, b) > kSameScene ? 0 : share;
 }
 
+// Whether the picture at an end of the capture is alone: a chart before a recording, or what a camera ends one with.
+// `steps` lead away from it. Where a share of the scene is replaced, pictures are correlated by the rest; a camera that
+// sets its exposure at the beginning replaces nothing.
+bool stands_alone(double correlation, std::span<const double> steps) {
+  constexpr double kMinReplaced = 1.0 / 16, kSameScene = 1 - kMinReplaced / 2;
+  constexpr double kMinTimesOthers = 8;
+  constexpr std::size_t kOthers = 8;
+  if (steps.size() <= kOthers || steps[0] < kMinReplaced || correlation > kSameScene) return false;
+  return steps[0] >= kMinTimesOthers * std::ranges::max(steps.subspan(1, kOthers));
+}
+
 }  // namespace
 
 std::vector<SampleRange> shots_of(CaptureSource& capture) {
@@ -90,21 +102,32 @@ std::vector<SampleRange> shots_of(CaptureSource& capture) {
   ThinRaster thin(format, step_of(format.shape));
   Means before, last;
   std::vector<double> steps{0}, double_steps{0};  // from one sample, and from two, before each
+  std::vector<double> correlations;               // of the first two, the next two, …
   for_each_look(capture, Looks(count, count), [&](const Look& look) {
     thin.take(look.held, look.changed);
     Means means = format.code_bytes == 1 ? means_of<std::uint8_t>(thin.format(), thin.raster())
                                          : means_of<std::uint16_t>(thin.format(), thin.raster());
-    if (!last.empty()) steps.push_back(step_between(means, last, format.shape.channels));
+    if (!last.empty()) {
+      steps.push_back(step_between(means, last, format.shape.channels));
+      correlations.push_back(correlation(means, last));
+    }
     if (!before.empty()) double_steps.push_back(step_between(means, before, format.shape.channels));
     before = std::move(last);
     last = std::move(means);
   });
+  const std::vector<double> from_first(steps.begin() + 1, steps.end()), from_last(from_first.rbegin(), from_first.rend());
+  const bool is_first_alone = count > 1 && stands_alone(correlations.front(), from_first);
+  const bool is_last_alone = count > 1 && stands_alone(correlations.back(), from_last);
+  const auto is_cut = [&](std::uint64_t k) {
+    if ((k == 1 && is_first_alone) || (k + 1 == count && is_last_alone)) return true;
+    if (steps[k] < kMinChanged) return false;
+    if (k > 1 && steps[k - 1] > kMaxBeside * steps[k]) return false;
+    return k + 1 == count || (steps[k + 1] <= kMaxBeside * steps[k] && double_steps[k] >= kMinChanged);
+  };
   std::vector<SampleRange> shots;
   std::uint64_t first = 0;
   for (std::uint64_t k = 1; k < count; ++k) {
-    if (steps[k] < kMinChanged) continue;
-    if (k > 1 && steps[k - 1] > kMaxBeside * steps[k]) continue;
-    if (k + 1 < count && (steps[k + 1] > kMaxBeside * steps[k] || double_steps[k] < kMinChanged)) continue;
+    if (!is_cut(k)) continue;
     shots.push_back({first, k});
     first = k;
   }
