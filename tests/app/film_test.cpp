@@ -181,6 +181,31 @@ TEST_F(Film, FramesAreExposuresForOtherCommands) {
       << missing.out << missing.err;
 }
 
+// At either end of the way it is one of both masks that is exposed, and of that alone it may be said that a value is not
+// in it.
+TEST_F(Film, CheckNamesTheMaskThatIsExposed) {
+  write_two_masks_and_functions();
+  write_mask("none.pgm", 0);
+  const auto checked = [&](const std::string& share, const std::string& blend) {
+    return run({"check", "-m", "a.pgm", "--mask-to", "none.pgm", "--mask-share", share, "--mask-blend", blend, "-k",
+                "f.fn", "c.tik"})
+        .out;
+  };
+  for (const std::string share : {"0", "1/2"}) {
+    const std::string out = checked(share, "alpha");
+    EXPECT_EQ(out.find("has the value 255"), std::string::npos) << out;
+  }
+  const std::string at_end = checked("1", "alpha");
+  EXPECT_NE(at_end.find("M255: no pixel of none.pgm has the value 255"), std::string::npos) << at_end;
+  EXPECT_NE(at_end.find("none.pgm: 8 x "), std::string::npos) << at_end;
+
+  scratch_.write("three.fn", "M0 [0:1], [10:1], [11:0]\nM7 [0:1], [10:1], [11:0]\nM255 [0:1], [10:1], [11:0]\n");
+  const std::string between = run({"check", "-m", "a.pgm", "--mask-to", "b.pgm", "--mask-share", "1/2", "-k",
+                                   "three.fn", "c.tik"})
+                                  .out;
+  EXPECT_NE(between.find("no pixel of a.pgm on its way to b.pgm has the value 7"), std::string::npos) << between;
+}
+
 TEST_F(Film, MadeInPartsHasTheFramesOfTheWhole) {
   write_two_masks_and_functions();
   scratch_.write("a.fn", boxcar("M0", 0, 1) + boxcar("M255", 1, 1));

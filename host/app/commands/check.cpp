@@ -85,7 +85,7 @@ InputCheck checked_inputs(const Options& options) {
       Mask mask =
           options.mask_to ? exposure_mask(options, first) : read_layered_mask_input(*options.mask, first);
       if (options.feather && !options.mask_to) static_cast<void>(feathered(mask, Feather::parse(*options.feather)));
-      check.add_mask(name, std::move(mask));
+      check.add_mask(exposure_mask_name(options), std::move(mask));
     });
   }
   if (!options.operands.empty()) {

@@ -111,6 +111,17 @@ void check_mapped(const FramesRequest& request) {
   }
 }
 
+// How far it is to the second mask, of kWholeWay.
+std::uint32_t mask_way(const Options& options) {
+  if (!options.mask_share) throw UsageError("how far is it to --mask-to? Add --mask-share 1/2, 0 to 1");
+  const Rational share = Rational::parse(*options.mask_share, "--mask-share");
+  if (share.numerator < 0 || share.numerator > share.denominator) {
+    throw UsageError(format("--mask-share {} is no share of 0 to 1", *options.mask_share));
+  }
+  return static_cast<std::uint32_t>(
+      round_half_up(static_cast<int128>(share.numerator) * kWholeWay, share.denominator));
+}
+
 }  // namespace
 
 std::optional<DelayRequest> delay_request(const Options& options) {
@@ -127,6 +138,15 @@ Mask unfeathered_mask(const Options& options, const std::string& name, std::uint
   return read_layered_mask_input(name, rest, capture);
 }
 
+std::string exposure_mask_name(const Options& options) {
+  const std::string from = input_title(*options.mask);
+  if (!options.mask_to) return from;
+  const std::string to = input_title(*options.mask_to);
+  const std::uint32_t way = mask_way(options);
+  if (way == 0 || way == kWholeWay) return way == 0 ? from : to;
+  return format("{} on its way to {}", from, to);
+}
+
 Mask exposure_mask(const Options& options, std::uint8_t rest) {
   const Mask mask = unfeathered_mask(options, *options.mask, rest);
   const auto feather = options.feather ? std::optional(Feather::parse(*options.feather)) : std::nullopt;
@@ -134,13 +154,7 @@ Mask exposure_mask(const Options& options, std::uint8_t rest) {
     if (options.mask_share) throw UsageError("--mask-share says how far it is to a second mask: add --mask-to");
     return feather ? feathered(mask, *feather) : mask;
   }
-  if (!options.mask_share) throw UsageError("how far is it to --mask-to? Add --mask-share 1/2, 0 to 1");
-  const Rational share = Rational::parse(*options.mask_share, "--mask-share");
-  if (share.numerator < 0 || share.numerator > share.denominator) {
-    throw UsageError(format("--mask-share {} is no share of 0 to 1", *options.mask_share));
-  }
-  const auto way = static_cast<std::uint32_t>(
-      round_half_up(static_cast<int128>(share.numerator) * kWholeWay, share.denominator));
+  const std::uint32_t way = mask_way(options);
   return blended_mask(mask, *options.mask, unfeathered_mask(options, *options.mask_to, rest), *options.mask_to,
                       mask_blend(options), way, feather);
 }

@@ -72,6 +72,8 @@ void read_mask_keys(FramesRequest& request, const Options& options, std::uint8_t
 // The stated mask, on its way to the second one and with blended edges where that was asked for; of layers the tag
 // `rest` gets what they leave.
 [[nodiscard]] Mask exposure_mask(const Options& options, std::uint8_t rest);
+// The file that it is, or both and what lies between them.
+[[nodiscard]] std::string exposure_mask_name(const Options& options);
 // One mask by its name.
 [[nodiscard]] Mask unfeathered_mask(const Options& options, const std::string& name, std::uint8_t rest);
 [[nodiscard]] MaskBlend mask_blend(const Options& options);
