@@ -3,8 +3,6 @@
 #include <QSignalSpy>
 
 #include "studio/curves/curve_editor.hpp"
-#include "studio/live/exposure_of.hpp"
-#include "studio/live/picture_image.hpp"
 #include "studio/time/time_strip.hpp"
 #include "studio_test.hpp"
 #include "support/random_case.hpp"
@@ -32,8 +30,9 @@ class RandomEventsTest : public StudioTest {
         return click_tool(random_.pick(std::vector<const char*>{
             "tool_look", "tool_brush", "tool_rectangle", "tool_ellipse", "tool_polygon", "tool_wand"}));
       case 1:
-        return click_button(random_.pick(std::vector<const char*>{"add_region", "remove_region", "grow",
-                                                                  "shrink", "smooth", "over_interval"}));
+        return click_button(
+            random_.pick(std::vector<const char*>{"add_region", "remove_region", "region_up", "region_down",
+                                                  "grow", "shrink", "smooth", "over_interval"}));
       case 2:
         return QTest::mouseClick(&widget, random_.chance(0.8) ? Qt::LeftButton : Qt::RightButton, modifiers,
                                  somewhere(widget));
@@ -59,15 +58,8 @@ class RandomEventsTest : public StudioTest {
     ASSERT_FALSE(document().is_dragging());
     ASSERT_TRUE(settles());
 
-    const DocumentState& state = document().state();
-    SourceRequest source;
-    source.path = document().facts()->path.toStdString();
-    source.clip.rate = Rational::parse("100", "rate");
-    Session session(source);
-    const auto mask = state.mask ? std::optional(LiveView::feathered_mask(state)) : std::nullopt;
     try {
-      const ExposedPicture alone = session.render(exposure_of(state, mask), screen_format());
-      EXPECT_EQ(difference(canvas().image(), image_of(alone.picture)), "");
+      EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
     } catch (const InputError& error) {
       EXPECT_EQ(window_.notice().text(), sentence(error.what())) << "what cannot be exposed is said";
     }

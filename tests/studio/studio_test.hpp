@@ -4,11 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <QAction>
+#include <QApplication>
+#include <QMessageBox>
+#include <QMouseEvent>
 #include <QPushButton>
 #include <QStandardPaths>
 #include <QTest>
+#include <QTimer>
 #include <QToolBar>
+#include <functional>
 
+#include "studio/live/exposure_of.hpp"
+#include "studio/live/picture_image.hpp"
 #include "studio/window/main_window.hpp"
 #include "support/moving_square.hpp"
 #include "support/scratch.hpp"
@@ -53,8 +60,12 @@ class StudioTest : public ::testing::Test {
   [[nodiscard]] QPoint at(double x, double y) { return canvas().view().to_widget({x, y}).toPoint(); }
   static void drag(QWidget& widget, QPoint from, QPoint to, Qt::KeyboardModifiers keys = {}) {
     QTest::mousePress(&widget, Qt::LeftButton, keys, from);
-    QTest::mouseMove(&widget, (from + to) / 2);
-    QTest::mouseMove(&widget, to);
+    for (const QPoint place : {(from + to) / 2, to}) {
+      // With button and keys down, which QTest::mouseMove() does not say.
+      QMouseEvent move(QEvent::MouseMove, place, widget.mapToGlobal(place), Qt::NoButton, Qt::LeftButton,
+                       keys);
+      QApplication::sendEvent(&widget, &move);
+    }
     QTest::mouseRelease(&widget, Qt::LeftButton, keys, to);
   }
   void click_tool(const char* name) {
@@ -63,9 +74,39 @@ class StudioTest : public ::testing::Test {
   }
   void click_button(const char* name) { QTest::mouseClick(&child<QPushButton>(name), Qt::LeftButton); }
 
+  // To the dialog that comes next, once it is there.
+  template <typename Dialog>
+  void answer_next(const std::function<void(Dialog&)>& answer) {
+    is_asked_ = false;
+    auto* timer = new QTimer(&window_);
+    QObject::connect(timer, &QTimer::timeout, timer, [this, timer, answer] {
+      auto* dialog = qobject_cast<Dialog*>(QApplication::activeModalWidget());
+      if (dialog == nullptr) return;
+      is_asked_ = true;
+      timer->deleteLater();
+      answer(*dialog);
+    });
+    timer->start(1);
+  }
+  void answer_next(QMessageBox::StandardButton button) {
+    answer_next<QMessageBox>(
+        [button](QMessageBox& question) { QTest::mouseClick(question.button(button), Qt::LeftButton); });
+  }
+
   [[nodiscard]] std::size_t pixels_of(std::uint8_t tag) {
     const auto& mask = document().state().mask;
     return mask ? static_cast<std::size_t>((*mask)->mask.pixels_per_tag()[tag]) : 0;
+  }
+
+  // What a session of its own makes of the document.
+  [[nodiscard]] QImage fresh_picture() {
+    const DocumentState& state = document().state();
+    SourceRequest source;
+    source.path = document().facts()->path.toStdString();
+    source.clip.rate = Rational::parse("100", "rate");
+    Session session(source);
+    const auto mask = state.mask ? std::optional(LiveView::feathered_mask(state)) : std::nullopt;
+    return image_of(session.render(exposure_of(state, mask), screen_format()).picture);
   }
 
   // The first pixel at which two pictures differ; nothing where they are the same.
@@ -88,6 +129,7 @@ class StudioTest : public ::testing::Test {
   test::MovingSquare square_;
   test::Scratch scratch_;
   MainWindow window_;
+  bool is_asked_ = false;
 };
 
 }  // namespace nutik::studio

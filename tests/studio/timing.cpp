@@ -1,5 +1,6 @@
 // From an event of the mouse to the painted picture, and what the window's own thread takes of it:
-// nutik_studio_timing CLIP. Five regions, each with a function of its own; then the interval.
+// nutik_studio_timing CLIP. Five regions, each with a function of its own; then the interval, and a brush that paints
+// over what other regions have.
 #include <time.h>
 
 #include <QApplication>
@@ -34,11 +35,11 @@ void tell(const char* what, std::vector<double> values) {
 }
 
 // Drags to and fro, each move once the picture of the one before is painted.
-void drag(MainWindow& window, QWidget& widget, QPoint from, const char* what) {
+void drag(MainWindow& window, QWidget& widget, QPoint from, const char* what, int step = 1) {
   std::vector<double> whole, own;
   QTest::mousePress(&widget, Qt::LeftButton, Qt::ControlModifier, from);
   for (int event = 1; event <= kEvents; ++event) {
-    const QPoint to = from + QPoint(event % 60 < 30 ? event % 60 : 60 - event % 60, 0);
+    const QPoint to = from + step * QPoint(event % 60 < 30 ? event % 60 : 60 - event % 60, 0);
     QElapsedTimer timer;
     timer.start();
     const double begin = thread_ms();
@@ -93,5 +94,15 @@ int main(int count, char** words) {
   document.set_boxcar({duration_ns / 3, 10'000'000}, "Scrub");
   if (!settles()) return 1;
   drag(window, strip, strip.boxcar_area().center().toPoint(), "an interval of 10 ms");
+  document.set_mode(ExposureMode::functions);
+  window.use_tool(ToolKind::brush);
+  if (!settles()) return 1;
+  for (const std::uint8_t tag : {document.state().order.front(), document.state().order.back()}) {
+    document.select_tag(tag);
+    const bool is_first = tag == document.state().order.front();
+    drag(window, window.canvas(),
+         window.canvas().view().to_widget({shape.width * 0.3, shape.height * 0.5}).toPoint(),
+         is_first ? "a brush over three regions" : "a brush beneath three regions", 16);
+  }
   return 0;
 }

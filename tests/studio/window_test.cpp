@@ -1,8 +1,6 @@
 // The window: opening, saving, exporting, and the paper's motion study by mouse alone.
 #include <QFile>
-#include <QMessageBox>
 #include <QMimeData>
-#include <QTimer>
 #include <QToolButton>
 #include <QTreeWidget>
 
@@ -24,19 +22,6 @@ class WindowTest : public StudioTest {
     EXPECT_TRUE(words.starts_with("nutik-cl "));
     return test::run_shell(std::string(NUTIK_TEST_PROGRAM) + words.substr(8), scratch_.folder());
   }
-
-  // To the question that comes next.
-  void answer_next(QMessageBox::StandardButton answer) {
-    is_asked_ = false;
-    QTimer::singleShot(0, &window_, [this, answer] {
-      auto* question = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
-      ASSERT_NE(question, nullptr);
-      is_asked_ = true;
-      QTest::mouseClick(question->button(answer), Qt::LeftButton);
-    });
-  }
-
-  bool is_asked_ = false;
 
   // The exported picture, and that of the line, are the same file.
   void expect_same_picture_by_command() {
@@ -84,7 +69,7 @@ TEST_F(WindowTest, MakesThePapersMotionStudyByMouseAlone) {
   ASSERT_EQ(before.size(), 4u);
   const PlotFrame frame = curves.frame();
   const QPoint from = frame.place(before[2]).toPoint();
-  drag(curves, from, from + QPoint(30, 0), Qt::ControlModifier);
+  drag(curves, from, from + QPoint(30, 0));
   ASSERT_NE(document().points(tag), before);
   ASSERT_TRUE(settles());
   EXPECT_NE(canvas().image(), undragged) << "the picture follows";

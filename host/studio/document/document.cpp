@@ -107,7 +107,14 @@ void Document::complete(DocumentState& state) const {
     const Shape& shape = facts_->format.shape;
     state.mask = Shared(MaskWithRegions(Mask::uniform(shape.width, shape.height, 0)));
   }
-  std::erase_if(state.looks, [&](const auto& look) { return !state.functions.contains(look.first); });
+  const auto is_gone = [&](std::uint8_t tag) { return !state.functions.contains(tag); };
+  const auto is_of_none = [&](const auto& entry) { return is_gone(entry.first); };
+  std::erase_if(state.looks, is_of_none);
+  std::erase_if(state.covered, is_of_none);
+  std::erase_if(state.feather.of_tag, is_of_none);
+  std::erase_if(state.order, is_gone);
+  for (const auto& [tag, function] : state.functions)
+    if (tag != 0 && std::ranges::find(state.order, tag) == state.order.end()) state.order.push_back(tag);
   for (const auto& [tag, function] : state.functions)
     state.looks.try_emplace(
         tag, RegionLook{tag == 0 ? tr("Background") : tr("Region %1").arg(tag), first_colour(tag), true});
@@ -175,6 +182,14 @@ void Document::keep_selection_within() {
     selected_tag_ = state_.functions.empty() ? std::uint8_t{0} : state_.functions.begin()->first;
   selected_points_.erase(selected_points_.lower_bound(points(selected_tag_).size()), selected_points_.end());
   if (solo_ && !state_.functions.contains(*solo_)) solo_.reset();
+}
+
+Feather feather_of(const DocumentState& state) {
+  Feather feather = state.feather;
+  std::erase_if(feather.of_tag, [&](const auto& entry) {
+    return !state.mask || !(*state.mask)->uses(entry.first) || entry.second == feather.everywhere;
+  });
+  return feather;
 }
 
 QColor first_colour(std::uint8_t tag) {

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "session/below/functions.hpp"
+#include "session/below/regions.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "session/shared.hpp"
 #include "studio/document/capture_facts.hpp"
@@ -46,15 +47,17 @@ struct RegionLook {
   friend bool operator==(const RegionLook&, const RegionLook&) = default;
 };
 
-// All that undo brings back. Cheap to copy: copies share the mask.
+// All that undo brings back. Cheap to copy: copies share mask and regions.
 struct DocumentState {
   FunctionSet functions;  // by tag; each with a look
   std::map<std::uint8_t, RegionLook> looks;
   std::optional<Shared<MaskWithRegions>> mask;  // none: tag 0 everywhere
+  std::vector<std::uint8_t> order;  // of all tags but 0: the first covers the rest (regions/covering.hpp)
+  std::map<std::uint8_t, Shared<Region>> covered;  // pixels of regions that the mask does not show
   ExposureMode mode = ExposureMode::boxcar;
   Boxcar boxcar;
   Normalization normalization;
-  int feather = 0;           // of the mask's edges, to either side, in hundredths of a pixel
+  Feather feather;           // of the mask's edges
   double brightness_ev = 0;  // in stops
   friend bool operator==(const DocumentState&, const DocumentState&) = default;
 };
@@ -147,6 +150,9 @@ class Document : public QObject {
   std::optional<QPoint> probe_;
   std::optional<Waveform> waveform_;
 };
+
+// Of the regions that the mask has: others have no edges.
+[[nodiscard]] Feather feather_of(const DocumentState& state);
 
 // The colour that the region with a tag begins with: calm ones, told apart on dark and light.
 [[nodiscard]] QColor first_colour(std::uint8_t tag);

@@ -7,8 +7,8 @@
 
 namespace nutik::studio {
 
-// `2px`, of hundredths of a pixel.
-[[nodiscard]] std::string feather_text(int feather);
+// `2px`, `2px,M128=6px`, `M128=6px`; of none `0px`.
+[[nodiscard]] std::string feather_text(const Feather& feather);
 // A function file.
 [[nodiscard]] std::string functions_text(const FunctionSet& functions);
 

@@ -71,12 +71,19 @@ void LiveView::ask(bool with_full) {
 }
 
 std::optional<Shared<MaskWithRegions>> LiveView::mask_of(const DocumentState& state, bool& is_final) {
-  if (!state.mask || state.mode == ExposureMode::boxcar || state.feather == 0) return state.mask;
-  if (!soft_ || !(soft_->hard == *state.mask) || soft_->feather != state.feather) {
-    soft_ = {*state.mask, state.feather, std::nullopt};
+  const Feather feather = feather_of(state);
+  if (!state.mask || state.mode == ExposureMode::boxcar || feather == Feather()) return state.mask;
+  const bool is_made = soft_ && soft_->hard == *state.mask && soft_->feather == feather;
+  // A stroke that goes on changes the mask again and again: its edges are blended in the end.
+  if (!is_made && document_.is_dragging()) {
+    is_final = false;
+    return state.mask;
+  }
+  if (!is_made) {
+    soft_ = {*state.mask, feather, std::nullopt};
     jobs_.start(tr("Feathering"), [this, wanted = state](const Job&) -> Jobs::Finish {
       return [this, wanted, made = feathered_mask(wanted)] {
-        if (!soft_ || !(soft_->hard == *wanted.mask) || soft_->feather != wanted.feather) return;
+        if (!soft_ || !(soft_->hard == *wanted.mask) || soft_->feather != feather_of(wanted)) return;
         soft_->mask = made;
         ask(!document_.is_dragging());
       };
@@ -87,8 +94,9 @@ std::optional<Shared<MaskWithRegions>> LiveView::mask_of(const DocumentState& st
 }
 
 Shared<MaskWithRegions> LiveView::feathered_mask(const DocumentState& state) {
-  if (state.feather == 0) return *state.mask;
-  return Shared(MaskWithRegions(feathered((*state.mask)->mask, {state.feather, {}})));
+  const Feather feather = feather_of(state);
+  if (feather == Feather()) return *state.mask;
+  return Shared(MaskWithRegions(feathered((*state.mask)->mask, feather)));
 }
 
 // On the engine's thread.

@@ -53,7 +53,7 @@ class LiveView : public QObject {
  private:
   struct Soft {
     Shared<MaskWithRegions> hard;
-    int feather;
+    Feather feather;
     std::optional<Shared<MaskWithRegions>> mask;  // none while it is made
   };
   using Clock = std::chrono::steady_clock;

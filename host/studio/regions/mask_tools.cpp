@@ -17,9 +17,19 @@ QString tr(const char* text) { return Document::tr(text); }
 
 Point point_of(QPointF at) { return {at.x(), at.y()}; }
 
-std::uint8_t tag_of(const Document& document, Qt::KeyboardModifiers keys) {
-  return (keys & Qt::AltModifier) != 0 ? kBackground : document.selected_tag();
-}
+// Which region a stroke is for.
+struct Target {
+  std::uint8_t tag = kBackground;
+  bool loses = false;  // the pixels, with Alt; else it gets them
+
+  static Target of(const Document& document, Qt::KeyboardModifiers keys) {
+    return {document.selected_tag(), (keys & Qt::AltModifier) != 0};
+  }
+  void stroke(Document& document, const Region& region, const QString& what) const {
+    if (loses && tag != kBackground) return erase_region(document, region, tag, what);
+    paint_region(document, region, tag, what);
+  }
+};
 
 // Bright over dark, on any picture.
 template <typename Draw>
@@ -38,7 +48,7 @@ class Brush : public CanvasTool {
   Brush(Document& document, const ToolSettings& settings) : document_(document), settings_(settings) {}
 
   void press(QPointF at, Qt::KeyboardModifiers keys) override {
-    tag_ = tag_of(document_, keys);
+    target_ = Target::of(document_, keys);
     document_.begin_drag();
     last_ = at;
     stroke(at);
@@ -66,7 +76,7 @@ class Brush : public CanvasTool {
     Region region = Region::none(shape.width, shape.height);
     for (int step = 0; step <= steps; ++step) stamp(region, last_ + (to - last_) * step / steps);
     last_ = to;
-    paint_region(document_, region, tag_, tr("Brush"));
+    target_.stroke(document_, region, tr("Brush"));
   }
 
   void stamp(Region& region, QPointF at) const {
@@ -88,7 +98,7 @@ class Brush : public CanvasTool {
   Document& document_;
   const ToolSettings& settings_;
   QPointF last_;
-  std::uint8_t tag_ = kBackground;
+  Target target_;
 };
 
 // A rectangle or an ellipse between two corners.
@@ -118,7 +128,7 @@ class BoxTool : public CanvasTool {
         is_ellipse_
             ? ellipse(shape.width, shape.height, point_of(box.center()), box.width() / 2, box.height() / 2)
             : rectangle(shape.width, shape.height, point_of(box.topLeft()), box.width(), box.height());
-    paint_region(document_, region, tag_of(document_, keys), is_ellipse_ ? tr("Ellipse") : tr("Rectangle"));
+    Target::of(document_, keys).stroke(document_, region, is_ellipse_ ? tr("Ellipse") : tr("Rectangle"));
   }
   void give_up() override { is_drawn_ = false; }
   void paint(QPainter& painter, QPointF) const override {
@@ -151,8 +161,8 @@ class PolygonTool : public CanvasTool {
     std::ranges::transform(corners_, std::back_inserter(corners), point_of);
     corners_.clear();
     const Shape& shape = document_.facts()->format.shape;
-    paint_region(document_, polygon(shape.width, shape.height, corners), tag_of(document_, keys_),
-                 tr("Polygon"));
+    Target::of(document_, keys_)
+        .stroke(document_, polygon(shape.width, shape.height, corners), tr("Polygon"));
   }
   void give_up() override { corners_.clear(); }
   void paint(QPainter& painter, QPointF pointer) const override {
@@ -179,8 +189,8 @@ class Wand : public CanvasTool {
     const Shape& shape = document_.facts()->format.shape;
     const QSize size(static_cast<int>(shape.width), static_cast<int>(shape.height));
     if (image.size() != size || !image.rect().contains(pixel)) return;
-    paint_region(document_, similar_pixels(image, pixel, settings_.wand_codes), tag_of(document_, keys),
-                 tr("Magic wand"));
+    Target::of(document_, keys)
+        .stroke(document_, similar_pixels(image, pixel, settings_.wand_codes), tr("Magic wand"));
   }
   void drag(QPointF, Qt::KeyboardModifiers) override {}
   void release(QPointF, Qt::KeyboardModifiers) override {}

@@ -1,7 +1,7 @@
 // What paints regions on the canvas: brush, rectangle, ellipse, polygon, magic wand.
 //
 //   in:      strokes in the picture's coordinates
-//   out:     edits of the document: the selected region gets the pixels; with Alt held the background does
+//   out:     edits of the document: the selected region gets the pixels; with Alt held it loses them
 //   always:  a stroke is one undo step. Escape takes back what is not finished
 #pragma once
 

@@ -2,21 +2,17 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
+
+#include "studio/regions/covering.hpp"
 
 namespace nutik::studio {
 namespace {
 
 QString tr(const char* text) { return Document::tr(text); }
 
-Mask mask_of(const Document& document) {
-  if (document.state().mask) return (*document.state().mask)->mask;
-  const Shape& shape = document.facts()->format.shape;
-  return Mask::uniform(shape.width, shape.height, kBackground);
-}
-
-void apply_mask(Document& document, Mask mask, const QString& what) {
-  DocumentState state = document.state();
-  state.mask = Shared(MaskWithRegions(std::move(mask)));
+void apply(Document& document, Covering covering, const QString& what) {
+  DocumentState state = std::move(covering).state();
   state.mode = ExposureMode::functions;
   document.apply(std::move(state), what);
 }
@@ -35,17 +31,18 @@ GainFunction function_over(const Boxcar& boxcar) {
   return with_steps(GainFunction::boxcar(boxcar.start_ns, boxcar.start_ns + boxcar.length_ns));
 }
 
-// What is not inside and has the tag loses it.
-Mask mask_with(const Document& document, const Region& region, std::uint8_t tag) {
-  Mask mask = mask_of(document);
-  for (std::size_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
-    if (region.inside[pixel] != 0) {
-      mask.tags[pixel] = tag;
-    } else if (mask.tags[pixel] == tag) {
-      mask.tags[pixel] = kBackground;
-    }
-  }
-  return mask;
+Region without(Region region, const Region& other) {
+  for (std::size_t pixel = 0; pixel < region.inside.size(); ++pixel)
+    if (other.inside[pixel] != 0) region.inside[pixel] = 0;
+  return region;
+}
+
+void replace_area(Document& document, std::uint8_t tag, const Region& area, const QString& what) {
+  Covering covering(document);
+  const Region before = covering.area_of(tag);
+  covering.take(without(before, area), tag);
+  covering.give(without(area, before), tag);
+  apply(document, std::move(covering), what);
 }
 
 }  // namespace
@@ -56,6 +53,7 @@ void add_region(Document& document) {
   if (!tag) return;
   DocumentState state = document.state();
   state.functions.emplace(*tag, function_over(state.boxcar));
+  state.order.insert(state.order.begin(), *tag);
   state.looks[*tag] = {Document::tr("Region %1").arg(state.functions.size() - 1),
                        first_colour(static_cast<std::uint8_t>(state.functions.size() - 1)), true};
   document.apply(std::move(state), tr("Add region"));
@@ -64,14 +62,21 @@ void add_region(Document& document) {
 
 void remove_region(Document& document, std::uint8_t tag) {
   if (tag == kBackground || !document.functions().contains(tag)) return;
-  DocumentState state = document.state();
+  Covering covering(document);
+  covering.take(covering.area_of(tag), tag);
+  DocumentState state = std::move(covering).state();
   state.functions.erase(tag);
-  if (state.mask) {
-    Mask mask = (*state.mask)->mask;
-    std::ranges::replace(mask.tags, tag, kBackground);
-    state.mask = Shared(MaskWithRegions(std::move(mask)));
-  }
   document.apply(std::move(state), tr("Remove region"));
+}
+
+void move_region(Document& document, std::uint8_t tag, Move move) {
+  const std::vector<std::uint8_t>& order = document.state().order;
+  auto place = std::ranges::find(order, tag);
+  if (place == order.end()) return;
+  if (move == Move::down && ++place == order.end()) return;
+  Covering covering(document);
+  if (!covering.move_up(*place)) return;
+  document.apply(std::move(covering).state(), tr(move == Move::up ? "Move region up" : "Move region down"));
 }
 
 void set_look(Document& document, std::uint8_t tag, const RegionLook& look, const QString& what) {
@@ -87,36 +92,42 @@ void expose_over_boxcar(Document& document, std::uint8_t tag) {
 }
 
 void paint_region(Document& document, const Region& region, std::uint8_t tag, const QString& what) {
-  Mask mask = mask_of(document);
-  paint(mask, region, tag);
-  apply_mask(document, std::move(mask), what);
+  Covering covering(document);
+  tag == kBackground ? covering.take_from_all(region) : covering.give(region, tag);
+  apply(document, std::move(covering), what);
 }
 
-Region region_of(const Document& document, std::uint8_t tag) {
-  const Mask mask = mask_of(document);
-  Region region = Region::none(mask.width, mask.height);
-  std::ranges::transform(mask.tags, region.inside.begin(),
-                         [&](std::uint8_t of) { return static_cast<std::uint8_t>(of == tag); });
-  return region;
+void erase_region(Document& document, const Region& region, std::uint8_t tag, const QString& what) {
+  Covering covering(document);
+  covering.take(region, tag);
+  apply(document, std::move(covering), what);
 }
+
+Region region_of(const Document& document, std::uint8_t tag) { return Covering(document).area_of(tag); }
 
 void grow_region(Document& document, std::uint8_t tag, double radius) {
   if (document.facts() == nullptr || tag == kBackground) return;
   const Region region = region_of(document, tag);
-  apply_mask(document, mask_with(document, radius < 0 ? shrunk(region, -radius) : grown(region, radius), tag),
-             radius < 0 ? tr("Shrink region") : tr("Grow region"));
+  replace_area(document, tag, radius < 0 ? shrunk(region, -radius) : grown(region, radius),
+               radius < 0 ? tr("Shrink region") : tr("Grow region"));
 }
 
 void smooth_region(Document& document, std::uint8_t tag, double radius) {
   if (document.facts() == nullptr || tag == kBackground) return;
-  apply_mask(document, mask_with(document, smoothed(region_of(document, tag), radius), tag),
-             tr("Smooth region"));
+  replace_area(document, tag, smoothed(region_of(document, tag), radius), tr("Smooth region"));
 }
 
 void set_feather(Document& document, int feather) {
   DocumentState state = document.state();
-  state.feather = feather;
+  state.feather.everywhere = feather;
   document.apply(std::move(state), tr("Feather"));
+}
+
+void set_feather_of(Document& document, std::uint8_t tag, std::optional<int> feather) {
+  DocumentState state = document.state();
+  state.feather.of_tag.erase(tag);
+  if (feather) state.feather.of_tag[tag] = *feather;
+  document.apply(std::move(state), tr("Feather of region"));
 }
 
 }  // namespace nutik::studio

@@ -9,6 +9,7 @@
 #include <QPainter>
 #include <QPushButton>
 #include <QScopedValueRollback>
+#include <QStyledItemDelegate>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -19,6 +20,16 @@ namespace {
 
 constexpr int kTagRole = Qt::UserRole;
 constexpr double kMaxRadius = 100, kMaxFeather = 100;  // pixels
+constexpr double kAsAll = 0.5;                         // less than none: a region has no feather of its own
+
+// Of columns that tell what cannot be edited there.
+class NoEditor : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+  QWidget* createEditor(QWidget*, const QStyleOptionViewItem&, const QModelIndex&) const override {
+    return nullptr;
+  }
+};
 
 QIcon swatch(const QColor& colour) {
   QPixmap pixmap(32, 32);
@@ -62,8 +73,10 @@ RegionList::RegionList(Document& document, QWidget* parent)
   list_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
   list_->header()->setStretchLastSection(false);
   list_->header()->setSectionResizeMode(kName, QHeaderView::Stretch);
-  for (const int column : {kTag, kStill, kSolo})
+  for (const int column : {kTag, kStill, kSolo}) {
     list_->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
+    list_->setItemDelegateForColumn(column, new NoEditor(list_));
+  }
   build_buttons();
   connect(list_, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
     if (!is_following_ && item != nullptr) document_.select_tag(tag_of(*item));
@@ -86,7 +99,9 @@ void RegionList::build_buttons() {
   add_ = button("add_region", tr("Add"), tr("A new region, exposed over the interval; paint it with a tool"));
   remove_ = button("remove_region", tr("Remove"), tr("Its pixels fall to the background"));
   colour_ = button("region_colour", tr("Colour…"), tr("Of the region's outline and curve"));
-  over_interval_ = button("over_interval", tr("Expose over interval"),
+  up_ = button("region_up", tr("Up"), tr("Before the region above it, which it then covers"));
+  down_ = button("region_down", tr("Down"), tr("Behind the region below it, which then covers it"));
+  over_interval_ = button("over_interval", tr("Over interval"),
                           tr("The interval of the time strip becomes the region's function"));
   grow_ = button("grow", tr("Grow"), tr("By so many pixels"));
   shrink_ = button("shrink", tr("Shrink"), tr("By so many pixels"));
@@ -95,13 +110,20 @@ void RegionList::build_buttons() {
   radius_->setObjectName("radius");
   feather_ = pixel_box(kMaxFeather, 0, tr("Feather: how far all edges are blended, to either side"), this);
   feather_->setObjectName("feather");
-  feather_->setKeyboardTracking(false);
+  own_feather_ = pixel_box(kMaxFeather, 0, tr("Feather of the selected region's own edges"), this);
+  own_feather_->setObjectName("own_feather");
+  own_feather_->setRange(-kAsAll, kMaxFeather);
+  own_feather_->setSingleStep(kAsAll);
+  own_feather_->setSpecialValueText(tr("as all edges"));
+  for (QDoubleSpinBox* box : {feather_, own_feather_}) box->setKeyboardTracking(false);
 
   auto* first = new QGridLayout;
   first->addWidget(add_, 0, 0);
   first->addWidget(remove_, 0, 1);
   first->addWidget(colour_, 0, 2);
-  first->addWidget(over_interval_, 1, 0, 1, 3);
+  first->addWidget(up_, 1, 0);
+  first->addWidget(down_, 1, 1);
+  first->addWidget(over_interval_, 1, 2);
   auto* second = new QGridLayout;
   second->addWidget(grow_, 0, 0);
   second->addWidget(shrink_, 0, 1);
@@ -109,6 +131,7 @@ void RegionList::build_buttons() {
   auto* numbers = new QFormLayout;
   numbers->addRow(tr("By"), radius_);
   numbers->addRow(tr("Feather edges"), feather_);
+  numbers->addRow(tr("Its own edges"), own_feather_);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(6, 6, 6, 6);
   column->addWidget(list_, 1);
@@ -119,6 +142,10 @@ void RegionList::build_buttons() {
   connect(add_, &QPushButton::clicked, this, [this] { add_region(document_); });
   connect(remove_, &QPushButton::clicked, this,
           [this] { remove_region(document_, document_.selected_tag()); });
+  connect(up_, &QPushButton::clicked, this,
+          [this] { move_region(document_, document_.selected_tag(), Move::up); });
+  connect(down_, &QPushButton::clicked, this,
+          [this] { move_region(document_, document_.selected_tag(), Move::down); });
   connect(colour_, &QPushButton::clicked, this, &RegionList::choose_colour);
   connect(over_interval_, &QPushButton::clicked, this,
           [this] { expose_over_boxcar(document_, document_.selected_tag()); });
@@ -131,26 +158,31 @@ void RegionList::build_buttons() {
   connect(feather_, &QDoubleSpinBox::valueChanged, this, [this](double pixels) {
     if (!is_following_) set_feather(document_, qRound(pixels * 100));
   });
+  connect(own_feather_, &QDoubleSpinBox::valueChanged, this, [this](double pixels) {
+    if (is_following_) return;
+    set_feather_of(document_, document_.selected_tag(),
+                   pixels < 0 ? std::nullopt : std::optional(qRound(pixels * 100)));
+  });
 }
 
 void RegionList::follow() {
   const QScopedValueRollback guard(is_following_, true);
-  const FunctionSet& functions = document_.functions();
-  int row = 0;
-  for (const auto& [tag, function] : functions) {
-    while (row < list_->topLevelItemCount() && tag_of(*list_->topLevelItem(row)) < tag)
-      delete list_->takeTopLevelItem(row);
-    if (row == list_->topLevelItemCount() || tag_of(*list_->topLevelItem(row)) != tag) {
-      auto* item = new QTreeWidgetItem;
+  std::vector<std::uint8_t> tags = document_.state().order;
+  if (document_.functions().contains(kBackground)) tags.push_back(kBackground);
+  bool is_same = list_->topLevelItemCount() == static_cast<int>(tags.size());
+  for (int row = 0; is_same && row < list_->topLevelItemCount(); ++row)
+    is_same = tag_of(*list_->topLevelItem(row)) == tags[static_cast<std::size_t>(row)];
+  if (!is_same) {
+    list_->clear();
+    for (const std::uint8_t tag : tags) {
+      auto* item = new QTreeWidgetItem(list_);
       item->setData(0, kTagRole, tag);
       item->setFlags(item->flags() | Qt::ItemIsEditable | Qt::ItemIsUserCheckable);
-      list_->insertTopLevelItem(row, item);
     }
-    fill(*list_->topLevelItem(row), tag);
-    ++row;
   }
-  while (list_->topLevelItemCount() > row) delete list_->takeTopLevelItem(row);
-  feather_->setValue(document_.state().feather / 100.0);
+  for (int row = 0; row < list_->topLevelItemCount(); ++row)
+    fill(*list_->topLevelItem(row), tags[static_cast<std::size_t>(row)]);
+  feather_->setValue(document_.state().feather.everywhere / 100.0);
   follow_selection();
 }
 
@@ -162,11 +194,18 @@ void RegionList::follow_selection() {
     item.setCheckState(kSolo, document_.solo() == tag_of(item) ? Qt::Checked : Qt::Unchecked);
   }
   const bool is_open = document_.facts() != nullptr;
-  const bool can_change = is_open && document_.selected_tag() != kBackground;
-  for (QWidget* widget : {static_cast<QWidget*>(add_), static_cast<QWidget*>(colour_),
-                          static_cast<QWidget*>(over_interval_), static_cast<QWidget*>(feather_)})
+  const std::uint8_t tag = document_.selected_tag();
+  const bool can_change = is_open && tag != kBackground;
+  const auto& own = document_.state().feather.of_tag;
+  own_feather_->setValue(own.contains(tag) ? own.at(tag) / 100.0 : own_feather_->minimum());
+  for (QWidget* widget :
+       {static_cast<QWidget*>(add_), static_cast<QWidget*>(colour_), static_cast<QWidget*>(over_interval_),
+        static_cast<QWidget*>(feather_), static_cast<QWidget*>(own_feather_)})
     widget->setEnabled(is_open);
   for (QPushButton* button : {remove_, grow_, shrink_, smooth_}) button->setEnabled(can_change);
+  const std::vector<std::uint8_t>& order = document_.state().order;
+  up_->setEnabled(can_change && !order.empty() && order.front() != tag);
+  down_->setEnabled(can_change && !order.empty() && order.back() != tag);
 }
 
 void RegionList::fill(QTreeWidgetItem& item, std::uint8_t tag) const {

@@ -30,8 +30,8 @@ class RegionList : public QWidget {
 
   Document& document_;
   QTreeWidget* list_;
-  QPushButton *add_, *remove_, *colour_, *over_interval_;
-  QDoubleSpinBox *radius_, *feather_;
+  QPushButton *add_, *remove_, *colour_, *up_, *down_, *over_interval_;
+  QDoubleSpinBox *radius_, *feather_, *own_feather_;
   QPushButton *grow_, *shrink_, *smooth_;
   bool is_following_ = false;
 };

@@ -22,8 +22,8 @@ NamedOptions options_of(const Document& document) {
   NamedOptions options;
   if (state.brightness_ev != 0) options.emplace_back("ev", format("{}", state.brightness_ev));
   if (is_plain) options.emplace_back("exposure", StatedTime::of_nanoseconds(state.boxcar.length_ns).text());
-  if (!is_plain && state.mask && state.feather != 0)
-    options.emplace_back("feather", feather_text(state.feather));
+  if (const Feather feather = feather_of(state); !is_plain && state.mask && feather != Feather())
+    options.emplace_back("feather", feather_text(feather));
   if (!document.facts()->rate.isEmpty()) options.emplace_back("fps", document.facts()->rate.toStdString());
   if (state.normalization != Normalization()) options.emplace_back("normalize", state.normalization.text());
   if (is_plain) options.emplace_back("start", StatedTime::of_nanoseconds(state.boxcar.start_ns).text());

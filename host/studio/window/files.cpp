@@ -204,6 +204,7 @@ void MainWindow::use_mask(const QString& path) {
         GainFunction::boxcar(state.boxcar.start_ns, state.boxcar.start_ns + state.boxcar.length_ns));
     for (const MaskRegion& region : mask->regions) state.functions.try_emplace(region.tag, function);
     state.mask = mask;
+    state.covered.clear();
     state.mode = ExposureMode::functions;
     document_.apply(std::move(state), tr("Load mask"));
   });
@@ -226,10 +227,11 @@ void MainWindow::write_mask(const QString& path) {
       throw InputError("there is no mask yet: all of the picture is the background, M0. Add a region first");
     check_mask_output(path.toStdString(), std::vector{document_.facts()->path.toStdString()});
     save_mask(path, (*document_.state().mask)->mask);
-    const int feather = document_.state().feather;
-    const QString soft = feather == 0 ? QString()
-                                      : tr(" Its edges are hard; their feather, %1, is not in the file.")
-                                            .arg(QString::fromStdString(feather_text(feather)));
+    const Feather feather = feather_of(document_.state());
+    const QString soft = feather == Feather()
+                             ? QString()
+                             : tr(" Its edges are hard; their feather, %1, is not in the file.")
+                                   .arg(QString::fromStdString(feather_text(feather)));
     notice_->say(Notice::Kind::note, tr("Written: %1.%2").arg(path, soft));
   });
 }

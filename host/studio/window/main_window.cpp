@@ -172,6 +172,7 @@ void MainWindow::take(Opened opened, std::optional<DocumentState> state) {
               .arg(shape.width)
               .arg(shape.height));
       state->mask.reset();
+      state->covered.clear();
     }
   }
   remember(project_.isEmpty() ? opened.facts.path : project_);

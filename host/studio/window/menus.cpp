@@ -112,13 +112,17 @@ void MainWindow::build_region_menu() {
                                [this] { add_region(document_); });
   needs_capture_ += add_action(menu, tr("&Remove region"), Qt::CTRL | Qt::SHIFT | Qt::Key_Backspace,
                                [this] { remove_region(document_, document_.selected_tag()); });
+  needs_capture_ += add_action(menu, tr("Move &up"), Qt::CTRL | Qt::Key_PageUp,
+                               [this] { move_region(document_, document_.selected_tag(), Move::up); });
+  needs_capture_ += add_action(menu, tr("Move &down"), Qt::CTRL | Qt::Key_PageDown,
+                               [this] { move_region(document_, document_.selected_tag(), Move::down); });
   needs_capture_ += add_action(menu, tr("&Expose over the interval"), Qt::CTRL | Qt::Key_I,
                                [this] { expose_over_boxcar(document_, document_.selected_tag()); });
   menu.addSeparator();
   needs_capture_ +=
       add_action(menu, tr("Select what &moves"), Qt::CTRL | Qt::Key_M, [this] { select_motion(); });
   needs_capture_ +=
-      add_action(menu, tr("Select what &differs…"), Qt::CTRL | Qt::Key_D, [this] { choose_difference(); });
+      add_action(menu, tr("Select what di&ffers…"), Qt::CTRL | Qt::Key_D, [this] { choose_difference(); });
 }
 
 void MainWindow::build_start_menu() {

@@ -6,12 +6,16 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QtEndian>
+#include <algorithm>
 
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/pictures.hpp"
 #include "session/requests/function_input.hpp"
 #include "studio/document/texts.hpp"
+#include "studio/regions/covering.hpp"
+#include "studio/regions/region_edits.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::studio {
@@ -38,6 +42,29 @@ std::int64_t time_in(const QJsonObject& object, const char* name, const QString&
   return time_ns;
 }
 
+QString text_of(const Region& region) {
+  const auto* bytes = reinterpret_cast<const char*>(region.inside.data());
+  const auto size = static_cast<qsizetype>(region.inside.size());
+  return QString::fromLatin1(qCompress(QByteArray::fromRawData(bytes, size)).toBase64());
+}
+
+// As large as the mask.
+Region region_in(const QString& text, const Mask& mask, const QString& path) {
+  const QByteArray packed = QByteArray::fromBase64(text.toLatin1());
+  Region region = Region::none(mask.width, mask.height);
+  // What is packed begins with its size: nothing is unpacked that has another one.
+  const bool is_as_large =
+      packed.size() > 4 && qFromBigEndian<quint32>(packed.constData()) == region.inside.size();
+  const QByteArray bytes = is_as_large ? qUncompress(packed) : QByteArray();
+  const auto is_flag = [](char byte) { return byte == 0 || byte == 1; };
+  if (bytes.size() != static_cast<qsizetype>(region.inside.size()) || !std::ranges::all_of(bytes, is_flag))
+    refuse(path, format("what is covered of a region is damaged, or not {} x {} pixels large as the mask is",
+                        mask.width, mask.height));
+  std::ranges::copy(bytes, region.inside.begin());
+  return region;
+}
+
+// In the order in which they cover each other.
 void read_looks(const QJsonArray& regions, DocumentState& state, const QString& path) {
   for (const QJsonValue& value : regions) {
     const QJsonObject region = value.toObject();
@@ -45,9 +72,17 @@ void read_looks(const QJsonArray& regions, DocumentState& state, const QString& 
     const QColor colour(region["colour"].toString());
     if (tag < 0 || tag > 255 || !colour.isValid())
       refuse(path, "a region has no tag from 0 to 255, or no colour");
-    state.looks[static_cast<std::uint8_t>(tag)] = {region["name"].toString(), colour,
-                                                   region["visible"].toBool(true)};
+    const auto value_of = static_cast<std::uint8_t>(tag);
+    const bool is_new =
+        state.looks.try_emplace(value_of, region["name"].toString(), colour, region["visible"].toBool(true))
+            .second;
+    if (!is_new) refuse(path, format("it has two regions with the tag {}", tag));
+    if (tag != 0) state.order.push_back(value_of);
+    if (tag != 0 && state.mask && region.contains("covered"))
+      state.covered.emplace(value_of,
+                            Shared(region_in(region["covered"].toString(), (*state.mask)->mask, path)));
   }
+  tidy_covered(state);
 }
 
 }  // namespace
@@ -81,9 +116,16 @@ void save_project(const QString& path, const Document& document, const CommandFi
   save_functions(files.functions, state.functions);
   if (state.mask) save_mask(files.mask, (*state.mask)->mask);
   QJsonArray regions;
-  for (const auto& [tag, look] : state.looks)
-    regions += QJsonObject{
+  std::vector<std::uint8_t> tags = state.order;
+  if (state.looks.contains(kBackground)) tags.push_back(kBackground);
+  for (const std::uint8_t tag : tags) {
+    const RegionLook& look = state.looks.at(tag);
+    QJsonObject region{
         {"tag", tag}, {"name", look.name}, {"colour", look.colour.name()}, {"visible", look.is_visible}};
+    if (const auto found = state.covered.find(tag); found != state.covered.end())
+      region["covered"] = text_of(*found->second);
+    regions += region;
+  }
   QJsonObject object{{kVersionKey, kVersion},
                      {"capture", named(document.facts()->path)},
                      {"functions", named(files.functions)},
@@ -132,7 +174,7 @@ Project load_project(const QString& path) {
   state.boxcar = {time_in(object, "start_ns", path), time_in(object, "length_ns", path)};
   try {
     state.normalization = Normalization::parse(object["normalize"].toString().toStdString());
-    state.feather = Feather::parse(object["feather"].toString().toStdString()).everywhere;
+    state.feather = Feather::parse(object["feather"].toString().toStdString());
   } catch (const UsageError& error) {
     refuse(path, error.what());
   }

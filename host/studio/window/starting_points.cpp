@@ -38,7 +38,9 @@ DocumentState state_of(const DocumentState& before, const Study& study, Mask mas
   state.mask = Shared(MaskWithRegions(std::move(mask)));
   state.mode = ExposureMode::functions;
   state.normalization = Normalization::parse("integral");
-  state.feather = is_slit ? 0 : kStudyFeather;
+  state.order.clear();
+  state.covered.clear();
+  state.feather = {is_slit ? 0 : kStudyFeather, {}};
   return state;
 }
 
