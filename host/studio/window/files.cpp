@@ -24,6 +24,12 @@ constexpr int kMaxRecent = 10;
 
 }  // namespace
 
+FileTimes times_of(const QStringList& files) {
+  FileTimes times;
+  for (const QString& file : files) times[file] = QFileInfo(file).lastModified();
+  return times;
+}
+
 // Errors are said above the picture.
 bool MainWindow::try_to(const std::function<void()>& what) {
   try {
@@ -50,7 +56,8 @@ bool MainWindow::save_project(const QString& path) {
   if (!try_to([&] { nutik::studio::save_project(path, document_, files); })) return false;
   project_ = path;
   files_ = files;
-  note_files();
+  known_ = times_of({path, files.functions, files.mask});
+  note_capture();
   Autosave::forget();
   document_.undo_stack().setClean();
   remember(path);
@@ -70,12 +77,8 @@ bool MainWindow::save() {
   return save_project(project_);
 }
 
-void MainWindow::note_files() {
-  known_.clear();
-  for (const QString& file : {project_, files_.functions, files_.mask})
-    known_[file] = QFileInfo(file).lastModified();
-  if (document_.facts() != nullptr)
-    known_[document_.facts()->path] = QFileInfo(document_.facts()->path).lastModified();
+void MainWindow::note_capture() {
+  known_.merge(times_of({document_.facts()->path}));
   told_changes_.clear();
 }
 
@@ -115,9 +118,8 @@ void MainWindow::tell_changes() {
 void MainWindow::recover() {
   const QString kept = Autosave::found();
   if (kept.isEmpty() || !may_leave()) return;
-  open(kept);
-  project_.clear();  // it is saved where a person says
-  files_ = {};
+  notice_->clear();
+  open_project(kept, Origin::Kind::recovered);  // it is saved where a person says
 }
 
 bool MainWindow::save_as() {

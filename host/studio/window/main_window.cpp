@@ -112,54 +112,66 @@ void MainWindow::connect_parts() {
 
 void MainWindow::open(const QString& path, const QString& rate) {
   notice_->clear();
-  if (!path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive)) {
-    project_.clear();
-    files_ = {};
-    known_.clear();
-    return open_capture_file(QFileInfo(path).absoluteFilePath(), rate, {});
-  }
+  if (path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive))
+    return open_project(path, Origin::Kind::project);
+  open_capture_file(QFileInfo(path).absoluteFilePath(), rate, {});
+}
+
+void MainWindow::open_project(const QString& path, Origin::Kind kind) {
   try_to([&] {
     Project project = load_project(path);
-    project_ = path;
-    files_ = project.files;
-    note_files();
-    remember(path);
-    open_capture_file(project.capture, project.rate, std::move(project.state));
+    Origin origin{kind, {}, {}, {}, std::move(project.state), {}};
+    if (kind == Origin::Kind::project) {
+      origin.project = path;
+      origin.files = project.files;
+      origin.known = times_of({path, project.files.functions, project.files.mask});
+    }
+    open_capture_file(project.capture, project.rate, std::move(origin));
   });
 }
 
-void MainWindow::open_capture_file(const QString& path, const QString& rate,
-                                   std::optional<DocumentState> state) {
+void MainWindow::open_capture_file(const QString& path, const QString& rate, Origin origin) {
   jobs_.cancel();
+  if (document_.facts() != nullptr) origin.left = document_.state();
   const auto first_look = [this](QImage image) {
     QMetaObject::invokeMethod(
         this, [this, image] { canvas_->show_first_look(image); }, Qt::QueuedConnection);
   };
   jobs_.start(tr("Opening %1").arg(QFileInfo(path).fileName()),
-              [this, path, rate, state = std::move(state), devices = devices_,
+              [this, path, rate, origin = std::move(origin), devices = devices_,
                first_look](const Job& job) -> Jobs::Finish {
                 try {
                   auto opened = std::make_shared<Opened>(open_capture(path, rate, devices, job, first_look));
-                  return [this, opened, state] { take(std::move(*opened), state); };
+                  return [this, opened, origin] { take(std::move(*opened), origin); };
                 } catch (const Error& error) {
                   const auto& settings = error.settings();
                   if (!rate.isEmpty() || std::ranges::find(settings, Setting::frame_rate) == settings.end())
                     throw;
-                  return [this, path, why = sentence_of(std::current_exception())] { ask_rate(path, why); };
+                  return [this, path, origin, why = sentence_of(std::current_exception())] {
+                    ask_rate(path, why, origin);
+                  };
                 }
               });
 }
 
-void MainWindow::ask_rate(const QString& path, const QString& why) {
+void MainWindow::ask_rate(const QString& path, const QString& why, const Origin& origin) {
   bool is_answered = false;
   const QString rate = QInputDialog::getText(
       this, tr("Pictures a second"),
       tr("%1\n\nHow many pictures a second was it filmed with? As in 120 or 30000/1001").arg(why),
       QLineEdit::Normal, {}, &is_answered);
-  if (is_answered && !rate.trimmed().isEmpty()) open(path, rate.trimmed());
+  if (!is_answered || rate.trimmed().isEmpty()) return;
+  notice_->clear();
+  open_capture_file(path, rate.trimmed(), origin);
 }
 
-void MainWindow::take(Opened opened, std::optional<DocumentState> state) {
+void MainWindow::take(Opened opened, Origin origin) {
+  // What was changed while this was opened was not asked for yet.
+  if (origin.left && *origin.left != document_.state() && !may_leave()) {
+    canvas_->clear();
+    return live_.show(session_);
+  }
+  std::optional<DocumentState>& state = origin.state;
   if (state && state->mask) {
     const Shape& shape = opened.facts.format.shape;
     const Mask& mask = (*state->mask)->mask;
@@ -175,15 +187,17 @@ void MainWindow::take(Opened opened, std::optional<DocumentState> state) {
       state->covered.clear();
     }
   }
+  project_ = origin.project;
+  files_ = origin.files;
+  known_ = std::move(origin.known);
   remember(project_.isEmpty() ? opened.facts.path : project_);
   canvas_->clear();
   live_.show(nullptr);
   session_ = opened.session;
-  const bool is_recovered = state && project_.isEmpty();
   document_.start(std::move(opened.facts), std::move(state));
-  if (is_recovered) document_.undo_stack().resetClean();
+  if (origin.kind == Origin::Kind::recovered) document_.undo_stack().resetClean();
   axis_.set_duration(document_.duration_ns());
-  known_[document_.facts()->path] = QFileInfo(document_.facts()->path).lastModified();
+  note_capture();
   live_.show(session_);
   follow_title();
   if (!opened.notes.isEmpty() && notice_->text().isEmpty())

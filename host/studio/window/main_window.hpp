@@ -29,6 +29,21 @@ class QToolBar;
 
 namespace nutik::studio {
 
+// When the window read or wrote files: later changes are somebody else's.
+using FileTimes = std::map<QString, QDateTime>;
+[[nodiscard]] FileTimes times_of(const QStringList& files);
+
+// Where a capture that is being opened comes from. It becomes the window's once the capture is open.
+struct Origin {
+  enum class Kind { capture, project, recovered };
+  Kind kind = Kind::capture;
+  QString project;  // of Kind::project
+  CommandFiles files;
+  FileTimes known;
+  std::optional<DocumentState> state;  // none: the document starts anew
+  std::optional<DocumentState> left;   // what the document was when it was left for this
+};
+
 class MainWindow : public QMainWindow {
   Q_OBJECT
 
@@ -77,9 +92,10 @@ class MainWindow : public QMainWindow {
   // main_window.cpp
   void build_window();
   void connect_parts();
-  void open_capture_file(const QString& path, const QString& rate, std::optional<DocumentState> state);
-  void take(Opened opened, std::optional<DocumentState> state);
-  void ask_rate(const QString& path, const QString& why);
+  void open_project(const QString& path, Origin::Kind kind);
+  void open_capture_file(const QString& path, const QString& rate, Origin origin);
+  void take(Opened opened, Origin origin);
+  void ask_rate(const QString& path, const QString& why, const Origin& origin);
   void look_at_capture();
   void select_motion();
   void choose_difference();
@@ -104,7 +120,7 @@ class MainWindow : public QMainWindow {
   bool save_as();
   bool may_leave();  // asks where something is not saved
   bool ensure_files();
-  void note_files();
+  void note_capture();
   [[nodiscard]] QStringList changed_outside() const;
   void tell_changes();
   void choose_export();
@@ -130,10 +146,8 @@ class MainWindow : public QMainWindow {
   std::shared_ptr<Session> session_;
   QString project_;
   CommandFiles files_;
-  // When this window read or wrote the project's files and the capture: later changes are somebody else's. And what was
-  // said of them.
-  std::map<QString, QDateTime> known_;
-  QString told_changes_;
+  FileTimes known_;  // of the project's files and the capture
+  QString told_changes_;  // what was said of them
   ToolSettings tool_settings_;
   std::unique_ptr<CanvasTool> tool_;
 

@@ -87,7 +87,7 @@ void MainWindow::build_file_menu() {
     if (may_leave()) project_.isEmpty() ? open(document_.facts()->path, rate) : open(project_);
   });
   needs_capture_ += add_action(menu, tr("Frame ra&te…"), {}, [this] {
-    if (may_leave()) ask_rate(document_.facts()->path, tr("The clip is opened again."));
+    if (may_leave()) ask_rate(document_.facts()->path, tr("The clip is opened again."), {});
   });
   menu.addSeparator();
   needs_capture_ += add_action(menu, tr("&Save project"), QKeySequence::Save, [this] { save(); });

@@ -1,0 +1,143 @@
+// What a window keeps until another file is open, and what it forgets then.
+#include <QInputDialog>
+#include <QMenu>
+#include <QMenuBar>
+#include <QSettings>
+#include <QToolButton>
+
+#include "studio/regions/region_edits.hpp"
+#include "studio/window/project_file.hpp"
+#include "studio_test.hpp"
+#include "support/program.hpp"
+
+namespace nutik::studio {
+namespace {
+
+class OpeningTest : public StudioTest {
+ protected:
+  OpeningTest() {
+    QSettings().remove("recent");
+    std::filesystem::create_directory(scratch_ / "damaged");
+    scratch_.write("damaged/0.pgm", "P5 16 8 255\n" + std::string(128, 'a'));  // which is shown at first
+    scratch_.write("damaged/1.pgm", "P5 16 8 255\n" + std::string(100, 'a'));
+  }
+
+  void open_project() {
+    open_clip();
+    click_button("add_region");
+    paint_region(document(), rectangle(96, 48, {10, 10}, 20, 20), document().selected_tag(), "Rectangle");
+    ASSERT_TRUE(settles());
+    ASSERT_TRUE(window_.save_project(path("mine.nutik")));
+  }
+  void expect_mine() {
+    EXPECT_TRUE(window_.windowTitle().startsWith("mine.nutik")) << window_.windowTitle().toStdString();
+    EXPECT_TRUE(window_.has_files());
+    EXPECT_TRUE(window_.command_for("picture.png").contains("mine.fn"));
+    document().set_boxcar({7, 1'000}, "Scrub");
+    QTest::keyClick(&window_, Qt::Key_S, Qt::ControlModifier);
+    EXPECT_EQ(load_project(path("mine.nutik")).state.boxcar, (Boxcar{7, 1'000}))
+        << "it is saved where it was";
+  }
+  // Of what is chosen in the menu of recent files, once it was filled.
+  [[nodiscard]] QMenu& recent() {
+    for (QAction* action : window_.menuBar()->actions().front()->menu()->actions()) {
+      if (action->menu() == nullptr) continue;
+      Q_EMIT action->menu()->aboutToShow();
+      return *action->menu();
+    }
+    throw std::logic_error("no menu of recent files");
+  }
+  [[nodiscard]] QStringList recent_files() {
+    QStringList files;
+    for (const QAction* action : recent().actions()) files += QFileInfo(action->text()).fileName();
+    return files;
+  }
+};
+
+TEST_F(OpeningTest, AProjectStaysWhereAnotherFileCannotBeOpened) {
+  ASSERT_NO_FATAL_FAILURE(open_project());
+  const QImage picture = canvas().image();
+  window_.open(path("damaged/%d.pgm"), "100");
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(window_.notice().text().contains("1.pgm")) << window_.notice().text().toStdString();
+  EXPECT_EQ(difference(canvas().image(), picture), "");
+  expect_mine();
+}
+
+TEST_F(OpeningTest, AProjectStaysWhereAnotherProjectsClipCannotBeOpened) {
+  ASSERT_NO_FATAL_FAILURE(open_project());
+  scratch_.write("other.fn", "M0 [0:1]\n");
+  scratch_.write("other.nutik", R"({"nutik-studio": 1, "capture": "gone.tik", "functions": "other.fn",
+    "exposes": "interval", "start_ns": "0", "length_ns": "5", "normalize": "support", "feather": "0px"})");
+  window_.open(path("other.nutik"));
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(window_.notice().text().contains("gone.tik")) << window_.notice().text().toStdString();
+  EXPECT_EQ(recent_files(), QStringList({"mine.nutik", "%02d.pgm"})) << "what was not opened is not listed";
+  expect_mine();
+}
+
+TEST_F(OpeningTest, AProjectStaysWhileAnotherFileIsOpenedAndIfThatIsCancelled) {
+  ASSERT_NO_FATAL_FAILURE(open_project());
+  window_.open(path("frames/%02d.pgm"), "100");
+  EXPECT_TRUE(window_.windowTitle().startsWith("mine.nutik"));
+  EXPECT_TRUE(window_.has_files());
+  QTest::mouseClick(&child<QToolButton>("cancel"), Qt::LeftButton);
+  ASSERT_TRUE(settles());
+  expect_mine();
+  open_clip();
+  EXPECT_TRUE(window_.windowTitle().startsWith("%02d.pgm")) << window_.windowTitle().toStdString();
+  document().set_mode(ExposureMode::functions);
+  EXPECT_FALSE(window_.has_files()) << "what is open lies in no project";
+}
+
+TEST_F(OpeningTest, AsksForWhatWasChangedWhileAnotherFileWasOpened) {
+  ASSERT_NO_FATAL_FAILURE(open_project());
+  const auto change_while_opening = [&](QMessageBox::StandardButton button) {
+    window_.open(path("frames/%02d.pgm"), "100");
+    add_region(document());
+    answer_next(button);
+    ASSERT_TRUE(settles());
+    EXPECT_TRUE(is_asked_);
+  };
+  ASSERT_NO_FATAL_FAILURE(change_while_opening(QMessageBox::Cancel));
+  EXPECT_EQ(document().functions().size(), 3u);
+  EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
+  ASSERT_NO_FATAL_FAILURE(change_while_opening(QMessageBox::Discard));
+  EXPECT_EQ(document().functions().size(), 1u);
+  EXPECT_TRUE(window_.windowTitle().startsWith("%02d.pgm")) << window_.windowTitle().toStdString();
+}
+
+TEST_F(OpeningTest, RecentFilesAreListedTheLastFirstAndOpened) {
+  EXPECT_EQ(recent_files(), QStringList("None yet"));
+  ASSERT_NO_FATAL_FAILURE(open_project());
+  EXPECT_EQ(recent_files(), QStringList({"mine.nutik", "%02d.pgm"}));
+  std::filesystem::copy_file(scratch_ / "mine.nutik", scratch_ / "copy.nutik");
+  window_.open(path("copy.nutik"));
+  ASSERT_TRUE(settles());
+  EXPECT_EQ(recent_files(), QStringList({"copy.nutik", "mine.nutik", "%02d.pgm"}));
+  recent().actions()[1]->trigger();
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(window_.windowTitle().startsWith("mine.nutik")) << window_.windowTitle().toStdString();
+  std::filesystem::remove(scratch_ / "copy.nutik");
+  const QList<QAction*> actions = recent().actions();
+  EXPECT_EQ(QFileInfo(actions[1]->text()).fileName(), "copy.nutik");
+  EXPECT_FALSE(actions[1]->isEnabled()) << "it is gone";
+}
+
+TEST_F(OpeningTest, AsksHowFastAClipWasFilmedThatDoesNotSay) {
+  answer_next<QInputDialog>([](QInputDialog& question) {
+    EXPECT_TRUE(question.labelText().contains("How many pictures a second"))
+        << question.labelText().toStdString();
+    question.setTextValue("50");
+    QTest::keyClick(&question, Qt::Key_Return);
+  });
+  window_.open(path("frames/%02d.pgm"));
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(is_asked_);
+  ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
+  EXPECT_EQ(document().duration_ns(), 20 * 20'000'000);
+  EXPECT_TRUE(window_.command_for("picture.png").contains("--fps 50"));
+}
+
+}  // namespace
+}  // namespace nutik::studio
