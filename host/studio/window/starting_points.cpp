@@ -48,15 +48,15 @@ DocumentState state_of(const DocumentState& before, const Study& study, Mask mas
 
 std::span<const StartingPoint> starting_points() {
   static constexpr StartingPoint kAll[] = {
-      {StudyStyle::trail, QT_TRANSLATE_NOOP("Document", "Motion study"),
+      {StudyStyle::trail, QT_TRANSLATE_NOOP("Document", "&Motion study"),
        QT_TRANSLATE_NOOP("Document", "Sharp moments over the trail of the whole way")},
-      {StudyStyle::strobe, QT_TRANSLATE_NOOP("Document", "Strobe"),
+      {StudyStyle::strobe, QT_TRANSLATE_NOOP("Document", "&Strobe"),
        QT_TRANSLATE_NOOP("Document", "Sharp moments, and nothing between them")},
-      {StudyStyle::rear_curtain, QT_TRANSLATE_NOOP("Document", "Rear curtain"),
+      {StudyStyle::rear_curtain, QT_TRANSLATE_NOOP("Document", "&Rear curtain"),
        QT_TRANSLATE_NOOP("Document", "The last moment, and a trail that grows towards it")},
-      {StudyStyle::frozen, QT_TRANSLATE_NOOP("Document", "Frozen subject"),
+      {StudyStyle::frozen, QT_TRANSLATE_NOOP("Document", "&Frozen subject"),
        QT_TRANSLATE_NOOP("Document", "One moment in a scene that is exposed for all of the time")},
-      {StudyStyle::slit, QT_TRANSLATE_NOOP("Document", "Slit-scan"),
+      {StudyStyle::slit, QT_TRANSLATE_NOOP("Document", "S&lit-scan"),
        QT_TRANSLATE_NOOP("Document", "Strips side by side, each at a moment of its own")}};
   return kAll;
 }

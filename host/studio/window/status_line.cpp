@@ -27,6 +27,8 @@ StatusLine::StatusLine(Jobs& jobs, QWidget* parent)
   pixel_->setObjectName("pixel");
   pixel_->setAccessibleName(tr("Pixel under the pointer"));
   arithmetic_->setObjectName("arithmetic");
+  saturated_->setObjectName("saturated");
+  milliseconds_->setObjectName("milliseconds");
   arithmetic_->setToolTip(tr("The arithmetic that the picture was computed in, and what it may be wrong by"));
   saturated_->setToolTip(tr("Pixels with light that the picture's codes cannot show"));
   milliseconds_->setToolTip(tr("From the change to the picture"));

@@ -1,0 +1,263 @@
+// Time strip and curve editor within the window: what a hand does there is in the model, and then in the picture.
+#include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
+
+#include "studio/curves/curve_editor.hpp"
+#include "studio/regions/region_edits.hpp"
+#include "studio/time/time_strip.hpp"
+#include "studio_test.hpp"
+
+namespace nutik::studio {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+
+// 20 samples of 10 ms; a region of the square's way, exposed from 40 to 80 ms.
+class InteractionsTest : public StudioTest {
+ protected:
+  void SetUp() override {
+    open_clip();
+    document().set_boxcar({40 * kMs, 40 * kMs}, "Begin");
+    click_button("add_region");
+    paint_region(document(), rectangle(96, 48, {4, 18}, 60, 12), document().selected_tag(), "Rectangle");
+    DocumentState state = document().state();
+    state.normalization = Normalization::parse("integral");  // what is longer looks different
+    document().apply(std::move(state), "Begin");
+    ASSERT_TRUE(settles());
+  }
+
+  // Whatever was done is one step, changes the picture into the document's, and undo brings both back.
+  void expect_followed(const std::function<void()>& act, const std::function<void()>& look) {
+    const DocumentState before = document().state();
+    const QImage unchanged = canvas().image();
+    const int steps = document().undo_stack().index();
+    act();
+    ASSERT_TRUE(settles());
+    look();
+    EXPECT_NE(document().state(), before);
+    EXPECT_EQ(document().undo_stack().index(), steps + 1);
+    EXPECT_NE(difference(canvas().image(), unchanged), "") << "the picture follows";
+    EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
+    const DocumentState after = document().state();
+    QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
+    EXPECT_EQ(document().state(), before);
+    ASSERT_TRUE(settles());
+    EXPECT_EQ(difference(canvas().image(), unchanged), "");
+    QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+    EXPECT_EQ(document().state(), after);
+    ASSERT_TRUE(settles());
+  }
+
+  [[nodiscard]] CurveEditor& curves() { return child<CurveEditor>("curves"); }
+  [[nodiscard]] TimeStrip& strip() { return child<TimeStrip>("time_strip"); }
+  [[nodiscard]] std::vector<ControlPoint> points() { return document().points(document().selected_tag()); }
+  [[nodiscard]] QPoint place(std::int64_t time_ns, double gain) {
+    return curves().frame().place({time_ns, gain}).toPoint();
+  }
+  [[nodiscard]] QPoint place(std::size_t point) {
+    return place(points()[point].time_ns, points()[point].gain);
+  }
+  [[nodiscard]] int in_strip(std::int64_t time_ns) {
+    return qRound(strip().boxcar_area().left() + static_cast<double>(time_ns - document().boxcar().start_ns) *
+                                                     strip().boxcar_area().width() /
+                                                     static_cast<double>(document().boxcar().length_ns));
+  }
+};
+
+TEST_F(InteractionsTest, ControlPointsAreDraggedAddedAndTakenAway) {
+  expect_followed([&] { drag(curves(), place(2), place(120 * kMs, 1)); },
+                  [&] { EXPECT_EQ(points()[2].time_ns, 120 * kMs) << "snapped to a sample"; });
+  expect_followed([&] { drag(curves(), place(2), place(2) - QPoint(7, 0), Qt::ControlModifier); },
+                  [&] { EXPECT_NE(points()[2].time_ns % (10 * kMs), 0) << "with Ctrl it does not snap"; });
+  QTest::mouseClick(&curves(), Qt::LeftButton, {}, place(180 * kMs, 0.7));  // nothing is selected any more
+  expect_followed(
+      [&] { drag(curves(), place(1), place(1) + QPoint(40, 0), Qt::ShiftModifier | Qt::ControlModifier); },
+      [&] {
+        const double ns = 4 * curves().frame().ns_per_pixel();
+        EXPECT_NEAR(static_cast<double>(points()[1].time_ns - 40 * kMs), ns, 0.6 * ns) << "a tenth";
+      });
+  // A point on the curve changes nothing that is seen; dragged, it does.
+  const QImage unchanged = canvas().image();
+  QTest::mouseClick(&curves(), Qt::LeftButton, {}, place(60 * kMs, 1));
+  ASSERT_EQ(points().size(), 5u);
+  EXPECT_EQ(points()[2], (ControlPoint{60 * kMs, 1}));
+  ASSERT_TRUE(settles());
+  EXPECT_EQ(difference(canvas().image(), unchanged), "");
+  expect_followed([&] { drag(curves(), place(2), place(60 * kMs, 0.5)); },
+                  [&] { EXPECT_NEAR(points()[2].gain, 0.5, 0.02); });
+  expect_followed([&] { QTest::mouseClick(&curves(), Qt::RightButton, {}, place(2)); },
+                  [&] { EXPECT_EQ(points().size(), 4u); });
+}
+
+TEST_F(InteractionsTest, SeveralPointsAreTransformed) {
+  QTest::keyClick(&curves(), Qt::Key_A, Qt::ControlModifier);
+  const auto handle = [&](BoxPart part) {
+    const auto box = TransformBox::round(curves().frame(), points(), {0, 1, 2, 3});
+    for (const auto& [which, area] : box->handles())
+      if (which == part) return area.center().toPoint();
+    throw std::logic_error("no such handle");
+  };
+  const int to_120 = place(120 * kMs, 0).x() - place(80 * kMs, 0).x();
+  expect_followed(
+      [&] {
+        const QPoint from = handle(BoxPart::right);
+        drag(curves(), from, from + QPoint(to_120, 0));
+      },
+      [&] { EXPECT_EQ(points()[2].time_ns, 120 * kMs); });
+  expect_followed(
+      [&] {
+        const QPoint from = place(60 * kMs, 0.4);
+        drag(curves(), from, from + QPoint(to_120 / 2, 0));
+      },
+      [&] { EXPECT_EQ(points()[1].time_ns, 60 * kMs); });
+  // All gains alike change nothing where they are divided by their integral; beside an open time they do.
+  DocumentState state = document().state();
+  state.normalization = Normalization::parse("support");
+  document().apply(std::move(state), "Begin");
+  ASSERT_TRUE(settles());
+  expect_followed(
+      [&] {
+        const QPoint from = handle(BoxPart::top);
+        drag(curves(), from, from + QPoint(0, place(0, 0.5).y() - place(0, 1.0).y()));
+      },
+      [&] { EXPECT_NEAR(points()[1].gain, 0.5, 0.02); });
+}
+
+TEST_F(InteractionsTest, BoxcarsHaveHandles) {
+  const auto handles = [&] {
+    return BoxcarHandles::of(curves().frame(), boxcars_of(points()).front(), curves().lane_top());
+  };
+  const int ten = place(50 * kMs, 0).x() - place(40 * kMs, 0).x();
+  expect_followed(
+      [&] {
+        const QPoint from = handles().bar.center().toPoint();
+        drag(curves(), from, from + QPoint(2 * ten, 0));
+      },
+      [&] {
+        EXPECT_EQ(points()[1].time_ns, 60 * kMs);
+        EXPECT_EQ(points()[2].time_ns, 100 * kMs);
+      });
+  expect_followed(
+      [&] {
+        const QPoint from = handles().begin.center().toPoint();
+        drag(curves(), from, from - QPoint(3 * ten, 0));
+      },
+      [&] { EXPECT_EQ(points()[1].time_ns, 30 * kMs); });
+  expect_followed(
+      [&] {
+        const QPoint from = handles().end.center().toPoint();
+        drag(curves(), from, from + QPoint(2 * ten, 0));
+      },
+      [&] { EXPECT_EQ(points()[2].time_ns, 120 * kMs); });
+  document().set_points(kBackground, {{0, 1.0}, {document().duration_ns(), 1.0}}, "Begin");
+  DocumentState state = document().state();
+  state.normalization = Normalization::parse("support");
+  document().apply(std::move(state), "Begin");
+  ASSERT_TRUE(settles());
+  expect_followed(
+      [&] {
+        const QPoint from = handles().level.center().toPoint();
+        drag(curves(), from, {from.x(), place(0, 0.5).y()});
+      },
+      [&] { EXPECT_NEAR(points()[1].gain, 0.5, 0.02); });
+}
+
+TEST_F(InteractionsTest, NumbersAreTypedExactly) {
+  const auto select_the_third = [&] {
+    curves().setFocus();
+    for (const Qt::Key key : {Qt::Key_Home, Qt::Key_Tab, Qt::Key_Tab}) QTest::keyClick(&curves(), key);
+    ASSERT_EQ(document().selected_points(), std::set<std::size_t>{2});
+  };
+  select_the_third();
+  expect_followed(
+      [&] {
+        QTest::keyClick(&curves(), Qt::Key_Return);
+        QLineEdit& time = *curves().findChildren<QLineEdit*>().front();
+        time.selectAll();
+        QTest::keyClicks(&time, "60.456789 ms");
+        QTest::keyClick(&time, Qt::Key_Return);
+      },
+      [&] { EXPECT_EQ(points()[2].time_ns, 60'456'789); });
+  select_the_third();
+  expect_followed([&] { QTest::keyClick(&curves(), Qt::Key_Right); },
+                  [&] { EXPECT_EQ(points()[2].time_ns, 70'456'789) << "a sample later"; });
+  select_the_third();
+  expect_followed([&] { QTest::keyClick(&curves(), Qt::Key_Down, Qt::ShiftModifier); },
+                  [&] { EXPECT_EQ(points()[2].gain, 0); });
+}
+
+TEST_F(InteractionsTest, TheIntervalIsScrubbedSteppedAndTyped) {
+  document().set_mode(ExposureMode::boxcar);
+  ASSERT_TRUE(settles());
+  const auto middle = [&] { return strip().boxcar_area().center().toPoint(); };
+  expect_followed(
+      [&] {
+        drag(strip(), middle(), {in_strip(120 * kMs), middle().y()});
+      },
+      [&] {
+        EXPECT_EQ(document().boxcar(), (Boxcar{100 * kMs, 40 * kMs}));
+      });
+  expect_followed(
+      [&] {
+        drag(strip(), {in_strip(100 * kMs), middle().y()}, {in_strip(20 * kMs), middle().y()});
+      },
+      [&] {
+        EXPECT_EQ(document().boxcar(), (Boxcar{20 * kMs, 120 * kMs}));
+      });
+  strip().setFocus();
+  expect_followed([&] { QTest::keyClick(&strip(), Qt::Key_Right); },
+                  [&] { EXPECT_EQ(document().boxcar().start_ns, 30 * kMs); });
+  expect_followed([&] { QTest::keyClick(&strip(), Qt::Key_Down, Qt::ShiftModifier); },
+                  [&] {
+                    EXPECT_EQ(document().boxcar(), (Boxcar{30 * kMs, 20 * kMs}));
+                  });
+  expect_followed([&] { QTest::keyClick(&strip(), Qt::Key_Left, Qt::ShiftModifier); },
+                  [&] { EXPECT_EQ(document().boxcar().start_ns, 0) << "no further than the capture"; });
+  QTest::keyClick(&strip(), Qt::Key_O);
+  document().set_boxcar({60 * kMs, 30 * kMs}, "Begin");
+  QTest::keyClick(&strip(), Qt::Key_O);
+  document().set_boxcar({50 * kMs, 10 * kMs}, "Begin");
+  QTest::keyClick(&strip(), Qt::Key_I);
+  ASSERT_TRUE(settles());
+  expect_followed([&] { QTest::keyClick(&strip(), Qt::Key_X); },
+                  [&] {
+                    EXPECT_EQ(document().boxcar(), (Boxcar{50 * kMs, 40 * kMs})) << "from mark to mark";
+                  });
+  auto& width = child<QLineEdit>("width");
+  expect_followed(
+      [&] {
+        width.selectAll();
+        QTest::keyClicks(&width, "12.5 ms");
+        QTest::keyClick(&width, Qt::Key_Return);
+        curves().setFocus();
+      },
+      [&] {
+        EXPECT_EQ(document().boxcar(), (Boxcar{50 * kMs, 12'500'000}));
+      });
+}
+
+TEST_F(InteractionsTest, EveryStartingPointIsChosenInTheMenu) {
+  QMenu* menu = nullptr;
+  for (QAction* action : window_.menuBar()->actions())
+    if (action->text().remove('&').startsWith("Start")) menu = action->menu();
+  ASSERT_NE(menu, nullptr);
+  int count = 0;
+  for (QAction* action : menu->actions()) {
+    if (action->isSeparator() || action->text().endsWith("…")) continue;  // the empty scene is a picture
+    ++count;
+    const DocumentState before = document().state();
+    action->trigger();
+    ASSERT_TRUE(settles());
+    EXPECT_NE(document().state(), before)
+        << action->text().toStdString() << ": " << window_.notice().text().toStdString();
+    EXPECT_EQ(difference(canvas().image(), fresh_picture()), "") << action->text().toStdString();
+    QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
+    EXPECT_EQ(document().state(), before) << "one step, " << action->text().toStdString();
+    ASSERT_TRUE(settles());
+  }
+  EXPECT_EQ(count, 5);
+}
+
+}  // namespace
+}  // namespace nutik::studio

@@ -1,0 +1,316 @@
+// What stands round the picture: regions, status, menus, appearance; and that all of it is reached and told without a
+// mouse and without eyes.
+#include <QAccessible>
+#include <QColorDialog>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
+#include <QProgressBar>
+#include <QToolButton>
+#include <QTreeWidget>
+
+#include "studio/regions/region_edits.hpp"
+#include "studio/time/time_strip.hpp"
+#include "studio/window/appearance.hpp"
+#include "studio_test.hpp"
+
+namespace nutik::studio {
+namespace {
+
+class PanelsTest : public StudioTest {
+ protected:
+  static constexpr int kName = 0, kStill = 2, kSolo = 3;
+
+  // A region of 20 × 20 pixels at (10, 10).
+  void add_square() {
+    open_clip();
+    click_button("add_region");
+    click_tool("tool_rectangle");
+    drag(canvas(), at(10, 10), at(30, 30));
+    ASSERT_TRUE(settles());
+  }
+
+  [[nodiscard]] QTreeWidget& list() { return child<QTreeWidget>("regions"); }
+  // Where a row's box to check is.
+  [[nodiscard]] QPoint box_of(QTreeWidgetItem& item, int column) {
+    return {list().header()->sectionViewportPosition(column) + 10, list().visualItemRect(&item).center().y()};
+  }
+  void click_in_list(QPoint at) { QTest::mouseClick(list().viewport(), Qt::LeftButton, {}, at); }
+  [[nodiscard]] QString status(const char* label) { return child<QLabel>(label).text(); }
+  [[nodiscard]] QImage shown() { return canvas().grab().toImage(); }
+  [[nodiscard]] QColor shown_at(const QImage& image, QPoint widget) {
+    return image.pixelColor((QPointF(widget) * image.devicePixelRatio()).toPoint());
+  }
+  void type(QDoubleSpinBox& box, const QString& text) {
+    box.setFocus();
+    box.selectAll();
+    QTest::keyClicks(&box, text);
+    QTest::keyClick(&box, Qt::Key_Return);
+  }
+};
+
+// ---- regions ----
+
+TEST_F(PanelsTest, ARegionIsRenamedByADoubleClick) {
+  ASSERT_NO_FATAL_FAILURE(add_square());
+  QTreeWidgetItem& item = *list().currentItem();
+  const QPoint name = box_of(item, kName) + QPoint(60, 0);
+  click_in_list(name);
+  QTest::mouseDClick(list().viewport(), Qt::LeftButton, {}, name);
+  auto* editor = list().viewport()->findChild<QLineEdit*>();
+  ASSERT_NE(editor, nullptr);
+  QTest::keyClicks(editor, "Ball");
+  QTest::keyClick(editor, Qt::Key_Return);
+  QCoreApplication::processEvents();
+  EXPECT_EQ(document().state().looks.at(document().selected_tag()).name, "Ball");
+  EXPECT_EQ(document().undo_stack().undoText(), "Rename region");
+  QTest::mouseDClick(list().viewport(), Qt::LeftButton, {}, box_of(*list().currentItem(), kStill));
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  EXPECT_EQ(list().viewport()->findChild<QLineEdit*>(), nullptr) << "what is told cannot be edited";
+}
+
+TEST_F(PanelsTest, ARegionIsHiddenAndShownAlone) {
+  ASSERT_NO_FATAL_FAILURE(add_square());
+  const std::uint8_t tag = document().selected_tag();
+  click_tool("tool_look");
+  QTest::mouseMove(&canvas(), at(80, 40));
+  const QPoint edge = at(10, 20), inside = at(15, 15), outside = at(60, 15);
+  const QImage outlined = shown();
+  const QColor colour = document().state().looks.at(tag).colour;
+  EXPECT_EQ(shown_at(outlined, edge), colour) << "a line in the region's colour";
+  click_in_list(box_of(*list().currentItem(), kName));
+  EXPECT_FALSE(document().state().looks.at(tag).is_visible);
+  EXPECT_NE(shown_at(shown(), edge), colour);
+  click_in_list(box_of(*list().currentItem(), kName));
+  EXPECT_EQ(shown(), outlined);
+
+  click_in_list(box_of(*list().currentItem(), kSolo));
+  EXPECT_EQ(document().solo(), tag);
+  const QImage alone = shown();
+  EXPECT_EQ(shown_at(alone, inside), shown_at(outlined, inside));
+  EXPECT_LT(shown_at(alone, outside).lightness(), shown_at(outlined, outside).lightness() / 2 + 1)
+      << "darkened";
+  list().setFocus();
+  list().setCurrentItem(list().currentItem(), kSolo);
+  QTest::keyClick(&list(), Qt::Key_Space);
+  EXPECT_FALSE(document().solo()) << "by keyboard";
+  EXPECT_EQ(shown(), outlined);
+}
+
+TEST_F(PanelsTest, ARegionsColourIsChosen) {
+  ASSERT_NO_FATAL_FAILURE(add_square());
+  const std::uint8_t tag = document().selected_tag();
+  click_tool("tool_look");
+  const RegionLook before = document().state().looks.at(tag);
+  const QColor chosen("#ff20c0");
+  answer_next<QColorDialog>([&](QColorDialog& dialog) {
+    EXPECT_TRUE(dialog.windowTitle().contains(before.name)) << dialog.windowTitle().toStdString();
+    EXPECT_EQ(dialog.currentColor(), before.colour);
+    dialog.setCurrentColor(chosen);
+    QTest::keyClick(&dialog, Qt::Key_Return);
+  });
+  click_button("region_colour");
+  EXPECT_TRUE(is_asked_);
+  EXPECT_EQ(document().state().looks.at(tag).colour, chosen);
+  EXPECT_EQ(shown_at(shown(), at(10, 20)), chosen);
+  answer_next<QColorDialog>([](QColorDialog& dialog) { QTest::keyClick(&dialog, Qt::Key_Escape); });
+  click_button("region_colour");
+  EXPECT_EQ(document().state().looks.at(tag).colour, chosen) << "who escapes changes nothing";
+  document().undo_stack().undo();
+  EXPECT_EQ(document().state().looks.at(tag), before);
+}
+
+TEST_F(PanelsTest, TheWandTakesTheSquareThatIsSeen) {
+  open_clip();
+  document().set_boxcar({150'000'000, 10'000'000}, "Scrub");  // at rest
+  click_button("add_region");
+  ASSERT_TRUE(settles());
+  const QImage before = canvas().image();
+  const int left = test::MovingSquare::left(15), top = test::MovingSquare::kTop;
+  click_tool("tool_wand");
+  QTest::mouseClick(&canvas(), Qt::LeftButton, {}, at(left + 4.5, top + 4.5));
+  EXPECT_EQ(region_of(document(), document().selected_tag()),
+            rectangle(96, 48, {1.0 * left, 1.0 * top}, test::MovingSquare::kSide, test::MovingSquare::kSide));
+  EXPECT_EQ(document().undo_stack().undoText(), "Magic wand");
+  document().set_points(document().selected_tag(), {{0, 0.5}, {100'000'000, 0.0}}, "Shape");
+  ASSERT_TRUE(settles());
+  EXPECT_NE(difference(canvas().image(), before), "");
+  EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
+}
+
+TEST_F(PanelsTest, AllEdgesAreFeatheredAsTyped) {
+  ASSERT_NO_FATAL_FAILURE(add_square());
+  document().set_points(document().selected_tag(), {{0, 0.25}, {document().duration_ns(), 0.25}}, "Shape");
+  document().set_points(kBackground, {{0, 1.0}, {document().duration_ns(), 1.0}}, "Shape");
+  ASSERT_TRUE(settles());
+  const QImage hard = canvas().image();
+  type(child<QDoubleSpinBox>("feather"), "2.5");
+  EXPECT_EQ(document().state().feather, (Feather{250, {}}));
+  ASSERT_TRUE(settles());
+  EXPECT_NE(canvas().image().pixel(11, 20), hard.pixel(11, 20));
+  EXPECT_EQ(canvas().image().pixel(20, 20), hard.pixel(20, 20));
+  EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
+}
+
+// ---- status ----
+
+TEST_F(PanelsTest, TheStatusTellsThePixelTheArithmeticAndTheTime) {
+  open_clip();
+  QTest::mouseMove(&canvas(), at(50.5, 20.5));
+  const QRgb codes = canvas().image().pixel(50, 20);
+  const QString text = status("pixel");
+  EXPECT_TRUE(text.startsWith("x 50, y 20")) << text.toStdString();
+  EXPECT_TRUE(text.contains(QString("code %1").arg(qRed(codes)))) << text.toStdString();
+  const double light = Transfer::srgb().light_of(qRed(codes) / 255.0);
+  EXPECT_TRUE(text.contains(QString("light %1").arg(light, 0, 'f', 3))) << text.toStdString();
+  QEvent leave(QEvent::Leave);
+  QApplication::sendEvent(&canvas(), &leave);
+  EXPECT_EQ(status("pixel"), "");
+  EXPECT_TRUE(status("arithmetic").contains("single")) << status("arithmetic").toStdString();
+  EXPECT_TRUE(status("arithmetic").contains(":")) << "and its bound: " << status("arithmetic").toStdString();
+  EXPECT_TRUE(status("milliseconds").endsWith(" ms")) << status("milliseconds").toStdString();
+  EXPECT_EQ(status("saturated"), "");
+  type(child<QDoubleSpinBox>("brightness"), "8");
+  ASSERT_TRUE(settles());
+  EXPECT_EQ(document().state().brightness_ev, 8);
+  EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
+  EXPECT_TRUE(status("saturated").startsWith("4608 px saturated")) << status("saturated").toStdString();
+}
+
+TEST_F(PanelsTest, ProgressIsShownWhileAClipIsOpened) {
+  auto& bar = *window_.findChild<QProgressBar*>();
+  auto& cancel = child<QToolButton>("cancel");
+  EXPECT_FALSE(bar.isVisible());
+  bool was_shown = false;
+  window_.open(path("frames/%02d.pgm"), "100");
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] {
+        was_shown = was_shown || (bar.isVisible() && cancel.isVisible() && !bar.accessibleName().isEmpty());
+        return window_.is_settled();
+      },
+      kMaxWaitMs));
+  EXPECT_TRUE(was_shown);
+  EXPECT_FALSE(bar.isVisible() || cancel.isVisible());
+}
+
+TEST_F(PanelsTest, ExposureIsDividedAsChosenByKeyboard) {
+  ASSERT_NO_FATAL_FAILURE(add_square());
+  document().set_points(kBackground, {{0, 0.5}, {document().duration_ns(), 0.5}}, "Shape");
+  ASSERT_TRUE(settles());
+  const QImage before = canvas().image();
+  auto& box = child<QComboBox>("normalization");
+  box.setFocus();
+  QTest::keyClick(&box, Qt::Key_Down);
+  EXPECT_EQ(document().state().normalization, Normalization::parse("integral"));
+  ASSERT_TRUE(settles());
+  EXPECT_NE(difference(canvas().image(), before), "");
+  EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
+  auto& mode = child<QComboBox>("mode");
+  mode.setFocus();
+  QTest::keyClick(&mode, Qt::Key_Up);
+  EXPECT_EQ(document().mode(), ExposureMode::boxcar);
+}
+
+// ---- screens ----
+
+// tests/studio/CMakeLists.txt runs this with screens of 1.5 and 2 pixels in each direction, too.
+TEST_F(PanelsTest, OnePixelIsOneOfTheScreens) {
+  open_clip();
+  QTest::keyClick(&window_, Qt::Key_1, Qt::ControlModifier);
+  const double ratio = canvas().devicePixelRatioF();
+  EXPECT_DOUBLE_EQ(canvas().view().zoom(), 1 / ratio);
+  const QImage screen = shown();
+  ASSERT_DOUBLE_EQ(screen.devicePixelRatio(), ratio);
+  const QPoint corner = (canvas().view().place().topLeft() * ratio).toPoint();
+  const QRect place(corner, canvas().image().size());
+  ASSERT_TRUE(screen.rect().contains(place));
+  int worst = 0;
+  for (int y = 1; y < place.height() - 1; ++y)
+    for (int x = 1; x < place.width() - 1; ++x)
+      worst = std::max(
+          worst, std::abs(qRed(screen.pixel(corner + QPoint(x, y))) - qRed(canvas().image().pixel(x, y))));
+  EXPECT_LE(worst, ratio == std::floor(ratio) ? 0 : 2 * test::MovingSquare::kBright) << "pixel for pixel";
+}
+
+TEST_F(PanelsTest, TextsAreReadableDarkAndLight) {
+  const QPalette kept = QApplication::palette();
+  for (const auto appearance : {Appearance::dark, Appearance::light}) {
+    set_appearance(appearance);
+    const QPalette palette = QApplication::palette();
+    using Pair = std::pair<QPalette::ColorRole, QPalette::ColorRole>;
+    for (const auto& [text, ground] :
+         {Pair{QPalette::WindowText, QPalette::Window}, Pair{QPalette::Text, QPalette::Base},
+          Pair{QPalette::ButtonText, QPalette::Button}}) {
+      const auto light = [&](QPalette::ColorRole role) {
+        return Transfer::srgb().light_of(palette.color(role).green() / 255.0);
+      };
+      const double one = light(text) + 0.05, other = light(ground) + 0.05;
+      EXPECT_GE(std::max(one / other, other / one), 4.5) << "contrast, as WCAG 2 has it";
+    }
+  }
+  QApplication::setPalette(kept);
+}
+
+// ---- without a mouse, without eyes ----
+
+TEST_F(PanelsTest, EverythingInFocusHasAName) {
+  ASSERT_NO_FATAL_FAILURE(add_square());
+  int count = 0;
+  for (const QWidget* widget : window_.findChildren<QWidget*>()) {
+    if (!widget->isVisible() || widget->focusPolicy() == Qt::NoFocus) continue;
+    if (widget->objectName().startsWith("qt_") || widget->parentWidget()->inherits("QAbstractSpinBox"))
+      continue;
+    QAccessibleInterface* interface = QAccessible::queryAccessibleInterface(const_cast<QWidget*>(widget));
+    ASSERT_NE(interface, nullptr);
+    EXPECT_FALSE(interface->text(QAccessible::Name).isEmpty())
+        << widget->metaObject()->className() << " " << widget->objectName().toStdString();
+    ++count;
+  }
+  EXPECT_GE(count, 25);
+  for (const char* name : {"canvas", "time_strip", "curves"})
+    EXPECT_FALSE(child<QWidget>(name).accessibleDescription().isEmpty()) << name << " tells what keys do";
+}
+
+TEST_F(PanelsTest, TabLeadsThroughTheWindow) {
+  ASSERT_NO_FATAL_FAILURE(add_square());
+  std::set<QWidget*> reached;
+  QWidget* widget = &canvas();
+  do {
+    widget = widget->nextInFocusChain();
+    if (widget->isVisible() && widget->isEnabled() && (widget->focusPolicy() & Qt::TabFocus) != 0)
+      reached.insert(widget);
+  } while (widget != &canvas());
+  for (const char* name : {"canvas", "time_strip", "curves", "regions", "start", "width", "in", "out", "mode",
+                           "normalization", "brightness", "feather", "own_feather", "radius", "add_region",
+                           "region_colour", "brush_radius", "wand_codes"})
+    EXPECT_TRUE(reached.contains(&child<QWidget>(name))) << name;
+}
+
+TEST_F(PanelsTest, EveryActionHasAKeyOrALetterOfItsOwn) {
+  std::map<QString, QString> shortcuts;
+  const std::function<void(const QList<QAction*>&)> look = [&](const QList<QAction*>& actions) {
+    std::map<QChar, QString> letters;
+    for (QAction* action : actions) {
+      if (action->isSeparator()) continue;
+      const QString text = action->text();
+      const auto at = text.indexOf('&');
+      const QChar letter = at < 0 || at + 1 == text.size() ? QChar() : text[at + 1].toLower();
+      EXPECT_FALSE(letter.isNull() && action->shortcut().isEmpty()) << text.toStdString();
+      EXPECT_TRUE(letter.isNull() || letters.emplace(letter, text).second)
+          << text.toStdString() << " and " << letters[letter].toStdString();
+      for (const QKeySequence& keys : action->shortcuts())
+        EXPECT_TRUE(shortcuts.emplace(keys.toString(), text).second)
+            << keys.toString().toStdString() << ": " << text.toStdString();
+      if (action->menu() != nullptr && !action->text().contains("recent")) look(action->menu()->actions());
+    }
+  };
+  look(window_.menuBar()->actions());
+  look(child<QToolBar>("tools").findChild<QToolButton*>()->parentWidget()->actions().mid(0, 6));
+}
+
+}  // namespace
+}  // namespace nutik::studio
