@@ -1,6 +1,10 @@
 // Tiny files that state a huge size are refused before memory is taken for it; large ones are not held whole.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
 
 #include "capture/format.hpp"
 #include "support/hostile.hpp"
@@ -16,6 +20,13 @@ struct Ceilings : test::ProgramTest {
     struct rusage usage {};
     getrusage(RUSAGE_CHILDREN, &usage);
     return usage.ru_maxrss / 1024;
+  }
+  // Of one program that ends well, whatever ran before; 255 is as much or more, or another end.
+  long peak_mb_of(const std::vector<std::string>& words) const {
+    const pid_t child = fork();
+    if (child == 0) _exit(run(words).status == 0 ? static_cast<int>(std::min(peak_mb(), 255L)) : 255);
+    int status = 0;
+    return waitpid(child, &status, 0) == child && WIFEXITED(status) ? WEXITSTATUS(status) : 255;
   }
   // A program that does nothing takes some 60 MB for its libraries, and small pictures may be up to 64 MB.
   static constexpr long kMaxMb = 250;
@@ -78,10 +89,8 @@ TEST_F(Ceilings, OfJoining) {
                  "c.tik"})
                 .status,
             0);
-  const auto joined = run({"join", "-q", "c.tik", "c.tik", "-o", "j.tik"});
-  EXPECT_EQ(joined.status, 0) << joined.err;
+  EXPECT_LT(peak_mb_of({"join", "-q", "c.tik", "c.tik", "-o", "j.tik"}), 150);
   EXPECT_GT(std::filesystem::file_size(scratch_ / "j.tik"), 419'000'000U);
-  EXPECT_LT(peak_mb(), 150);
 }
 
 }  // namespace

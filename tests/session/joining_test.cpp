@@ -263,6 +263,18 @@ TEST_F(Joining, FollowsWhatRetimeCorrected) {
             std::string::npos);
 }
 
+TEST_F(Joining, FollowsAnotherAngleOfIrregularTimes) {
+  SourceRequest irregular = whole_;
+  irregular.path = table(false);
+  irregular.clip.rate.reset();
+  const std::vector<Path> paths{encoded("whole.tik", irregular), part(0, 7, irregular), part(7, 25, irregular),
+                                part(25, kStills, irregular)};
+  for (const Path& path : paths) static_cast<void>(retime({path, path, {}, Rational{90, 1}, {}, {}, {}}));
+  const Joined joined = join({{paths[1], paths[2], paths[3]}, scratch_ / "joined.tik"});
+  EXPECT_EQ(joined.timeline, tik::Reader(paths[0]).timeline());
+  EXPECT_EQ(joined.timeline.shutter_angle(), (Rational{90, 1}));
+}
+
 // Captures of two clips, as where a camera begins a new file.
 TEST_F(Joining, TakesCapturesThatSayNothingAsTheyAreNamed) {
   const Path a = encoded("a.tik", whole_), b = encoded("b.tik", whole_);

@@ -38,14 +38,6 @@ struct Piece {
   std::uint64_t checksum;
 };
 
-// Whether each exposure was listed; the angle is then their mean, and of each part another.
-bool lists_exposures(const tik::Header& header) {
-  const auto is_listed = [](std::string_view fact) {
-    return correction_of(fact) == Setting::shutter_angle && fact.find(", from ") != fact.npos;
-  };
-  return !header.rate && std::ranges::any_of(header.facts, is_listed);
-}
-
 std::string noise_text(const tik::Header& header) {
   const NoiseModel& noise = header.capture.noise;
   if (noise.camera) return format("changes beyond {} standard deviations of noise", noise.sigmas);
@@ -84,6 +76,7 @@ std::span<const Trait> traits() {
        kRetime,
        {Setting::frame_rate}},
       {[](const Header& h) {
+         // Their mean is another in each part.
          return lists_exposures(h) ? "listed exposures" : format("shutter {} degrees", h.shutter_angle.text());
        },
        kRetime,

@@ -38,6 +38,13 @@ std::optional<Setting> correction_of(std::string_view fact) {
   return std::nullopt;
 }
 
+bool lists_exposures(const tik::Header& header) {
+  const auto is_listed = [](std::string_view fact) {
+    return correction_of(fact) == Setting::shutter_angle && fact.find(", from ") != fact.npos;
+  };
+  return !header.rate && std::ranges::any_of(header.facts, is_listed);
+}
+
 namespace {
 
 // Whether a camera wrote down for how long its shutter was open: so long it was at any rate.
@@ -65,7 +72,11 @@ Timeline timeline_of(const RetimeRequest& request, const tik::Header& header, co
   if (request.rate || before.is_constant()) {
     return Timeline::constant(request.rate.value_or(before.rate()), angle, before.sample_count());
   }
-  return Timeline::irregular(starts_of(before), angle);
+  ClipInfo irregular;
+  irregular.timing.starts_ns = starts_of(before);
+  // A part of a clip ends where the clip's next picture starts.
+  if (header.part && !lists_exposures(header)) irregular.timing.starts_ns.push_back(before.duration_ns());
+  return timeline_of(request.capture.string(), irregular, ClipOptions(), angle, before.sample_count());
 }
 
 // Those that still hold, and what was stated now in the places of what it corrects.

@@ -44,6 +44,9 @@ struct Retimed {
 // What states otherwise than a fact that a capture's header tells; none where its clip has to be encoded again.
 [[nodiscard]] std::optional<Setting> correction_of(std::string_view fact);
 
+// Whether a capture's exposures were listed: its shutter angle is then their mean.
+[[nodiscard]] bool lists_exposures(const tik::Header& header);
+
 // Throws UsageError where codes of a capture `name` are means of light by its own transfer function and another is stated,
 // by which the same light has another mean: they were scaled, aligned or held within a camera's noise.
 void check_stated_transfer(const tik::Header& header, const std::string& name,
