@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstring>
 #include <limits>
-#include <type_traits>
 
 #include "system/simd_clones.hpp"
 
@@ -50,10 +49,6 @@ inline __attribute__((always_inline)) void gather_tile<std::uint8_t, 3>(const st
   }
 }
 
-// A value for each lane of a tile; compilers cut these vectors into what the machine has.
-using Lanes8 = std::uint8_t __attribute__((vector_size(kTilePixels)));
-using Lanes16 = std::uint16_t __attribute__((vector_size(2 * kTilePixels)));
-
 // Lanes 0 … 63 of `differs`, each 0 or 1, as bits 0 … 63.
 inline __attribute__((always_inline)) std::uint64_t pack_lanes(const std::uint8_t* differs) {
   std::uint64_t bits = 0;
@@ -66,26 +61,28 @@ inline __attribute__((always_inline)) std::uint64_t pack_lanes(const std::uint8_
 }
 
 // The lanes, as bits, in which any channel of `now` is further than `limit` from `held`, which is given its codes
-// there.
+// there. Loops that compilers make vectors of as wide as the machine's: comparisons of vectors that are wider GCC takes
+// apart code by code, 17 ms a frame of 1080p with AVX2 instead of 1.8.
 template <typename Code, std::uint32_t Channels>
-inline __attribute__((always_inline)) std::uint64_t compare(const Code* now_codes, Code* held_codes,
+inline __attribute__((always_inline)) std::uint64_t compare(const Code* __restrict now, Code* __restrict held,
                                                             Code limit) {
-  using Lanes = std::conditional_t<sizeof(Code) == 1, Lanes8, Lanes16>;
-  Lanes now[Channels], held[Channels], differs{};
-  std::memcpy(now, now_codes, sizeof now);
-  std::memcpy(held, held_codes, sizeof held);
+  constexpr auto kAll = static_cast<Code>(~Code{0});
+  Code differs[kTilePixels]{};
   for (std::uint32_t channel = 0; channel < Channels; ++channel) {
-    const Lanes distance =
-        now[channel] > held[channel] ? now[channel] - held[channel] : held[channel] - now[channel];
-    differs |= reinterpret_cast<Lanes>(distance > limit);
+    for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
+      const Code a = now[channel * kTilePixels + lane], b = held[channel * kTilePixels + lane];
+      const auto distance = static_cast<Code>(std::max(a, b) - std::min(a, b));
+      differs[lane] = static_cast<Code>(differs[lane] | (distance > limit ? kAll : Code{0}));
+    }
   }
   for (std::uint32_t channel = 0; channel < Channels; ++channel) {
-    held[channel] = differs != 0 ? now[channel] : held[channel];
+    for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
+      Code& to = held[channel * kTilePixels + lane];
+      to = static_cast<Code>((now[channel * kTilePixels + lane] & differs[lane]) | (to & ~differs[lane]));
+    }
   }
-  std::memcpy(held_codes, held, sizeof held);
-  const Lanes8 marks = __builtin_convertvector(differs, Lanes8) & 1;
   std::uint8_t bytes[kTilePixels];
-  std::memcpy(bytes, &marks, sizeof bytes);
+  for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) bytes[lane] = differs[lane] & 1;
   return pack_lanes(bytes);
 }
 
