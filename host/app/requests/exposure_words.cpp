@@ -28,12 +28,10 @@ Shared<FunctionSet> read_functions_of(const std::string& name) {
 // How far it is from one exposure to the next.
 StatedTime step_of(const Options& options) {
   const StatedTime every = StatedTime::parse(*options.every, "--every");
-  if (every.number.numerator <= 0) {
+  if (every.number.numerator <= 0)
     throw UsageError(format("--every '{}' is not longer than nothing", *options.every));
-  }
-  if (every.counts_samples() && every.number.denominator != 1) {
+  if (every.counts_samples() && every.number.denominator != 1)
     throw UsageError(format("--every '{}' is not a whole number of pictures", *options.every));
-  }
   return every;
 }
 
@@ -92,9 +90,8 @@ ExposureRequest timeless_request(const Options& options,
   }
   request.gains = functions;
   if (options.mask_to && !options.mask) throw UsageError("--mask-to is a second mask; add the first: -m mask.pgm");
-  if (options.mask) {
+  if (options.mask)
     request.mask = Shared(MaskWithRegions(exposure_mask(options, functions->begin()->first)));
-  }
   return request;
 }
 
@@ -115,11 +112,9 @@ void check_mapped(const FramesRequest& request) {
 std::uint32_t mask_way(const Options& options) {
   if (!options.mask_share) throw UsageError("how far is it to --mask-to? Add --mask-share 1/2, 0 to 1");
   const Rational share = Rational::parse(*options.mask_share, "--mask-share");
-  if (share.numerator < 0 || share.numerator > share.denominator) {
+  if (share.numerator < 0 || share.numerator > share.denominator)
     throw UsageError(format("--mask-share {} is no share of 0 to 1", *options.mask_share));
-  }
-  return static_cast<std::uint32_t>(
-      round_half_up(static_cast<int128>(share.numerator) * kWholeWay, share.denominator));
+  return static_cast<std::uint32_t>(round_half_up(int128{share.numerator} * kWholeWay, share.denominator));
 }
 
 }  // namespace
@@ -139,12 +134,9 @@ Mask unfeathered_mask(const Options& options, const std::string& name, std::uint
 }
 
 std::string exposure_mask_name(const Options& options) {
-  const std::string from = input_title(*options.mask);
-  if (!options.mask_to) return from;
-  const std::string to = input_title(*options.mask_to);
-  const std::uint32_t way = mask_way(options);
-  if (way == 0 || way == kWholeWay) return way == 0 ? from : to;
-  return format("{} on its way to {}", from, to);
+  const std::string from = input_title(*options.mask), to = input_title(options.mask_to.value_or(*options.mask));
+  const std::uint32_t way = options.mask_to ? mask_way(options) : 0;
+  return way == 0 ? from : way == kWholeWay ? to : format("{} on its way to {}", from, to);
 }
 
 Mask exposure_mask(const Options& options, std::uint8_t rest) {
@@ -176,10 +168,9 @@ Shutter parse_shutter(const std::string& shape, const std::optional<std::string>
   double error = ShutterShape::kDefaultError;
   if (error_text) {
     error = parse_signed_number(*error_text, "--shutter-error");
-    if (!(error >= ShutterShape::kMinError && error < 1.0)) {
+    if (!(error >= ShutterShape::kMinError && error < 1.0))
       throw UsageError(
           format("--shutter-error {} is no share from {} to 1", *error_text, ShutterShape::kMinError));
-    }
   }
   return {ShutterShape::parse(shape), error};
 }
@@ -224,9 +215,8 @@ std::string exposure_label(const Options& options) {
 OutputRequest output_request(const Options& options) {
   OutputRequest request;
   if (options.depth) request.depth = parse_depth(*options.depth);
-  if (options.quality) {
+  if (options.quality)
     request.quality = static_cast<int>(parse_whole_number(*options.quality, "--quality", 1, 100));
-  }
   if (options.negative) request.negative = parse_negative_light(*options.negative);
   if (options.out_transfer) request.transfer = parse_out_transfer(*options.out_transfer);
   return request;
@@ -235,9 +225,8 @@ OutputRequest output_request(const Options& options) {
 SeriesRequest series_request(const Options& options) {
   SeriesRequest series{step_of(options), {}, {}};
   if (options.frames) series.numbers = FrameRanges::parse(*options.frames, "--frames");
-  if (options.count) {
+  if (options.count)
     series.count = parse_whole_number(*options.count, "--count", 1, SeriesRequest::kMaxExposures);
-  }
   return series;
 }
 
