@@ -5,6 +5,8 @@
 #include <QSettings>
 #include <QToolButton>
 
+#include "session/below/error.hpp"
+#include "studio/live/room_watch.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio_test.hpp"
@@ -53,6 +55,31 @@ class OpeningTest : public StudioTest {
     return files;
   }
 };
+
+TEST(RoomWatch, SaysThatACaptureWillNotFitBeforeTheDiskIsFull) {
+  constexpr std::uint64_t kMB = 1'000'000;
+  std::uint64_t left = 1000 * kMB;
+  const RoomWatch room("/tmp/some", [&] { return left; });
+  room.look(1, 100);
+  left = 990 * kMB;
+  room.look(1, 1000) /* too little was written to tell */;
+  left = 900 * kMB;
+  room.look(10, 100) /* 900 MB more, and 900 are left */;
+  left = 800 * kMB;
+  room.look(17, 100) /* 976 MB more: the rest may pack better */;
+  try {
+    room.look(10, 100);
+    FAIL() << "1800 MB more are needed";
+  } catch (const OutputError& error) {
+    const std::string text = error.what();
+    for (const char* part : {"10 of 100 samples took 200 MB", "needs some 1.8 GB",
+                             "800 MB are left in /tmp/some", "name another folder in TMPDIR"})
+      EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
+  room.look(100, 100);
+  left = 2000 * kMB;
+  room.look(10, 100) /* others made room */;
+}
 
 TEST_F(OpeningTest, AProjectStaysWhereAnotherFileCannotBeOpened) {
   ASSERT_NO_FATAL_FAILURE(open_project());

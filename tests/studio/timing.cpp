@@ -20,7 +20,7 @@ using namespace nutik::studio;
 
 namespace {
 
-constexpr int kEvents = 120, kRegions = 5;
+constexpr int kEvents = 120, kRegions = 5, kTurn = 30;  // events to a side
 
 double thread_ms() {
   timespec now{};
@@ -35,11 +35,12 @@ void tell(const char* what, std::vector<double> values) {
 }
 
 // Drags to and fro, each move once the picture of the one before is painted.
-void drag(MainWindow& window, QWidget& widget, QPoint from, const char* what, int step = 1) {
+void drag(MainWindow& window, QWidget& widget, QPoint from, const char* what, int step = 1,
+          int events = kEvents) {
   std::vector<double> whole, own;
   QTest::mousePress(&widget, Qt::LeftButton, Qt::ControlModifier, from);
-  for (int event = 1; event <= kEvents; ++event) {
-    const QPoint to = from + step * QPoint(event % 60 < 30 ? event % 60 : 60 - event % 60, 0);
+  for (int event = 1; event <= events; ++event) {
+    const QPoint to = from + step * QPoint(kTurn - std::abs(kTurn - event % (2 * kTurn)), 0);
     QElapsedTimer timer;
     timer.start();
     const double begin = thread_ms();
@@ -102,7 +103,7 @@ int main(int count, char** words) {
     const bool is_first = tag == document.state().order.front();
     drag(window, window.canvas(),
          window.canvas().view().to_widget({shape.width * 0.3, shape.height * 0.5}).toPoint(),
-         is_first ? "a brush over three regions" : "a brush beneath three regions", 16);
+         is_first ? "a brush over three regions" : "a brush beneath three regions", 16, kTurn);
   }
   return 0;
 }

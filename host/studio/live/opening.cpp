@@ -5,6 +5,8 @@
 
 #include "session/below/error.hpp"
 #include "studio/live/picture_image.hpp"
+#include "studio/live/room_watch.hpp"
+#include "system/temporary_folder.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -29,9 +31,14 @@ Opened open_capture(const QString& path, const QString& rate, std::shared_ptr<De
   if (!rate.isEmpty()) source.clip.rate = Rational::parse(rate.toStdString(), "the frame rate");
   const bool is_clip = !path.endsWith(".tik", Qt::CaseInsensitive);
   if (is_clip) first_look(first_picture(source, devices, job));
+  const RoomWatch room(temporary_folder());
+  const auto progress = [&](std::uint64_t done, std::uint64_t total) {
+    if (is_clip) room.look(done, total);
+    job.progress(done, total);
+  };
   auto session = std::make_shared<Session>(
       source, std::move(devices),
-      Session::Terms{.reading = Reading::whole, .progress = job.progress, .stop = job.stop});
+      Session::Terms{.reading = Reading::whole, .progress = progress, .stop = job.stop});
   Opened opened{session, {path, session->format(), session->timeline(), rate}, {}};
   for (const Note& note : session->notes()) {
     opened.notes += sentence(note.text);

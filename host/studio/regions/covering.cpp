@@ -1,12 +1,24 @@
 #include "studio/regions/covering.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "studio/regions/region_edits.hpp"
 
 namespace nutik::studio {
 namespace {
+
+// Calls `visit` with each pixel inside. Most of a stroke's region is empty.
+template <typename Visit>
+void for_each_inside(const Region& region, const Visit& visit) {
+  const std::uint8_t *begin = region.inside.data(), *end = begin + region.inside.size();
+  for (const std::uint8_t* at = begin; at != end; ++at) {
+    at = static_cast<const std::uint8_t*>(std::memchr(at, 1, static_cast<std::size_t>(end - at)));
+    if (at == nullptr) return;
+    visit(static_cast<std::size_t>(at - begin));
+  }
+}
 
 std::array<int, kMaskValues> ranks_of(const std::vector<std::uint8_t>& order) {
   std::array<int, kMaskValues> ranks{};
@@ -47,25 +59,24 @@ Region Covering::area_of(std::uint8_t tag) const {
 }
 
 void Covering::give(const Region& pixels, std::uint8_t tag) {
-  for (std::size_t pixel = 0; pixel < pixels.inside.size(); ++pixel) {
+  for_each_inside(pixels, [&](std::size_t pixel) {
     const std::uint8_t owner = mask_.tags[pixel];
-    if (pixels.inside[pixel] == 0 || owner == tag) continue;
+    if (owner == tag) return;
     if (is_before(owner, tag)) {
       covered(tag).inside[pixel] = 1;
     } else {
       if (owner != kBackground) covered(owner).inside[pixel] = 1;
       mask_.tags[pixel] = tag;
     }
-  }
+  });
 }
 
 void Covering::take(const Region& pixels, std::uint8_t tag) {
   const bool has_covered = covered_now(tag) != nullptr;
-  for (std::size_t pixel = 0; pixel < pixels.inside.size(); ++pixel) {
-    if (pixels.inside[pixel] == 0) continue;
+  for_each_inside(pixels, [&](std::size_t pixel) {
     if (has_covered) covered(tag).inside[pixel] = 0;
     if (mask_.tags[pixel] == tag) lose(pixel);
-  }
+  });
 }
 
 void Covering::take_from_all(const Region& pixels) {

@@ -73,9 +73,8 @@ void read_looks(const QJsonArray& regions, DocumentState& state, const QString& 
     if (tag < 0 || tag > 255 || !colour.isValid())
       refuse(path, "a region has no tag from 0 to 255, or no colour");
     const auto value_of = static_cast<std::uint8_t>(tag);
-    const bool is_new =
-        state.looks.try_emplace(value_of, region["name"].toString(), colour, region["visible"].toBool(true))
-            .second;
+    const RegionLook look{region["name"].toString(), colour, region["visible"].toBool(true)};
+    const bool is_new = state.looks.try_emplace(value_of, look).second;
     if (!is_new) refuse(path, format("it has two regions with the tag {}", tag));
     if (tag != 0) state.order.push_back(value_of);
     if (tag != 0 && state.mask && region.contains("covered"))
