@@ -75,6 +75,23 @@ TEST_F(DamagedVideo, WithAHoleIsRefused) {
   for (std::size_t k = 0; k < read.size(); ++k) EXPECT_TRUE(read[k] == pictures[k]) << k;
 }
 
+// Pictures that are passed over are counted, and behind a hole they would be others.
+TEST_F(DamagedVideo, WithAHoleBeforeAPartIsRefused) {
+  NEEDS_FFMPEG();
+  make_clip("-c:v rawvideo", "whole.mkv");
+  std::string damaged = test::read_file(scratch_ / "whole.mkv");
+  const auto pictures = read_all(*open_test_clip(scratch_ / "whole.mkv"));
+  const std::size_t picture_bytes = damaged.size() / kPictures;
+  damaged.replace(damaged.size() / 2, 3 * picture_bytes, 3 * picture_bytes, '\x0f');
+  const auto path = scratch_.write("damaged.mkv", damaged);
+  ClipOptions options;
+  options.from = ClipMoment{22, true};
+  const std::string said = test::message_of<InputError>([&] { read_all(*open_test_clip(path, options)); });
+  EXPECT_NE(said.find("pictures are missing behind the first "), std::string::npos) << said;
+  EXPECT_TRUE(read_all(*open_test_clip(scratch_ / "whole.mkv", options)) ==
+              std::vector(pictures.begin() + 22, pictures.end()));
+}
+
 // Where no picture comes before a hole it is no hole, and time 0 is that of the first picture behind it.
 TEST_F(DamagedVideo, WithoutItsStartSaysSo) {
   NEEDS_FFMPEG();

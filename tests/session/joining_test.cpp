@@ -247,6 +247,11 @@ TEST_F(Joining, IsJoinedAgain) {
   const Joined late = join({{c, d}, scratch_ / "late.tik"});
   EXPECT_EQ(std::ranges::count(late.facts, "pictures 8 … 25 of 26, whose time 0 is 0.08 s after the clip's, as stated"),
             1);
+  ASSERT_EQ(late.notes.size(), 1u);
+  EXPECT_EQ(late.notes[0].text, "pictures 0 … 7 of frames are in none of the captures");
+  const Joined middle = join({{b, c}, scratch_ / "middle.tik"});
+  ASSERT_EQ(middle.notes.size(), 2u);
+  EXPECT_EQ(middle.notes[1].text, "pictures 9 … 25 of frames are in none of the captures");
 }
 
 TEST_F(Joining, FollowsWhatRetimeCorrected) {
@@ -308,6 +313,12 @@ TEST_F(Joining, RefusesWhatDoesNotFollow) {
   SourceRequest night = whole_;
   night.path = scratch_ / "other/night";
   EXPECT_NE(refusal({a, part(8, 20, night)}).find("part0-8.tik is a part of frames, and "), std::string::npos);
+  // Of the same name, but with fewer pictures.
+  std::filesystem::rename(scratch_ / "other/night", scratch_ / "other/frames");
+  std::filesystem::remove(scratch_ / "other/frames/025.pgm");
+  night.path = scratch_ / "other/frames";
+  EXPECT_NE(refusal({a, part(8, 20, night)}).find("is a part of a clip frames with 26 pictures, and "),
+            std::string::npos);
 }
 
 TEST_F(Joining, RefusesWhatWasEncodedOtherwise) {

@@ -17,7 +17,8 @@ constexpr Command kCommands[] = {
      "nutik-cl encode --tolerance 4 -o small.tik clip.mp4\n"
      "nutik-cl -f 30000 --white 4095 'frames/*.png' capture.tik\n"
      "nutik-cl -f 500 frame%04d.tif capture.tik\n"
-     "nutik-cl encode --align rigid --camera-path path.csv clip.mp4 still.tik",
+     "nutik-cl encode --align rigid --camera-path path.csv clip.mp4 still.tik\n"
+     "nutik-cl encode --from 0.5s --to 1s clip.mp4 part.tik",
      run_encode, kCaptures},
     {Id::expose, "expose", "CAPTURE.tik|CLIP [PICTURE]",
      "Expose a picture: each pixel is the integral of its light times a gain function of time.",

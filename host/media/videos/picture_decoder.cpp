@@ -36,12 +36,7 @@ bool PictureDecoder::next(AVFrame& picture) {
   for (;;) {
     const int code = avcodec_receive_frame(codec_.get(), &picture);
     if (code == AVERROR_EOF) {
-      if (has_hole_) {
-        throw InputError(
-            format("{}: pictures are missing behind the first {}, for the file is damaged there "
-                   "(FFmpeg says: {})",
-                   name_, pictures_, *holes_->said()));
-      }
+      if (has_hole_) fail_at_hole();
       return false;
     }
     if (code == 0) {
@@ -57,10 +52,13 @@ bool PictureDecoder::skip() {
   for (bool is_picture = false; !is_picture; av_packet_unref(packet_.get())) {
     if (av_read_frame(opened_.format.get(), packet_.get()) < 0) return false;
     const bool is_of_stream = packet_->stream_index == opened_.stream;
+    if (!has_begun_) holes_->forget();
+    if (holes_->said()) fail_at_hole();  // and what comes next is another picture than it is counted as
     // What an edit list leaves out is no picture, nor is an empty slot.
     is_picture = is_of_stream && skipped_ == 0 && packet_->size > 0 && (packet_->flags & AV_PKT_FLAG_DISCARD) == 0;
     if (is_of_stream && skipped_ > 0) --skipped_;
   }
+  has_begun_ = true;
   ++pictures_;
   return true;
 }
@@ -92,6 +90,13 @@ void PictureDecoder::feed() {
     if (is_cut) damage_->forget();
     if (is_wanted) return;
   }
+}
+
+void PictureDecoder::fail_at_hole() const {
+  throw InputError(
+      format("{}: pictures are missing behind the first {}, for the file is damaged there "
+             "(FFmpeg says: {})",
+             name_, pictures_, *holes_->said()));
 }
 
 void PictureDecoder::fail(int code) const {

@@ -31,6 +31,7 @@ class PictureDecoder {
   bool next(AVFrame& picture);
 
   // Passes over a picture that no other refers to, before the first next(): its packet is not decoded. False at the end.
+  // Throws InputError where pictures before it are missing.
   bool skip();
 
   // What its decoder has said of damage so far: of the picture that came last, or of one soon after it.
@@ -39,6 +40,7 @@ class PictureDecoder {
  private:
   void feed();
   [[noreturn]] void fail(int code) const;
+  [[noreturn]] void fail_at_hole() const;
 
   std::string name_;
   std::unique_ptr<DamageLog> holes_ = std::make_unique<DamageLog>();  // outlives the opened file
@@ -49,7 +51,7 @@ class PictureDecoder {
   Wanted wanted_;
   std::uint64_t skipped_;
   std::uint64_t pictures_ = 0;
-  bool has_begun_ = false;  // the decoder took a packet
+  bool has_begun_ = false;  // a packet was taken
   bool has_hole_ = false;   // and is decoded up to there
 };
 

@@ -52,7 +52,7 @@ struct Trait {
 };
 
 const char* const kEncodeAlike = "encode all parts with the same options";
-const char* const kRetime = "correct the one that is wrong (retime)";
+const char* const kRetime = "retime the one that is wrong";
 
 std::span<const Trait> traits() {
   using tik::Header;
@@ -150,6 +150,10 @@ void check_seam(const Piece& before, const Piece& piece) {
     throw InputError(format("{} is a part of {}, and {} of {}; join parts of one clip", before.name, a.clip,
                             piece.name, b.clip));
   }
+  if (a.pictures != b.pictures) {
+    throw InputError(format("{} is a part of a clip {} with {} pictures, and {} of one with {}; join parts of one clip",
+                            before.name, a.clip, a.pictures, piece.name, b.pictures));
+  }
   const std::vector settings{Setting::from, Setting::to};
   if (before.end() < b.first) {
     throw InputError(format("{} of {} are missing between {} and {}; encode them, and join all parts",
@@ -170,8 +174,20 @@ void check_seam(const Piece& before, const Piece& piece) {
   }
 }
 
+// That there is more of the clip: a part may have been forgotten.
+std::vector<Note> missing_notes(const Piece& first, const Piece& last) {
+  std::vector<Note> notes;
+  const auto add = [&](std::uint64_t begin, std::uint64_t end) {
+    if (begin < end)
+      notes.emplace_back(format("{} of {} are in none of the captures", pictures_text(begin, end), first.header.part->clip));
+  };
+  add(0, first.header.part->first);
+  add(last.end(), first.header.part->pictures);
+  return notes;
+}
+
 // In the order of their times, once it is known that they follow each other. Returns what to know of that.
-std::optional<Note> put_in_order(std::vector<Piece>& pieces) {
+std::vector<Note> put_in_order(std::vector<Piece>& pieces) {
   const auto tells = [](const Piece& piece) { return piece.header.part.has_value(); };
   const auto teller = std::ranges::find_if(pieces, tells), silent = std::ranges::find_if_not(pieces, tells);
   if (silent != pieces.end() && teller != pieces.end()) {
@@ -187,12 +203,12 @@ std::optional<Note> put_in_order(std::vector<Piece>& pieces) {
                  pieces.front().name, pieces[1].name),
           {Setting::from, Setting::to, Setting::frame_rate});
     }
-    return Note(format("no capture says where in a clip it lies: they are taken to follow each other at once, {} first",
-                       pieces.front().name));
+    return {Note(format("no capture says where in a clip it lies: they are taken to follow each other at once, {} first",
+                        pieces.front().name))};
   }
   std::ranges::stable_sort(pieces, {}, [](const Piece& piece) { return piece.header.part->first; });
   for (std::size_t i = 1; i < pieces.size(); ++i) check_seam(pieces[i - 1], pieces[i]);
-  return std::nullopt;
+  return missing_notes(pieces.front(), pieces.back());
 }
 
 Timeline joined_timeline(const std::vector<Piece>& pieces) {
@@ -267,12 +283,12 @@ Joined join(const JoinRequest& request, const ReportedProgress& progress) {
     check_by_itself(pieces.back());
     check_alike(pieces.front(), pieces.back());
   }
-  auto note = put_in_order(pieces);
+  std::vector<Note> notes = put_in_order(pieces);
   const Timeline timeline = joined_timeline(pieces);
   const tik::Header header = joined_header(pieces, timeline);
 
   auto writer = tik::Writer::from_raster(request.output, header, tik::Reader(pieces.front().name).first_sample());
-  Joined joined{header.capture, timeline, {}, 0, header.facts, {}};
+  Joined joined{header.capture, timeline, {}, 0, header.facts, std::move(notes)};
   std::uint64_t samples = 0;
   for (const Piece& piece : pieces) {
     joined.parts.push_back({piece.name, samples, piece.timeline.sample_count()});
@@ -280,7 +296,6 @@ Joined join(const JoinRequest& request, const ReportedProgress& progress) {
   }
   writer.finish(timeline);
   joined.file_bytes = writer.bytes_written();
-  if (note) joined.notes.push_back(std::move(*note));
   return joined;
 }
 
