@@ -92,6 +92,24 @@ class Joining : public testing::Test {
     return scratch_.write("table.csv", text);
   }
 
+  // A copy of a capture whose header says something else.
+  template <typename Change>
+  Path saying(const Path& path, Change change) const {
+    const tik::Reader plain(path);
+    tik::Header header = plain.header();
+    change(header);
+    auto writer = tik::Writer::from_raster(scratch_ / "saying.tik", header, plain.first_sample());
+    for (std::uint64_t block = 0; block < plain.block_count(); ++block) {
+      const auto [stored, payload] = plain.stored(block);
+      std::span<const Exposure> exposures;
+      if (!plain.timeline().is_constant())
+        exposures = plain.timeline().table().subspan(stored.first_sample, stored.sample_count);
+      writer.append(stored, payload, exposures);
+    }
+    writer.finish(plain.timeline());
+    return scratch_ / "saying.tik";
+  }
+
   test::Scratch scratch_;
   SourceRequest whole_;
   tik::Codec codec_{tik::CodecId::rice, 0};
@@ -321,6 +339,20 @@ TEST_F(Joining, RefusesWhatDoesNotFollow) {
             std::string::npos);
 }
 
+TEST_F(Joining, RefusesTimesThatOverlap) {
+  SourceRequest irregular = whole_;
+  irregular.path = table(false);
+  irregular.clip.rate.reset();
+  const Path a = part(0, 8, irregular), b = part(8, 12, irregular);
+  const Path early = saying(b, [](tik::Header& header) { header.part->start_ns -= 1; });
+  EXPECT_NE(refusal({a, early}).find("whose last exposure ends later; encode both with the same rate and shutter angle"),
+            std::string::npos);
+  // Later than it is would be a gap in time, which irregular times may have.
+  const Path late = saying(b, [](tik::Header& header) { header.part->start_ns += 5; });
+  const Joined joined = join({{a, late}, scratch_ / "joined.tik"});
+  EXPECT_EQ(joined.timeline.start_ns(8), joined.timeline.end_ns(7) + 5);
+}
+
 TEST_F(Joining, RefusesWhatWasEncodedOtherwise) {
   const Path a = part(0, 8);
   const auto expect = [&](const std::string& wanted, auto change) {
@@ -362,17 +394,10 @@ TEST_F(Joining, RefusesWhatWasMeasuredOnEachPart) {
   EXPECT_NE(refusal({part(0, 8, even), part(8, 12, even)}).find("is exposed as its own first picture"),
             std::string::npos);
   // Aligned captures say so in their header.
-  const tik::Reader plain(part(8, 12));
-  tik::Header header = plain.header();
-  header.alignment = tik::Alignment{"rigid", 0, false, 1, 0, 0.1};
-  auto writer = tik::Writer::from_raster(scratch_ / "aligned.tik", header, plain.first_sample());
-  for (std::uint64_t block = 0; block < plain.block_count(); ++block) {
-    const auto [stored, payload] = plain.stored(block);
-    writer.append(stored, payload, {});
-  }
-  writer.finish(plain.timeline());
-  EXPECT_NE(refusal({part(0, 8), scratch_ / "aligned.tik"}).find("was aligned onto a picture of its own"),
-            std::string::npos);
+  const Path aligned = saying(part(8, 12), [](tik::Header& header) {
+    header.alignment = tik::Alignment{"rigid", 0, false, 1, 0, 0.1};
+  });
+  EXPECT_NE(refusal({part(0, 8), aligned}).find("was aligned onto a picture of its own"), std::string::npos);
 }
 
 TEST_F(Joining, LeavesNothingWhereAPartIsDamaged) {
