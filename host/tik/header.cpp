@@ -236,7 +236,7 @@ std::string text_of(const PartOfClip& part) {
 }
 
 PartOfClip parse_part(std::string_view text) {
-  constexpr std::uint64_t kMax = std::uint64_t{1} << 62;  // so that pictures and times can be added
+  constexpr std::uint64_t kMax = std::uint64_t{1} << 62;  // so that a capture's pictures and times can be added
   Words words(text, "place in a clip");
   PartOfClip part;
   words.take(part.first);
@@ -244,7 +244,7 @@ PartOfClip parse_part(std::string_view text) {
   words.take(start_ns);
   words.take(part.pictures);
   part.clip = printable(words.rest());
-  if (part.first > kMax || start_ns > kMax) words.fail();
+  if (part.first >= kMax || start_ns >= kMax) words.fail();
   part.start_ns = static_cast<std::int64_t>(start_ns);
   return part;
 }

@@ -121,11 +121,11 @@ TEST(TikFields, SayWhichPicturesOfAClipAreHeld) {
   };
   EXPECT_EQ(parse(file_with(header.fields())), header.part);
   EXPECT_EQ(parse(file_with({})), std::nullopt);
-  // So large that no sum of two is.
-  EXPECT_EQ(parse(file_with({{"part", false, "4611686018427387904 4611686018427387904 0 "}})),
-            (PartOfClip{std::uint64_t{1} << 62, std::int64_t{1} << 62, 0, ""}));
-  for (const char* damaged : {"", "2", "2 3", "-2 3 6 a", "2 -3 6 a", "2 3 x a", "4611686018427387905 0 0 a",
-                              "0 4611686018427387905 0 a", "99999999999999999999 0 0 a"}) {
+  // So large that no sum with a capture's own is too large.
+  EXPECT_EQ(parse(file_with({{"part", false, "4611686018427387903 4611686018427387903 0 "}})),
+            (PartOfClip{(std::uint64_t{1} << 62) - 1, (std::int64_t{1} << 62) - 1, 0, ""}));
+  for (const char* damaged : {"", "2", "2 3", "-2 3 6 a", "2 -3 6 a", "2 3 x a", "4611686018427387904 0 0 a",
+                              "0 4611686018427387904 0 a", "99999999999999999999 0 0 a"}) {
     EXPECT_THROW(static_cast<void>(parse(file_with({{"part", false, damaged}}))), InputError) << damaged;
   }
 }
