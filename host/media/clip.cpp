@@ -335,7 +335,8 @@ Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOp
     const std::vector<std::int64_t>& starts = info.timing.starts_ns;
     const bool is_next_known = starts.size() > sample_count && sample_count > 0;
     Timeline timeline = Timeline::irregular(
-        {starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(sample_count + (is_next_known ? 1 : 0))},
+        {starts.begin(),
+         starts.begin() + static_cast<std::ptrdiff_t>(sample_count + (is_next_known ? 1 : 0))},
         shutter_angle);
     if (!is_next_known) return timeline;
     const auto samples = timeline.table().first(sample_count);

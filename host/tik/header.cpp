@@ -236,7 +236,8 @@ std::string text_of(const PartOfClip& part) {
 }
 
 PartOfClip parse_part(std::string_view text) {
-  constexpr std::uint64_t kMax = std::uint64_t{1} << 62;  // so that a capture's pictures and times can be added
+  constexpr std::uint64_t kMax = std::uint64_t{1}
+                                 << 62;  // so that a capture's pictures and times can be added
   Words words(text, "place in a clip");
   PartOfClip part;
   words.take(part.first);

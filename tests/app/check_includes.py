@@ -13,7 +13,7 @@ from collections import defaultdict
 from pathlib import Path
 
 ROOMS = {"app", "session", "system"}
-MAX_LINES = 6960  # 6500, and 460 for rows, notes and errors of newer commands and options
+MAX_LINES = 6965  # 6500, and 465 for rows, notes and errors of newer commands and options
 # Commands that came after that was set, counted for themselves.
 NEWER = {"commands/camera_files.cpp", "commands/camera_files.hpp", "commands/join.cpp", "commands/plate.cpp", "commands/solve.cpp",
          "commands/study.cpp", "output/skipping.cpp", "output/skipping.hpp", "requests/align_words.cpp", "requests/film_words.cpp", "requests/solve_words.cpp", "requests/study_words.cpp"}

@@ -21,7 +21,8 @@ class Join : public test::ProgramTest {
   }
   void encode(const std::string& from, const std::string& to, const std::string& output,
               const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> words{"encode", "-q", "-f", "100", "--from", from, "--to", to, "frames", "-o", output};
+    std::vector<std::string> words{"encode", "-q", "-f",     "100", "--from", from,
+                                   "--to",   to,   "frames", "-o",  output};
     words.insert(words.end(), more.begin(), more.end());
     done(words);
   }
@@ -41,11 +42,14 @@ TEST_F(Join, ExposesWhatTheCaptureInOneGoDoes) {
   encode("0.65s", "9s", "c.tik", {"-a", "180"});
   const auto joined = run({"join", "b.tik", "c.tik", "a.tik", "-o", "joined.tik"});
   EXPECT_EQ(joined.status, 0) << joined.err;
-  EXPECT_TRUE(joined.out.starts_with("joined.tik: 12 x 12 grey, 101 samples of 3 captures, 1.01 s, ")) << joined.out;
+  EXPECT_TRUE(joined.out.starts_with("joined.tik: 12 x 12 grey, 101 samples of 3 captures, 1.01 s, "))
+      << joined.out;
   EXPECT_EQ(joined.err, "");
   for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"--start", "0s", "--exposure", "1s"}, {"--start", "0.62s", "--exposure", "50ms"},
-        {"--start", "642ms", "--exposure", "3ms"}, {"--start", "0.3s", "--exposure", "0.6s", "--shutter", "hann"}}) {
+       {std::vector<std::string>{"--start", "0s", "--exposure", "1s"},
+        {"--start", "0.62s", "--exposure", "50ms"},
+        {"--start", "642ms", "--exposure", "3ms"},
+        {"--start", "0.3s", "--exposure", "0.6s", "--shutter", "hann"}}) {
     std::vector<std::string> fixed = words;
     fixed.insert(fixed.end(), {"--precision", "fixed"});
     EXPECT_TRUE(exposed("joined.tik", fixed) == exposed("whole.tik", fixed)) << words[1];
@@ -88,8 +92,8 @@ TEST_F(Join, IsWithinWhatIsNoChange) {
     encode("37f", "38f", "b.tik", change);
     encode("38f", "101f", "c.tik", change);
     done({"join", "-q", "a.tik", "b.tik", "c.tik", "-o", "w.tik"});
-    const auto checked = run({"validate", "-q", "--source", "frames", "--start", "0s", "--exposure", "10ms", "--runs",
-                              "1", "w.tik"});
+    const auto checked = run({"validate", "-q", "--source", "frames", "--start", "0s", "--exposure", "10ms",
+                              "--runs", "1", "w.tik"});
     EXPECT_EQ(checked.status, 0) << change[0] << checked.out << checked.err;
   }
 }
@@ -104,7 +108,8 @@ TEST_F(Join, IsRefused) {
   expect_refused({"join", "a.tik", "b.tik"}, 2, way);
   expect_refused({"join", "a.tik", "b.tik", "-o", "b.tik"}, 2, "b.tik");
   expect_refused({"join", "a.tik", "b.tik", "-o", "w.png"}, 2, ".tik");
-  expect_refused({"join", "a.tik", "b.tik", "-o", "w.tik"}, 3, "encode them, and join all parts (--from, --to)");
+  expect_refused({"join", "a.tik", "b.tik", "-o", "w.tik"}, 3,
+                 "encode them, and join all parts (--from, --to)");
   expect_refused({"join", "a.tik", "c.tik", "-o", "w.tik"}, 3, "a tolerance of 0 codes, and c.tik has");
   expect_refused({"join", "a.tik", "frames/000.pgm", "-o", "w.tik"}, 3, "frames/000.pgm");
   expect_refused({"join", "a.tik", "absent.tik", "-o", "w.tik"}, 3, "absent.tik");

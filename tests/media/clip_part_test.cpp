@@ -254,8 +254,9 @@ TEST(ClipPart, OfAVideoHasTheSamePictures) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   for (const char* coding :
-       {"-c:v mjpeg -pix_fmt yuvj420p a.avi", "-c:v prores a.mov", "-c:v rawvideo -pix_fmt yuv420p a.avi", "-pix_fmt yuv420p a.y4m",
-        "-c:v huffyuv a.mkv", "-c:v ffv1 a.mkv", "-c:v mpeg4 -bf 2 a.mp4", "-c:v mjpeg -pix_fmt yuvj420p -ss 0.1 a.mov"}) {
+       {"-c:v mjpeg -pix_fmt yuvj420p a.avi", "-c:v prores a.mov", "-c:v rawvideo -pix_fmt yuv420p a.avi",
+        "-pix_fmt yuv420p a.y4m", "-c:v huffyuv a.mkv", "-c:v ffv1 a.mkv", "-c:v mpeg4 -bf 2 a.mp4",
+        "-c:v mjpeg -pix_fmt yuvj420p -ss 0.1 a.mov"}) {
     SCOPED_TRACE(coding);
     test::make(scratch, std::string("-f lavfi -i testsrc2=size=32x24:rate=25 -frames:v 9 ") + coding);
     const std::string name = std::string(coding).substr(std::string(coding).rfind(' ') + 1);

@@ -73,8 +73,9 @@ class Joining : public testing::Test {
     return join(request);
   }
   std::string refusal(const std::vector<Path>& captures) const {
-    const std::string message =
-        message_of<InputError>([&] { static_cast<void>(join({captures, scratch_ / "refused.tik"})); });
+    const std::string message = message_of<InputError>([&] {
+      static_cast<void>(join({captures, scratch_ / "refused.tik"}));
+    });
     EXPECT_FALSE(std::filesystem::exists(scratch_ / "refused.tik"));
     return message;
   }
@@ -182,7 +183,8 @@ TEST_F(Joining, OfATolerantEncodingStaysWithinTheTolerance) {
   int largest = 0;
   for (std::size_t k = 0; k < clip.size(); ++k) {
     for (std::size_t i = 0; i < clip[k].size(); ++i) {
-      largest = std::max(largest, std::abs(std::to_integer<int>(joined[k][i]) - std::to_integer<int>(clip[k][i])));
+      largest =
+          std::max(largest, std::abs(std::to_integer<int>(joined[k][i]) - std::to_integer<int>(clip[k][i])));
     }
   }
   EXPECT_LE(largest, 9);
@@ -204,7 +206,8 @@ TEST_F(Joining, OfNoisyPicturesIsTheCaptureInOneGoWhereBlocksAreWhole) {
   expect_same_capture(scratch_ / "joined.tik", one);
   // Means are those of a block's samples: others where a part ends within one, but no further from the clip's.
   static_cast<void>(join_at({11}, noisy));
-  const test::Rasters clip = samples_of(encoded("exact.tik", whole_)), joined = samples_of(scratch_ / "joined.tik");
+  const test::Rasters clip = samples_of(encoded("exact.tik", whole_)),
+                      joined = samples_of(scratch_ / "joined.tik");
   ASSERT_EQ(joined.size(), clip.size());
   const tik::Reader reader(scratch_ / "joined.tik");
   const double scale = reader.format().white_code / 255.0;
@@ -263,7 +266,8 @@ TEST_F(Joining, IsJoinedAgain) {
   EXPECT_EQ(std::ranges::count(joined.facts, "pictures 0 … 25 of 26, as stated"), 1);
   // And parts that are not the clip's first.
   const Joined late = join({{c, d}, scratch_ / "late.tik"});
-  EXPECT_EQ(std::ranges::count(late.facts, "pictures 8 … 25 of 26, whose time 0 is 0.08 s after the clip's, as stated"),
+  EXPECT_EQ(std::ranges::count(late.facts,
+                               "pictures 8 … 25 of 26, whose time 0 is 0.08 s after the clip's, as stated"),
             1);
   ASSERT_EQ(late.notes.size(), 1u);
   EXPECT_EQ(late.notes[0].text, "pictures 0 … 7 of frames are in none of the captures");
@@ -280,7 +284,8 @@ TEST_F(Joining, FollowsWhatRetimeCorrected) {
     ASSERT_TRUE(held);
     EXPECT_EQ(held->start_ns, first * 20'000'000);
   }
-  const Joined joined = join({{scratch_ / "part0-8.tik", scratch_ / "part8-26.tik"}, scratch_ / "joined.tik"});
+  const Joined joined =
+      join({{scratch_ / "part0-8.tik", scratch_ / "part8-26.tik"}, scratch_ / "joined.tik"});
   EXPECT_EQ(joined.timeline, Timeline::constant({50, 1}, {90, 1}, kStills));
   EXPECT_NE(tik::Reader(scratch_ / "part8-26.tik").header().facts[0].find("50 pictures a second, as stated"),
             std::string::npos);
@@ -290,8 +295,8 @@ TEST_F(Joining, FollowsAnotherAngleOfIrregularTimes) {
   SourceRequest irregular = whole_;
   irregular.path = table(false);
   irregular.clip.rate.reset();
-  const std::vector<Path> paths{encoded("whole.tik", irregular), part(0, 7, irregular), part(7, 25, irregular),
-                                part(25, kStills, irregular)};
+  const std::vector<Path> paths{encoded("whole.tik", irregular), part(0, 7, irregular),
+                                part(7, 25, irregular), part(25, kStills, irregular)};
   for (const Path& path : paths) static_cast<void>(retime({path, path, {}, Rational{90, 1}, {}, {}, {}}));
   const Joined joined = join({{paths[1], paths[2], paths[3]}, scratch_ / "joined.tik"});
   EXPECT_EQ(joined.timeline, tik::Reader(paths[0]).timeline());
@@ -316,21 +321,26 @@ TEST_F(Joining, TakesCapturesThatSayNothingAsTheyAreNamed) {
 
 TEST_F(Joining, RefusesWhatDoesNotFollow) {
   const Path a = part(0, 8), b = part(8, 12), c = part(11, 20), d = part(20, kStills);
-  EXPECT_EQ(message_of<UsageError>([&] { static_cast<void>(join({{a}, scratch_ / "x.tik"})); }),
+  EXPECT_EQ(message_of<UsageError>([&] {
+              static_cast<void>(join({{a}, scratch_ / "x.tik"}));
+            }),
             "two captures or more are joined");
   const std::string folder = scratch_.folder().string() + "/";
-  EXPECT_EQ(refusal({a, d, b}), "pictures 12 … 19 of frames are missing between " + folder + "part8-12.tik and " +
-                                    folder + "part20-26.tik; encode them, and join all parts");
+  EXPECT_EQ(refusal({a, d, b}), "pictures 12 … 19 of frames are missing between " + folder +
+                                    "part8-12.tik and " + folder +
+                                    "part20-26.tik; encode them, and join all parts");
   EXPECT_NE(refusal({part(0, 7), b}).find("picture 7 of frames are missing"), std::string::npos);
-  EXPECT_EQ(refusal({a, b, c}), folder + "part8-12.tik and " + folder +
-                                    "part11-20.tik both hold picture 11 of frames; leave one out, or encode it without "
-                                    "them");
+  EXPECT_EQ(refusal({a, b, c}),
+            folder + "part8-12.tik and " + folder +
+                "part11-20.tik both hold picture 11 of frames; leave one out, or encode it without "
+                "them");
   EXPECT_NE(refusal({a, a}).find("both hold pictures 0 … 7 of frames"), std::string::npos);
   std::filesystem::create_directory(scratch_ / "other");
   std::filesystem::copy(scratch_ / "frames", scratch_ / "other/night");
   SourceRequest night = whole_;
   night.path = scratch_ / "other/night";
-  EXPECT_NE(refusal({a, part(8, 20, night)}).find("part0-8.tik is a part of frames, and "), std::string::npos);
+  EXPECT_NE(refusal({a, part(8, 20, night)}).find("part0-8.tik is a part of frames, and "),
+            std::string::npos);
   // Of the same name, but with fewer pictures.
   std::filesystem::rename(scratch_ / "other/night", scratch_ / "other/frames");
   std::filesystem::remove(scratch_ / "other/frames/025.pgm");
@@ -345,7 +355,8 @@ TEST_F(Joining, RefusesTimesThatOverlap) {
   irregular.clip.rate.reset();
   const Path a = part(0, 8, irregular), b = part(8, 12, irregular);
   const Path early = saying(b, [](tik::Header& header) { header.part->start_ns -= 1; });
-  EXPECT_NE(refusal({a, early}).find("whose last exposure ends later; encode both with the same rate and shutter angle"),
+  EXPECT_NE(refusal({a, early})
+                .find("whose last exposure ends later; encode both with the same rate and shutter angle"),
             std::string::npos);
   // Later than it is would be a gap in time, which irregular times may have.
   const Path late = saying(b, [](tik::Header& header) { header.part->start_ns += 5; });
@@ -376,8 +387,9 @@ TEST_F(Joining, RefusesWhatWasEncodedOtherwise) {
   SourceRequest left = whole_, right = whole_;
   cut(0)(left);
   cut(4)(right);
-  EXPECT_NE(refusal({part(0, 8, left), part(8, 12, right)}).find("was taken for '8 x 8 from 0,0 of 20 x 20', and "),
-            std::string::npos);
+  EXPECT_NE(
+      refusal({part(0, 8, left), part(8, 12, right)}).find("was taken for '8 x 8 from 0,0 of 20 x 20', and "),
+      std::string::npos);
 }
 
 TEST_F(Joining, RefusesWhatWasMeasuredOnEachPart) {

@@ -14,7 +14,8 @@ int run_join(const Options& options) {
   const std::vector<std::string>& captures = options.operands;
   // No operand is the output: of part-*.tik it would be the last part.
   if (captures.size() < 2 || !options.output || options.output->empty())
-    throw UsageError("join takes two captures or more, and an output: nutik-cl join a.tik b.tik -o whole.tik");
+    throw UsageError(
+        "join takes two captures or more, and an output: nutik-cl join a.tik b.tik -o whole.tik");
   const JoinRequest request{{captures.begin(), captures.end()}, *options.output};
   check_output(request.output, OutputKind::tik, captures);
 
@@ -23,7 +24,8 @@ int run_join(const Options& options) {
   const Timeline& timeline = joined.timeline;
   Json parts = Json::array();
   for (const JoinedPart& part : joined.parts)
-    parts.push_back({{"capture", part.capture}, {"first_sample", part.first_sample}, {"samples", part.sample_count}});
+    parts.push_back(
+        {{"capture", part.capture}, {"first_sample", part.first_sample}, {"samples", part.sample_count}});
   Answer answer{{{"capture", request.output.string()}, {"parts", parts}}};
   answer.json.update(shape_json(joined.capture.shape));
   answer.json.update({{"samples", timeline.sample_count()},
@@ -33,9 +35,10 @@ int run_join(const Options& options) {
                       {"facts", facts_json(joined.facts)},
                       {"file_bytes", joined.file_bytes},
                       {"seconds", stopwatch.seconds()}});
-  answer.line = format("{}: {}, {} of {} captures, {}, {}, {:.2f} s", request.output.string(),
-                       shape_text(joined.capture.shape), counted(timeline.sample_count(), "sample"), captures.size(),
-                       duration_text(timeline.duration_ns()), bytes_text(joined.file_bytes), stopwatch.seconds());
+  answer.line =
+      format("{}: {}, {} of {} captures, {}, {}, {:.2f} s", request.output.string(),
+             shape_text(joined.capture.shape), counted(timeline.sample_count(), "sample"), captures.size(),
+             duration_text(timeline.duration_ns()), bytes_text(joined.file_bytes), stopwatch.seconds());
   answer.tell_source({}, joined.notes);
   return tell(options, request.output, answer);
 }

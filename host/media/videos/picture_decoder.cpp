@@ -55,7 +55,8 @@ bool PictureDecoder::skip() {
     if (!has_begun_) holes_->forget();
     if (holes_->said()) fail_at_hole();  // and what comes next is another picture than it is counted as
     // What an edit list leaves out is no picture, nor is an empty slot.
-    is_picture = is_of_stream && skipped_ == 0 && packet_->size > 0 && (packet_->flags & AV_PKT_FLAG_DISCARD) == 0;
+    is_picture =
+        is_of_stream && skipped_ == 0 && packet_->size > 0 && (packet_->flags & AV_PKT_FLAG_DISCARD) == 0;
     if (is_of_stream && skipped_ > 0) --skipped_;
   }
   has_begun_ = true;

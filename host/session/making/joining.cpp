@@ -77,7 +77,8 @@ std::span<const Trait> traits() {
        {Setting::frame_rate}},
       {[](const Header& h) {
          // Their mean is another in each part.
-         return lists_exposures(h) ? "listed exposures" : format("shutter {} degrees", h.shutter_angle.text());
+         return lists_exposures(h) ? "listed exposures"
+                                   : format("shutter {} degrees", h.shutter_angle.text());
        },
        kRetime,
        {Setting::shutter_angle}},
@@ -93,7 +94,8 @@ std::span<const Trait> traits() {
 std::vector<std::string_view> facts_of_codes(const tik::Header& header) {
   std::vector<std::string_view> stated;
   for (const std::string_view fact : header.facts) {
-    if (!correction_of(fact) && !tells_part(fact) && !fact.starts_with(kJoined)) stated.push_back(stated_by(fact));
+    if (!correction_of(fact) && !tells_part(fact) && !fact.starts_with(kJoined))
+      stated.push_back(stated_by(fact));
   }
   return stated;
 }
@@ -106,18 +108,20 @@ void check_alike(const Piece& first, const Piece& other) {
                      trait.settings);
   }
   if (first.header.capture.noise != other.header.capture.noise) {
-    throw InputError(
-        format("{} and {} were encoded with the noise of two cameras, or measured twice: measure it once, and "
-               "encode all parts with that file",
-               first.name, other.name));
+    throw InputError(format(
+        "{} and {} were encoded with the noise of two cameras, or measured twice: measure it once, and "
+        "encode all parts with that file",
+        first.name, other.name));
   }
   const auto a = facts_of_codes(first.header), b = facts_of_codes(other.header);
-  const auto lacks = [](const auto& facts, std::string_view fact) { return std::ranges::count(facts, fact) == 0; };
+  const auto lacks = [](const auto& facts, std::string_view fact) {
+    return std::ranges::count(facts, fact) == 0;
+  };
   for (const bool is_first : {true, false}) {
     for (const std::string_view fact : is_first ? a : b) {
       if (!lacks(is_first ? b : a, fact)) continue;
-      throw InputError(format("{} was taken for '{}', and {} was not; {}", is_first ? first.name : other.name, fact,
-                              is_first ? other.name : first.name, kEncodeAlike));
+      throw InputError(format("{} was taken for '{}', and {} was not; {}", is_first ? first.name : other.name,
+                              fact, is_first ? other.name : first.name, kEncodeAlike));
     }
   }
 }
@@ -126,16 +130,17 @@ void check_alike(const Piece& first, const Piece& other) {
 void check_by_itself(const Piece& piece) {
   if (piece.header.alignment) {
     throw InputError(
-        format("{} was aligned onto a picture of its own, and the parts would jump where they meet; align the whole clip: "
+        format("{} was aligned onto a picture of its own, and the parts would jump where they meet; align "
+               "the whole clip: "
                "encode it in one go",
                piece.name));
   }
   if (std::ranges::count(facts_of_codes(piece.header), kDeflickered) > 0) {
-    throw InputError(
-        format("{} is exposed as its own first picture, and its brightness would jump where it meets another; encode the "
-               "clip in one go",
-               piece.name),
-        {Setting::deflicker});
+    throw InputError(format("{} is exposed as its own first picture, and its brightness would jump where it "
+                            "meets another; encode the "
+                            "clip in one go",
+                            piece.name),
+                     {Setting::deflicker});
   }
 }
 
@@ -151,8 +156,9 @@ void check_seam(const Piece& before, const Piece& piece) {
                             piece.name, b.clip));
   }
   if (a.pictures != b.pictures) {
-    throw InputError(format("{} is a part of a clip {} with {} pictures, and {} of one with {}; join parts of one clip",
-                            before.name, a.clip, a.pictures, piece.name, b.pictures));
+    throw InputError(
+        format("{} is a part of a clip {} with {} pictures, and {} of one with {}; join parts of one clip",
+               before.name, a.clip, a.pictures, piece.name, b.pictures));
   }
   const std::vector settings{Setting::from, Setting::to};
   if (before.end() < b.first) {
@@ -161,16 +167,17 @@ void check_seam(const Piece& before, const Piece& piece) {
                      settings);
   }
   if (before.end() > b.first) {
-    throw InputError(format("{} and {} both hold {} of {}; leave one out, or encode it without them", before.name,
-                            piece.name, pictures_text(b.first, std::min(before.end(), piece.end())), b.clip),
-                     settings);
+    throw InputError(
+        format("{} and {} both hold {} of {}; leave one out, or encode it without them", before.name,
+               piece.name, pictures_text(b.first, std::min(before.end(), piece.end())), b.clip),
+        settings);
   }
   const std::int64_t from_a = b.start_ns - a.start_ns;
   if (!before.header.rate && from_a < before.timeline.end_ns(before.timeline.sample_count() - 1)) {
-    throw InputError(
-        format("{} begins {} after {}, whose last exposure ends later; encode both with the same rate and shutter angle",
-               piece.name, duration_text(from_a), before.name),
-        {Setting::frame_rate, Setting::shutter_angle});
+    throw InputError(format("{} begins {} after {}, whose last exposure ends later; encode both with the "
+                            "same rate and shutter angle",
+                            piece.name, duration_text(from_a), before.name),
+                     {Setting::frame_rate, Setting::shutter_angle});
   }
 }
 
@@ -179,7 +186,8 @@ std::vector<Note> missing_notes(const Piece& first, const Piece& last) {
   std::vector<Note> notes;
   const auto add = [&](std::uint64_t begin, std::uint64_t end) {
     if (begin < end)
-      notes.emplace_back(format("{} of {} are in none of the captures", pictures_text(begin, end), first.header.part->clip));
+      notes.emplace_back(
+          format("{} of {} are in none of the captures", pictures_text(begin, end), first.header.part->clip));
   };
   add(0, first.header.part->first);
   add(last.end(), first.header.part->pictures);
@@ -191,20 +199,22 @@ std::vector<Note> put_in_order(std::vector<Piece>& pieces) {
   const auto tells = [](const Piece& piece) { return piece.header.part.has_value(); };
   const auto teller = std::ranges::find_if(pieces, tells), silent = std::ranges::find_if_not(pieces, tells);
   if (silent != pieces.end() && teller != pieces.end()) {
-    throw InputError(format("{} says which pictures of {} it holds, and {} does not; encode that as a part, too",
-                            teller->name, teller->header.part->clip, silent->name),
-                     {Setting::from, Setting::to});
+    throw InputError(
+        format("{} says which pictures of {} it holds, and {} does not; encode that as a part, too",
+               teller->name, teller->header.part->clip, silent->name),
+        {Setting::from, Setting::to});
   }
   if (silent != pieces.end()) {
     if (!pieces.front().header.rate) {
-      throw InputError(
-          format("{} has irregular times, and nothing says how long after its pictures those of {} were taken; encode "
-                 "parts of one clip, or state a rate",
-                 pieces.front().name, pieces[1].name),
-          {Setting::from, Setting::to, Setting::frame_rate});
+      throw InputError(format("{} has irregular times, and nothing says how long after its pictures those of "
+                              "{} were taken; encode "
+                              "parts of one clip, or state a rate",
+                              pieces.front().name, pieces[1].name),
+                       {Setting::from, Setting::to, Setting::frame_rate});
     }
-    return {Note(format("no capture says where in a clip it lies: they are taken to follow each other at once, {} first",
-                        pieces.front().name))};
+    return {Note(format(
+        "no capture says where in a clip it lies: they are taken to follow each other at once, {} first",
+        pieces.front().name))};
   }
   std::ranges::stable_sort(pieces, {}, [](const Piece& piece) { return piece.header.part->first; });
   for (std::size_t i = 1; i < pieces.size(); ++i) check_seam(pieces[i - 1], pieces[i]);
@@ -240,21 +250,22 @@ tik::Header joined_header(const std::vector<Piece>& pieces, const Timeline& time
   std::erase_if(header.facts, [](std::string_view fact) { return fact.starts_with(kJoined); });
   for (std::string& fact : header.facts) {
     const auto state = [&](const std::string& text) { fact.replace(0, stated_by(fact).size(), text); };
-    if (header.part && tells_part(fact)) state(header.part->text(header.part->first + timeline.sample_count()));
+    if (header.part && tells_part(fact))
+      state(header.part->text(header.part->first + timeline.sample_count()));
     if (header.rate) continue;
     if (correction_of(fact) == Setting::frame_rate) state(rate_text(timeline));
     if (correction_of(fact) == Setting::shutter_angle)
       state(format("shutter {} degrees", timeline.shutter_angle().text()));
   }
   const auto file = [](const Piece& piece) { return std::filesystem::path(piece.name).filename().string(); };
-  header.facts.push_back(format("{}{} captures, {} … {}", kJoined, pieces.size(), file(pieces.front()),
-                                file(pieces.back())));
+  header.facts.push_back(
+      format("{}{} captures, {} … {}", kJoined, pieces.size(), file(pieces.front()), file(pieces.back())));
   return header;
 }
 
 // Appends a piece's blocks; returns how many samples there are then.
-std::uint64_t copy(const Piece& piece, std::uint64_t first_sample, const Timeline& timeline, tik::Writer& writer,
-                   const ReportedProgress& progress) {
+std::uint64_t copy(const Piece& piece, std::uint64_t first_sample, const Timeline& timeline,
+                   tik::Writer& writer, const ReportedProgress& progress) {
   const tik::Reader reader(piece.name);
   if (reader.content_checksum() != piece.checksum)
     throw InputError(format("{} was written to while it was read; join again", piece.name));
@@ -287,7 +298,8 @@ Joined join(const JoinRequest& request, const ReportedProgress& progress) {
   const Timeline timeline = joined_timeline(pieces);
   const tik::Header header = joined_header(pieces, timeline);
 
-  auto writer = tik::Writer::from_raster(request.output, header, tik::Reader(pieces.front().name).first_sample());
+  auto writer =
+      tik::Writer::from_raster(request.output, header, tik::Reader(pieces.front().name).first_sample());
   Joined joined{header.capture, timeline, {}, 0, header.facts, std::move(notes)};
   std::uint64_t samples = 0;
   for (const Piece& piece : pieces) {

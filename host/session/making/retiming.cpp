@@ -96,7 +96,8 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
   for (std::string& fact : facts) {
     if (is_timed_shutter(fact)) fact.replace(0, stated_by(fact).size(), shutter);
     if (before.part && tells_part(fact))
-      fact.replace(0, stated_by(fact).size(), before.part->text(before.part->first + timeline.sample_count()));
+      fact.replace(0, stated_by(fact).size(),
+                   before.part->text(before.part->first + timeline.sample_count()));
   }
   if (request.rate) state(Setting::frame_rate, rate_text(*request.rate, "picture"));
   if (request.shutter_angle) state(Setting::shutter_angle, shutter);
@@ -151,9 +152,9 @@ Retimed retime(const RetimeRequest& request) {
   capture.pixel_aspect = request.pixel_aspect.value_or(capture.pixel_aspect);
   // A part of a clip begins where the rate says that its first picture does.
   if (header.part && request.rate)
-    header.part->start_ns =
-        Timeline::constant(*request.rate, Timeline::kFullShutter, header.part->first + timeline.sample_count())
-            .start_ns(header.part->first);
+    header.part->start_ns = Timeline::constant(*request.rate, Timeline::kFullShutter,
+                                               header.part->first + timeline.sample_count())
+                                .start_ns(header.part->first);
   header.facts = facts_of(request, header, timeline);
 
   auto writer = tik::Writer::from_raster(request.output, header, reader.first_sample());
