@@ -342,7 +342,7 @@ TEST_F(WindowTest, ListsRegionsAndTheirStillGain) {
   EXPECT_EQ(list.currentItem()->text(1), QString("M%1").arg(tag));
   list.currentItem()->setText(0, "Ball");
   EXPECT_EQ(document().state().looks.at(tag).name, "Ball");
-  list.currentItem()->setCheckState(3, Qt::Checked);
+  list.currentItem()->setCheckState(4, Qt::Checked);
   EXPECT_EQ(document().solo(), tag);
   click_button("remove_region");
   EXPECT_EQ(list.topLevelItemCount(), 1);

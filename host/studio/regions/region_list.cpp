@@ -64,16 +64,19 @@ RegionList::RegionList(Document& document, QWidget* parent)
   list_->setObjectName("regions");
   list_->setAccessibleName(tr("Regions"));
   list_->setColumnCount(kColumns);
-  list_->setHeaderLabels({tr("Region"), tr("Tag"), tr("Still"), tr("Solo")});
+  list_->setHeaderLabels({tr("Region"), tr("Tag"), tr("Still"), tr("White"), tr("Solo")});
   list_->headerItem()->setToolTip(kTag, tr("The region's value in the mask, and its M in the function file"));
   list_->headerItem()->setToolTip(kStill, tr("What light that does not change is multiplied by"));
+  list_->headerItem()->setToolTip(
+      kWhite,
+      tr("How many of its pixels have a channel at the last code, 255: more light would not be seen"));
   list_->headerItem()->setToolTip(kSolo, tr("Darkens all other regions"));
   list_->setRootIsDecorated(false);
   list_->setUniformRowHeights(true);
   list_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
   list_->header()->setStretchLastSection(false);
   list_->header()->setSectionResizeMode(kName, QHeaderView::Stretch);
-  for (const int column : {kTag, kStill, kSolo}) {
+  for (const int column : {kTag, kStill, kWhite, kSolo}) {
     list_->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
     list_->setItemDelegateForColumn(column, new NoEditor(list_));
   }
@@ -83,7 +86,10 @@ RegionList::RegionList(Document& document, QWidget* parent)
   });
   connect(list_, &QTreeWidget::itemChanged, this, &RegionList::edited);
   connect(&document_, &Document::changed, this, &RegionList::follow);
-  connect(&document_, &Document::capture_changed, this, &RegionList::follow);
+  connect(&document_, &Document::capture_changed, this, [this] {
+    white_.fill(0);
+    follow();
+  });
   connect(&document_, &Document::selection_changed, this, &RegionList::follow_selection);
   follow();
 }
@@ -218,7 +224,28 @@ void RegionList::fill(QTreeWidgetItem& item, std::uint8_t tag) const {
   item.setToolTip(kName, tr("Checked: its outline and its curve are shown"));
   item.setText(kTag, QStringLiteral("M%1").arg(tag));
   item.setText(kStill, QStringLiteral("%1×").arg(still, 0, 'f', 2));
-  item.setTextAlignment(kStill, Qt::AlignRight | Qt::AlignVCenter);
+  item.setText(kWhite, white_[tag] == 0 ? QString() : QString::number(white_[tag]));
+  for (const int column : {kStill, kWhite}) item.setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
+}
+
+void RegionList::count_white(const ShownPicture& picture) {
+  const CaptureFacts* facts = document_.facts();
+  if (!picture.is_full || facts == nullptr) return;
+  const QImage& image = picture.image;
+  const Shape& shape = facts->format.shape;
+  if (image.size() != QSize(static_cast<int>(shape.width), static_cast<int>(shape.height))) return;
+  const auto& mask = document_.state().mask;
+  white_.fill(0);
+  for (int y = 0; y < image.height(); ++y) {
+    const auto* row = reinterpret_cast<const QRgb*>(image.constScanLine(y));
+    const std::uint8_t* tags =
+        mask ? (*mask)->mask.tags.data() + static_cast<std::size_t>(y) * shape.width : nullptr;
+    for (int x = 0; x < image.width(); ++x) {
+      const bool is_white = qRed(row[x]) == 255 || qGreen(row[x]) == 255 || qBlue(row[x]) == 255;
+      if (is_white) ++white_[tags == nullptr ? kBackground : tags[x]];
+    }
+  }
+  follow();
 }
 
 void RegionList::edited(QTreeWidgetItem* item, int column) {

@@ -3,8 +3,11 @@
 
 #include <QTreeWidget>
 #include <QWidget>
+#include <array>
+#include <cstdint>
 
 #include "studio/document/document.hpp"
+#include "studio/live/live_view.hpp"
 
 class QDoubleSpinBox;
 class QPushButton;
@@ -18,8 +21,11 @@ class RegionList : public QWidget {
  public:
   explicit RegionList(Document& document, QWidget* parent = nullptr);
 
+  // Of a full picture, whose pixels at the last code are told beside each region.
+  void count_white(const ShownPicture& picture);
+
  private:
-  enum Column { kName, kTag, kStill, kSolo, kColumns };
+  enum Column { kName, kTag, kStill, kWhite, kSolo, kColumns };
 
   void build_buttons();
   void follow();            // the document's state
@@ -33,6 +39,7 @@ class RegionList : public QWidget {
   QPushButton *add_, *remove_, *colour_, *up_, *down_, *over_interval_;
   QDoubleSpinBox *radius_, *feather_, *own_feather_;
   QPushButton *grow_, *shrink_, *smooth_;
+  std::array<std::uint64_t, kMaskValues> white_{};  // pixels by tag
   bool is_following_ = false;
 };
 

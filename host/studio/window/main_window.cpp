@@ -75,10 +75,12 @@ void MainWindow::build_window() {
   column->setSizes({400, 330});
   auto* row = new QSplitter(Qt::Horizontal);
   row->addWidget(column);
-  row->addWidget(new RegionList(document_));
+  auto* regions = new RegionList(document_);
+  row->addWidget(regions);
+  connect(&live_, &LiveView::pictured, regions, &RegionList::count_white);
   row->setStretchFactor(0, 1);
   row->setChildrenCollapsible(false);
-  row->setSizes({980, 300});
+  row->setSizes({940, 340});
   setCentralWidget(row);
   status_ = new StatusLine(jobs_);
   setStatusBar(status_);
