@@ -7,6 +7,7 @@
 #include <QApplication>
 #include <QDialog>
 #include <QDir>
+#include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
 #include <QPainter>
@@ -79,8 +80,11 @@ class Photographer {
     auto* dialog = window_.findChild<QDialog*>();
     if (dialog == nullptr) return false;
     QApplication::processEvents();
-    QTest::keyClicks(dialog->focusWidget(), "soon");
-    QTest::keyClick(dialog->focusWidget(), Qt::Key_Return);
+    // By its name: what has the focus depends on when the screen shows the dialog.
+    auto* field = dialog->findChild<QLineEdit*>("difference_from");
+    field->selectAll();
+    QTest::keyClicks(field, "soon");
+    QTest::keyClick(field, Qt::Key_Return);
     QApplication::processEvents();
     is_taken = is_taken && save(dialog->grab().toImage(), "difference-" + look);
     dialog->reject();
