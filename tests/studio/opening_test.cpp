@@ -1,5 +1,9 @@
 // What a window keeps until another file is open, and what it forgets then.
+#include <QClipboard>
+#include <QFileDialog>
+#include <QGuiApplication>
 #include <QInputDialog>
+#include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
 #include <QSettings>
@@ -149,6 +153,45 @@ TEST_F(OpeningTest, RecentFilesAreListedTheLastFirstAndOpened) {
   const QList<QAction*> actions = recent().actions();
   EXPECT_EQ(QFileInfo(actions[1]->text()).fileName(), "copy.nutik");
   EXPECT_FALSE(actions[1]->isEnabled()) << "it is gone";
+}
+
+TEST_F(OpeningTest, FilesAreChosenInDialogsByKeyboard) {
+  const auto run = [&](const std::string& words) {
+    return test::run_shell(std::string(NUTIK_TEST_PROGRAM) + words, scratch_.folder());
+  };
+  ASSERT_EQ(run(" encode -f 100 frames/%02d.pgm clip.tik").status, 0);
+  const auto choose = [&](Qt::Key key, const char* name) {
+    window_.activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+    answer_next<QFileDialog>([this, name](QFileDialog& dialog) {
+      auto* field = dialog.findChild<QLineEdit*>("fileNameEdit");
+      ASSERT_NE(field, nullptr);
+      field->setText(path(name));
+      QTest::keyClick(field, Qt::Key_Return);
+    });
+    QTest::keyClick(&window_, key, Qt::ControlModifier);
+    ASSERT_TRUE(settles());
+    EXPECT_TRUE(is_asked_) << name;
+  };
+  ASSERT_NO_FATAL_FAILURE(choose(Qt::Key_O, "clip.tik"));
+  ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
+  click_button("add_region");
+  click_tool("tool_ellipse");
+  drag(canvas(), at(10, 10), at(60, 40));
+  ASSERT_NO_FATAL_FAILURE(choose(Qt::Key_S, "mine.nutik"));
+  ASSERT_TRUE(window_.has_files()) << window_.notice().text().toStdString();
+  ASSERT_NO_FATAL_FAILURE(choose(Qt::Key_E, "window.png"));
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  QTest::keyClick(&window_, Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
+  const QString line = QGuiApplication::clipboard()->text();
+  EXPECT_EQ(line, window_.command_for(path("mine.png")));
+  ASSERT_TRUE(line.startsWith("nutik-cl "));
+  const test::ProgramResult made = run(line.mid(8).toStdString());
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::string by_window = test::read_file(scratch_ / "window.png");
+  ASSERT_FALSE(by_window.empty()) << window_.notice().text().toStdString();
+  EXPECT_TRUE(by_window == test::read_file(scratch_ / "mine.png")) << "byte for byte";
 }
 
 TEST_F(OpeningTest, AsksHowFastAClipWasFilmedThatDoesNotSay) {
