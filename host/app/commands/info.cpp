@@ -38,10 +38,8 @@ Json alignment_json(const std::optional<tik::Alignment>& aligned) {
 
 Json part_json(const std::optional<PartOfClip>& part) {
   if (!part) return nullptr;
-  return {{"clip", part->clip},
-          {"first_picture", part->first},
-          {"start_ns", part->start_ns},
-          {"pictures", part->pictures}};
+  return {{"clip", part->clip}, {"first_picture", part->first},
+          {"start_ns", part->start_ns}, {"pictures", part->pictures}};
 }
 
 // What is a change.

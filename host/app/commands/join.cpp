@@ -14,8 +14,7 @@ int run_join(const Options& options) {
   const std::vector<std::string>& captures = options.operands;
   // No operand is the output: of part-*.tik it would be the last part.
   if (captures.size() < 2 || !options.output || options.output->empty())
-    throw UsageError(
-        "join takes two captures or more, and an output: nutik-cl join a.tik b.tik -o whole.tik");
+    throw UsageError("join takes two captures or more and an output: nutik-cl join a.tik b.tik -o whole.tik");
   const JoinRequest request{{captures.begin(), captures.end()}, *options.output};
   check_output(request.output, OutputKind::tik, captures);
 
