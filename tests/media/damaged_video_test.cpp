@@ -24,6 +24,13 @@ class DamagedVideo : public testing::Test {
     scratch_.write("raw", test::bytes_of(pictures));
     test::make(scratch_, test::from_raw(kShape, "gray") + codec + " " + name);
   }
+  // A copy of whole.mkv in whose middle the bytes of three pictures are lost.
+  std::filesystem::path write_hole() const {
+    std::string damaged = test::read_file(scratch_ / "whole.mkv");
+    const std::size_t lost = 3 * (damaged.size() / kPictures);
+    damaged.replace(damaged.size() / 2, lost, lost, '\x0f');
+    return scratch_.write("damaged.mkv", damaged);
+  }
   Scratch scratch_;
 };
 
@@ -58,11 +65,8 @@ TEST_F(DamagedVideo, OfFfv1IsNeverExposedSilently) {
 TEST_F(DamagedVideo, WithAHoleIsRefused) {
   NEEDS_FFMPEG();
   make_clip("-c:v ffv1 -level 3", "whole.mkv");
-  std::string damaged = test::read_file(scratch_ / "whole.mkv");
   const auto pictures = read_all(*open_test_clip(scratch_ / "whole.mkv"));
-  const std::size_t picture_bytes = damaged.size() / kPictures;
-  damaged.replace(damaged.size() / 2, 3 * picture_bytes, 3 * picture_bytes, '\x0f');
-  const auto path = scratch_.write("damaged.mkv", damaged);
+  const auto path = write_hole();
   const std::string said = test::message_of<InputError>([&] { read_all(*open_test_clip(path)); });
   EXPECT_NE(said.find("pictures before it can be taken"), std::string::npos) << said;
   ClipOptions options;
@@ -79,11 +83,8 @@ TEST_F(DamagedVideo, WithAHoleIsRefused) {
 TEST_F(DamagedVideo, WithAHoleBeforeAPartIsRefused) {
   NEEDS_FFMPEG();
   make_clip("-c:v rawvideo", "whole.mkv");
-  std::string damaged = test::read_file(scratch_ / "whole.mkv");
   const auto pictures = read_all(*open_test_clip(scratch_ / "whole.mkv"));
-  const std::size_t picture_bytes = damaged.size() / kPictures;
-  damaged.replace(damaged.size() / 2, 3 * picture_bytes, 3 * picture_bytes, '\x0f');
-  const auto path = scratch_.write("damaged.mkv", damaged);
+  const auto path = write_hole();
   ClipOptions options;
   options.from = ClipMoment{22, true};
   const std::string said = test::message_of<InputError>([&] { read_all(*open_test_clip(path, options)); });

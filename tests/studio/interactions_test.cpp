@@ -21,8 +21,12 @@ class InteractionsTest : public StudioTest {
     document().set_boxcar({40 * kMs, 40 * kMs}, "Begin");
     click_button("add_region");
     paint_region(document(), rectangle(96, 48, {4, 18}, 60, 12), document().selected_tag(), "Rectangle");
+    divide_by("integral");  // what is longer looks different
+  }
+
+  void divide_by(const char* normalization) {
     DocumentState state = document().state();
-    state.normalization = Normalization::parse("integral");  // what is longer looks different
+    state.normalization = Normalization::parse(normalization);
     document().apply(std::move(state), "Begin");
     ASSERT_TRUE(settles());
   }
@@ -112,10 +116,7 @@ TEST_F(InteractionsTest, SeveralPointsAreTransformed) {
       },
       [&] { EXPECT_EQ(points()[1].time_ns, 60 * kMs); });
   // All gains alike change nothing where they are divided by their integral; beside an open time they do.
-  DocumentState state = document().state();
-  state.normalization = Normalization::parse("support");
-  document().apply(std::move(state), "Begin");
-  ASSERT_TRUE(settles());
+  divide_by("support");
   expect_followed(
       [&] {
         const QPoint from = handle(BoxPart::top);
@@ -151,10 +152,7 @@ TEST_F(InteractionsTest, BoxcarsHaveHandles) {
       },
       [&] { EXPECT_EQ(points()[2].time_ns, 120 * kMs); });
   document().set_points(kBackground, {{0, 1.0}, {document().duration_ns(), 1.0}}, "Begin");
-  DocumentState state = document().state();
-  state.normalization = Normalization::parse("support");
-  document().apply(std::move(state), "Begin");
-  ASSERT_TRUE(settles());
+  divide_by("support");
   expect_followed(
       [&] {
         const QPoint from = handles().level.center().toPoint();

@@ -131,14 +131,12 @@ void check_by_itself(const Piece& piece) {
   if (piece.header.alignment) {
     throw InputError(
         format("{} was aligned onto a picture of its own, and the parts would jump where they meet; align "
-               "the whole clip: "
-               "encode it in one go",
+               "the whole clip: encode it in one go",
                piece.name));
   }
   if (std::ranges::count(facts_of_codes(piece.header), kDeflickered) > 0) {
     throw InputError(format("{} is exposed as its own first picture, and its brightness would jump where it "
-                            "meets another; encode the "
-                            "clip in one go",
+                            "meets another; encode the clip in one go",
                             piece.name),
                      {Setting::deflicker});
   }
@@ -207,8 +205,7 @@ std::vector<Note> put_in_order(std::vector<Piece>& pieces) {
   if (silent != pieces.end()) {
     if (!pieces.front().header.rate) {
       throw InputError(format("{} has irregular times, and nothing says how long after its pictures those of "
-                              "{} were taken; encode "
-                              "parts of one clip, or state a rate",
+                              "{} were taken; encode parts of one clip, or state a rate",
                               pieces.front().name, pieces[1].name),
                        {Setting::from, Setting::to, Setting::frame_rate});
     }
