@@ -2,48 +2,77 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstring>
 
 #include "align/seen_area.hpp"
 #include "system/parallel.hpp"
+#include "system/simd_clones.hpp"
 
 namespace nutik {
 namespace {
 
 constexpr std::uint32_t kRowsAtOnce = 16;
-constexpr std::size_t kTaps = 4;
+constexpr std::uint32_t kTaps = 4;
+constexpr std::uint32_t kBorder = 2;  // what the taps of a place at a picture's side reach beyond it
+constexpr std::uint32_t kPixelsAtOnce = 128;
 
-// The light of a pixel's channels: those of colours side by side, so that a processor takes one step for all.
-using Colour = float __attribute__((vector_size(16)));
-using Grey = float;
+// A plane of light, and round it its outermost pixels once more for each of the border's.
+std::size_t stride_of(const Shape& shape) { return std::size_t{shape.width} + 2 * kBorder; }
+std::size_t plane_of(const Shape& shape) { return stride_of(shape) * (std::size_t{shape.height} + 2 * kBorder); }
 
-std::size_t values_of(const Shape& shape) {
-  return (shape.channels == 1 ? sizeof(Grey) : sizeof(Colour)) / sizeof(float);
-}
+// Pixels side by side in a row: where in a plane their first taps are, and what each tap counts.
+struct Taps {
+  std::uint32_t first[kPixelsAtOnce];
+  float x[kTaps][kPixelsAtOnce], y[kTaps][kPixelsAtOnce];
+};
 
-template <typename Light>
-Light light_at(const float* values) {
-  Light light;
-  std::memcpy(&light, values, sizeof light);
-  return light;
-}
-
-// The cubic's taps at -1, 0, 1 and 2 for a place t behind 0, 0 <= t < 1.
-std::array<float, kTaps> cubic_taps(double t) {
+// The cubic's taps at -1, 0, 1 and 2 for places t behind 0, 0 <= t < 1.
+inline void set_cubic(float (&taps)[kTaps][kPixelsAtOnce], std::size_t i, double t) {
   const auto u = static_cast<float>(t);
-  return {((-0.5f * u + 1) * u - 0.5f) * u, (1.5f * u - 2.5f) * u * u + 1, ((-1.5f * u + 2) * u + 0.5f) * u,
-          (0.5f * u - 0.5f) * u * u};
+  taps[0][i] = ((-0.5f * u + 1) * u - 0.5f) * u;
+  taps[1][i] = (1.5f * u - 2.5f) * u * u + 1;
+  taps[2][i] = ((-1.5f * u + 2) * u + 0.5f) * u;
+  taps[3][i] = (0.5f * u - 0.5f) * u * u;
 }
 
-// The pixels of the taps along a side; beyond the border that of the border.
-std::array<std::size_t, kTaps> tap_pixels(double floor, std::uint32_t side) {
-  std::array<std::size_t, kTaps> pixels{};
-  for (std::size_t tap = 0; tap < kTaps; ++tap) {
-    const double pixel = floor + static_cast<double>(tap) - 1;
-    pixels[tap] = static_cast<std::size_t>(std::clamp(pixel, 0.0, side - 1.0));
+// Places are no more than a pixel beyond a side.
+NUTIK_SIMD_CLONES void set_taps(const Warp& warp, std::uint32_t x, std::uint32_t y, std::uint32_t count,
+                                std::uint32_t stride, Taps& taps) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Place place = warp.at(static_cast<std::int32_t>(x + i), static_cast<std::int32_t>(y));
+    const auto right = static_cast<std::int32_t>(place.x + 1), down = static_cast<std::int32_t>(place.y + 1);
+    set_cubic(taps.x, i, place.x - (right - 1));
+    set_cubic(taps.y, i, place.y - (down - 1));
+    // Of the tap at -1, right - 2, in a plane that begins at -kBorder.
+    taps.first[i] = static_cast<std::uint32_t>(down) * stride + static_cast<std::uint32_t>(right);
   }
-  return pixels;
+}
+
+// The light of pixels whose taps lie side by side, too.
+NUTIK_SIMD_CLONES void add_taps(const float* __restrict plane, std::size_t stride, const Taps& taps, std::uint32_t first,
+                                std::uint32_t end, float* __restrict lights) {
+  for (std::uint32_t i = first; i < end; ++i) {
+    const float* const from = plane + taps.first[first] + (i - first);
+    float sum = 0, least = *from, most = *from;
+    for (std::uint32_t row = 0; row < kTaps; ++row) {
+      float along = 0;
+      for (std::uint32_t column = 0; column < kTaps; ++column) {
+        const float light = from[row * stride + column];
+        least = least < light ? least : light;
+        most = most > light ? most : light;
+        along += taps.x[column][i] * light;
+      }
+      sum += taps.y[row][i] * along;
+    }
+    sum = sum < least ? least : sum;
+    lights[i] = sum > most ? most : sum;
+  }
+}
+
+// The end of those from `first` on whose taps lie side by side.
+std::uint32_t end_of_run(const Taps& taps, std::uint32_t first, std::uint32_t count) {
+  std::uint32_t end = first + 1;
+  while (end < count && taps.first[end] == taps.first[end - 1] + 1) ++end;
+  return end;
 }
 
 }  // namespace
@@ -51,59 +80,51 @@ std::array<std::size_t, kTaps> tap_pixels(double floor, std::uint32_t side) {
 LightWarp::LightWarp(const CaptureFormat& format, const Rectangle& area)
     : format_(format),
       area_(area),
-      codes_(format.transfer, format.white_code),
+      tables_(format.transfer, format.white_code),
       light_(bytes(format) / sizeof(float)) {}
 
 std::uint64_t LightWarp::bytes(const CaptureFormat& format) {
-  return format.shape.pixel_count() * values_of(format.shape) * sizeof(float);
+  return plane_of(format.shape) * format.shape.channels * sizeof(float);
 }
 
 template <typename Code>
 void LightWarp::read_light(const Code* raster) {
-  const std::size_t width = format_.shape.width, channels = format_.shape.channels;
-  const std::size_t values = values_of(format_.shape);
-  parallel_for(format_.shape.height, [&](std::uint64_t y) {
-    for (std::size_t pixel = y * width; pixel < (y + 1) * width; ++pixel) {
-      for (std::size_t channel = 0; channel < channels; ++channel) {
-        light_[pixel * values + channel] =
-            static_cast<float>(codes_.light_of(raster[pixel * channels + channel]));
-      }
+  const auto [width, height, channels] = format_.shape;
+  const std::size_t stride = stride_of(format_.shape);
+  parallel_for(height + 2 * kBorder, [&, width, height, channels](std::uint64_t row) {
+    const std::uint64_t y = std::clamp<std::uint64_t>(row, kBorder, height - 1 + kBorder) - kBorder;
+    for (std::uint32_t channel = 0; channel < channels; ++channel) {
+      float* const to = light_.data() + channel * plane_of(format_.shape) + row * stride;
+      tables_.lights_of(raster + y * width * channels + channel, channels, {to + kBorder, width});
+      std::fill_n(to, kBorder, to[kBorder]);
+      std::fill_n(to + kBorder + width, kBorder, to[kBorder + width - 1]);
     }
   });
 }
 
-template <typename Light, typename Code>
+template <typename Code>
 void LightWarp::write_row(const Warp& warp, std::uint32_t row, Code* warped) const {
-  const auto [width, height, channels] = format_.shape;
-  const std::uint32_t y = area_.y + row;
+  const std::uint32_t channels = format_.shape.channels, y = area_.y + row;
+  const std::size_t stride = stride_of(format_.shape);
   PixelSpan seen = seen_span(warp, format_.shape, y);
   seen.first = std::max(seen.first, area_.x);
   seen.end = std::min(seen.end, area_.x + area_.width);
-  for (std::uint32_t x = seen.first; x < seen.end; ++x) {
-    const Place place = warp.at(x, y);
-    const double left = std::floor(place.x), top = std::floor(place.y);
-    const auto x_taps = cubic_taps(place.x - left), y_taps = cubic_taps(place.y - top);
-    const auto columns = tap_pixels(left, width), rows = tap_pixels(top, height);
+  Taps taps;
+  std::array<float, kPixelsAtOnce> lights;
+  std::array<std::uint32_t, kPixelsAtOnce> codes;
+  for (std::uint32_t x = seen.first; x < seen.end; x += kPixelsAtOnce) {
+    const std::uint32_t count = std::min(kPixelsAtOnce, seen.end - x);
+    set_taps(warp, x, y, count, static_cast<std::uint32_t>(stride), taps);
     Code* const to = warped + (std::size_t{row} * area_.width + (x - area_.x)) * channels;
-    constexpr std::size_t kValues = sizeof(Light) / sizeof(float);
-    Light sum{}, least = light_at<Light>(&light_[(rows[0] * width + columns[0]) * kValues]), most = least;
-    for (std::size_t j = 0; j < kTaps; ++j) {
-      const float* const from = light_.data() + rows[j] * width * kValues;
-      Light along{};
-      for (std::size_t i = 0; i < kTaps; ++i) {
-        const auto light = light_at<Light>(from + columns[i] * kValues);
-        least = least < light ? least : light;
-        most = most > light ? most : light;
-        along += x_taps[i] * light;
-      }
-      sum += y_taps[j] * along;
-    }
-    sum = sum < least ? least : sum;
-    sum = sum > most ? most : sum;
-    std::array<float, kValues> lights;
-    std::memcpy(lights.data(), &sum, sizeof sum);
     for (std::uint32_t channel = 0; channel < channels; ++channel) {
-      to[channel] = static_cast<Code>(codes_.code_of(double{lights[channel]}));
+      const float* const plane = light_.data() + channel * plane_of(format_.shape);
+      for (std::uint32_t first = 0; first < count;) {
+        const std::uint32_t end = end_of_run(taps, first, count);
+        add_taps(plane, stride, taps, first, end, lights.data());
+        first = end;
+      }
+      tables_.codes_of({lights.data(), count}, codes.data());
+      for (std::uint32_t i = 0; i < count; ++i) to[i * channels + channel] = static_cast<Code>(codes[i]);
     }
   }
 }
@@ -113,14 +134,12 @@ void LightWarp::take(std::span<const std::byte> raster, const Warp& warp, std::s
     read_light(from);
     parallel_for((area_.height - 1) / kRowsAtOnce + 1, [&](std::uint64_t strip) {
       const auto first = static_cast<std::uint32_t>(strip) * kRowsAtOnce;
-      for (std::uint32_t row = first; row < std::min(first + kRowsAtOnce, area_.height); ++row) {
-        format_.shape.channels == 1 ? write_row<Grey>(warp, row, to) : write_row<Colour>(warp, row, to);
-      }
+      const std::uint32_t end = std::min(first + kRowsAtOnce, area_.height);
+      for (std::uint32_t row = first; row < end; ++row) write_row(warp, row, to);
     });
   };
   if (format_.code_bytes == 1) {
-    move(reinterpret_cast<const std::uint8_t*>(raster.data()),
-         reinterpret_cast<std::uint8_t*>(warped.data()));
+    move(reinterpret_cast<const std::uint8_t*>(raster.data()), reinterpret_cast<std::uint8_t*>(warped.data()));
   } else {
     move(reinterpret_cast<const std::uint16_t*>(raster.data()),
          reinterpret_cast<std::uint16_t*>(warped.data()));

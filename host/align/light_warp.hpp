@@ -14,8 +14,8 @@
 #include <span>
 #include <vector>
 
+#include "align/light_tables.hpp"
 #include "align/warp.hpp"
-#include "capture/light_codes.hpp"
 #include "capture/memory_needs.hpp"
 #include "capture/picture.hpp"
 
@@ -34,13 +34,13 @@ class LightWarp {
  private:
   template <typename Code>
   void read_light(const Code* raster);
-  template <typename Light, typename Code>
+  template <typename Code>
   void write_row(const Warp& warp, std::uint32_t row, Code* warped) const;
 
   CaptureFormat format_;
   Rectangle area_;
-  LightCodes codes_;
-  std::vector<float> light_;  // of the raster, pixel by pixel
+  LightTables tables_;
+  std::vector<float> light_;  // of the raster, a plane for each channel, with a border
 };
 
 }  // namespace nutik
