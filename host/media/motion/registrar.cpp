@@ -22,7 +22,7 @@ namespace nutik::motion {
 namespace {
 
 constexpr std::uint32_t kCells = 32;  // along the longer side: the texture is taken from all over the picture
-constexpr std::size_t kMaxPoints = 20000;  // of a level
+constexpr std::size_t kMaxPoints = 8000;   // of a level
 constexpr std::size_t kMinPoints = 60;
 constexpr double kMinGradient = kGreyWhite / 256;  // a pixel
 constexpr double kWeakGradient = 0.05;               // of the strongest: mostly noise
@@ -38,7 +38,8 @@ constexpr double kTukey = 4.685;        // 95 % as efficient as least squares wh
 constexpr double kMinSigma = 0.3;     // codes
 constexpr int kFirstSteps = 3;          // of a level, in which nothing is excluded yet
 constexpr int kMaxSteps = 25;
-constexpr double kSettledPixels = 0.001;
+constexpr double kSettledPixels = 0.002;
+constexpr double kRoughlySettled = 0.05;  // pixels of a level that a finer one follows
 
 struct Point {
   float x, y;  // of the level
@@ -232,7 +233,7 @@ class RobustRegistrar final : public Registrar {
       const bool is_fine =
           i == 0 || (i == 1 && levels_[i].size.height >= 100 && levels_[i].size.width >= 100);
       Fit settled = fit;
-      if (settle(levels_[i], pyramid.levels[i], is_fine ? frame_ : coarse_, settled)) {
+      if (settle(levels_[i], pyramid.levels[i], is_fine ? frame_ : coarse_, i == 0, settled)) {
         fit = settled;
       } else if (i == 0) {
         return {guess, 0, 0};
@@ -321,9 +322,10 @@ class RobustRegistrar final : public Registrar {
   }
 
   // False where the picture shows too little of the reference, or the fit leads nowhere.
-  static bool settle(const Level& level, const cv::Mat& grey, const Frame& frame, Fit& fit) {
+  static bool settle(const Level& level, const cv::Mat& grey, const Frame& frame, bool is_last, Fit& fit) {
     const int motion = frame.count(), count = motion + 2;
     const double per_radius = frame.radius() / level.scale();
+    const double settled = is_last ? kSettledPixels : kRoughlySettled * level.scale();
     std::vector<double> sizes;
     for (int step = 0; step < kMaxSteps; ++step) {
       const std::vector<Sampled> seen = sampled(level, grey, fit.warp);
@@ -362,7 +364,7 @@ class RobustRegistrar final : public Registrar {
       const double moved = cv::norm(solved.rowRange(0, motion)) * frame.radius();
       if (!(moved < frame.radius())) return false;
       fit.warp = chained(inverse(frame.warp(numbers)), fit.warp);
-      if (moved < kSettledPixels && step > kFirstSteps) break;
+      if (moved < settled && step > kFirstSteps) break;
     }
     return true;
   }
