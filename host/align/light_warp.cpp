@@ -14,10 +14,14 @@ constexpr std::uint32_t kRowsAtOnce = 16;
 constexpr std::uint32_t kTaps = 4;
 constexpr std::uint32_t kBorder = 2;  // what the taps of a place at a picture's side reach beyond it
 constexpr std::uint32_t kPixelsAtOnce = 128;
+constexpr std::uint32_t kMaxChannels = 3;
 
 // A plane of light, and round it its outermost pixels once more for each of the border's.
 std::size_t stride_of(const Shape& shape) { return std::size_t{shape.width} + 2 * kBorder; }
 std::size_t plane_of(const Shape& shape) { return stride_of(shape) * (std::size_t{shape.height} + 2 * kBorder); }
+
+template <typename Value>
+using OfPixels = std::array<Value, kPixelsAtOnce>;
 
 // Pixels side by side in a row: where in a plane their first taps are, and what each tap counts.
 struct Taps {
@@ -75,6 +79,15 @@ std::uint32_t end_of_run(const Taps& taps, std::uint32_t first, std::uint32_t co
   return end;
 }
 
+template <std::uint32_t channels, typename Code>
+void interleave(const OfPixels<std::uint32_t>* codes, std::uint32_t count, Code* to) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t channel = 0; channel < channels; ++channel) {
+      *to++ = static_cast<Code>(codes[channel].data()[i]);
+    }
+  }
+}
+
 }  // namespace
 
 LightWarp::LightWarp(const CaptureFormat& format, const Rectangle& area)
@@ -110,22 +123,22 @@ void LightWarp::write_row(const Warp& warp, std::uint32_t row, Code* warped) con
   seen.first = std::max(seen.first, area_.x);
   seen.end = std::min(seen.end, area_.x + area_.width);
   Taps taps;
-  std::array<float, kPixelsAtOnce> lights;
-  std::array<std::uint32_t, kPixelsAtOnce> codes;
+  std::array<OfPixels<float>, kMaxChannels> lights;
+  std::array<OfPixels<std::uint32_t>, kMaxChannels> codes;
   for (std::uint32_t x = seen.first; x < seen.end; x += kPixelsAtOnce) {
     const std::uint32_t count = std::min(kPixelsAtOnce, seen.end - x);
     set_taps(warp, x, y, count, static_cast<std::uint32_t>(stride), taps);
-    Code* const to = warped + (std::size_t{row} * area_.width + (x - area_.x)) * channels;
-    for (std::uint32_t channel = 0; channel < channels; ++channel) {
-      const float* const plane = light_.data() + channel * plane_of(format_.shape);
-      for (std::uint32_t first = 0; first < count;) {
-        const std::uint32_t end = end_of_run(taps, first, count);
-        add_taps(plane, stride, taps, first, end, lights.data());
-        first = end;
+    for (std::uint32_t first = 0, end = 0; first < count; first = end) {
+      end = end_of_run(taps, first, count);
+      for (std::uint32_t channel = 0; channel < channels; ++channel) {
+        add_taps(light_.data() + channel * plane_of(format_.shape), stride, taps, first, end, lights[channel].data());
       }
-      tables_.codes_of({lights.data(), count}, codes.data());
-      for (std::uint32_t i = 0; i < count; ++i) to[i * channels + channel] = static_cast<Code>(codes[i]);
     }
+    for (std::uint32_t channel = 0; channel < channels; ++channel) {
+      tables_.codes_of({lights[channel].data(), count}, codes[channel].data());
+    }
+    Code* const to = warped + (std::size_t{row} * area_.width + (x - area_.x)) * channels;
+    channels == 1 ? interleave<1>(codes.data(), count, to) : interleave<kMaxChannels>(codes.data(), count, to);
   }
 }
 
