@@ -229,12 +229,14 @@ class RobustRegistrar final : public Registrar {
 
   [[nodiscard]] Registered fit(const GreyPyramid& pyramid, const Warp& guess, std::size_t levels) const {
     Fit fit{guess, 1, 0};
+    bool is_first = true;
     for (std::size_t i = std::min(levels, levels_.size()); i-- > 0;) {
       const bool is_fine =
           i == 0 || (i == 1 && levels_[i].size.height >= 100 && levels_[i].size.width >= 100);
       Fit settled = fit;
-      if (settle(levels_[i], pyramid.levels[i], is_fine ? frame_ : coarse_, i == 0, settled)) {
+      if (settle(levels_[i], pyramid.levels[i], is_fine ? frame_ : coarse_, is_first, i == 0, settled)) {
         fit = settled;
+        is_first = false;
       } else if (i == 0) {
         return {guess, 0, 0};
       }
@@ -322,9 +324,10 @@ class RobustRegistrar final : public Registrar {
   }
 
   // False where the picture shows too little of the reference, or the fit leads nowhere.
-  static bool settle(const Level& level, const cv::Mat& grey, const Frame& frame, bool is_last, Fit& fit) {
+  static bool settle(const Level& level, const cv::Mat& grey, const Frame& frame, bool is_first, bool is_last, Fit& fit) {
     const int motion = frame.count(), count = motion + 2;
     const double per_radius = frame.radius() / level.scale();
+    const int first_steps = is_first ? kFirstSteps : 1;
     const double settled = is_last ? kSettledPixels : kRoughlySettled * level.scale();
     std::vector<double> sizes;
     for (int step = 0; step < kMaxSteps; ++step) {
@@ -338,7 +341,7 @@ class RobustRegistrar final : public Registrar {
       for (const Sampled& sample : seen) {
         const double share = residual(sample, fit) / limit;
         double weight = 1 / (1 + 9 * share * share);  // Cauchy's, which excludes nothing
-        if (step >= kFirstSteps) {
+        if (step >= first_steps) {
           if (std::abs(share) >= 1) continue;
           weight = (1 - share * share) * (1 - share * share);
         }
@@ -364,7 +367,7 @@ class RobustRegistrar final : public Registrar {
       const double moved = cv::norm(solved.rowRange(0, motion)) * frame.radius();
       if (!(moved < frame.radius())) return false;
       fit.warp = chained(inverse(frame.warp(numbers)), fit.warp);
-      if (moved < settled && step > kFirstSteps) break;
+      if (moved < settled && step > first_steps) break;
     }
     return true;
   }
