@@ -38,15 +38,19 @@ std::optional<CameraMotion> camera_motion_of(std::string_view text) {
   return found == kMotions.end() ? std::nullopt : std::optional(found->first);
 }
 
-MemoryNeeds registrar_needs(const CaptureFormat& format, Reach reach) {
+std::uint64_t registered_bytes(const CaptureFormat& format) {
   constexpr std::uint64_t kPyramidBytes = 12;  // a pixel: as it is, blurred, and all smaller ones
+  return kPyramidBytes * format.shape.pixel_count();
+}
+
+MemoryNeeds registrar_needs(const CaptureFormat& format, Reach reach) {
   constexpr std::uint64_t kTextureBytes = 4 << 20;
   constexpr std::uint64_t kFeatureBytes =
       240;  // a pixel of what features are looked for in: twice its size, in
             // eleven layers of floats, and all smaller ones
   constexpr std::uint64_t kMaxFeaturePixels = 480 * 480;
   const std::uint64_t pixels = format.shape.pixel_count();
-  MemoryNeeds needs{{"a picture that is registered", kPyramidBytes * pixels}, {"its texture", kTextureBytes}};
+  MemoryNeeds needs{{"a picture that is registered", registered_bytes(format)}, {"its texture", kTextureBytes}};
   if (reach == Reach::anywhere)
     needs.add("its features", kFeatureBytes * std::min(pixels, kMaxFeaturePixels));
   return needs;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -51,7 +52,7 @@ class Registrar {
   virtual ~Registrar() = default;
 
   // Of a raster of the same format, which is expected to lie about where `guess` says. The best that was found, be it
-  // good or not: is_sure().
+  // good or not: is_sure(). Several threads may ask at once.
   [[nodiscard]] virtual Registered find(std::span<const std::byte> raster, const Warp& guess,
                                         Reach reach = Reach::anywhere) = 0;
 };
@@ -59,7 +60,9 @@ class Registrar {
 // Whether most of the texture follows it.
 [[nodiscard]] inline bool is_sure(const Registered& found) { return found.agreeing >= 0.5; }
 
-// What a registrar of pictures of this format holds.
+// What a registrar of pictures of this format holds while one of them is found, and what each that is found beside it
+// takes.
 [[nodiscard]] MemoryNeeds registrar_needs(const CaptureFormat& format, Reach reach);
+[[nodiscard]] std::uint64_t registered_bytes(const CaptureFormat& format);
 
 }  // namespace nutik

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <mutex>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <utility>
@@ -197,6 +198,7 @@ class RobustRegistrar final : public Registrar {
     if (!is_sure(best)) try_from(guess, 1);
     if (reach == Reach::near) return unless_it_rests(pyramid.levels.front(), guess, best);
     if (is_sure(best)) return best;
+    const std::scoped_lock lock(features_mutex_);
     if (!features_) features_.emplace(reference_, pyramid.feature_scale());
     if (const auto start = features_->find(pyramid.of_features())) try_from(*start);
     return best;
@@ -390,6 +392,7 @@ class RobustRegistrar final : public Registrar {
   std::vector<Level> levels_;  // the finest first
   cv::Mat reference_;          // for features, which are looked for when they are first needed
   std::optional<FeatureStart> features_;
+  std::mutex features_mutex_;
 };
 
 }  // namespace

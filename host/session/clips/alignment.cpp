@@ -12,9 +12,14 @@
 #include "media/module.hpp"
 #include "media/read_ahead.hpp"
 #include "system/interruption.hpp"
+#include "system/parallel.hpp"
 
 namespace nutik {
 namespace {
+
+// So many pictures are searched for from where the last one before them was found: at once, if memory allows it. The path
+// is the same however many threads there are.
+constexpr std::uint64_t kPicturesAtOnce = 4;
 
 // The raster of the picture that the others are moved onto.
 std::vector<std::byte> reference_raster(const ClipToAlign& clip) {
@@ -100,7 +105,10 @@ CameraPath find_camera_path(const ClipToAlign& clip, CameraMotion motion, const 
                     {"pictures decoded ahead", 2 * sample_bytes},
                     {"the picture that others are aligned to", sample_bytes}};
   needs.add(registrar_needs(clip.format, Reach::anywhere));
-  needs.rest_of(memory.bytes);
+  const std::uint64_t spare = needs.rest_of(memory.bytes);
+  const std::uint64_t at_once = spare / (kPicturesAtOnce - 1) >= 2 * sample_bytes + registered_bytes(clip.format)
+                                    ? kPicturesAtOnce
+                                    : 1;
 
   std::unique_ptr<Registrar> registrar;
   try {
@@ -113,17 +121,21 @@ CameraPath find_camera_path(const ClipToAlign& clip, CameraMotion motion, const 
   CameraPath path{motion, clip.format.shape, clip.reference, {}};
   Warp guess;
   const std::unique_ptr<Clip> pictures = clip.open();
-  ReadAhead ahead(*pictures, 2 * sample_bytes);
-  for (auto rasters = ahead.next(1); !rasters.empty(); rasters = ahead.next(1)) {
+  ReadAhead ahead(*pictures, 2 * at_once * sample_bytes);
+  std::vector<Registered> found;
+  for (auto rasters = ahead.next(at_once); !rasters.empty(); rasters = ahead.next(at_once)) {
     check_interruption();
     if (stop.stop_requested()) throw Cancelled();
-    const std::uint64_t picture = path.pictures.size();
-    if (progress) progress(picture, clip.announced_samples);
-    Registered found = registrar->find(rasters.front(), guess);
-    if (!is_sure(found)) throw not_alike(clip, motion, picture, found);
-    guess = found.warp;
-    if (picture == clip.reference) found.warp = Warp();  // itself
-    path.pictures.push_back(found);
+    if (progress) progress(path.pictures.size(), clip.announced_samples);
+    found.resize(rasters.size());
+    parallel_for(rasters.size(), [&](std::uint64_t i) { found[i] = registrar->find(rasters[i], guess); });
+    for (Registered& picture : found) {
+      const std::uint64_t number = path.pictures.size();
+      if (!is_sure(picture)) throw not_alike(clip, motion, number, picture);
+      if ((number + 1) % kPicturesAtOnce == 0) guess = picture.warp;
+      if (number == clip.reference) picture.warp = Warp();  // itself
+      path.pictures.push_back(picture);
+    }
   }
   return path;
 }
