@@ -28,7 +28,8 @@ std::uint32_t highest(const Code* codes, std::size_t count) {
 }
 
 template <typename Code>
-void look_up(const std::vector<float>& light, const Code* codes, std::size_t stride, std::span<float> lights) {
+void look_up(const std::vector<float>& light, const Code* codes, std::size_t stride,
+             std::span<float> lights) {
   const std::uint32_t most = highest(codes, (lights.size() - 1) * stride + 1);
   if (most >= light.size()) throw CodeAboveWhite(most);
   const float* const table = light.data();
@@ -76,8 +77,8 @@ void LightTables::lights_of(const std::uint16_t* codes, std::size_t stride, std:
 }
 
 void LightTables::codes_of(std::span<const float> lights, std::uint32_t* codes) const {
-  find_codes(lights.data(), lights.size(), static_cast<float>(first_code_.size() - 1), first_code_.data(), half_,
-             begins_.data(), codes);
+  find_codes(lights.data(), lights.size(), static_cast<float>(first_code_.size() - 1), first_code_.data(),
+             half_, begins_.data(), codes);
 }
 
 }  // namespace nutik

@@ -28,7 +28,7 @@ class LightTables {
   std::vector<float> light_;               // of each code
   std::vector<float> begins_;              // the least light of each; behind them, what no light reaches
   std::vector<std::uint32_t> first_code_;  // at the start of each of many equal steps of light
-  std::uint32_t half_ = 1;                 // a power of 2: no step has twice as many codes that begin within it
+  std::uint32_t half_ = 1;  // a power of 2: no step has twice as many codes that begin within it
 };
 
 }  // namespace nutik

@@ -18,7 +18,9 @@ constexpr std::uint32_t kMaxChannels = 3;
 
 // A plane of light, and round it its outermost pixels once more for each of the border's.
 std::size_t stride_of(const Shape& shape) { return std::size_t{shape.width} + 2 * kBorder; }
-std::size_t plane_of(const Shape& shape) { return stride_of(shape) * (std::size_t{shape.height} + 2 * kBorder); }
+std::size_t plane_of(const Shape& shape) {
+  return stride_of(shape) * (std::size_t{shape.height} + 2 * kBorder);
+}
 
 template <typename Value>
 using OfPixels = std::array<Value, kPixelsAtOnce>;
@@ -52,8 +54,8 @@ NUTIK_SIMD_CLONES void set_taps(const Warp& warp, std::uint32_t x, std::uint32_t
 }
 
 // The light of pixels whose taps lie side by side, too.
-NUTIK_SIMD_CLONES void add_taps(const float* __restrict plane, std::size_t stride, const Taps& taps, std::uint32_t first,
-                                std::uint32_t end, float* __restrict lights) {
+NUTIK_SIMD_CLONES void add_taps(const float* __restrict plane, std::size_t stride, const Taps& taps,
+                                std::uint32_t first, std::uint32_t end, float* __restrict lights) {
   for (std::uint32_t i = first; i < end; ++i) {
     const float* const from = plane + taps.first[first] + (i - first);
     float sum = 0, least = *from, most = *from;
@@ -131,14 +133,16 @@ void LightWarp::write_row(const Warp& warp, std::uint32_t row, Code* warped) con
     for (std::uint32_t first = 0, end = 0; first < count; first = end) {
       end = end_of_run(taps, first, count);
       for (std::uint32_t channel = 0; channel < channels; ++channel) {
-        add_taps(light_.data() + channel * plane_of(format_.shape), stride, taps, first, end, lights[channel].data());
+        add_taps(light_.data() + channel * plane_of(format_.shape), stride, taps, first, end,
+                 lights[channel].data());
       }
     }
     for (std::uint32_t channel = 0; channel < channels; ++channel) {
       tables_.codes_of({lights[channel].data(), count}, codes[channel].data());
     }
     Code* const to = warped + (std::size_t{row} * area_.width + (x - area_.x)) * channels;
-    channels == 1 ? interleave<1>(codes.data(), count, to) : interleave<kMaxChannels>(codes.data(), count, to);
+    channels == 1 ? interleave<1>(codes.data(), count, to)
+                  : interleave<kMaxChannels>(codes.data(), count, to);
   }
 }
 
@@ -152,7 +156,8 @@ void LightWarp::take(std::span<const std::byte> raster, const Warp& warp, std::s
     });
   };
   if (format_.code_bytes == 1) {
-    move(reinterpret_cast<const std::uint8_t*>(raster.data()), reinterpret_cast<std::uint8_t*>(warped.data()));
+    move(reinterpret_cast<const std::uint8_t*>(raster.data()),
+         reinterpret_cast<std::uint8_t*>(warped.data()));
   } else {
     move(reinterpret_cast<const std::uint16_t*>(raster.data()),
          reinterpret_cast<std::uint16_t*>(warped.data()));

@@ -15,9 +15,10 @@ struct Codes {
 };
 
 // Steps of light hold no code's beginning, one, and thousands of them.
-const std::vector<Codes> kCodes{{Transfer::srgb(), 255},      {Transfer::srgb(), 65'535},  {Transfer::linear(), 1},
-                                {Transfer::linear(), 4095},   {Transfer::linear(), 65'535}, {Transfer::gamma(2.2), 1000},
-                                {Transfer::pq(), 1023}, {Transfer::pq(), 65'535}};
+const std::vector<Codes> kCodes{{Transfer::srgb(), 255},      {Transfer::srgb(), 65'535},
+                                {Transfer::linear(), 1},      {Transfer::linear(), 4095},
+                                {Transfer::linear(), 65'535}, {Transfer::gamma(2.2), 1000},
+                                {Transfer::pq(), 1023},       {Transfer::pq(), 65'535}};
 
 TEST(LightTables, GiveTheCodesThatAreLookedUpOneByOne) {
   std::mt19937_64 random(7);
@@ -26,7 +27,8 @@ TEST(LightTables, GiveTheCodesThatAreLookedUpOneByOne) {
     std::vector<float> lights{0, 1, std::nextafter(1.0f, 0.0f), 1e-30f};
     for (const double threshold : transfer.code_thresholds(white)) {
       const auto light = static_cast<float>(threshold);
-      for (const float near : {std::nextafter(light, 0.0f), light, std::nextafter(light, 1.0f)}) lights.push_back(near);
+      for (const float near : {std::nextafter(light, 0.0f), light, std::nextafter(light, 1.0f)})
+        lights.push_back(near);
     }
     for (int i = 0; i < 5000; ++i) lights.push_back(static_cast<float>(random() >> 40) / (1 << 24));
     std::vector<std::uint32_t> codes(lights.size());

@@ -18,35 +18,25 @@
 #include "capture/format.hpp"
 #include "media/motion/feature_start.hpp"
 #include "media/motion/grey_pyramid.hpp"
+#include "media/motion/texture.hpp"
 
 namespace nutik::motion {
 namespace {
 
-constexpr std::uint32_t kCells = 32;  // along the longer side: the texture is taken from all over the picture
-constexpr std::size_t kMaxPoints = 8000;   // of a level
 constexpr std::size_t kMinPoints = 60;
-constexpr double kMinGradient = kGreyWhite / 256;  // a pixel
-constexpr double kWeakGradient = 0.05;               // of the strongest: mostly noise
-constexpr float kMargin = 4;
-constexpr double kMinSeen = 0.2;      // of the points
-constexpr double kMinAcross = 0.01;   // of the texture's strength along its main direction
+constexpr double kMinSeen = 0.2;        // of the points
+constexpr double kMinAcross = 0.01;     // of the texture's strength along its main direction
 constexpr std::size_t kFineLevels = 3;  // that a start from close by needs
 constexpr double kClearlyBetter = 2;    // of residuals
 constexpr double kClearlyMost = 0.7;    // of the texture
 constexpr std::size_t kPartsToASide = 8;
-constexpr std::size_t kMinOfPart = 8;   // places of texture: fewer tell little
-constexpr double kTukey = 4.685;        // 95 % as efficient as least squares where all errors are normal
-constexpr double kMinSigma = 0.3;     // codes
-constexpr int kFirstSteps = 3;          // of a level, in which nothing is excluded yet
+constexpr std::size_t kMinOfPart = 8;  // places of texture: fewer tell little
+constexpr double kTukey = 4.685;       // 95 % as efficient as least squares where all errors are normal
+constexpr double kMinSigma = 0.3;      // codes
+constexpr int kFirstSteps = 3;  // of a fit, in which nothing is excluded yet; of a finer level the first
 constexpr int kMaxSteps = 25;
 constexpr double kSettledPixels = 0.002;
 constexpr double kRoughlySettled = 0.05;  // pixels of a level that a finer one follows
-
-struct Point {
-  float x, y;  // of the level
-  float grey;
-  float gradient_x, gradient_y;
-};
 
 struct Level {
   int number = 0;  // its pixels are 2^number of the picture's
@@ -54,42 +44,6 @@ struct Level {
   std::vector<Point> points;
   [[nodiscard]] double scale() const { return std::ldexp(1.0, number); }
 };
-
-double gradient_of(const Point& point) { return std::hypot(point.gradient_x, point.gradient_y); }
-
-// The strongest of each cell.
-std::vector<Point> textured_points(const cv::Mat& grey) {
-  const int side = std::max(8, std::max(grey.cols, grey.rows) / static_cast<int>(kCells));
-  const int columns = (grey.cols - 1) / side + 1, rows = (grey.rows - 1) / side + 1;
-  std::vector<std::vector<Point>> cells(static_cast<std::size_t>(columns * rows));
-  const std::size_t most = std::max<std::size_t>(1, kMaxPoints / cells.size());
-  const auto keep_strongest = [most](std::vector<Point>& cell) {
-    if (cell.size() <= most) return;
-    std::ranges::nth_element(cell, cell.begin() + static_cast<std::ptrdiff_t>(most), std::greater(),
-                             gradient_of);
-    cell.resize(most);
-  };
-  for (int y = static_cast<int>(kMargin); y < grey.rows - static_cast<int>(kMargin); ++y) {
-    const auto *above = grey.ptr<float>(y - 1), *row = grey.ptr<float>(y), *below = grey.ptr<float>(y + 1);
-    for (int x = static_cast<int>(kMargin); x < grey.cols - static_cast<int>(kMargin); ++x) {
-      const Point point{static_cast<float>(x), static_cast<float>(y), row[x], (row[x + 1] - row[x - 1]) / 2,
-                        (below[x] - above[x]) / 2};
-      if (gradient_of(point) < kMinGradient) continue;
-      std::vector<Point>& cell = cells[static_cast<std::size_t>(y / side * columns + x / side)];
-      cell.push_back(point);
-      if (cell.size() >= 4 * most) keep_strongest(cell);
-    }
-  }
-  std::vector<Point> points;
-  for (std::vector<Point>& cell : cells) {
-    keep_strongest(cell);
-    points.insert(points.end(), cell.begin(), cell.end());
-  }
-  if (points.empty()) return points;
-  const double weak = kWeakGradient * gradient_of(*std::ranges::max_element(points, {}, gradient_of));
-  std::erase_if(points, [&](const Point& point) { return gradient_of(point) < weak; });
-  return points;
-}
 
 // Catmull and Rom's cubic; the place lies two pixels from the border or further.
 float cubic_at(const cv::Mat& grey, double x, double y) {
@@ -326,7 +280,8 @@ class RobustRegistrar final : public Registrar {
   }
 
   // False where the picture shows too little of the reference, or the fit leads nowhere.
-  static bool settle(const Level& level, const cv::Mat& grey, const Frame& frame, bool is_first, bool is_last, Fit& fit) {
+  static bool settle(const Level& level, const cv::Mat& grey, const Frame& frame, bool is_first, bool is_last,
+                     Fit& fit) {
     const int motion = frame.count(), count = motion + 2;
     const double per_radius = frame.radius() / level.scale();
     const int first_steps = is_first ? kFirstSteps : 1;
