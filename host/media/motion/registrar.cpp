@@ -24,11 +24,13 @@ namespace nutik::motion {
 namespace {
 
 constexpr std::size_t kMinPoints = 60;
-constexpr double kMinSeen = 0.2;        // of the points
-constexpr double kMinAcross = 0.01;     // of the texture's strength along its main direction
-constexpr std::size_t kFineLevels = 3;  // that a start from close by needs
-constexpr double kClearlyBetter = 2;    // of residuals
-constexpr double kClearlyMost = 0.7;    // of the texture
+constexpr std::size_t kPoints = 20000;        // of the finest level
+constexpr std::size_t kLeadingPoints = 8000;  // of one that leads to a finer one
+constexpr double kMinSeen = 0.2;              // of the points
+constexpr double kMinAcross = 0.01;           // of the texture's strength along its main direction
+constexpr std::size_t kFineLevels = 3;        // that a start from close by needs
+constexpr double kClearlyBetter = 2;          // of residuals
+constexpr double kClearlyMost = 0.7;          // of the texture
 constexpr std::size_t kPartsToASide = 8;
 constexpr std::size_t kMinOfPart = 8;  // places of texture: fewer tell little
 constexpr double kTukey = 4.685;       // 95 % as efficient as least squares where all errors are normal
@@ -132,7 +134,8 @@ class RobustRegistrar final : public Registrar {
     const GreyPyramid pyramid(format, reference);
     for (std::size_t i = 0; i < pyramid.levels.size(); ++i) {
       const cv::Mat& grey = pyramid.levels[i];
-      Level level{pyramid.finest + static_cast<int>(i), grey.size(), textured_points(grey)};
+      Level level{pyramid.finest + static_cast<int>(i), grey.size(),
+                  textured_points(grey, i == 0 ? kPoints : kLeadingPoints)};
       if (i > 0 && level.points.size() < kMinPoints) break;
       if (i == 0) check_texture(level.points);
       levels_.push_back(std::move(level));

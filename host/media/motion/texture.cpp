@@ -11,18 +11,17 @@ namespace nutik::motion {
 namespace {
 
 constexpr std::uint32_t kCells = 32;  // along the longer side: the texture is taken from all over the picture
-constexpr std::size_t kMaxPoints = 8000;           // of a level
 constexpr double kMinGradient = kGreyWhite / 256;  // a pixel
 constexpr double kWeakGradient = 0.05;             // of the strongest: mostly noise
 constexpr float kMargin = 4;
 
 }  // namespace
 
-std::vector<Point> textured_points(const cv::Mat& grey) {
+std::vector<Point> textured_points(const cv::Mat& grey, std::size_t count) {
   const int side = std::max(8, std::max(grey.cols, grey.rows) / static_cast<int>(kCells));
   const int columns = (grey.cols - 1) / side + 1, rows = (grey.rows - 1) / side + 1;
   std::vector<std::vector<Point>> cells(static_cast<std::size_t>(columns * rows));
-  const std::size_t most = std::max<std::size_t>(1, kMaxPoints / cells.size());
+  const std::size_t most = std::max<std::size_t>(1, count / cells.size());
   const auto keep_strongest = [most](std::vector<Point>& cell) {
     if (cell.size() <= most) return;
     std::ranges::nth_element(cell, cell.begin() + static_cast<std::ptrdiff_t>(most), std::greater(),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct Point {
   return std::hypot(point.gradient_x, point.gradient_y);
 }
 
-// The strongest edges of each part of a picture in grey (grey_pyramid.hpp), from all over it.
-[[nodiscard]] std::vector<Point> textured_points(const cv::Mat& grey);
+// The strongest edges of each part of a picture in grey (grey_pyramid.hpp), some `count` from all over it.
+[[nodiscard]] std::vector<Point> textured_points(const cv::Mat& grey, std::size_t count);
 
 }  // namespace nutik::motion
