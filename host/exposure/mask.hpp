@@ -43,7 +43,12 @@ struct Mask {
   // How many pixels have each tag, or a share of it.
   [[nodiscard]] std::array<std::uint64_t, kMaskValues> pixels_per_tag() const {
     std::array<std::uint64_t, kMaskValues> counts{};
-    for (const std::uint8_t tag : tags) ++counts[tag];
+    // Neighbours have the same tag, mostly: a run is counted at once.
+    for (auto run = tags.begin(); run != tags.end();) {
+      const auto end = std::find_if(run, tags.end(), [tag = *run](std::uint8_t other) { return other != tag; });
+      counts[*run] += static_cast<std::uint64_t>(end - run);
+      run = end;
+    }
     for (std::size_t i = 0; i < mixed.pixels().size(); ++i) {
       const std::uint8_t counted = tags[mixed.pixels()[i]];
       for (const Share& share : mixed.shares(i)) counts[share.of] += share.of != counted;

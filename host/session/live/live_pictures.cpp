@@ -26,9 +26,12 @@ void append(ExposedPicture& exposed, const ExposedPicture& below) {
   exposed.saturation += below.saturation;
 }
 
-// Rows of a full picture that take about as long as a preview of so many pixels.
+// Rows of a full picture that take about as long as a preview of so many pixels; a small one's would be lost in what
+// each strip takes by itself.
 std::uint32_t strip_rows(const Rectangle& preview, const Rectangle& full) {
-  const std::uint64_t rows = std::uint64_t{preview.width} * preview.height / std::max(full.width, 1u);
+  constexpr std::uint64_t kMinPixels = 1 << 17;
+  const std::uint64_t pixels = std::max(std::uint64_t{preview.width} * preview.height, kMinPixels);
+  const std::uint64_t rows = pixels / std::max(full.width, 1u);
   return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
       rows / kTileSide * kTileSide, kTileSide, std::max<std::uint64_t>(full.height, kTileSide)));
 }

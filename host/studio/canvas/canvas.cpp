@@ -3,6 +3,8 @@
 #include <QPaintEvent>
 #include <QPainter>
 
+#include "studio/live/changed_pixels.hpp"
+
 namespace nutik::studio {
 namespace {
 
@@ -22,8 +24,8 @@ Canvas::Canvas(Document& document, QWidget* parent) : QWidget(parent), document_
          "Space takes a pixel, which arrow keys then move. With a tool arrow keys move the pointer, Space begins "
          "and ends a stroke, Backspace one that erases."));
   connect(&document_, &Document::changed, this, &Canvas::follow_mask);
-  connect(&document_, &Document::selection_changed, this, &Canvas::follow_mask);
-  connect(&document_, &Document::capture_changed, this, &Canvas::follow_mask);
+  connect(&document_, &Document::selection_changed, this, [this] { follow_mask(Change::state); });
+  connect(&document_, &Document::capture_changed, this, [this] { follow_mask(Change::state); });
   connect(&document_, &Document::probe_changed, this, [this] { update(); });
 }
 
@@ -33,6 +35,7 @@ void Canvas::show_picture(const ShownPicture& picture) {
   const CaptureFacts* facts = document_.facts();
   if (facts == nullptr) return;
   const QSize size(static_cast<int>(facts->format.shape.width), static_cast<int>(facts->format.shape.height));
+  const bool is_part = !is_first_look_ && image_.size() == size && view_.picture() == size;
   is_first_look_ = false;
   if (picture.place == QRect({0, 0}, size)) {
     image_ = picture.image;
@@ -43,11 +46,25 @@ void Canvas::show_picture(const ShownPicture& picture) {
     }
     QPainter(&image_).drawImage(picture.place.topLeft(), picture.image);
   }
+  if (is_part) return update_pixels(picture.place);
   if (view_.picture() != size) {
     view_.set_sizes(size, this->size());
     view_moved();
   }
   update();
+}
+
+void Canvas::update_pixels(const QRectF& pixels) {
+  constexpr int kAround = 4;  // the widest pen, and what smoothing mixes
+  const QPointF first = view_.to_widget(pixels.topLeft()), last = view_.to_widget(pixels.bottomRight());
+  update(QRectF(first, last).toAlignedRect().adjusted(-kAround, -kAround, kAround, kAround));
+}
+
+void Canvas::update_tool(QPointF before) {
+  const auto reach = tool_->reach();
+  if (!reach) return update();
+  for (const QPointF pointer : {before, pointer_})
+    update_pixels(QRectF(view_.to_picture(pointer), QSizeF()).adjusted(-*reach, -*reach, *reach, *reach));
 }
 
 void Canvas::show_first_look(const QImage& image) {
@@ -96,13 +113,15 @@ void Canvas::view_moved() {
   Q_EMIT visible_changed(view_.visible());
 }
 
-void Canvas::follow_mask() {
+void Canvas::follow_mask(Change what) {
   const DocumentState& state = document_.state();
   const bool is_same =
       outlined_.has_value() == state.mask.has_value() && (!outlined_ || &**outlined_ == &**state.mask);
   if (!is_same) {
+    const QRect changed = changed_pixels(outlined_, state.mask, image_.rect());
     outlined_ = state.mask;
     outlines_ = outlined_ ? outlines_of((*outlined_)->mask) : Outlines();
+    if (what == Change::mask && !document_.solo()) return update_pixels(changed);
   }
   solo_ = {};
   update();
@@ -110,7 +129,9 @@ void Canvas::follow_mask() {
 
 void Canvas::paintEvent(QPaintEvent* event) {
   QPainter painter(this);
-  painter.fillRect(event->rect(), kSurround);
+  const QRect covered = view_.place().toAlignedRect().adjusted(1, 1, -1, -1);
+  for (const QRect& around : event->region() - (image_.isNull() ? QRect() : covered))
+    painter.fillRect(around, kSurround);
   if (image_.isNull()) {
     painter.setPen(QColor(190, 190, 190));
     painter.drawText(rect().adjusted(24, 24, -24, -24), Qt::AlignCenter | Qt::TextWordWrap, hint_);

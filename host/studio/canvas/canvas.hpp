@@ -26,6 +26,8 @@ class CanvasTool {
   virtual void release(QPointF at, Qt::KeyboardModifiers keys) = 0;
   virtual void finish() {}   // Enter, or a double click
   virtual void give_up() {}  // Escape
+  // How far from the pointer paint() draws, in pixels of the picture; nothing: anywhere.
+  [[nodiscard]] virtual std::optional<double> reach() const { return {}; }
   // What is being drawn, `picture` painted already with lines one screen pixel wide; `pointer` is where the mouse is.
   virtual void paint(QPainter& painter, QPointF pointer) const = 0;
 };
@@ -73,7 +75,9 @@ class Canvas : public QWidget {
 
  private:
   void view_moved();
-  void follow_mask();
+  void update_pixels(const QRectF& pixels);  // of the picture
+  void update_tool(QPointF before);          // of the pointer
+  void follow_mask(Change what);
   void paint_regions(QPainter& painter);
   void paint_cross(QPainter& painter, QPointF at) const;
   void paint_solo(QPainter& painter);

@@ -63,6 +63,7 @@ void Canvas::mousePressEvent(QMouseEvent* event) {
 void Canvas::mouseMoveEvent(QMouseEvent* event) {
   const QPointF before = pointer_;
   pointer_ = event->position();
+  const bool was_here = is_inside_ && !is_by_keys_;
   is_inside_ = true;
   is_by_keys_ = false;
   if (is_panning_) {
@@ -72,10 +73,8 @@ void Canvas::mouseMoveEvent(QMouseEvent* event) {
     view_moved();
   } else if (is_stroking_) {
     tool_->drag(view_.to_picture(pointer_), event->modifiers());
-    update();
-  } else if (tool_ != nullptr) {
-    update();
   }
+  if (tool_ != nullptr && !is_panning_) was_here ? update_tool(before) : update();
   Q_EMIT pointed(pixel_at(pointer_));
 }
 

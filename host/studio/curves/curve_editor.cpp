@@ -31,7 +31,9 @@ CurveEditor::CurveEditor(Document& document, TimeAxis& axis, QWidget* parent)
     activity_ = {};
     follow_document();
   });
-  connect(&document_, &Document::changed, this, &CurveEditor::follow_document);
+  connect(&document_, &Document::changed, this, [this](Change what) {
+    if (what != Change::mask || !document_.is_dragging()) follow_document();
+  });
   connect(&document_, &Document::selection_changed, this, &CurveEditor::follow_selection);
   connect(&document_, &Document::released, this, &CurveEditor::follow_document);
   connect(&document_, &Document::overview_changed, this, [this] {

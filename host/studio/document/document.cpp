@@ -171,9 +171,13 @@ void Document::set_waveform(Waveform waveform) {
 }
 
 void Document::take(const DocumentState& state) {
+  DocumentState repainted = state_;
+  repainted.mask = state.mask;
+  repainted.covered = state.covered;
+  const Change what = repainted == state ? Change::mask : Change::state;
   state_ = state;
   keep_selection_within();
-  Q_EMIT changed();
+  Q_EMIT changed(what);
 }
 
 // What undo took away is not selected any more.

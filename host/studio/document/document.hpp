@@ -62,6 +62,11 @@ struct DocumentState {
   friend bool operator==(const DocumentState&, const DocumentState&) = default;
 };
 
+enum class Change {
+  mask,  // and what it covers; nothing else
+  state
+};
+
 class Document : public QObject {
   Q_OBJECT
 
@@ -127,7 +132,7 @@ class Document : public QObject {
  Q_SIGNALS:
   void capture_changed();    // facts(), and all that is edited; what is looked at is told of by the signals below
   void overview_changed();   // overview()
-  void changed();            // state(); also by undo and redo
+  void changed(Change what);  // state(); also by undo and redo
   void released();           // a drag ended: the full picture may follow
   void selection_changed();  // selected_tag(), selected_points(), solo()
   void probe_changed();      // probe(), waveform()

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "session/below/functions.hpp"
+#include "studio/live/changed_pixels.hpp"
 #include "studio/live/exposure_of.hpp"
 #include "studio/live/picture_image.hpp"
 
@@ -31,6 +32,7 @@ void LiveView::show(std::shared_ptr<Session> session) {
   session_ = std::move(session);
   soft_.reset();
   visible_ = {};
+  asked_.reset();
   last_asked_ = last_shown_ = 0;
   full_wanted_ = full_shown_ = false;
   {
@@ -57,7 +59,7 @@ void LiveView::ask(bool with_full) {
   bool is_final = true;
   const ExposureRequest exposure = exposure_of(document_.state(), mask_of(document_.state(), is_final));
   const Shape& shape = session_->format().shape;
-  LivePart preview{session_.get(), exposure, screen_format(), rectangle_of(visible_, shape)};
+  LivePart preview{session_.get(), exposure, screen_format(), rectangle_of(outdated_by(exposure), shape)};
   std::optional<LivePart> full;
   if (with_full && is_final) {
     full = preview;
@@ -68,6 +70,23 @@ void LiveView::ask(bool with_full) {
   const std::scoped_lock lock(mutex_);
   last_asked_ = pictures_->ask({std::move(preview), std::move(full)});
   asked_at_[last_asked_] = Clock::now();
+}
+
+QRect LiveView::outdated_by(const ExposureRequest& exposure) {
+  const QRect visible = rectangle_of(rectangle_of(visible_, session_->format().shape));
+  QRect outdated = visible;
+  if (asked_ && asked_visible_ == visible_) {
+    ExposureRequest before = *asked_;
+    before.mask = exposure.mask;
+    if (before == exposure) outdated = changed_pixels(asked_->mask, exposure.mask, visible);
+  }
+  // Of several requests the last one alone may be answered.
+  outdated_ = last_shown_ < last_asked_ ? outdated_ | outdated : outdated;
+  asked_ = exposure;
+  asked_visible_ = visible_;
+  const QRect seen = outdated_ & visible;
+  // An answer is waited for, whatever it shows.
+  return seen.isEmpty() ? QRect(visible.topLeft(), QSize(1, 1)) : seen;
 }
 
 std::optional<Shared<MaskWithRegions>> LiveView::mask_of(const DocumentState& state, bool& is_final) {
@@ -142,6 +161,7 @@ void LiveView::take() {
   if (found->error.isEmpty()) {
     Q_EMIT pictured(found->picture);
   } else {
+    asked_.reset();
     Q_EMIT failed(found->error);
   }
 }

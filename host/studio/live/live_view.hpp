@@ -2,8 +2,8 @@
 //
 //   in:      the document, and which pixels can be seen
 //   out:     pictured(), on the window's thread: of several that came while the window was busy the newest alone
-//   always:  the window never waits. While a drag lasts previews of what is seen are asked for; otherwise the full
-//            picture follows, in the arithmetic that written pictures have
+//   always:  the window never waits. While a drag lasts previews are asked for, of what is seen and may differ from what
+//            is shown; otherwise the full picture follows, in the arithmetic that written pictures have
 #pragma once
 
 #include <QImage>
@@ -23,7 +23,7 @@ namespace nutik::studio {
 
 struct ShownPicture {
   QImage image;
-  QRect place;  // in the capture's pixels
+  QRect place;  // in the capture's pixels; elsewhere what was shown still holds
   bool is_full = false;
   std::uint64_t pixels_below = 0, pixels_above = 0;  // saturated
   QString arithmetic;                                // and its bound
@@ -59,6 +59,8 @@ class LiveView : public QObject {
   using Clock = std::chrono::steady_clock;
 
   void ask(bool with_full);
+  // What of the visible pixels the picture that is shown, or that is on its way, does not show as it is asked for now.
+  [[nodiscard]] QRect outdated_by(const ExposureRequest& exposure);
   [[nodiscard]] std::optional<Shared<MaskWithRegions>> mask_of(const DocumentState& state, bool& is_final);
   void deliver(LiveAnswer answer);
   void take();
@@ -67,6 +69,9 @@ class LiveView : public QObject {
   Jobs& jobs_;
   QRect visible_;
   std::optional<Soft> soft_;
+  // Of the last request; none: nothing that is shown is of use. And what has changed since the picture that is shown.
+  std::optional<ExposureRequest> asked_;
+  QRect asked_visible_, outdated_;
   std::uint64_t last_asked_ = 0, last_shown_ = 0;
   bool full_wanted_ = false;
   bool full_shown_ = false;

@@ -66,6 +66,7 @@ class Brush : public CanvasTool {
   void paint(QPainter& painter, QPointF pointer) const override {
     draw_line(painter, [&] { painter.drawEllipse(pointer, settings_.brush_radius, settings_.brush_radius); });
   }
+  [[nodiscard]] std::optional<double> reach() const override { return settings_.brush_radius; }
 
  private:
   // A disc at each place of the way, no further apart than a quarter of it.

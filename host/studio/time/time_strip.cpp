@@ -39,7 +39,9 @@ TimeStrip::TimeStrip(Document& document, TimeAxis& axis, QWidget* parent)
     refresh_backdrop();
     follow_document();
   });
-  connect(&document_, &Document::changed, this, &TimeStrip::follow_document);
+  connect(&document_, &Document::changed, this, [this](Change what) {
+    if (what != Change::mask) follow_document();
+  });
   connect(&document_, &Document::overview_changed, this, [this] {
     activity_ = Series(document_.overview().changed_share);
     refresh_backdrop();

@@ -1,0 +1,29 @@
+#include "studio/live/changed_pixels.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace nutik::studio {
+
+QRect changed_pixels(const std::optional<Shared<MaskWithRegions>>& before,
+                     const std::optional<Shared<MaskWithRegions>>& now, const QRect& everything) {
+  if (!before && !now) return {};
+  if (!before || !now) return everything;
+  const Mask &a = (*before)->mask, &b = (*now)->mask;
+  if (&a == &b) return {};
+  if (a.is_soft() || b.is_soft() || a.width != b.width || a.height != b.height) return everything;
+  const std::size_t width = a.width;
+  QRect changed;
+  for (std::uint32_t y = 0; y < a.height; ++y) {
+    const std::uint8_t *row_a = a.tags.data() + y * width, *row_b = b.tags.data() + y * width;
+    if (std::memcmp(row_a, row_b, width) == 0) continue;
+    const auto first = std::mismatch(row_a, row_a + width, row_b).first - row_a;
+    auto last = static_cast<std::ptrdiff_t>(width) - 1;
+    while (row_a[last] == row_b[last]) --last;
+    changed |= QRect(QPoint(static_cast<int>(first), static_cast<int>(y)),
+                     QPoint(static_cast<int>(last), static_cast<int>(y)));
+  }
+  return changed;
+}
+
+}  // namespace nutik::studio
