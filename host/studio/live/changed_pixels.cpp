@@ -5,8 +5,7 @@
 
 namespace nutik::studio {
 
-QRect changed_pixels(const std::optional<Shared<MaskWithRegions>>& before,
-                     const std::optional<Shared<MaskWithRegions>>& now, const QRect& everything) {
+QRect changed_pixels(const SharedMask& before, const SharedMask& now, const QRect& everything) {
   if (!before && !now) return {};
   if (!before || !now) return everything;
   const Mask &a = (*before)->mask, &b = (*now)->mask;
@@ -24,6 +23,26 @@ QRect changed_pixels(const std::optional<Shared<MaskWithRegions>>& before,
                      QPoint(static_cast<int>(last), static_cast<int>(y)));
   }
   return changed;
+}
+
+QRect TagBoxes::of(const SharedMask& mask, std::uint8_t tag, const QRect& everything) {
+  if (!mask || (*mask)->mask.is_soft()) return everything;
+  const Mask& tags = (*mask)->mask;
+  if (!mask_ || &(*mask_)->mask != &tags) {
+    mask_ = mask;
+    boxes_.clear();
+    auto run = tags.tags.begin();
+    for (std::uint32_t y = 0; y < tags.height; ++y) {
+      const auto row = run, row_end = row + tags.width;
+      while (run != row_end) {
+        const auto end = std::find_if(run, row_end, [of = *run](std::uint8_t other) { return other != of; });
+        boxes_[*run] |= QRect(QPoint(static_cast<int>(run - row), static_cast<int>(y)),
+                              QPoint(static_cast<int>(end - row) - 1, static_cast<int>(y)));
+        run = end;
+      }
+    }
+  }
+  return boxes_[tag];
 }
 
 }  // namespace nutik::studio

@@ -1,7 +1,8 @@
-// Where pictures differ whose exposures differ in their masks alone.
+// Where pictures differ whose exposures differ in little.
 #pragma once
 
 #include <QRect>
+#include <map>
 #include <optional>
 
 #include "session/below/regions.hpp"
@@ -10,8 +11,20 @@
 
 namespace nutik::studio {
 
+using SharedMask = std::optional<Shared<MaskWithRegions>>;
+
 // The least rectangle that holds all pixels whose tags differ. Everything where one of the masks is soft or missing.
-[[nodiscard]] QRect changed_pixels(const std::optional<Shared<MaskWithRegions>>& before,
-                                   const std::optional<Shared<MaskWithRegions>>& now, const QRect& everything);
+[[nodiscard]] QRect changed_pixels(const SharedMask& before, const SharedMask& now, const QRect& everything);
+
+// The least rectangle round each tag's pixels, of the mask that was asked for last.
+class TagBoxes {
+ public:
+  // Everything where the mask is soft or missing.
+  [[nodiscard]] QRect of(const SharedMask& mask, std::uint8_t tag, const QRect& everything);
+
+ private:
+  SharedMask mask_;
+  std::map<std::uint8_t, QRect> boxes_;
+};
 
 }  // namespace nutik::studio

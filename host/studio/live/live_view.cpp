@@ -17,6 +17,22 @@ QString arithmetic_of(const ExposedPicture& exposed) {
   return text;
 }
 
+// Of exposures by functions.
+std::vector<std::uint8_t> changed_functions(const ExposureRequest& before, const ExposureRequest& now) {
+  const FunctionSet &a = *std::get<Shared<FunctionSet>>(before.gains),
+                    &b = *std::get<Shared<FunctionSet>>(now.gains);
+  std::vector<std::uint8_t> changed;
+  const auto add_missing = [&changed](const FunctionSet& of, const FunctionSet& in) {
+    for (const auto& [tag, function] : of) {
+      const auto found = in.find(tag);
+      if (found == in.end() || !(found->second == function)) changed.push_back(tag);
+    }
+  };
+  add_missing(a, b);
+  add_missing(b, a);
+  return changed;
+}
+
 }  // namespace
 
 LiveView::LiveView(Document& document, Jobs& jobs, QObject* parent)
@@ -73,21 +89,28 @@ void LiveView::ask(bool with_full) {
 }
 
 QRect LiveView::outdated_by(const ExposureRequest& exposure) {
-  const QRect visible = rectangle_of(rectangle_of(visible_, session_->format().shape));
+  const QRect visible = seen();
   QRect outdated = visible;
-  if (asked_ && asked_visible_ == visible_) {
+  if (asked_ && asked_visible_ == visible_ && !exposure.is_plain() && !asked_->is_plain()) {
     ExposureRequest before = *asked_;
     before.mask = exposure.mask;
-    if (before == exposure) outdated = changed_pixels(asked_->mask, exposure.mask, visible);
+    before.gains = exposure.gains;
+    if (before == exposure) {
+      outdated = changed_pixels(asked_->mask, exposure.mask, visible);
+      for (const std::uint8_t tag : changed_functions(*asked_, exposure))
+        outdated |= boxes_.of(exposure.mask, tag, visible);
+    }
   }
   // Of several requests the last one alone may be answered.
   outdated_ = last_shown_ < last_asked_ ? outdated_ | outdated : outdated;
   asked_ = exposure;
   asked_visible_ = visible_;
-  const QRect seen = outdated_ & visible;
+  const QRect changed = outdated_ & visible;
   // An answer is waited for, whatever it shows.
-  return seen.isEmpty() ? QRect(visible.topLeft(), QSize(1, 1)) : seen;
+  return changed.isEmpty() ? QRect(visible.topLeft(), QSize(1, 1)) : changed;
 }
+
+QRect LiveView::seen() const { return rectangle_of(rectangle_of(visible_, session_->format().shape)); }
 
 std::optional<Shared<MaskWithRegions>> LiveView::mask_of(const DocumentState& state, bool& is_final) {
   const Feather feather = feather_of(state);
@@ -157,6 +180,7 @@ void LiveView::take() {
   }
   if (!found) return;
   last_shown_ = found->request;
+  found->picture.is_of_all_seen = !found->is_preview || found->picture.place == seen();
   if (found->request == last_asked_ && (!found->is_preview || !found->error.isEmpty())) full_shown_ = true;
   if (found->error.isEmpty()) {
     Q_EMIT pictured(found->picture);

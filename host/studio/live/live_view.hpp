@@ -17,6 +17,7 @@
 
 #include "session/live/live_pictures.hpp"
 #include "studio/document/document.hpp"
+#include "studio/live/changed_pixels.hpp"
 #include "studio/live/jobs.hpp"
 
 namespace nutik::studio {
@@ -24,8 +25,8 @@ namespace nutik::studio {
 struct ShownPicture {
   QImage image;
   QRect place;  // in the capture's pixels; elsewhere what was shown still holds
-  bool is_full = false;
-  std::uint64_t pixels_below = 0, pixels_above = 0;  // saturated
+  bool is_full = false, is_of_all_seen = true;
+  std::uint64_t pixels_below = 0, pixels_above = 0;  // saturated, of these
   QString arithmetic;                                // and its bound
   double milliseconds = 0;                           // from the request to the picture
   QString warnings;
@@ -61,6 +62,7 @@ class LiveView : public QObject {
   void ask(bool with_full);
   // What of the visible pixels the picture that is shown, or that is on its way, does not show as it is asked for now.
   [[nodiscard]] QRect outdated_by(const ExposureRequest& exposure);
+  [[nodiscard]] QRect seen() const;
   [[nodiscard]] std::optional<Shared<MaskWithRegions>> mask_of(const DocumentState& state, bool& is_final);
   void deliver(LiveAnswer answer);
   void take();
@@ -72,6 +74,7 @@ class LiveView : public QObject {
   // Of the last request; none: nothing that is shown is of use. And what has changed since the picture that is shown.
   std::optional<ExposureRequest> asked_;
   QRect asked_visible_, outdated_;
+  TagBoxes boxes_;
   std::uint64_t last_asked_ = 0, last_shown_ = 0;
   bool full_wanted_ = false;
   bool full_shown_ = false;

@@ -85,7 +85,14 @@ RegionList::RegionList(Document& document, QWidget* parent)
     if (!is_following_ && item != nullptr) document_.select_tag(tag_of(*item));
   });
   connect(list_, &QTreeWidget::itemChanged, this, &RegionList::edited);
-  connect(&document_, &Document::changed, this, &RegionList::follow);
+  connect(&document_, &Document::changed, this, [this] {
+    // An interval that is moved, or pixels that are painted, are none of the list's.
+    DocumentState listed = document_.state();
+    listed.boxcar = listed_.boxcar;
+    listed.mask = listed_.mask;
+    listed.covered = listed_.covered;
+    if (!(listed == listed_)) follow();
+  });
   connect(&document_, &Document::capture_changed, this, [this] {
     white_.fill(0);
     follow();
@@ -173,7 +180,8 @@ void RegionList::build_buttons() {
 
 void RegionList::follow() {
   const QScopedValueRollback guard(is_following_, true);
-  std::vector<std::uint8_t> tags = document_.state().order;
+  listed_ = document_.state();
+  std::vector<std::uint8_t> tags = listed_.order;
   if (document_.functions().contains(kBackground)) tags.push_back(kBackground);
   bool is_same = list_->topLevelItemCount() == static_cast<int>(tags.size());
   for (int row = 0; is_same && row < list_->topLevelItemCount(); ++row)

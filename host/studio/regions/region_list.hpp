@@ -39,6 +39,7 @@ class RegionList : public QWidget {
   QPushButton *add_, *remove_, *colour_, *up_, *down_, *over_interval_;
   QDoubleSpinBox *radius_, *feather_, *own_feather_;
   QPushButton *grow_, *shrink_, *smooth_;
+  DocumentState listed_;
   std::array<std::uint64_t, kMaskValues> white_{};  // pixels by tag
   bool is_following_ = false;
 };

@@ -67,6 +67,7 @@ StatusLine::StatusLine(Jobs& jobs, QWidget* parent)
 void StatusLine::tell(const ShownPicture& picture) {
   arithmetic_->setText(picture.arithmetic);
   milliseconds_->setText(tr("%1 ms").arg(picture.milliseconds, 0, 'f', 0));
+  if (!picture.is_of_all_seen) return;
   const std::uint64_t saturated = picture.pixels_above + picture.pixels_below;
   saturated_->setText(saturated == 0 ? QString() : tr("%1 px saturated").arg(saturated));
 }
