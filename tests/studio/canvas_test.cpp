@@ -201,5 +201,31 @@ TEST_F(CanvasTest, EscapeTakesBackAStrokeThatIsNotFinished) {
   EXPECT_FALSE(document().is_dragging());
 }
 
+TEST_F(CanvasTest, ASmallPictureIsShownUntilTheFullOneComes) {
+  window_.resize(400, 300);
+  open_clip();
+  canvas().fit();
+  ASSERT_TRUE(settles());
+  const QSize size = canvas().image().size();
+  const auto grey_at = [this](QPointF pixel) {
+    return qGray(canvas().grab().toImage().pixelColor(canvas().view().to_widget(pixel).toPoint()).rgb());
+  };
+  ShownPicture small;
+  small.divisor = 4;
+  small.place = {40, 20, 8, 8};
+  small.image = QImage(2, 2, QImage::Format_RGB32);
+  small.image.fill(Qt::white);
+  const QImage before = canvas().image();
+  canvas().show_picture(small);
+  EXPECT_EQ(grey_at({44, 24}), 255);
+  EXPECT_LT(grey_at({10, 40}), 128) << "what was shown, elsewhere";
+  EXPECT_EQ(canvas().image(), before) << "light and wand are those of full pictures";
+  ShownPicture full;
+  full.image = before;
+  full.place = QRect({0, 0}, size);
+  canvas().show_picture(full);
+  EXPECT_LT(grey_at({44, 24}), 255);
+}
+
 }  // namespace
 }  // namespace nutik::studio

@@ -3,6 +3,7 @@
 
 #include <QPainter>
 
+#include "session/live/reduced_session.hpp"
 #include "studio/live/changed_pixels.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "studio_test.hpp"
@@ -124,7 +125,7 @@ TEST_F(LiveViewTest, AnythingElseExposesAllThatIsSeen) {
   EXPECT_EQ(exposed(), everything);
   expect_what_all_together_would_show();
   const QRect seen(8, 2, 40, 40);
-  live_.set_visible(seen);
+  live_.set_visible(seen, 1);
   ramp(right_, 0.9);
   EXPECT_EQ(exposed(), seen) << "what came into sight shows something older";
   ramp(right_, 0.8);
@@ -133,6 +134,53 @@ TEST_F(LiveViewTest, AnythingElseExposesAllThatIsSeen) {
   EXPECT_EQ(exposed(), seen);
   ramp(right_, 0.7);
   EXPECT_EQ(exposed(), seen) << "from the interval back to functions";
+}
+
+// The picture has half as many pixels to a side as the capture, on a screen that shows no more.
+TEST_F(LiveViewTest, WhatIsSeenSmallIsExposedSmall) {
+  ASSERT_NO_FATAL_FAILURE(begin());
+  document().end_drag();
+  ASSERT_TRUE(answered());
+  const QRect everything(0, 0, kWidth, kHeight);
+  const auto reduced = reduced_session(*session_, 2);
+  live_.set_reduced(reduced, 2);
+  std::vector<ShownPicture> pictures;
+  QObject::connect(&live_, &LiveView::pictured, [&](const ShownPicture& picture) { pictures.push_back(picture); });
+  const auto exposed_now = [&] {
+    pictures.clear();
+    EXPECT_TRUE(answered());
+    return pictures.empty() ? ShownPicture() : pictures.back();
+  };
+  document().begin_drag();
+  live_.set_visible(everything, 0.6);
+  ramp(right_, 0.9);
+  EXPECT_EQ(exposed_now().divisor, 1) << "a screen that shows more";
+  live_.set_visible(everything, 0.5);
+  ramp(right_, 0.8);
+  const ShownPicture whole = exposed_now();
+  EXPECT_EQ(whole.divisor, 2);
+  EXPECT_EQ(whole.place, everything);
+  const DocumentState& state = document().state();
+  Mask mask = Mask::uniform(kWidth / 2, kHeight / 2, 0);
+  for (std::uint32_t y = 0; y < mask.height; ++y)
+    for (std::uint32_t x = 0; x < mask.width; ++x)
+      mask.tags[y * mask.width + x] = (*state.mask)->mask.tags[(2 * y + 1) * kWidth + 2 * x + 1];
+  RenderControl control;
+  control.precision = Precision::single_;
+  const auto wanted =
+      reduced->render(exposure_of(state, Shared(MaskWithRegions(mask))), screen_format(), control);
+  EXPECT_EQ(difference(whole.image, image_of(wanted.picture)), "");
+  ramp(right_, 0.7);
+  const ShownPicture part = exposed_now();
+  EXPECT_EQ(part.place, kRight);
+  EXPECT_EQ(part.image.size(), kRight.size() / 2);
+  paint_region(document(), box({5, 7, 3, 2}), right_, "Brush");
+  EXPECT_EQ(exposed_now().place, QRect(4, 6, 4, 4)) << "whole squares";
+  document().end_drag();
+  const ShownPicture full = exposed_now();
+  EXPECT_TRUE(full.is_full);
+  EXPECT_EQ(full.divisor, 1);
+  EXPECT_EQ(difference(full.image, fresh_picture()), "");
 }
 
 TEST(ChangedPixels, AreThoseWithOtherTags) {

@@ -105,5 +105,9 @@ int main(int count, char** words) {
          window.canvas().view().to_widget({shape.width * 0.3, shape.height * 0.5}).toPoint(),
          is_first ? "a brush over three regions" : "a brush beneath three regions", 16, kTurn);
   }
+  window.use_tool(ToolKind::look);
+  window.canvas().fit();
+  if (!settles()) return 1;
+  drag(window, curves, curves.frame().place(points[1]).toPoint(), "a control point, the whole picture in sight");
   return 0;
 }

@@ -37,6 +37,8 @@ void Canvas::show_picture(const ShownPicture& picture) {
   const QSize size(static_cast<int>(facts->format.shape.width), static_cast<int>(facts->format.shape.height));
   const bool is_part = !is_first_look_ && image_.size() == size && view_.picture() == size;
   is_first_look_ = false;
+  if (picture.divisor > 1) return show_reduced(picture);
+  reduced_ = {};
   if (picture.place == QRect({0, 0}, size)) {
     image_ = picture.image;
   } else {
@@ -54,6 +56,19 @@ void Canvas::show_picture(const ShownPicture& picture) {
   update();
 }
 
+void Canvas::show_reduced(const ShownPicture& picture) {
+  const int divisor = picture.divisor;
+  if (reduced_.isNull()) {
+    // What is left over at the right and at the bottom no square of pixels shows.
+    const QSize size(image_.width() / divisor, image_.height() / divisor);
+    reduced_ = image_.copy(QRect({0, 0}, size * divisor)).scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+  }
+  const QPoint at(picture.place.x() / divisor, picture.place.y() / divisor);
+  QPainter(&reduced_).drawImage(at, picture.image);
+  reduced_size_ = reduced_.size() * divisor;
+  update_pixels(picture.place);
+}
+
 void Canvas::update_pixels(const QRectF& pixels) {
   constexpr int kAround = 4;  // the widest pen, and what smoothing mixes
   const QPointF first = view_.to_widget(pixels.topLeft()), last = view_.to_widget(pixels.bottomRight());
@@ -69,13 +84,14 @@ void Canvas::update_tool(QPointF before) {
 
 void Canvas::show_first_look(const QImage& image) {
   image_ = image;
+  reduced_ = {};
   is_first_look_ = true;
   view_.set_sizes(image.size(), size());
   view_moved();
 }
 
 void Canvas::clear() {
-  image_ = {};
+  image_ = reduced_ = {};
   is_first_look_ = false;
   update();
 }
@@ -110,7 +126,7 @@ void Canvas::fit() {
 
 void Canvas::view_moved() {
   update();
-  Q_EMIT visible_changed(view_.visible());
+  Q_EMIT visible_changed(view_.visible(), view_.zoom() * devicePixelRatioF());
 }
 
 void Canvas::follow_mask(Change what) {
@@ -138,7 +154,11 @@ void Canvas::paintEvent(QPaintEvent* event) {
     return;
   }
   painter.setRenderHint(QPainter::SmoothPixmapTransform, view_.zoom() < 1);
-  painter.drawImage(view_.place(), image_);
+  if (reduced_.isNull()) {
+    painter.drawImage(view_.place(), image_);
+  } else {
+    painter.drawImage(QRectF(view_.place().topLeft(), QSizeF(reduced_size_) * view_.zoom()), reduced_);
+  }
   if (document_.facts() == nullptr || is_first_look_) return;
   painter.translate(view_.place().topLeft());
   painter.scale(view_.zoom(), view_.zoom());

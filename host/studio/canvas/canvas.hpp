@@ -57,7 +57,7 @@ class Canvas : public QWidget {
   void fit();
 
  Q_SIGNALS:
-  void visible_changed(QRect pixels);
+  void visible_changed(QRect pixels, double screen_pixels);  // of each of the capture's
   void pointed(std::optional<QPoint> pixel);  // none: it left the picture
 
  protected:
@@ -75,6 +75,7 @@ class Canvas : public QWidget {
 
  private:
   void view_moved();
+  void show_reduced(const ShownPicture& picture);
   void update_pixels(const QRectF& pixels);  // of the picture
   void update_tool(QPointF before);          // of the pointer
   void follow_mask(Change what);
@@ -94,6 +95,8 @@ class Canvas : public QWidget {
 
   Document& document_;
   QImage image_;
+  QImage reduced_;  // shown in its place, as large as so many pixels of it, until a picture with all of them comes
+  QSize reduced_size_;
   QString hint_;
   View view_;
   CanvasTool* tool_ = nullptr;

@@ -17,6 +17,19 @@ QString arithmetic_of(const ExposedPicture& exposed) {
   return text;
 }
 
+// Of each square the tag in its middle.
+Mask reduced_mask(const Mask& mask, const Shape& shape, int divisor) {
+  const auto side = static_cast<std::uint32_t>(divisor);
+  Mask reduced = Mask::uniform(shape.width, shape.height, 0);
+  auto tag = reduced.tags.begin();
+  for (std::uint32_t y = 0; y < shape.height; ++y) {
+    const std::uint8_t* const row =
+        mask.tags.data() + std::size_t{y * side + side / 2} * mask.width + side / 2;
+    for (std::uint32_t x = 0; x < shape.width; ++x) *tag++ = row[x * side];
+  }
+  return reduced;
+}
+
 // Of exposures by functions.
 std::vector<std::uint8_t> changed_functions(const ExposureRequest& before, const ExposureRequest& now) {
   const FunctionSet &a = *std::get<Shared<FunctionSet>>(before.gains),
@@ -49,11 +62,13 @@ void LiveView::show(std::shared_ptr<Session> session) {
   soft_.reset();
   visible_ = {};
   asked_.reset();
+  reduced_.reset();
+  reduced_from_.reset();
   last_asked_ = last_shown_ = 0;
   full_wanted_ = full_shown_ = false;
   {
     const std::scoped_lock lock(mutex_);
-    asked_at_.clear();
+    requests_.clear();
     delivered_.reset();
   }
   if (!session_) return;
@@ -61,9 +76,35 @@ void LiveView::show(std::shared_ptr<Session> session) {
   ask(true);
 }
 
-void LiveView::set_visible(QRect pixels) {
-  if (pixels == visible_) return;
+void LiveView::set_visible(QRect pixels, double screen_pixels) {
   visible_ = pixels;
+  screen_pixels_ = screen_pixels;
+}
+
+void LiveView::set_reduced(std::shared_ptr<Session> session, int divisor) {
+  reduced_ = std::move(session);
+  divisor_ = divisor;
+}
+
+// Soft edges are blended from the capture's own pixels.
+bool LiveView::shows_reduced(const ExposureRequest& exposure) const {
+  return reduced_ && screen_pixels_ * divisor_ <= 1 && !(exposure.mask && (*exposure.mask)->mask.is_soft());
+}
+
+LivePart LiveView::reduced_part(ExposureRequest exposure, const QRect& pixels) {
+  const Shape& shape = reduced_->format().shape;
+  if (exposure.mask) {
+    if (!reduced_from_ || &**reduced_from_ != &**exposure.mask) {
+      reduced_from_ = exposure.mask;
+      reduced_mask_ = Shared(MaskWithRegions(reduced_mask((*exposure.mask)->mask, shape, divisor_)));
+    }
+    exposure.mask = reduced_mask_;
+  }
+  const QRect all = rectangle_of(Rectangle::whole(shape));
+  const auto reduced = [this](QPoint pixel) { return QPoint(pixel.x() / divisor_, pixel.y() / divisor_); };
+  const QRect part = QRect(reduced(pixels.topLeft()), reduced(pixels.bottomRight())) & all;
+  return {reduced_.get(), std::move(exposure), screen_format(),
+          rectangle_of(part.isEmpty() ? QRect(all.bottomRight(), QSize(1, 1)) : part, shape)};
 }
 
 bool LiveView::is_busy() const {
@@ -75,23 +116,25 @@ void LiveView::ask(bool with_full) {
   bool is_final = true;
   const ExposureRequest exposure = exposure_of(document_.state(), mask_of(document_.state(), is_final));
   const Shape& shape = session_->format().shape;
-  LivePart preview{session_.get(), exposure, screen_format(), rectangle_of(outdated_by(exposure), shape)};
+  const QRect outdated = outdated_by(exposure);
+  const bool is_reduced = shows_reduced(exposure);
+  LivePart preview = is_reduced ? reduced_part(exposure, outdated)
+                                : LivePart{session_.get(), exposure, screen_format(), rectangle_of(outdated, shape)};
   std::optional<LivePart> full;
   if (with_full && is_final) {
-    full = preview;
-    full->rectangle = Rectangle::whole(shape);
+    full = {session_.get(), exposure, screen_format(), Rectangle::whole(shape)};
   }
   full_wanted_ = full.has_value();
   full_shown_ = false;
   const std::scoped_lock lock(mutex_);
   last_asked_ = pictures_->ask({std::move(preview), std::move(full)});
-  asked_at_[last_asked_] = Clock::now();
+  requests_[last_asked_] = {Clock::now(), is_reduced ? divisor_ : 1};
 }
 
 QRect LiveView::outdated_by(const ExposureRequest& exposure) {
   const QRect visible = seen();
   QRect outdated = visible;
-  if (asked_ && asked_visible_ == visible_ && !exposure.is_plain() && !asked_->is_plain()) {
+  if (asked_ && asked_visible_ == visible_ && asked_reduced_ == shows_reduced(exposure) && !exposure.is_plain() && !asked_->is_plain()) {
     ExposureRequest before = *asked_;
     before.mask = exposure.mask;
     before.gains = exposure.gains;
@@ -105,6 +148,7 @@ QRect LiveView::outdated_by(const ExposureRequest& exposure) {
   outdated_ = last_shown_ < last_asked_ ? outdated_ | outdated : outdated;
   asked_ = exposure;
   asked_visible_ = visible_;
+  asked_reduced_ = shows_reduced(exposure);
   const QRect changed = outdated_ & visible;
   // An answer is waited for, whatever it shows.
   return changed.isEmpty() ? QRect(visible.topLeft(), QSize(1, 1)) : changed;
@@ -159,11 +203,16 @@ void LiveView::deliver(LiveAnswer answer) {
   }
   found.picture.place = rectangle_of(answer.rectangle);
   const std::scoped_lock lock(mutex_);
-  const auto asked = asked_at_.find(answer.request);
-  if (asked != asked_at_.end()) {
-    found.picture.milliseconds =
-        std::chrono::duration<double, std::milli>(Clock::now() - asked->second).count();
-    asked_at_.erase(asked_at_.begin(), asked);
+  const auto asked = requests_.find(answer.request);
+  if (asked != requests_.end()) {
+    const auto [at, divisor] = asked->second;
+    found.picture.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - at).count();
+    if (answer.is_preview && divisor > 1) {
+      const QRect& place = found.picture.place;
+      found.picture.place = {place.topLeft() * divisor, place.size() * divisor};
+      found.picture.divisor = divisor;
+    }
+    requests_.erase(requests_.begin(), asked);
   }
   // A full picture is not dropped for its own preview, which comes before it.
   const bool is_waiting = std::exchange(delivered_, std::move(found)).has_value();
@@ -180,7 +229,7 @@ void LiveView::take() {
   }
   if (!found) return;
   last_shown_ = found->request;
-  found->picture.is_of_all_seen = !found->is_preview || found->picture.place == seen();
+  found->picture.is_of_all_seen = !found->is_preview || (found->picture.divisor == 1 && found->picture.place == seen());
   if (found->request == last_asked_ && (!found->is_preview || !found->error.isEmpty())) full_shown_ = true;
   if (found->error.isEmpty()) {
     Q_EMIT pictured(found->picture);

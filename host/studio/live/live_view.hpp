@@ -25,6 +25,7 @@ namespace nutik::studio {
 struct ShownPicture {
   QImage image;
   QRect place;  // in the capture's pixels; elsewhere what was shown still holds
+  int divisor = 1;  // of a preview with fewer pixels: one for so many to a side
   bool is_full = false, is_of_all_seen = true;
   std::uint64_t pixels_below = 0, pixels_above = 0;  // saturated, of these
   QString arithmetic;                                // and its bound
@@ -41,7 +42,10 @@ class LiveView : public QObject {
 
   // What pictures are exposed of; null: nothing. The session lives on until the next one.
   void show(std::shared_ptr<Session> session);
-  void set_visible(QRect pixels);
+  // `screen_pixels`: how many of them a pixel of the capture has to a side.
+  void set_visible(QRect pixels, double screen_pixels);
+  // The same capture with fewer pixels, for previews that show no more of them.
+  void set_reduced(std::shared_ptr<Session> session, int divisor);
   // Whether a picture is on its way that nothing has delivered yet: for tests and for who wants to write it.
   [[nodiscard]] bool is_busy() const;
   // The document's mask as pictures are exposed with it; none while it is being feathered.
@@ -60,6 +64,8 @@ class LiveView : public QObject {
   using Clock = std::chrono::steady_clock;
 
   void ask(bool with_full);
+  [[nodiscard]] bool shows_reduced(const ExposureRequest& exposure) const;
+  [[nodiscard]] LivePart reduced_part(ExposureRequest exposure, const QRect& pixels);
   // What of the visible pixels the picture that is shown, or that is on its way, does not show as it is asked for now.
   [[nodiscard]] QRect outdated_by(const ExposureRequest& exposure);
   [[nodiscard]] QRect seen() const;
@@ -70,10 +76,12 @@ class LiveView : public QObject {
   Document& document_;
   Jobs& jobs_;
   QRect visible_;
+  double screen_pixels_ = 1;
   std::optional<Soft> soft_;
   // Of the last request; none: nothing that is shown is of use. And what has changed since the picture that is shown.
   std::optional<ExposureRequest> asked_;
   QRect asked_visible_, outdated_;
+  bool asked_reduced_ = false;
   TagBoxes boxes_;
   std::uint64_t last_asked_ = 0, last_shown_ = 0;
   bool full_wanted_ = false;
@@ -86,10 +94,16 @@ class LiveView : public QObject {
     QString error;
   };
   std::mutex mutex_;  // guards what follows
-  std::map<std::uint64_t, Clock::time_point> asked_at_;
+  struct Asked {
+    Clock::time_point at;
+    int divisor;
+  };
+  std::map<std::uint64_t, Asked> requests_;
   std::optional<Delivered> delivered_;
 
-  std::shared_ptr<Session> session_;
+  std::shared_ptr<Session> session_, reduced_;
+  int divisor_ = 1;
+  SharedMask reduced_from_, reduced_mask_;
   std::unique_ptr<LivePictures> pictures_;  // last: it delivers into what is above
 };
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "session/below/error.hpp"
+#include "session/live/reduced_session.hpp"
 #include "studio/curves/curve_editor.hpp"
 #include "studio/live/overview.hpp"
 #include "studio/regions/difference_dialog.hpp"
@@ -214,6 +215,18 @@ void MainWindow::look_at_capture() {
     *overview = thumbnails_of(*session, job);
     return [this, overview] { document_.set_overview(*overview); };
   });
+  const Shape& shape = document_.facts()->format.shape;
+  const QSizeF screen = QSizeF(canvas_->size()) * canvas_->devicePixelRatioF();
+  const int divisor = static_cast<int>(std::max(shape.width / screen.width(), shape.height / screen.height()));
+  if (divisor > 1) {
+    jobs_.start(tr("Making smaller pictures for the screen"),
+                [this, session = session_, divisor](const Job& job) -> Jobs::Finish {
+                  auto reduced = reduced_session(*session, static_cast<std::uint32_t>(divisor), job.progress, job.stop);
+                  return [this, session, reduced, divisor] {
+                    if (session == session_) live_.set_reduced(reduced, divisor);
+                  };
+                });
+  }
   jobs_.start(tr("Looking for motion"), [this, session = session_](const Job& job) -> Jobs::Finish {
     auto shares = std::make_shared<std::vector<double>>(changed_shares_of(*session, job));
     return [this, shares] {

@@ -1,0 +1,59 @@
+// A capture with fewer pixels has the samples and times of the whole one.
+#include "session/live/reduced_session.hpp"
+
+#include <gtest/gtest.h>
+
+#include "imev/each_block.hpp"
+#include "imev/sample_cursor.hpp"
+#include "media/light_means.hpp"
+#include "support/random_case.hpp"
+#include "support/scratch.hpp"
+#include "support/tik_files.hpp"
+
+namespace nutik {
+namespace {
+
+class ReducedSession : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(ReducedSession, HasTheSamplesAndTimesOfTheWholeOne) {
+  test::RandomCase random(GetParam());
+  // What was kept is shown, not what was filmed.
+  random.capture.noise = {};
+  const Shape& whole = random.capture.shape;
+  const Shape shape{whole.width / 2, whole.height / 2, whole.channels};
+  const test::Scratch scratch;
+  SourceRequest source;
+  source.path = test::write_tik(random, {tik::CodecId::zstd, 0}, scratch);
+  Session session(source);
+  const auto reduced = reduced_session(session, 2);
+  EXPECT_EQ(reduced->format().shape, shape);
+  EXPECT_EQ(reduced->format().white_code, random.capture.white_code);
+  EXPECT_EQ(reduced->format().transfer, random.capture.transfer);
+  const Timeline &is = reduced->timeline(), &should = session.timeline();
+  ASSERT_EQ(is.sample_count(), should.sample_count());
+  EXPECT_EQ(is.duration_ns(), should.duration_ns());
+  for (std::uint64_t sample = 0; sample < is.sample_count(); ++sample)
+    {
+    ASSERT_EQ(is.start_ns(sample), should.start_ns(sample)) << "sample " << sample;
+    ASSERT_EQ(is.end_ns(sample), should.end_ns(sample)) << "sample " << sample;
+  }
+
+  LightMeans means(random.capture, {0, 0, 2 * shape.width, 2 * shape.height}, shape);
+  std::vector<std::byte> wanted(reduced->format().sample_bytes()), read(wanted.size());
+  for_each_block(reduced->capture(), [&](const BlockView& block) {
+    SampleCursor cursor(shape, block);
+    const SampleRange samples = block.extent().range();
+    for (std::uint64_t sample = samples.first; sample < samples.last; ++sample) {
+      cursor.go_to(static_cast<std::uint32_t>(sample - samples.first));
+      cursor.read(read);
+      means.take(random.rasters[sample], wanted);
+      ASSERT_EQ(read, wanted) << random.text() << ", sample " << sample;
+    }
+  });
+}
+
+// Of captures with two rows or more.
+INSTANTIATE_TEST_SUITE_P(Captures, ReducedSession, testing::Values(0, 1, 2, 3, 4, 6, 8, 9, 10, 11));
+
+}  // namespace
+}  // namespace nutik
