@@ -14,13 +14,15 @@ std::shared_ptr<Session> reduced_session(Session& whole, std::uint32_t divisor, 
   if (whole.timeline().is_constant()) source.shutter_angle = whole.timeline().shutter_angle();
   ComputingRequest computing = whole.devices().request();
   computing.memory.bytes /= 4;
+  auto devices = std::make_shared<Devices>(computing);
+  devices->start();
   ClipOptions reduced;
   reduced.scale = ClipScale{divisor};
   const auto open = [&whole, reduced] {
     return take_part(open_capture_clip(whole.capture()), whole.source().path, reduced);
   };
   return std::make_shared<Session>(
-      source, std::make_shared<Devices>(computing),
+      source, std::move(devices),
       Session::Terms{.progress = progress, .stop = std::move(stop), .open_clip = open});
 }
 
