@@ -32,8 +32,7 @@ TEST_P(ReducedSession, HasTheSamplesAndTimesOfTheWholeOne) {
   const Timeline &is = reduced->timeline(), &should = session.timeline();
   ASSERT_EQ(is.sample_count(), should.sample_count());
   EXPECT_EQ(is.duration_ns(), should.duration_ns());
-  for (std::uint64_t sample = 0; sample < is.sample_count(); ++sample)
-    {
+  for (std::uint64_t sample = 0; sample < is.sample_count(); ++sample) {
     ASSERT_EQ(is.start_ns(sample), should.start_ns(sample)) << "sample " << sample;
     ASSERT_EQ(is.end_ns(sample), should.end_ns(sample)) << "sample " << sample;
   }

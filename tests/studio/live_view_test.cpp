@@ -31,7 +31,8 @@ class LiveViewTest : public StudioTest {
     for (const QRect& pixels : {QRect(0, 0, 96, 48), kLeft, kRight}) {
       if (pixels != QRect(0, 0, 96, 48)) add_region(document());
       paint_region(document(), box(pixels), document().selected_tag(), "Band");
-      document().set_points(document().selected_tag(), {{0, 0.2}, {90'000'000, 1.0}, {200'000'000, 0.4}}, "Ramp");
+      document().set_points(document().selected_tag(), {{0, 0.2}, {90'000'000, 1.0}, {200'000'000, 0.4}},
+                            "Ramp");
     }
     right_ = document().selected_tag();
     SourceRequest source;
@@ -145,7 +146,8 @@ TEST_F(LiveViewTest, WhatIsSeenSmallIsExposedSmall) {
   const auto reduced = reduced_session(*session_, 2);
   live_.set_reduced(reduced, 2);
   std::vector<ShownPicture> pictures;
-  QObject::connect(&live_, &LiveView::pictured, [&](const ShownPicture& picture) { pictures.push_back(picture); });
+  QObject::connect(&live_, &LiveView::pictured,
+                   [&](const ShownPicture& picture) { pictures.push_back(picture); });
   const auto exposed_now = [&] {
     pictures.clear();
     EXPECT_TRUE(answered());

@@ -53,6 +53,8 @@ class CaptureClip final : public Clip {
 
 }  // namespace
 
-std::unique_ptr<Clip> open_capture_clip(CaptureSource& capture) { return std::make_unique<CaptureClip>(capture); }
+std::unique_ptr<Clip> open_capture_clip(CaptureSource& capture) {
+  return std::make_unique<CaptureClip>(capture);
+}
 
 }  // namespace nutik

@@ -7,8 +7,8 @@
 
 namespace nutik {
 
-std::shared_ptr<Session> reduced_session(Session& whole, std::uint32_t divisor, const ReportedProgress& progress,
-                                         std::stop_token stop) {
+std::shared_ptr<Session> reduced_session(Session& whole, std::uint32_t divisor,
+                                         const ReportedProgress& progress, std::stop_token stop) {
   SourceRequest source;
   source.path = whole.source().path;
   if (whole.timeline().is_constant()) source.shutter_angle = whole.timeline().shutter_angle();

@@ -2,8 +2,29 @@
 
 #include <algorithm>
 #include <cstring>
+#include <variant>
+#include <vector>
 
 namespace nutik::studio {
+namespace {
+
+// Of exposures by functions.
+std::vector<std::uint8_t> changed_functions(const ExposureRequest& before, const ExposureRequest& now) {
+  const FunctionSet &a = *std::get<Shared<FunctionSet>>(before.gains),
+                    &b = *std::get<Shared<FunctionSet>>(now.gains);
+  std::vector<std::uint8_t> changed;
+  const auto add_missing = [&changed](const FunctionSet& of, const FunctionSet& in) {
+    for (const auto& [tag, function] : of) {
+      const auto found = in.find(tag);
+      if (found == in.end() || !(found->second == function)) changed.push_back(tag);
+    }
+  };
+  add_missing(a, b);
+  add_missing(b, a);
+  return changed;
+}
+
+}  // namespace
 
 QRect changed_pixels(const SharedMask& before, const SharedMask& now, const QRect& everything) {
   if (!before && !now) return {};
@@ -43,6 +64,29 @@ QRect TagBoxes::of(const SharedMask& mask, std::uint8_t tag, const QRect& everyt
     }
   }
   return boxes_[tag];
+}
+
+QRect OutdatedPixels::since_last(const ExposureRequest& request, const QRect& seen, bool is_reduced) {
+  if (!last_ || last_->seen != seen || last_->is_reduced != is_reduced) return seen;
+  if (request.is_plain() || last_->request.is_plain()) return seen;
+  ExposureRequest same = last_->request;
+  same.mask = request.mask;
+  same.gains = request.gains;
+  if (!(same == request)) return seen;
+  QRect changed = changed_pixels(last_->request.mask, request.mask, seen);
+  for (const std::uint8_t tag : changed_functions(last_->request, request))
+    changed |= boxes_.of(request.mask, tag, seen);
+  return changed;
+}
+
+QRect OutdatedPixels::by(const ExposureRequest& request, const QRect& seen, bool is_reduced, bool is_shown) {
+  const QRect changed = since_last(request, seen, is_reduced);
+  // Of several requests that wait the last one alone is answered.
+  outdated_ = is_shown ? changed : outdated_ | changed;
+  last_ = Last{request, seen, is_reduced};
+  const QRect asked = outdated_ & seen;
+  // An answer is waited for, whatever it shows.
+  return asked.isEmpty() ? QRect(seen.topLeft(), QSize(1, 1)) : asked;
 }
 
 }  // namespace nutik::studio

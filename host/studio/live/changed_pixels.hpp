@@ -27,4 +27,26 @@ class TagBoxes {
   std::map<std::uint8_t, QRect> boxes_;
 };
 
+// What the picture that is shown does not show as it is asked for, request by request.
+class OutdatedPixels {
+ public:
+  // Of the pixels that are seen those that a request asks to be exposed, of a picture that is reduced or not;
+  // `is_shown`: the one before it was answered, and shown.
+  [[nodiscard]] QRect by(const ExposureRequest& request, const QRect& seen, bool is_reduced, bool is_shown);
+  // Nothing that is shown is of use.
+  void forget() { last_.reset(); }
+
+ private:
+  struct Last {
+    ExposureRequest request;
+    QRect seen;
+    bool is_reduced;
+  };
+  [[nodiscard]] QRect since_last(const ExposureRequest& request, const QRect& seen, bool is_reduced);
+
+  std::optional<Last> last_;
+  QRect outdated_;
+  TagBoxes boxes_;
+};
+
 }  // namespace nutik::studio

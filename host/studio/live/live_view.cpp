@@ -17,35 +17,6 @@ QString arithmetic_of(const ExposedPicture& exposed) {
   return text;
 }
 
-// Of each square the tag in its middle.
-Mask reduced_mask(const Mask& mask, const Shape& shape, int divisor) {
-  const auto side = static_cast<std::uint32_t>(divisor);
-  Mask reduced = Mask::uniform(shape.width, shape.height, 0);
-  auto tag = reduced.tags.begin();
-  for (std::uint32_t y = 0; y < shape.height; ++y) {
-    const std::uint8_t* const row =
-        mask.tags.data() + std::size_t{y * side + side / 2} * mask.width + side / 2;
-    for (std::uint32_t x = 0; x < shape.width; ++x) *tag++ = row[x * side];
-  }
-  return reduced;
-}
-
-// Of exposures by functions.
-std::vector<std::uint8_t> changed_functions(const ExposureRequest& before, const ExposureRequest& now) {
-  const FunctionSet &a = *std::get<Shared<FunctionSet>>(before.gains),
-                    &b = *std::get<Shared<FunctionSet>>(now.gains);
-  std::vector<std::uint8_t> changed;
-  const auto add_missing = [&changed](const FunctionSet& of, const FunctionSet& in) {
-    for (const auto& [tag, function] : of) {
-      const auto found = in.find(tag);
-      if (found == in.end() || !(found->second == function)) changed.push_back(tag);
-    }
-  };
-  add_missing(a, b);
-  add_missing(b, a);
-  return changed;
-}
-
 }  // namespace
 
 LiveView::LiveView(Document& document, Jobs& jobs, QObject* parent)
@@ -61,9 +32,8 @@ void LiveView::show(std::shared_ptr<Session> session) {
   session_ = std::move(session);
   soft_.reset();
   visible_ = {};
-  asked_.reset();
+  outdated_.forget();
   reduced_.reset();
-  reduced_from_.reset();
   last_asked_ = last_shown_ = 0;
   full_wanted_ = full_shown_ = false;
   {
@@ -82,29 +52,7 @@ void LiveView::set_visible(QRect pixels, double screen_pixels) {
 }
 
 void LiveView::set_reduced(std::shared_ptr<Session> session, int divisor) {
-  reduced_ = std::move(session);
-  divisor_ = divisor;
-}
-
-// Soft edges are blended from the capture's own pixels.
-bool LiveView::shows_reduced(const ExposureRequest& exposure) const {
-  return reduced_ && screen_pixels_ * divisor_ <= 1 && !(exposure.mask && (*exposure.mask)->mask.is_soft());
-}
-
-LivePart LiveView::reduced_part(ExposureRequest exposure, const QRect& pixels) {
-  const Shape& shape = reduced_->format().shape;
-  if (exposure.mask) {
-    if (!reduced_from_ || &**reduced_from_ != &**exposure.mask) {
-      reduced_from_ = exposure.mask;
-      reduced_mask_ = Shared(MaskWithRegions(reduced_mask((*exposure.mask)->mask, shape, divisor_)));
-    }
-    exposure.mask = reduced_mask_;
-  }
-  const QRect all = rectangle_of(Rectangle::whole(shape));
-  const auto reduced = [this](QPoint pixel) { return QPoint(pixel.x() / divisor_, pixel.y() / divisor_); };
-  const QRect part = QRect(reduced(pixels.topLeft()), reduced(pixels.bottomRight())) & all;
-  return {reduced_.get(), std::move(exposure), screen_format(),
-          rectangle_of(part.isEmpty() ? QRect(all.bottomRight(), QSize(1, 1)) : part, shape)};
+  reduced_.emplace(std::move(session), divisor);
 }
 
 bool LiveView::is_busy() const {
@@ -116,42 +64,18 @@ void LiveView::ask(bool with_full) {
   bool is_final = true;
   const ExposureRequest exposure = exposure_of(document_.state(), mask_of(document_.state(), is_final));
   const Shape& shape = session_->format().shape;
-  const QRect outdated = outdated_by(exposure);
-  const bool is_reduced = shows_reduced(exposure);
-  LivePart preview = is_reduced ? reduced_part(exposure, outdated)
-                                : LivePart{session_.get(), exposure, screen_format(), rectangle_of(outdated, shape)};
+  const bool is_reduced = reduced_ && reduced_->can_show(exposure, screen_pixels_);
+  const QRect outdated = outdated_.by(exposure, seen(), is_reduced, last_shown_ == last_asked_);
+  LivePart preview = is_reduced
+                         ? reduced_->part(exposure, outdated)
+                         : LivePart{session_.get(), exposure, screen_format(), rectangle_of(outdated, shape)};
   std::optional<LivePart> full;
-  if (with_full && is_final) {
-    full = {session_.get(), exposure, screen_format(), Rectangle::whole(shape)};
-  }
+  if (with_full && is_final) full = {session_.get(), exposure, screen_format(), Rectangle::whole(shape)};
   full_wanted_ = full.has_value();
   full_shown_ = false;
   const std::scoped_lock lock(mutex_);
   last_asked_ = pictures_->ask({std::move(preview), std::move(full)});
-  requests_[last_asked_] = {Clock::now(), is_reduced ? divisor_ : 1};
-}
-
-QRect LiveView::outdated_by(const ExposureRequest& exposure) {
-  const QRect visible = seen();
-  QRect outdated = visible;
-  if (asked_ && asked_visible_ == visible_ && asked_reduced_ == shows_reduced(exposure) && !exposure.is_plain() && !asked_->is_plain()) {
-    ExposureRequest before = *asked_;
-    before.mask = exposure.mask;
-    before.gains = exposure.gains;
-    if (before == exposure) {
-      outdated = changed_pixels(asked_->mask, exposure.mask, visible);
-      for (const std::uint8_t tag : changed_functions(*asked_, exposure))
-        outdated |= boxes_.of(exposure.mask, tag, visible);
-    }
-  }
-  // Of several requests the last one alone may be answered.
-  outdated_ = last_shown_ < last_asked_ ? outdated_ | outdated : outdated;
-  asked_ = exposure;
-  asked_visible_ = visible_;
-  asked_reduced_ = shows_reduced(exposure);
-  const QRect changed = outdated_ & visible;
-  // An answer is waited for, whatever it shows.
-  return changed.isEmpty() ? QRect(visible.topLeft(), QSize(1, 1)) : changed;
+  requests_[last_asked_] = {Clock::now(), is_reduced ? reduced_->divisor() : 1};
 }
 
 QRect LiveView::seen() const { return rectangle_of(rectangle_of(visible_, session_->format().shape)); }
@@ -234,7 +158,7 @@ void LiveView::take() {
   if (found->error.isEmpty()) {
     Q_EMIT pictured(found->picture);
   } else {
-    asked_.reset();
+    outdated_.forget();
     Q_EMIT failed(found->error);
   }
 }

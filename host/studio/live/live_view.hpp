@@ -19,6 +19,7 @@
 #include "studio/document/document.hpp"
 #include "studio/live/changed_pixels.hpp"
 #include "studio/live/jobs.hpp"
+#include "studio/live/reduced_capture.hpp"
 
 namespace nutik::studio {
 
@@ -64,10 +65,6 @@ class LiveView : public QObject {
   using Clock = std::chrono::steady_clock;
 
   void ask(bool with_full);
-  [[nodiscard]] bool shows_reduced(const ExposureRequest& exposure) const;
-  [[nodiscard]] LivePart reduced_part(ExposureRequest exposure, const QRect& pixels);
-  // What of the visible pixels the picture that is shown, or that is on its way, does not show as it is asked for now.
-  [[nodiscard]] QRect outdated_by(const ExposureRequest& exposure);
   [[nodiscard]] QRect seen() const;
   [[nodiscard]] std::optional<Shared<MaskWithRegions>> mask_of(const DocumentState& state, bool& is_final);
   void deliver(LiveAnswer answer);
@@ -78,11 +75,7 @@ class LiveView : public QObject {
   QRect visible_;
   double screen_pixels_ = 1;
   std::optional<Soft> soft_;
-  // Of the last request; none: nothing that is shown is of use. And what has changed since the picture that is shown.
-  std::optional<ExposureRequest> asked_;
-  QRect asked_visible_, outdated_;
-  bool asked_reduced_ = false;
-  TagBoxes boxes_;
+  OutdatedPixels outdated_;
   std::uint64_t last_asked_ = 0, last_shown_ = 0;
   bool full_wanted_ = false;
   bool full_shown_ = false;
@@ -101,9 +94,8 @@ class LiveView : public QObject {
   std::map<std::uint64_t, Asked> requests_;
   std::optional<Delivered> delivered_;
 
-  std::shared_ptr<Session> session_, reduced_;
-  int divisor_ = 1;
-  SharedMask reduced_from_, reduced_mask_;
+  std::shared_ptr<Session> session_;
+  std::optional<ReducedCapture> reduced_;
   std::unique_ptr<LivePictures> pictures_;  // last: it delivers into what is above
 };
 
