@@ -104,15 +104,16 @@ std::uint64_t LightWarp::bytes(const CaptureFormat& format) {
 
 template <typename Code>
 void LightWarp::read_light(const Code* raster) {
-  const auto [width, height, channels] = format_.shape;
-  const std::size_t stride = stride_of(format_.shape);
-  parallel_for(height + 2 * kBorder, [&, width, height, channels](std::uint64_t row) {
-    const std::uint64_t y = std::clamp<std::uint64_t>(row, kBorder, height - 1 + kBorder) - kBorder;
-    for (std::uint32_t channel = 0; channel < channels; ++channel) {
-      float* const to = light_.data() + channel * plane_of(format_.shape) + row * stride;
-      tables_.lights_of(raster + y * width * channels + channel, channels, {to + kBorder, width});
+  const Shape& shape = format_.shape;
+  const std::size_t stride = stride_of(shape);
+  parallel_for(shape.height + 2 * kBorder, [&](std::uint64_t row) {
+    const std::uint64_t y = std::clamp<std::uint64_t>(row, kBorder, shape.height - 1 + kBorder) - kBorder;
+    for (std::uint32_t channel = 0; channel < shape.channels; ++channel) {
+      float* const to = light_.data() + channel * plane_of(shape) + row * stride;
+      tables_.lights_of(raster + y * shape.width * shape.channels + channel, shape.channels,
+                        {to + kBorder, shape.width});
       std::fill_n(to, kBorder, to[kBorder]);
-      std::fill_n(to + kBorder + width, kBorder, to[kBorder + width - 1]);
+      std::fill_n(to + kBorder + shape.width, kBorder, to[kBorder + shape.width - 1]);
     }
   });
 }
