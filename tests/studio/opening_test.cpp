@@ -1,11 +1,6 @@
 // What a window keeps until another file is open, and what it forgets then.
-#include <QClipboard>
-#include <QFileDialog>
-#include <QGuiApplication>
 #include <QInputDialog>
-#include <QLineEdit>
-#include <QMenu>
-#include <QMenuBar>
+#include <QProgressBar>
 #include <QSettings>
 #include <QToolButton>
 
@@ -14,7 +9,6 @@
 #include "studio/regions/region_edits.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio_test.hpp"
-#include "support/program.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -26,12 +20,15 @@ class OpeningTest : public StudioTest {
     std::filesystem::create_directory(scratch_ / "damaged");
     scratch_.write("damaged/0.pgm", "P5 16 8 255\n" + std::string(128, 'a'));  // which is shown at first
     scratch_.write("damaged/1.pgm", "P5 16 8 255\n" + std::string(100, 'a'));
+    std::filesystem::create_directory(scratch_ / "small");
+    scratch_.write("small/0.pgm", "P5 16 8 255\n" + std::string(128, 'a'));
+    scratch_.write("small/1.pgm", "P5 16 8 255\n" + std::string(128, 'z'));
   }
 
   void open_project() {
     open_clip();
     click_button("add_region");
-    paint_region(document(), rectangle(96, 48, {10, 10}, 20, 20), document().selected_tag(), "Rectangle");
+    paint_region(document(), rectangle(96, 48, {4, 2}, 20, 20), document().selected_tag(), "Rectangle");
     ASSERT_TRUE(settles());
     ASSERT_TRUE(window_.save_project(path("mine.nutik")));
   }
@@ -44,6 +41,30 @@ class OpeningTest : public StudioTest {
     EXPECT_EQ(load_project(path("mine.nutik")).state.boxcar, (Boxcar{7, 1'000}))
         << "it is saved where it was";
   }
+  // Opens a clip, and does something as soon as its first picture is there: whatever else the window is to hear of the
+  // clip comes after that.
+  void look_first(const char* clip, const std::function<void()>& act) {
+    bool has_looked = false;
+    QObject once;
+    QObject::connect(&canvas(), &Canvas::visible_changed, &once, [&] {
+      if (has_looked || !canvas().shows_first_look()) return;
+      has_looked = true;
+      const auto& progress = *window_.findChild<QProgressBar*>();
+      EXPECT_TRUE(progress.isHidden() || progress.value() < progress.maximum())
+          << "the rest is still to come";
+      act();
+    });
+    window_.open(path(clip), "100");
+    ASSERT_TRUE(QTest::qWaitFor([&] { return has_looked; }, kMaxWaitMs));
+  }
+  // In the middle of each pixel, where nothing is drawn over it.
+  void expect_to_be_painted(const QImage& image) {
+    const QImage seen = canvas().grab().toImage();
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x)
+        ASSERT_EQ(seen.pixel(at(x + 0.5, y + 0.5)), image.pixel(x, y)) << x << ", " << y;
+  }
+
   // Of what is chosen in the menu of recent files, once it was filled.
   [[nodiscard]] QMenu& recent() {
     for (QAction* action : window_.menuBar()->actions().front()->menu()->actions()) {
@@ -138,6 +159,66 @@ TEST_F(OpeningTest, AsksForWhatWasChangedWhileAnotherFileWasOpened) {
   EXPECT_TRUE(window_.windowTitle().startsWith("%02d.pgm")) << window_.windowTitle().toStdString();
 }
 
+TEST_F(OpeningTest, TheFirstPictureIsShownWhileTheRestIsDecoded) {
+  ASSERT_NO_FATAL_FAILURE(look_first("frames/%02d.pgm", [this] {
+    EXPECT_EQ(document().facts(), nullptr);
+    const auto codes = square_.pictures.front().begin();
+    for (int y = 0; y < canvas().image().height(); ++y) {
+      for (int x = 0; x < canvas().image().width(); ++x) {
+        const int code = codes[y * test::MovingSquare::kWidth + x];
+        ASSERT_EQ(canvas().image().pixel(x, y), qRgb(code, code, code)) << x << ", " << y;
+      }
+    }
+    expect_to_be_painted(canvas().image());
+  }));
+  ASSERT_TRUE(settles());
+  EXPECT_FALSE(canvas().shows_first_look());
+  ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
+  EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
+  expect_to_be_painted(canvas().image());
+}
+
+TEST_F(OpeningTest, NoToolWorksOnTheFirstPicture) {
+  ASSERT_NO_FATAL_FAILURE(open_project());
+  const DocumentState before = document().state();
+  ASSERT_NO_FATAL_FAILURE(look_first("small/%d.pgm", [&] {
+    const QRect place = canvas().view().place().toAlignedRect().adjusted(1, 1, -1, -1);
+    const QImage seen = canvas().grab(place).toImage();
+    QImage plain(seen.size(), seen.format());
+    plain.fill(QColor('a', 'a', 'a'));
+    EXPECT_EQ(difference(seen, plain), "") << "no outline of what is open still";
+    for (const char* tool : {"tool_brush", "tool_rectangle", "tool_ellipse", "tool_wand", "tool_look"}) {
+      click_tool(tool);
+      drag(canvas(), at(2, 2), at(12, 6));
+      QTest::mouseClick(&canvas(), Qt::LeftButton, {}, at(8, 4));
+      for (const Qt::Key key : {Qt::Key_Right, Qt::Key_Space, Qt::Key_Right, Qt::Key_Space})
+        QTest::keyClick(&canvas(), key);
+      EXPECT_EQ(document().state(), before) << tool;
+      EXPECT_EQ(document().probe(), std::nullopt) << tool;
+    }
+  }));
+  ASSERT_TRUE(settles());
+  EXPECT_EQ(document().facts()->path, path("small/%d.pgm"));
+  EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
+}
+
+TEST_F(OpeningTest, CancelledTheFirstPictureGivesWayToWhatWasThere) {
+  const auto cancel = [this] { QTest::mouseClick(&child<QToolButton>("cancel"), Qt::LeftButton); };
+  ASSERT_NO_FATAL_FAILURE(look_first("small/%d.pgm", cancel));
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(canvas().image().isNull());
+  EXPECT_EQ(document().facts(), nullptr);
+  ASSERT_NO_FATAL_FAILURE(open_project());
+  const DocumentState before = document().state();
+  const QImage picture = canvas().image();
+  ASSERT_NO_FATAL_FAILURE(look_first("small/%d.pgm", cancel));
+  ASSERT_TRUE(settles());
+  EXPECT_FALSE(canvas().shows_first_look());
+  EXPECT_EQ(document().state(), before);
+  EXPECT_EQ(difference(canvas().image(), picture), "");
+  expect_mine();
+}
+
 TEST_F(OpeningTest, RecentFilesAreListedTheLastFirstAndOpened) {
   EXPECT_EQ(recent_files(), QStringList("None yet"));
   ASSERT_NO_FATAL_FAILURE(open_project());
@@ -156,19 +237,11 @@ TEST_F(OpeningTest, RecentFilesAreListedTheLastFirstAndOpened) {
 }
 
 TEST_F(OpeningTest, FilesAreChosenInDialogsByKeyboard) {
-  const auto run = [&](const std::string& words) {
-    return test::run_shell(std::string(NUTIK_TEST_PROGRAM) + words, scratch_.folder());
-  };
-  ASSERT_EQ(run(" encode -f 100 frames/%02d.pgm clip.tik").status, 0);
+  ASSERT_EQ(run_line("nutik-cl encode -f 100 frames/%02d.pgm clip.tik").status, 0);
   const auto choose = [&](Qt::Key key, const char* name) {
     window_.activateWindow();
     ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
-    answer_next<QFileDialog>([this, name](QFileDialog& dialog) {
-      auto* field = dialog.findChild<QLineEdit*>("fileNameEdit");
-      ASSERT_NE(field, nullptr);
-      field->setText(path(name));
-      QTest::keyClick(field, Qt::Key_Return);
-    });
+    name_next_file(name);
     QTest::keyClick(&window_, key, Qt::ControlModifier);
     ASSERT_TRUE(settles());
     EXPECT_TRUE(is_asked_) << name;
@@ -186,8 +259,7 @@ TEST_F(OpeningTest, FilesAreChosenInDialogsByKeyboard) {
   QTest::keyClick(&window_, Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
   const QString line = QGuiApplication::clipboard()->text();
   EXPECT_EQ(line, window_.command_for(path("mine.png")));
-  ASSERT_TRUE(line.startsWith("nutik-cl "));
-  const test::ProgramResult made = run(line.mid(8).toStdString());
+  const test::ProgramResult made = run_line(line);
   ASSERT_EQ(made.status, 0) << made.err;
   const std::string by_window = test::read_file(scratch_ / "window.png");
   ASSERT_FALSE(by_window.empty()) << window_.notice().text().toStdString();

@@ -5,6 +5,11 @@
 
 #include <QAction>
 #include <QApplication>
+#include <QClipboard>
+#include <QFileDialog>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
 #include <QMessageBox>
 #include <QMouseEvent>
 #include <QPushButton>
@@ -18,6 +23,7 @@
 #include "studio/live/picture_image.hpp"
 #include "studio/window/main_window.hpp"
 #include "support/moving_square.hpp"
+#include "support/program.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik::studio {
@@ -73,6 +79,19 @@ class StudioTest : public ::testing::Test {
     QTest::mouseClick(bar.widgetForAction(&child<QAction>(name)), Qt::LeftButton);
   }
   void click_button(const char* name) { QTest::mouseClick(&child<QPushButton>(name), Qt::LeftButton); }
+  // Both by what their names begin with.
+  void click_menu(const char* menu, const char* row) {
+    const auto named = [](const QWidget& widget, const char* name) {
+      for (QAction* action : widget.actions())
+        if (action->text().remove('&').startsWith(name)) return action;
+      throw std::logic_error(name);
+    };
+    QMenuBar& bar = *window_.menuBar();
+    QAction* title = named(bar, menu);
+    QTest::mouseClick(&bar, Qt::LeftButton, {}, bar.actionGeometry(title).center());
+    QMenu& rows = *title->menu();
+    QTest::mouseClick(&rows, Qt::LeftButton, {}, rows.actionGeometry(named(rows, row)).center());
+  }
 
   // To the dialog that comes next, once it is there.
   template <typename Dialog>
@@ -91,6 +110,25 @@ class StudioTest : public ::testing::Test {
   void answer_next(QMessageBox::StandardButton button) {
     answer_next<QMessageBox>(
         [button](QMessageBox& question) { QTest::mouseClick(question.button(button), Qt::LeftButton); });
+  }
+
+  // Pastes a file's path into the dialog that comes next: typed, it would open each folder on its way.
+  void name_next_file(const char* name) {
+    answer_next<QFileDialog>([this, name](QFileDialog& dialog) {
+      auto* field = dialog.findChild<QLineEdit*>("fileNameEdit");
+      ASSERT_NE(field, nullptr);
+      QGuiApplication::clipboard()->setText(path(name));
+      field->selectAll();
+      QTest::keyClick(field, Qt::Key_V, Qt::ControlModifier);
+      QTest::keyClick(field, Qt::Key_Return);
+    });
+  }
+
+  // Runs a line that was copied, with the program that was built.
+  [[nodiscard]] test::ProgramResult run_line(const QString& line) {
+    const std::string words = line.toStdString();
+    EXPECT_TRUE(words.starts_with("nutik-cl ")) << words;
+    return test::run_shell(std::string(NUTIK_TEST_PROGRAM) + words.substr(8), scratch_.folder());
   }
 
   [[nodiscard]] std::size_t pixels_of(std::uint8_t tag) {
