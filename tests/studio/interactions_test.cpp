@@ -1,8 +1,4 @@
 // Time strip and curve editor within the window: what a hand does there is in the model, and then in the picture.
-#include <QLineEdit>
-#include <QMenu>
-#include <QMenuBar>
-
 #include "studio/curves/curve_editor.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "studio/time/time_strip.hpp"
@@ -255,6 +251,36 @@ TEST_F(InteractionsTest, EveryStartingPointIsChosenInTheMenu) {
     ASSERT_TRUE(settles());
   }
   EXPECT_EQ(count, 5);
+}
+
+// The empty street: a picture beside the document, which it leaves as it is.
+TEST_F(InteractionsTest, TheEmptySceneIsWrittenAsAPicture) {
+  const DocumentState before = document().state();
+  const QImage shown = canvas().image();
+  const int steps = document().undo_stack().index();
+  name_next_file("empty.png");
+  click_menu("Start", "Empty scene");
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(is_asked_);
+  EXPECT_TRUE(window_.notice().text().contains("empty.png: the scene without what moves"))
+      << window_.notice().text().toStdString();
+  EXPECT_EQ(document().state(), before);
+  EXPECT_EQ(document().undo_stack().index(), steps);
+  EXPECT_EQ(difference(canvas().image(), shown), "");
+  const QImage empty(path("empty.png"));
+  ASSERT_EQ(empty.size(), shown.size());
+  // A mean of codes of the ground is one of them. Where the square rests at last it is the scene.
+  using test::MovingSquare;
+  const int rest = MovingSquare::left(MovingSquare::kLastMoving);
+  for (int y = 0; y < empty.height(); ++y) {
+    for (int x = 0; x < empty.width(); ++x) {
+      if (x >= rest && x < rest + MovingSquare::kSide) continue;
+      ASSERT_NEAR(qGreen(empty.pixel(x, y)), MovingSquare::kGround, MovingSquare::kNoise) << x << ", " << y;
+    }
+  }
+  const auto made = run_line("nutik-cl plate -f 100 frames/%02d.pgm line.png");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(difference(empty, QImage(path("line.png"))), "") << "the command's own";
 }
 
 }  // namespace
