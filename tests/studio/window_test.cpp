@@ -1,28 +1,18 @@
-// The window: opening, saving, exporting, and the paper's motion study by mouse alone.
+// The window: opening, saving, exporting.
 #include <QFile>
 #include <QMimeData>
 #include <QToolButton>
 #include <QTreeWidget>
 
-#include "studio/curves/curve_editor.hpp"
 #include "studio/regions/region_edits.hpp"
-#include "studio/time/time_strip.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio_test.hpp"
-#include "support/program.hpp"
 
 namespace nutik::studio {
 namespace {
 
 class WindowTest : public StudioTest {
  protected:
-  // Runs a line that was copied, with the program that was built.
-  [[nodiscard]] test::ProgramResult run_line(const QString& line) {
-    const std::string words = line.toStdString();
-    EXPECT_TRUE(words.starts_with("nutik-cl "));
-    return test::run_shell(std::string(NUTIK_TEST_PROGRAM) + words.substr(8), scratch_.folder());
-  }
-
   // The exported picture, and that of the line, are the same file.
   void expect_same_picture_by_command() {
     window_.export_picture(path("window.png"));
@@ -35,48 +25,6 @@ class WindowTest : public StudioTest {
     EXPECT_EQ(difference(canvas().image(), QImage(path("line.png"))), "");
   }
 };
-
-// "Specifying functions by graphically selecting and dragging control points, automatically rendering a preview image,
-// and scrubbing a boxcar of specified width."
-TEST_F(WindowTest, MakesThePapersMotionStudyByMouseAlone) {
-  open_clip();
-  // The interval is scrubbed to where the square is on its way.
-  auto& strip = child<TimeStrip>("time_strip");
-  auto& curves = child<CurveEditor>("curves");
-  const Boxcar first = document().boxcar();
-  const QImage unscrubbed = canvas().image();
-  const QPoint held = strip.boxcar_area().center().toPoint();
-  drag(strip, held, held - QPoint(strip.width() / 4, 0));
-  EXPECT_LT(document().boxcar().start_ns, first.start_ns);
-  EXPECT_EQ(document().boxcar().length_ns, first.length_ns);
-  ASSERT_TRUE(settles());
-  EXPECT_NE(canvas().image(), unscrubbed) << "the picture follows";
-
-  // A region, exposed over that interval, round where the square is then.
-  click_button("add_region");
-  const std::uint8_t tag = document().selected_tag();
-  ASSERT_NE(tag, kBackground);
-  click_tool("tool_rectangle");
-  const double left = test::MovingSquare::left(4), top = test::MovingSquare::kTop;
-  drag(canvas(), at(left, top), at(left + 12, top + 8));
-  EXPECT_GT(pixels_of(tag), 50u);
-  EXPECT_EQ(document().mode(), ExposureMode::functions);
-
-  // A control point of its function is dragged: twice as much light.
-  ASSERT_TRUE(settles());
-  const QImage undragged = canvas().image();
-  const std::vector<ControlPoint> before = document().points(tag);
-  ASSERT_EQ(before.size(), 4u);
-  const PlotFrame frame = curves.frame();
-  const QPoint from = frame.place(before[2]).toPoint();
-  drag(curves, from, from + QPoint(30, 0));
-  ASSERT_NE(document().points(tag), before);
-  ASSERT_TRUE(settles());
-  EXPECT_NE(canvas().image(), undragged) << "the picture follows";
-
-  ASSERT_TRUE(window_.save_project(path("study.nutik")));
-  expect_same_picture_by_command();
-}
 
 TEST_F(WindowTest, CopiesTheLineOfWhateverIsExposed) {
   open_clip();
