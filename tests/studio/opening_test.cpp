@@ -202,6 +202,23 @@ TEST_F(OpeningTest, NoToolWorksOnTheFirstPicture) {
   EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
 }
 
+TEST_F(OpeningTest, AStrokeThatIsNotFinishedIsGivenUpForTheFirstPicture) {
+  ASSERT_NO_FATAL_FAILURE(open_project());
+  const DocumentState before = document().state();
+  click_tool("tool_brush");
+  const QPoint from = at(60, 20);
+  QTest::mousePress(&canvas(), Qt::LeftButton, {}, from);
+  ASSERT_NE(document().state(), before);
+  ASSERT_NO_FATAL_FAILURE(look_first("small/%d.pgm", [&] {
+    QTest::mouseRelease(&canvas(), Qt::LeftButton, {}, from + QPoint(20, 0));
+    EXPECT_EQ(document().state(), before);
+    EXPECT_FALSE(document().is_dragging());
+    QTest::mouseClick(&child<QToolButton>("cancel"), Qt::LeftButton);
+  }));
+  ASSERT_TRUE(settles());
+  EXPECT_EQ(document().state(), before);
+}
+
 TEST_F(OpeningTest, CancelledTheFirstPictureGivesWayToWhatWasThere) {
   const auto cancel = [this] { QTest::mouseClick(&child<QToolButton>("cancel"), Qt::LeftButton); };
   ASSERT_NO_FATAL_FAILURE(look_first("small/%d.pgm", cancel));

@@ -83,6 +83,8 @@ void Canvas::update_tool(QPointF before) {
 }
 
 void Canvas::show_first_look(const QImage& image) {
+  if (is_stroking_) tool_->give_up();
+  is_stroking_ = is_key_stroke_ = is_panning_ = false;
   image_ = image;
   reduced_ = {};
   is_first_look_ = true;
