@@ -129,8 +129,11 @@ CameraPath find_camera_path(const ClipToAlign& clip, CameraMotion motion, const 
     if (progress) progress(path.pictures.size(), clip.announced_samples);
     found.resize(rasters.size());
     parallel_for(rasters.size(), [&](std::uint64_t i) { found[i] = registrar->find(rasters[i], guess); });
-    for (Registered& picture : found) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      Registered& picture = found[i];
       const std::uint64_t number = path.pictures.size();
+      // A fast camera is nearer to where it was just before.
+      if (!is_sure(picture) && number > 0) picture = registrar->find(rasters[i], path.pictures.back().warp);
       if (!is_sure(picture)) throw not_alike(clip, motion, number, picture);
       if ((number + 1) % kPicturesAtOnce == 0) guess = picture.warp;
       if (number == clip.reference) picture.warp = Warp();  // itself
