@@ -10,7 +10,7 @@
 namespace nutik {
 namespace {
 
-// Of light, for each code: next to no step has more than one that begins within it.
+// Of light, for each code: few steps have two that begin within them, of 8 bits. Tables for 16 bits stay small.
 constexpr std::uint32_t kStepsPerCode = 16;
 constexpr std::uint32_t kMaxSteps = 1 << 16;
 

@@ -17,11 +17,12 @@ class LightTables {
  public:
   LightTables(const Transfer& transfer, std::uint32_t white_code);
 
-  // Of every `stride`-th code, as many as there is room for. Throws CodeAboveWhite.
+  // Of every `stride`-th code, as many as there is room for, one at least. Throws CodeAboveWhite, for one between them,
+  // too.
   void lights_of(const std::uint8_t* codes, std::size_t stride, std::span<float> lights) const;
   void lights_of(const std::uint16_t* codes, std::size_t stride, std::span<float> lights) const;
 
-  // The last codes that begin no later; `codes` has room for as many.
+  // The last codes that begin no later than lights of [0, 1]; `codes` has room for as many.
   void codes_of(std::span<const float> lights, std::uint32_t* codes) const;
 
  private:

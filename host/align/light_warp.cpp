@@ -40,14 +40,17 @@ inline void set_cubic(float (&taps)[kTaps][kPixelsAtOnce], std::size_t i, double
   taps[3][i] = (0.5f * u - 0.5f) * u * u;
 }
 
-// Places are no more than a pixel beyond a side.
 NUTIK_SIMD_CLONES void set_taps(const Warp& warp, std::uint32_t x, std::uint32_t y, std::uint32_t count,
-                                std::uint32_t stride, Taps& taps) {
+                                const Shape& shape, Taps& taps) {
+  const auto stride = static_cast<std::uint32_t>(stride_of(shape));
+  const double right_side = shape.width - 0.5, bottom = shape.height - 0.5;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Place place = warp.at(static_cast<std::int32_t>(x + i), static_cast<std::int32_t>(y));
-    const auto right = static_cast<std::int32_t>(place.x + 1), down = static_cast<std::int32_t>(place.y + 1);
-    set_cubic(taps.x, i, place.x - (right - 1));
-    set_cubic(taps.y, i, place.y - (down - 1));
+    // A steep warp may lead further beyond a side than the border reaches.
+    const double px = std::clamp(place.x, -0.5, right_side), py = std::clamp(place.y, -0.5, bottom);
+    const auto right = static_cast<std::int32_t>(px + 1), down = static_cast<std::int32_t>(py + 1);
+    set_cubic(taps.x, i, px - (right - 1));
+    set_cubic(taps.y, i, py - (down - 1));
     // Of the tap at -1, right - 2, in a plane that begins at -kBorder.
     taps.first[i] = static_cast<std::uint32_t>(down) * stride + static_cast<std::uint32_t>(right);
   }
@@ -130,7 +133,7 @@ void LightWarp::write_row(const Warp& warp, std::uint32_t row, Code* warped) con
   std::array<OfPixels<std::uint32_t>, kMaxChannels> codes;
   for (std::uint32_t x = seen.first; x < seen.end; x += kPixelsAtOnce) {
     const std::uint32_t count = std::min(kPixelsAtOnce, seen.end - x);
-    set_taps(warp, x, y, count, static_cast<std::uint32_t>(stride), taps);
+    set_taps(warp, x, y, count, format_.shape, taps);
     for (std::uint32_t first = 0, end = 0; first < count; first = end) {
       end = end_of_run(taps, first, count);
       for (std::uint32_t channel = 0; channel < channels; ++channel) {

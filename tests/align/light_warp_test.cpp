@@ -107,6 +107,18 @@ TEST(LightWarp, MakesNoHaloesRoundEdges) {
   }
 }
 
+// A path that was written by hand: within the slack of what a picture saw, and far outside of it.
+TEST(LightWarp, StaysWithinThePictureHoweverSteepTheWarp) {
+  const CaptureFormat format = format_of(1, 1, Transfer::linear());
+  const std::vector<std::byte> raster(format.sample_bytes(), std::byte{50});
+  LightWarp warp(format, Rectangle::whole(format.shape));
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<std::byte> warped(format.sample_bytes(), std::byte{50});
+    warp.take(raster, Warp{{999'999.5, 0, -1e6 * sign, 0, 1e-5, 0, 0, 0, 1e-5}}, warped);
+    EXPECT_EQ(warped, raster);
+  }
+}
+
 TEST(LightWarp, SaysThatACodeIsAboveWhite) {
   CaptureFormat format = format_of(1, 1, Transfer::linear());
   format.white_code = 100;

@@ -331,15 +331,5 @@ TEST_F(Aligning, SaysWhatMemoryItTakes) {
   EXPECT_NE(refused.err.find("a picture that is registered"), std::string::npos) << refused.err;
 }
 
-// Pictures that are searched for side by side, and one after the other.
-TEST_F(Aligning, FindsTheSamePathInLittleMemory) {
-  for (const char* memory : {"24MB", "1GB"}) {
-    const auto encoded = run(encoding({"--memory", memory, "--align", "rigid", "--camera-path",
-                                       std::string(memory) + ".csv", "frames", std::string(memory) + ".tik"}));
-    EXPECT_EQ(encoded.status, 0) << encoded.err;
-  }
-  EXPECT_EQ(bytes("24MB.csv"), bytes("1GB.csv"));
-}
-
 }  // namespace
 }  // namespace nutik

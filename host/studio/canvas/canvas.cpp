@@ -33,11 +33,10 @@ Canvas::~Canvas() = default;
 
 void Canvas::show_picture(const ShownPicture& picture) {
   const CaptureFacts* facts = document_.facts();
-  if (facts == nullptr) return;
+  if (facts == nullptr || is_first_look_) return;  // of the clip before: clear() ends the first look
   const QSize size(static_cast<int>(facts->format.shape.width), static_cast<int>(facts->format.shape.height));
-  const bool is_part = !is_first_look_ && image_.size() == size && view_.picture() == size;
-  is_first_look_ = false;
-  if (picture.divisor > 1) return show_reduced(picture);
+  const bool is_part = image_.size() == size && view_.picture() == size;
+  if (picture.divisor > 1) return is_part ? show_reduced(picture) : void();
   reduced_ = {};
   if (picture.place == QRect({0, 0}, size)) {
     image_ = picture.image;
@@ -61,7 +60,8 @@ void Canvas::show_reduced(const ShownPicture& picture) {
   if (reduced_.isNull()) {
     // What is left over at the right and at the bottom no square of pixels shows.
     const QSize size(image_.width() / divisor, image_.height() / divisor);
-    reduced_ = image_.copy(QRect({0, 0}, size * divisor)).scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+    reduced_ = image_.copy(QRect({0, 0}, size * divisor))
+                   .scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
   }
   const QPoint at(picture.place.x() / divisor, picture.place.y() / divisor);
   QPainter(&reduced_).drawImage(at, picture.image);
@@ -147,7 +147,9 @@ void Canvas::follow_mask(Change what) {
 
 void Canvas::paintEvent(QPaintEvent* event) {
   QPainter painter(this);
-  const QRect covered = view_.place().toAlignedRect().adjusted(1, 1, -1, -1);
+  const QRectF place = reduced_.isNull() ? view_.place()
+                                         : QRectF(view_.place().topLeft(), QSizeF(reduced_size_) * view_.zoom());
+  const QRect covered = place.toAlignedRect().adjusted(1, 1, -1, -1);
   for (const QRect& around : event->region() - (image_.isNull() ? QRect() : covered))
     painter.fillRect(around, kSurround);
   if (image_.isNull()) {
@@ -156,11 +158,7 @@ void Canvas::paintEvent(QPaintEvent* event) {
     return;
   }
   painter.setRenderHint(QPainter::SmoothPixmapTransform, view_.zoom() < 1);
-  if (reduced_.isNull()) {
-    painter.drawImage(view_.place(), image_);
-  } else {
-    painter.drawImage(QRectF(view_.place().topLeft(), QSizeF(reduced_size_) * view_.zoom()), reduced_);
-  }
+  painter.drawImage(place, reduced_.isNull() ? image_ : reduced_);
   if (document_.facts() == nullptr || is_first_look_) return;
   painter.translate(view_.place().topLeft());
   painter.scale(view_.zoom(), view_.zoom());

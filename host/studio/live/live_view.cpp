@@ -29,11 +29,10 @@ LiveView::~LiveView() = default;
 
 void LiveView::show(std::shared_ptr<Session> session) {
   pictures_.reset();
+  if (session != session_) reduced_.reset();
   session_ = std::move(session);
   soft_.reset();
-  visible_ = {};
   outdated_.forget();
-  reduced_.reset();
   last_asked_ = last_shown_ = 0;
   full_wanted_ = full_shown_ = false;
   {

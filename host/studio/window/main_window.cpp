@@ -215,18 +215,6 @@ void MainWindow::look_at_capture() {
     *overview = thumbnails_of(*session, job);
     return [this, overview] { document_.set_overview(*overview); };
   });
-  const Shape& shape = document_.facts()->format.shape;
-  const QSizeF screen = QSizeF(canvas_->size()) * canvas_->devicePixelRatioF();
-  const int divisor = static_cast<int>(std::max(shape.width / screen.width(), shape.height / screen.height()));
-  if (divisor > 1) {
-    jobs_.start(tr("Making smaller pictures for the screen"),
-                [this, session = session_, divisor](const Job& job) -> Jobs::Finish {
-                  auto reduced = reduced_session(*session, static_cast<std::uint32_t>(divisor), job.progress, job.stop);
-                  return [this, session, reduced, divisor] {
-                    if (session == session_) live_.set_reduced(reduced, divisor);
-                  };
-                });
-  }
   jobs_.start(tr("Looking for motion"), [this, session = session_](const Job& job) -> Jobs::Finish {
     auto shares = std::make_shared<std::vector<double>>(changed_shares_of(*session, job));
     return [this, shares] {
@@ -235,6 +223,28 @@ void MainWindow::look_at_capture() {
       document_.set_overview(std::move(both));
     };
   });
+  reduce_capture();
+}
+
+// Where the screen shows fewer pixels than the capture has. Without it, for want of room, previews take longer.
+void MainWindow::reduce_capture() {
+  const Shape& shape = document_.facts()->format.shape;
+  const QSizeF screen = QSizeF(canvas_->size()) * canvas_->devicePixelRatioF();
+  const double ratio = std::max(shape.width / screen.width(), shape.height / screen.height());
+  const auto divisor = std::min({static_cast<std::uint32_t>(ratio), shape.width, shape.height});
+  if (divisor < 2) return;
+  jobs_.start(tr("Making smaller pictures for the screen"),
+              [this, session = session_, divisor](const Job& job) -> Jobs::Finish {
+                try {
+                  auto reduced = reduced_session(*session, divisor, job.progress, job.stop);
+                  return [this, session, reduced, divisor] {
+                    if (session == session_) live_.set_reduced(reduced, static_cast<int>(divisor));
+                  };
+                } catch (const MemoryTooLittle&) {
+                } catch (const OutputError&) {
+                }
+                return {};
+              });
 }
 
 void MainWindow::look_at_pixel() {

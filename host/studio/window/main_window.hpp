@@ -97,6 +97,7 @@ class MainWindow : public QMainWindow {
   void take(Opened opened, Origin origin);
   void ask_rate(const QString& path, const QString& why, const Origin& origin);
   void look_at_capture();
+  void reduce_capture();
   void select_motion();
   void choose_difference();
   [[nodiscard]] bool has_region();  // selected, to be painted; else it is said
