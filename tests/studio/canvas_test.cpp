@@ -208,7 +208,8 @@ TEST_F(CanvasTest, ASmallPictureIsShownUntilTheFullOneComes) {
   ASSERT_TRUE(settles());
   const QSize size = canvas().image().size();
   const auto grey_at = [this](QPointF pixel) {
-    return qGray(canvas().grab().toImage().pixelColor(canvas().view().to_widget(pixel).toPoint()).rgb());
+    const QImage screen = canvas().grab().toImage();
+    return qGray(screen.pixel((canvas().view().to_widget(pixel) * screen.devicePixelRatio()).toPoint()));
   };
   ShownPicture small;
   small.divisor = 4;
