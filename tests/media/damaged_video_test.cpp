@@ -116,6 +116,17 @@ TEST_F(DamagedVideo, WithoutItsStartSaysSo) {
              kPictures / 25.0, static_cast<double>(missing) / 25.0));
 }
 
+// Before a decoder makes room for them.
+TEST_F(DamagedVideo, OfMorePixelsThanItsBytesHoldIsRefused) {
+  const auto said_of = [&](const char* size) {
+    const auto path = scratch_.write("a.y4m", std::string("YUV4MPEG2 ") + size + " F25:1 C420jpeg\nFRAME\n1234");
+    return test::message_of<InputError>([&] { read_all(*open_test_clip(path)); });
+  };
+  const std::string said = said_of("W12000 H12000");
+  EXPECT_NE(said.find("it states 12000 x 12000 pixels, which its "), std::string::npos) << said;
+  EXPECT_EQ(said_of("W7680 H4320").find("it states"), std::string::npos) << "of black such a clip may be as small";
+}
+
 // As far as it goes: the pictures before the damage, and why there are no more.
 TEST_F(DamagedVideo, IsTakenAsFarAsItGoesWhereThatIsAsked) {
   NEEDS_FFMPEG();

@@ -18,8 +18,10 @@ extern "C" {
 }
 #pragma GCC diagnostic pop
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <new>
 #include <optional>
@@ -100,13 +102,29 @@ inline std::optional<std::int64_t> most_pixels(const AVCodecParameters& told) {
   return (2 * std::int64_t{told.width} + 256) * (std::int64_t{told.height} + 320);
 }
 
-// Of each stream what is not known before some of its pictures are decoded. Returns FFmpeg's error code.
-inline int find_stream_info(AVFormatContext& context) {
+// A file of this size can hold no more, as even pictures of black take a byte for so many pixels; no camera's are larger
+// than the small.
+inline std::int64_t most_pixels(const AVFormatContext& context) {
+  constexpr std::int64_t kPixelsAByte = 8256, kSmall = std::int64_t{1} << 25;
+  const std::int64_t bytes = avio_size(context.pb);
+  return bytes < 0 ? std::numeric_limits<std::int32_t>::max() : std::max(kSmall, bytes * kPixelsAByte);
+}
+
+// Of each stream what is not known before some of its pictures are decoded, which comes before memory is counted. Returns
+// FFmpeg's error code.
+inline int find_stream_info(AVFormatContext& context, const std::string& name) {
+  const std::int64_t most = most_pixels(context);
+  for (unsigned i = 0; i < context.nb_streams; ++i) {
+    const AVCodecParameters& told = *context.streams[i]->codecpar;
+    if (std::int64_t{told.width} * told.height <= most) continue;
+    throw InputError(
+        format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged", name,
+               told.width, told.height, avio_size(context.pb)));
+  }
   std::vector<AVDictionary*> settings(context.nb_streams);
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    if (const auto limit = most_pixels(*context.streams[i]->codecpar)) {
-      av_dict_set_int(&settings[i], "max_pixels", *limit, 0);
-    }
+    const auto told = most_pixels(*context.streams[i]->codecpar);
+    av_dict_set_int(&settings[i], "max_pixels", std::min(most, told.value_or(most)), 0);
   }
   const int code = avformat_find_stream_info(&context, settings.empty() ? nullptr : settings.data());
   for (AVDictionary*& each : settings) av_dict_free(&each);
@@ -144,7 +162,7 @@ inline OpenedVideo open_video(const std::filesystem::path& path, const std::opti
         {Setting::raw_layout});
   }
   OpenedVideo opened{FormatPointer(context), 0};
-  code = find_stream_info(*context);
+  code = find_stream_info(*context, input_title(path.string()));
   if (code >= 0) code = av_find_best_stream(context, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (code < 0) throw InputError(format("{} has no video stream", input_title(path.string())));
   opened.stream = code;
