@@ -2,6 +2,7 @@
 
 #include <QPaintEvent>
 #include <QPainter>
+#include <utility>
 
 #include "studio/live/changed_pixels.hpp"
 
@@ -37,7 +38,7 @@ void Canvas::show_picture(const ShownPicture& picture) {
   const QSize size(static_cast<int>(facts->format.shape.width), static_cast<int>(facts->format.shape.height));
   const bool is_part = image_.size() == size && view_.picture() == size;
   if (picture.divisor > 1) return is_part ? show_reduced(picture) : void();
-  reduced_ = {};
+  const bool was_reduced = !std::exchange(reduced_, {}).isNull();
   if (picture.place == QRect({0, 0}, size)) {
     image_ = picture.image;
   } else {
@@ -47,7 +48,7 @@ void Canvas::show_picture(const ShownPicture& picture) {
     }
     QPainter(&image_).drawImage(picture.place.topLeft(), picture.image);
   }
-  if (is_part) return update_pixels(picture.place);
+  if (is_part && !was_reduced) return update_pixels(picture.place);
   if (view_.picture() != size) {
     view_.set_sizes(size, this->size());
     view_moved();
@@ -62,6 +63,7 @@ void Canvas::show_reduced(const ShownPicture& picture) {
     const QSize size(image_.width() / divisor, image_.height() / divisor);
     reduced_ = image_.copy(QRect({0, 0}, size * divisor))
                    .scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+    update();
   }
   const QPoint at(picture.place.x() / divisor, picture.place.y() / divisor);
   QPainter(&reduced_).drawImage(at, picture.image);
@@ -79,7 +81,7 @@ void Canvas::update_tool(QPointF before) {
   const auto reach = tool_->reach();
   if (!reach) return update();
   for (const QPointF pointer : {before, pointer_})
-    update_pixels(QRectF(view_.to_picture(pointer), QSizeF()).adjusted(-*reach, -*reach, *reach, *reach));
+    update_pixels(QRectF(view_.to_picture(pointer), QSizeF(0, 0)).adjusted(-*reach, -*reach, *reach, *reach));
 }
 
 void Canvas::show_first_look(const QImage& image) {
@@ -147,8 +149,8 @@ void Canvas::follow_mask(Change what) {
 
 void Canvas::paintEvent(QPaintEvent* event) {
   QPainter painter(this);
-  const QRectF place = reduced_.isNull() ? view_.place()
-                                         : QRectF(view_.place().topLeft(), QSizeF(reduced_size_) * view_.zoom());
+  QRectF place = view_.place();
+  if (!reduced_.isNull()) place.setSize(QSizeF(reduced_size_) * view_.zoom());
   const QRect covered = place.toAlignedRect().adjusted(1, 1, -1, -1);
   for (const QRect& around : event->region() - (image_.isNull() ? QRect() : covered))
     painter.fillRect(around, kSurround);
