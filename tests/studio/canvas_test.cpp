@@ -208,8 +208,7 @@ TEST_F(CanvasTest, ASmallPictureIsShownUntilTheFullOneComes) {
   ASSERT_TRUE(settles());
   const QSize size = canvas().image().size();
   const auto grey_at = [this](QPointF pixel) {
-    const QImage screen = canvas().grab().toImage();
-    return qGray(screen.pixel((canvas().view().to_widget(pixel) * screen.devicePixelRatio()).toPoint()));
+    return qGray(shown_at(canvas().grab().toImage(), canvas().view().to_widget(pixel)).rgb());
   };
   ShownPicture small;
   small.divisor = 4;

@@ -62,7 +62,7 @@ class OpeningTest : public StudioTest {
     const QImage seen = canvas().grab().toImage();
     for (int y = 0; y < image.height(); ++y)
       for (int x = 0; x < image.width(); ++x)
-        ASSERT_EQ(seen.pixel(at(x + 0.5, y + 0.5)), image.pixel(x, y)) << x << ", " << y;
+        ASSERT_EQ(shown_at(seen, at(x + 0.5, y + 0.5)), image.pixelColor(x, y)) << x << ", " << y;
   }
 
   // Of what is chosen in the menu of recent files, once it was filled.
@@ -181,12 +181,18 @@ TEST_F(OpeningTest, TheFirstPictureIsShownWhileTheRestIsDecoded) {
 TEST_F(OpeningTest, NoToolWorksOnTheFirstPicture) {
   ASSERT_NO_FATAL_FAILURE(open_project());
   const DocumentState before = document().state();
+  const QImage fitting = canvas().image();
   ASSERT_NO_FATAL_FAILURE(look_first("small/%d.pgm", [&] {
     const QRect place = canvas().view().place().toAlignedRect().adjusted(1, 1, -1, -1);
     const QImage seen = canvas().grab(place).toImage();
     QImage plain(seen.size(), seen.format());
     plain.fill(QColor('a', 'a', 'a'));
     EXPECT_EQ(difference(seen, plain), "") << "no outline of what is open still";
+    ShownPicture late;  // of what is open still
+    late.place = QRect({0, 0}, fitting.size());
+    late.image = fitting;
+    canvas().show_picture(late);
+    EXPECT_EQ(canvas().grab(place).toImage(), seen);
     for (const char* tool : {"tool_brush", "tool_rectangle", "tool_ellipse", "tool_wand", "tool_look"}) {
       click_tool(tool);
       drag(canvas(), at(2, 2), at(12, 6));
@@ -234,6 +240,30 @@ TEST_F(OpeningTest, CancelledTheFirstPictureGivesWayToWhatWasThere) {
   EXPECT_EQ(document().state(), before);
   EXPECT_EQ(difference(canvas().image(), picture), "");
   expect_mine();
+}
+
+// A capture that has more pixels than the screen; while a drag lasts all of them are exposed only where no smaller
+// capture is there.
+TEST_F(OpeningTest, WhatOpeningAnotherFileBrokeOffIsMadeAfterAll) {
+  std::filesystem::create_directory(scratch_ / "wide");
+  for (const char* name : {"wide/0.pgm", "wide/1.pgm"})
+    scratch_.write(name, "P5 4000 8 255\n" + std::string(32'000, name[5] == '0' ? 'a' : 'z'));
+  window_.open(path("wide/%d.pgm"), "100");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return document().facts() != nullptr; }, kMaxWaitMs));
+  window_.open(path("damaged/%d.pgm"), "100");
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(window_.notice().text().contains("1.pgm")) << window_.notice().text().toStdString();
+  EXPECT_EQ(document().facts()->path, path("wide/%d.pgm"));
+  EXPECT_FALSE(document().overview().thumbnails.empty());
+  EXPECT_FALSE(document().overview().changed_share.empty());
+  const QImage full = canvas().image();
+  document().begin_drag();
+  document().set_boxcar({15'000'000, 1'000}, "Scrub");
+  ASSERT_TRUE(settles());
+  EXPECT_EQ(canvas().image(), full) << "the preview is a small one";
+  document().end_drag();
+  ASSERT_TRUE(settles());
+  EXPECT_NE(canvas().image(), full);
 }
 
 TEST_F(OpeningTest, RecentFilesAreListedTheLastFirstAndOpened) {

@@ -42,9 +42,6 @@ class PanelsTest : public StudioTest {
   void click_in_list(QPoint at) { QTest::mouseClick(list().viewport(), Qt::LeftButton, {}, at); }
   [[nodiscard]] QString status(const char* label) { return child<QLabel>(label).text(); }
   [[nodiscard]] QImage shown() { return canvas().grab().toImage(); }
-  [[nodiscard]] QColor shown_at(const QImage& image, QPoint widget) {
-    return image.pixelColor((QPointF(widget) * image.devicePixelRatio()).toPoint());
-  }
   void type(QDoubleSpinBox& box, const QString& text) {
     box.setFocus();
     box.selectAll();

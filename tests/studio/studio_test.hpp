@@ -147,6 +147,11 @@ class StudioTest : public ::testing::Test {
     return image_of(session.render(exposure_of(state, mask), screen_format()).picture);
   }
 
+  // Of what a widget shows the colour at one of its places, whatever the screen's scale.
+  [[nodiscard]] static QColor shown_at(const QImage& grabbed, QPointF place) {
+    return grabbed.pixelColor((place * grabbed.devicePixelRatio()).toPoint());
+  }
+
   // The first pixel at which two pictures differ; nothing where they are the same.
   [[nodiscard]] static std::string difference(const QImage& got, const QImage& want) {
     if (got.size() != want.size()) return "another size";

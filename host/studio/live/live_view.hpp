@@ -2,8 +2,8 @@
 //
 //   in:      the document, and which pixels can be seen
 //   out:     pictured(), on the window's thread: of several that came while the window was busy the newest alone
-//   always:  the window never waits. While a drag lasts previews are asked for, of what is seen and may differ from what
-//            is shown; otherwise the full picture follows, in the arithmetic that written pictures have
+//   always:  the window never waits. While a drag lasts previews are asked for, of what is seen and may differ from
+//            what is shown; otherwise the full picture follows, in the arithmetic that written pictures have
 #pragma once
 
 #include <QImage>
@@ -47,6 +47,7 @@ class LiveView : public QObject {
   void set_visible(QRect pixels, double screen_pixels);
   // The same capture with fewer pixels, for previews that show no more of them.
   void set_reduced(std::shared_ptr<Session> session, int divisor);
+  [[nodiscard]] bool has_reduced() const { return reduced_.has_value(); }
   // Whether a picture is on its way that nothing has delivered yet: for tests and for who wants to write it.
   [[nodiscard]] bool is_busy() const;
   // The document's mask as pictures are exposed with it; none while it is being feathered.

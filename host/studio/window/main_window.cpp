@@ -100,9 +100,7 @@ void MainWindow::connect_parts() {
     });
   }
   connect(&jobs_, &Jobs::ended, this, [this] {
-    if (!canvas_->shows_first_look()) return;  // a clip that was not opened, after all
-    canvas_->clear();
-    live_.show(session_);
+    if (is_opening_ && !jobs_.is_busy()) stay();
   });
   connect(canvas_, &Canvas::visible_changed, &live_, &LiveView::set_visible);
   connect(canvas_, &Canvas::pointed, this,
@@ -135,6 +133,7 @@ void MainWindow::open_project(const QString& path, Origin::Kind kind) {
 
 void MainWindow::open_capture_file(const QString& path, const QString& rate, Origin origin) {
   jobs_.cancel();
+  is_opening_ = true;
   if (document_.facts() != nullptr) origin.left = document_.state();
   const auto first_look = [this](QImage image) {
     QMetaObject::invokeMethod(
@@ -170,10 +169,8 @@ void MainWindow::ask_rate(const QString& path, const QString& why, const Origin&
 
 void MainWindow::take(Opened opened, Origin origin) {
   // What was changed while this was opened was not asked for yet.
-  if (origin.left && *origin.left != document_.state() && !may_leave()) {
-    canvas_->clear();
-    return live_.show(session_);
-  }
+  if (origin.left && *origin.left != document_.state() && !may_leave()) return;
+  is_opening_ = false;
   std::optional<DocumentState>& state = origin.state;
   if (state && state->mask) {
     const Shape& shape = opened.facts.format.shape;
@@ -208,8 +205,23 @@ void MainWindow::take(Opened opened, Origin origin) {
   look_at_capture();
 }
 
-// What the time strip shows behind the interval.
+// With what is open: another file was not opened, after all.
+void MainWindow::stay() {
+  is_opening_ = false;
+  if (canvas_->shows_first_look()) {
+    canvas_->clear();
+    live_.show(session_);
+  }
+  if (session_) look_at_capture();  // which opening may have broken off
+}
+
+// What the time strip shows behind the interval, and what previews are made of.
 void MainWindow::look_at_capture() {
+  if (document_.overview().changed_share.empty()) look_along_capture();
+  if (!live_.has_reduced()) reduce_capture();
+}
+
+void MainWindow::look_along_capture() {
   auto overview = std::make_shared<CaptureOverview>();
   jobs_.start(tr("Making thumbnails"), [this, session = session_, overview](const Job& job) -> Jobs::Finish {
     *overview = thumbnails_of(*session, job);
@@ -223,7 +235,6 @@ void MainWindow::look_at_capture() {
       document_.set_overview(std::move(both));
     };
   });
-  reduce_capture();
 }
 
 // Where the screen shows fewer pixels than the capture has. Without it, for want of room, previews take longer.

@@ -1,6 +1,7 @@
 // The window: canvas, regions, time and curves around one document, and the files that it comes from.
 //
-//   always:  nothing here waits: captures are opened, measured and written by jobs. What fails is said above the picture
+//   always:  nothing here waits: captures are opened, measured and written by jobs. What fails is said above the
+//            picture
 #pragma once
 
 #include <QDateTime>
@@ -96,7 +97,9 @@ class MainWindow : public QMainWindow {
   void open_capture_file(const QString& path, const QString& rate, Origin origin);
   void take(Opened opened, Origin origin);
   void ask_rate(const QString& path, const QString& why, const Origin& origin);
+  void stay();
   void look_at_capture();
+  void look_along_capture();
   void reduce_capture();
   void select_motion();
   void choose_difference();
@@ -145,6 +148,7 @@ class MainWindow : public QMainWindow {
   Autosave autosave_;
   std::shared_ptr<Devices> devices_;
   std::shared_ptr<Session> session_;
+  bool is_opening_ = false;  // another file, which was not opened yet
   QString project_;
   CommandFiles files_;
   FileTimes known_;  // of the project's files and the capture
