@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kStepsPerCode = 16;
 constexpr std::uint32_t kMaxSteps = 1 << 16;
 
-// A light of single precision is no less than this one where it is no less than `light`.
+// The least single that is no less than `light`: singles reach both at once.
 float next_float(double light) {
   const auto near = static_cast<float>(light);
   return near < light ? std::nextafter(near, std::numeric_limits<float>::infinity()) : near;

@@ -60,9 +60,9 @@ class Registrar {
 // Whether most of the texture follows it.
 [[nodiscard]] inline bool is_sure(const Registered& found) { return found.agreeing >= 0.5; }
 
-// What a registrar of pictures of this format holds while one of them is found, and what each that is found beside it
-// takes.
+// What a registrar of pictures of this format holds, with one search under way.
 [[nodiscard]] MemoryNeeds registrar_needs(const CaptureFormat& format, Reach reach);
+// What each further search at the same time takes.
 [[nodiscard]] std::uint64_t registered_bytes(const CaptureFormat& format);
 
 }  // namespace nutik

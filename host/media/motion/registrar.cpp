@@ -1,7 +1,7 @@
 // A robust fit of all texture at once, coarse to fine: Gauss and Newton's steps on a pyramid, where what does not agree
-// with the motion of most loses its weight (Tukey's biweight). The gradients are the reference's, so that they are taken
-// once (Baker and Matthews, "Lucas-Kanade 20 Years On", the inverse compositional algorithm). Where the fit fails from
-// the place that was guessed, matched features tell another.
+// with the motion of most loses its weight (Tukey's biweight). The gradients are the reference's, so that they are
+// taken once (Baker and Matthews, "Lucas-Kanade 20 Years On", the inverse compositional algorithm). Where the fit fails
+// from the place that was guessed, matched features tell another.
 #include "media/motion/registrar.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ constexpr std::size_t kPartsToASide = 8;
 constexpr std::size_t kMinOfPart = 8;  // places of texture: fewer tell little
 constexpr double kTukey = 4.685;       // 95 % as efficient as least squares where all errors are normal
 constexpr double kMinSigma = 0.3;      // codes
-constexpr int kFirstSteps = 3;  // of a fit, in which nothing is excluded yet; of a finer level the first
+constexpr int kFirstSteps = 3;  // of a fit, in which nothing is excluded yet; a finer level has one of them
 constexpr int kMaxSteps = 25;
 constexpr double kSettledPixels = 0.002;
 constexpr double kRoughlySettled = 0.05;  // pixels of a level that a finer one follows
@@ -193,7 +193,9 @@ class RobustRegistrar final : public Registrar {
       const bool is_fine =
           i == 0 || (i == 1 && levels_[i].size.height >= 100 && levels_[i].size.width >= 100);
       Fit settled = fit;
-      if (settle(levels_[i], pyramid.levels[i], is_fine ? frame_ : coarse_, is_first, i == 0, settled)) {
+      const double enough = i == 0 ? kSettledPixels : kRoughlySettled * levels_[i].scale();
+      if (settle(levels_[i], pyramid.levels[i], is_fine ? frame_ : coarse_, is_first ? kFirstSteps : 1, enough,
+                 settled)) {
         fit = settled;
         is_first = false;
       } else if (i == 0) {
@@ -282,13 +284,12 @@ class RobustRegistrar final : public Registrar {
     return median(brighter);
   }
 
-  // False where the picture shows too little of the reference, or the fit leads nowhere.
-  static bool settle(const Level& level, const cv::Mat& grey, const Frame& frame, bool is_first, bool is_last,
+  // Until a step moves the corners by no more than `enough` pixels of the picture. False where the picture shows too
+  // little of the reference, or the fit leads nowhere.
+  static bool settle(const Level& level, const cv::Mat& grey, const Frame& frame, int first_steps, double enough,
                      Fit& fit) {
     const int motion = frame.count(), count = motion + 2;
     const double per_radius = frame.radius() / level.scale();
-    const int first_steps = is_first ? kFirstSteps : 1;
-    const double settled = is_last ? kSettledPixels : kRoughlySettled * level.scale();
     std::vector<double> sizes;
     for (int step = 0; step < kMaxSteps; ++step) {
       const std::vector<Sampled> seen = sampled(level, grey, fit.warp);
@@ -327,7 +328,7 @@ class RobustRegistrar final : public Registrar {
       const double moved = cv::norm(solved.rowRange(0, motion)) * frame.radius();
       if (!(moved < frame.radius())) return false;
       fit.warp = chained(inverse(frame.warp(numbers)), fit.warp);
-      if (moved < settled && step > first_steps) break;
+      if (moved < enough && step > first_steps) break;
     }
     return true;
   }

@@ -17,8 +17,8 @@
 namespace nutik {
 namespace {
 
-// So many pictures are searched for from where the last one before them was found: at once, if memory allows it. The
-// path is the same however many threads there are.
+// Up to so many pictures are searched for at once, if memory allows it. All of a group start from where the last picture
+// of the group before was found, so that the path depends on neither memory nor threads.
 constexpr std::uint64_t kPicturesAtOnce = 4;
 
 // The raster of the picture that the others are moved onto.

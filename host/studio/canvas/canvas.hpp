@@ -2,7 +2,8 @@
 //
 //   in:      pictures as they are exposed; the mouse and the keyboard
 //   out:     which pixels are visible, the pixel under the pointer; clicks and strokes, to whoever is its tool
-//   always:  the middle button pans, the wheel zooms to the pointer, whatever the tool; what the mouse does keys do, too
+//   always:  the middle button pans, the wheel zooms to the pointer, whatever the tool; what the mouse does keys do,
+//            too
 #pragma once
 
 #include <QImage>
@@ -95,8 +96,8 @@ class Canvas : public QWidget {
 
   Document& document_;
   QImage image_;
-  QImage reduced_;  // shown in its place, as large as so many pixels of it, until a picture with all of them comes
-  QSize reduced_size_;
+  QImage reduced_;      // with fewer pixels; shown in its place until the next of all pixels
+  QSize reduced_size_;  // in pixels of the picture
   QString hint_;
   View view_;
   CanvasTool* tool_ = nullptr;

@@ -130,12 +130,12 @@ class Document : public QObject {
   void set_waveform(Waveform waveform);  // dropped if it is not the probe's
 
  Q_SIGNALS:
-  void capture_changed();    // facts(), and all that is edited; what is looked at is told of by the signals below
-  void overview_changed();   // overview()
+  void capture_changed();     // facts(), and all that is edited; what is looked at is told of by the signals below
+  void overview_changed();    // overview()
   void changed(Change what);  // state(); also by undo and redo
-  void released();           // a drag ended: the full picture may follow
-  void selection_changed();  // selected_tag(), selected_points(), solo()
-  void probe_changed();      // probe(), waveform()
+  void released();            // a drag ended: the full picture may follow
+  void selection_changed();   // selected_tag(), selected_points(), solo()
+  void probe_changed();       // probe(), waveform()
 
  private:
   friend class StateStep;

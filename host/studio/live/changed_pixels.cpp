@@ -79,7 +79,8 @@ QRect OutdatedPixels::since_last(const ExposureRequest& request, const QRect& se
   return changed;
 }
 
-QRect OutdatedPixels::by(const ExposureRequest& request, const QRect& seen, bool is_reduced, bool is_shown) {
+QRect OutdatedPixels::to_expose(const ExposureRequest& request, const QRect& seen, bool is_reduced,
+                                bool is_shown) {
   const QRect changed = since_last(request, seen, is_reduced);
   // Of several requests that wait the last one alone is answered.
   outdated_ = is_shown ? changed : outdated_ | changed;

@@ -27,13 +27,14 @@ class TagBoxes {
   std::map<std::uint8_t, QRect> boxes_;
 };
 
-// What the picture that is shown does not show as it is asked for, request by request.
+// Which pixels of the picture that is shown differ, or may differ, from what was asked for last.
 class OutdatedPixels {
  public:
-  // Of the pixels that are seen those that a request asks to be exposed, of a picture that is reduced or not;
-  // `is_shown`: the one before it was answered, and shown.
-  [[nodiscard]] QRect by(const ExposureRequest& request, const QRect& seen, bool is_reduced, bool is_shown);
-  // Nothing that is shown is of use.
+  // Those of a request that are seen, of a picture that is reduced or not; a single one where there are none.
+  // `is_shown`: the request before was answered, and shown.
+  [[nodiscard]] QRect to_expose(const ExposureRequest& request, const QRect& seen, bool is_reduced,
+                                bool is_shown);
+  // All of them.
   void forget() { last_.reset(); }
 
  private:

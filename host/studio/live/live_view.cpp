@@ -64,7 +64,7 @@ void LiveView::ask(bool with_full) {
   const ExposureRequest exposure = exposure_of(document_.state(), mask_of(document_.state(), is_final));
   const Shape& shape = session_->format().shape;
   const bool is_reduced = reduced_ && reduced_->can_show(exposure, screen_pixels_);
-  const QRect outdated = outdated_.by(exposure, seen(), is_reduced, last_shown_ == last_asked_);
+  const QRect outdated = outdated_.to_expose(exposure, seen(), is_reduced, last_shown_ == last_asked_);
   LivePart preview = is_reduced
                          ? reduced_->part(exposure, outdated)
                          : LivePart{session_.get(), exposure, screen_format(), rectangle_of(outdated, shape)};
@@ -152,7 +152,8 @@ void LiveView::take() {
   }
   if (!found) return;
   last_shown_ = found->request;
-  found->picture.is_of_all_seen = !found->is_preview || (found->picture.divisor == 1 && found->picture.place == seen());
+  const ShownPicture& picture = found->picture;
+  found->picture.is_of_all_seen = !found->is_preview || (picture.divisor == 1 && picture.place == seen());
   if (found->request == last_asked_ && (!found->is_preview || !found->error.isEmpty())) full_shown_ = true;
   if (found->error.isEmpty()) {
     Q_EMIT pictured(found->picture);
