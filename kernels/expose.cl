@@ -2,7 +2,8 @@
 //
 //   in:      a chunk of blocks (layout: host/imev/block.hpp), the packed tables; of a band of the picture its tiles, each
 //          with its number in the picture, and each pixel's function. A tile whose pixels several functions share is
-//          there once for each of them. By function, whether it is exposed: of others the sums are there. Sums of blocks and bundles that were made before, [kept][tile][channel][plane][64]
+//          there once for each of them. By function, whether it is exposed: of others the sums are there. Sums of blocks,
+//          halves and bundles that were made before: [kept][tile][channel][plane][64]
 //   out:   sums [tile][channel][plane][64]: Σ_k v_k w_k so far, in scaled gain; added to what is there,
 //          or stored where `first` is set. Those of bundles so far, likewise
 //   items: see items.clh
@@ -97,7 +98,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
   for (uint b = 0; b < block_count; ++b) {
     const BlockEntry entry = blocks[b];
     const bool is_start = first && b == 0;
-    const bool is_kept = entry.kept & NUTIK_IS_KEPT;
+    const bool is_kept = entry.sample_count == 0;
     global const uchar* payload = chunk + (is_kept ? 0 : entry.payload_offset);
     global const TileEntry* directory = (global const TileEntry*)payload;
     global const BlockPart* block_parts = parts + entry.part_row * function_count;
@@ -124,7 +125,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
       if (region.is_uniform) {
         region.is_uniform = true;
         const BlockPart part = block_parts[region.function];
-        const uint kept_as = part.steady ? 1u << (part.steady >> NUTIK_BUNDLE_SHIFT) : 0;
+        const uint kept_as = part.steady ? 1u << (part.steady >> NUTIK_SUM_SHIFT) : 0;
         const bool is_of_kept = entry.kept & kept_as;
         bool adds = part.first < part.last && is_kept == is_of_kept;
         if (adds && is_kept) {

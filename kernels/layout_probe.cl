@@ -27,6 +27,5 @@ kernel void layout_probe(global uint* restrict sizes) {
   sizes[i++] = NUTIK_IN_BUNDLE;
   sizes[i++] = NUTIK_BUNDLE_START;
   sizes[i++] = NUTIK_BUNDLE_END;
-  sizes[i++] = NUTIK_BUNDLE_SHIFT;
-  sizes[i++] = NUTIK_IS_KEPT;
+  sizes[i++] = NUTIK_SUM_SHIFT;
 }

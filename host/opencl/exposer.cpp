@@ -29,12 +29,13 @@ std::vector<std::span<const BlockEntry>> launches_of(std::span<const BlockEntry>
   std::size_t first = 0;
   std::uint64_t samples = 0;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (i > first && samples + entries[i].sample_count > max_samples) {
+    const std::uint32_t read = std::max(entries[i].sample_count, 1u);  // a kept sum is as much
+    if (i > first && samples + read > max_samples) {
       launches.push_back(entries.subspan(first, i - first));
       first = i;
       samples = 0;
     }
-    samples += entries[i].sample_count;
+    samples += read;
   }
   launches.push_back(entries.subspan(first));
   return launches;
@@ -102,7 +103,7 @@ void Exposer::add_kept(const TableSlice& slice, std::size_t last, std::size_t& n
                        std::vector<BlockEntry>& entries) const {
   for (; next < kept_.entries.size() && kept_.entries[next].planned <= last; ++next) {
     const SumsInUse::Entry& kept = kept_.entries[next];
-    entries.push_back({kept.offset, 0, kept.planned - slice.first_block, 1, kept.kept});
+    entries.push_back({kept.offset, 0, kept.planned - slice.first_block, 0, kept.kept});
   }
 }
 

@@ -15,15 +15,15 @@ constexpr double kMax = 0.75;
 constexpr double kMin = 0.25;
 
 // Exposures for which a sum that nobody wants stays all the same: where more are wanted than there is room for, some
-// stay rather than all go by turns. A bundle of some of its group's blocks is soon made again.
+// stay rather than all go by turns. A half, or a bundle of some of its group's blocks, is soon made again.
 constexpr std::uint64_t kIdleExposures = 64;
 constexpr std::uint64_t kIdleExposuresOfPart = 8;
 
-// Room for bundles of some of their group's blocks.
+// Room for these.
 constexpr std::uint64_t kParts = 32;
 
-bool is_part_of_group(const SummedBlocks& blocks) {
-  return blocks.is_bundle() && blocks.count < kGroupBlocks;
+bool is_of_cut(const SummedBlocks& blocks) {
+  return blocks.halves != Halves::both || (blocks.is_bundle() && blocks.count < kGroupBlocks);
 }
 
 // Of one function in one planned block.
@@ -58,12 +58,13 @@ void KeptSums::clear() { *this = KeptSums(); }
 std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
                                                  std::span<const std::uint8_t> exposes, Precision precision,
                                                  std::uint64_t max_bytes, const DeviceInfo& device) {
-  const std::uint64_t slot_bytes =
-      sums_bytes(TileGrid(plan.capture.shape).tile_count(), plan.capture.shape.channels, precision);
+  const std::uint64_t tile_bytes = sums_bytes(1, plan.capture.shape.channels, precision);
+  const std::uint64_t slot_bytes = TileGrid(plan.capture.shape).tile_count() * tile_bytes;
   const std::uint64_t room = std::min(max_bytes, device.largest_allocation_bytes) / slot_bytes;
   if (plan.capture.transfer != transfer_ || room < slots_.size()) clear();
   precision_ = precision;
   transfer_ = plan.capture.transfer;
+  tile_bytes_ = tile_bytes;
   slot_bytes_ = slot_bytes;
   const std::uint64_t blocks = plan.layout->blocks.size();
   // With delays nearly all tiles have several functions and are read all the same; and the sums' own kernels, of plans
@@ -108,7 +109,7 @@ std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
 }
 
 bool KeptSums::is_idle(const Slot& slot) const {
-  const bool is_part = slot.blocks && is_part_of_group(*slot.blocks);
+  const bool is_part = slot.blocks && is_of_cut(*slot.blocks);
   return slot.exposure + (is_part ? kIdleExposuresOfPart : kIdleExposures) < exposure_;
 }
 
@@ -119,7 +120,7 @@ std::size_t KeptSums::slot_for(DeviceMemory& memory) {
     return slots_.size() - 1;
   }
   const auto age = [this](const Slot& slot) {
-    return std::pair(!(is_idle(slot) && slot.blocks && is_part_of_group(*slot.blocks)), slot.exposure);
+    return std::pair(!(is_idle(slot) && slot.blocks && is_of_cut(*slot.blocks)), slot.exposure);
   };
   const auto oldest = std::ranges::min_element(slots_, {}, age);
   if (oldest->blocks) slot_of_.erase(*oldest->blocks);
@@ -129,26 +130,27 @@ std::size_t KeptSums::slot_for(DeviceMemory& memory) {
 
 const RenderPlan& KeptSums::plan_for(const SummedBlocks& blocks, const RenderPlan& plan,
                                      const CaptureSource& source) {
-  if (!light_) {
+  const auto [found, is_new] = light_.try_emplace(blocks.halves);
+  RenderPlan& light = found->second;
+  if (is_new) {
     const Shape& shape = plan.capture.shape;
-    light_ =
+    light =
         make_plan(source, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(shape.width, shape.height, 0), {});
-    light_->capture = plan.capture;
-    light_->sums_light = true;
+    light.capture = plan.capture;
+    light.sums_light = blocks.halves;
   }
-  light_->blocks.clear();
+  light.blocks.clear();
   std::uint64_t row = 0;
   for (std::uint64_t block = blocks.first; block < blocks.first + blocks.count; ++block) {
-    light_->blocks.push_back({block, light_->layout->blocks[block], row});
-    row += light_->blocks.back().row_count();
+    light.blocks.push_back({block, light.layout->blocks[block], row});
+    row += light.blocks.back().row_count();
   }
-  return *light_;
+  return light;
 }
 
 void KeptSums::store(std::size_t slot, const ExposedBand& exposed, cl::CommandQueue& queue) const {
-  const std::uint64_t tile_bytes = slot_bytes_ / TileGrid(light_->capture.shape).tile_count();
-  queue.enqueueCopyBuffer(exposed.sums, sums_, 0, slot * slot_bytes_ + exposed.band.first_tile * tile_bytes,
-                          exposed.band.tile_count * tile_bytes);
+  queue.enqueueCopyBuffer(exposed.sums, sums_, 0, slot * slot_bytes_ + exposed.band.first_tile * tile_bytes_,
+                          exposed.band.tile_count * tile_bytes_);
   queue.finish();
 }
 
@@ -173,14 +175,14 @@ SumsInUse KeptSums::parts_of_light(const RenderPlan& of_light) const {
     if (slot == slot_of_.end()) continue;
     next = count;
     std::fill_n(used.skipped.begin(), next, true);
-    used.entries.push_back({next - 1, kept_as({first, 1}) | BlockEntry::kIsKept, slot->second * slot_sums()});
+    used.entries.push_back({next - 1, kept_as({first, 1}), slot->second * slot_sums()});
   }
   for (; next < blocks; ++next) {
     const SummedBlocks block{first + next, 1};
     const auto slot = blocks > 1 ? slot_of_.find(block) : slot_of_.end();
     if (slot == slot_of_.end()) continue;
     used.skipped[next] = true;
-    used.entries.push_back({next, kept_as(block) | BlockEntry::kIsKept, slot->second * slot_sums()});
+    used.entries.push_back({next, kept_as(block), slot->second * slot_sums()});
   }
   return used;
 }
@@ -206,7 +208,7 @@ SumsInUse KeptSums::in_use(const RenderPlan& plan, std::span<const std::uint8_t>
       }
       const std::uint32_t as = kept_as(*part.sum);
       if ((used.kept[b] & as) == 0 && part.sum->last() == plan.blocks[b].block) {
-        used.entries.push_back({b, as | BlockEntry::kIsKept, slot->second * slot_sums()});
+        used.entries.push_back({b, as, slot->second * slot_sums()});
       }
       used.kept[b] |= as;
     }

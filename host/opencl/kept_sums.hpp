@@ -1,4 +1,4 @@
-// Sums of light · ns over whole blocks and bundles of the resident capture, in one arithmetic, on the device from one
+// Sums of light · ns over blocks, halves and bundles of the resident capture, in one arithmetic, on the device from one
 // exposure to the next: what they have in common wherever gains are steady (docs/explanation/model.md, "Steady gain").
 //
 //   in:      plans, one exposure after another
@@ -74,6 +74,7 @@ class KeptSums {
 
   Precision precision_ = Precision::single_;  // always the same
   std::optional<Transfer> transfer_;
+  std::uint64_t tile_bytes_ = 0;
   std::uint64_t slot_bytes_ = 0;
   std::uint64_t capacity_ = 0;  // in slots
   std::uint64_t exposure_ = 0;
@@ -81,7 +82,7 @@ class KeptSums {
   std::vector<Slot> slots_;
   std::map<SummedBlocks, std::size_t> slot_of_;
   std::set<SummedBlocks> was_wanted_;
-  std::optional<RenderPlan> light_;
+  std::map<Halves, RenderPlan> light_;
 };
 
 }  // namespace nutik

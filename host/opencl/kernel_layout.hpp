@@ -12,7 +12,7 @@ namespace nutik {
 // What a function makes of a block. Mirrors BlockPart in kernels/layout.clh.
 struct BlockPart {
   static constexpr std::uint32_t kSteady = 1, kInBundle = 2, kBundleStart = 4, kBundleEnd = 8;
-  static constexpr std::uint32_t kBundleShift = 8;
+  static constexpr std::uint32_t kSumShift = 8;
 
   SampleSpan span;
   std::uint32_t steady;
@@ -21,12 +21,10 @@ static_assert(sizeof(BlockPart) == 8 && offsetof(BlockPart, steady) == 4);
 
 // A block within a chunk, or kept sums. Mirrors BlockEntry in kernels/layout.clh.
 struct BlockEntry {
-  static constexpr std::uint32_t kIsKept = 0x80000000u;
-
   std::uint64_t payload_offset;  // bytes from the chunk's start; of kept sums the place of the first, in sums
   std::uint64_t table_row;       // of its first sample in the tables of its slice
   std::uint64_t part_row;        // in the parts of its slice
-  std::uint32_t sample_count;
+  std::uint32_t sample_count;    // of kept sums 0
   std::uint32_t kept;
 };
 static_assert(sizeof(BlockEntry) == 32 && offsetof(BlockEntry, kept) == 28);

@@ -26,6 +26,13 @@ void write_block(const Values& weights, const Values& boundaries, std::uint32_t 
   }
 }
 
+// Where a plan sums light, all blocks are alike, each on its own.
+SteadyGain steady_of(const GainTable& table, const RenderPlan& plan, const PlannedBlock& planned) {
+  SteadyGain steady = table.steady_in(planned.block);
+  if (plan.sums_light) steady.bundle = {planned.block, 1, *plan.sums_light};
+  return steady;
+}
+
 // 1, that sums of what is not steady are multiplied by.
 Bytes one_in(Precision precision) {
   if (precision != Precision::fixed) return numbers_of(std::array{1.0}, precision);
@@ -69,9 +76,9 @@ void pack_column(const GainTable& table, const RenderPlan& plan, const TableSlic
       write_block<std::int64_t>(whole.weights, whole.boundaries, from.span.first, samples,
                                 {column.weights + offset, column.boundaries + offset, column.stride},
                                 std::identity{});
-    } else if (table.steady_in(planned.block).is_steady()) {
-      const HatNumbers hats = hats_of(planned.extent, plan.layout->timeline);
-      write(row, samples, hats.weights, hats.boundaries, 0);
+    } else if (const SteadyGain steady = steady_of(table, plan, planned); steady.is_steady()) {
+      const HatNumbers hats = hats_of(planned.extent, plan.layout->timeline, steady.bundle.halves);
+      write(row, samples, hats.weights, hats.boundaries, hats.span.first);
     } else {
       const BlockTable from = reader.block(planned.block);
       write(row, samples, from.weights, from.boundaries, from.span.first);
@@ -84,7 +91,7 @@ void pack_column(const GainTable& table, const RenderPlan& plan, const TableSlic
     CorrectionNumbers correction;
     if (!steady.corrected.empty()) {
       const BlockTable from = reader.block(planned.block);
-      const HatNumbers hats = hats_of(planned.extent, plan.layout->timeline);
+      const HatNumbers hats = hats_of(planned.extent, plan.layout->timeline, steady.bundle.halves);
       correction = correction_of(steady, hats, from.span, from.weights);
     }
     write(row, planned.extent.sample_count, correction.weights, correction.boundaries,
@@ -103,14 +110,15 @@ PartColumn part_column(const GainTable& table, const RenderPlan& plan, const Tab
   };
   for (std::size_t b = slice.first_block; b < slice.last_block; ++b) {
     const PlannedBlock& planned = plan.blocks[b];
-    const SteadyGain steady = precision == Precision::fixed ? SteadyGain{} : table.steady_in(planned.block);
+    const SteadyGain steady = precision == Precision::fixed ? SteadyGain{} : steady_of(table, plan, planned);
     if (!steady.is_steady()) {
       add({table.span_in(planned.extent), 0}, one);
       continue;
     }
-    BlockPart part{{0, static_cast<std::uint16_t>(planned.extent.sample_count)}, BlockPart::kSteady};
-    if (steady.bundle.is_bundle() && !plan.sums_light) {
-      part.steady |= BlockPart::kInBundle | steady.bundle.index() << BlockPart::kBundleShift;
+    BlockPart part{samples_of(steady.bundle.halves, planned.extent),
+                   BlockPart::kSteady | steady.bundle.index() << BlockPart::kSumShift};
+    if (steady.bundle.is_bundle()) {
+      part.steady |= BlockPart::kInBundle;
       if (planned.block == steady.bundle.first) part.steady |= BlockPart::kBundleStart;
       if (planned.block == steady.bundle.last()) part.steady |= BlockPart::kBundleEnd;
     }

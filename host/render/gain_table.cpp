@@ -40,7 +40,7 @@ GainTable::GainTable(GainFunction function, bool live_all, std::shared_ptr<const
       summary_(supported(summarize(function_, layout_->timeline.duration_ns()), support_ns)),
       findings_(check_domain(function_, summary_, {.duration_ns = layout_->timeline.duration_ns()})),
       live_(live_samples(summary_, layout_->timeline, live_all)),
-      steady_(function_, summary_, *layout_) {}
+      steady_(function_, summary_, live_, *layout_) {}
 
 GainTable::~GainTable() { memory_->forget(id_); }
 
@@ -78,7 +78,7 @@ void GainTable::measure() const {
       if (steady.corrected.empty()) {
         parted.add(made->table(block), steady);
       } else {
-        const HatNumbers hats = hats_of(layout_->blocks[block], layout_->timeline);
+        const HatNumbers hats = hats_of(layout_->blocks[block], layout_->timeline, steady.bundle.halves);
         parted.add_corrected(made->table(block), steady, hats);
       }
     }

@@ -70,8 +70,8 @@ struct RenderPlan {
   std::vector<PlannedBlock> blocks;   // in time order
   std::vector<std::string> warnings;  // whole sentences
 
-  // Kernels add up light · ns of its blocks, all steady: what exposures of other gains have in common.
-  bool sums_light = false;
+  // Kernels add up light · ns of this much of its blocks, all steady: what exposures of other gains have in common.
+  std::optional<Halves> sums_light;
 
   [[nodiscard]] std::uint64_t function_count() const { return functions.size(); }
   // Index into functions; of a mixed pixel the one with the largest share.

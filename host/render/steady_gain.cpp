@@ -36,29 +36,44 @@ SampleSpan span_of(std::uint32_t first, std::uint32_t last) {
   return {static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(last)};
 }
 
+std::uint32_t size_of(const SampleSpan& span) { return std::uint32_t{span.last} - span.first; }
+
+// The number of a block's samples before the capture's sample `sample`.
+std::uint32_t samples_before(std::uint64_t sample, const BlockExtent& block) {
+  const SampleRange samples = block.range();
+  return static_cast<std::uint32_t>(std::clamp(sample, samples.first, samples.last) - samples.first);
+}
+
 }  // namespace
 
+SampleSpan samples_of(Halves halves, const BlockExtent& block) {
+  const std::uint32_t half = block.sample_count / 2;
+  return span_of(halves == Halves::second ? half : 0, halves == Halves::first ? half : block.sample_count);
+}
+
 std::uint32_t SummedBlocks::index() const {
+  if (halves != Halves::both) return halves == Halves::first ? 30 : 31;
   if (count == 1) return 0;
   const std::uint64_t at = first % kGroupBlocks;
   // From the group's first block on 2 … 16 of them, else from a later one on all that are left.
   return static_cast<std::uint32_t>(at == 0 ? kGroupBlocks - 3 + count : at);
 }
 
-HatNumbers hats_of(const BlockExtent& block, const Timeline& timeline) {
-  HatNumbers hats{{}, {0.0}};
-  hats.weights.reserve(block.sample_count);
-  hats.boundaries.reserve(block.sample_count + 1);
-  std::uint64_t halves = 0;
-  for (const SampleTimes& sample : timeline.times(block.range())) {
+HatNumbers hats_of(const BlockExtent& block, const Timeline& timeline, Halves halves) {
+  HatNumbers hats{samples_of(halves, block), {}, {0.0}};
+  hats.weights.reserve(size_of(hats.span));
+  hats.boundaries.reserve(size_of(hats.span) + 1);
+  std::uint64_t half_ns = 0;
+  for (const SampleTimes& sample :
+       timeline.times({block.first_sample + hats.span.first, block.first_sample + hats.span.last})) {
     const auto exposed = static_cast<std::uint64_t>(sample.end_ns - sample.start_ns);
     const auto before = static_cast<std::uint64_t>(sample.start_ns - sample.before_ns);
     const auto after = static_cast<std::uint64_t>(sample.after_ns - sample.end_ns);
     const bool holds_to_the_end = sample.after_ns == timeline.duration_ns();
     const std::uint64_t hat = 2 * exposed + before + (holds_to_the_end ? 2 : 1) * after;
-    halves += hat;
+    half_ns += hat;
     hats.weights.push_back(static_cast<double>(hat) / 2);
-    hats.boundaries.push_back(static_cast<double>(halves) / 2);
+    hats.boundaries.push_back(static_cast<double>(half_ns) / 2);
   }
   return hats;
 }
@@ -69,7 +84,9 @@ CorrectionNumbers correction_of(const SteadyGain& steady, const HatNumbers& hats
   CompensatedSum boundary;
   for (std::uint32_t k = steady.corrected.first; k < steady.corrected.last; ++k) {
     const double weight = k >= live.first && k < live.last ? weights[k - live.first] : 0.0;
-    numbers.weights.push_back(weight - steady.per_ns * hats.weights[k]);
+    const bool is_steady = k >= hats.span.first && k < hats.span.last;
+    numbers.weights.push_back(is_steady ? weight - steady.per_ns * hats.weights[k - hats.span.first]
+                                        : weight);
     boundary.add(numbers.weights.back());
     numbers.boundaries.push_back(boundary.value());
   }
@@ -77,7 +94,7 @@ CorrectionNumbers correction_of(const SteadyGain& steady, const HatNumbers& hats
 }
 
 SteadyStretches::SteadyStretches(const GainFunction& function, const GainSummary& summary,
-                                 const CaptureLayout& layout) {
+                                 const SampleRange& live, const CaptureLayout& layout) {
   std::int64_t begin_ns = 0, end_ns = 0;
   double per_ns = 0.0;
   const auto close = [&] {
@@ -90,8 +107,8 @@ SteadyStretches::SteadyStretches(const GainFunction& function, const GainSummary
                     static_cast<std::uint64_t>(last - layout.reaches.begin()),
                     {},
                     {}};
-    extend(stretch, begin_ns, end_ns, layout);
-    has_corrected_ |= !stretch.corrected_of_first.empty() || !stretch.corrected_of_last.empty();
+    extend(stretch, begin_ns, end_ns, live, layout);
+    has_corrected_ |= !stretch.first_cut.corrected.empty() || !stretch.last_cut.corrected.empty();
     stretches_.push_back(stretch);
   };
   for (const GainPiece& piece : function.pieces(layout.timeline.duration_ns())) {
@@ -109,25 +126,49 @@ SteadyStretches::SteadyStretches(const GainFunction& function, const GainSummary
   close();
 }
 
+// The one that leaves fewest samples to be read beside a kept sum; none where the block's own live samples are fewer.
+std::optional<SteadyStretches::Cut> SteadyStretches::better_cut(const BlockExtent& block, const Cut& whole,
+                                                                const Cut& half, std::uint32_t live_samples) {
+  const std::uint32_t of_half = size_of(half.corrected), of_whole = size_of(whole.corrected);
+  const auto is_short = [&](std::uint32_t corrected) { return 2 * corrected < block.sample_count; };
+  if (size_of(samples_of(half.halves, block)) >= kMinSteadySamples && is_short(of_half) &&
+      of_half < std::min(of_whole, live_samples)) {
+    return half;
+  }
+  if (is_short(of_whole)) return whole;
+  return {};
+}
+
 void SteadyStretches::extend(Stretch& stretch, std::int64_t begin_ns, std::int64_t end_ns,
-                             const CaptureLayout& layout) {
+                             const SampleRange& live, const CaptureLayout& layout) {
   if (stretch.last - stretch.first < kMinCorrectedBlocks) return;
   const Timeline& timeline = layout.timeline;
   if (stretch.first > 0 && is_long(layout.blocks[stretch.first - 1])) {
     const BlockExtent& block = layout.blocks[stretch.first - 1];
+    const std::uint32_t count = block.sample_count, middle = samples_of(Halves::second, block).first;
     const std::uint32_t steady =
         first_sample(block, [&](std::uint64_t k) { return timeline.reach_begin_ns(k) >= begin_ns; });
-    if (2 * steady < block.sample_count) {
-      stretch.corrected_of_first = span_of(0, steady);
+    const std::uint32_t first_live = samples_before(live.first, block);
+    const auto cut =
+        better_cut(block, {Halves::both, span_of(0, steady)},
+                   {Halves::second, span_of(std::min(first_live, middle), std::max(steady, middle))},
+                   count - first_live);
+    if (cut) {
+      stretch.first_cut = *cut;
       --stretch.first;
     }
   }
   if (stretch.last < layout.blocks.size() && is_long(layout.blocks[stretch.last])) {
     const BlockExtent& block = layout.blocks[stretch.last];
+    const std::uint32_t count = block.sample_count, middle = samples_of(Halves::first, block).last;
     const std::uint32_t steady =
         first_sample(block, [&](std::uint64_t k) { return timeline.reach_end_ns(k) > end_ns; });
-    if (2 * (block.sample_count - steady) < block.sample_count) {
-      stretch.corrected_of_last = span_of(steady, block.sample_count);
+    const std::uint32_t last_live = samples_before(live.last, block);
+    const auto cut = better_cut(
+        block, {Halves::both, span_of(steady, count)},
+        {Halves::first, span_of(std::min(steady, middle), std::max(last_live, middle))}, last_live);
+    if (cut) {
+      stretch.last_cut = *cut;
       ++stretch.last;
     }
   }
@@ -139,15 +180,22 @@ SteadyGain SteadyStretches::in(std::uint64_t block, const CaptureLayout& layout)
   if (after == stretches_.begin()) return {};
   const Stretch& stretch = *std::prev(after);
   if (block >= stretch.last) return {};
-  SteadyGain steady{stretch.per_ns, {block, 1}, {}};
-  if (block == stretch.first) steady.corrected = stretch.corrected_of_first;
-  if (block + 1 == stretch.last && steady.corrected.empty()) steady.corrected = stretch.corrected_of_last;
+  Cut cut;
+  if (block == stretch.first) {
+    cut = stretch.first_cut;
+  } else if (block + 1 == stretch.last) {
+    cut = stretch.last_cut;
+  }
+  SteadyGain steady{stretch.per_ns, {block, 1, cut.halves}, cut.corrected};
+  if (cut.halves != Halves::both) return steady;
   // As far as steady blocks reach in the group.
+  const std::uint64_t whole_first = stretch.first + (stretch.first_cut.halves != Halves::both);
+  const std::uint64_t whole_last = stretch.last - (stretch.last_cut.halves != Halves::both);
   const std::uint64_t group = block / kGroupBlocks * kGroupBlocks;
   const std::uint64_t group_end = std::min<std::uint64_t>(group + kGroupBlocks, layout.blocks.size());
   std::uint64_t first = block, last = block + 1;
-  while (first > std::max(group, stretch.first) && is_long(layout.blocks[first - 1])) --first;
-  while (last < std::min(group_end, stretch.last) && is_long(layout.blocks[last])) ++last;
+  while (first > std::max(group, whole_first) && is_long(layout.blocks[first - 1])) --first;
+  while (last < std::min(group_end, whole_last) && is_long(layout.blocks[last])) ++last;
   if (first == group || last == group_end) steady.bundle = {first, last - first};
   return steady;
 }

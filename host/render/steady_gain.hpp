@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,36 +32,43 @@ inline constexpr std::uint32_t kMinSteadySamples = 16;
 // Blocks b with the same b / kGroupBlocks are a group; the capture's last one may have fewer.
 inline constexpr std::uint64_t kGroupBlocks = 16;
 
-// Neighbouring blocks whose light · ns is added up: one, or a bundle. A bundle is of one group, and has its first block
-// or its last one.
+// Of a block of n samples the first half has ⌊n / 2⌋.
+enum class Halves : std::uint8_t { both, first, second };
+[[nodiscard]] SampleSpan samples_of(Halves halves, const BlockExtent& block);
+
+// Neighbouring blocks whose light · ns is added up: one, half of one, or a bundle. A bundle is of one group, and has its
+// first block or its last one.
 struct SummedBlocks {
   std::uint64_t first = 0;
   std::uint64_t count = 1;
+  Halves halves = Halves::both;
 
   [[nodiscard]] std::uint64_t last() const { return first + count - 1; }
   [[nodiscard]] bool is_bundle() const { return count > 1; }
-  // Among all of its group: 0 for one block, less than 30.
+  // Among all that a block may be summed in: 0 for itself, less than 32.
   [[nodiscard]] std::uint32_t index() const;
   friend auto operator<=>(const SummedBlocks&, const SummedBlocks&) = default;
 };
 
-// What a block's light · ns is multiplied by: the function's gain over the reach of its samples, the same for all of
-// them but the corrected ones, and not 0.
+// What the light · ns of a block, or of half of it, is multiplied by: the function's gain over the reach of its samples,
+// the same for all of them but the corrected ones, and not 0.
 struct SteadyGain {
   double per_ns = 0.0;  // scaled gain / D; 0: the block is not steady
-  SummedBlocks bundle;  // that the block is one of
+  SummedBlocks bundle;  // that the block is one of, or half of
   SampleSpan
-      corrected;  // samples that are given another weight besides: less than half of the block, at one end
+      corrected;  // samples that are given another weight besides: less than half of the block, at one side
 
   [[nodiscard]] bool is_steady() const { return per_ns != 0.0; }
 };
 
-// ∫φ of a block's samples in ns, and their sums from its first one on. All are whole halves of nanoseconds.
+// ∫φ of a block's samples in ns, and their sums from the first of them on. All are whole halves of nanoseconds.
 struct HatNumbers {
+  SampleSpan span;
   std::vector<double> weights;
   std::vector<double> boundaries;
 };
-[[nodiscard]] HatNumbers hats_of(const BlockExtent& block, const Timeline& timeline);
+[[nodiscard]] HatNumbers hats_of(const BlockExtent& block, const Timeline& timeline,
+                                 Halves halves = Halves::both);
 
 // What a block's corrected samples have beside its steady gain, and sums of that from the first of them on. `weights`
 // are those of the samples in `live`, the function's own.
@@ -73,22 +81,31 @@ struct CorrectionNumbers {
 
 class SteadyStretches {
  public:
-  SteadyStretches(const GainFunction& function, const GainSummary& summary, const CaptureLayout& layout);
+  // `live` are the samples that the function needs.
+  SteadyStretches(const GainFunction& function, const GainSummary& summary, const SampleRange& live,
+                  const CaptureLayout& layout);
 
   [[nodiscard]] SteadyGain in(std::uint64_t block, const CaptureLayout& layout) const;
   // Whether some block has corrected samples.
   [[nodiscard]] bool has_corrected() const { return has_corrected_; }
 
  private:
-  // Blocks [first, last) over the reach of whose samples the gain is the same, those with corrected samples included.
+  // Of a block that an end of a stretch cuts: what counts as steady, and what is corrected.
+  struct Cut {
+    Halves halves = Halves::both;
+    SampleSpan corrected;
+  };
+  // Blocks [first, last) over the reach of whose samples the gain is the same, those that are cut included.
   struct Stretch {
     double per_ns;
     std::uint64_t first;
     std::uint64_t last;
-    SampleSpan corrected_of_first;
-    SampleSpan corrected_of_last;
+    Cut first_cut;
+    Cut last_cut;
   };
-  static void extend(Stretch& stretch, std::int64_t begin_ns, std::int64_t end_ns,
+  static std::optional<Cut> better_cut(const BlockExtent& block, const Cut& whole, const Cut& half,
+                                       std::uint32_t live_samples);
+  static void extend(Stretch& stretch, std::int64_t begin_ns, std::int64_t end_ns, const SampleRange& live,
                      const CaptureLayout& layout);
 
   std::vector<Stretch> stretches_;  // in time order

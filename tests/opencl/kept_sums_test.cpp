@@ -66,12 +66,21 @@ struct SteadyCase {
       format.noise.camera = CameraNoise{
           255, format.transfer, {{NoiseCurve::sensor, random.real(1e-3, 0.02), random.real(1e-4, 1e-2), {}}}};
     }
-    const auto samples = static_cast<std::uint64_t>(random.whole(150, 900));
-    const auto block_samples = static_cast<std::uint32_t>(random.whole(16, 24));
+    const bool is_long =
+        random.chance(0.25);  // with blocks that are long enough for halves, most of them exposed
+    const auto samples =
+        static_cast<std::uint64_t>(is_long ? random.whole(720, 900) : random.whole(150, 900));
+    const auto block_samples =
+        static_cast<std::uint32_t>(is_long ? random.whole(32, 36) : random.whole(16, 24));
     capture.emplace(format, test::random_timeline(random, samples),
                     test::random_rasters(random, format, samples), block_samples,
                     random.chance(0.3) ? TilePolicy::dense : TilePolicy::automatic);
     for (std::uint8_t tag = 0; tag < 3; ++tag) functions.emplace(tag, random_steps(random, *capture));
+    if (is_long) {
+      const std::int64_t end_ns = capture->timeline().duration_ns();
+      functions.at(0) = GainFunction::boxcar(random.whole(0, end_ns / 10),
+                                             random.whole(end_ns * 9 / 10, end_ns), random.real(-2, 2));
+    }
     mask = Mask::uniform(format.shape.width, format.shape.height, 0);
     const std::int64_t kind = random.whole(0, 2);  // one function; whole tiles of each; pixels
     for (std::size_t pixel = 0; pixel < mask.tags.size() && kind > 0; ++pixel) {
@@ -82,6 +91,14 @@ struct SteadyCase {
 
   [[nodiscard]] RenderPlan plan() const { return make_plan(*capture, functions, mask, {}); }
 };
+
+bool has_halves(const RenderPlan& plan) {
+  return std::ranges::any_of(plan.blocks, [&](const PlannedBlock& planned) {
+    return std::ranges::any_of(plan.functions, [&](const PlannedFunction& function) {
+      return function.table->steady_in(planned.block).bundle.halves != Halves::both;
+    });
+  });
+}
 
 class KeptSumsOf : public testing::TestWithParam<Precision> {
  protected:
@@ -96,7 +113,7 @@ class KeptSumsOf : public testing::TestWithParam<Precision> {
 // NUTIK_TEST_CASES=10000 is the full run.
 TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
   const test::Seeds seeds = test::seeds(0, 60);
-  std::uint64_t kept = 0, bundles = 0, corrected = 0, noisy = 0;
+  std::uint64_t kept = 0, bundles = 0, corrected = 0, halves = 0, noisy = 0;
   double worst = 0.0;
   ReferenceRenderer reference;
   for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
@@ -104,6 +121,7 @@ TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
     const RenderPlan plan = random.plan();
     bundles += plan.has_bundles();
     corrected += plan.has_corrected();
+    halves += has_halves(plan);
     noisy += random.capture->format().noise.camera.has_value();
     const Picture expected = reference.render(plan, *random.capture, kLight).picture;
     const Picture made = fresh_.render(plan, *random.capture, kLight).picture;
@@ -132,16 +150,16 @@ TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
   }
   renderer_.keep_resident(nullptr);
   std::printf(
-      "%s: %llu sums kept, %llu cases with bundles, %llu with corrections, %llu of known noise, worst error "
-      "%.2f of "
-      "its bound\n",
+      "%s: %llu sums kept, %llu cases with bundles, %llu with corrections, %llu with halves, %llu of known "
+      "noise, worst error %.2f of its bound\n",
       to_text(GetParam()).c_str(), static_cast<unsigned long long>(kept),
       static_cast<unsigned long long>(bundles), static_cast<unsigned long long>(corrected),
-      static_cast<unsigned long long>(noisy), worst);
+      static_cast<unsigned long long>(halves), static_cast<unsigned long long>(noisy), worst);
   if (seeds.last - seeds.first >= 60) {
     EXPECT_EQ(kept > 0, GetParam() != Precision::fixed);
     EXPECT_GT(bundles, 0u);
     EXPECT_GT(corrected, 0u);
+    EXPECT_GT(halves, 0u);
   }
 }
 
@@ -176,6 +194,37 @@ TEST_P(KeptSumsOf, AMovedBoxcarReadsItsEnds) {
   EXPECT_EQ(all[2].made_sums, 0u);
   EXPECT_EQ(all[2].blocks, 2u);  // the ends
   EXPECT_LE(all[3].blocks, 2u + 1u);
+}
+
+// Blocks of 32 samples, cut near their middles: what is read are few samples beside it.
+TEST_P(KeptSumsOf, HalvesOfCutBlocksAreKept) {
+  if (GetParam() == Precision::fixed) GTEST_SKIP() << "knows nothing of steady gains";
+  CaptureFormat format;
+  format.shape = {24, 16, 1};
+  constexpr std::uint64_t kSamples = 50 * 32;
+  test::Random random(4);
+  MemoryCapture capture(format, Timeline::constant({1000, 1}, {180, 1}, kSamples),
+                        test::random_rasters(random, format, kSamples), 32);
+  OpenClOptions options = test::renderer_options(GetParam());
+  options.allocation_bytes = 0;  // that all sums have room
+  OpenClRenderer renderer(options);
+  renderer.keep_resident(&capture);
+  PlanCache plans;
+  std::vector<RenderStatistics> all;
+  for (const std::int64_t start_ms : {110, 111, 112, 114}) {  // in block 3, ends in block 42
+    const GainFunction boxcar = GainFunction::boxcar(start_ms * 1'000'000, (start_ms + 1250) * 1'000'000);
+    const RenderPlan plan = plans.plan(capture, {{0, boxcar}}, Mask::uniform(24, 16, 0), {});
+    const Rendered rendered = renderer.render(plan, capture, kLight);
+    EXPECT_EQ(rendered.picture.bytes, fresh_.render(plan, capture, kLight).picture.bytes);
+    all.push_back(rendered.statistics);
+  }
+  EXPECT_EQ(all[0].made_sums, 0u);
+  for (const std::size_t later : {2u, 3u}) {
+    EXPECT_EQ(all[later].made_sums, 0u);
+    EXPECT_EQ(all[later].kept_sums, 2u + 3u) << "halves, and bundles between them";
+    EXPECT_EQ(all[later].blocks, 2u) << "samples beside the halves";
+  }
+  renderer.keep_resident(nullptr);
 }
 
 // Of several functions only those that changed are exposed again, and pictures are those of all.

@@ -30,8 +30,7 @@ TEST(KernelLayout, IsTheHosts) {
                                       BlockPart::kInBundle,
                                       BlockPart::kBundleStart,
                                       BlockPart::kBundleEnd,
-                                      BlockPart::kBundleShift,
-                                      BlockEntry::kIsKept};
+                                      BlockPart::kSumShift};
   for (const cl::Device& device : all_devices()) {
     const cl::Context context(device);
     cl::CommandQueue queue(context, device);

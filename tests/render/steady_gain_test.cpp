@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <set>
+
+#include "render/gain_table.hpp"
 
 namespace nutik {
 namespace {
@@ -12,19 +15,23 @@ constexpr std::int64_t kMs = 1'000'000;
 constexpr std::uint64_t kBlocks = 40;
 constexpr std::uint32_t kSamples = 16;
 
-CaptureLayout layout() {
-  CaptureLayout made{Timeline::constant({1000, 1}, {360, 1}, kBlocks * kSamples), {}, {}, {0, kBlocks}};
+CaptureLayout layout(std::uint32_t samples = kSamples) {
+  CaptureLayout made{Timeline::constant({1000, 1}, {360, 1}, kBlocks * samples), {}, {}, {0, kBlocks}};
   for (std::uint64_t block = 0; block < kBlocks; ++block) {
-    made.blocks.push_back({block * kSamples, kSamples});
-    const auto begin_ms = static_cast<std::int64_t>(block * kSamples);
-    made.reaches.push_back({begin_ms * kMs, (begin_ms + kSamples) * kMs});
+    made.blocks.push_back({block * samples, samples});
+    const auto begin_ms = static_cast<std::int64_t>(block * samples);
+    made.reaches.push_back({begin_ms * kMs, (begin_ms + samples) * kMs});
   }
   return made;
 }
 
+SteadyStretches stretches(const CaptureLayout& layout, const GainFunction& function) {
+  const GainSummary summary = summarize(function, layout.timeline.duration_ns());
+  return {function, summary, live_samples(summary, layout.timeline, false), layout};
+}
+
 SteadyStretches stretches(const CaptureLayout& layout, std::int64_t from_ms, std::int64_t to_ms) {
-  const GainFunction boxcar = GainFunction::boxcar(from_ms * kMs, to_ms * kMs);
-  return {boxcar, summarize(boxcar, layout.timeline.duration_ns()), layout};
+  return stretches(layout, GainFunction::boxcar(from_ms * kMs, to_ms * kMs));
 }
 
 TEST(SteadyGain, BundlesReachAnEndOfTheirGroup) {
@@ -72,17 +79,79 @@ TEST(SteadyGain, ACorrectionIsWhatTheSteadyGainHasTooMuch) {
   EXPECT_DOUBLE_EQ(correction.boundaries.back(), 0.25 + 4 * each);
 }
 
-TEST(SteadyGain, BundlesOfAGroupHaveNumbersOfTheirOwn) {
+// A boxcar that begins and ends in blocks of 64 samples, so many ms behind their first one.
+TEST(SteadyGain, OfALongCutBlockAQuarterIsReadAtMost) {
+  constexpr std::uint32_t kLong = 64;
+  const CaptureLayout blocks = layout(kLong);
+  struct Case {
+    std::int64_t at_ms;
+    std::optional<Halves> begin;
+    SampleSpan begin_corrected;
+    std::optional<Halves> end;
+    SampleSpan end_corrected;
+  };
+  for (const Case& each : {Case{10, Halves::both, {0, 10}, {}, {}},
+                           {20, Halves::second, {20, 32}, Halves::first, {20, 32}},
+                           {32, Halves::second, {32, 32}, Halves::first, {32, 32}},
+                           {40, Halves::second, {32, 40}, Halves::first, {32, 40}},
+                           {50, {}, {}, Halves::both, {50, 64}}}) {
+    const SteadyStretches steady = stretches(blocks, kLong + each.at_ms, 30 * kLong + each.at_ms);
+    const SteadyGain begin = steady.in(1, blocks), end = steady.in(30, blocks);
+    EXPECT_EQ(begin.is_steady(), each.begin.has_value()) << each.at_ms;
+    EXPECT_EQ(begin.bundle.halves, each.begin.value_or(Halves::both)) << each.at_ms;
+    EXPECT_EQ(begin.corrected, each.begin_corrected) << each.at_ms;
+    EXPECT_EQ(end.is_steady(), each.end.has_value()) << each.at_ms;
+    EXPECT_EQ(end.bundle.halves, each.end.value_or(Halves::both)) << each.at_ms;
+    EXPECT_EQ(end.corrected, each.end_corrected) << each.at_ms;
+    const std::uint64_t first = each.begin == Halves::both ? 1 : 2;
+    EXPECT_EQ(steady.in(2, blocks).bundle, (SummedBlocks{first, kGroupBlocks - first})) << each.at_ms;
+    const std::uint64_t count = each.end == Halves::both ? 15 : 14;
+    EXPECT_EQ(steady.in(29, blocks).bundle, (SummedBlocks{16, count})) << each.at_ms;
+  }
+}
+
+// All samples of such a block are read in any case, or taken from a steady gain.
+TEST(SteadyGain, ABlockBetweenTwoGainsHasNoHalves) {
+  constexpr std::uint32_t kLong = 64;
+  const CaptureLayout blocks = layout(kLong);
+  const std::int64_t end_ns = blocks.timeline.duration_ns();
+  for (const std::int64_t at_ms : {1, 20, 32, 40, 63}) {
+    const std::int64_t step_ns = (20 * kLong + at_ms) * kMs;
+    const GainFunction steps({{0, 1.0}, {step_ns, 1.0}, {step_ns, 2.0}, {end_ns, 2.0}});
+    EXPECT_EQ(stretches(blocks, steps).in(20, blocks).bundle.halves, Halves::both) << at_ms;
+  }
+}
+
+TEST(SteadyGain, SamplesBesideASteadyHalfAreCorrectedByTheirOwnWeights) {
+  const CaptureLayout blocks = layout(64);
+  const SteadyGain steady = stretches(blocks, 84, 2000).in(1, blocks);
+  const HatNumbers hats = hats_of(blocks.blocks[1], blocks.timeline, Halves::second);
+  EXPECT_EQ(hats.span, (SampleSpan{32, 64}));
+  ASSERT_EQ(hats.weights, std::vector<double>(32, 1e6));
+  ASSERT_EQ(hats.boundaries.back(), 32e6);
+  const std::vector<double> own(44, 0.25);  // of samples 20 … 63
+  const CorrectionNumbers correction = correction_of(steady, hats, {20, 64}, own);
+  EXPECT_EQ(correction.weights, std::vector<double>(12, 0.25));
+
+  const SteadyGain later = stretches(blocks, 104, 2000).in(1, blocks);
+  const CorrectionNumbers less = correction_of(later, hats, {40, 64}, std::vector<double>(24, 0.25));
+  EXPECT_EQ(less.weights, std::vector<double>(8, -later.per_ns * 1e6));
+}
+
+TEST(SteadyGain, SumsThatABlockMayBePartOfHaveNumbersOfTheirOwn) {
   std::set<std::uint32_t> numbers{(SummedBlocks{21, 1}).index()};
   EXPECT_EQ(numbers, std::set<std::uint32_t>{0});
+  for (const Halves half : {Halves::first, Halves::second}) {
+    numbers.insert((SummedBlocks{21, 1, half}).index());
+  }
   for (std::uint64_t count = 2; count <= kGroupBlocks; ++count) {
     numbers.insert((SummedBlocks{kGroupBlocks, count}).index());
   }
   for (std::uint64_t at = 1; at + 2 <= kGroupBlocks; ++at) {
     numbers.insert((SummedBlocks{kGroupBlocks + at, kGroupBlocks - at}).index());
   }
-  EXPECT_EQ(numbers.size(), 2 * kGroupBlocks - 2);
-  EXPECT_LT(*numbers.rbegin(), 31u) << "a bit beside the one for kept sums";
+  EXPECT_EQ(numbers.size(), 2 * kGroupBlocks);
+  EXPECT_LT(*numbers.rbegin(), 32u) << "a bit for each";
 }
 
 }  // namespace
