@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <system_error>
@@ -70,7 +71,8 @@ std::string read_from_cache(const std::filesystem::path& path) {
 }
 
 void write_to_cache(const std::filesystem::path& path, std::string_view bytes) {
-  const std::filesystem::path unfinished = path.string() + format(".{}", getpid());
+  static std::atomic<unsigned> files{0};  // devices that are alike build the same kernels at a time
+  const std::filesystem::path unfinished = path.string() + format(".{}-{}", getpid(), ++files);
   std::error_code error;
   std::filesystem::create_directories(path.parent_path().parent_path(), error);
   mkdir(path.parent_path().c_str(), S_IRWXU);  // there already, or it is the file that cannot be written

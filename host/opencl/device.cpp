@@ -38,6 +38,18 @@ std::string lower(std::string_view text) {
   return result;
 }
 
+// The devices whose name or platform contains the text, in any case.
+std::vector<std::size_t> named(std::span<const DeviceInfo> devices, std::string_view wanted) {
+  std::vector<std::size_t> matches;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const std::string text = lower(devices[i].name) + '\n' + lower(devices[i].platform);
+    if (text.find(lower(wanted)) != std::string::npos) matches.push_back(i);
+  }
+  return matches;
+}
+
+bool means_all(std::string_view wanted) { return lower(trimmed(std::string(wanted))) == "all"; }
+
 std::string list_text(std::span<const DeviceInfo> devices) {
   std::string text;
   for (std::size_t i = 0; i < devices.size(); ++i) {
@@ -152,14 +164,40 @@ std::size_t choose_device(std::span<const DeviceInfo> devices, std::string_view 
     throw DeviceError(
         format("there is no OpenCL device {}; these were found:{}", wanted, list_text(devices)));
   }
-  std::vector<std::size_t> matches;
-  for (std::size_t i = 0; i < devices.size(); ++i) {
-    const std::string text = lower(devices[i].name) + '\n' + lower(devices[i].platform);
-    if (text.find(lower(wanted)) != std::string::npos) matches.push_back(i);
-  }
+  const std::vector<std::size_t> matches = named(devices, wanted);
   if (matches.size() == 1) return matches.front();
   throw DeviceError(format("{} OpenCL device's name contains '{}'; these were found:{}",
                            matches.empty() ? "no" : "more than one", wanted, list_text(devices)));
+}
+
+bool may_mean_several(std::string_view wanted) {
+  return means_all(wanted) || wanted.find(',') != std::string_view::npos;
+}
+
+std::vector<std::size_t> choose_devices(std::span<const DeviceInfo> devices, std::string_view wanted) {
+  std::vector<std::size_t> chosen;
+  if (means_all(wanted)) {
+    for (std::size_t i = 0; i < devices.size(); ++i) chosen.push_back(i);
+    return chosen;
+  }
+  if (!may_mean_several(wanted)) return {choose_device(devices, wanted)};
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; begin <= wanted.size(); begin += names.back().size() + 1) {
+    names.emplace_back(wanted.substr(begin, wanted.find(',', begin) - begin));
+    if (!trimmed(names.back()).empty()) continue;
+    throw DeviceError(format("'{}' names no device before or behind a comma; these were found:{}", wanted,
+                             list_text(devices)));
+  }
+  if (named(devices, wanted).size() == 1) return {choose_device(devices, wanted)};  // a name with a comma
+  for (const std::string& name : names) {
+    const std::size_t device = choose_device(devices, trimmed(name));
+    if (std::ranges::count(chosen, device) > 0) {
+      throw DeviceError(format("'{}' names device {} twice ({}); name each once", wanted, device,
+                               devices[device].name));
+    }
+    chosen.push_back(device);
+  }
+  return chosen;
 }
 
 }  // namespace nutik

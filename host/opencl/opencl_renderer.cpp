@@ -8,6 +8,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "opencl/allocation_cuts.hpp"
+#include "opencl/arithmetic_choice.hpp"
 #include "opencl/block_feed.hpp"
 #include "opencl/build_options.hpp"
 #include "opencl/developer.hpp"
@@ -89,7 +90,7 @@ class OpenClRenderer::Implementation {
   }
 
   [[nodiscard]] std::span<const Precision> precisions() const { return precisions_of(info_); }
-  [[nodiscard]] const std::string& name() const { return info_.name; }
+  [[nodiscard]] const DeviceInfo& info() const { return info_; }
 
   void keep_resident(const CaptureSource* source) {
     const std::scoped_lock turn(turn_);
@@ -103,6 +104,16 @@ class OpenClRenderer::Implementation {
     try {
       Rendered ignored;
       choose(plan, output, options_.precision, ignored);
+    } catch (const cl::Error& error) {
+      throw device_failed(error, format("{} failed", info_.name));
+    }
+  }
+
+  std::string fault_in(Precision precision, const RenderPlan& plan, const OutputFormat& output) {
+    check_precision(precision);
+    const std::scoped_lock turn(turn_);
+    try {
+      return fault_text_of(precision, plan, output);
     } catch (const cl::Error& error) {
       throw device_failed(error, format("{} failed", info_.name));
     }
@@ -167,32 +178,17 @@ class OpenClRenderer::Implementation {
                       {Setting::precision});
   }
 
-  // The arithmetic of a picture: the fastest that is right enough and that the device computes rightly, unless one was
-  // asked for. Its kernels are built and tested then.
+  // Kernels of the arithmetic that is chosen are built and tested.
   void choose(const RenderPlan& plan, const OutputFormat& output, std::optional<Precision> asked,
               Rendered& rendered) {
-    std::vector<Precision> available(precisions().begin(), precisions().end());
-    if (asked) available = {*asked};
-    std::string faults;
-    while (!available.empty()) {
-      rendered.choice = choose_precision(plan, output, available);
-      rendered.precision = rendered.choice->precision();
-      const Verdict verdict = verdict_on(rendered.precision, plan, output);
-      rendered.passed_self_test = verdict.is_right;
-      if (asked && !verdict.is_right) {
-        rendered.warnings.push_back(
-            format("{}: this driver computes `{}` wrongly (self-test: {}); use another arithmetic",
-                   info_.name, to_text(*asked), fault_text(verdict)));
-      }
-      if (!asked && verdict.is_right) warn(rendered, output);
-      if (asked || verdict.is_right) return;
-      faults += format("\n  {}: {}", to_text(rendered.precision), fault_text(verdict));
-      std::erase(available, rendered.precision);
-    }
-    throw DeviceError(
-        format("{} computes every arithmetic wrongly (self-test):{}\nuse another device or the reference",
-               info_.name, faults),
-        {Setting::renderer});
+    choose_arithmetic(
+        plan, output, precisions(), asked, info_.name,
+        [&](Precision precision) { return fault_text_of(precision, plan, output); }, rendered);
+  }
+
+  std::string fault_text_of(Precision precision, const RenderPlan& plan, const OutputFormat& output) {
+    const Verdict verdict = verdict_on(precision, plan, output);
+    return verdict.is_right ? std::string() : fault_text(verdict);
   }
 
   // On the programs that a picture is made with, which are built here if need be.
@@ -278,14 +274,6 @@ class OpenClRenderer::Implementation {
       develop(each);
       each.sums = {};
     }
-  }
-
-  // Said only of what the program chose: a person who asks for an arithmetic gets it.
-  void warn(Rendered& rendered, const OutputFormat& output) const {
-    if (rendered.choice->is_right_enough()) return;
-    rendered.warnings.push_back(format(
-        "no arithmetic of {} is sure to be right to {} of a code here; {} is the closest: {}", info_.name,
-        kMaxSteps, to_text(rendered.precision), error_text(rendered.choice->bound.worst, output)));
   }
 
   [[nodiscard]] Work work_for(Precision precision) const {
@@ -376,6 +364,12 @@ std::span<const Precision> OpenClRenderer::precisions() const { return implement
 
 void OpenClRenderer::keep_resident(const CaptureSource* source) { implementation_->keep_resident(source); }
 
-std::string OpenClRenderer::name() const { return implementation_->name(); }
+std::string OpenClRenderer::name() const { return info().name; }
+
+const DeviceInfo& OpenClRenderer::info() const { return implementation_->info(); }
+
+std::string OpenClRenderer::fault_in(Precision precision, const RenderPlan& plan, const OutputFormat& output) {
+  return implementation_->fault_in(precision, plan, output);
+}
 
 }  // namespace nutik

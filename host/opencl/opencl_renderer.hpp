@@ -65,8 +65,13 @@ class OpenClRenderer final : public Renderer {
   explicit OpenClRenderer(const OpenClOptions& options);
   ~OpenClRenderer() override;
 
+  [[nodiscard]] const DeviceInfo& info() const;
   // What the device has, the fastest first.
   [[nodiscard]] std::span<const Precision> precisions() const;
+
+  // What the device gets wrong of such pictures in an arithmetic, for a person to read; empty: nothing. Kernels are built
+  // and tested for it, once. Throws DeviceError where it does not have the arithmetic, or fails.
+  [[nodiscard]] std::string fault_in(Precision precision, const RenderPlan& plan, const OutputFormat& output);
 
   void keep_resident(const CaptureSource* source) override;
   void prepare(const RenderPlan& plan, const OutputFormat& output) override;

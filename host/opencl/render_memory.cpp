@@ -26,15 +26,17 @@ RenderMemory memory_for_blocks(std::uint64_t memory_bytes) {
   return {{chunk_bytes, memory_bytes / 2, true}, rest / 6, rest / 8, memory_bytes / 32};
 }
 
-RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, const CaptureSource& source,
-                               const Shape& picture, ValueType type, Precision precision) {
-  std::uint64_t block_bytes = 0, block_rows = 0;
+LeastMemory least_memory(const RenderPlan& plan, const CaptureSource& source, const Shape& picture,
+                         ValueType type, Precision precision) {
+  LeastMemory least;
+  std::uint64_t block_rows = 0;
   for (const PlannedBlock& planned : plan.blocks) {
-    block_bytes = std::max(block_bytes, align_up(source.lent_bytes(planned.block), kBlockAlignment));
+    least.block_bytes = std::max(least.block_bytes, align_up(source.lent_bytes(planned.block), kBlockAlignment));
     block_rows = std::max(block_rows, planned.row_count());
   }
   const bool has_bundles = precision != Precision::fixed && plan.has_bundles();
-  MemoryNeeds needs = picture_needs(picture, type, (has_bundles ? 2 : 1) * sum_bytes(precision));
+  MemoryNeeds& needs = least.needs;
+  needs = picture_needs(picture, type, (has_bundles ? 2 : 1) * sum_bytes(precision));
   if (const MaskMap& map = *plan.map; !map.mixed.empty()) {
     // Sums of a tile for each of its functions but one, which counts above, on the device and where they are blended;
     // functions and shares of pixels here and there.
@@ -54,9 +56,15 @@ RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, co
                             2 * points * sizeof(ControlPoint));
   }
   const bool has_corrected = precision != Precision::fixed && plan.has_corrected();
-  const std::uint64_t min_tables = (has_corrected ? 2 : 1) * block_rows * row_bytes(plan, precision);
-  needs.add("gain tables of a block", min_tables);
-  needs.add("a block", block_bytes);
+  least.table_bytes = (has_corrected ? 2 : 1) * block_rows * row_bytes(plan, precision);
+  needs.add("gain tables of a block", least.table_bytes);
+  needs.add("a block", least.block_bytes);
+  return least;
+}
+
+RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, const CaptureSource& source,
+                               const Shape& picture, ValueType type, Precision precision) {
+  const auto [needs, block_bytes, min_tables] = least_memory(plan, source, picture, type, precision);
   std::uint64_t rest = needs.rest_of(allowed);
 
   const std::uint64_t all_tables = std::max(plan.row_count() * row_bytes(plan, precision), min_tables);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "capture/memory_needs.hpp"
 #include "opencl/block_feed.hpp"
 #include "render/renderer.hpp"
 
@@ -18,8 +19,16 @@ struct RenderMemory {
 // Of `memory_bytes` for blocks alone: half of them for those of the resident capture.
 [[nodiscard]] RenderMemory memory_for_blocks(std::uint64_t memory_bytes);
 
-// Of `allowed` bytes for everything. Throws MemoryTooLittle where picture, the tables of a block and one block take
-// more.
+// What a render of so many pixels takes at the least: picture, the tables of a block and one block.
+struct LeastMemory {
+  MemoryNeeds needs;
+  std::uint64_t block_bytes = 0;
+  std::uint64_t table_bytes = 0;
+};
+[[nodiscard]] LeastMemory least_memory(const RenderPlan& plan, const CaptureSource& source, const Shape& picture,
+                                       ValueType type, Precision precision);
+
+// Of `allowed` bytes for everything. Throws MemoryTooLittle where the least takes more.
 [[nodiscard]] RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan,
                                              const CaptureSource& source, const Shape& picture,
                                              ValueType type, Precision precision);

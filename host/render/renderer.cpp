@@ -29,6 +29,7 @@ Rendered Renderer::render(const RenderPlan& plan, CaptureSource& source, const O
   check_white(output);
   throw_if_cancelled(control);
   Rendered rendered = render_part(plan, source, output, rectangle, control);
+  if (rendered.renderer.empty()) rendered.renderer = name();
   check_mapped_files();  // blocks may lie where the system maps them, and be read by a device at any time
   state_values(rendered.picture, plan.capture, output);
   return rendered;

@@ -52,6 +52,7 @@ struct RenderStatistics {
 
 struct Rendered {
   Picture picture;
+  std::string renderer;  // what did the work, as Renderer::name()
   Precision precision = Precision::double_;
   Saturation saturation;  // none where light was kept
   std::optional<PrecisionChoice>

@@ -6,14 +6,15 @@
 
 #include "capture/error.hpp"
 #include "opencl/cache_folder.hpp"
+#include "opencl/device_team.hpp"
 #include "render/reference_renderer.hpp"
 
 namespace nutik {
 namespace {
 
-std::size_t chosen(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
+std::vector<std::size_t> chosen(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
   try {
-    return choose_device(devices, wanted);
+    return choose_devices(devices, wanted);
   } catch (const DeviceError& error) {
     throw DeviceNotFound(error, wanted, devices);
   }
@@ -22,7 +23,8 @@ std::size_t chosen(const std::vector<DeviceInfo>& devices, const std::string& wa
 std::shared_ptr<Renderer> made(const ComputingRequest& request, Devices::Announce announce) {
   if (request.renderer == RendererKind::reference) return std::make_shared<ReferenceRenderer>();
   OpenClOptions options;
-  options.device = chosen(list_devices(), request.device);
+  const std::vector<std::size_t> devices = chosen(list_devices(), request.device);
+  options.device = devices.front();
   options.precision = request.precision;
   options.memory_bytes = request.memory.rendering_bytes();
   options.cache_folder = request.cache_folder.value_or(default_cache_folder());
@@ -32,6 +34,7 @@ std::shared_ptr<Renderer> made(const ComputingRequest& request, Devices::Announc
   }
   options.tests_itself = request.tests_drivers;
   options.announce = std::move(announce);
+  if (devices.size() > 1) return std::make_shared<DeviceTeam>(devices, options);
   return std::make_shared<OpenClRenderer>(options);
 }
 
@@ -72,7 +75,13 @@ Renderer& Devices::renderer() {
 
 OpenClRenderer& Devices::opencl() {
   if (auto* renderer = dynamic_cast<OpenClRenderer*>(&this->renderer())) return *renderer;
+  if (has_several()) throw SeveralDevices();
   throw UsageError("the reference is no OpenCL device");
+}
+
+bool Devices::has_several() {
+  return request_.renderer == RendererKind::opencl && may_mean_several(request_.device) &&
+         dynamic_cast<DeviceTeam*>(&renderer()) != nullptr;
 }
 
 bool Devices::is_ready() {

@@ -32,6 +32,11 @@ struct DeviceNotFound : DeviceError {
   [[nodiscard]] std::vector<std::string> words() const;
 };
 
+// What one device alone can do was asked of several.
+struct SeveralDevices : UsageError {
+  SeveralDevices() : UsageError("several devices were asked for, and each is validated alone; name one of them") {}
+};
+
 // For each arithmetic that was tested on a device, its worst verdict (opencl/self_test.hpp).
 [[nodiscard]] std::map<Precision, Verdict> known_verdicts(std::size_t device);
 
@@ -48,9 +53,12 @@ class Devices {
   [[nodiscard]] const ComputingRequest& request() const { return request_; }
 
   // Wait until the renderer has started. Throw DeviceNotFound, or DeviceError if the device cannot do what is asked;
-  // opencl() throws UsageError if the reference was asked for.
+  // opencl() throws UsageError if the reference was asked for, SeveralDevices if they are.
   [[nodiscard]] Renderer& renderer();
   [[nodiscard]] OpenClRenderer& opencl();
+  // Whether pictures are shared out among several devices (opencl/device_team.hpp). Waits only where the request may mean
+  // that.
+  [[nodiscard]] bool has_several();
   // Whether it has started.
   [[nodiscard]] bool is_ready();
 

@@ -175,6 +175,11 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
     announced_ = clip_->timeline(clip_->announced_samples());
     facts_ = clip_->facts(*announced_);
     notes_ = clip_->all_notes(*announced_);
+    if (devices_->has_several()) {
+      notes_.emplace_back(
+          "a clip that is read for one picture is exposed by the first device alone; all of them expose pictures of its "
+          "capture");
+    }
   }
   format_ = reader_ ? reader_->format() : held_format(clip_->capture);
   if (reader_ && !terms.renders) check_reading({});

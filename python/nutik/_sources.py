@@ -39,8 +39,8 @@ def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[N
     of log light that an event is (0.2, '0.3:0.17'); start_picture, light before the first, a picture or a number; tick, in
     which changes count together.
 
-    device: an OpenCL device, by number or part of its name; None: NUTIK_DEVICE, else the first. memory: bytes or '2GB';
-    None: half of the machine's. renderer: 'reference' computes without OpenCL, slowly.
+    device: an OpenCL device, by number or part of its name, several as "0,1", or "all"; None: NUTIK_DEVICE, else the
+    first. memory: bytes or '2GB'; None: half of the machine's. renderer: 'reference' computes without OpenCL, slowly.
     progress: called with (samples done, of how many; 0: not known) while a clip is read, by the thread that asked and at
     most 20 times a second. What it raises ends the work, and comes through.
 

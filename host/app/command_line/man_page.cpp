@@ -131,7 +131,7 @@ std::string man_page() {
   for (const auto& [status, meaning] : kStatuses) text += item(bold(status), meaning);
   text += section("ENVIRONMENT");
   constexpr std::pair<std::string_view, std::string_view> kVariables[] = {
-      {"NUTIK_DEVICE", "the OpenCL device, as --device"},
+      {"NUTIK_DEVICE", "the OpenCL device or devices, as --device"},
       {"NUTIK_SELF_TEST", "off: kernels are not tested before they are used"},
       {"NUTIK_MODULES",
        "the folder of nutik-videos.so, nutik-stills.so and nutik-motion.so, where they are not in their "

@@ -340,8 +340,8 @@ constexpr Option kRows[] = {
      "opencl, or reference: plain double precision on the processor, slow (default: opencl)",
      "opencl reference"},
     {0, "device", "NAME", computing, kExposes | bit(Id::validate), &Options::device,
-     "OpenCL device by number or part of its name; NUTIK_DEVICE does the same (default: the first GPU, else "
-     "the first device)"},
+     "OpenCL device by number or part of its name; several that make each picture together: 0,1, or all; "
+     "NUTIK_DEVICE does the same (default: the first GPU, else the first device)"},
     {0, "precision", "NAME", computing, kExposes, &Options::precision,
      "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is "
      "sure to be right to half a code, or to half a float's step (default: auto; see -v)",

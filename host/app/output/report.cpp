@@ -90,6 +90,7 @@ void ExposureTally::add(const ExposedPicture& exposed) {
   const Transfer& held = exposed.figures.capture.transfer;
   if (exposed.saturation.above > 0 && exposed.output.transfer && held.reference_white() < 1) cut_off_ = held;
   precision_ = to_text(exposed.precision);
+  renderer_ = exposed.renderer;
   report_ = rendering_report(exposed, exposed.output);
 }
 
@@ -113,7 +114,7 @@ std::vector<std::string> ExposureTally::notes() const {
 }
 
 void ExposureTally::end(Answer& answer, Session& session, bool verbose, const std::string& rate) const {
-  const std::string renderer = session.devices().renderer().name();
+  const std::string renderer = renderer_.empty() ? session.devices().renderer().name() : renderer_;
   answer.json.update(saturation_json());
   answer.json.update({{"precision", precision_}, {"renderer", renderer}, {"seconds", seconds()}});
   answer.line += format("{}{}, {:.2f} s on {}", saturation_text(), rate, seconds(), renderer);

@@ -77,7 +77,7 @@ class ExposureTally {
   Saturation saturation_;
   bool has_codes_ = false;
   std::optional<Transfer> cut_off_;  // whose light above white was cut off
-  std::string precision_, report_;
+  std::string precision_, renderer_, report_;
 };
 
 // Warnings of many exposures, printed when this goes: of those that were made before an error, too.

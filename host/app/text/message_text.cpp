@@ -127,9 +127,9 @@ std::string message_text(const std::exception& error) {
   if (dynamic_cast<const NoSinglePicture*>(&error) != nullptr) {
     return message + ", or a time of the capture: 0.3s, 12f";
   }
-  if (const auto* device = dynamic_cast<const DeviceNotFound*>(&error)) {
+  if (const auto* device = dynamic_cast<const DeviceNotFound*>(&error))
     return message + device_suggestion(*device);
-  }
+  if (dynamic_cast<const SeveralDevices*>(&error) != nullptr) return message + ": --device 0";
   if (const auto* name = dynamic_cast<const WrongOutputName*>(&error)) {
     return message + (name->kind == OutputKind::tik ? ": encode writes .tik files (nutik-cl CLIP CAPTURE.tik)"
                                                     : ", or as - to standard output");

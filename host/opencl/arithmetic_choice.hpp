@@ -1,0 +1,26 @@
+// The arithmetic of a picture, on one device or several: the fastest that is right enough and computed rightly.
+//
+//   in:      a plan, the picture's format, what the devices have in common, whoever tests an arithmetic on them
+//   out:     the arithmetic, why, and what is doubtful about it
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "render/renderer.hpp"
+
+namespace nutik {
+
+// What is wrong with pictures of an arithmetic, for a person to read; empty: nothing.
+using FaultOf = std::function<std::string(Precision precision)>;
+
+// Sets the arithmetic, the choice, the self-test and warnings of `rendered`. `available` are the fastest first; `asked`
+// is taken whatever is said of it. `device` is what a person calls what computes. Throws DeviceError where all that are
+// available are computed wrongly.
+void choose_arithmetic(const RenderPlan& plan, const OutputFormat& output,
+                       std::span<const Precision> available, std::optional<Precision> asked,
+                       const std::string& device, const FaultOf& fault_of, Rendered& rendered);
+
+}  // namespace nutik

@@ -1,0 +1,292 @@
+#include "opencl/device_team.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <exception>
+#include <numeric>
+#include <set>
+#include <stop_token>
+#include <thread>
+#include <utility>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "opencl/arithmetic_choice.hpp"
+#include "opencl/render_memory.hpp"
+
+namespace nutik {
+namespace {
+
+// Pixels that a device works on at a time, clocks aside: a GPU's unit has some 64 lanes, a processor's core those of
+// its vectors. It is only where to begin: how long pictures take is measured.
+double apparent_speed(const DeviceInfo& info) {
+  const double lanes = info.kind == DeviceKind::gpu ? 64.0 : std::max(info.native_float_lanes, 1u);
+  return std::max(info.compute_units, 1u) * lanes;
+}
+
+// Devices that are alike announce the same: that is said once.
+std::function<void(const std::string&)> each_once(std::function<void(const std::string&)> announce) {
+  if (!announce) return {};
+  struct Said {
+    std::mutex mutex;
+    std::set<std::string> texts;
+  };
+  return [said = std::make_shared<Said>(), announce = std::move(announce)](const std::string& text) {
+    const std::scoped_lock lock(said->mutex);
+    if (said->texts.insert(text).second) announce(text);
+  };
+}
+
+std::vector<Precision> common_precisions(std::span<const Precision> of_first, const auto& members) {
+  std::vector<Precision> common;
+  std::ranges::copy_if(of_first, std::back_inserter(common), [&](Precision precision) {
+    return std::ranges::all_of(members, [&](const auto& member) {
+      return std::ranges::count(member.renderer->precisions(), precision) > 0;
+    });
+  });
+  return common;
+}
+
+// Parts of the same name as one.
+void add_by_name(std::vector<MemoryPart>& to, const MemoryNeeds& needs) {
+  for (const MemoryPart& part : needs.parts()) {
+    const auto same = std::ranges::find(to, part.what, &MemoryPart::what);
+    if (same == to.end()) {
+      to.push_back(part);
+    } else {
+      same->bytes += part.bytes;
+    }
+  }
+}
+
+// What each band may take of `allowed` bytes: its least, and as much of the rest as any other. The whole picture is
+// held besides. Throws MemoryTooLittle.
+std::vector<std::uint64_t> memory_of_bands(std::uint64_t allowed, const RenderPlan& plan,
+                                           const CaptureSource& source, std::span<const Shape> bands,
+                                           std::uint64_t picture_bytes, ValueType type, Precision precision) {
+  std::vector<std::uint64_t> shares(bands.size(), 0);
+  if (allowed == 0) return shares;
+  std::vector<MemoryPart> parts{{"the picture", picture_bytes}};
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    const MemoryNeeds least = least_memory(plan, source, bands[i], type, precision).needs;
+    shares[i] = least.bytes();
+    add_by_name(parts, least);
+  }
+  MemoryNeeds all;
+  for (MemoryPart& part : parts) all.add(std::move(part.what), part.bytes);
+  const std::uint64_t rest = all.rest_of(allowed);
+  for (std::uint64_t& share : shares) share += rest / bands.size();
+  return shares;
+}
+
+// Of bands that were made at the same time. Each read the same blocks, and times run side by side; what is held and
+// written adds up.
+void add(RenderStatistics& all, const RenderStatistics& band) {
+  all.read_ms = std::max(all.read_ms, band.read_ms);
+  all.expose_ms = std::max(all.expose_ms, band.expose_ms);
+  all.develop_ms = std::max(all.develop_ms, band.develop_ms);
+  all.is_timed &= band.is_timed;
+  all.payload_bytes = std::max(all.payload_bytes, band.payload_bytes);
+  all.blocks = std::max(all.blocks, band.blocks);
+  all.device_bytes += band.device_bytes;
+  all.table_bytes_written += band.table_bytes_written;
+  all.map_bytes_written += band.map_bytes_written;
+  all.exposed_functions = std::max(all.exposed_functions, band.exposed_functions);
+  all.kept_sums = std::max(all.kept_sums, band.kept_sums);
+  all.made_sums = std::max(all.made_sums, band.made_sums);
+  all.launches += band.launches;
+}
+
+void add_new(std::vector<std::string>& to, const std::vector<std::string>& texts) {
+  std::ranges::copy_if(texts, std::back_inserter(to),
+                       [&](const std::string& text) { return std::ranges::count(to, text) == 0; });
+}
+
+[[noreturn]] void throw_numbered(std::size_t device, const DeviceError& error) {
+  throw DeviceError(format("device {}: {}", device, error.what()), error.settings());
+}
+
+}  // namespace
+
+DeviceTeam::DeviceTeam(std::span<const std::size_t> devices, const OpenClOptions& options)
+    : precision_(options.precision) {
+  if (devices.empty()) throw UsageError("a team has one device at least");
+  OpenClOptions own = options;
+  own.memory_bytes = options.memory_bytes / devices.size();
+  own.announce = each_once(options.announce);
+  std::vector<double> speeds;
+  for (const std::size_t device : devices) {
+    own.device = device;
+    try {
+      members_.push_back({device, std::make_unique<OpenClRenderer>(own)});
+    } catch (const DeviceError& error) {
+      throw_numbered(device, error);
+    }
+    speeds.push_back(apparent_speed(members_.back().renderer->info()));
+  }
+  all_.resize(members_.size());
+  std::iota(all_.begin(), all_.end(), std::size_t{0});
+  available_ = common_precisions(members_.front().renderer->precisions(), members_);
+  split_.emplace(speeds);
+}
+
+// Calls work(member, stop) for each, one on this thread and the others on their own. The first error is thrown when all
+// have ended; it stops the others.
+template <typename Work>
+void DeviceTeam::on_each(std::span<const std::size_t> members, const std::stop_token& outer,
+                         Work work) const {
+  std::stop_source stop;
+  const std::stop_callback passed_on(outer, [&stop] { stop.request_stop(); });
+  std::exception_ptr failure;
+  std::mutex failing;
+  const auto fail = [&] {
+    const std::scoped_lock lock(failing);
+    if (!failure) failure = std::current_exception();
+    stop.request_stop();
+  };
+  const auto run = [&](std::size_t member) {
+    try {
+      try {
+        work(member, stop.get_token());
+      } catch (const DeviceError& error) {
+        throw_numbered(members_[member].device, error);
+      }
+    } catch (...) {
+      fail();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    try {
+      for (const std::size_t member : members.subspan(1)) others.emplace_back(run, member);
+    } catch (...) {
+      fail();  // the system has no more threads
+    }
+    run(members.front());
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+void DeviceTeam::keep_resident(const CaptureSource* source) {
+  const std::scoped_lock turn(turn_);
+  for (const Member& member : members_) member.renderer->keep_resident(source);
+}
+
+void DeviceTeam::prepare(const RenderPlan& plan, const OutputFormat& output) {
+  const std::scoped_lock turn(turn_);
+  Rendered ignored;
+  choose(plan, output, precision_, ignored);
+}
+
+std::string DeviceTeam::name() const { return names_of(all_); }
+
+std::string DeviceTeam::names_of(std::span<const std::size_t> members) const {
+  std::vector<std::pair<std::string, std::size_t>> counts;
+  for (const std::size_t member : members) {
+    const std::string name = members_[member].renderer->name();
+    const auto same = std::ranges::find(counts, name, &std::pair<std::string, std::size_t>::first);
+    if (same == counts.end()) {
+      counts.emplace_back(name, 1);
+    } else {
+      ++same->second;
+    }
+  }
+  std::string text;
+  for (const auto& [name, count] : counts) {
+    text += (text.empty() ? "" : " and ") + (count == 1 ? name : format("{} x {}", count, name));
+  }
+  return text;
+}
+
+void DeviceTeam::choose(const RenderPlan& plan, const OutputFormat& output, std::optional<Precision> asked,
+                        Rendered& rendered) const {
+  const auto fault_of = [&](Precision precision) -> std::string {
+    std::vector<std::string> faults(members_.size());
+    on_each(all_, {}, [&](std::size_t member, const std::stop_token&) {
+      faults[member] = members_[member].renderer->fault_in(precision, plan, output);
+    });
+    for (const std::size_t member : all_) {
+      if (!faults[member].empty()) return format("device {}: {}", members_[member].device, faults[member]);
+    }
+    return {};
+  };
+  choose_arithmetic(plan, output, available_, asked, name(), fault_of, rendered);
+}
+
+Rendered DeviceTeam::render_part(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output,
+                                 const Rectangle& rectangle, const RenderControl& control) {
+  const std::scoped_lock turn(turn_);
+  const std::optional<Precision> asked = control.precision ? control.precision : precision_;
+  Rendered chosen;
+  choose(plan, output, asked, chosen);
+  if (asked) chosen.warnings.clear();  // the devices say so themselves
+  RenderControl of_band = control;
+  of_band.precision = chosen.precision;
+  std::vector<Rectangle> bands = split_->cut(rectangle);
+  std::vector<std::size_t> at_work;
+  std::ranges::copy_if(all_, std::back_inserter(at_work),
+                       [&](std::size_t member) { return bands[member].height > 0; });
+  if (source.is_forward_only()) {
+    at_work = {0};
+    bands.front() = rectangle;
+  }
+  Rendered rendered = render_bands(plan, source, output, rectangle, of_band, bands, at_work);
+  rendered.precision = chosen.precision;
+  rendered.choice = std::move(chosen.choice);
+  rendered.passed_self_test &= chosen.passed_self_test;
+  rendered.warnings.insert(rendered.warnings.begin(), chosen.warnings.begin(), chosen.warnings.end());
+  rendered.renderer = names_of(at_work);
+  return rendered;
+}
+
+Rendered DeviceTeam::render_bands(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output,
+                                  const Rectangle& rectangle, const RenderControl& control,
+                                  std::span<const Rectangle> bands, std::span<const std::size_t> at_work) {
+  std::vector<Rendered> made(members_.size());
+  std::vector<double> seconds(members_.size(), 0.0);
+  if (at_work.size() == 1) {
+    on_each(at_work, control.stop, [&](std::size_t member, std::stop_token stop) {
+      RenderControl whole = control;
+      whole.stop = std::move(stop);
+      whole.rectangle = rectangle;
+      made[member] = members_[member].renderer->render(plan, source, output, whole);
+    });
+    return std::move(made[at_work.front()]);
+  }
+
+  const std::uint32_t channels = plan.capture.shape.channels;
+  const std::uint64_t row_bytes = std::uint64_t{rectangle.width} * channels * value_bytes(output.type);
+  std::vector<Shape> shapes;
+  for (const std::size_t member : at_work)
+    shapes.push_back({rectangle.width, bands[member].height, channels});
+  const std::vector<std::uint64_t> shares =
+      memory_of_bands(control.memory_bytes, plan, source, shapes, rectangle.height * row_bytes, output.type,
+                      *control.precision);
+  Rendered whole;
+  whole.picture = Picture({rectangle.width, rectangle.height, channels}, output.type, output.white_code);
+  on_each(at_work, control.stop, [&](std::size_t member, std::stop_token stop) {
+    const auto place = static_cast<std::size_t>(std::ranges::find(at_work, member) - at_work.begin());
+    RenderControl of_band = control;
+    of_band.stop = std::move(stop);
+    of_band.rectangle = bands[member];
+    of_band.memory_bytes = shares[place];
+    const auto start = std::chrono::steady_clock::now();
+    made[member] = members_[member].renderer->render(plan, source, output, of_band);
+    seconds[member] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const Picture band = std::move(made[member].picture);
+    std::memcpy(whole.picture.bytes.data() + (bands[member].y - rectangle.y) * row_bytes, band.bytes.data(),
+                band.bytes.size());
+  });
+  split_->took(bands, seconds);
+  for (const std::size_t member : at_work) {
+    const Rendered& band = made[member];
+    whole.saturation += band.saturation;
+    whole.passed_self_test &= band.passed_self_test;
+    add(whole.statistics, band.statistics);
+    add_new(whole.warnings, band.warnings);
+  }
+  return whole;
+}
+
+}  // namespace nutik

@@ -1,0 +1,294 @@
+// Devices that make a picture together: the same picture as one of them alone, whatever is asked for. The first device
+// of this machine is two or three devices here.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <set>
+#include <span>
+
+#include "capture/memory_needs.hpp"
+#include "opencl/device_team.hpp"
+#include "support/delays.hpp"
+#include "support/messages.hpp"
+#include "support/random_case.hpp"
+#include "support/rendering.hpp"
+#include "support/soft_mask.hpp"
+
+namespace nutik {
+namespace {
+
+using test::RandomCase;
+
+constexpr std::array<std::size_t, 2> kTwice{0, 0};
+constexpr std::array<std::size_t, 3> kThrice{0, 0, 0};
+constexpr OutputFormat kCodes{ValueType::code8, 255};
+constexpr OutputFormat kLight{ValueType::light64, 0};
+
+// 21 x 77 pixels in colour, 40 samples in blocks of 8: ten rows of tiles, the last one cut.
+struct Scene {
+  explicit Scene(std::uint64_t seed = 3) {
+    format.shape = {21, 77, 3};
+    test::Random random(seed);
+    rasters = test::random_rasters(random, format, 40);
+    for (std::size_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
+      mask.tags[pixel] = static_cast<std::uint8_t>(pixel % 5 == 0 ? 2 : pixel / 400);
+    }
+  }
+  [[nodiscard]] MemoryCapture capture() const { return {format, timeline, rasters, 8}; }
+
+  CaptureFormat format;
+  Timeline timeline = Timeline::constant({100, 1}, {270, 1}, 40);
+  test::Rasters rasters;
+  Mask mask = Mask::uniform(21, 77, 0);
+  FunctionSet functions{{0, GainFunction::boxcar(12'345'678, 333'333'333)},
+                        {1, GainFunction({{0, -0.25}, {200'000'000, 1.5}, {390'000'000, 0.0}})},
+                        {2, GainFunction::boxcar(100'000'000, 150'000'000)},
+                        {3, GainFunction::boxcar(0, 400'000'000)},
+                        {4, GainFunction::boxcar(50'000'000, 60'000'000)}};
+};
+
+// What both say of one request.
+void expect_same(Renderer& alone, Renderer& team, const RenderPlan& plan, CaptureSource& source,
+                 const OutputFormat& output, const RenderControl& control) {
+  const Rendered one = alone.render(plan, source, output, control);
+  const Rendered several = team.render(plan, source, output, control);
+  EXPECT_EQ(several.picture, one.picture);
+  EXPECT_EQ(several.precision, one.precision);
+  EXPECT_EQ(several.saturation.below, one.saturation.below);
+  EXPECT_EQ(several.saturation.above, one.saturation.above);
+  EXPECT_EQ(several.passed_self_test, one.passed_self_test);
+  EXPECT_EQ(several.warnings, one.warnings);
+  EXPECT_EQ(several.choice->bound.worst.steps, one.choice->bound.worst.steps);
+  EXPECT_EQ(several.choice->rejected.size(), one.choice->rejected.size());
+}
+
+TEST(DeviceTeam, MakesThePictureOfOneDevice) {
+  const OpenClOptions options = test::renderer_options(std::nullopt);
+  OpenClRenderer alone(options);
+  DeviceTeam two(kTwice, options), three(kThrice, options);
+  const Scene scene;
+  MemoryCapture capture = scene.capture();
+  const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
+  std::vector<std::optional<Precision>> precisions(alone.precisions().begin(), alone.precisions().end());
+  precisions.emplace_back(std::nullopt);
+  for (Renderer* team : {static_cast<Renderer*>(&two), static_cast<Renderer*>(&three)}) {
+    for (const std::optional<Precision> precision : precisions) {
+      for (const OutputFormat& output :
+           {kCodes, kLight, OutputFormat{ValueType::code16, 1000, NegativeLight::offset}}) {
+        RenderControl control;
+        control.precision = precision;
+        expect_same(alone, *team, plan, capture, output, control);
+        for (const Rectangle& part :
+             {Rectangle{0, 0, 1, 1}, Rectangle{20, 76, 1, 1}, Rectangle{3, 5, 11, 13}, Rectangle{0, 9, 21, 3},
+              Rectangle{7, 7, 1, 70}, Rectangle{0, 8, 21, 64}}) {
+          control.rectangle = part;
+          expect_same(alone, *team, plan, capture, output, control);
+        }
+      }
+    }
+  }
+}
+
+// Masks of several values and soft ones, delays, blocks of all kinds: `fixed` has no rounding to hide behind.
+TEST(DeviceTeam, MakesAnyPictureInFixed) {
+  const OpenClOptions options = test::renderer_options(Precision::fixed);
+  OpenClRenderer alone(options);
+  DeviceTeam team(kTwice, options);
+  int several = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    RandomCase random(seed, {seed % 2 == 0 ? 3u : 1u, 1, 255, Transfer::srgb()});
+    if (random.capture.shape.height <= kTileSide) continue;
+    test::Random draw(seed);
+    if (draw.chance(0.4)) test::soften(random.mask, random.functions, seed);
+    PlanOptions how;
+    if (draw.chance(0.4)) {
+      how.delays = test::random_delays(draw, random.capture.shape, random.timeline.duration_ns());
+    }
+    MemoryCapture capture = random.encode();
+    const RenderPlan plan = make_plan(capture, random.functions, random.mask, how);
+    expect_same(alone, team, plan, capture, seed % 3 == 0 ? kLight : kCodes, {});
+    if (HasFailure()) FAIL() << random.text();
+    ++several;
+  }
+  EXPECT_GE(several, 20);
+}
+
+// Blocks and sums that stay on the devices belong to each one's band.
+TEST(DeviceTeam, KeepsTheResidentCapture) {
+  const OpenClOptions options = test::renderer_options(Precision::fixed);
+  OpenClRenderer alone(options);
+  DeviceTeam team(kTwice, options);
+  Scene scene;
+  MemoryCapture capture = scene.capture();
+  team.keep_resident(&capture);
+  for (int k = 0; k < 6; ++k) {
+    scene.functions.at(1) = GainFunction::boxcar(k * 20'000'000, 300'000'000 + k * 10'000'000);
+    const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
+    RenderControl control;
+    if (k == 4) control.rectangle = Rectangle{2, 11, 15, 50};
+    expect_same(alone, team, plan, capture, kCodes, control);
+    expect_same(alone, team, plan, capture, kCodes, control);  // of sums that are there
+  }
+  team.keep_resident(nullptr);
+}
+
+TEST(DeviceTeam, SaysWhoMadeThePicture) {
+  const OpenClOptions options = test::renderer_options(Precision::fixed);
+  DeviceTeam team(kTwice, options);
+  const std::string name = OpenClRenderer(options).name();
+  EXPECT_EQ(team.name(), "2 x " + name);
+  const Scene scene;
+  MemoryCapture capture = scene.capture();
+  const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
+  EXPECT_EQ(team.render(plan, capture, kCodes).renderer, "2 x " + name);
+  RenderControl one_row;
+  one_row.rectangle = Rectangle{0, 16, 21, 8};
+  EXPECT_EQ(team.render(plan, capture, kCodes, one_row).renderer, name);
+}
+
+// A capture that does something when its blocks are asked for.
+class WatchedCapture final : public CaptureSource {
+ public:
+  using OnBlock = std::function<void(std::uint64_t block)>;
+  WatchedCapture(MemoryCapture& capture, OnBlock on_block, bool is_forward_only = false)
+      : capture_(capture), on_block_(std::move(on_block)), is_forward_only_(is_forward_only) {}
+
+  [[nodiscard]] const CaptureFormat& format() const override { return capture_.format(); }
+  [[nodiscard]] const Timeline& timeline() const override { return capture_.timeline(); }
+  [[nodiscard]] std::uint64_t block_count() const override { return capture_.block_count(); }
+  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
+    return capture_.block_extent(block);
+  }
+  [[nodiscard]] bool is_forward_only() const override { return is_forward_only_; }
+
+ private:
+  BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override {
+    on_block_(block);
+    return capture_.acquire(block, terms);
+  }
+
+  MemoryCapture& capture_;
+  OnBlock on_block_;
+  bool is_forward_only_;
+};
+
+OpenClOptions block_by_block() {
+  OpenClOptions options = test::renderer_options(Precision::fixed);
+  options.chunk_bytes = 1;
+  return options;
+}
+
+TEST(DeviceTeam, LeavesACaptureThatIsReadForwardToOneDevice) {
+  OpenClRenderer alone(block_by_block());
+  DeviceTeam team(kTwice, block_by_block());
+  const Scene scene;
+  MemoryCapture capture = scene.capture();
+  std::vector<std::uint64_t> asked;
+  WatchedCapture forward(
+      capture, [&](std::uint64_t block) { asked.push_back(block); }, true);
+  const RenderPlan plan = make_plan(forward, scene.functions, scene.mask, {});
+  const Rendered rendered = team.render(plan, forward, kLight);
+  EXPECT_EQ(asked, (std::vector<std::uint64_t>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(rendered.renderer, alone.name());
+  EXPECT_EQ(rendered.picture, alone.render(plan, capture, kLight).picture);
+}
+
+// What happens to one device ends the work of all, and is what is said; the next picture is whole.
+TEST(DeviceTeam, EndsWhereOneDeviceFails) {
+  OpenClRenderer alone(block_by_block());
+  DeviceTeam team(kTwice, block_by_block());
+  const Scene scene;
+  MemoryCapture capture = scene.capture();
+  const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
+  for (int at = 0; at < 10; ++at) {
+    std::atomic<int> calls{0};
+    WatchedCapture damaged(capture, [&](std::uint64_t) {
+      if (calls++ == at) throw InputError("a damaged block");
+    });
+    EXPECT_EQ(test::message_of<InputError>([&] { static_cast<void>(team.render(plan, damaged, kCodes)); }),
+              "a damaged block");
+    calls = 0;
+    WatchedCapture lost(capture, [&](std::uint64_t) {
+      if (calls++ == at) throw DeviceError("it is lost", {Setting::renderer});
+    });
+    EXPECT_EQ(test::message_of<DeviceError>([&] { static_cast<void>(team.render(plan, lost, kCodes)); }),
+              "device 0: it is lost");
+  }
+  EXPECT_EQ(team.render(plan, capture, kCodes).picture, alone.render(plan, capture, kCodes).picture);
+}
+
+TEST(DeviceTeam, EndsWhenItIsCancelled) {
+  DeviceTeam team(kTwice, block_by_block());
+  const Scene scene;
+  MemoryCapture capture = scene.capture();
+  const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
+  for (int at = 0; at < 8; ++at) {
+    std::atomic<int> calls{0};
+    std::stop_source stop;
+    WatchedCapture stopping(capture, [&](std::uint64_t) {
+      if (calls++ == at) stop.request_stop();
+    });
+    RenderControl control;
+    control.stop = stop.get_token();
+    EXPECT_THROW(static_cast<void>(team.render(plan, stopping, kCodes, control)), Cancelled);
+  }
+  EXPECT_NO_THROW(static_cast<void>(team.render(plan, capture, kCodes)));
+}
+
+TEST(DeviceTeam, NamesTheLeastMemoryThatItWorksWith) {
+  const OpenClOptions options = test::renderer_options(Precision::fixed);
+  OpenClRenderer alone(options);
+  const Scene scene;
+  MemoryCapture capture = scene.capture();
+  const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
+  const auto least_of = [&](Renderer& renderer) -> std::uint64_t {
+    RenderControl control;
+    control.memory_bytes = 1;
+    try {
+      static_cast<void>(renderer.render(plan, capture, kCodes, control));
+    } catch (const MemoryTooLittle& error) {
+      std::set<std::string> parts;
+      for (const MemoryPart& part : error.needs.parts())
+        EXPECT_TRUE(parts.insert(part.what).second) << part.what;
+      return error.min_bytes();
+    }
+    ADD_FAILURE() << "a byte is enough";
+    return 0;
+  };
+  const std::uint64_t of_one = least_of(alone);
+  for (const auto devices : {std::span<const std::size_t>(kTwice), std::span<const std::size_t>(kThrice)}) {
+    DeviceTeam team(devices, options);
+    RenderControl control;
+    control.memory_bytes = least_of(team);
+    EXPECT_GE(control.memory_bytes, of_one + capture.format().shape.value_count());
+    expect_same(alone, team, plan, capture, kCodes, control);
+    --control.memory_bytes;
+    EXPECT_THROW(static_cast<void>(team.render(plan, capture, kCodes, control)), MemoryTooLittle);
+  }
+}
+
+// An arithmetic that a device computes wrongly is no part of the choice; who asks for it is warned once.
+TEST(DeviceTeam, ChoosesAmongWhatAllComputeRightly) {
+  OpenClOptions options = test::renderer_options(std::nullopt);
+  options.tests_itself = true;
+  options.faults[Precision::single_] = "-DNUTIK_LIGHT=NUTIK_LIGHT_LINEAR";
+  DeviceTeam team(kTwice, options);
+  const Scene scene;
+  MemoryCapture capture = scene.capture();
+  const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
+  const Rendered rendered = team.render(plan, capture, kCodes);
+  EXPECT_NE(rendered.precision, Precision::single_);
+  EXPECT_TRUE(rendered.passed_self_test);
+  RenderControl asked;
+  asked.precision = Precision::single_;
+  const Rendered wrong = team.render(plan, capture, kCodes, asked);
+  EXPECT_FALSE(wrong.passed_self_test);
+  ASSERT_EQ(wrong.warnings.size(), 1u);
+  EXPECT_NE(wrong.warnings.front().find("computes `single` wrongly"), std::string::npos)
+      << wrong.warnings.front();
+}
+
+}  // namespace
+}  // namespace nutik
