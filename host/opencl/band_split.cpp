@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "imev/tile.hpp"
@@ -12,8 +11,12 @@ namespace {
 
 // In less time launches and threads take most of it, and there is little to win.
 constexpr double kMinSeconds = 0.005;
-// What the first device takes of the last one's time.
+// What the first device takes of the last one's time, at the least, where bands need not move.
 constexpr double kBalanced = 0.8;
+// Of a picture's time: what it costs to read blocks again where bands have moved to.
+constexpr double kMoving = 0.5;
+// What a picture counts beside the next one: how fast a device is may change.
+constexpr double kRemembered = 0.9;
 // A slower device gets no smaller share: now and then it has a row of tiles, and is measured again.
 constexpr double kMinShare = 1.0 / 256;
 
@@ -26,6 +29,12 @@ void make_whole(std::vector<double>& shares) {
 
 BandSplit::BandSplit(std::span<const double> speeds) : shares_(speeds.begin(), speeds.end()) {
   make_whole(shares_);
+  forget();
+}
+
+void BandSplit::forget() {
+  done_.assign(shares_.size(), Done());
+  longest_ = 0.0;
 }
 
 std::vector<Rectangle> BandSplit::cut(const Rectangle& rectangle) const {
@@ -48,22 +57,33 @@ std::vector<Rectangle> BandSplit::cut(const Rectangle& rectangle) const {
 }
 
 void BandSplit::took(std::span<const Rectangle> bands, std::span<const double> seconds) {
-  double least = std::numeric_limits<double>::infinity(), most = 0.0, measured = 0.0, rate = 0.0;
-  const auto rate_of = [&](std::size_t i) {
-    return bands[i].height / std::max(seconds[i], kMinSeconds / 16);
-  };
+  if (*std::ranges::max_element(seconds) < kMinSeconds) return;
+  const bool is_by_others = !std::ranges::equal(bands, done_, [](const Rectangle& band, const Done& done) {
+    return (band.height > 0) == (done.pixels > 0.0);
+  });
+  if (is_by_others) forget();
+  longest_ *= kRemembered;
+  double least = 0.0, most = 0.0, share = 0.0, pixels = 0.0, rate = 0.0;
   for (std::size_t i = 0; i < bands.size(); ++i) {
+    Done& done = done_[i];
     if (bands[i].height == 0) continue;
-    least = std::min(least, seconds[i]);
-    most = std::max(most, seconds[i]);
-    measured += shares_[i];
-    rate += rate_of(i);
+    done.pixels = kRemembered * done.pixels + static_cast<double>(bands[i].height) * bands[i].width;
+    done.seconds = kRemembered * done.seconds + std::max(seconds[i], kMinSeconds / 16);
+    longest_ = std::max(longest_, seconds[i]);
+    least = least == 0.0 ? done.seconds : std::min(least, done.seconds);
+    most = std::max(most, done.seconds);
+    share += shares_[i];
+    pixels += done.pixels;
+    rate += done.pixels / done.seconds;
   }
-  if (most < kMinSeconds || least >= kBalanced * most) return;
+  const double waited = most - pixels / rate;  // longer than if all had been done at the same time
+  if (least >= kBalanced * most || waited < kMoving * longest_) return;
   for (std::size_t i = 0; i < bands.size(); ++i) {
-    if (bands[i].height > 0) shares_[i] = std::max(measured * rate_of(i) / rate, kMinShare);
+    const Done& done = done_[i];
+    if (bands[i].height > 0) shares_[i] = std::max(share * done.pixels / done.seconds / rate, kMinShare);
   }
   make_whole(shares_);
+  forget();
 }
 
 }  // namespace nutik

@@ -2,8 +2,8 @@
 //
 //   in:      how fast the devices seem, then how long each took for its band
 //   out:     bands from top to bottom, cut where tiles end, so that no tile is read twice
-//   always:  the bands are the rectangle, each row once. They stay where they are until the first device has waited for
-//            the last for more than a fifth of the time: what a band reads stays on its device
+//   always:  the bands are the rectangle, each row once. They stay where they are until waiting has cost as much as moving
+//            them would: what a band reads stays on its device, and is read again elsewhere
 #pragma once
 
 #include <span>
@@ -28,7 +28,16 @@ class BandSplit {
   [[nodiscard]] std::span<const double> shares() const { return shares_; }
 
  private:
+  // Of a device, in the last pictures since the bands moved.
+  struct Done {
+    double pixels = 0.0;
+    double seconds = 0.0;
+  };
+  void forget();
+
   std::vector<double> shares_;
+  std::vector<Done> done_;
+  double longest_ = 0.0;  // of these pictures, in seconds
 };
 
 }  // namespace nutik
