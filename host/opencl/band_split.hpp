@@ -2,8 +2,8 @@
 //
 //   in:      how fast the devices seem, then how long each took for its band
 //   out:     bands from top to bottom, cut where tiles end, so that no tile is read twice
-//   always:  the bands are the rectangle, each row once. They stay where they are until waiting has cost as much as moving
-//            them would: what a band reads stays on its device, and is read again elsewhere
+//   always:  the bands are the rectangle, each row once. They stay where they are until waiting has cost as much as
+//            moving them would: what a band reads stays on its device, and is read again elsewhere
 #pragma once
 
 #include <span>

@@ -1,9 +1,9 @@
 // Several OpenCL devices that make each picture together: a band of its rows each, all at the same time.
 //
-//   always:  a picture in `fixed` is that of any of the devices alone, to the last bit; in other arithmetics a band is what
-//            its device makes of it. All bands have one arithmetic: `auto` chooses among those that all devices have and
-//            compute rightly. A capture that is read forward goes to the first device alone, a picture with one row of
-//            tiles to one: Rendered::renderer says who made it
+//   always:  a picture in `fixed` is that of any of the devices alone, to the last bit; in other arithmetics a band is
+//            what its device makes of it. All bands have one arithmetic: `auto` chooses among those that all devices have
+//            and compute rightly. A capture that is read forward goes to the first device alone, a picture with one row
+//            of tiles to one: Rendered::renderer says who made it
 //   threads: any number may ask one. Renders take turns
 #pragma once
 

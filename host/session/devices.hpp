@@ -56,8 +56,8 @@ class Devices {
   // opencl() throws UsageError if the reference was asked for, SeveralDevices if they are.
   [[nodiscard]] Renderer& renderer();
   [[nodiscard]] OpenClRenderer& opencl();
-  // Whether pictures are shared out among several devices (opencl/device_team.hpp). Waits only where the request may mean
-  // that.
+  // Whether pictures are shared out among several devices (opencl/device_team.hpp). Waits only where the request may
+  // mean that.
   [[nodiscard]] bool has_several();
   // Whether it has started.
   [[nodiscard]] bool is_ready();

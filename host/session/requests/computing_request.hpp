@@ -16,8 +16,8 @@ enum class RendererKind { opencl, reference };
 struct ComputingRequest {
   RendererKind renderer = RendererKind::opencl;
 
-  // An OpenCL device: its number in list_devices(), or part of its name or platform, in any case. Empty: the first. Several
-  // with commas between them, or `all`, make each picture together.
+  // An OpenCL device: its number in list_devices(), or part of its name or platform, in any case. Empty: the first.
+  // Several with commas between them, or `all`, make each picture together.
   std::string device;
   std::optional<Precision> precision;  // none: for each picture the fastest whose error bound is small enough
   // Keeps built kernels. None: default_cache_folder(); an empty path: they are not kept.
