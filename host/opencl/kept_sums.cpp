@@ -19,9 +19,6 @@ constexpr double kMin = 0.25;
 constexpr std::uint64_t kIdleExposures = 64;
 constexpr std::uint64_t kIdleExposuresOfPart = 8;
 
-// Room for these.
-constexpr std::uint64_t kParts = 32;
-
 bool is_of_cut(const SummedBlocks& blocks) {
   return blocks.halves != Halves::both || (blocks.is_bundle() && blocks.count < kGroupBlocks);
 }
@@ -70,7 +67,8 @@ std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
   // With delays nearly all tiles have several functions and are read all the same; and the sums' own kernels, of plans
   // without delays, are not the ones that were tested for this plan.
   if (precision == Precision::fixed || plan.map->has_delays()) return {};
-  if (capacity_ == 0) capacity_ = std::min(room, blocks + blocks / kGroupBlocks + kParts);
+  // Blocks, groups, and as many of what ends of boxcars cut: halves, and bundles of some of their group's blocks.
+  if (capacity_ == 0) capacity_ = std::min(room, 2 * blocks + blocks / kGroupBlocks);
   ++exposure_;
 
   std::map<SummedBlocks, std::uint64_t> pixels;  // that want it

@@ -126,13 +126,14 @@ SteadyStretches::SteadyStretches(const GainFunction& function, const GainSummary
   close();
 }
 
-// The one that leaves fewest samples to be read beside a kept sum; none where the block's own live samples are fewer.
+// What leaves fewest samples to be read beside a kept sum. A half is a sum more, which has to be made: it must save more
+// than an eighth of the block, beside the whole's corrections and beside the samples that the function needs of it.
 std::optional<SteadyStretches::Cut> SteadyStretches::better_cut(const BlockExtent& block, const Cut& whole,
                                                                 const Cut& half, std::uint32_t live_samples) {
   const std::uint32_t of_half = size_of(half.corrected), of_whole = size_of(whole.corrected);
   const auto is_short = [&](std::uint32_t corrected) { return 2 * corrected < block.sample_count; };
   if (size_of(samples_of(half.halves, block)) >= kMinSteadySamples && is_short(of_half) &&
-      of_half < std::min(of_whole, live_samples)) {
+      of_half + block.sample_count / 8 < std::min(of_whole, live_samples)) {
     return half;
   }
   if (is_short(of_whole)) return whole;

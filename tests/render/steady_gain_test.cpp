@@ -80,7 +80,7 @@ TEST(SteadyGain, ACorrectionIsWhatTheSteadyGainHasTooMuch) {
 }
 
 // A boxcar that begins and ends in blocks of 64 samples, so many ms behind their first one.
-TEST(SteadyGain, OfALongCutBlockAQuarterIsReadAtMost) {
+TEST(SteadyGain, OfALongCutBlockAThirdIsReadAtMost) {
   constexpr std::uint32_t kLong = 64;
   const CaptureLayout blocks = layout(kLong);
   struct Case {
@@ -91,7 +91,8 @@ TEST(SteadyGain, OfALongCutBlockAQuarterIsReadAtMost) {
     SampleSpan end_corrected;
   };
   for (const Case& each : {Case{10, Halves::both, {0, 10}, {}, {}},
-                           {20, Halves::second, {20, 32}, Halves::first, {20, 32}},
+                           {20, Halves::both, {0, 20}, {}, {}},  // a half would save less than 8
+                           {24, Halves::second, {24, 32}, Halves::first, {24, 32}},
                            {32, Halves::second, {32, 32}, Halves::first, {32, 32}},
                            {40, Halves::second, {32, 40}, Halves::first, {32, 40}},
                            {50, {}, {}, Halves::both, {50, 64}}}) {
@@ -124,14 +125,14 @@ TEST(SteadyGain, ABlockBetweenTwoGainsHasNoHalves) {
 
 TEST(SteadyGain, SamplesBesideASteadyHalfAreCorrectedByTheirOwnWeights) {
   const CaptureLayout blocks = layout(64);
-  const SteadyGain steady = stretches(blocks, 84, 2000).in(1, blocks);
+  const SteadyGain steady = stretches(blocks, 90, 2000).in(1, blocks);
   const HatNumbers hats = hats_of(blocks.blocks[1], blocks.timeline, Halves::second);
   EXPECT_EQ(hats.span, (SampleSpan{32, 64}));
   ASSERT_EQ(hats.weights, std::vector<double>(32, 1e6));
   ASSERT_EQ(hats.boundaries.back(), 32e6);
-  const std::vector<double> own(44, 0.25);  // of samples 20 … 63
-  const CorrectionNumbers correction = correction_of(steady, hats, {20, 64}, own);
-  EXPECT_EQ(correction.weights, std::vector<double>(12, 0.25));
+  const std::vector<double> own(38, 0.25);  // of samples 26 … 63
+  const CorrectionNumbers correction = correction_of(steady, hats, {26, 64}, own);
+  EXPECT_EQ(correction.weights, std::vector<double>(6, 0.25));
 
   const SteadyGain later = stretches(blocks, 104, 2000).in(1, blocks);
   const CorrectionNumbers less = correction_of(later, hats, {40, 64}, std::vector<double>(24, 0.25));
