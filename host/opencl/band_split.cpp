@@ -17,7 +17,8 @@ constexpr double kBalanced = 0.8;
 constexpr double kMoving = 0.5;
 // What a picture counts beside the next one: how fast a device is may change.
 constexpr double kRemembered = 0.9;
-// A slower device gets no smaller share: now and then it has a row of tiles, and is measured again.
+// No smaller share is given when bands move: of 128 rows of tiles and more it is one, by which a device is measured
+// again. Of fewer rows so slow a device has none, and would only be waited for.
 constexpr double kMinShare = 1.0 / 256;
 
 void make_whole(std::vector<double>& shares) {

@@ -1,9 +1,12 @@
 #include "opencl/device_team.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <exception>
+#include <iterator>
+#include <mutex>
 #include <numeric>
 #include <set>
 #include <stop_token>
@@ -60,11 +63,12 @@ void add_by_name(std::vector<MemoryPart>& to, const MemoryNeeds& needs) {
   }
 }
 
-// What each band may take of `allowed` bytes: its least, and as much of the rest as any other. The whole picture is
-// held besides. Throws MemoryTooLittle.
+// What each band may take of `allowed` bytes: its least, and of the rest a share for each of so many devices; those
+// without a band keep what stays on them. The whole picture is held besides. Throws MemoryTooLittle.
 std::vector<std::uint64_t> memory_of_bands(std::uint64_t allowed, const RenderPlan& plan,
                                            const CaptureSource& source, std::span<const Shape> bands,
-                                           std::uint64_t picture_bytes, ValueType type, Precision precision) {
+                                           std::size_t devices, std::uint64_t picture_bytes, ValueType type,
+                                           Precision precision) {
   std::vector<std::uint64_t> shares(bands.size(), 0);
   if (allowed == 0) return shares;
   std::vector<MemoryPart> parts{{"the picture", picture_bytes}};
@@ -76,7 +80,7 @@ std::vector<std::uint64_t> memory_of_bands(std::uint64_t allowed, const RenderPl
   MemoryNeeds all;
   for (MemoryPart& part : parts) all.add(std::move(part.what), part.bytes);
   const std::uint64_t rest = all.rest_of(allowed);
-  for (std::uint64_t& share : shares) share += rest / bands.size();
+  for (std::uint64_t& share : shares) share += rest / devices;
   return shares;
 }
 
@@ -234,7 +238,6 @@ Rendered DeviceTeam::render_part(const RenderPlan& plan, CaptureSource& source, 
   Rendered rendered = render_bands(plan, source, output, rectangle, of_band, bands, at_work);
   rendered.precision = chosen.precision;
   rendered.choice = std::move(chosen.choice);
-  rendered.passed_self_test &= chosen.passed_self_test;
   rendered.warnings.insert(rendered.warnings.begin(), chosen.warnings.begin(), chosen.warnings.end());
   rendered.renderer = names_of(at_work);
   return rendered;
@@ -250,6 +253,12 @@ Rendered DeviceTeam::render_bands(const RenderPlan& plan, CaptureSource& source,
       RenderControl whole = control;
       whole.stop = std::move(stop);
       whole.rectangle = rectangle;
+      if (!source.is_forward_only()) {
+        const std::array shape{Shape{rectangle.width, rectangle.height, plan.capture.shape.channels}};
+        whole.memory_bytes = memory_of_bands(control.memory_bytes, plan, source, shape, members_.size(), 0,
+                                             output.type, *control.precision)
+                                 .front();
+      }
       made[member] = members_[member].renderer->render(plan, source, output, whole);
     });
     return std::move(made[at_work.front()]);
@@ -261,8 +270,8 @@ Rendered DeviceTeam::render_bands(const RenderPlan& plan, CaptureSource& source,
   for (const std::size_t member : at_work)
     shapes.push_back({rectangle.width, bands[member].height, channels});
   const std::vector<std::uint64_t> shares =
-      memory_of_bands(control.memory_bytes, plan, source, shapes, rectangle.height * row_bytes, output.type,
-                      *control.precision);
+      memory_of_bands(control.memory_bytes, plan, source, shapes, members_.size(),
+                      rectangle.height * row_bytes, output.type, *control.precision);
   Rendered whole;
   whole.picture = Picture({rectangle.width, rectangle.height, channels}, output.type, output.white_code);
   on_each(at_work, control.stop, [&](std::size_t member, std::stop_token stop) {

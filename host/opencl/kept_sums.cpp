@@ -128,15 +128,16 @@ std::size_t KeptSums::slot_for(DeviceMemory& memory) {
 
 const RenderPlan& KeptSums::plan_for(const SummedBlocks& blocks, const RenderPlan& plan,
                                      const CaptureSource& source) {
-  const auto [found, is_new] = light_.try_emplace(blocks.halves);
-  RenderPlan& light = found->second;
-  if (is_new) {
+  auto found = light_.find(blocks.halves);
+  if (found == light_.end()) {
     const Shape& shape = plan.capture.shape;
-    light =
+    RenderPlan made =
         make_plan(source, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(shape.width, shape.height, 0), {});
-    light.capture = plan.capture;
-    light.sums_light = blocks.halves;
+    made.capture = plan.capture;
+    made.sums_light = blocks.halves;
+    found = light_.emplace(blocks.halves, std::move(made)).first;
   }
+  RenderPlan& light = found->second;
   light.blocks.clear();
   std::uint64_t row = 0;
   for (std::uint64_t block = blocks.first; block < blocks.first + blocks.count; ++block) {

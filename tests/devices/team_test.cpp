@@ -115,7 +115,35 @@ TEST(DeviceTeam, MakesAnyPictureInFixed) {
   EXPECT_GE(several, 20);
 }
 
-// Blocks and sums that stay on the devices belong to each one's band.
+// Sums of the whole picture, of which each device needs its band.
+TEST(DeviceTeam, KeepsSumsOfLight) {
+  CaptureFormat format;
+  format.shape = {24, 40, 1};
+  constexpr std::uint64_t kSamples = 50 * 32;
+  test::Random random(4);
+  MemoryCapture capture(format, Timeline::constant({1000, 1}, {180, 1}, kSamples),
+                        test::random_rasters(random, format, kSamples), 32);
+  const OpenClRenderer any(test::renderer_options(std::nullopt));
+  for (const Precision precision : any.precisions()) {
+    OpenClOptions options = test::renderer_options(precision);
+    options.allocation_bytes = 0;  // that all sums have room
+    OpenClRenderer alone(options);
+    DeviceTeam team(kTwice, options);
+    team.keep_resident(&capture);
+    std::uint64_t kept = 0;
+    for (const std::int64_t start_ms : {110, 111, 112, 114}) {
+      const GainFunction boxcar = GainFunction::boxcar(start_ms * 1'000'000, (start_ms + 1250) * 1'000'000);
+      const RenderPlan plan = make_plan(capture, {{0, boxcar}}, Mask::uniform(24, 40, 0), {});
+      const Rendered rendered = team.render(plan, capture, kLight);
+      EXPECT_EQ(rendered.picture.bytes, alone.render(plan, capture, kLight).picture.bytes);
+      kept += rendered.statistics.kept_sums;
+    }
+    EXPECT_EQ(kept > 0, precision != Precision::fixed) << to_text(precision);
+    team.keep_resident(nullptr);
+  }
+}
+
+// Blocks that stay on the devices belong to each one's band.
 TEST(DeviceTeam, KeepsTheResidentCapture) {
   const OpenClOptions options = test::renderer_options(Precision::fixed);
   OpenClRenderer alone(options);

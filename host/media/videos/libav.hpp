@@ -102,24 +102,25 @@ inline std::optional<std::int64_t> most_pixels(const AVCodecParameters& told) {
   return (2 * std::int64_t{told.width} + 256) * (std::int64_t{told.height} + 320);
 }
 
-// A file of this size can hold no more, as even pictures of black take a byte for so many pixels; no camera's are larger
-// than the small.
+// What a file of this size is believed to hold: 7680 x 4320 in any case. Larger pictures need 4 kB and more, which those
+// of any camera have.
 inline std::int64_t most_pixels(const AVFormatContext& context) {
   constexpr std::int64_t kPixelsAByte = 8256, kSmall = std::int64_t{1} << 25;
   const std::int64_t bytes = avio_size(context.pb);
   return bytes < 0 ? std::numeric_limits<std::int32_t>::max() : std::max(kSmall, bytes * kPixelsAByte);
 }
 
-// Of each stream what is not known before some of its pictures are decoded, which comes before memory is counted. Returns
-// FFmpeg's error code.
+// Of each stream what is not known before some of its pictures are decoded, which comes before memory is counted.
+// Returns FFmpeg's error code. Throws InputError where a stream states too many pixels.
 inline int find_stream_info(AVFormatContext& context, const std::string& name) {
   const std::int64_t most = most_pixels(context);
   for (unsigned i = 0; i < context.nb_streams; ++i) {
     const AVCodecParameters& told = *context.streams[i]->codecpar;
     if (std::int64_t{told.width} * told.height <= most) continue;
+    const std::int64_t bytes = avio_size(context.pb);
     throw InputError(
-        format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged", name,
-               told.width, told.height, avio_size(context.pb)));
+        format("{} cannot be read: {} x {} pixels are more than {} can hold; it is damaged, or described wrongly",
+               name, told.width, told.height, bytes < 0 ? "a picture" : format("its {} bytes", bytes)));
   }
   std::vector<AVDictionary*> settings(context.nb_streams);
   for (std::size_t i = 0; i < settings.size(); ++i) {

@@ -132,6 +132,7 @@ void MainWindow::open_project(const QString& path, Origin::Kind kind) {
 }
 
 void MainWindow::open_capture_file(const QString& path, const QString& rate, Origin origin) {
+  is_opening_ = false;  // what is cancelled here gives way to this file, not to what is open
   jobs_.cancel();
   is_opening_ = true;
   if (document_.facts() != nullptr) origin.left = document_.state();
