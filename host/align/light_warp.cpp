@@ -32,7 +32,7 @@ struct Taps {
 };
 
 // The cubic's taps at -1, 0, 1 and 2 for places t behind 0, 0 <= t < 1.
-inline void set_cubic(float (&taps)[kTaps][kPixelsAtOnce], std::size_t i, double t) {
+inline void set_cubic(float (&taps)[kTaps][kPixelsAtOnce], std::int32_t i, double t) {
   const auto u = static_cast<float>(t);
   taps[0][i] = ((-0.5f * u + 1) * u - 0.5f) * u;
   taps[1][i] = (1.5f * u - 2.5f) * u * u + 1;
@@ -40,19 +40,27 @@ inline void set_cubic(float (&taps)[kTaps][kPixelsAtOnce], std::size_t i, double
   taps[3][i] = (0.5f * u - 0.5f) * u * u;
 }
 
-NUTIK_SIMD_CLONES void set_taps(const Warp& warp, std::uint32_t x, std::uint32_t y, std::uint32_t count,
-                                const Shape& shape, Taps& taps) {
-  const auto stride = static_cast<std::uint32_t>(stride_of(shape));
+// No branches: compilers make vectors of it.
+inline double within(double value, double low, double high) {
+  value = value > low ? value : low;
+  return value < high ? value : high;
+}
+
+NUTIK_SIMD_CLONES void set_taps(Warp warp, std::uint32_t x, std::uint32_t y, std::uint32_t count,
+                                const Shape& shape, Taps& __restrict taps) {
+  const auto stride = static_cast<std::int32_t>(stride_of(shape));
   const double right_side = shape.width - 0.5, bottom = shape.height - 0.5;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Place place = warp.at(static_cast<std::int32_t>(x + i), static_cast<std::int32_t>(y));
+  const auto left = static_cast<std::int32_t>(x);
+  const double row = y;
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(count); ++i) {
+    const Place place = warp.at(left + i, row);
     // A steep warp may lead further beyond a side than the border reaches.
-    const double px = std::clamp(place.x, -0.5, right_side), py = std::clamp(place.y, -0.5, bottom);
+    const double px = within(place.x, -0.5, right_side), py = within(place.y, -0.5, bottom);
     const auto right = static_cast<std::int32_t>(px + 1), down = static_cast<std::int32_t>(py + 1);
     set_cubic(taps.x, i, px - (right - 1));
     set_cubic(taps.y, i, py - (down - 1));
     // Of the tap at -1, right - 2, in a plane that begins at -kBorder.
-    taps.first[i] = static_cast<std::uint32_t>(down) * stride + static_cast<std::uint32_t>(right);
+    taps.first[i] = static_cast<std::uint32_t>(down * stride + right);
   }
 }
 

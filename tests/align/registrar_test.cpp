@@ -12,6 +12,7 @@
 
 #include "media/module.hpp"
 #include "support/clips.hpp"
+#include "system/parallel.hpp"
 
 namespace nutik {
 namespace {
@@ -231,6 +232,27 @@ TEST(Registrar, GivesTheSameTwice) {
     return registrar_of(format_of(look), CameraMotion::homography, reference)->find(other, Warp());
   };
   EXPECT_EQ(find(), find());
+}
+
+// Searches work in memory that searches before them leave.
+TEST(Registrar, GivesTheSameWhateverItFoundBefore) {
+  const Look look;
+  Scene scene(look);
+  const auto reference = scene.seen(Warp(), 0);
+  std::vector<std::vector<std::byte>> others;
+  for (std::size_t i = 0; i < kPictures; ++i) {
+    const auto far = static_cast<double>(i);
+    others.push_back(scene.seen(moved(2 * far, -far, far / 2), i));
+  }
+  const auto shared = registrar_of(format_of(look), CameraMotion::homography, reference);
+  std::vector<Registered> found(kPictures);
+  for (int time = 0; time < 2; ++time) {
+    parallel_for(kPictures, [&](std::uint64_t i) { found[i] = shared->find(others[i], Warp()); });
+    for (std::size_t i = 0; i < kPictures; ++i) {
+      const auto alone = registrar_of(format_of(look), CameraMotion::homography, reference);
+      EXPECT_EQ(found[i], alone->find(others[i], Warp())) << i;
+    }
+  }
 }
 
 TEST(Registrar, LeavesNearByWhatRests) {

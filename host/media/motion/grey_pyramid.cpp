@@ -14,10 +14,10 @@ constexpr double kBlurPixels = 1.0;
 constexpr int kFeatureSide = 480;
 
 template <typename Code>
-cv::Mat grey_of(const CaptureFormat& format, const Code* codes) {
+void write_grey(const CaptureFormat& format, const Code* codes, cv::Mat& grey) {
   const auto [width, height, channels] = format.shape;
   const auto scale = static_cast<float>(kGreyWhite / format.white_code);
-  cv::Mat grey(static_cast<int>(height), static_cast<int>(width), CV_32F);
+  grey.create(static_cast<int>(height), static_cast<int>(width), CV_32F);
   for (int y = 0; y < grey.rows; ++y) {
     auto* const row = grey.ptr<float>(y);
     for (int x = 0; x < grey.cols; ++x, codes += channels) {
@@ -27,25 +27,29 @@ cv::Mat grey_of(const CaptureFormat& format, const Code* codes) {
                                             static_cast<float>(kLuma[2]) * static_cast<float>(codes[2]));
     }
   }
-  return grey;
 }
 
 }  // namespace
 
-GreyPyramid::GreyPyramid(const CaptureFormat& format, std::span<const std::byte> raster) {
-  cv::Mat grey = format.code_bytes == 1
-                     ? grey_of(format, reinterpret_cast<const std::uint8_t*>(raster.data()))
-                     : grey_of(format, reinterpret_cast<const std::uint16_t*>(raster.data()));
-  const auto halve = [&] {
-    cv::Mat half;
-    cv::pyrDown(grey, half);
-    grey = half;
+void GreyPyramid::take(const CaptureFormat& format, std::span<const std::byte> raster) {
+  std::size_t smallest = 0;
+  const auto grey_at = [&](std::size_t size) -> cv::Mat& {
+    if (size == greys_.size()) greys_.emplace_back();
+    return greys_[size];
   };
-  for (; grey.total() > kMaxPixels; ++finest) halve();
-  for (;;) {
-    cv::Mat blurred;
-    cv::GaussianBlur(grey, blurred, {}, kBlurPixels);
-    levels.push_back(blurred);
+  const auto halve = [&] {
+    cv::Mat& half = grey_at(smallest + 1);
+    cv::pyrDown(greys_[smallest++], half);
+  };
+  format.code_bytes == 1
+      ? write_grey(format, reinterpret_cast<const std::uint8_t*>(raster.data()), grey_at(0))
+      : write_grey(format, reinterpret_cast<const std::uint16_t*>(raster.data()), grey_at(0));
+  while (greys_[smallest].total() > kMaxPixels) halve();
+  finest = static_cast<int>(smallest);
+  for (std::size_t level = 0;; ++level) {
+    const cv::Mat& grey = greys_[smallest];
+    if (level == levels.size()) levels.emplace_back();
+    cv::GaussianBlur(grey, levels[level], {}, kBlurPixels);
     if (std::min(grey.cols, grey.rows) < 2 * kMinSide) return;
     halve();
   }

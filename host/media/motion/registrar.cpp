@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "capture/format.hpp"
 #include "media/motion/feature_start.hpp"
 #include "media/motion/grey_pyramid.hpp"
+#include "media/motion/normal_equations.hpp"
 #include "media/motion/texture.hpp"
 
 namespace nutik::motion {
@@ -26,6 +28,7 @@ namespace {
 constexpr std::size_t kMinPoints = 60;
 constexpr std::size_t kPoints = 20000;        // of the finest level
 constexpr std::size_t kLeadingPoints = 8000;  // of one that leads to a finer one
+constexpr std::size_t kPointsAhead = 8;       // whose surroundings are fetched while others are looked at
 constexpr double kMinSeen = 0.2;              // of the points
 constexpr double kMinAcross = 0.01;           // of the texture's strength along its main direction
 constexpr std::size_t kFineLevels = 3;        // that a start from close by needs
@@ -62,6 +65,12 @@ float cubic_at(const cv::Mat& grey, double x, double y) {
   return between(rows[0], rows[1], rows[2], rows[3], v);
 }
 
+// Points lie too far from each other for their surroundings to be in a cache by themselves.
+void fetch_ahead(const cv::Mat& grey, double x, double y) {
+  const int left = static_cast<int>(x), top = static_cast<int>(y);
+  for (int j = 0; j < 4; ++j) __builtin_prefetch(grey.ptr<float>(top + j - 1) + left - 1);
+}
+
 // What is fitted: the motion's numbers, in a frame that reaches to about 1 at the picture's corners; brightness last.
 class Frame {
  public:
@@ -71,7 +80,7 @@ class Frame {
         radius_(std::max(1.0, std::hypot(x_, y_))),
         motion_(motion) {}
 
-  [[nodiscard]] int count() const {
+  [[nodiscard]] std::size_t count() const {
     return motion_ == CameraMotion::translation ? 2 : motion_ == CameraMotion::rigid ? 3 : 8;
   }
   [[nodiscard]] double radius() const { return radius_; }
@@ -121,8 +130,9 @@ struct Fit {
 
 struct Sampled {
   const Point* point;
-  double x, y;  // of the picture
-  double grey;  // of the picture that is registered, where the warp says
+  double x, y;    // of the picture
+  double px, py;  // where the warp says, of the level
+  double grey;    // of the picture that is registered, there
 };
 
 using Parts = std::array<std::vector<double>, kPartsToASide * kPartsToASide>;
@@ -131,7 +141,8 @@ class RobustRegistrar final : public Registrar {
  public:
   RobustRegistrar(const CaptureFormat& format, CameraMotion motion, std::span<const std::byte> reference)
       : format_(format), frame_(format.shape, motion), coarse_(format.shape, coarse_motion(motion)) {
-    const GreyPyramid pyramid(format, reference);
+    GreyPyramid pyramid;
+    pyramid.take(format, reference);
     for (std::size_t i = 0; i < pyramid.levels.size(); ++i) {
       const cv::Mat& grey = pyramid.levels[i];
       Level level{pyramid.finest + static_cast<int>(i), grey.size(),
@@ -144,7 +155,25 @@ class RobustRegistrar final : public Registrar {
   }
 
   Registered find(std::span<const std::byte> raster, const Warp& guess, Reach reach) override {
-    const GreyPyramid pyramid(format_, raster);
+    std::unique_ptr<GreyPyramid> pyramid = spare_pyramid();
+    pyramid->take(format_, raster);
+    const Registered found = found_in(*pyramid, guess, reach);
+    const std::scoped_lock lock(pyramids_mutex_);
+    pyramids_.push_back(std::move(pyramid));
+    return found;
+  }
+
+ private:
+  // As many come to be as searches run at the same time.
+  [[nodiscard]] std::unique_ptr<GreyPyramid> spare_pyramid() {
+    const std::scoped_lock lock(pyramids_mutex_);
+    if (pyramids_.empty()) return std::make_unique<GreyPyramid>();
+    std::unique_ptr<GreyPyramid> pyramid = std::move(pyramids_.back());
+    pyramids_.pop_back();
+    return pyramid;
+  }
+
+  [[nodiscard]] Registered found_in(const GreyPyramid& pyramid, const Warp& guess, Reach reach) {
     Registered best = fit(pyramid, guess, levels_.size());
     const auto try_from = [&](const Warp& start, std::size_t levels = kFineLevels) {
       const Registered other = fit(pyramid, start, levels);
@@ -161,7 +190,6 @@ class RobustRegistrar final : public Registrar {
     return best;
   }
 
- private:
   // Away from the finest levels there is too little to tell a homography from.
   static CameraMotion coarse_motion(CameraMotion motion) {
     return motion == CameraMotion::homography ? CameraMotion::rigid : motion;
@@ -194,8 +222,8 @@ class RobustRegistrar final : public Registrar {
           i == 0 || (i == 1 && levels_[i].size.height >= 100 && levels_[i].size.width >= 100);
       Fit settled = fit;
       const double enough = i == 0 ? kSettledPixels : kRoughlySettled * levels_[i].scale();
-      if (settle(levels_[i], pyramid.levels[i], is_fine ? frame_ : coarse_, is_first ? kFirstSteps : 1, enough,
-                 settled)) {
+      if (settle(levels_[i], pyramid.levels[i], is_fine ? frame_ : coarse_, is_first ? kFirstSteps : 1,
+                 enough, settled)) {
         fit = settled;
         is_first = false;
       } else if (i == 0) {
@@ -260,10 +288,14 @@ class RobustRegistrar final : public Registrar {
       const Place there = warp.at(x, y);
       const double px = there.x / scale, py = there.y / scale;
       if (!(px >= 2 && py >= 2 && px < grey.cols - 3 && py < grey.rows - 3)) continue;
-      seen.push_back({&point, x, y, double{cubic_at(grey, px, py)}});
+      seen.push_back({&point, x, y, px, py, 0});
     }
-    if (static_cast<double>(seen.size()) < kMinSeen * static_cast<double>(level.points.size()))
-      seen.clear();
+    if (static_cast<double>(seen.size()) < kMinSeen * static_cast<double>(level.points.size())) seen.clear();
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (i + kPointsAhead < seen.size())
+        fetch_ahead(grey, seen[i + kPointsAhead].px, seen[i + kPointsAhead].py);
+      seen[i].grey = double{cubic_at(grey, seen[i].px, seen[i].py)};
+    }
     return seen;
   }
 
@@ -286,9 +318,9 @@ class RobustRegistrar final : public Registrar {
 
   // Until a step moves the corners by no more than `enough` pixels of the picture. False where the picture shows too
   // little of the reference, or the fit leads nowhere.
-  static bool settle(const Level& level, const cv::Mat& grey, const Frame& frame, int first_steps, double enough,
-                     Fit& fit) {
-    const int motion = frame.count(), count = motion + 2;
+  static bool settle(const Level& level, const cv::Mat& grey, const Frame& frame, int first_steps,
+                     double enough, Fit& fit) {
+    const std::size_t motion = frame.count(), count = motion + 2;  // brightness has two numbers
     const double per_radius = frame.radius() / level.scale();
     std::vector<double> sizes;
     for (int step = 0; step < kMaxSteps; ++step) {
@@ -297,8 +329,8 @@ class RobustRegistrar final : public Registrar {
       sizes.clear();
       for (const Sampled& sample : seen) sizes.push_back(std::abs(residual(sample, fit)));
       const double limit = kTukey * std::max(kMinSigma, 1.4826 * median(sizes));
-      cv::Mat squares = cv::Mat::zeros(count, count, CV_64F), right = cv::Mat::zeros(count, 1, CV_64F);
-      double column[10];
+      NormalEquations equations(count);
+      NormalEquations::Row slopes{};
       for (const Sampled& sample : seen) {
         const double share = residual(sample, fit) / limit;
         double weight = 1 / (1 + 9 * share * share);  // Cauchy's, which excludes nothing
@@ -308,26 +340,24 @@ class RobustRegistrar final : public Registrar {
         }
         const Point& point = *sample.point;
         frame.slopes(sample.x, sample.y, per_radius * point.gradient_x, per_radius * point.gradient_y,
-                     column);
-        column[motion] = point.grey / kGreyWhite;
-        column[motion + 1] = 1;
-        for (int i = 0; i < count; ++i) {
-          auto* const row = squares.ptr<double>(i);
-          for (int k = 0; k <= i; ++k) row[k] += weight * column[i] * column[k];
-          right.at<double>(i) += weight * column[i] * sample.grey;
-        }
+                     slopes.data());
+        slopes[motion] = point.grey / kGreyWhite;
+        slopes[motion + 1] = 1;
+        equations.add(slopes, weight, sample.grey);
       }
-      cv::completeSymm(squares, true);
-      cv::Mat solved;
-      if (!cv::solve(squares, right, solved, cv::DECOMP_CHOLESKY)) return false;
-      auto* const numbers = solved.ptr<double>();
+      std::array<double, NormalEquations::kMaxNumbers> numbers;
+      if (!equations.solve(numbers)) return false;
       fit.gain = numbers[motion] / kGreyWhite;
       fit.offset = numbers[motion + 1];
       if (!(fit.gain > 0.2 && fit.gain < 5)) return false;
-      for (int i = 0; i < motion; ++i) numbers[i] /= fit.gain;
-      const double moved = cv::norm(solved.rowRange(0, motion)) * frame.radius();
+      double square = 0;
+      for (std::size_t i = 0; i < motion; ++i) {
+        numbers[i] /= fit.gain;
+        square += numbers[i] * numbers[i];
+      }
+      const double moved = std::sqrt(square) * frame.radius();
       if (!(moved < frame.radius())) return false;
-      fit.warp = chained(inverse(frame.warp(numbers)), fit.warp);
+      fit.warp = chained(inverse(frame.warp(numbers.data())), fit.warp);
       if (moved < enough && step > first_steps) break;
     }
     return true;
@@ -352,6 +382,8 @@ class RobustRegistrar final : public Registrar {
   cv::Mat reference_;          // for features, which are looked for when they are first needed
   std::optional<FeatureStart> features_;
   std::mutex features_mutex_;
+  std::vector<std::unique_ptr<GreyPyramid>> pyramids_;  // that no search uses now
+  std::mutex pyramids_mutex_;
 };
 
 }  // namespace
