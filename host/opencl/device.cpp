@@ -185,7 +185,7 @@ std::vector<std::size_t> choose_devices(std::span<const DeviceInfo> devices, std
   for (std::size_t begin = 0; begin <= wanted.size(); begin += names.back().size() + 1) {
     names.emplace_back(wanted.substr(begin, wanted.find(',', begin) - begin));
     if (!trimmed(names.back()).empty()) continue;
-    throw DeviceError(format("'{}' names no device before or behind a comma; these were found:{}", wanted,
+    throw DeviceError(format("'{}' names no device before or after a comma; these were found:{}", wanted,
                              list_text(devices)));
   }
   if (named(devices, wanted).size() == 1) return {choose_device(devices, wanted)};  // a name with a comma

@@ -24,11 +24,11 @@ from ._functions import Function, boxcar, fit, parse_functions, read_functions, 
 from ._masks import Mask, read_mask
 from ._nutik import (DeviceError, Error, InputError, MemoryTooLittle, OutputError, UsageError, __version__)
 from ._pictures import Picture
-from ._sources import encode, open
+from ._sources import encode, join, open
 from ._words import NutikNote, NutikWarning
 
 __all__ = [
     "Activity", "Capture", "DeviceError", "Error", "Function", "InputError", "Mask", "MemoryTooLittle", "NutikNote",
     "NutikWarning", "OutputError", "Picture", "Plate", "Solution", "SolvedWish", "Study", "Trace", "UsageError", "__version__",
-    "boxcar", "encode", "fit", "open", "parse_functions", "read_functions", "read_mask", "shutter", "write_functions",
+    "boxcar", "encode", "fit", "join", "open", "parse_functions", "read_functions", "read_mask", "shutter", "write_functions",
 ]

@@ -101,6 +101,24 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
                                         settings_of(stated), computing, progress))
 
 
+def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None,
+         memory: Union[int, str, None] = None, renderer: Optional[str] = None, progress: Progress = None) -> Capture:
+    """Makes one capture of captures of pictures that follow each other, and opens it (docs/how-to/farm.md).
+
+    captures: paths of two or more .tik that were encoded alike. Parts of a clip (begin= and end= of nutik.encode()) know
+        their place and may come in any order; others follow each other at once, as they are named, if they have one
+        constant rate, which a note tells.
+    output: the .tik to write; its blocks are copies of theirs. device, memory, renderer, progress: as of nutik.open().
+
+    Raises InputError where one is damaged or does not follow the one before it, UsageError where there are fewer than
+    two or output is one of them, OutputError; KeyboardInterrupt at Ctrl-C. No file is left behind then.
+    """
+    if isinstance(captures, (str, PathLike)):
+        raise UsageError(f"captures= is {captures!r}: give a list of two captures or more")
+    return _told(_nutik.join([path_word(each) for each in captures], path_word(output),
+                             _computing(device, memory, renderer), progress))
+
+
 _COMPUTING = ("device", "memory", "renderer")
 
 

@@ -12,6 +12,7 @@
 #include "session/clips/camera_check.hpp"
 #include "session/clips/encoding.hpp"
 #include "session/making/capture_figures.hpp"
+#include "session/making/joining.hpp"
 #include "working.hpp"
 
 namespace nutik::python {
@@ -86,6 +87,17 @@ py::tuple encode_clip(const std::string& path, const std::optional<std::string>&
   if (is_tik(path)) throw UsageError(format("{} is a capture already; nutik.open() opens it", path));
   return encoded({source_request(path, settings), devices_for(computing_request(computing)), {}}, output,
                  codec, progress);
+}
+
+py::tuple joined(const std::vector<std::string>& captures, const std::string& output,
+                 const Settings& computing, const py::object& progress) {
+  const JoinRequest request{{captures.begin(), captures.end()}, output};
+  const Joined made =
+      without_lock([&](const Stopping& stopping) { return join(request, stopping.progress()); }, progress);
+  Terms of_file;
+  of_file.source.path = output;
+  of_file.devices = devices_for(computing_request(computing));
+  return told_of(opened(of_file, py::none()), {}, made.notes);
 }
 
 // `first` is a picture: of an iterator its first one, which it will return again. Times are those of ClipTiming.
@@ -202,6 +214,7 @@ void bind_captures(py::module_& module) {
   module.def("encode_pictures", &encode_pictures, py::arg("pictures"), py::arg("first"), py::arg("name"),
              py::arg("starts_ns"), py::arg("exposures_ns"), py::arg("exposed_ns"), py::arg("output"),
              py::arg("codec"), py::arg("settings"), py::arg("computing"), py::arg("progress"));
+  module.def("join", &joined, py::arg("captures"), py::arg("output"), py::arg("computing"), py::arg("progress"));
 }
 
 }  // namespace nutik::python

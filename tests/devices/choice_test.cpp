@@ -47,7 +47,7 @@ TEST(ChosenDevices, AreThereEachOnce) {
   EXPECT_EQ(refusal("2,radeon"), "'2,radeon' names device 2 twice (Radeon Pro); name each once");
   for (const char* wanted : {"0,", ",0", "0,,1", ","}) {
     EXPECT_NE(
-        refusal(wanted).find("names no device before or behind a comma; these were found:\n  0  GeForce"),
+        refusal(wanted).find("names no device before or after a comma; these were found:\n  0  GeForce"),
         std::string::npos)
         << refusal(wanted);
   }

@@ -1,7 +1,6 @@
 // The program on two devices: PoCL's, which share the processor. Files are those of one device.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -133,7 +132,7 @@ TEST_F(SeveralDevices, AreRefusedWithTheWayOut) {
   expect_refused(with("0,2"), 4, "there is no OpenCL device 2; these were found:\n  0  pthread-");
   expect_refused(with("0,nosuch"), 4,
                  "no OpenCL device's name contains 'nosuch'; these were found:\n  0  pthread-");
-  expect_refused(with("0,"), 4, "'0,' names no device before or behind a comma");
+  expect_refused(with("0,"), 4, "'0,' names no device before or after a comma");
   expect_refused({"validate", "--device", "0,1", "--start", "0s", "--exposure", "50ms", "clip.tik"}, 2,
                  "each is validated alone; name one of them: --device 0");
   Words reference = with("0,1");

@@ -39,7 +39,8 @@ def main():
         with warnings.catch_warnings():
             warnings.simplefilter("always")
             exec(compile("\n" * line + example[1], str(arguments.page), "exec"), names)
-    assert {"clip.mkv", "moment.png", "noise.tik", "light.exr"} == set(os.listdir()), os.listdir()
+    assert set(os.listdir()) == {"clip.mkv", "light.exr", "moment.png", "noise.tik", "part-0.tik", "part-1.tik",
+                                 "whole.tik"}, os.listdir()
     print(f"{len(examples)} examples run")
 
 

@@ -2,6 +2,7 @@
 
 import datetime
 import itertools
+import os
 import unittest
 from decimal import Decimal
 from fractions import Fraction
@@ -135,6 +136,42 @@ class Arrays(support.TestCase):
                            rate=1, crop=(0, 0, 4, 4))
         with self.assertRaisesRegex(TypeError, "'chop'"):
             nutik.encode(self.path("still-%d.pgm"), rate=1, chop=1)
+
+    def test_parts_are_joined(self):
+        """Pieces of a recording as they came, and parts of a clip in any order."""
+        pictures = support.moving_box(24, 33, 50)
+        for codec in ("none", "rice"):
+            whole = nutik.encode(pictures, self.path("whole.tik"), rate=50, block_samples=8, codec=codec)
+            pieces = [self.path(f"piece-{k}.tik") for k in range(2)]
+            for piece, taken in zip(pieces, (pictures[:16], pictures[16:])):
+                nutik.encode(taken, piece, rate=50, block_samples=8, codec=codec)
+            told = []
+            with self.assertWarns(nutik.NutikNote):
+                joined = nutik.join(pieces, self.path("joined.tik"), progress=lambda *far: told.append(far))
+            self.assert_same(joined.times_ns, whole.times_ns)
+            self.assert_same(joined.render(start="1f", exposure="20f", codes=True).array,
+                             whole.render(start="1f", exposure="20f", codes=True).array)
+            self.assertEqual(told[-1], (24, 24))
+        for k in range(6):
+            support.write_pgm(self.path(f"still-{k}.pgm"), np.full((8, 8), 9 * k, np.uint8))
+        parts = [self.path("part-1.tik"), self.path("part-0.tik")]
+        for part, (begin, end) in zip(parts, (("3f", "6f"), ("0f", "3f"))):
+            nutik.encode(self.path("still-%d.pgm"), part, rate=10, begin=begin, end=end)
+        joined = nutik.join(iter(parts), self.path("joined.tik"))
+        self.assertEqual([sample(joined, k)[0, 0] for k in range(6)], [9 * k for k in range(6)])
+
+    def test_parts_that_cannot_be_joined(self):
+        parts = [self.path("a.tik"), self.path("b.tik")]
+        for part, side in zip(parts, (8, 9)):
+            nutik.encode(np.zeros((2, side, side), np.uint8), part, rate=1)
+        output = self.path("whole.tik")
+        self.assert_raises(nutik.InputError, ["b.tik", "9 x 9"], nutik.join, parts, output)
+        self.assert_raises(nutik.InputError, "absent.tik", nutik.join, [parts[0], self.path("absent.tik")], output)
+        self.assert_raises(nutik.UsageError, "two captures", nutik.join, parts[:1], output)
+        self.assert_raises(nutik.UsageError, "a list", nutik.join, parts[0], output)
+        self.assert_raises(nutik.UsageError, "a.tik", nutik.join, [parts[0], parts[0]], parts[0])
+        self.assert_raises(nutik.UsageError, "no name for a capture", nutik.join, parts, self.path("whole.png"))
+        self.assertFalse(os.path.exists(output))
 
     def test_closed(self):
         with nutik.encode(np.zeros((4, 8, 8), np.uint8), rate=1) as capture:

@@ -1,5 +1,4 @@
 #include "app/commands/commands.hpp"
-#include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "session/below/error.hpp"
@@ -16,7 +15,6 @@ int run_join(const Options& options) {
   if (captures.size() < 2 || !options.output || options.output->empty())
     throw UsageError("join takes two captures or more and an output: nutik-cl join a.tik b.tik -o whole.tik");
   const JoinRequest request{{captures.begin(), captures.end()}, *options.output};
-  check_output(request.output, OutputKind::tik, captures);
 
   const Stopwatch stopwatch;
   const Joined joined = join(request, progress_bar("joining", options.quiet, progress_lines(options)));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "capture/part_of_clip.hpp"
 #include "media/deflicker.hpp"
 #include "session/making/retiming.hpp"
+#include "session/output_check.hpp"
 #include "session/text/size_text.hpp"
 #include "session/text/time_text.hpp"
 #include "system/interruption.hpp"
@@ -284,6 +286,8 @@ std::uint64_t copy(const Piece& piece, std::uint64_t first_sample, const Timelin
 
 Joined join(const JoinRequest& request, const ReportedProgress& progress) {
   if (request.captures.size() < 2) throw UsageError("two captures or more are joined");
+  check_output(request.output, OutputKind::tik,
+               std::vector<std::string>(request.captures.begin(), request.captures.end()));
   std::vector<Piece> pieces;
   for (const std::filesystem::path& path : request.captures) {
     check_interruption();

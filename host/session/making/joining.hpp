@@ -41,7 +41,7 @@ struct Joined {
 // Captures that tell which pictures of a clip they hold (its part was stated when they were encoded) may be named in
 // any order; notes tell of pictures that none of them has, before the first and behind the last. Others are taken to
 // follow each other at once, as they are named, if they have one constant rate; a note says so. `progress` counts
-// samples. Throws UsageError where fewer than two are named; InputError where one is damaged or cannot follow the one
+// samples. Throws UsageError where fewer than two are named, or `output` is one of them or no name of a capture; InputError where one is damaged or cannot follow the one
 // before it: it was encoded otherwise, or pictures are missing or there twice; OutputError.
 [[nodiscard]] Joined join(const JoinRequest& request, const ReportedProgress& progress = {});
 
