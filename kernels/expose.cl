@@ -13,8 +13,8 @@
 #include "items.clh"
 #include "tiles.clh"
 
-// Adds the sums of a block or a bundle to the picture's, which start with the first entry: with 0, for which entry comes
-// first depends on what is kept, and 0 + -0 is 0.
+// Adds the sums of a block, a half or a bundle to the picture's, which start with the first entry: with 0, for which
+// entry comes first depends on what is kept, and 0 + -0 is 0.
 NUTIK_INLINE void add_sums(global Sum* restrict sums, const size_t tile, const uint lane,
                            const Sums* block_sums, const bool is_start) {
 #pragma unroll

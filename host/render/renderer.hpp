@@ -41,8 +41,8 @@ struct RenderStatistics {
   std::uint64_t table_bytes_written = 0;  // of gain tables, and
   std::uint64_t map_bytes_written =
       0;  // of functions of pixels, that were not on the device from renders before
-  // Of a resident capture: functions whose pixels were not as in the render before; sums of blocks and bundles that
-  // were not made again, and those that were made to be kept.
+  // Of a resident capture: functions whose pixels were not as in the render before; sums of blocks, halves and bundles
+  // that were not made again, and those that were made to be kept.
   std::uint64_t exposed_functions = 0;
   std::uint64_t kept_sums = 0;
   std::uint64_t made_sums = 0;
