@@ -29,6 +29,12 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
+// Black stays black and white stays white, however they are exposed; what noise adds to black is no light.
+bool tells_exposure(double code, double wanted) {
+  constexpr double kBlack = 2 * kCode8;
+  return std::max(code, wanted) >= kBlack && std::min(code, wanted) <= 1 - kCode8;
+}
+
 // Means of blocks that are spread over a picture, as shares of white; channel by channel.
 class Blocks {
  public:
@@ -202,10 +208,16 @@ std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::
   constexpr int kTimesEach = 4;
   // Codes of one place stray, by shadows too. Followed more closely, that would be taken for a bent curve.
   constexpr double kMinReach = 4;
+  constexpr std::size_t kMaxSilent = 50;  // pairs, for one that tells: of darkness it need not be known
   CodeShift shift;
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    if (tells_exposure(codes[i], wanted[i])) ratios.push_back(wanted[i] / std::max(codes[i], kCode8));
+  }
+  const std::size_t telling = ratios.size();
+  if (kMaxSilent * telling < codes.size()) return shift;
+  const double ratio = median(ratios);
   std::vector<double> left(codes.size()), sizes(codes.size());
-  for (std::size_t i = 0; i < codes.size(); ++i) left[i] = wanted[i] / std::max(codes[i], kCode8);
-  const double ratio = median(left);
   for (std::size_t knot = 0; knot < kKnots; ++knot) {
     shift.shifts_[knot] = (ratio - 1) * static_cast<double>(knot) / (kKnots - 1);
   }
@@ -242,9 +254,12 @@ std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::
       }
     }
   }
-  const auto trusted = std::ranges::count_if(left, [&](double each) { return trust(each, deviation) > 0; });
+  std::size_t trusted = 0;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    trusted += tells_exposure(codes[i], wanted[i]) && trust(left[i], deviation) > 0 ? 1 : 0;
+  }
   constexpr double kMaxDeviation = 12 * kCode8;
-  if (deviation > kMaxDeviation || 2 * static_cast<std::size_t>(trusted) < codes.size()) return std::nullopt;
+  if (deviation > kMaxDeviation || 2 * trusted < telling) return std::nullopt;
   // A camera neither swallows differences nor makes them several times as large.
   for (std::size_t knot = 1; knot < kKnots; ++knot) {
     const double slope = 1 + (shift.shifts_[knot] - shift.shifts_[knot - 1]) * (kKnots - 1);

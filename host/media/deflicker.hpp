@@ -23,8 +23,8 @@ inline constexpr std::string_view kDeflickered = "exposed as its first picture";
 // How far codes of one picture lie from those of another for the same things: by codes, linear between knots.
 class CodeShift {
  public:
-  // Between pairs of codes of the same places, of which less than half may show other things. None where more do.
-  // Codes are shares of white.
+  // Between pairs of codes of the same places. Of those that are neither black nor white in both less than half may show
+  // other things: none where more do, and no shift where nearly all are black or white. Codes are shares of white.
   static std::optional<CodeShift> between(std::span<const double> codes, std::span<const double> wanted);
 
   [[nodiscard]] double at(double code) const;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "support/clips.hpp"
 #include "support/messages.hpp"
@@ -143,6 +144,31 @@ TEST(Deflicker, KeepsTheOrderOfCodes) {
     EXPECT_GE(code, seen[i % 3]) << i;
     seen[i % 3] = code;
   }
+}
+
+// Of a stage before black curtains most is black, which noise that is cut off at 0 makes a little brighter or darker.
+TEST(CodeShift, IsNotToldByBlackAndWhite) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> noise(0, 1.0 / 255);
+  for (const double factor : {1.0, 0.8}) {
+    std::vector<double> codes, wanted;
+    for (int i = 0; i < 1000; ++i) {
+      codes.push_back(i < 600 ? noise(random) : i < 800 ? 1 : 0.1 + 0.7 * (i - 800) / 200);
+      wanted.push_back(i < 600 ? noise(random) : i < 800 ? 1 : factor * codes.back());
+    }
+    const auto shift = CodeShift::between(codes, wanted);
+    ASSERT_TRUE(shift) << factor;
+    for (double code = 0.12; code < 0.78; code += 0.01)
+      EXPECT_NEAR(code + shift->at(code), factor * code, 1.0 / 255) << factor;
+  }
+}
+
+TEST(CodeShift, IsNoneOfDarkness) {
+  std::vector<double> codes(1000, 0.0), wanted(1000, 0.4 / 255);
+  wanted[3] = 0.9;  // a lamp
+  const auto shift = CodeShift::between(codes, wanted);
+  ASSERT_TRUE(shift);
+  EXPECT_EQ(shift->distance_to({}), 0);
 }
 
 TEST(CodeShift, IsTheOneThatMostPairsAgreeOn) {
