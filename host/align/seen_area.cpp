@@ -7,8 +7,7 @@
 namespace nutik {
 namespace {
 
-// Of rounding, in pixels: a camera that rests saw its whole picture.
-constexpr double kSlack = 1e-6;
+constexpr double kRounding = 1e-6;
 
 }  // namespace
 
@@ -27,13 +26,13 @@ PixelSpan seen_span(const Warp& warp, const Shape& shape, std::uint32_t row) {
     }
   };
   const double x_rest = m[1] * y + m[2], y_rest = m[4] * y + m[5], z_rest = m[7] * y + m[8];
-  const double right = shape.width - 1 + kSlack, bottom = shape.height - 1 + kSlack;
-  cut(m[6], z_rest - kSlack);
-  cut(m[0] + kSlack * m[6], x_rest + kSlack * z_rest);
-  cut(m[3] + kSlack * m[6], y_rest + kSlack * z_rest);
+  const double right = shape.width - 1 + kSeenBeyond, bottom = shape.height - 1 + kSeenBeyond;
+  cut(m[6], z_rest - kRounding);
+  cut(m[0] + kSeenBeyond * m[6], x_rest + kSeenBeyond * z_rest);
+  cut(m[3] + kSeenBeyond * m[6], y_rest + kSeenBeyond * z_rest);
   cut(right * m[6] - m[0], right * z_rest - x_rest);
   cut(bottom * m[6] - m[3], bottom * z_rest - y_rest);
-  const double first = std::ceil(low - kSlack), last = std::floor(high + kSlack);
+  const double first = std::ceil(low - kRounding), last = std::floor(high + kRounding);
   if (!(first <= last)) return {};
   return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last) + 1};
 }

@@ -16,6 +16,10 @@ struct PixelSpan {
   std::uint32_t first = 0, end = 0;
 };
 
+// In pixels: what lies no further beyond a picture's outermost ones counts as seen. Registering tells no less, and a
+// camera that rests saw its whole picture.
+inline constexpr double kSeenBeyond = 0.05;
+
 // The pixels of a row of the reference that a picture saw. They are neighbours, for a picture is convex.
 [[nodiscard]] PixelSpan seen_span(const Warp& warp, const Shape& shape, std::uint32_t row);
 

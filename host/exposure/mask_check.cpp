@@ -133,9 +133,9 @@ std::string size_mistake(const Mask& mask, const Shape& capture) {
   if (mask.width == capture.height && mask.height == capture.width) {
     way_out = "turn it by 90 degrees";
   } else if (is_turned || is_scaled(mask.width, mask.height, capture.width, capture.height)) {
-    way_out =
-        format("{}scale it to {} x {} without smoothing (nearest neighbour), which would make new values",
-               is_turned ? "turn it by 90 degrees and " : "", capture.width, capture.height);
+    way_out = format("{}scale it to {} x {}{}", is_turned ? "turn it by 90 degrees and " : "", capture.width,
+                     capture.height,
+                     mask.is_soft() ? "" : " without smoothing (nearest neighbour), which would make new values");
   }
   return format("the mask is {} x {} pixels, the capture {} x {}; {}", mask.width, mask.height, capture.width,
                 capture.height, way_out);

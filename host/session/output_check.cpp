@@ -113,7 +113,7 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   }
   for (const std::string& input : inputs) {
     if (is_same_file(output, input)) {
-      throw UsageError(format("the output {} is also an input; choose another name", name));
+      throw UsageError(format("the output {} is also an input or another output; choose another name", name));
     }
   }
   if (kind == OutputKind::tik && output.extension() != ".tik") {

@@ -16,7 +16,7 @@ constexpr double kOfRounding = 1e-4;  // pixels from the border within which a p
 double depth_inside(const Warp& warp, std::uint32_t x, std::uint32_t y) {
   if (warp.m[6] * x + warp.m[7] * y + warp.m[8] <= 0) return -1;
   const Place place = warp.at(x, y);
-  return std::min({place.x, place.y, kShape.width - 1 - place.x, kShape.height - 1 - place.y});
+  return kSeenBeyond + std::min({place.x, place.y, kShape.width - 1 - place.x, kShape.height - 1 - place.y});
 }
 
 // Turned, shifted, and seen from another side, some so far that the horizon is in the picture.
@@ -48,11 +48,15 @@ TEST(SeenArea, OfARowIsWhatHasItsPlaceInThePicture) {
   EXPECT_GT(unseen, 100'000u);
 }
 
+// Which registering finds a little beside where it is.
 TEST(SeenArea, ACameraThatRestsSawItsWholePicture) {
-  for (std::uint32_t y = 0; y < kShape.height; ++y) {
-    const PixelSpan span = seen_span(Warp(), kShape, y);
-    EXPECT_EQ(span.first, 0u);
-    EXPECT_EQ(span.end, kShape.width);
+  for (const double found : {-0.03, 0.0, 0.03}) {
+    const Warp warp{{1, 1e-4, found, -1e-4, 1, -found, 0, 0, 1}};
+    for (std::uint32_t y = 0; y < kShape.height; ++y) {
+      const PixelSpan span = seen_span(warp, kShape, y);
+      EXPECT_EQ(span.first, 0u) << found;
+      EXPECT_EQ(span.end, kShape.width) << found;
+    }
   }
 }
 

@@ -212,8 +212,13 @@ TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
     EXPECT_FALSE(says({"study", capture, "-o", "s.png"})) << capture;
   }
   EXPECT_TRUE(says({"mask", "--moving", "plain.tik", "-o", "m.pgm"}));
-  EXPECT_FALSE(says({"mask", "--rectangle", "1,1,9,9", "plain.tik", "-o", "m.pgm"}))
-      << "the camera does not matter";
+  EXPECT_TRUE(says({"plate", "plain.tik", "p.png"}));
+  EXPECT_FALSE(says({"plate", "a.tik", "p.png"}));
+  scratch_.write("all.fn", "M0{[0:all]}\n");
+  EXPECT_TRUE(says({"solve", "-k", "all.fn", "--wish", "all = plate", "plain.tik", "-o", "s.fn"}));
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"mask", "--rectangle", "1,1,9,9", "plain.tik", "-o", "m.pgm"},
+                                                {"solve", "-k", "all.fn", "--wish", "all = 0.2", "plain.tik", "-o", "s.fn"}})
+    EXPECT_FALSE(says(words)) << words[0] << ": the camera does not matter";
   write("far", [](int picture) { return Shift{2 * hand(picture).x, 2 * hand(picture).y}; });
   // A clip is read again; a capture cannot be.
   EXPECT_FALSE(says({"study", "-f", "100", "far", "-o", "s2.png"}));

@@ -50,6 +50,8 @@ TEST_F(Plates, AreTheSameOfAClipAPackedCaptureAndWithLittleMemory) {
   ASSERT_EQ(run({"plate", "plain.tik", "-o", "c.pfm"}).status, 0);
   EXPECT_EQ(test::read_file(scratch_ / "a.pfm"), test::read_file(scratch_ / "b.pfm"));
   EXPECT_EQ(test::read_file(scratch_ / "a.pfm"), test::read_file(scratch_ / "c.pfm"));
+  expect_refused({"plate", "--by", "255", "clip.tik", "-o", "d.pfm"}, 2,
+                 "no codes of clip.tik differ by more than 255, for white is 255");
   const auto refused = run({"plate", "--memory", "1kB", "clip.tik", "-o", "d.pfm"});
   EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.err.find("the plate"), std::string::npos) << refused.err;

@@ -123,6 +123,10 @@ TEST_F(Solve, SaysWhatIsSaturated) {
   EXPECT_NE(said("0.9").find("\nthe picture: no pixel saturated\n"), std::string::npos) << said("0.9");
   EXPECT_NE(said("1.5").find("\nthe picture: 100 pixels saturated above 1\n"), std::string::npos)
       << said("1.5");
+  const auto black =
+      run({"solve", "-k", "figure14.fn", "--wish", "72,22,6,6 = -1", "clip.tik", "-o", "solved.fn"});
+  EXPECT_NE(black.err.find("pixels come out below 0, which is black: bound the gains"), std::string::npos)
+      << black.err;
 }
 
 TEST_F(Solve, ComparesWithAnIntervalUpToTheCapturesEnd) {

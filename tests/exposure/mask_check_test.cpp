@@ -137,6 +137,10 @@ TEST(MaskCheck, Sizes) {
             "(nearest neighbour), which would make new values");
   EXPECT_NE(mistake(213, 120).find("; scale it to 640 x 360"), std::string::npos);  // a third, rounded
   EXPECT_NE(mistake(180, 320).find("; turn it by 90 degrees and scale it to 640 x 360"), std::string::npos);
+  Mask soft = Mask::uniform(1280, 720, 0);
+  soft.mixed.push_back({});
+  EXPECT_EQ(size_mistake(soft, capture),
+            "the mask is 1280 x 720 pixels, the capture 640 x 360; scale it to 640 x 360");
   EXPECT_NE(mistake(640, 480).find("; both must have the same size"), std::string::npos);
 }
 

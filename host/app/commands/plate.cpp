@@ -14,6 +14,15 @@
 #include "session/text/size_text.hpp"
 
 namespace nutik::app {
+namespace {
+
+MemoryNeeds plate_needs(const CaptureFormat& capture) {
+  MemoryNeeds needs = plate_making_needs(capture);
+  needs.add(camera_check_needs(capture));
+  return needs;
+}
+
+}  // namespace
 
 int run_plate(const Options& options) {
   const Stopwatch stopwatch;
@@ -27,7 +36,7 @@ int run_plate(const Options& options) {
   PlateRequest request;
   if (options.by) request.by_codes = parse_whole_number(*options.by, "--by", 0, 65'535);
 
-  Session session = open_session(options, {.besides = plate_making_needs, .renders = false});
+  Session session = open_session(options, {.besides = plate_needs, .renders = false});
   const CaptureFormat& capture = session.format();
   const MadePlate made =
       make_plate(session.capture(), options.operands.front(), request,
@@ -38,6 +47,8 @@ int run_plate(const Options& options) {
         "nothing in the capture is still for long enough to tell its noise: codes that differ by up to "
         "1/32 of white were taken for the same light; --by CODES states another difference");
   }
+  // Before anything is written: what cannot be looked at is an error.
+  const auto moved = moved_camera(session.capture());
   write_picture(output, made.picture, {}, file_wishes(output_request(options)));
   if (options.uncertain) {
     Mask mask = Mask::uniform(capture.shape.width, capture.shape.height, 0);
@@ -56,6 +67,7 @@ int run_plate(const Options& options) {
              shape_text(made.picture.shape), session.timeline().sample_count(),
              100.0 * static_cast<double>(uncertain) / static_cast<double>(capture.shape.pixel_count()),
              stopwatch.seconds());
+  answer.notes = camera_notes(moved);
   answer.tell_source(session);
   if (made.saturation.above > 0) {
     answer.notes.push_back(

@@ -155,6 +155,7 @@ int run_solve(const Options& options) {
   answer.details.push_back(wishes_table(solved));
   answer.details.push_back("the picture: " + saturated_text(solved.saturation));
   answer.details.push_back("try: " + next_command(options, output));
+  answer.notes = camera_notes(solved.moved);
   answer.tell_source(session);
   for (std::string& note : notes_of(request, solved)) answer.notes.push_back(std::move(note));
   return tell(options, output, answer);

@@ -79,6 +79,10 @@ MadePlate make_plate(CaptureSource& capture, const std::string& capture_name, co
   if (capture.timeline().sample_count() < 2) {
     throw InputError(nutik::format("{}: a single sample does not tell what moves", capture_name));
   }
+  if (request.by_codes.value_or(0) >= format.white_code) {
+    throw UsageError(nutik::format("no codes of {} differ by more than {}, for white is {}; state fewer codes",
+                                   capture_name, *request.by_codes, format.white_code));
+  }
   std::optional<CameraNoise> noise;
   if (!request.by_codes) noise = noise_of(capture);
   const auto least = static_cast<std::uint32_t>(std::ceil(CodeBand::kMinShare * format.white_code));

@@ -9,6 +9,7 @@
 #include "capture/source_text.hpp"
 #include "imev/each_block.hpp"
 #include "render/code_scale.hpp"
+#include "session/clips/camera_check.hpp"
 #include "session/making/candidate_times.hpp"
 #include "session/making/plate_request.hpp"
 #include "session/requests/function_input.hpp"
@@ -49,12 +50,14 @@ class Solver {
     SolvedExposure solved;
     solved.numbers = {found->found.gains, found->times_ns};
     solved.tried = found->tried;
+    solved.moved = moved_;
     solved.untold = search.untold();
     solved.open_count = search.open_count();
     solved.text = request_.functions.text_with(solved.numbers);
     solved.at_ends = names_at_ends(solved.numbers, candidates);
     expose(search, solved);
     warn_of_white(white, solved);
+    warn_of_black(solved);
     return solved;
   }
 
@@ -204,6 +207,7 @@ class Solver {
     check_memory(samples);
     std::optional<Picture> plate;
     if (request_.needs_plate()) {
+      moved_ = moved_camera(session_.capture());
       OutputFormat light;
       light.type = ValueType::light64;
       plate = make_plate(session_.capture(), name_, {}, light, session_.devices().request().memory, reading)
@@ -328,6 +332,16 @@ class Solver {
     }
   }
 
+  // A wish for nothing is kept best by a picture of nothing.
+  void warn_of_black(SolvedExposure& solved) const {
+    const std::uint64_t pixels = session_.format().shape.pixel_count();
+    if (2 * solved.saturation.below <= pixels) return;
+    solved.warnings.push_back(
+        format("{} of the picture's {} pixels come out below 0, which is black: bound the gains, or wish for what is to "
+               "stay, too (all = plate)",
+               solved.saturation.below, pixels));
+  }
+
   [[nodiscard]] const Mask* marks() const { return request_.marks ? &**request_.marks : nullptr; }
 
   Session& session_;
@@ -336,6 +350,7 @@ class Solver {
   const Timeline& timeline_;
   Mask mask_;
   std::vector<LightRegion> regions_;
+  std::optional<MovedCamera> moved_;  // where a plate is asked for
 };
 
 }  // namespace
@@ -390,7 +405,10 @@ NeedsOfFormat solve_needs(const SolveRequest& request) {
   return [needs_plate](const CaptureFormat& capture) {
     MemoryNeeds needs{{"masks of regions", 2 * capture.shape.pixel_count()},
                       {"codes of the picture", capture.shape.value_count()}};
-    if (needs_plate) needs.add(plate_making_needs(capture));
+    if (needs_plate) {
+      needs.add(plate_making_needs(capture));
+      needs.add(camera_check_needs(capture));
+    }
     return needs;
   };
 }

@@ -16,6 +16,7 @@
 
 #include "capture/memory_needs.hpp"
 #include "render/output_format.hpp"
+#include "session/clips/camera_check.hpp"
 #include "session/reported_progress.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "session/requests/wish.hpp"
@@ -62,6 +63,7 @@ struct SolvedExposure {
   std::size_t open_count = 0;       // by how many gains the others are more than wishes tell
   std::uint64_t tried = 0;          // candidate exposures
   Saturation saturation;            // of the picture as screens show it
+  std::optional<MovedCamera> moved;  // looked for where a wish is about the plate
   std::vector<std::string> warnings;
 
   [[nodiscard]] bool is_kept() const;
