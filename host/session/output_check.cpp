@@ -94,6 +94,7 @@ const char* name_of(OutputKind kind) {
 
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;
+  if (a.empty() || b.empty()) return a.empty() && b.empty();
   if (std::filesystem::equivalent(a, b, error)) return true;
   return std::filesystem::absolute(a).lexically_normal() == std::filesystem::absolute(b).lexically_normal();
 }

@@ -179,6 +179,12 @@ TEST_F(Film, FramesAreExposuresForOtherCommands) {
       run({"check", "-m", "a.pgm", "--mask-to", "none.pgm", "--mask-share", "1/2", "-k", "f.fn", "c.tik"}, 3);
   EXPECT_NE((missing.out + missing.err).find("mask value 255 is in a.pgm and not in none.pgm"), std::string::npos)
       << missing.out << missing.err;
+  for (const char* share : {"0.5", "nan"}) {
+    EXPECT_NE(run({"--mask-share", share, "--start", "0s", "--exposure", "1f", "c.tik", "p.png"}, 2)
+                  .err.find("add --mask-to"),
+              std::string::npos)
+        << share;
+  }
 }
 
 // At either end of the way it is one of both masks that is exposed, and of that alone it may be said that a value is not

@@ -230,7 +230,7 @@ TEST_F(Solve, SaysWhatMakesNoSense) {
   refused({"-k", "figure14.fn", "--wish", "all = 1", "-o", "figure14.fn"}, 2, "is also an input");
   refused({"-k", "figure14.fn", "--wish", "all = 1", "-o", "solved.txt"}, 2,
           "gain functions are written as .fn");
-  refused({"-k", "figure14.fn", "--wish", "72,22,6,6 gone", "--memory", "10kB"}, 2, "the plate");
+  refused({"-k", "figure14.fn", "--wish", "72,22,6,6 gone", "--memory", "10kB"}, 2, "uncertain places");
   // A region of one function: of 120 samples the light, and of a block of them how it changes.
   refused({"-k", "figure14.fn", "--wish", "72,22,6,6 gone at 0s", "--memory", "10kB"}, 2, "light of regions");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "figure14-solved.fn"));

@@ -138,7 +138,7 @@ TEST(MaskCheck, Sizes) {
   EXPECT_NE(mistake(213, 120).find("; scale it to 640 x 360"), std::string::npos);  // a third, rounded
   EXPECT_NE(mistake(180, 320).find("; turn it by 90 degrees and scale it to 640 x 360"), std::string::npos);
   Mask soft = Mask::uniform(1280, 720, 0);
-  soft.mixed.push_back({});
+  soft.mixed.add(0, std::vector<Share>{{0, 30000}, {1, 35535}});
   EXPECT_EQ(size_mistake(soft, capture),
             "the mask is 1280 x 720 pixels, the capture 640 x 360; scale it to 640 x 360");
   EXPECT_NE(mistake(640, 480).find("; both must have the same size"), std::string::npos);

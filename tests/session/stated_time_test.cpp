@@ -34,6 +34,17 @@ TEST(StatedTime, IsWrittenAsItWasStated) {
   EXPECT_EQ(StatedTime::of_nanoseconds(0).text(), "0s");
 }
 
+TEST(StatedTime, OfLongCapturesIsReadAsItIsWritten) {
+  for (const std::int64_t ns : {1'339'200'000'000'109, -1'339'200'000'000'109, 3'784'320'000'000'000'001}) {
+    const StatedTime stated = StatedTime::of_nanoseconds(ns);
+    EXPECT_EQ(time(stated.text()), stated) << ns;
+    EXPECT_EQ(time(stated.text()).nanoseconds(), ns);
+  }
+  EXPECT_THROW(static_cast<void>(time("4000000000001000000ns")), UsageError);
+  EXPECT_THROW(static_cast<void>(time("99999999999999999999ns")), UsageError);
+  EXPECT_THROW(static_cast<void>(time("1339200000000109.5ns")), UsageError);
+}
+
 TEST(StatedTime, CountsPicturesOnATimeline) {
   const Timeline timeline = Timeline::constant({100, 1}, {180, 1}, 10);  // 10 ms each, open for 5
   EXPECT_EQ(plain_interval(time("2f"), time("3f"), timeline), (Exposure{20'000'000, 45'000'000}));

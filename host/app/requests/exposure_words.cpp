@@ -67,6 +67,8 @@ ExposureRequest timeless_request(const Options& options,
     throw UsageError(
         "--feather blends functions along the edges of a mask; add -m mask.pgm and -k functions.fn");
   }
+  if (options.mask_share && !options.mask_to)
+    throw UsageError("--mask-share says how far it is to a second mask: add --mask-to");
   request.gain = brightening(options);
   request.delay = delay_request(options);
   if (request.delay) request.delay->read();
@@ -142,10 +144,7 @@ std::string exposure_mask_name(const Options& options) {
 Mask exposure_mask(const Options& options, std::uint8_t rest) {
   const Mask mask = unfeathered_mask(options, *options.mask, rest);
   const auto feather = options.feather ? std::optional(Feather::parse(*options.feather)) : std::nullopt;
-  if (!options.mask_to) {
-    if (options.mask_share) throw UsageError("--mask-share says how far it is to a second mask: add --mask-to");
-    return feather ? feathered(mask, *feather) : mask;
-  }
+  if (!options.mask_to) return feather ? feathered(mask, *feather) : mask;
   const std::uint32_t way = mask_way(options);
   return blended_mask(mask, *options.mask, unfeathered_mask(options, *options.mask_to, rest), *options.mask_to,
                       mask_blend(options), way, feather);

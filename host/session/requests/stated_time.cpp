@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -81,7 +82,13 @@ StatedTime StatedTime::parse(std::string_view text, std::string_view what) {
                "37f for pictures of the clip",
                what, text));
   }
-  StatedTime time{Rational::parse(text.substr(0, unit_at), what), unit->nanoseconds};
+  const std::string_view number = text.substr(0, unit_at);
+  // Of a long capture nanoseconds have more digits than numbers of other kinds may.
+  std::int64_t whole = 0;
+  const auto [end, error] = std::from_chars(number.begin(), number.end(), whole);
+  const bool is_whole = error == std::errc() && end == number.end();
+  StatedTime time{is_whole && unit->nanoseconds == 1 ? Rational{whole, 1} : Rational::parse(number, what),
+                  unit->nanoseconds};
   if (!time.counts_samples() &&
       static_cast<double>(time.unit_ns) * std::abs(time.number.value()) > static_cast<double>(kLongestNs)) {
     throw UsageError(format("{} '{}' is longer than 126 years", what, text));
