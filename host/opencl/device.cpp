@@ -190,6 +190,8 @@ std::vector<std::size_t> choose_devices(std::span<const DeviceInfo> devices, std
   }
   if (named(devices, wanted).size() == 1) return {choose_device(devices, wanted)};  // a name with a comma
   for (const std::string& name : names) {
+    if (means_all(trimmed(name)))
+      throw DeviceError(format("'{}' names all devices and some of them; say all, or name some", wanted));
     const std::size_t device = choose_device(devices, trimmed(name));
     if (std::ranges::count(chosen, device) > 0) {
       throw DeviceError(format("'{}' names device {} twice ({}); name each once", wanted, device,

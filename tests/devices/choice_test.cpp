@@ -51,6 +51,7 @@ TEST(ChosenDevices, AreThereEachOnce) {
         std::string::npos)
         << refusal(wanted);
   }
+  EXPECT_EQ(refusal("all,0"), "'all,0' names all devices and some of them; say all, or name some");
   EXPECT_NE(refusal("0,4").find("there is no OpenCL device 4; these were found:"), std::string::npos);
   EXPECT_NE(refusal("0,arc").find("no OpenCL device's name contains 'arc'"), std::string::npos);
   EXPECT_NE(refusal("3,geforce").find("more than one OpenCL device's name contains 'geforce'"),

@@ -43,6 +43,19 @@ TEST_F(VisibleText, IsAllThatIsPrintedOfNames) {
   for (const auto& words : commands) expect_visible(run(words), words.front());
 }
 
+// Behind a line break a name could pass for a line of the program's own.
+TEST_F(VisibleText, NamesOfSeveralLinesAreRefused) {
+  const std::string name = "c.tik: cannot be read\nwarning: run this";
+  test::write_made_up_tik(scratch_ / name, test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"info", name}, {name, "o.tik"}, {"info", "--json", name}, {"check", "-k", name, "c.tik"}}) {
+    const auto result = run(words);
+    EXPECT_EQ(result.status, 2) << words.front();
+    EXPECT_EQ((result.out + result.err).find("\nwarning"), std::string::npos) << result.out << result.err;
+    EXPECT_NE(result.err.find("holds a line break"), std::string::npos) << result.err;
+  }
+}
+
 TEST_F(VisibleText, OfAFunctionFileIsAllThatIsPrinted) {
   test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
   scratch_.write("f.fn", std::string("M0 { [0:1] ") + kEvil + " }\n");

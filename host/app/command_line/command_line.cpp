@@ -86,6 +86,11 @@ Options options_for(const Command& command, Words words) {
 }  // namespace
 
 ParsedCommandLine parse_command_line(std::span<const std::string> words) {
+  // What follows would look like a line of the program's own.
+  for (const std::string& word : words) {
+    if (word.find('\n') == std::string::npos) continue;
+    throw UsageError(shell_word(word) + " holds a line break: rename the file, or link to it by another name");
+  }
   Words found = Words::of(words);
   if (found.version) {
     print_version();

@@ -119,9 +119,8 @@ class Batch {
       check_output(output, OutputKind::picture, input_files(line));
       const auto [earlier, is_new] =
           line_of_output_.try_emplace(std::filesystem::absolute(output).lexically_normal(), listed.line);
-      if (!is_new) {
+      if (!is_new)
         throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
-      }
       if (line.skip_existing) {
         require_recipes(line, output);
         if (is_made(output, stated_precision(line),

@@ -60,9 +60,8 @@ void print_notes(const std::vector<std::string>& texts) {
 void keep_lines_from_output() { line_stream = stderr; }
 
 void flush_output() {
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     throw OutputError("standard output cannot be written");
-  }
 }
 
 }  // namespace nutik::app

@@ -20,9 +20,8 @@ ComputingRequest computing_request(const Options& options) {
     request.renderer = RendererKind::reference;
     return request;
   }
-  if (name != "opencl") {
+  if (name != "opencl")
     throw UsageError(format("renderer '{}' is not known; choose opencl or reference", name));
-  }
   if (options.device) request.device = *options.device;
   if (options.precision.value_or("auto") != "auto") request.precision = parse_precision(*options.precision);
   return request;

@@ -220,9 +220,8 @@ MaskRequest mask_request(const Options& options) {
 }
 
 void read_inputs(MaskRequest& request, const Options& options) {
-  if (options.base) {
+  if (options.base)
     request.base = NamedMask{{input_title(*options.base)}, Shared(read_mask_input(*options.base))};
-  }
   read_named_pictures(request);
 }
 

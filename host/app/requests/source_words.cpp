@@ -36,9 +36,8 @@ void refuse_source_options(const Options& options, const std::string& capture) {
 }
 
 void read_noise(SourceRequest& request, const Options& options) {
-  if (options.tolerance) {
+  if (options.tolerance)
     request.tolerance = parse_whole_number(*options.tolerance, "--tolerance", 0, 65'535);
-  }
   if (options.noise && options.tolerance) {
     throw UsageError("--noise and --tolerance both say what is no change; leave one out");
   }

@@ -52,9 +52,8 @@ SweepRange shift_range(const std::string& text) {
   const auto parse = [&](const std::string& part) {
     if (part == "0") return Rational{0, 1};
     const StatedTime time = StatedTime::parse(part, "--shift");
-    if (time.counts_samples() != step.counts_samples()) {
+    if (time.counts_samples() != step.counts_samples())
       throw UsageError(format("--shift '{}' mixes times and pictures; use one of them", text));
-    }
     return time.counts_samples() ? time.number : time.modest_nanoseconds();
   };
   range.counts_pictures = step.counts_samples();
@@ -111,9 +110,8 @@ SweepRequest sweep_request(const Options& options) {
     throw UsageError(
         "what is varied? Add --shift 0..1s/0.1s, --scale-gain 0.5..2/0.25 or --stretch 0.5..2/0.5");
   }
-  if (ranges.size() > 2) {
+  if (ranges.size() > 2)
     throw UsageError("three parameters do not fit a sheet; vary one, or two as rows and columns");
-  }
   std::uint64_t pictures = 1;
   for (const SweepRange& range : ranges) {
     const std::uint64_t count = range.count();

@@ -38,9 +38,8 @@ std::optional<double> parse_number(std::string_view text) {
 
 double parse_number(std::string_view text, std::string_view what, double low, double high) {
   const auto value = parse_number(text);
-  if (!value || *value < low || *value > high) {
+  if (!value || *value < low || *value > high)
     throw UsageError(format("{} '{}' is no number of {} … {}", what, text, low, high));
-  }
   return *value;
 }
 
