@@ -35,7 +35,24 @@ class TimeLapses : public test::ProgramTest, public testing::WithParamInterface<
     }
     scratch_.write("lapse.csv", table);
     scratch_.write("lapse.fn", format("M0 {{ [0:1], [{}:0.5] }}\n", 5 * period_ns));
+    scratch_.write("named.fn", format("M0 {{ [0:a], [{}:a] }}\n", 5 * period_ns));
     scratch_.write("list.txt", "--start 0f --exposure 2f b1.png\n--start 2f --exposure 2f b2.png\n");
+  }
+
+  // Of exposures whose times are whole nanoseconds alone, too: the command that `again` prints makes the same picture.
+  void expect_again() const {
+    ASSERT_EQ(run({"sweep", "--renderer", "reference", "--start", "0f", "--exposure", "1f", "--shift", "0f..11f/11f",
+                   "--each", "each-%d.png", "c.tik", "sweep.png"})
+                  .status,
+              0);
+    const std::string before = test::read_file(scratch_ / "each-1.png");
+    const ProgramResult again = run({"again", "each-1.png"});
+    ASSERT_EQ(again.status, 0) << again.err;
+    scratch_.write("again.sh", again.out);
+    std::filesystem::remove(scratch_ / "each-1.png");
+    const ProgramResult made = test::run_shell("sh again.sh", scratch_.folder());
+    EXPECT_EQ(made.status, 0) << again.out << made.err;
+    EXPECT_TRUE(test::read_file(scratch_ / "each-1.png") == before) << again.out;
   }
 
   void expect_said_plainly(const std::vector<std::string>& words) const {
@@ -76,6 +93,10 @@ TEST_P(TimeLapses, GoThroughEveryCommand) {
         {"trace", "--pixel", "3,12", "--start", "0f", "--exposure", "4f", "c.tik"},
         {"trace", "--pixel", "3,12", "--start", "0f", "--exposure", "4f", "c.tik", "trace.png"},
         {"mask", "--moving", "c.tik", "mask.pgm"},
+        {"plate", "c.tik", "plate.png"},
+        {"solve", "--functions", "named.fn", "--wish", "all = 0.1", "c.tik", "solved.fn"},
+        {"thumbnail", "c.tik", "thumbnail.png"},
+        {"retime", "--transfer", "linear", "c.tik", "linear.tik"},
         {"video", "--speed", speed, "--out-fps", "2", "c.tik", "video.mkv"},
         {"validate", "--start", "0f", "--exposure", "4f", "--json", "c.tik"},
     };
@@ -83,7 +104,8 @@ TEST_P(TimeLapses, GoThroughEveryCommand) {
       const bool renders = words.front() != "info" && words.front() != "mask" &&
                            words.front() != "activity" && words.front() != "check" &&
                            words.front() != "validate" && words.front() != "trace" &&
-                           words.front() != "again";
+                           words.front() != "again" && words.front() != "plate" &&
+                           words.front() != "thumbnail" && words.front() != "retime";
       if (renders) words.insert(words.begin() + 1, {"--renderer", "reference"});
       if (words.front() == "validate") {
         EXPECT_EQ(run(words).status, 0);  // errors are numbers with exponents
@@ -91,6 +113,7 @@ TEST_P(TimeLapses, GoThroughEveryCommand) {
         expect_said_plainly(words);
       }
     }
+    expect_again();
     const std::string file = test::read_file(scratch_ / "c.tik");
     scratch_.write("cut.tik", std::string_view(file).substr(0, file.size() - 50));
     std::filesystem::remove(scratch_ / "mended.tik");
