@@ -48,7 +48,7 @@ inline double within(double value, double low, double high) {
 
 NUTIK_SIMD_CLONES void set_taps(Warp warp, std::uint32_t x, std::uint32_t y, std::uint32_t count,
                                 const Shape& shape, Taps& __restrict taps) {
-  const auto stride = static_cast<std::int32_t>(stride_of(shape));
+  const auto stride = static_cast<std::uint32_t>(stride_of(shape));
   const double right_side = shape.width - 0.5, bottom = shape.height - 0.5;
   const auto left = static_cast<std::int32_t>(x);
   const double row = y;
@@ -60,7 +60,7 @@ NUTIK_SIMD_CLONES void set_taps(Warp warp, std::uint32_t x, std::uint32_t y, std
     set_cubic(taps.x, i, px - (right - 1));
     set_cubic(taps.y, i, py - (down - 1));
     // Of the tap at -1, right - 2, in a plane that begins at -kBorder.
-    taps.first[i] = static_cast<std::uint32_t>(down * stride + right);
+    taps.first[i] = static_cast<std::uint32_t>(down) * stride + static_cast<std::uint32_t>(right);
   }
 }
 
