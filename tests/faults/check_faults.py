@@ -23,6 +23,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from pathlib import Path
 
 import cv2
@@ -258,8 +259,21 @@ def frames_of(video):
         frames.append(frame)
 
 
+SIGNALS = {signal.SIGKILL: "", signal.SIGTERM: "terminated", signal.SIGINT: "interrupted"}
+
+
+def flaw_of_end(kind, status, err):
+    """Whether a process ended as a signal demands, or had ended before; or before it could know of signals."""
+    if status in (0, -kind):
+        return ""
+    if kind == signal.SIGKILL or status != 128 + kind:
+        return f"status {status}: {err[-200:]}"
+    return "" if SIGNALS[kind] in err else f"no word of it: {err[-200:]!r}"
+
+
 def check_kills(report, bench, kills):
     draw = random.Random(7)
+    in_the_middle = Counter()
     for name, line in COMMANDS.items():
         [right] = bench.right_outputs(line)
         old = older(right)
@@ -268,23 +282,31 @@ def check_kills(report, bench, kills):
         bench.run(words, {})
         whole = time.monotonic() - began
         wrong, finished = [], 0
-        each = max(1, kills // len(COMMANDS))
+        each = -(-kills // len(COMMANDS))
         for _ in range(each):
             output.write_bytes(old)
             process = bench.start(words, {})
             time.sleep(draw.random() * whole)
-            kind = draw.choice([signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+            kind = draw.choice(list(SIGNALS))
             process.send_signal(kind)
-            process.communicate(timeout=60)
-            finished += process.returncode == 0
+            _, said = process.communicate(timeout=60)
+            status, found, parts = process.returncode, output.read_bytes(), bench.parts()
+            finished += status == 0
+            # With its temporary file, or told by whoever had begun to look for signals.
+            in_the_middle[kind] += status == 128 + kind or (status == -kind and bool(parts))
+            flaw = flaw_of_end(kind, status, said.decode(errors="replace"))
+            if flaw:
+                wrong.append(f"{kind.name}: {flaw}")
             is_kept = output.suffix == ".avi" and kind != signal.SIGKILL and is_beginning(output, right)
-            if not is_kept and output.read_bytes() not in (old, right):
-                wrong.append(f"{kind.name}: the output is neither the old one nor the right one")
-            if kind != signal.SIGKILL and bench.parts():
-                wrong.append(f"{kind.name}: left {', '.join(bench.parts())}")
+            if found not in ((right,) if status == 0 else (old, right)) and not (is_kept and status != 0):
+                wrong.append(f"{kind.name}, status {status}: the output is neither the old one nor the right one")
+            if kind != signal.SIGKILL and parts:
+                wrong.append(f"{kind.name}: left {', '.join(parts)}")
             bench.clear_parts()
         report.hold(not wrong, f"{name}: {each} signals, {finished} after its end" +
                     "".join(f"\n    {each}" for each in wrong[:12]))
+    for kind in SIGNALS:
+        report.hold(in_the_middle[kind] > 0, f"{kind.name} came {in_the_middle[kind]} times in the middle of the work")
 
 
 def main():
