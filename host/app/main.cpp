@@ -11,6 +11,7 @@
 #include "session/below/error.hpp"
 #include "system/interruption.hpp"
 #include "system/mapped_file.hpp"
+#include "system/output_file.hpp"
 
 namespace {
 
@@ -35,6 +36,7 @@ int fail_input(const nutik::InputError& error) {
 
 int main(int argc, char** argv) {
   nutik::catch_interruptions();
+  nutik::catch_limits();
   nutik::watch_mapped_files();
   try {
     const std::vector<std::string> words(argv + 1, argv + argc);
@@ -42,7 +44,8 @@ int main(int argc, char** argv) {
     parsed.options.program = argv[0];
     if (nutik::app::writes_to_standard_output(parsed.options)) nutik::app::keep_lines_from_output();
     const int status = parsed.command == nullptr ? kOk : parsed.command->run(parsed.options);
-    nutik::check_mapped_files();
+    // A file was looked at before it got its name. Text that was printed is told to be wrong now.
+    if (!nutik::has_kept_output()) nutik::check_mapped_files();
     nutik::app::flush_output();
     return status;
   } catch (const nutik::UsageError& error) {

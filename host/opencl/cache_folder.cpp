@@ -20,15 +20,19 @@ bool is_ours_alone(const struct stat& status) {
   return status.st_uid == geteuid() && (status.st_mode & kOthersMayWrite) == 0;
 }
 
+// What a variable of the environment names; empty where it is not set. A relative path is none (XDG Base Directory
+// Specification): it would mean another folder, with native code of whoever put it there, wherever the program starts.
+std::filesystem::path stated_folder(const char* variable) {
+  const char* const stated = std::getenv(variable);
+  std::filesystem::path folder = stated == nullptr ? "" : stated;
+  return folder.is_absolute() ? folder : std::filesystem::path();
+}
+
 }  // namespace
 
 std::filesystem::path default_cache_folder() {
-  if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder != nullptr && *folder != '\0') {
-    return std::filesystem::path(folder) / "nutik-cl";
-  }
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
-    return std::filesystem::path(home) / ".cache" / "nutik-cl";
-  }
+  if (const auto folder = stated_folder("XDG_CACHE_HOME"); !folder.empty()) return folder / "nutik-cl";
+  if (const auto home = stated_folder("HOME"); !home.empty()) return home / ".cache" / "nutik-cl";
   return {};
 }
 

@@ -84,8 +84,8 @@ class OpenClRenderer::Implementation {
     programs_ = std::make_unique<ProgramStore>(context_, device_, options.cache_folder, [this](auto&) {
       if (announced_ || !options_.announce) return;
       announced_ = true;
-      options_.announce(
-          format("building and testing kernels for {}; they are kept for the next time", info_.name));
+      options_.announce(format("building and testing kernels for {}{}", info_.name,
+                               options_.cache_folder.empty() ? "" : "; they are kept for the next time"));
     });
   }
 

@@ -48,6 +48,13 @@ void end_now(int) {
   _exit(kSignalStatus + number);
 }
 
+// Delivered once this has returned, with its usual end.
+void end_without_temporaries(int number) {
+  remove_temporary_files();
+  std::signal(number, SIG_DFL);
+  raise(number);
+}
+
 void note(int number) {
   constexpr long kPatienceMs = 800;
   shared_state().noted_signal.store(number, std::memory_order_relaxed);
@@ -81,6 +88,18 @@ void catch_interruptions() {
     action.sa_flags = SA_RESTART;  // what is read or written at that moment goes on
     sigemptyset(&action.sa_mask);
     for (const int other : kSignals) sigaddset(&action.sa_mask, other);
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+void catch_limits() {
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int signal : {SIGPIPE, SIGXCPU}) {
+    struct sigaction before {};
+    if (sigaction(signal, nullptr, &before) != 0 || before.sa_handler == SIG_IGN) continue;
+    struct sigaction action {};
+    action.sa_handler = end_without_temporaries;
+    sigemptyset(&action.sa_mask);
     sigaction(signal, &action, nullptr);
   }
 }

@@ -37,7 +37,7 @@ class MappedFile {
 };
 
 // From now on bytes of mapped files that cannot be read are zeros, on every thread, those of a device's driver
-// included. A program that does this calls check_mapped_files() before it ends well. Other libraries' SIGBUS ends the
+// included. A program that does this calls check_mapped_files() before it says that all went well. Other libraries' SIGBUS ends the
 // program as before.
 void watch_mapped_files();
 

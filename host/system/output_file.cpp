@@ -15,6 +15,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/checksum.hpp"
 #include "system/mapped_file.hpp"
 #include "system/reused_entries.hpp"
 #include "system/shared_state.hpp"
@@ -89,10 +90,43 @@ int open_temporary(const std::filesystem::path& path) {
     if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return refuse(EEXIST);
     // Its process may have given it its name before this one held the lock.
     if (lstat(path.c_str(), &named) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev) {
-      return ftruncate(descriptor, 0) == 0 ? descriptor : refuse(errno);
+      if (ftruncate(descriptor, 0) == 0) return descriptor;
+      const int reason = errno;
+      unlink(path.c_str());
+      return refuse(reason);
     }
     close(descriptor);
   }
+}
+
+// As many bytes of a name as a file system takes.
+std::size_t longest_name(const std::filesystem::path& folder) {
+  constexpr long kUsual = 255;
+  const long stated = pathconf(folder.empty() ? "." : folder.c_str(), _PC_NAME_MAX);
+  return static_cast<std::size_t>(stated > 0 ? stated : kUsual);
+}
+
+// A name's first bytes, and no half of a character: some file systems take none.
+std::string_view beginning(std::string_view name, std::size_t bytes) {
+  if (bytes >= name.size()) return name;
+  const auto goes_on = [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U; };
+  while (bytes > 0 && goes_on(name[bytes])) --bytes;
+  return name.substr(0, bytes);
+}
+
+// Beside `path`. The same at every run, so that one run takes over what another left. Where the name has no room for
+// more, its end gives way to a checksum of all of it: names that differ only there have temporary files of their own.
+std::filesystem::path temporary_beside(const std::filesystem::path& path, int tried) {
+  const std::string ending = tried == 0 ? ".nutik.part" : format(".nutik-{}.part", tried);
+  const std::string name = path.filename().string();
+  const std::size_t room = longest_name(path.parent_path());
+  // What has no room at all is refused when it is created, not when all has been written.
+  if (1 + name.size() + ending.size() <= room || name.size() > room) {
+    return path.parent_path() / format(".{}{}", name, ending);
+  }
+  const std::string sum = format("-{:016x}", checksum(std::string_view(name)));
+  const std::size_t taken = 1 + sum.size() + ending.size();
+  return path.parent_path() / format(".{}{}{}", beginning(name, room > taken ? room - taken : 0), sum, ending);
 }
 
 }  // namespace
@@ -104,6 +138,8 @@ void remove_temporary_files() {
   }
 }
 
+bool has_kept_output() { return shared_state().has_kept_output; }
+
 OutputFile::OutputFile(std::filesystem::path path, Lasting lasting)
     : path_(followed(std::move(path))), lasting_(lasting) {
   std::error_code ignored;
@@ -112,8 +148,7 @@ OutputFile::OutputFile(std::filesystem::path path, Lasting lasting)
   }
   constexpr int kMaxTries = 100;
   for (int tried = 0; descriptor_ < 0 && tried < kMaxTries; ++tried) {
-    const std::string again = tried == 0 ? "" : format("-{}", tried);
-    temporary_path_ = path_.parent_path() / format(".{}.nutik{}.part", path_.filename().string(), again);
+    temporary_path_ = temporary_beside(path_, tried);
     descriptor_ = open_temporary(temporary_path_);
     if (descriptor_ < 0 && errno != EEXIST) break;
   }
@@ -186,13 +221,15 @@ void OutputFile::replace(std::uint64_t offset, std::span<const std::byte> bytes)
 void OutputFile::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
 
 void OutputFile::commit() {
-  check_mapped_files();
   // A temporary file has the process's own permissions; what it replaces keeps its mode.
   struct stat before {};
   if (stat(path_.c_str(), &before) == 0) fchmod(descriptor_, before.st_mode & 07777);
   // Not every file system can; all that can fail to write say so here.
   if (lasting_ == Lasting::yes && fsync(descriptor_) != 0 && errno != EINVAL) fail("cannot be written");
+  // All of it has been read and written by now. It is right, whatever becomes of what it was made of after this.
+  check_mapped_files();
   if (rename(temporary_path_.c_str(), path_.c_str()) != 0) fail("cannot be written");
+  if (lasting_ == Lasting::yes) shared_state().has_kept_output = true;
   make_unknown(known_);
   close(std::exchange(descriptor_, -1));
 }

@@ -13,6 +13,9 @@ namespace nutik {
 // What a signal handler knows of a temporary file.
 struct KnownTemporary;
 
+// Whether a lasting file of this process got its name. What it was made of was looked at right before.
+[[nodiscard]] bool has_kept_output();
+
 // Removes the temporary files of this process. May be called in a signal handler, if the process then ends.
 void remove_temporary_files();
 
@@ -22,8 +25,9 @@ class OutputFile {
   enum class Lasting { yes, no };
 
   // Creates the temporary file, `.<name>.nutik.part`, or `.<name>.nutik-1.part` where another process is writing that
-  // one. What a process left behind that was killed is taken over. A link's target is written, whether there is one
-  // or not. Throws OutputError where the folder is absent or not writable.
+  // one; of a name that has no room for this, only the beginning, and a checksum. What a process left behind that was
+  // killed is taken over. A link's target is written, whether there is one or not. Throws OutputError where the folder
+  // is absent or not writable.
   explicit OutputFile(std::filesystem::path path, Lasting lasting = Lasting::yes);
   // Removes the temporary file unless commit() was called.
   ~OutputFile();

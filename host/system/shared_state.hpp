@@ -1,4 +1,4 @@
-// What signal handlers look at, and whoever tells them: the only mutable globals. A program and the modules that it
+// What signal handlers look at, whoever tells them, and whether an output was kept: the only mutable globals. A program and the modules that it
 // loads are each linked with a copy of this room, and use the program's.
 #pragma once
 
@@ -21,6 +21,8 @@ struct SharedState {
   std::mutex registering_mappings;
   std::atomic<KnownTemporary*> temporaries{nullptr};
   std::mutex registering_temporaries;
+
+  std::atomic<bool> has_kept_output{false};
 };
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<WatchedMapping*>::is_always_lock_free);
 

@@ -3,11 +3,13 @@
 
     check_damage.py --program nutik-cl --work FOLDER [--flips N] [--seed N] [--only PART]
 
-    inputs     each format of stills and each codec, cut by 1 to 8 bytes at its end, and N times with a bit flipped
+    inputs     each format of stills and cameras' recordings, cut by 1 to 8 bytes at its end, and N times with a bit flipped
+    videos     the same of each codec and container that the ffmpeg command makes
     captures   .tik files of every kind with a bit flipped N times in every class of their bytes
+    golden     captures of earlier programs, cut, and with a bit flipped N / 8 times in every class of their bytes
 
 All samples are exposed by the reference. A damaged file is refused with status 3 and a sentence, or its picture is the
-right one, or a note or warning tells of it. Where a format keeps no checksum, a flipped bit may be another picture too:
+right one, or a note or warning tells that something is damaged or missing. Where a format keeps no checksum, a flipped bit may be another picture too:
 these are counted and printed. Nothing else may happen: no signal, no other status, no other picture in silence.
 """
 
@@ -35,6 +37,9 @@ WIDTH, HEIGHT, PICTURES = 48, 32, 6
 EXPOSE = ["--renderer", "reference", "--start", "0s", "--exposure", "1s", "--no-recipe"]
 CUTS = range(1, 9)
 SHOWN = 8
+GOLDEN = Path(__file__).resolve().parent.parent / "golden"
+# Other notes and warnings say nothing of damage.
+TELLS_OF_DAMAGE = re.compile(r"(note|warning): .*(damaged|cut off|missing|could be decoded|left out)")
 
 
 FOR_RECOVERY = "exposures of blocks"  # which a whole file says again at its end
@@ -126,16 +131,16 @@ def write_photron(folder):
         yield Input(f"{name[name.index('.'):]} of it", [name], name)
 
 
-def write_videos(folder):
-    """A clip of each codec and container. Yields inputs."""
-    grey = pictures(1)
-    (folder / "raw.gray").write_bytes(grey.tobytes())
+def write_recordings(folder):
+    """Clips that nobody else has to make. Yields inputs."""
+    (folder / "raw.gray").write_bytes(pictures(1).tobytes())
     yield Input("raw video", ["-f", "100", "--raw", f"{WIDTH}x{HEIGHT}:gray", "raw.gray"], "raw.gray")
     (folder / "clip.cine").write_bytes(cine())
     yield Input(".cine", ["clip.cine"], "clip.cine")
-    if shutil.which("ffmpeg") is None:
-        print("SKIPPED: the ffmpeg command is missing, which makes videos")
-        return
+
+
+def write_videos(folder):
+    """A clip of each codec and container. Yields inputs."""
     (folder / "colour.rgb").write_bytes(pictures(3)[..., ::-1].tobytes())
     for name, options, notices in (
             ("h264.mp4", "-c:v libx264 -crf 12 -pix_fmt yuv420p", None),
@@ -150,7 +155,7 @@ def write_videos(folder):
                                f"{WIDTH}x{HEIGHT}", "-r", "100", "-i", "colour.rgb", "-threads", "1", "-fflags",
                                "bitexact", *options.split(), name], cwd=folder, check=False, capture_output=True, text=True)
         if made.returncode != 0:
-            print(f"SKIPPED: this ffmpeg does not make {name}: {made.stderr.strip().splitlines()[0]}")
+            print(f"left out: this ffmpeg does not make {name}: {made.stderr.strip().splitlines()[0]}")
             continue
         yield Input(name, [name], name, notices or nowhere)
 
@@ -165,12 +170,14 @@ def classes_of(data):
 
     size = re.search(rb"\n(\d+) (\d+)\n(\d+)\n", data)
     raster = int(size[1]) * int(size[2]) * (3 if data[:2] == b"P6" else 1) * (2 if int(size[3]) > 255 else 1)
-    fields, block = data.index(b"TIKfield", size.end() + raster), data.index(b"TIKblock", size.end() + raster)
-    fields_end = fields + struct.unpack_from("<Q", data, fields + 8)[0]
+    block = data.index(b"TIKblock", size.end() + raster)
+    fields = data.find(b"TIKfield", size.end() + raster, block)  # version 0 has none
+    fields_end = fields + struct.unpack_from("<Q", data, fields + 8)[0] if fields > 0 else size.end() + raster
     add("text", 0, size.end())
     add("first picture", size.end(), size.end() + raster)
-    add("padding", size.end() + raster, fields)
-    add("fields", fields, fields_end)
+    if fields > 0:
+        add("padding", size.end() + raster, fields)
+        add("fields", fields, fields_end)
     add("padding", fields_end, block)
     while data[block:block + 8] == b"TIKblock":
         exposures, stored = struct.unpack_from("<QQ", data, block + 32)
@@ -183,8 +190,10 @@ def classes_of(data):
         block = aligned(payload + stored)
         add("padding", payload + stored, block)
     footer = len(data) - 128
-    exposures = struct.unpack_from("<Q", data, footer + 24)[0]
-    add("index", block, exposures or footer)
+    blocks, _, exposures = struct.unpack_from("<QQQ", data, footer + 8)
+    index_end = block + 48 * blocks
+    add("index", block, index_end)
+    add("padding", index_end, exposures or footer)
     if exposures:
         add("exposures", exposures, footer)
     add("footer", footer, len(data))
@@ -226,12 +235,12 @@ class Bench:
         if status == 0:
             if picture == right[0]:
                 return "same"
-            is_new = any(line not in right[1] for line in said.splitlines() if re.match("note|warning", line))
+            is_new = any(line not in right[1] for line in said.splitlines() if TELLS_OF_DAMAGE.match(line))
             return "told" if is_new else "silent"
         if status == 3 and picture is None and said.strip():
             return "refused"
         # A header that says nothing of the rate any more leaves it to be stated.
-        if status == 2 and picture is None and "--" in said:
+        if status == 2 and picture is None and "--fps" in said:
             return "refused"
         return f"status {status}, {'a' if picture else 'no'} picture: {said[-200:]}"
 
@@ -254,7 +263,21 @@ def damaged(data, at, bit):
 
 
 def check_inputs(report, bench, flips, seed):
-    for each in [*write_stills(bench.folder), *write_photron(bench.folder), *write_videos(bench.folder)]:
+    check_each(report, bench, flips, seed,
+               [*write_stills(bench.folder), *write_photron(bench.folder), *write_recordings(bench.folder)])
+
+
+def check_videos(report, bench, flips, seed):
+    if shutil.which("ffmpeg") is None:
+        print("SKIPPED: the ffmpeg command is missing, which makes videos")
+        return
+    made = list(write_videos(bench.folder))
+    report.hold(made, f"{len(made)} kinds of videos are damaged")
+    check_each(report, bench, flips, seed, made)
+
+
+def check_each(report, bench, flips, seed, inputs):
+    for each in inputs:
         path = bench.folder / each.damaged
         data, right, draw = path.read_bytes(), bench.right(each.words), random.Random(seed)
         wrong, came, silent = [], Counter(), 0
@@ -328,7 +351,38 @@ def check_captures(report, bench, flips, seed):
                         "".join(f"\n    {one}" for one in wrong[:SHOWN]))
 
 
-PARTS = {"inputs": check_inputs, "captures": check_captures}
+def check_golden(report, bench, flips, seed):
+    path = bench.folder / "c.tik"
+    captures = sorted(GOLDEN.glob("*.tik"))
+    report.hold(captures, f"{len(captures)} captures of earlier programs are damaged")
+    for golden in captures:
+        data, draw, wrong, came = golden.read_bytes(), random.Random(seed), [], Counter()
+        path.write_bytes(data)
+        right = bench.right([path.name])
+
+        def check(changed, where, must_be_noticed):
+            path.write_bytes(changed)
+            outcome = bench.outcome([path.name], right)
+            checked, told, _ = bench.run(["check", path.name])
+            came[outcome] += 1
+            # An exposure need not see all that check sees.
+            if outcome not in ("refused", "same") or (outcome == "refused" and checked != 3):
+                wrong.append(f"{where}: {outcome}, and check ends with {checked}: {told[-200:]}")
+            elif must_be_noticed and checked != 3:
+                wrong.append(f"{where}: check ends with {checked}: {told[-200:]}")
+
+        for left in (len(data) - 1, len(data) - 100, len(data) // 2, 10):
+            check(data[:left], f"cut to {left} of {len(data)} bytes", True)
+        for kind, parts in classes_of(data).items():
+            for _ in range(-(-flips // 8)):
+                first, count = draw.choice(parts)
+                at, bit = first + draw.randrange(count), draw.randrange(8)
+                check(damaged(data, at, bit), f"{kind}, bit {bit} of byte {at} of {len(data)}",
+                      kind not in ("padding", FOR_RECOVERY))
+        report.hold(not wrong, f"{golden.stem}: " + summary(came) + "".join(f"\n    {one}" for one in wrong[:SHOWN]))
+
+
+PARTS = {"inputs": check_inputs, "videos": check_videos, "captures": check_captures, "golden": check_golden}
 
 
 def main():

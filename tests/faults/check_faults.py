@@ -3,7 +3,8 @@
 
     check_faults.py --program nutik-cl --libraries FOLDER --work FOLDER [--kills N] [--points N] [--only SECTION]
 
-    calls   the n-th open, read, write, fsync, rename, mmap or large malloc fails, once or from then on
+    calls   the n-th open, read, write, truncation, fsync, rename, mapping or large allocation fails, once or from then
+            on; somebody else makes the input shorter right before the output gets its name, or right after that
     device  the n-th call of OpenCL of a kind fails, once or from then on, in every command that uses a device
     kills   SIGKILL, SIGTERM or SIGINT at a random moment
 
@@ -22,6 +23,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from pathlib import Path
 
 import cv2
@@ -32,15 +34,19 @@ from report import Report  # noqa: E402
 
 WIDTH, HEIGHT, PICTURES = 160, 120, 24
 ERRORS = {"open": [errno.EMFILE, errno.EACCES], "read": [errno.EIO], "write": [errno.ENOSPC, errno.EIO],
-          "fsync": [errno.EIO], "rename": [errno.ENOSPC], "mmap": [errno.ENOMEM], "malloc": [errno.ENOMEM]}
+          "truncate": [errno.EIO], "fsync": [errno.EIO], "rename": [errno.ENOSPC], "mmap": [errno.ENOMEM],
+          "malloc": [errno.ENOMEM]}
+# Those without which no output appears whole and for good.
+NEEDED_CALLS = ["open", "write", "truncate", "fsync", "rename"]
 
 # Of OpenCL, by kind of call (fail_device.cpp).
 OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY, NO_ALLOCATION, LOST_EVENT, NO_BUILD = -5, -6, -4, -14, -11
 DEVICE_ERRORS = {"start": [OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY], "build": [NO_BUILD, OUT_OF_HOST_MEMORY],
+                 "arguments": [OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY],
                  "allocate": [NO_ALLOCATION, OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY],
                  "enqueue": [OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY, NO_ALLOCATION],
                  "wait": [LOST_EVENT, OUT_OF_RESOURCES]}
-DEVICE_STATUS = 4
+DEVICE_STATUS, INPUT_STATUS = 4, 3
 
 # Command lines without the program, and what each writes: the same bytes whenever it is run.
 COMMANDS = {
@@ -150,8 +156,8 @@ def spread(count, points):
 class Faults:
     """What a library that is preloaded lets fail, one call after another."""
 
-    def __init__(self, library, errors, settings=None, status=None, hint="", to_text=str):
-        self.library, self.errors, self.settings = library, errors, settings or {}
+    def __init__(self, library, errors, needed, settings=None, status=None, hint="", to_text=str):
+        self.library, self.errors, self.needed, self.settings = library, errors, needed, settings or {}
         self.status, self.hint, self.to_text = status, hint, to_text
 
     def flaw_of(self, status, err, outputs, right, parts):
@@ -188,6 +194,8 @@ def check_calls(report, bench, faults, commands, points):
             counted.write_text("0")
             run({"NUTIK_FAIL_CALL": call, "NUTIK_FAIL_REPORT": str(counted), "NUTIK_FAIL_AT": "0"})
             count = int(counted.read_text())
+            if count == 0 and call in faults.needed:
+                wrong.append(f"it makes no call of the kind {call}: left out, or another function that is not seen")
             for at in spread(count, points):
                 for goes_on in ("off", "on"):
                     error = errors[at % len(errors)]
@@ -200,9 +208,38 @@ def check_calls(report, bench, faults, commands, points):
                     bench.clear_parts()
                     if flaw:
                         wrong.append(f"{call} {at} of {count} ({faults.to_text(error)}, then {goes_on}): {flaw}")
-        # Where nothing fails nothing was tried: a call may have another name now.
+        # Where nothing fails nothing was tried.
         report.hold(not wrong and told > 0, f"{name}: {tried} faults, {told} of them errors" +
                     "".join(f"\n    {each}" for each in wrong[:12]))
+
+
+def check_cut_inputs(report, bench, faults, commands):
+    """An input that becomes shorter: told as long as it may have been read so, and no harm to an output that is right."""
+    refused = 0
+    for name, line in commands.items():
+        [right] = bench.right_outputs(line)
+        words, [output] = bench.command(line)
+        [cut] = [bench.folder / word for word in words if word.endswith(".tik") and bench.folder / word != output][:1] \
+            or [bench.folder / "clip/00.pgm"]
+        whole, wrong = cut.read_bytes(), []
+        for moment in ("fsync", "rename"):
+            output.write_bytes(older(right))
+            status, err = bench.run(words, {"LD_PRELOAD": str(faults.library), **faults.settings,
+                                            "NUTIK_CUT_FILE": str(cut), "NUTIK_CUT_AT": moment})
+            is_cut = cut.read_bytes() != whole
+            cut.write_bytes(whole)
+            found = output.read_bytes()
+            if not is_cut:
+                wrong.append(f"{moment}: there was none")
+            elif moment == "fsync" and status == INPUT_STATUS:
+                refused += 1
+                if found != older(right) or bench.parts() or f"{cut.name} changed" not in err:
+                    wrong.append(f"{moment}: not refused as it should be: {err[-200:]}")
+            elif status != 0 or found != right:
+                wrong.append(f"{moment}: status {status}, the output is {'' if found == right else 'not '}right: {err[-200:]}")
+            bench.clear_parts()
+        report.hold(not wrong, f"{name}: its input becomes shorter" + "".join(f"\n    {each}" for each in wrong))
+    report.hold(refused > 0, f"{refused} inputs that became shorter before an output was whole were refused")
 
 
 def is_beginning(video, right):
@@ -222,8 +259,21 @@ def frames_of(video):
         frames.append(frame)
 
 
+SIGNALS = {signal.SIGKILL: "", signal.SIGTERM: "terminated", signal.SIGINT: "interrupted"}
+
+
+def flaw_of_end(kind, status, err):
+    """Whether a process ended as a signal demands, or had ended before; or before it could know of signals."""
+    if status in (0, -kind):
+        return ""
+    if kind == signal.SIGKILL or status != 128 + kind:
+        return f"status {status}: {err[-200:]}"
+    return "" if SIGNALS[kind] in err else f"no word of it: {err[-200:]!r}"
+
+
 def check_kills(report, bench, kills):
     draw = random.Random(7)
+    in_the_middle = Counter()
     for name, line in COMMANDS.items():
         [right] = bench.right_outputs(line)
         old = older(right)
@@ -232,23 +282,31 @@ def check_kills(report, bench, kills):
         bench.run(words, {})
         whole = time.monotonic() - began
         wrong, finished = [], 0
-        each = max(1, kills // len(COMMANDS))
+        each = -(-kills // len(COMMANDS))
         for _ in range(each):
             output.write_bytes(old)
             process = bench.start(words, {})
             time.sleep(draw.random() * whole)
-            kind = draw.choice([signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+            kind = draw.choice(list(SIGNALS))
             process.send_signal(kind)
-            process.communicate(timeout=60)
-            finished += process.returncode == 0
+            _, said = process.communicate(timeout=60)
+            status, found, parts = process.returncode, output.read_bytes(), bench.parts()
+            finished += status == 0
+            # With its temporary file, or told by whoever had begun to look for signals.
+            in_the_middle[kind] += status == 128 + kind or (status == -kind and bool(parts))
+            flaw = flaw_of_end(kind, status, said.decode(errors="replace"))
+            if flaw:
+                wrong.append(f"{kind.name}: {flaw}")
             is_kept = output.suffix == ".avi" and kind != signal.SIGKILL and is_beginning(output, right)
-            if not is_kept and output.read_bytes() not in (old, right):
-                wrong.append(f"{kind.name}: the output is neither the old one nor the right one")
-            if kind != signal.SIGKILL and bench.parts():
-                wrong.append(f"{kind.name}: left {', '.join(bench.parts())}")
+            if found not in ((right,) if status == 0 else (old, right)) and not (is_kept and status != 0):
+                wrong.append(f"{kind.name}, status {status}: the output is neither the old one nor the right one")
+            if kind != signal.SIGKILL and parts:
+                wrong.append(f"{kind.name}: left {', '.join(parts)}")
             bench.clear_parts()
         report.hold(not wrong, f"{name}: {each} signals, {finished} after its end" +
                     "".join(f"\n    {each}" for each in wrong[:12]))
+    for kind in SIGNALS:
+        report.hold(in_the_middle[kind] > 0, f"{kind.name} came {in_the_middle[kind]} times in the middle of the work")
 
 
 def main():
@@ -265,11 +323,12 @@ def main():
     bench = Bench(arguments.program.resolve(), work)
     libraries = arguments.libraries.resolve()
     if arguments.only in (None, "calls"):
-        faults = Faults(libraries / "libfail_calls.so", ERRORS, {"NUTIK_FAIL_FOLDER": str(bench.folder)},
+        faults = Faults(libraries / "libfail_calls.so", ERRORS, NEEDED_CALLS, {"NUTIK_FAIL_FOLDER": str(bench.folder)},
                         to_text=os.strerror)
         check_calls(report, bench, faults, COMMANDS, arguments.points)
+        check_cut_inputs(report, bench, faults, COMMANDS)
     if arguments.only in (None, "device"):
-        faults = Faults(libraries / "libfail_device.so", DEVICE_ERRORS, status=DEVICE_STATUS, hint="the reference",
+        faults = Faults(libraries / "libfail_device.so", DEVICE_ERRORS, DEVICE_ERRORS, status=DEVICE_STATUS, hint="the reference",
                         to_text=lambda error: f"OpenCL error {error}")
         check_calls(report, bench, faults, DEVICE_COMMANDS, arguments.points)
     if arguments.only in (None, "kills"):

@@ -1,12 +1,16 @@
 // Preloaded before the program: lets one call of the system fail, so that it can be seen what becomes of the output
-// (faults/fault.hpp: kinds are open, read, write, fsync, rename, mmap and malloc).
+// (faults/fault.hpp: kinds are open, read, write, truncate, fsync, rename, mmap and malloc; mremap is a mapping, and
+// calloc, realloc and aligned memory are malloc's).
 //
-//   NUTIK_FAIL_FOLDER   calls count whose file lies in it; of malloc those of a mebibyte and more
+//   NUTIK_FAIL_FOLDER   calls count whose file lies in it; of memory those of a mebibyte and more
+//   NUTIK_CUT_FILE      a file that somebody else makes shorter at the same time ...
+//   NUTIK_CUT_AT        ... as the first call of this kind, fsync or rename, has been made
 //
 // Calls that the C library makes of its own are not seen.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/syscall.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
@@ -44,6 +48,16 @@ bool lies_in_folder(int descriptor) {
   return lies_in_folder(path);
 }
 
+// As another process would do it, after the program's first call of this kind.
+void cut_at(const char* call) {
+  static const char* const file = std::getenv("NUTIK_CUT_FILE");
+  static const char* const at = std::getenv("NUTIK_CUT_AT");
+  static constinit std::atomic<bool> is_cut{false};
+  if (file == nullptr || at == nullptr || std::strcmp(at, call) != 0 || is_cut.exchange(true)) return;
+  constexpr long kLeft = 1000;
+  syscall(SYS_truncate, file, kLeft);
+}
+
 // The function that a call is passed on to.
 template <typename Function>
 struct Next {
@@ -65,15 +79,29 @@ constinit Next<ssize_t(int, void*, std::size_t, off64_t)> next_pread64{"pread64"
 constinit Next<ssize_t(int, const void*, std::size_t)> next_write{"write"};
 constinit Next<ssize_t(int, const iovec*, int)> next_writev{"writev"};
 constinit Next<ssize_t(int, const void*, std::size_t, off64_t)> next_pwrite64{"pwrite64"};
+constinit Next<ssize_t(int, void*, std::size_t, off64_t)> next_pread{"pread"};
+constinit Next<ssize_t(int, const void*, std::size_t, off64_t)> next_pwrite{"pwrite"};
+constinit Next<int(int, off64_t)> next_ftruncate{"ftruncate"};
+constinit Next<int(int, off64_t)> next_ftruncate64{"ftruncate64"};
 constinit Next<int(int)> next_fsync{"fsync"};
 constinit Next<int(const char*, const char*)> next_rename{"rename"};
 constinit Next<void*(void*, std::size_t, int, int, int, off64_t)> next_mmap64{"mmap64"};
+constinit Next<void*(void*, std::size_t, std::size_t, int, ...)> next_mremap{"mremap"};
+constinit Next<int(void**, std::size_t, std::size_t)> next_posix_memalign{"posix_memalign"};
 
 // Later, a search would wait for the loader, and the loader for whoever calls from a library that it is loading.
 [[gnu::constructor]] void find_all() {
   const auto find = [](auto&... each) { (each.get(), ...); };
   find(next_open, next_open64, next_fopen, next_fopen64, next_read, next_pread64, next_write, next_writev,
-       next_pwrite64, next_fsync, next_rename, next_mmap64);
+       next_pwrite64, next_pread, next_pwrite, next_ftruncate, next_ftruncate64, next_fsync, next_rename,
+       next_mmap64, next_mremap, next_posix_memalign);
+}
+
+// PoCL ends the process where there is no room for what it has begun to run; of its buffers, see fail_device.cpp.
+bool is_of_pocl(const void* caller) {
+  Dl_info found{};
+  return dladdr(caller, &found) != 0 && found.dli_fname != nullptr &&
+         std::strstr(found.dli_fname, "libpocl") != nullptr;
 }
 
 bool open_fails(const char* path) {
@@ -132,11 +160,36 @@ ssize_t pwrite64(int descriptor, const void* from, std::size_t bytes, off64_t of
                                                       : next_pwrite64.get()(descriptor, from, bytes, offset);
 }
 
-int fsync(int descriptor) {
-  return lies_in_folder(descriptor) && fails("fsync") ? -1 : next_fsync.get()(descriptor);
+ssize_t pread(int descriptor, void* into, std::size_t bytes, off_t offset) {
+  return lies_in_folder(descriptor) && fails("read") ? -1
+                                                     : next_pread.get()(descriptor, into, bytes, offset);
 }
 
-int rename(const char* from, const char* to) { return fails("rename") ? -1 : next_rename.get()(from, to); }
+ssize_t pwrite(int descriptor, const void* from, std::size_t bytes, off_t offset) {
+  return lies_in_folder(descriptor) && fails("write") ? -1
+                                                      : next_pwrite.get()(descriptor, from, bytes, offset);
+}
+
+int ftruncate(int descriptor, off_t bytes) noexcept {
+  return lies_in_folder(descriptor) && fails("truncate") ? -1 : next_ftruncate.get()(descriptor, bytes);
+}
+
+int ftruncate64(int descriptor, off64_t bytes) noexcept {
+  return lies_in_folder(descriptor) && fails("truncate") ? -1 : next_ftruncate64.get()(descriptor, bytes);
+}
+
+int fsync(int descriptor) {
+  const int result =
+      lies_in_folder(descriptor) && fails("fsync") ? -1 : next_fsync.get()(descriptor);
+  cut_at("fsync");
+  return result;
+}
+
+int rename(const char* from, const char* to) noexcept {
+  const int result = fails("rename") ? -1 : next_rename.get()(from, to);
+  cut_at("rename");
+  return result;
+}
 
 void* mmap64(void* address, std::size_t bytes, int protection, int flags, int descriptor, off64_t offset) {
   const bool is_counted = descriptor >= 0 ? lies_in_folder(descriptor) : bytes >= kLargeAllocation;
@@ -149,10 +202,41 @@ void* mmap(void* address, std::size_t bytes, int protection, int flags, int desc
   return mmap64(address, bytes, protection, flags, descriptor, offset);
 }
 
+void* mremap(void* address, std::size_t before, std::size_t bytes, int flags, ...) noexcept {
+  va_list arguments;
+  va_start(arguments, flags);
+  void* const place = (flags & MREMAP_FIXED) != 0 ? va_arg(arguments, void*) : nullptr;
+  va_end(arguments);
+  return bytes >= kLargeAllocation && fails("mmap") ? MAP_FAILED
+                                                    : next_mremap.get()(address, before, bytes, flags, place);
+}
+
 // dlsym() may allocate: the C library's own names need no search.
 void* __libc_malloc(std::size_t bytes);
-void* malloc(std::size_t bytes) {
+void* malloc(std::size_t bytes) noexcept {
   return bytes >= kLargeAllocation && fails("malloc") ? nullptr : __libc_malloc(bytes);
+}
+
+void* __libc_calloc(std::size_t count, std::size_t bytes);
+void* calloc(std::size_t count, std::size_t bytes) noexcept {
+  std::size_t all = 0;
+  const bool is_large = __builtin_mul_overflow(count, bytes, &all) || all >= kLargeAllocation;
+  return is_large && fails("malloc") ? nullptr : __libc_calloc(count, bytes);
+}
+
+void* __libc_realloc(void* before, std::size_t bytes);
+void* realloc(void* before, std::size_t bytes) noexcept {
+  return bytes >= kLargeAllocation && fails("malloc") ? nullptr : __libc_realloc(before, bytes);
+}
+
+void* __libc_memalign(std::size_t alignment, std::size_t bytes);
+void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept {
+  return bytes >= kLargeAllocation && fails("malloc") ? nullptr : __libc_memalign(alignment, bytes);
+}
+
+int posix_memalign(void** made, std::size_t alignment, std::size_t bytes) noexcept {
+  if (bytes >= kLargeAllocation && !is_of_pocl(__builtin_return_address(0)) && fails("malloc")) return errno;
+  return next_posix_memalign.get()(made, alignment, bytes);
 }
 
 }  // extern "C"

@@ -4,6 +4,7 @@
 //   start      contexts, queues, kernels
 //   build      programs, from their source or from what was kept of them
 //   allocate   buffers
+//   arguments  what a kernel is given
 //   enqueue    launches, copies, fills
 //   wait       for commands: they have run, and then it is said that they failed
 //
@@ -62,6 +63,13 @@ cl_program clCreateProgramWithSource(cl_context context, cl_uint count, const ch
   return NUTIK_NEXT(clCreateProgramWithSource)(context, count, strings, lengths, said);
 }
 
+cl_program clCreateProgramWithBinary(cl_context context, cl_uint count, const cl_device_id* devices,
+                                     const size_t* lengths, const unsigned char** binaries, cl_int* each,
+                                     cl_int* said) {
+  if (const int error = fault_of("build", CL_OUT_OF_HOST_MEMORY)) return failed(error, said);
+  return NUTIK_NEXT(clCreateProgramWithBinary)(context, count, devices, lengths, binaries, each, said);
+}
+
 cl_int clBuildProgram(cl_program program, cl_uint count, const cl_device_id* devices, const char* options,
                       void(CL_CALLBACK* notify)(cl_program, void*), void* user) {
   if (const int error = fault_of("build", CL_BUILD_PROGRAM_FAILURE)) return error;
@@ -77,6 +85,11 @@ cl_mem clCreateSubBuffer(cl_mem buffer, cl_mem_flags flags, cl_buffer_create_typ
                          cl_int* said) {
   if (const int error = fault_of("allocate", CL_MEM_OBJECT_ALLOCATION_FAILURE)) return failed(error, said);
   return NUTIK_NEXT(clCreateSubBuffer)(buffer, flags, type, region, said);
+}
+
+cl_int clSetKernelArg(cl_kernel kernel, cl_uint index, size_t bytes, const void* value) {
+  if (const int error = fault_of("arguments", CL_OUT_OF_HOST_MEMORY)) return error;
+  return NUTIK_NEXT(clSetKernelArg)(kernel, index, bytes, value);
 }
 
 cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions,
@@ -105,6 +118,36 @@ cl_int clEnqueueFillBuffer(cl_command_queue queue, cl_mem buffer, const void* pa
   if (const int error = fault_of("enqueue", CL_OUT_OF_RESOURCES)) return error;
   return NUTIK_NEXT(clEnqueueFillBuffer)(queue, buffer, pattern, pattern_bytes, offset, bytes, count, events,
                                          event);
+}
+
+cl_int clEnqueueWriteBufferRect(cl_command_queue queue, cl_mem buffer, cl_bool waits, const size_t* buffer_at,
+                                const size_t* host_at, const size_t* region, size_t buffer_row,
+                                size_t buffer_slice, size_t host_row, size_t host_slice, const void* from,
+                                cl_uint count, const cl_event* events, cl_event* event) {
+  if (const int error = fault_of("enqueue", CL_OUT_OF_RESOURCES)) return error;
+  return NUTIK_NEXT(clEnqueueWriteBufferRect)(queue, buffer, waits, buffer_at, host_at, region, buffer_row,
+                                              buffer_slice, host_row, host_slice, from, count, events, event);
+}
+
+cl_int clEnqueueReadBufferRect(cl_command_queue queue, cl_mem buffer, cl_bool waits, const size_t* buffer_at,
+                               const size_t* host_at, const size_t* region, size_t buffer_row,
+                               size_t buffer_slice, size_t host_row, size_t host_slice, void* to,
+                               cl_uint count, const cl_event* events, cl_event* event) {
+  if (const int error = fault_of("enqueue", CL_OUT_OF_RESOURCES)) return error;
+  return NUTIK_NEXT(clEnqueueReadBufferRect)(queue, buffer, waits, buffer_at, host_at, region, buffer_row,
+                                             buffer_slice, host_row, host_slice, to, count, events, event);
+}
+
+cl_int clEnqueueCopyBuffer(cl_command_queue queue, cl_mem from, cl_mem to, size_t from_at, size_t to_at,
+                           size_t bytes, cl_uint count, const cl_event* events, cl_event* event) {
+  if (const int error = fault_of("enqueue", CL_OUT_OF_RESOURCES)) return error;
+  return NUTIK_NEXT(clEnqueueCopyBuffer)(queue, from, to, from_at, to_at, bytes, count, events, event);
+}
+
+cl_int clFinish(cl_command_queue queue) {
+  const int error = fault_of("wait", CL_OUT_OF_RESOURCES);
+  const cl_int finished = NUTIK_NEXT(clFinish)(queue);
+  return error != 0 ? error : finished;
 }
 
 cl_int clWaitForEvents(cl_uint count, const cl_event* events) {

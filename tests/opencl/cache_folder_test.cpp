@@ -54,5 +54,16 @@ TEST_F(DefaultCacheFolder, IsNoneWithoutAHome) {
   EXPECT_EQ(default_cache_folder(), "") << "not in the folder that happens to be the current one";
 }
 
+// As the XDG Base Directory Specification wants it: code that is loaded from there lies where its user wants it to lie.
+TEST_F(DefaultCacheFolder, IsNeverBelowTheCurrentFolder) {
+  set("HOME", "/home/someone");
+  for (const char* const relative : {"caches", "./caches", "../caches", "."}) {
+    set("XDG_CACHE_HOME", relative);
+    EXPECT_EQ(default_cache_folder(), "/home/someone/.cache/nutik-cl") << relative;
+  }
+  set("HOME", "someone");
+  EXPECT_EQ(default_cache_folder(), "");
+}
+
 }  // namespace
 }  // namespace nutik

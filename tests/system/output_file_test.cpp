@@ -81,6 +81,58 @@ TEST(OutputFile, TakesOverNoHardLink) {
   EXPECT_EQ(test::read_file(scratch / "a"), "new");
 }
 
+// A file system that takes a name takes no longer one for the time until it is whole.
+TEST(OutputFile, MayHaveTheLongestName) {
+  const Scratch scratch;
+  const auto temporary_of = [&](const std::string& name) {
+    OutputFile file(scratch / name);
+    file.write("new");
+    std::string temporary = file.temporary_path().filename();
+    file.commit();
+    EXPECT_EQ(test::read_file(scratch / name), "new");
+    return temporary;
+  };
+  constexpr std::size_t kLongest = 255, kUnshortened = kLongest - std::string_view("..nutik.part").size();
+  for (const std::size_t length : {kUnshortened - 1, kUnshortened, kUnshortened + 1, kLongest}) {
+    const std::string name = std::string(length - 4, 'n') + ".tik";
+    const std::string temporary = temporary_of(name);
+    EXPECT_EQ(temporary == "." + name + ".nutik.part", length <= kUnshortened) << temporary;
+    EXPECT_LE(temporary.size(), kLongest);
+    EXPECT_TRUE(temporary.ends_with(".nutik.part")) << temporary;
+    EXPECT_EQ(temporary_of(name), temporary) << "the next run knows it again";
+  }
+  const std::string alike(kLongest - 5, 'n');
+  OutputFile first(scratch / (alike + "1.tik"));
+  OutputFile other(scratch / (alike + "2.tik"));
+  OutputFile another(scratch / (alike + "1.tik"));  // beside the first
+  const std::string first_name = first.temporary_path().filename(), other_name = other.temporary_path().filename();
+  EXPECT_NE(first_name, other_name);
+  EXPECT_TRUE(other_name.ends_with(".nutik.part")) << other_name;
+  EXPECT_TRUE(another.temporary_path().string().ends_with(".nutik-1.part")) << another.temporary_path();
+}
+
+// Letters of several bytes are left out whole.
+TEST(OutputFile, CutsNoLetterOfALongName) {
+  const Scratch scratch;
+  for (const char* const start : {"", "n", "nn"}) {
+    std::string name = start;
+    while (name.size() + 3 <= 255) name += "\u20ac";
+    const OutputFile file(scratch / name);
+    const std::string temporary = file.temporary_path().filename();
+    std::string_view left = temporary;
+    const std::string expected_start = std::string(".") + start;
+    ASSERT_TRUE(left.starts_with(expected_start));
+    left.remove_prefix(expected_start.size());
+    while (left.starts_with("\u20ac")) left.remove_prefix(3);
+    EXPECT_TRUE(left.starts_with("-")) << temporary;
+  }
+}
+
+TEST(OutputFile, RefusesANameThatIsTooLongBeforeAllIsWritten) {
+  const Scratch scratch;
+  EXPECT_THROW(OutputFile(scratch / std::string(256, 'n')), OutputError);
+}
+
 TEST(OutputFile, WritesWhereALinkLeadsEvenToNothing) {
   const Scratch scratch;
   fs::create_directory(scratch / "there");

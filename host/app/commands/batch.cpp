@@ -1,9 +1,12 @@
 #include <algorithm>
+#include <array>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <map>
 #include <mutex>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "app/command_line/command_line.hpp"
@@ -23,6 +26,7 @@
 #include "session/text/shell_text.hpp"
 #include "session/text/size_text.hpp"
 #include "system/input_bytes.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik::app {
 namespace {
@@ -33,10 +37,27 @@ struct ListedExposure {
   std::string text;
 };
 
-std::vector<ListedExposure> read_list(std::istream& stream) {
-  std::vector<ListedExposure> exposures;
+// Up to its end, which what is no list may not have: /dev/zero.
+std::string read_text(std::istream& stream, const std::string& title) {
+  constexpr std::size_t kMaxBytes = 16 << 20;  // some hundred thousand lines
   std::string text;
-  for (std::size_t line = 1; std::getline(stream, text); ++line) {
+  for (std::array<char, 1 << 16> part; stream.read(part.data(), part.size()), stream.gcount() > 0;) {
+    check_interruption();
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > kMaxBytes) {
+      throw InputError(format("{} is longer than {} MiB, which is no list of exposures; make several of a long one", title,
+                              kMaxBytes >> 20));
+    }
+  }
+  if (stream.bad()) throw InputError(format("{} cannot be read", title));
+  return text;
+}
+
+std::vector<ListedExposure> read_list(std::istream& stream, const std::string& title) {
+  std::vector<ListedExposure> exposures;
+  std::istringstream lines(read_text(stream, title));
+  std::string text;
+  for (std::size_t line = 1; std::getline(lines, text); ++line) {
     if (!text.empty() && text.back() == '\r') text.pop_back();
     const auto start = text.find_first_not_of(" \t");
     if (start != std::string::npos && text[start] != '#') exposures.push_back({line, text});
@@ -45,12 +66,13 @@ std::vector<ListedExposure> read_list(std::istream& stream) {
 }
 
 std::vector<ListedExposure> read_list(const std::string& name) {
-  if (name == "-") return read_list(std::cin);
+  if (is_standard_input(name)) return read_list(std::cin, input_title(name));
+  if (std::error_code ignored; std::filesystem::is_directory(name, ignored)) {
+    throw InputError(format("{} is a folder, and no list of exposures", name));
+  }
   std::ifstream file(name);
   if (!file) throw InputError(format("{} cannot be opened", name));
-  std::vector<ListedExposure> exposures = read_list(file);
-  if (file.bad()) throw InputError(format("{} cannot be read", name));
-  return exposures;
+  return read_list(file, name);
 }
 
 // The options of one line, with those of the whole batch. `capture`, if any, is the operand that lines leave out.

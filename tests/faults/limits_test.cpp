@@ -1,0 +1,75 @@
+// Limits of the shell, and readers that are gone: told where that can be, and nothing is left behind.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <random>
+
+#include "capture/format.hpp"
+#include "support/program_test.hpp"
+#include "support/running_program.hpp"
+
+namespace nutik {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Limits : public test::ProgramTest {
+ protected:
+  // Noise, which no codec makes small.
+  void SetUp() override {
+    std::ofstream noise(scratch_ / "clip.raw", std::ios::binary);
+    std::minstd_rand random(1);
+    for (int i = 0; i < 64 * 64 * 64; ++i) noise.put(static_cast<char>(random() >> 8));
+    fs::create_directory(scratch_ / "temporary");
+  }
+  // The program's words behind those of a shell.
+  [[nodiscard]] test::ProgramResult run_below(const std::string& shell, const std::string& words) const {
+    return test::run_shell(format("(export TMPDIR=\"$PWD/temporary\"; {} '{}' {})", shell, NUTIK_TEST_PROGRAM, words),
+                           scratch_.folder());
+  }
+  void expect_nothing_left() const {
+    EXPECT_TRUE(test::files_with(scratch_.folder(), ".part").empty());
+    EXPECT_TRUE(fs::is_empty(scratch_ / "temporary"));
+  }
+  static constexpr const char* kClip = "--raw 64x64:gray -f 64 clip.raw";
+};
+
+// As on a disk that is full. Blocks of ulimit have 512 bytes, in some shells 1024.
+TEST_F(Limits, OfAFilesSizeAreErrorsOfItsWriting) {
+  for (const std::string& words : {format("encode {} -o out.tik", kClip), format("video {} out.mkv", kClip)}) {
+    SCOPED_TRACE(words);
+    const auto result = run_below("ulimit -f 20;", words);
+    EXPECT_EQ(result.status, 5) << result.err;
+    EXPECT_NE(result.err.find("File too large"), std::string::npos) << result.err;
+    EXPECT_TRUE(test::files_with(scratch_.folder(), "out.").empty());
+    expect_nothing_left();
+  }
+}
+
+// Nobody reads the lines of progress any more: the end that other programs have then, 128 + 13 to a shell.
+TEST_F(Limits, OfAReadersPatienceLeaveNoTemporaryFile) {
+  const auto made = run_below("", format("encode {} c.tik", kClip));
+  ASSERT_EQ(made.status, 0) << made.err;
+  const auto result = test::run_shell(
+      format("{{ {{ '{}' video --progress --out-fps 1000 --speed 0.01 c.tik out.mkv; echo $? > status; }} 2>&1 | "
+             "head -1; }}",
+             NUTIK_TEST_PROGRAM),
+      scratch_.folder());
+  EXPECT_NE(result.out, "");
+  EXPECT_EQ(test::read_file(scratch_ / "status"), std::to_string(128 + SIGPIPE) + "\n");
+  EXPECT_TRUE(test::files_with(scratch_.folder(), "out.").empty());
+}
+
+// `ulimit -t` ends the process, which leaves nothing else.
+TEST_F(Limits, OfTimeLeaveNoTemporaryFile) {
+  test::RunningProgram running({"video", "--renderer", "reference", "--out-fps", "1000", "--speed", "0.01", "--raw",
+                                "64x64:gray", "-f", "64", "clip.raw", "out.mkv"},
+                               scratch_.folder());
+  ASSERT_TRUE(running.reaches([&] { return test::has_begun_writing(scratch_.folder()); }));
+  EXPECT_EQ(running.end_with(SIGXCPU), -SIGXCPU);
+  EXPECT_TRUE(test::files_with(scratch_.folder(), "out.").empty());
+}
+
+}  // namespace
+}  // namespace nutik
