@@ -157,7 +157,8 @@ std::int32_t parse_reach(std::string_view text, const std::string& all) {
   }
   if (!is_number || decimals > 2) {
     throw UsageError(
-        format("the feather {} is none; write how far edges reach in pixels, with two decimals at most: "
+        format("the feather {} is no width of an edge; write how far edges reach in pixels, with two "
+               "decimals at most: "
                "6px, 2.5px; of one mask value M255=6px, of several 2px,M255=6px",
                quoted(all)));
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <ranges>
+#include <tuple>
 #include <utility>
 
 #include "scene/differing_cells.hpp"
@@ -134,10 +136,24 @@ class Followed {
            contrast / count / (1 + way.turns_of_extent());
   }
 
+  // And can be shown twice.
+  [[nodiscard]] bool goes_its_way() const {
+    constexpr double kMaxTurns = 1;
+    return places_.size() >= kMinPlaces && furthest_apart(telling_places(places_)) > 0 &&
+           Way(places_).turns_of_length() < kMaxTurns;
+  }
+  [[nodiscard]] bool is_beside(const Followed& other) const {
+    const auto both = std::ranges::count_if(places_, [&](const SubjectPlace& place) {
+      return std::ranges::binary_search(other.places_, place.sample, {}, &SubjectPlace::sample);
+    });
+    return 2 * static_cast<std::size_t>(both) >= places_.size();
+  }
+
   [[nodiscard]] std::vector<SubjectPlace>&& places() && { return std::move(places_); }
 
  private:
   static constexpr std::size_t kMaxLooksWithout = 3;
+  static constexpr std::size_t kMinPlaces = 4;  // fewer are no way
 
   std::vector<SubjectPlace> places_;
   std::size_t last_look_, last_step_ = 1;
@@ -175,9 +191,20 @@ class Follower {
     ++look_;
   }
 
-  [[nodiscard]] std::vector<SubjectPlace> subject() && {
-    if (followed_.empty()) return {};
-    return std::move(*std::ranges::max_element(followed_, {}, &Followed::weight)).places();
+  // Of what goes furthest; and of what goes its way beside that for half of its own time, half as far or more, and as one
+  // whole thing.
+  [[nodiscard]] std::pair<std::vector<SubjectPlace>, std::vector<SubjectPlace>> subject_and_other() && {
+    std::vector<std::pair<double, Followed*>> by_weight;
+    for (Followed& each : followed_) by_weight.emplace_back(each.weight(), &each);
+    if (by_weight.empty()) return {};
+    std::ranges::stable_sort(by_weight, std::ranges::greater(), &std::pair<double, Followed*>::first);
+    const auto [most, subject] = by_weight.front();
+    for (const auto& [weight, other] : by_weight | std::views::drop(1)) {
+      if (weight < most / 2) break;
+      if (!other->goes_its_way() || !other->is_beside(*subject)) continue;
+      return {std::move(*subject).places(), std::move(*other).places()};
+    }
+    return {std::move(*subject).places(), {}};
   }
 
  private:
@@ -256,14 +283,15 @@ class Tracker {
         static_cast<double>(differing) /
         (static_cast<double>(field_.right - field_.left + 1) *
          static_cast<double>(field_.bottom - field_.top + 1) * static_cast<double>(looks_));
-    without_ = differing >= kMinCells ? SampleRange()
-                                        : SampleRange{without_.empty() ? sample : without_.first, sample + 1};
+    without_ = all.region.pixel_count() >= kMinCells
+                   ? SampleRange()
+                   : SampleRange{without_.empty() ? sample : without_.first, sample + 1};
     if (without_.size() > track_.empty.size()) track_.empty = without_;
     follower_.add(cells, sample);
   }
 
   [[nodiscard]] SubjectTrack track() && {
-    track_.places = std::move(follower_).subject();
+    std::tie(track_.places, track_.other) = std::move(follower_).subject_and_other();
     track_.rests = rests_of(track_.places, track_.cell_side);
     const Way way(track_.places);
     track_.extent = way.extent();
@@ -271,8 +299,7 @@ class Tracker {
     constexpr double kMaxTurnsOfLength = 1.3, kMaxTurnsOfExtent = 2;
     track_.fill = middle_of(track_.places, &SubjectPlace::fill);
     track_.share = middle_of(track_.places, &SubjectPlace::share);
-    track_.flickers =
-        way.turns_of_length() > kMaxTurnsOfLength && way.turns_of_extent() > kMaxTurnsOfExtent;
+    track_.flickers = way.turns_of_length() > kMaxTurnsOfLength && way.turns_of_extent() > kMaxTurnsOfExtent;
     return std::move(track_);
   }
 
@@ -315,6 +342,17 @@ double SubjectTrack::covered_share() const {
   if (swept.empty()) return 0;
   const auto looks = std::ranges::count_if(looked_at, counts);
   return static_cast<double>(sum) / (static_cast<double>(swept.size()) * static_cast<double>(looks));
+}
+
+double SubjectTrack::most_covered_share() const {
+  std::vector<std::size_t> counts;
+  for (const SubjectPlace& place : places) {
+    if (place.cells.empty()) continue;
+    if (counts.size() <= place.cells.back()) counts.resize(place.cells.back() + 1);
+    for (const std::size_t cell : place.cells) ++counts[cell];
+  }
+  if (counts.empty()) return 0;
+  return static_cast<double>(std::ranges::max(counts)) / static_cast<double>(looked_at.size());
 }
 
 std::vector<SubjectTrack> track_subjects(CaptureSource& capture, const Picture& plate, std::uint32_t by_codes,

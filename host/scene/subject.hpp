@@ -32,13 +32,16 @@ struct SubjectTrack {
   std::uint32_t cell_columns = 0;        // in a row
   std::vector<SubjectPlace> places;      // in time order; none of samples at which it was not found
   std::vector<std::uint64_t> looked_at;  // samples, increasing: all, or so many evenly over the capture
-  SampleRange empty;  // the longest stretch of them at which nothing at all differs from the plate
-  std::vector<SampleRange> rests;  // where it stays in its place for a good part of the time
-  double extent = 0;               // in pixels, from where its centre is furthest to one side to the other
-  double fill = 1;                 // of its places' boxes; a median
-  double share = 1;                // of all that differs from the plate when it is there; a median
-  bool flickers = false;           // its places lie here and there, as if it were no single thing
-  double moving_share = 0;         // of the picture, that differs from the plate on average
+  // The longest stretch of them at which nothing at all differs from the plate, in all of the picture: what is taken away
+  // with it is taken from there, too.
+  SampleRange empty;
+  std::vector<SampleRange> rests;   // where it stays in its place for a good part of the time
+  std::vector<SubjectPlace> other;  // of what goes its way nearly as far at the same time, if anything does
+  double extent = 0;                // in pixels, from where its centre is furthest to one side to the other
+  double fill = 1;                  // of its places' boxes; a median
+  double share = 1;                 // of all that differs from the plate when it is there; a median
+  bool flickers = false;            // its places lie here and there, as if it were no single thing
+  double moving_share = 0;          // of the picture, that differs from the plate on average
 
   // In pixels: the root of the area that it usually covers. 0 where there is none.
   [[nodiscard]] double size() const;
@@ -48,6 +51,9 @@ struct SubjectTrack {
   // For how much of the time from the first place to the last, without rests, a cell that is covered at all is covered,
   // on average.
   [[nodiscard]] double covered_share() const;
+  // For how much of all the time the cell is covered that is most. Of what is at a place for half of the time the plate
+  // shows some there, and its cells are found when it is elsewhere.
+  [[nodiscard]] double most_covered_share() const;
 };
 
 // Still things that lie so many pixels from where the plate has them, or more, are taken for what moves: half of a cell

@@ -59,6 +59,15 @@ Places whole_places(const Places& places) {
   return whole;
 }
 
+const SubjectPlace& last_large_place(const std::vector<SubjectPlace>& places) {
+  constexpr double kMinSize = 0.5;  // of the median
+  const Places telling = telling_places(places), all_whole = whole_places(telling);
+  Places large = all_whole.empty() ? telling : all_whole;
+  if (large.empty()) return places.back();
+  erase_smaller(large, kMinSize * median_size(large), false);
+  return *large.back();
+}
+
 double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 double furthest_apart(const Places& places) {
@@ -71,6 +80,18 @@ double furthest_apart(const Places& places) {
     }
   }
   return furthest;
+}
+
+bool are_of_one_thing(const std::vector<SubjectPlace>& a, const std::vector<SubjectPlace>& b) {
+  constexpr std::size_t kMinOfPlaces = 8;  // one of so many of what was seen less often
+  std::size_t both = 0, same = 0;
+  for (const SubjectPlace& place : a) {
+    const auto other = std::ranges::lower_bound(b, place.sample, {}, &SubjectPlace::sample);
+    if (other == b.end() || other->sample != place.sample) continue;
+    ++both;
+    if (share_a_cell(place, *other)) ++same;
+  }
+  return same > 0 && 2 * same >= both && kMinOfPlaces * same >= std::min(a.size(), b.size());
 }
 
 }  // namespace nutik

@@ -16,10 +16,17 @@ using Places = std::vector<const SubjectPlace*>;  // in time order
 // Those of them that no border cuts off.
 [[nodiscard]] Places whole_places(const Places& places);
 
+// The last that shows the subject best: of those that tell, whole, and at least half as large as most such. The last of
+// all if none is. `places` has some.
+[[nodiscard]] const SubjectPlace& last_large_place(const std::vector<SubjectPlace>& places);
+
 [[nodiscard]] double distance(const Point& a, const Point& b);
 
 // How far a whole one of them, or any if none is whole, lies from another at most that shares no cell with it, in pixels;
 // 0 if all share some.
 [[nodiscard]] double furthest_apart(const Places& places);
+
+// Whether both are mostly the same cells when both are seen, and that often enough: one thing that was followed twice.
+[[nodiscard]] bool are_of_one_thing(const std::vector<SubjectPlace>& a, const std::vector<SubjectPlace>& b);
 
 }  // namespace nutik

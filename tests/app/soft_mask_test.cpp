@@ -184,7 +184,8 @@ TEST_F(SoftMaskCommand, IsKnownToOtherCommands) {
 }
 
 TEST_F(SoftMaskCommand, SaysWhatIsWrong) {
-  expect_refused(exposing({"clip.tik", "no.pgm"}, "mask.pgm", "2"), 2, "the feather '2' is none");
+  expect_refused(exposing({"clip.tik", "no.pgm"}, "mask.pgm", "2"), 2,
+                 "the feather '2' is no width of an edge");
   expect_refused(exposing({"clip.tik", "no.pgm"}, "mask.pgm", "M4=2px"), 2,
                  "no pixel of the mask has the value 4");
   expect_refused({"--start", "0s", "--exposure", "1f", "--feather", "2px", "clip.tik", "no.pgm"}, 2,

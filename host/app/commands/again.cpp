@@ -133,11 +133,7 @@ void check_options(const Recipe& recipe, const std::string& picture) {
   }
 }
 
-// As an operand: never mistaken for an option or a command.
-std::string operand(const fs::path& path) {
-  const std::string text = path.string();
-  return shell_word(text.starts_with('-') ? "./" + text : text);
-}
+std::string operand(const fs::path& path) { return shell_word(not_an_option(path.string())); }
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
+#include "app/commands/study_files.hpp"
 #include "app/output/console.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
@@ -24,25 +25,6 @@
 namespace nutik::app {
 namespace {
 
-constexpr std::string_view kAboutCommands = "# What makes the same study by hand.";
-constexpr std::string_view kAboutFunctions =
-    "# The light of each part of the picture: M0, M1 and so on are values of the mask.";
-
-// The files of a study: its picture, and beside it what that was made with.
-struct StudyFiles {
-  explicit StudyFiles(const std::filesystem::path& output)
-      : picture(output), mask(beside(".pgm")), functions(beside(".fn")), commands(beside(".txt")) {}
-
-  [[nodiscard]] std::filesystem::path beside(const char* extension) const {
-    std::filesystem::path path = picture;
-    path.replace_extension(extension);
-    if (path == picture) path.replace_filename(picture.stem().string() + "-mask" + extension);
-    return path;
-  }
-
-  std::filesystem::path picture, mask, functions, commands;
-};
-
 std::string functions_text(const FunctionSet& functions) {
   std::string text;
   for (const auto& [tag, function] : functions) text += function_text(tag, function) + "\n";
@@ -52,8 +34,8 @@ std::string functions_text(const FunctionSet& functions) {
 // The exposure by hand.
 Options exposing(const Options& options, const StudyFiles& files, StudyStyle style) {
   Options by_hand = options;
-  by_hand.mask = files.mask.string();
-  by_hand.functions = files.functions.string();
+  by_hand.mask = not_an_option(files.mask.string());
+  by_hand.functions = not_an_option(files.functions.string());
   if (style != StudyStyle::slit) by_hand.feather = kStudyFeather;
   by_hand.normalize = "integral";
   return by_hand;
@@ -62,11 +44,13 @@ Options exposing(const Options& options, const StudyFiles& files, StudyStyle sty
 // What makes the same by hand.
 std::string commands_text(const Options& options, const StudyFiles& files, const Study& study,
                           StudyStyle style) {
-  const auto name = [](const std::filesystem::path& path) { return shell_word(path.string()); };
-  const std::string capture = shell_word(options.operands.front());
+  const auto name = [](const std::filesystem::path& path) {
+    return shell_word(not_an_option(path.string()));
+  };
+  const std::string capture = shell_word(not_an_option(options.operands.front()));
   if (style == StudyStyle::clean) {
-    return format("{}\nnutik-cl plate{} \\\n  {} {}\n", kAboutCommands,
-                  stated_words(options, CommandId::plate), capture, name(files.picture));
+    return format("nutik-cl plate{} \\\n  {} {}\n", stated_words(options, CommandId::plate), capture,
+                  name(files.picture));
   }
   std::string regions;
   for (const MaskStep& step : study.mask.steps) {
@@ -77,19 +61,43 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
     }
     for (const RegionChange& change : step.changes) regions += " " + change_words(change);
   }
-  return format("{}\nnutik-cl mask{}{} \\\n  {} {}\nnutik-cl{} \\\n  {} {}\n", kAboutCommands,
+  return format("nutik-cl mask{}{} \\\n  {} {}\nnutik-cl{} \\\n  {} {}\n",
                 stated_words(options, CommandId::mask), regions, capture, name(files.mask),
                 stated_words(exposing(options, files, style), CommandId::expose), capture,
                 name(files.picture));
 }
 
-// What is written as text replaces an earlier study's, and nothing else.
-void check_text(const std::filesystem::path& file, std::string_view begins,
-                std::span<const std::string> inputs) {
-  const bool is_input = std::ranges::find(inputs, file.string()) != inputs.end();
-  if (!is_input && (!std::filesystem::exists(file) || begins.starts_with(first_bytes(file)))) return;
-  throw UsageError(format("{} {}; it is not replaced. Choose another name for the picture", file.string(),
-                          is_input ? "is also an input" : "exists and is of no study"));
+// Whose moment each is, and the mask's value of its region.
+Json moments_json(const Study& study, const Timeline& timeline) {
+  Json moments = Json::array();
+  for (std::size_t i = 0; i < study.moments.size(); ++i) {
+    const std::uint64_t sample = study.moments[i];
+    Json moment{{"sample", sample}, {"start_ns", timeline.start_ns(sample)}};
+    moment["mask"] = study.subjects.empty() ? i : i + 1;
+    if (!study.subjects.empty()) moment["subject"] = study.subjects[i] + 1;
+    moments.push_back(std::move(moment));
+  }
+  return moments;
+}
+
+// `the subject at 0 ns (0f), 1 s (30f)`; with several, `subject 1 at …; subject 2 at …`.
+std::string moments_text(const Study& study, const Timeline& timeline) {
+  if (study.subjects.empty()) {
+    return format("the scene at {} moments, one in each strip", study.moments.size());
+  }
+  const bool is_single = study.subjects.back() == 0;
+  std::string text;
+  for (std::size_t i = 0; i < study.moments.size(); ++i) {
+    const std::uint64_t sample = study.moments[i];
+    if (i > 0 && study.subjects[i] == study.subjects[i - 1]) {
+      text += ", ";
+    } else {
+      text += is_single ? "the subject at "
+                        : format("{}subject {} at ", i == 0 ? "" : "; ", study.subjects[i] + 1);
+    }
+    text += format("{} ({}f)", duration_text(timeline.start_ns(sample)), sample);
+  }
+  return text;
 }
 
 void add_notes(Answer& answer, const PlannedStudy& planned) {
@@ -126,12 +134,7 @@ int run_study(const Options& stated) {
   ExposureTally tally;
   const StudyRequest request = study_request(options);
   const StudyFiles files(output_name(options, "study", "-study.png"));
-  std::vector<std::string> inputs = input_files(options);
-  check_output(files.picture, OutputKind::picture, inputs);
-  inputs.push_back(files.picture.string());
-  check_mask_output(files.mask, inputs);
-  check_text(files.functions, kAboutFunctions, inputs);
-  check_text(files.commands, kAboutCommands, inputs);
+  files.check(input_files(options));
 
   const std::string capture_name = options.operands.front();
   // A camera that corrects its exposure changes the whole scene, and nothing of it rests.
@@ -144,47 +147,46 @@ int run_study(const Options& stated) {
         make_plate(session.capture(), capture_name, {},
                    output_format(output_request(options), files.picture, session.format()),
                    session.devices().request().memory, progress_bar("reading", options.quiet));
-    write_text(files.commands, commands_text(options, files, study, request.style));
     write_picture(files.picture, plate.picture, {}, file_wishes(output_request(options)));
-    Answer answer{{{"picture", files.picture.string()}, {"commands", files.commands.string()}}};
-    answer.line = format("{}: {}, the scene without moving things; {}: the command", files.picture.string(),
-                         shape_text(plate.picture.shape), files.commands.string());
+    Answer answer{{{"picture", files.picture.string()}}};
+    answer.line = format("{}: {}, the scene without moving things", files.picture.string(),
+                         shape_text(plate.picture.shape));
+    if (!files.is_alone()) {
+      files.write_commands(commands_text(options, files, study, request.style), false);
+      answer.json["commands"] = files.commands.string();
+      answer.line += format("; {}: the command", files.commands.string());
+    }
     add_notes(answer, planned);
     return tell(options, files.picture, answer);
   }
   const MadeMask made = make_regions(study, session.capture(), capture_name);
-  const bool is_slit = request.style == StudyStyle::slit;
   const ExposedPicture exposed =
       session.render(study_exposure(study, request.style, made.mask),
                      output_format(output_request(options), files.picture, session.format()));
   tally.add(exposed);
   print_warnings(exposure_warnings(exposed));
-  write_picture(files.mask, made.mask.to_picture());
-  write_text(files.functions, format("{}\n{}", kAboutFunctions, functions_text(study.functions)));
-  write_text(files.commands, commands_text(options, files, study, request.style));
-  PictureRecipe recipe(recipe_sources(exposing(options, files, request.style)));
-  write_picture(files.picture, exposed.picture, recipe.text(tally.precision()),
-                file_wishes(output_request(options)));
-
-  const Timeline& timeline = session.timeline();
-  Answer answer{{{"picture", files.picture.string()},
-                 {"mask", files.mask.string()},
-                 {"functions", files.functions.string()},
-                 {"commands", files.commands.string()},
-                 {"moments", Json::array()},
-                 {"trail_strength", study.trail_strength}}};
-  std::string moments;
-  for (const std::uint64_t sample : study.moments) {
-    answer.json["moments"].push_back({{"sample", sample}, {"start_ns", timeline.start_ns(sample)}});
-    moments +=
-        format("{} {} ({}f)", moments.empty() ? "" : ",", duration_text(timeline.start_ns(sample)), sample);
+  std::string recipe;  // names the files, where there are some
+  if (!files.is_alone()) {
+    write_picture(files.mask, made.mask.to_picture());
+    files.write_functions(functions_text(study.functions));
+    files.write_commands(commands_text(options, files, study, request.style), true);
+    recipe = PictureRecipe(recipe_sources(exposing(options, files, request.style))).text(tally.precision());
   }
-  if (is_slit) moments = format(" {} moments, one in each strip", study.moments.size());
-  answer.line = format("{}: {}, {}{}", files.picture.string(), shape_text(exposed.picture.shape),
-                       is_slit ? "the scene at" : "the subject at", moments);
-  answer.details.push_back(
-      format("  {}, {}: the mask and the functions, to be changed by hand; {}: the commands",
-             files.mask.string(), files.functions.string(), files.commands.string()));
+  write_picture(files.picture, exposed.picture, recipe, file_wishes(output_request(options)));
+
+  Answer answer{{{"picture", files.picture.string()}}};
+  if (!files.is_alone()) {
+    answer.json["mask"] = files.mask.string();
+    answer.json["functions"] = files.functions.string();
+    answer.json["commands"] = files.commands.string();
+    answer.details.push_back(
+        format("  {}, {}: the mask and the functions, to be changed by hand; {}: the commands",
+               files.mask.string(), files.functions.string(), files.commands.string()));
+  }
+  answer.json["moments"] = moments_json(study, session.timeline());
+  answer.json["trail_strength"] = study.trail_strength;
+  answer.line = format("{}: {}, {}", files.picture.string(), shape_text(exposed.picture.shape),
+                       moments_text(study, session.timeline()));
   tally.end(answer, session, options.verbose);
   add_notes(answer, planned);
   return tell(options, files.picture, answer);

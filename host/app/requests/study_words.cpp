@@ -80,7 +80,7 @@ Rectangle region_of(const std::string& text) {
   const std::vector<double> n = parse_numbers(text, "--region");
   const auto is_whole = [](double each) { return each >= 0 && each <= 65'535 && each == std::floor(each); };
   if (n.size() != 4 || !std::ranges::all_of(n, is_whole) || n[2] == 0 || n[3] == 0) {
-    throw UsageError(format("--region '{}' is none; write whole pixels: X,Y,WIDTH,HEIGHT", text));
+    throw UsageError(format("--region '{}' is no rectangle; write whole pixels: X,Y,WIDTH,HEIGHT", text));
   }
   const auto pixels = [&](std::size_t i) { return static_cast<std::uint32_t>(n[i]); };
   return {pixels(0), pixels(1), pixels(2), pixels(3)};

@@ -10,6 +10,7 @@
 #include "imev/each_block.hpp"
 #include "mask/code_span.hpp"
 #include "mask/distance.hpp"
+#include "scene/plate_edges.hpp"
 
 namespace nutik {
 namespace {
@@ -51,6 +52,16 @@ Region changed_by(const RegionChange& change, const Region& region) {
                       rectangle(region.width, region.height, limits.corner, limits.width, limits.height));
 }
 
+// How far the changes move a region's border outwards, in whole pixels.
+std::uint32_t margin_of(const MaskStep& step) {
+  double margin = 0;
+  for (const RegionChange& change : step.changes) {
+    if (change.kind == RegionChange::Kind::grow) margin += change.radius;
+    if (change.kind == RegionChange::Kind::shrink) margin -= change.radius;
+  }
+  return static_cast<std::uint32_t>(std::max(margin, 0.0));
+}
+
 MaskSize size_of(const MaskRequest& request, const CaptureSource* capture, const std::string& capture_name) {
   std::vector<NamedSize> sizes;
   if (request.size) sizes.push_back(*request.size);
@@ -84,10 +95,14 @@ class MaskMaker {
       : made_{std::move(base), {}}, capture_(capture), make_plate_(plate) {}
 
   void add(const MaskStep& step) {
-    StepReport report{step.name.text, step.tag, step.last_tag(), 0, std::nullopt, {}};
+    StepReport report{step.name.text, step.tag, step.last_tag(), 0, std::nullopt, std::nullopt, {}};
     Region region = region_of(step, report);
     for (const RegionChange& change : step.changes) region = changed_by(change, region);
     report.pixel_count = region.pixel_count();
+    if (seen_) {
+      report.plate_edges = plate_edge_share(*seen_, *plate_, region, *report.by_codes, margin_of(step));
+      seen_.reset();
+    }
     if (const auto* grid = std::get_if<select::Grid>(&step.selection)) {
       if (grid->columns > mask().width || grid->rows > mask().height) {
         throw InputError(format("{} {}x{} has more cells than pixels along a side: the mask is {} x {}",
@@ -156,8 +171,8 @@ class MaskMaker {
             [&](const select::Subject& subject) {
               if (!plate_) plate_ = make_plate_();
               const std::uint64_t sample = sample_at(subject.at, step.name.text, capture_->timeline());
-              return changed(differences(picture_of_sample(*capture_, sample), *plate_), plate_->white_code,
-                             step, report);
+              seen_ = picture_of_sample(*capture_, sample);
+              return changed(differences(*seen_, *plate_), plate_->white_code, step, report);
             },
             [&](const select::Stillness&) {
               return inverted(moving({0, capture_->timeline().sample_count()}, step, report));
@@ -218,6 +233,7 @@ class MaskMaker {
   CaptureSource* capture_;
   const std::function<Picture()>& make_plate_;
   std::optional<Picture> plate_;
+  std::optional<Picture> seen_;  // that a subject was found in, until its region is whole
   // Of samples that a step has looked at: the capture is read once for steps with the same times.
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::vector<std::uint32_t>> spans_;
 };

@@ -8,37 +8,28 @@
 #include "capture/format.hpp"
 #include "mask/feather.hpp"
 #include "scene/code_band.hpp"
-#include "session/making/gain_pieces.hpp"
+#include "scene/telling_places.hpp"
 #include "session/making/mask_making.hpp"
 #include "session/making/plate_request.hpp"
 #include "session/making/study_slit.hpp"
+#include "session/making/study_trail.hpp"
 #include "session/text/time_text.hpp"
 
 namespace nutik {
 namespace {
 
-// Of a subject that covers a place of its way for a share of the time, the trail shows so much there.
-constexpr double kTrailOpacity = 0.5;
-constexpr double kMaxStrength = 8;  // more shows the noise of the empty scene
 constexpr double kMaxMoving = 0.2;  // of the picture, on average
-constexpr std::uint64_t kMinEmptySamples = 4;
+// Of a subject's border, along which its plate has an edge and its picture none: of things that the plate shows nothing of,
+// 0.1 at most where they go before a texture, and 0.25 before dark things as large as they are; of things that it shows a
+// quarter of, 0.2, and these cover a place for nearly half of the time.
+constexpr double kMaxPlateEdges = 0.15;
+constexpr double kMinCoveredInPlate = 0.4;
+constexpr std::size_t kMinLooks = 8;
 constexpr double kMinExtent = 1.0 / 16;  // of the picture's longer side, that a subject goes
 // In pixels: without specks, without holes, and with the subject's soft border.
 constexpr double kSmoothRadius = 1, kGrowRadius = 9, kShrinkRadius = 7;
 
 bool shows_one(StudyStyle style) { return style == StudyStyle::rear_curtain || style == StudyStyle::frozen; }
-
-TrailShape default_trail(StudyStyle style) {
-  switch (style) {
-    case StudyStyle::trail: return TrailShape::even;
-    case StudyStyle::rear_curtain: return TrailShape::ramp;
-    case StudyStyle::strobe: return TrailShape::none;
-    case StudyStyle::frozen: return TrailShape::even;
-    case StudyStyle::clean:
-    case StudyStyle::slit: break;
-  }
-  return TrailShape::none;
-}
 
 std::vector<std::uint64_t> stated_moments(const std::vector<StatedTime>& times, const Timeline& timeline) {
   std::vector<std::uint64_t> samples;
@@ -52,20 +43,27 @@ std::vector<std::uint64_t> stated_moments(const std::vector<StatedTime>& times, 
   return samples;
 }
 
+std::string text_of(const Rectangle& region) {
+  return format("region {},{},{},{}", region.x, region.y, region.width, region.height);
+}
+
+// For messages.
+std::string where(const std::string& name, const StudyRequest& request, const Rectangle& region) {
+  return request.regions.empty() ? name : name + ", " + text_of(region);
+}
+
 class StudyPlanner {
  public:
   StudyPlanner(const StudyRequest& request, const Timeline& timeline, const std::string& name,
                std::vector<SubjectTrack> tracks, const std::vector<Rectangle>& regions)
-      : request_(request), timeline_(timeline), name_(name), tracks_(std::move(tracks)), regions_(regions) {
-    shape_ = request.trail.value_or(default_trail(request.style));
-  }
+      : request_(request), timeline_(timeline), name_(name), tracks_(std::move(tracks)), regions_(regions) {}
 
   // Subject by subject.
   void choose(Study& study) {
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      for (const std::uint64_t sample : moments_of(tracks_[i], study)) {
+      for (const std::uint64_t sample : moments_of(i, study)) {
         study.moments.push_back(sample);
-        subjects_.push_back(i);
+        study.subjects.push_back(i);
       }
     }
     constexpr std::size_t kMaxTags = 255;
@@ -82,14 +80,15 @@ class StudyPlanner {
       step.name = {nutik::format("subject {}", i + 1)};
       step.tag = static_cast<std::uint8_t>(i + 1);
       step.selection = select::Subject{StatedTime::of_pictures(static_cast<std::int64_t>(study.moments[i]))};
-      const SubjectTrack& track = tracks_[subjects_[i]];
+      const SubjectTrack& track = tracks_[study.subjects[i]];
       if (!is_seen_at(track, study.moments[i])) {
         study.notes.push_back(format(
-            "at {} ({}f) the subject that was followed is not seen: what differs most from the empty scene "
+            "at {} ({}f) the subject that was followed{} is not seen: what differs most from the empty scene "
             "then, if anything, is shown in its place",
-            duration_text(timeline_.start_ns(study.moments[i])), study.moments[i]));
+            duration_text(timeline_.start_ns(study.moments[i])), study.moments[i],
+            tracks_.size() > 1 ? " in " + text_of(regions_[study.subjects[i]]) : ""));
       }
-      step.changes = {{RegionChange::Kind::within, 0.0, box_at(subjects_[i], study.moments[i])},
+      step.changes = {{RegionChange::Kind::within, 0.0, box_at(study.subjects[i], study.moments[i])},
                       {RegionChange::Kind::largest, 0.0, {}},
                       {RegionChange::Kind::smooth, kSmoothRadius, {}},
                       {RegionChange::Kind::grow, kGrowRadius, {}},
@@ -98,24 +97,16 @@ class StudyPlanner {
     }
   }
 
-  void add_functions(Study& study) const {
-    for (std::size_t i = 0; i < study.moments.size(); ++i) {
-      GainPieces moment;
-      moment.add(interval_of({study.moments[i], study.moments[i] + 1}), 1, 1);
-      study.functions.emplace(static_cast<std::uint8_t>(i + 1), moment.function());
-    }
-    study.empty = empty_of_all();
-    if (study.empty.size() < kMinEmptySamples) study.empty = {};
-    study.functions.emplace(std::uint8_t{0}, shape_ == TrailShape::none ? background(study) : trail(study));
-  }
+  [[nodiscard]] const std::vector<SubjectTrack>& tracks() const { return tracks_; }
 
  private:
-  [[nodiscard]] std::vector<std::uint64_t> moments_of(const SubjectTrack& track, Study& study) const {
+  [[nodiscard]] std::vector<std::uint64_t> moments_of(std::size_t subject, Study& study) const {
+    const SubjectTrack& track = tracks_[subject];
     if (const auto* times = std::get_if<std::vector<StatedTime>>(&request_.moments)) {
       return stated_moments(*times, timeline_);
     }
     study.are_moments_found = true;
-    if (request_.style == StudyStyle::rear_curtain) return {last_whole_place(track).sample};
+    if (request_.style == StudyStyle::rear_curtain) return {last_large_place(track.places).sample};
     const std::uint32_t wanted = shows_one(request_.style) ? 1 : std::get<std::uint32_t>(request_.moments);
     std::vector<std::uint64_t> moments;
     for (const SubjectPlace& place : choose_moments(track, wanted, request_.spacing)) {
@@ -125,26 +116,16 @@ class StudyPlanner {
       throw NoSubject(format(
           "{}: what moves goes {:.0f} pixels, and is {:.0f} pixels large: at no two moments{} does it lie "
           "apart from itself. A single moment can be shown, frozen or at the end of its trail",
-          name_, track.extent, track.size(),
+          where(name_, request_, regions_[subject]), track.extent, track.size(),
           track.extent > track.size() ? " at which it is seen as a whole" : ""));
     }
     if (moments.size() < wanted) {
-      study.notes.push_back(
-          format("{} of {} moments are shown: at others the subject would overlap with itself, or the border "
-                 "of the picture or of its region would leave less than half of it",
-                 moments.size(), wanted));
+      study.notes.push_back(format(
+          "{}{} of {} moments are shown: at others the subject would overlap with itself, or the border "
+          "of the picture or of its region would leave less than half of it",
+          tracks_.size() > 1 ? format("subject {}: ", subject + 1) : "", moments.size(), wanted));
     }
     return moments;
-  }
-
-  // When none of them is there.
-  [[nodiscard]] SampleRange empty_of_all() const {
-    SampleRange empty = tracks_.front().empty;
-    for (const SubjectTrack& track : tracks_) {
-      empty.first = std::max(empty.first, track.empty.first);
-      empty.last = std::max(empty.first, std::min(empty.last, track.empty.last));
-    }
-    return empty;
   }
 
   // Whether it was found at the last sample before that was looked at.
@@ -164,106 +145,12 @@ class StudyPlanner {
     return {{double(box.x), double(box.y)}, double(box.width), double(box.height)};
   }
 
-  [[nodiscard]] static const SubjectPlace& last_whole_place(const SubjectTrack& track) {
-    const auto whole = std::find_if(track.places.rbegin(), track.places.rend(),
-                                    [](const SubjectPlace& place) { return !place.is_cut_off; });
-    return whole == track.places.rend() ? track.places.back() : *whole;
-  }
-
-  [[nodiscard]] Interval interval_of(SampleRange samples) const {
-    return {timeline_.start_ns(samples.first), timeline_.end_ns(samples.last - 1)};
-  }
-
-  // The scene between the moments: when nothing is there; else the moments together, in each of which most of it is
-  // seen.
-  [[nodiscard]] GainFunction background(const Study& study) const {
-    GainPieces pieces;
-    if (!study.empty.empty()) {
-      pieces.add(interval_of(study.empty), 1, 1);
-    } else {
-      for (const std::uint64_t sample : study.moments) pieces.add(interval_of({sample, sample + 1}), 1, 1);
-    }
-    return pieces.function();
-  }
-
-  // The whole way of the subject, or of all of them. Where nothing is there for a while, that is taken away again, so that the way may be as
-  // much stronger.
-  [[nodiscard]] GainFunction trail(Study& study) const {
-    std::uint64_t first = tracks_.front().places.front().sample, last = 0;
-    double covered = 0;
-    for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      first = std::min(first, tracks_[i].places.front().sample);
-      last = std::max(last, request_.style == StudyStyle::rear_curtain ? study.moments[i]
-                                                                       : tracks_[i].places.back().sample);
-      covered = std::max(covered, tracks_[i].covered_share());
-    }
-    const Interval way = interval_of({std::min(first, last), last + 1});
-    const double begin = shape_ == TrailShape::ramp ? 0.0 : 1.0, end = shape_ == TrailShape::fade ? 0.0 : 1.0;
-    GainPieces pieces;
-    const Interval without = study.empty.empty() ? way : interval_of(study.empty);
-    const bool is_apart = without.end_ns <= way.begin_ns || without.begin_ns >= way.end_ns;
-    double way_ns = 0;  // each time as strong as it is
-    std::vector<std::pair<Interval, std::pair<double, double>>> moving;
-    for (const Interval& part : without_rests(way)) {
-      const auto gain = [&](std::int64_t time_ns) {
-        return begin + (end - begin) * static_cast<double>(time_ns - way.begin_ns) /
-                           static_cast<double>(way.end_ns - way.begin_ns);
-      };
-      const double first_gain = gain(part.begin_ns), last_gain = gain(part.end_ns);
-      way_ns += static_cast<double>(part.end_ns - part.begin_ns) * (first_gain + last_gain) / 2;
-      moving.push_back({part, {first_gain, last_gain}});
-    }
-    const auto add_way = [&] {
-      for (const auto& [part, gains] : moving) pieces.add(part, gains.first, gains.second);
-    };
-    if (!is_apart || request_.style == StudyStyle::frozen) {
-      add_way();
-      return pieces.function();
-    }
-    const double wanted = kTrailOpacity / covered;
-    study.trail_strength = std::round(10 * std::clamp(wanted, 1.0, kMaxStrength)) / 10;
-    const double taken =
-        -(1 - 1 / study.trail_strength) * way_ns / static_cast<double>(without.end_ns - without.begin_ns);
-    const double rounded = std::round(1000 * taken) / 1000;
-    const bool is_before = without.begin_ns < way.begin_ns;
-    if (is_before) pieces.add(without, rounded, rounded);
-    add_way();
-    if (!is_before) pieces.add(without, rounded, rounded);
-    return pieces.function();
-  }
-
-  // Parts of the way in which a single subject goes on; all of it for several, or for a scene that is exposed for all of
-  // the time.
-  [[nodiscard]] std::vector<Interval> without_rests(const Interval& way) const {
-    std::vector<Interval> parts{way};
-    if (request_.style == StudyStyle::frozen || tracks_.size() > 1) return parts;
-    for (const SampleRange& rest : tracks_.front().rests) {
-      const Interval resting = interval_of(rest);
-      if (parts.empty() || resting.begin_ns >= way.end_ns) break;
-      const Interval part = parts.back();
-      parts.pop_back();
-      if (part.begin_ns < resting.begin_ns) parts.push_back({part.begin_ns, resting.begin_ns});
-      if (resting.end_ns < part.end_ns) parts.push_back({resting.end_ns, part.end_ns});
-    }
-    return parts.empty() ? std::vector<Interval>{way} : parts;
-  }
-
   const StudyRequest& request_;
   const Timeline& timeline_;
   const std::string& name_;  // of the capture, for messages
   std::vector<SubjectTrack> tracks_;
   const std::vector<Rectangle>& regions_;  // in which each was looked for
-  std::vector<std::size_t> subjects_;      // whose moment each is
-  TrailShape shape_;
 };
-
-}  // namespace
-
-namespace {
-
-std::string text_of(const Rectangle& region) {
-  return format("region {},{},{},{}", region.x, region.y, region.width, region.height);
-}
 
 // Where subjects are looked for, one in each.
 std::vector<Rectangle> regions_of(const StudyRequest& request, const std::string& name, const Shape& shape) {
@@ -287,42 +174,101 @@ double uncertain_share(const Region& uncertain, const std::vector<Rectangle>& re
   return static_cast<double>(count) / static_cast<double>(all);
 }
 
+// That what is not followed leaves a trail only.
+void tell_of_other(const std::vector<SubjectPlace>& places, std::vector<std::string>& notes) {
+  if (places.empty()) return;
+  std::uint32_t left = places[0].box.x, top = places[0].box.y, right = 0, bottom = 0;
+  for (const SubjectPlace& place : places) {
+    left = std::min(left, place.box.x);
+    top = std::min(top, place.box.y);
+    right = std::max(right, place.box.x + place.box.width);
+    bottom = std::max(bottom, place.box.y + place.box.height);
+  }
+  notes.push_back(
+      format("one subject is shown, and another thing goes its way at the same time, within {},{},{},{}: "
+             "name a region for each "
+             "of them to show both",
+             left, top, right - left, bottom - top));
+}
+
+// A plate that shows the subject makes a hole of the ground that it left. Moments that are stated are shown with a note.
+void check_before_plate(Study& study, const MadeMask& made, const std::string& name) {
+  for (std::size_t i = 0; i < made.steps.size(); ++i) {
+    const double share = made.steps[i].plate_edges.value_or(0);
+    if (share <= kMaxPlateEdges || !study.may_be_in_plate[study.subjects[i]]) continue;
+    const std::string why = format(
+        "the scene at rest shows the subject, too, which covers some places for half of the time: at picture "
+        "{} "
+        "{:.0f} % of its border are edges of that scene",
+        study.moments[i], 100 * share);
+    if (study.are_moments_found) {
+      throw NoSubject(
+          format("{}: {}. Take a longer part of the time, in which it goes on, or name the moments to show",
+                 name, why));
+    }
+    study.notes.push_back(why + ". It may be shown in part, or as a hole");
+  }
+}
+
 // Throws what makes no study. Moments that are stated are shown wherever the subject goes.
-void check_track(const SubjectTrack& track, const std::string& where, std::uint32_t by_codes,
-                 std::uint32_t side, bool is_stated) {
+void check_track(const SubjectTrack& track, const std::string& name, std::uint32_t by_codes,
+                 std::uint32_t side, StudyStyle style, bool is_stated) {
   if (track.moving_share > kMaxMoving) {
     throw EverythingMoves(format(
         "{}: {:.0f} % of the picture differ from the scene at rest on average: everything moves, as it "
         "does where the camera did. A study needs a scene that rests, and something that moves in it",
-        where, 100 * track.moving_share));
+        name, 100 * track.moving_share));
   }
   if (track.places.empty()) {
     throw NoSubject(
         format("{}: nothing moves: no part of it differs from the rest of the time by more than {} codes",
-               where, by_codes));
+               name, by_codes));
   }
   if (is_stated) return;
-  if (kMinExtent * side > track.extent) {
-    throw NoSubject(
-        format("{}: nothing goes anywhere: what moves most goes {:.0f} pixels of {}, and is {:.0f} pixels "
-               "large. Take a part of the picture, or name the moments to show",
-               where, track.extent, side, track.size()));
+  if (kMinExtent * side > track.extent && !shows_one(style)) {
+    throw NoSubject(format(
+        "{}: nothing goes anywhere: what moves most is {:.0f} pixels large, and goes {:.0f} pixels of {}{}. "
+        "{}",
+        name, track.size(), track.extent, side,
+        track.looked_at.size() < kMinLooks ? format(", in {} pictures", track.looked_at.size()) : "",
+        track.extent < track.cell_side
+            ? "It comes and goes in its place: a single moment can be shown, frozen, or those that are named"
+            : "Take a part of the picture, of which that is more, or name the moments to show. A camera that "
+              "sways before a texture that repeats itself looks so, too: align the clip"));
   }
   if (track.is_scraps()) {
-    throw NoSubject(format(
-        "{}: what goes furthest are scraps: they fill {:.0f} % of their box and are {:.0f} % of what differs "
-        "from the scene at rest, and a thing that goes its way is at least half of one of these. So do edges look of a "
-        "thing that goes less than its own size, and never leaves its place, or that shakes, grows or shines: it cannot "
-        "be shown twice. Take a clip in which it goes further, name a region with a single subject, or the moments to "
-        "show",
-        where, 100 * track.fill, 100 * track.share));
+    throw NoSubject(
+        format("{}: nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is "
+               "{:.0f} % of what "
+               "differs from the scene at rest: of one of these a subject is half or more. A thing that goes "
+               "less than its own "
+               "size, shakes, grows or shines shows its edges only, and cannot be shown twice. Take a clip "
+               "in which it goes "
+               "further, name a region with a single subject, or the moments to show",
+               name, 100 * track.fill, 100 * track.share));
   }
   if (track.flickers) {
-    throw NoSubject(format(
-        "{}: what differs from the scene at rest flickers here and there over {:.0f} pixels, and nothing "
-        "of it goes its way as one thing: light that changes, leaves, or many things at once. Name a "
-        "region with a single subject, a part of the time, or the moments to show",
-        where, track.extent));
+    throw NoSubject(
+        format("{}: nothing moves as one whole thing. What differs from the scene at rest flickers here and "
+               "there over {:.0f} "
+               "pixels, as light does that changes, leaves, or many things at once. Name a region with a "
+               "single subject, a part "
+               "of the time, or the moments to show",
+               name, track.extent));
+  }
+}
+
+// Regions that overlap may hold a single thing, which cannot be shown as two.
+void check_apart(const std::vector<SubjectTrack>& tracks, const std::vector<Rectangle>& regions,
+                 const std::string& name) {
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!are_of_one_thing(tracks[k].places, tracks[i].places)) continue;
+      throw NoSubject(
+          format("{}: {} and {} overlap, and hold the same subject. Take regions that lie apart, "
+                 "or a single one",
+                 name, text_of(regions[k]), text_of(regions[i])));
+    }
   }
 }
 
@@ -330,16 +276,21 @@ void check_track(const SubjectTrack& track, const std::string& where, std::uint3
 
 MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& capture_name) {
   MadeMask made = make_mask(study.mask, &capture, capture_name, [&] { return std::move(study.plate); });
+  check_before_plate(study, made, capture_name);
   if (!study.are_moments_found) return made;
   const auto left = made.mask.pixels_per_tag();
   for (std::size_t i = 0; i < made.steps.size(); ++i) {
     const StepReport& step = made.steps[i];
     if (2 * left[step.tag] >= step.pixel_count) continue;
+    const bool is_single = study.subjects.back() == 0;
     throw NoSubject(nutik::format(
-        "{}: the subject overlaps with itself: of the {} pixels that it has at picture {} moments after it "
-        "cover "
-        "all but {}. It goes too little for its size. Name moments further apart, or show a single one",
-        capture_name, step.pixel_count, study.moments[i], left[step.tag]));
+        "{}: {}: of the {} pixels that it has at picture {} moments after it cover all but {}. {}",
+        capture_name,
+        is_single ? "the subject overlaps with itself"
+                  : nutik::format("subject {} overlaps with itself or with another", study.subjects[i] + 1),
+        step.pixel_count, study.moments[i], left[step.tag],
+        is_single ? "It goes too little for its size. Name moments further apart, or show a single one"
+                  : "Take regions that lie apart, fewer moments, or a single subject"));
   }
   return made;
 }
@@ -369,15 +320,20 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
   std::vector<SubjectTrack> tracks = track_subjects(capture, plate.picture, by_codes, regions, progress);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const bool is_stated = std::holds_alternative<std::vector<StatedTime>>(request.moments);
-    check_track(tracks[i], request.regions.empty() ? capture_name : capture_name + ", " + text_of(regions[i]),
-                by_codes, std::max(regions[i].width, regions[i].height), is_stated);
+    check_track(tracks[i], where(capture_name, request, regions[i]), by_codes,
+                std::max(regions[i].width, regions[i].height), request.style, is_stated);
   }
   Study study;
   study.plate = std::move(plate.picture);
+  check_apart(tracks, regions, capture_name);
+  if (request.regions.empty()) tell_of_other(tracks.front().other, study.notes);
+  for (const SubjectTrack& track : tracks) {
+    study.may_be_in_plate.push_back(track.most_covered_share() >= kMinCoveredInPlate);
+  }
   StudyPlanner planner(request, capture.timeline(), capture_name, std::move(tracks), regions);
   planner.choose(study);
   planner.add_regions(study);
-  planner.add_functions(study);
+  add_functions(study, request, capture.timeline(), planner.tracks());
   return study;
 }
 

@@ -63,7 +63,9 @@ struct NoSubject : InputError {
 struct Study {
   // Samples, of one subject after another: of tags 1, 2, …; what is left has tag 0. Of a slit's strips: of tags 0, 1, …
   std::vector<std::uint64_t> moments;
-  bool are_moments_found = false;  // not stated
+  std::vector<std::size_t> subjects;  // whose each of them is: of which region, from 0. None of a slit
+  std::vector<bool> may_be_in_plate;  // each subject, for it is at some place for much of the time
+  bool are_moments_found = false;     // not stated
   MaskRequest mask;
   FunctionSet functions;      // as a function file has them, to be normalized by their integrals
   double trail_strength = 1;  // how many times as strong the trail is as in a plain exposure

@@ -105,7 +105,8 @@ class ShotPlanner {
     for (const Rectangle& region : request_.regions) {
       if (region.lies_in(aligned)) continue;
       throw UsageError(format(
-          "region {},{},{},{} does not lie in the {} x {} pixels that every picture of {} saw: the camera moved, so "
+          "region {},{},{},{} does not lie in the {} x {} pixels that every picture of {} saw: the camera "
+          "moved, so "
           "the pictures are moved onto each other and cropped to these, and regions are taken of the result",
           region.x, region.y, region.width, region.height, aligned.width, aligned.height, name_));
     }
@@ -134,9 +135,17 @@ class ShotPlanner {
         continue;
       }
       check_regions(session->format().shape);
-      PlannedStudy planned = plan_as_it_is(std::move(*session), {});
-      planned.aligned_to = reference;
-      return planned;
+      try {
+        PlannedStudy planned = plan_as_it_is(std::move(*session), {});
+        planned.aligned_to = reference;
+        return planned;
+      } catch (const NoSubject& none) {
+        throw NoSubject(
+            format("{}. The camera may have moved: the pictures were moved back by their texture, and one "
+                   "that repeats "
+                   "itself tells too little of that",
+                   none.what()));
+      }
     }
     throw std::logic_error("no picture was aligned to");
   }

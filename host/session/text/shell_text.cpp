@@ -24,6 +24,10 @@ std::string shell_word(std::string_view word) {
   return quoted + "'";
 }
 
+std::string not_an_option(std::string_view name) {
+  return (name.starts_with('-') && name != "-" ? "./" : "") + std::string(name);
+}
+
 std::vector<std::string> shell_words(std::string_view line) {
   constexpr std::string_view kEscapedInQuotes = "\"\\$`";
   std::vector<std::string> words;

@@ -1,0 +1,99 @@
+// What a study writes beside its picture, and what it leaves alone.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "support/moving_square_test.hpp"
+
+namespace nutik {
+namespace {
+
+class StudyFiles : public test::MovingSquareTest {
+ protected:
+  [[nodiscard]] test::ProgramResult study(const char* output, const char* style = "trail") const {
+    return run({"study", "clip.tik", "--style", style, "-o", output});
+  }
+  [[nodiscard]] std::string content(std::string_view name) const { return test::read_file(scratch_ / name); }
+};
+
+TEST_F(StudyFiles, AreReplacedWhereNobodyChangedThem) {
+  for (const char* style : {"trail", "strobe", "clean", "trail"}) {
+    const auto result = study("again.png", style);
+    EXPECT_EQ(result.status, 0) << style << ": " << result.err;
+  }
+}
+
+TEST_F(StudyFiles, AreKeptAsTheyWereChangedByHand) {
+  ASSERT_EQ(study("mine.png").status, 0);
+  for (const char* name : {"mine.fn", "mine.pgm", "mine.txt"}) {
+    const std::string written = content(name);
+    std::string changed = written;
+    changed[changed.size() / 2] ^= 1;
+    scratch_.write(name, changed);
+    const auto refused = study("mine.png", "strobe");
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(
+        refused.err.find(std::string(name) + " was changed since its study was made; it is not replaced"),
+        std::string::npos)
+        << refused.err;
+    EXPECT_EQ(content(name), changed);
+    scratch_.write(name, written);
+  }
+  EXPECT_EQ(study("mine.png", "strobe").status, 0);
+}
+
+TEST_F(StudyFiles, ReplaceNoneThatIsOfNoStudy) {
+  scratch_.write("other.pgm", "P5\n1 1\n255\nx");
+  scratch_.write("notes.txt", "call home");
+  scratch_.write("light.fn", "[0:1], [1000:1]\n");
+  for (const auto& [picture, name] :
+       {std::pair("other.png", "other.pgm"), std::pair("notes.png", "notes.txt"),
+        std::pair("light.png", "light.fn")}) {
+    const std::string before = content(name);
+    const auto refused = study(picture);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.err.find(std::string(name) + " exists and is of no study; it is not replaced"),
+              std::string::npos)
+        << refused.err;
+    EXPECT_EQ(content(name), before);
+    EXPECT_FALSE(std::filesystem::exists(scratch_ / picture));
+  }
+}
+
+// Another picture's recipe and commands name them.
+TEST_F(StudyFiles, ReplaceNoneOfAnotherPicture) {
+  ASSERT_EQ(study("one.png").status, 0);
+  const auto refused = study("one.jpg");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("one.pgm, one.fn and one.txt are those of one.png; they are not replaced"),
+            std::string::npos)
+      << refused.err;
+  std::filesystem::remove(scratch_ / "one.png");
+  EXPECT_EQ(study("one.jpg").status, 0);
+}
+
+TEST_F(StudyFiles, HaveCommandsThatRunWhateverTheClipIsCalled) {
+  std::filesystem::copy_file(scratch_ / "clip.tik", scratch_ / "-clip.tik");
+  const auto result = run({"study", "--", "-clip.tik"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string picture = content("-clip-study.png");
+  std::filesystem::remove(scratch_ / "-clip-study.png");
+  const std::string folder = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path().string();
+  const std::string command = "cd '" + scratch_.folder().string() + "' && PATH='" + folder +
+                              "':$PATH sh -e ./-clip-study.txt > log 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0) << content("log");
+  EXPECT_TRUE(content("-clip-study.png") == picture);
+}
+
+TEST_F(StudyFiles, AreNoneBesideStandardOutput) {
+  for (const char* style : {"trail", "clean"}) {
+    const auto result = study("-", style);
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_TRUE(result.out.starts_with("\x89PNG")) << style;
+    for (const char* name : {"-.pgm", "-.fn", "-.txt"})
+      EXPECT_FALSE(std::filesystem::exists(scratch_ / name)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace nutik

@@ -1,0 +1,171 @@
+// Which subject a study shows, or which subjects, and when none can be shown.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "support/drawn_clip.hpp"
+#include "support/program_test.hpp"
+
+namespace nutik {
+namespace {
+
+using test::DrawnClip;
+using test::ground_of;
+
+class StudySubjects : public test::ProgramTest {
+ protected:
+  void draw(const char* clip, int count, const std::function<void(cv::Mat&, int)>& add) const {
+    DrawnClip drawn(scratch_ / clip);
+    for (int k = 0; k < count; ++k) {
+      cv::Mat frame = ground_of(7);
+      add(frame, k);
+      drawn.add(frame);
+    }
+  }
+  [[nodiscard]] test::ProgramResult study(const char* clip, std::vector<std::string> words) const {
+    words.insert(words.begin(), {"study", "-f", "100", clip, "-o", "study.png"});
+    return run(words);
+  }
+  [[nodiscard]] cv::Mat picture() const {
+    return cv::imread((scratch_ / "study.png").string(), cv::IMREAD_UNCHANGED);
+  }
+  // Two squares, one above the other, on opposite ways.
+  void draw_two() const {
+    draw("two", 20, [](cv::Mat& frame, int k) {
+      frame(upper(k)) = 250;
+      frame(lower(k)) = 5;
+    });
+  }
+  static cv::Rect upper(int k) { return {4 + 7 * k, 20, 12, 12}; }
+  static cv::Rect lower(int k) { return {140 - 7 * k, 64, 12, 12}; }
+
+  static std::vector<std::string> in_both(std::vector<std::string> words) {
+    words.insert(words.end(), {"--region", "0,0,160,48", "--region", "0,48,160,48"});
+    return words;
+  }
+};
+
+// Their moments are the same samples.
+TEST_F(StudySubjects, MayShareTheirMoments) {
+  draw_two();
+  for (const auto& words : {std::vector<std::string>{"--style", "strobe", "--moments", "3"},
+                            std::vector<std::string>{"--trail", "none", "--moments", "0.02s,0.1s,0.17s"}}) {
+    const auto result = study("two", in_both(words));
+    ASSERT_EQ(result.status, 0) << result.err;
+    const cv::Mat mask = cv::imread((scratch_ / "study.pgm").string(), cv::IMREAD_UNCHANGED),
+                  shown = picture();
+    for (int tag = 1; tag <= 6; ++tag) {
+      const cv::Mat values = shown.clone().setTo(128, mask != tag);
+      double least = 0, most = 0;
+      cv::minMaxLoc(values, &least, &most);
+      EXPECT_NEAR(tag <= 3 ? most : least, tag <= 3 ? 250 : 5, 1) << tag;
+    }
+  }
+}
+
+TEST_F(StudySubjects, AreNamedWithTheirMoments) {
+  draw_two();
+  const auto told = study("two", in_both({"--moments", "1f,17f"}));
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_NE(told.out.find("subject 1 at 10 ms (1f), 170 ms (17f); subject 2 at 10 ms (1f), 170 ms (17f)"),
+            std::string::npos)
+      << told.out;
+  const auto result = study("two", in_both({"--moments", "1f,17f", "--json"}));
+  const auto moments = nlohmann::json::parse(result.out)["moments"];
+  ASSERT_EQ(moments.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(moments[i]["mask"], i + 1);
+    EXPECT_EQ(moments[i]["subject"], i / 2 + 1);
+    EXPECT_EQ(moments[i]["sample"], i % 2 == 0 ? 1 : 17);
+  }
+  const auto few = study("two", in_both({"--moments", "13"}));
+  ASSERT_EQ(few.status, 0) << few.err;
+  for (const char* each : {"subject 1: ", "subject 2: "}) {
+    EXPECT_NE(few.err.find(std::string("note: ") + each), std::string::npos) << few.err;
+  }
+}
+
+TEST_F(StudySubjects, AreTwoThingsNotOne) {
+  draw("one", 20, [](cv::Mat& frame, int k) { frame(upper(k)) = 250; });
+  const auto refused = study("one", {"--region", "0,0,100,96", "--region", "40,0,120,96"});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find("region 0,0,100,96 and region 40,0,120,96 overlap, and hold the same subject"),
+            std::string::npos)
+      << refused.err;
+}
+
+TEST_F(StudySubjects, LeaveNoOtherUnmentioned) {
+  draw_two();
+  const auto two = study("two", {"--moments", "3"});
+  ASSERT_EQ(two.status, 0) << two.err;
+  EXPECT_NE(two.err.find("another thing goes its way at the same time, within "), std::string::npos)
+      << two.err;
+  draw("one", 20, [](cv::Mat& frame, int k) { frame(upper(k)) = 250; });
+  const auto one = study("one", {"--moments", "3"});
+  ASSERT_EQ(one.status, 0) << one.err;
+  EXPECT_EQ(one.err.find("another thing"), std::string::npos) << one.err;
+}
+
+// The region is empty while the square is elsewhere: no scene to be taken away.
+TEST_F(StudySubjects, LeaveNothingDarkOutsideOfTheirRegion) {
+  draw("one", 40, [](cv::Mat& frame, int k) { frame(cv::Rect(4 + 7 * k / 2, 20, 12, 12)) = 250; });
+  const auto result = study("one", {"--region", "60,0,40,96", "--moments", "1"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  cv::Mat difference;
+  cv::subtract(picture(), ground_of(7), difference, {}, CV_16S);
+  double darkest = 0;
+  cv::minMaxLoc(difference, &darkest);
+  EXPECT_GE(darkest, -2);
+}
+
+// A square of 24 pixels that goes 4 pixels a picture: in the middle of its way it is for six of ten pictures.
+TEST_F(StudySubjects, AreNotShownWithHolesOfThePlate) {
+  DrawnClip clip(scratch_ / "slow");
+  for (int k = 0; k < 10; ++k) {
+    cv::Mat frame(96, 160, CV_8UC1, cv::Scalar::all(90));
+    frame(cv::Rect(40 + 4 * k, 30, 24, 24)) = 250;
+    clip.add(frame);
+  }
+  const std::string why = "the scene at rest shows the subject, too";
+  for (const char* style : {"frozen", "rear-curtain"}) {
+    const auto refused = study("slow", {"--style", style});
+    EXPECT_EQ(refused.status, 3) << style;
+    EXPECT_NE(refused.err.find(why), std::string::npos) << refused.err;
+  }
+  const auto named = study("slow", {"--moments", "0f,9f"});
+  EXPECT_EQ(named.status, 0);
+  EXPECT_NE(named.err.find("note: " + why), std::string::npos) << named.err;
+}
+
+// A square that is there for a third of the time.
+TEST_F(StudySubjects, MayBeShownStillWhereTheyGoNowhere) {
+  draw("comes", 30, [](cv::Mat& frame, int k) {
+    if (k >= 10 && k < 20) frame(cv::Rect(40, 30, 24, 24)) = 250;
+  });
+  const auto frozen = study("comes", {"--style", "frozen"});
+  ASSERT_EQ(frozen.status, 0) << frozen.err;
+  EXPECT_EQ(picture().at<std::uint8_t>(42, 52), 250);
+  const auto refused = study("comes", {});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find("It comes and goes in its place: a single moment can be shown"),
+            std::string::npos)
+      << refused.err;
+}
+
+// It goes behind something: of 16 columns 10 are seen at 18, and 4 at the last.
+TEST_F(StudySubjects, EndARearCurtainAsAWhole) {
+  draw("hides", 22, [](cv::Mat& frame, int k) {
+    const int left = 4 + 6 * k, right = std::min(left + 16, 122);
+    if (right > left) frame(cv::Rect(left, 40, right - left, 16)) = 250;
+  });
+  const auto result = study("hides", {"--style", "rear-curtain", "--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(result.out)["moments"][0]["sample"], 18);
+}
+
+}  // namespace
+}  // namespace nutik
