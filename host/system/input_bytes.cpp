@@ -9,6 +9,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -88,6 +91,26 @@ InputBytes::InputBytes(const std::string& name) {
   }
   static const std::string all = read_to_end(stdin);
   bytes_ = std::as_bytes(std::span(all));
+}
+
+std::string text_up_to(const std::string& name, std::size_t max_bytes) {
+  const std::string title = input_title(name);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(name, ignored)) throw InputError(format("{} is a folder, not a list", title));
+  std::ifstream file;
+  std::ifstream file;
+  std::istream& stream = is_standard_input(name) ? std::cin : file;
+  if (!is_standard_input(name)) file.open(name);
+  if (!stream) throw InputError(format("{} cannot be opened", title));
+  std::string text;
+  for (std::array<char, 1 << 16> part; stream.read(part.data(), part.size()), stream.gcount() > 0;) {
+    check_interruption();
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() <= max_bytes) continue;
+    throw InputError(format("{} is longer than {} MiB; make several of it", title, max_bytes >> 20));
+  }
+  if (stream.bad()) throw InputError(format("{} cannot be read", title));
+  return text;
 }
 
 }  // namespace nutik

@@ -38,4 +38,8 @@ class InputBytes {
   std::span<const std::byte> bytes_;
 };
 
+// The text of what a person writes, a list: a stream without an end, /dev/zero, is none. Throws InputError where it is
+// longer, a folder, or cannot be read.
+[[nodiscard]] std::string text_up_to(const std::string& name, std::size_t max_bytes);
+
 }  // namespace nutik

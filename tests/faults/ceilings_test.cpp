@@ -84,8 +84,8 @@ TEST_F(Ceilings, OfCaptures) {
 // What is no list may have no end, and no line either.
 TEST_F(Ceilings, OfLists) {
   test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
-  expect_cheaply_refused({"batch", "/dev/zero", "c.tik"}, "/dev/zero is longer than 16 MiB, which is no list of ");
-  expect_refused({"batch", ".", "c.tik"}, 3, ". is a folder, and no list of exposures");
+  expect_cheaply_refused({"batch", "/dev/zero", "c.tik"}, "/dev/zero is longer than 16 MiB; make several of it");
+  expect_refused({"batch", ".", "c.tik"}, 3, ". is a folder, not a list");
 }
 
 // Blocks of 16 MB are copied one at a time, from captures of 210 MB.

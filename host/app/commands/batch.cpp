@@ -1,8 +1,4 @@
 #include <algorithm>
-#include <array>
-#include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <map>
 #include <mutex>
 #include <set>
@@ -26,7 +22,6 @@
 #include "session/text/shell_text.hpp"
 #include "session/text/size_text.hpp"
 #include "system/input_bytes.hpp"
-#include "system/interruption.hpp"
 
 namespace nutik::app {
 namespace {
@@ -37,25 +32,10 @@ struct ListedExposure {
   std::string text;
 };
 
-// Up to its end, which what is no list may not have: /dev/zero.
-std::string read_text(std::istream& stream, const std::string& title) {
+std::vector<ListedExposure> read_list(const std::string& name) {
   constexpr std::size_t kMaxBytes = 16 << 20;  // some hundred thousand lines
-  std::string text;
-  for (std::array<char, 1 << 16> part; stream.read(part.data(), part.size()), stream.gcount() > 0;) {
-    check_interruption();
-    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > kMaxBytes) {
-      throw InputError(format("{} is longer than {} MiB, which is no list of exposures; make several of a long one", title,
-                              kMaxBytes >> 20));
-    }
-  }
-  if (stream.bad()) throw InputError(format("{} cannot be read", title));
-  return text;
-}
-
-std::vector<ListedExposure> read_list(std::istream& stream, const std::string& title) {
   std::vector<ListedExposure> exposures;
-  std::istringstream lines(read_text(stream, title));
+  std::istringstream lines(text_up_to(name, kMaxBytes));
   std::string text;
   for (std::size_t line = 1; std::getline(lines, text); ++line) {
     if (!text.empty() && text.back() == '\r') text.pop_back();
@@ -63,16 +43,6 @@ std::vector<ListedExposure> read_list(std::istream& stream, const std::string& t
     if (start != std::string::npos && text[start] != '#') exposures.push_back({line, text});
   }
   return exposures;
-}
-
-std::vector<ListedExposure> read_list(const std::string& name) {
-  if (is_standard_input(name)) return read_list(std::cin, input_title(name));
-  if (std::error_code ignored; std::filesystem::is_directory(name, ignored)) {
-    throw InputError(format("{} is a folder, and no list of exposures", name));
-  }
-  std::ifstream file(name);
-  if (!file) throw InputError(format("{} cannot be opened", name));
-  return read_list(file, name);
 }
 
 // The options of one line, with those of the whole batch. `capture`, if any, is the operand that lines leave out.
