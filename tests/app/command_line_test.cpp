@@ -118,6 +118,7 @@ TEST_F(CommandLine, TellsValuesFromOptionsAndOperands) {
   expect_refused({"--gain=", "-k", "one.fn", "clip.tik"}, 2, "--gain  is no number");
   expect_refused({"--quiet=yes", "-k", "one.fn", "clip.tik"}, 2, "-q takes no value");
   expect_refused({"-qx", "clip.tik"}, 2, "there is no option -x");
+  expect_refused({"study", "--bogus", "clip.tik"}, 2, "there is no option --bogus; see nutik-cl study --help");
   expect_refused({"mask", "--threshold=0f"}, 2,
                  "--threshold needs more words: --threshold PICTURE LOW..HIGH");
   expect_refused({"-ko", "clip.tik"}, 3, "o cannot be read");

@@ -302,15 +302,16 @@ constexpr Option kRows[] = {
      "scene without moving things) or slit (strips, each later than the one before it) (default: trail)",
      "trail strobe rear-curtain frozen clean slit"},
     {0, "moments", "N|TIMES", subject, bit(Id::study), &Options::moments,
-     "how many moments, or which: 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen 1); of slit "
-     "how many strips (default: 256)"},
+     "how many moments, up to 50, or which: 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen 1); "
+     "of slit how many strips, up to 256 (default: 256)"},
     step("region", "X,Y,W,H",
          "look for a subject in this rectangle only; several times for as many subjects, each in its own",
          Id::study),
     {0, "spacing", "time|distance", subject, bit(Id::study), &Options::spacing,
      "moments are evenly apart in time, or along the way (default: time)", "time distance"},
     {0, "trail", "SHAPE", subject, bit(Id::study), &Options::trail,
-     "even, fade (ends at nothing), ramp (begins at nothing) or none (default: what the style has)",
+     "even, fade (ends at nothing), ramp (begins at nothing) or none (default: even of trail and frozen, ramp of "
+     "rear-curtain, none of strobe)",
      "even fade ramp none"},
     {0, "slit-from", "SIDE", subject, bit(Id::study), &Options::slit_from,
      "where slit begins: left, right (columns), top or bottom (rows) (default: left)", "left right top bottom"},

@@ -24,8 +24,8 @@ namespace {
           format("there is no option {}{}; see nutik-cl {} --help", shown(name), suggestion, *named));
   }
   for (const Option& option : options()) known.push_back(option.name());
-  throw UsageError(
-      format("there is no option {}{}; see nutik-cl --help", shown(name), did_you_mean(name, known)));
+  throw UsageError(format("there is no option {}{}; see nutik-cl {}--help", shown(name),
+                          did_you_mean(name, known), named != words.end() ? *named + " " : ""));
 }
 
 class Reader {
