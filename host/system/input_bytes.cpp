@@ -98,7 +98,6 @@ std::string text_up_to(const std::string& name, std::size_t max_bytes) {
   std::error_code ignored;
   if (std::filesystem::is_directory(name, ignored)) throw InputError(format("{} is a folder, not a list", title));
   std::ifstream file;
-  std::ifstream file;
   std::istream& stream = is_standard_input(name) ? std::cin : file;
   if (!is_standard_input(name)) file.open(name);
   if (!stream) throw InputError(format("{} cannot be opened", title));
