@@ -84,7 +84,8 @@ TEST_F(Ceilings, OfCaptures) {
 // What is no list may have no end, and no line either.
 TEST_F(Ceilings, OfLists) {
   test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
-  expect_cheaply_refused({"batch", "/dev/zero", "c.tik"}, "/dev/zero is longer than 16 MiB, which is no list of ");
+  expect_cheaply_refused({"batch", "/dev/zero", "c.tik"},
+                         "/dev/zero is longer than 16 MiB, which is no list of ");
   expect_refused({"batch", ".", "c.tik"}, 3, ". is a folder, and no list of exposures");
 }
 

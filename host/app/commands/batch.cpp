@@ -45,8 +45,9 @@ std::string read_text(std::istream& stream, const std::string& title) {
     check_interruption();
     text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
     if (text.size() > kMaxBytes) {
-      throw InputError(format("{} is longer than {} MiB, which is no list of exposures; make several of a long one", title,
-                              kMaxBytes >> 20));
+      throw InputError(
+          format("{} is longer than {} MiB, which is no list of exposures; make several of a long one", title,
+                 kMaxBytes >> 20));
     }
   }
   if (stream.bad()) throw InputError(format("{} cannot be read", title));
