@@ -98,8 +98,8 @@ void forget(WatchedMapping* mapping) {
 
 [[noreturn]] void throw_lost(const WatchedMapping& mapping) {
   throw InputError(
-      format("{} changed or could not be read any more while it was read; what was being made of it is not kept. Leave "
-             "the file alone, or make a copy first",
+      format("{} changed or could not be read any more while it was read; what was being made of it is not "
+             "kept. Leave the file alone, or make a copy first",
              mapping.name));
 }
 

@@ -126,7 +126,8 @@ std::filesystem::path temporary_beside(const std::filesystem::path& path, int tr
   }
   const std::string sum = format("-{:016x}", checksum(std::string_view(name)));
   const std::size_t taken = 1 + sum.size() + ending.size();
-  return path.parent_path() / format(".{}{}{}", beginning(name, room > taken ? room - taken : 0), sum, ending);
+  return path.parent_path() /
+         format(".{}{}{}", beginning(name, room > taken ? room - taken : 0), sum, ending);
 }
 
 }  // namespace

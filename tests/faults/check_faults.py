@@ -74,6 +74,8 @@ DEVICE_COMMANDS = {
     "expose a clip": ("-f 100 --start 10ms --exposure 80ms clip/*.pgm {}", "new.png"),
     "series": ("--start 10ms --exposure 40ms --every 80ms --count 2 clip.tik -o new-%d.png", "new-0.png new-1.png"),
     "batch": ("batch list.txt packed.tik", "new-a.png new-b.pfm"),
+    "series that takes sums over": ("--exposure 310ms --every 7ms --count 3 long.tik -o new-%d.png",
+                                    "new-0.png new-1.png new-2.png"),
     "video": ("video --out-fps 25 clip.tik {}", "new.avi"),
     "contact": ("contact --every 120ms --exposure 40ms clip.tik {}", "new.png"),
     "sweep": ("sweep --start 10ms --exposure 40ms --shift 0..80ms/40ms clip.tik new.png --each new-%d.pgm",
@@ -100,6 +102,9 @@ class Bench:
             (folder / f"clip/{k:02}.pgm").write_bytes(b"P5 %d %d 255\n" % (WIDTH, HEIGHT) + picture)
         self.run("encode --codec none -f 100 clip/*.pgm clip.tik".split(), {})
         self.run("encode --codec zstd --block-samples 6 -f 100 clip/*.pgm packed.tik".split(), {})
+        # Of 25 blocks, of which a long exposure holds a group whose sums are kept.
+        (folder / "long.raw").write_bytes(draw.randbytes(24 * 16 * 400))
+        self.run("encode --raw 24x16:gray --block-samples 16 -f 1000 long.raw long.tik".split(), {})
         whole = (folder / "clip.tik").read_bytes()
         (folder / "cut.tik").write_bytes(whole[:-100])
         half = WIDTH * HEIGHT // 2

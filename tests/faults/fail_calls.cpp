@@ -161,8 +161,7 @@ ssize_t pwrite64(int descriptor, const void* from, std::size_t bytes, off64_t of
 }
 
 ssize_t pread(int descriptor, void* into, std::size_t bytes, off_t offset) {
-  return lies_in_folder(descriptor) && fails("read") ? -1
-                                                     : next_pread.get()(descriptor, into, bytes, offset);
+  return lies_in_folder(descriptor) && fails("read") ? -1 : next_pread.get()(descriptor, into, bytes, offset);
 }
 
 ssize_t pwrite(int descriptor, const void* from, std::size_t bytes, off_t offset) {
@@ -179,8 +178,7 @@ int ftruncate64(int descriptor, off64_t bytes) noexcept {
 }
 
 int fsync(int descriptor) {
-  const int result =
-      lies_in_folder(descriptor) && fails("fsync") ? -1 : next_fsync.get()(descriptor);
+  const int result = lies_in_folder(descriptor) && fails("fsync") ? -1 : next_fsync.get()(descriptor);
   cut_at("fsync");
   return result;
 }

@@ -60,10 +60,12 @@ struct KernelCache : test::ProgramTest {
 
 // A relative path names none: it would be another folder in each one that the program is started in.
 TEST_F(KernelCache, ThatIsNowhereIsNotPromised) {
-  const std::string building = "building and testing kernels for ", kept = "; they are kept for the next time";
+  const std::string building = "building and testing kernels for ",
+                    kept = "; they are kept for the next time";
   for (const char* const stated : {"", "relative"}) {
-    const auto result = test::run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "c.tik", "p.png"},
-                                          scratch_.folder(), {"HOME=", format("XDG_CACHE_HOME={}", stated)});
+    const auto result =
+        test::run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "c.tik", "p.png"},
+                          scratch_.folder(), {"HOME=", format("XDG_CACHE_HOME={}", stated)});
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_NE(result.err.find(building), std::string::npos) << result.err;
     EXPECT_EQ(result.err.find(kept), std::string::npos) << result.err;

@@ -25,8 +25,9 @@ class Limits : public test::ProgramTest {
   }
   // The program's words behind those of a shell.
   [[nodiscard]] test::ProgramResult run_below(const std::string& shell, const std::string& words) const {
-    return test::run_shell(format("(export TMPDIR=\"$PWD/temporary\"; {} '{}' {})", shell, NUTIK_TEST_PROGRAM, words),
-                           scratch_.folder());
+    return test::run_shell(
+        format("(export TMPDIR=\"$PWD/temporary\"; {} '{}' {})", shell, NUTIK_TEST_PROGRAM, words),
+        scratch_.folder());
   }
   void expect_nothing_left() const {
     EXPECT_TRUE(test::files_with(scratch_.folder(), ".part").empty());
@@ -37,7 +38,8 @@ class Limits : public test::ProgramTest {
 
 // As on a disk that is full. Blocks of ulimit have 512 bytes, in some shells 1024.
 TEST_F(Limits, OfAFilesSizeAreErrorsOfItsWriting) {
-  for (const std::string& words : {format("encode {} -o out.tik", kClip), format("video {} out.mkv", kClip)}) {
+  for (const std::string& words :
+       {format("encode {} -o out.tik", kClip), format("video {} out.mkv", kClip)}) {
     SCOPED_TRACE(words);
     const auto result = run_below("ulimit -f 20;", words);
     EXPECT_EQ(result.status, 5) << result.err;
@@ -51,11 +53,11 @@ TEST_F(Limits, OfAFilesSizeAreErrorsOfItsWriting) {
 TEST_F(Limits, OfAReadersPatienceLeaveNoTemporaryFile) {
   const auto made = run_below("", format("encode {} c.tik", kClip));
   ASSERT_EQ(made.status, 0) << made.err;
-  const auto result = test::run_shell(
-      format("{{ {{ '{}' video --progress --out-fps 1000 --speed 0.01 c.tik out.mkv; echo $? > status; }} 2>&1 | "
-             "head -1; }}",
-             NUTIK_TEST_PROGRAM),
-      scratch_.folder());
+  const auto result = test::run_shell(format("{{ {{ '{}' video --progress --out-fps 1000 --speed 0.01 c.tik "
+                                             "out.mkv; echo $? > status; }} 2>&1 | "
+                                             "head -1; }}",
+                                             NUTIK_TEST_PROGRAM),
+                                      scratch_.folder());
   EXPECT_NE(result.out, "");
   EXPECT_EQ(test::read_file(scratch_ / "status"), std::to_string(128 + SIGPIPE) + "\n");
   EXPECT_TRUE(test::files_with(scratch_.folder(), "out.").empty());
@@ -63,8 +65,8 @@ TEST_F(Limits, OfAReadersPatienceLeaveNoTemporaryFile) {
 
 // `ulimit -t` ends the process, which leaves nothing else.
 TEST_F(Limits, OfTimeLeaveNoTemporaryFile) {
-  test::RunningProgram running({"video", "--renderer", "reference", "--out-fps", "1000", "--speed", "0.01", "--raw",
-                                "64x64:gray", "-f", "64", "clip.raw", "out.mkv"},
+  test::RunningProgram running({"video", "--renderer", "reference", "--out-fps", "1000", "--speed", "0.01",
+                                "--raw", "64x64:gray", "-f", "64", "clip.raw", "out.mkv"},
                                scratch_.folder());
   ASSERT_TRUE(running.reaches([&] { return test::has_begun_writing(scratch_.folder()); }));
   EXPECT_EQ(running.end_with(SIGXCPU), -SIGXCPU);

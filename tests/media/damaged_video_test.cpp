@@ -193,7 +193,8 @@ TEST_F(DamagedVideo, NamesThePicturesThatCanBeTaken) {
 // decoder refuses the picture that was cut.
 TEST_F(DamagedVideo, ThatWasCutOffSaysSo) {
   NEEDS_FFMPEG();
-  const std::string lasts = "the file says that it lasts 1.2 s, and its pictures end after ", within = "it was cut off within picture ";
+  const std::string lasts = "the file says that it lasts 1.2 s, and its pictures end after ",
+                    within = "it was cut off within picture ";
   struct Cut {
     std::string codec, name, note;  // no note: refused
   };
@@ -207,8 +208,9 @@ TEST_F(DamagedVideo, ThatWasCutOffSaysSo) {
     EXPECT_TRUE(open_test_clip(scratch_ / name)->info().notes.empty());
     const std::string whole = test::read_file(scratch_ / name);
     for (const double share : {0.3, 0.5, 0.7}) {
-      const auto path = scratch_.write("cut-" + name, whole.substr(0, static_cast<std::size_t>(
-                                                                          share * static_cast<double>(whole.size()))));
+      const auto path = scratch_.write(
+          "cut-" + name,
+          whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
       if (note.empty()) {
         const std::string said = test::message_of<InputError>([&] { read_all(*open_test_clip(path)); });
         EXPECT_NE(said.find("is damaged"), std::string::npos) << share << ": " << said;
@@ -217,7 +219,8 @@ TEST_F(DamagedVideo, ThatWasCutOffSaysSo) {
       const auto clip = open_test_clip(path);
       EXPECT_LT(read_all(*clip).size(), std::size_t{kPictures}) << share;
       ASSERT_EQ(clip->info().notes.size(), 1u) << share;
-      EXPECT_TRUE(clip->info().notes[0].text.starts_with(note)) << share << ": " << clip->info().notes[0].text;
+      EXPECT_TRUE(clip->info().notes[0].text.starts_with(note))
+          << share << ": " << clip->info().notes[0].text;
     }
   }
 }

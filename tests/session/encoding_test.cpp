@@ -13,17 +13,18 @@ std::vector<std::string> warnings_of(std::uint64_t pictures, std::uint64_t annou
   const test::Scratch scratch;
   SourceRequest source;
   source.path = "clip";
-  const EncodedCapture encoded =
-      encode(source, [&] { return std::make_unique<test::MadeClip>(pictures, announced); }, {scratch / "c.tik"},
-             MemoryBudget::of_machine());
+  const EncodedCapture encoded = encode(
+      source, [&] { return std::make_unique<test::MadeClip>(pictures, announced); }, {scratch / "c.tik"},
+      MemoryBudget::of_machine());
   EXPECT_EQ(encoded.timeline.sample_count(), pictures);
   return encoded.warnings;
 }
 
 TEST(Encoding, SaysThatPicturesAreMissing) {
   EXPECT_EQ(warnings_of(7, 10),
-            std::vector<std::string>{"clip announces 10 pictures and 7 could be decoded: if some within are damaged, "
-                                     "those after them have the times of others"});
+            std::vector<std::string>{
+                "clip announces 10 pictures and 7 could be decoded: if some within are damaged, "
+                "those after them have the times of others"});
 }
 
 TEST(Encoding, SaysThatThereAreMorePicturesThanAnnounced) {

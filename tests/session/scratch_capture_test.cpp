@@ -36,8 +36,9 @@ class ScratchCaptures : public testing::Test {
   static ScratchCapture make() {
     SourceRequest source;
     source.path = "clip";
-    return encode_to_scratch(source, [] { return std::make_unique<test::MadeClip>(7, 7); }, MemoryBudget::of_machine(),
-                             [](const CaptureFormat&) { return MemoryNeeds(); });
+    return encode_to_scratch(
+        source, [] { return std::make_unique<test::MadeClip>(7, 7); }, MemoryBudget::of_machine(),
+        [](const CaptureFormat&) { return MemoryNeeds(); });
   }
   // With a file, as a process leaves it; `age` ago.
   fs::path leave(const std::string& name, std::chrono::seconds age) const {
@@ -85,7 +86,8 @@ TEST_F(ScratchCaptures, LeaveFoldersOfProcessesThatLiveAlone) {
 }
 
 TEST_F(ScratchCaptures, LeaveAllElseAlone) {
-  const auto longer = leave("nutik-Ab3xYzw", 2min), others = leave("other-Ab3xYz", 2min), kept = leave("kept", 2min);
+  const auto longer = leave("nutik-Ab3xYzw", 2min), others = leave("other-Ab3xYz", 2min),
+             kept = leave("kept", 2min);
   scratch_.write("nutik-a_file", "precious");
   fs::create_directory_symlink(kept, scratch_ / "nutik-a_link");
   make();

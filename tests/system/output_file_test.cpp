@@ -105,7 +105,8 @@ TEST(OutputFile, MayHaveTheLongestName) {
   OutputFile first(scratch / (alike + "1.tik"));
   OutputFile other(scratch / (alike + "2.tik"));
   OutputFile another(scratch / (alike + "1.tik"));  // beside the first
-  const std::string first_name = first.temporary_path().filename(), other_name = other.temporary_path().filename();
+  const std::string first_name = first.temporary_path().filename(),
+                    other_name = other.temporary_path().filename();
   EXPECT_NE(first_name, other_name);
   EXPECT_TRUE(other_name.ends_with(".nutik.part")) << other_name;
   EXPECT_TRUE(another.temporary_path().string().ends_with(".nutik-1.part")) << another.temporary_path();
