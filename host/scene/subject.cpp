@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <ranges>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -199,7 +199,7 @@ class Follower {
     if (by_weight.empty()) return {};
     std::ranges::stable_sort(by_weight, std::ranges::greater(), &std::pair<double, Followed*>::first);
     const auto [most, subject] = by_weight.front();
-    for (const auto& [weight, other] : by_weight | std::views::drop(1)) {
+    for (const auto& [weight, other] : std::span(by_weight).subspan(1)) {
       if (weight < most / 2) break;
       if (!other->goes_its_way() || !other->is_beside(*subject)) continue;
       return {std::move(*subject).places(), std::move(*other).places()};
