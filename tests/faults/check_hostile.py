@@ -83,7 +83,7 @@ LINES = (
     Line("activity ages.tik o.png"),
     Line("plate dense.tik o.png", 3 * BLOCK_MB),
     Line("plate busy.tik o.png", 4 * BLOCK_MB),
-    Line("study busy.tik -o o.png", 4 * BLOCK_MB, (3,)),
+    Line("study busy.tik -o s.png", 4 * BLOCK_MB, (3,)),
     Line("solve -k solve.fn --wish all=plate busy.tik o.fn", 4 * BLOCK_MB, uses_device=True),
     Line(f"encode --align homography -f 10 --raw {SIDE}x{SIDE}:gray busy.gray o.tik", 2 * BLOCK_MB, (3,)),
     Line(f"encode --deflicker -f 10 --raw {SIDE}x{SIDE}:gray busy.gray o.tik", 4 * BLOCK_MB),
