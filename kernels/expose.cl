@@ -55,7 +55,7 @@ NUTIK_INLINE void scale_each(global const Weight* restrict gains, global const f
                              Sums* sums) {
 #pragma unroll
   for (uint group = 0; group < NUTIK_GROUPS; ++group) {
-    const Weights gain = pick_weights(gains, functions + group * NUTIK_LANES);
+    const Weights gain = pick_weights(gains, functions + group * NUTIK_LANES, 1);
 #pragma unroll
     for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
       sums[channel * NUTIK_GROUPS + group] = times(gain, sums[channel * NUTIK_GROUPS + group]);
@@ -106,7 +106,8 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
     Block block;
     block.sample_count = entry.sample_count;
     block.function_count = function_count;
-    block.weights = weights + entry.table_row * function_count;
+    block.first_row = entry.table_row % NUTIK_TABLE_ROWS;
+    block.weights = weights + (entry.table_row - block.first_row) * function_count;
     block.boundaries = boundaries + entry.table_row * function_count;
 
     for (size_t tile = item.first_tile; tile < item.last_tile; ++tile) {

@@ -6,6 +6,7 @@
 #include "capture/format.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "opencl/kernel_tables.hpp"
+#include "opencl/work_shape.hpp"
 
 namespace nutik {
 
@@ -68,7 +69,9 @@ std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, 
   // Kernels count the elements of a block's tables in 32 bits.
   const std::uint64_t max_bytes_of_block =
       std::min(device.largest_allocation_bytes, std::uint64_t{0xFFFF'FFFF} * weight_bytes(precision));
-  const auto fits = [&](std::uint64_t rows) { return rows * row_bytes <= max_bytes_of_block; };
+  const auto fits = [&](std::uint64_t rows) {
+    return align_up(rows, WorkShape::kMaxTableRows) * row_bytes <= max_bytes_of_block;
+  };
   std::vector<TableSlice> slices;
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     const PlannedBlock& block = plan.blocks[b];

@@ -47,13 +47,13 @@ std::vector<TableColumnSource> column_sources(const RenderPlan& plan, Precision 
 }
 
 std::uint64_t DeviceTables::Slice::bytes() const {
-  return columns.size() * (2 * row_count * weight_bytes(precision) +
+  return columns.size() * ((weight_rows() + row_count) * weight_bytes(precision) +
                            part_count() * (sizeof(BlockPart) + weight_bytes(precision)));
 }
 
 SliceTables DeviceTables::slice(const RenderPlan& plan, const TableSlice& slice, Precision precision,
-                                DeviceMemory& memory, std::uint64_t& written_bytes) {
-  Slice& kept = slice_for(plan, slice, precision, memory);
+                                std::uint32_t group_rows, DeviceMemory& memory, std::uint64_t& written_bytes) {
+  Slice& kept = slice_for(plan, slice, precision, group_rows, memory);
   std::vector<TableColumnSource> wanted = column_sources(plan, precision);
   std::vector<std::size_t> stale;
   for (std::size_t f = 0; f < wanted.size(); ++f) {
@@ -75,24 +75,25 @@ SliceTables DeviceTables::slice(const RenderPlan& plan, const TableSlice& slice,
 }
 
 DeviceTables::Slice& DeviceTables::slice_for(const RenderPlan& plan, const TableSlice& slice,
-                                             Precision precision, DeviceMemory& memory) {
+                                             Precision precision, std::uint32_t group_rows,
+                                             DeviceMemory& memory) {
   const std::uint64_t functions = plan.function_count();
   const std::uint64_t row_count = slice.row_count();
   Slice* const kept = recent_.find([&](const Slice& each) {
-    return each.precision == precision && each.columns.size() == functions && each.row_count == row_count &&
+    return each.precision == precision && each.group_rows == group_rows && each.columns.size() == functions && each.row_count == row_count &&
            each.corrected == slice.corrected && is_of(each.blocks, plan, slice);
   });
   if (kept != nullptr) {
     memory.count(kept->bytes());
     return *kept;
   }
-  Slice made{precision, {}, slice.corrected, row_count, {}, {}};
+  Slice made{precision, group_rows, {}, slice.corrected, row_count, {}, {}};
   for (std::size_t b = slice.first_block; b < slice.last_block; ++b)
     made.blocks.push_back(plan.blocks[b].block);
   made.columns.resize(functions);
-  const std::uint64_t bytes = made.row_count * functions * weight_bytes(precision);
-  made.tables.weights = memory.allocate(bytes, CL_MEM_READ_ONLY);
-  made.tables.boundaries = memory.allocate(bytes, CL_MEM_READ_ONLY);
+  const std::uint64_t row_bytes = functions * weight_bytes(precision);
+  made.tables.weights = memory.allocate(made.weight_rows() * row_bytes, CL_MEM_READ_ONLY);
+  made.tables.boundaries = memory.allocate(row_count * row_bytes, CL_MEM_READ_ONLY);
   made.tables.parts = memory.allocate(made.part_count() * functions * sizeof(BlockPart), CL_MEM_READ_ONLY);
   made.tables.gains =
       memory.allocate(made.part_count() * functions * weight_bytes(precision), CL_MEM_READ_ONLY);
@@ -103,12 +104,13 @@ void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice,
                              std::span<const TableColumnSource> columns, Slice& to) {
   const std::uint64_t functions = plan.function_count();
   const std::size_t number = weight_bytes(to.precision);
-  Bytes weights(to.row_count * functions * number), boundaries(weights.size());
+  Bytes weights(to.weight_rows() * functions * number), boundaries(to.row_count * functions * number);
   std::vector<BlockPart> parts(to.part_count() * functions);
   Bytes gains(parts.size() * number);
   const auto pack = [&](std::uint64_t f) {
     pack_column(*columns[f].table, plan, slice, to.precision, columns[f].exponent,
-                {weights.data() + f * number, boundaries.data() + f * number, functions * number});
+                {weights.data() + f * to.group_rows * number, boundaries.data() + f * number, functions * number, number,
+                 to.group_rows});
     const PartColumn of_function = part_column(*columns[f].table, plan, slice, to.precision);
     for (std::size_t b = 0; b < of_function.parts.size(); ++b) {
       parts[b * functions + f] = of_function.parts[b];
@@ -131,9 +133,9 @@ void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice,
 void DeviceTables::write_column(const RenderPlan& plan, const TableSlice& slice, std::size_t function,
                                 const TableColumnSource& column, Slice& to) {
   const std::size_t number = weight_bytes(to.precision);
-  Bytes weights(to.row_count * number), boundaries(weights.size());
+  Bytes weights(to.weight_rows() * number), boundaries(to.row_count * number);
   pack_column(*column.table, plan, slice, to.precision, column.exponent,
-              {weights.data(), boundaries.data(), number});
+              {weights.data(), boundaries.data(), number, number, to.group_rows});
   const PartColumn of_function = part_column(*column.table, plan, slice, to.precision);
   const auto write = [&](const cl::Buffer& buffer, std::size_t element, std::uint64_t rows, const void* from,
                          bool waits) {
@@ -141,7 +143,7 @@ void DeviceTables::write_column(const RenderPlan& plan, const TableSlice& slice,
                                   {element, rows, 1}, plan.function_count() * element, 0, element, 0, from);
   };
   write_in_order(queue_, [&] {
-    write(to.tables.weights, number, to.row_count, weights.data(), false);
+    write(to.tables.weights, to.group_rows * number, to.weight_rows() / to.group_rows, weights.data(), false);
     write(to.tables.boundaries, number, to.row_count, boundaries.data(), false);
     write(to.tables.gains, number, to.part_count(), of_function.gains.data(), false);
     write(to.tables.parts, sizeof(BlockPart), to.part_count(), of_function.parts.data(), true);

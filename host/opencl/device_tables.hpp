@@ -1,7 +1,8 @@
 // The tables of gain functions that kernels read, on the device from one exposure to the next.
 //
 //   in:      a plan, a slice of it, an arithmetic
-//   out:     buffers of weights and boundaries [row][function], of parts and gains [block][function], corrections last
+//   out:     buffers of weights in groups of rows (kernels/row_groups.clh), of boundaries [row][function], of parts and
+//            gains [block][function], corrections last
 //   always:  what a buffer holds already is not written again: a function that changed costs its own column
 //
 // Rows of functions side by side suit pixels that have many functions among them
@@ -48,11 +49,12 @@ class DeviceTables {
   // A slice's tables, which no kernel may read any more when the next slice is asked for. What it takes is counted in
   // `memory`, what had to be written is added to `written_bytes`.
   [[nodiscard]] SliceTables slice(const RenderPlan& plan, const TableSlice& slice, Precision precision,
-                                  DeviceMemory& memory, std::uint64_t& written_bytes);
+                                  std::uint32_t group_rows, DeviceMemory& memory, std::uint64_t& written_bytes);
 
  private:
   struct Slice {
     Precision precision;
+    std::uint32_t group_rows;
     std::vector<std::uint64_t> blocks;   // of the capture
     std::vector<std::size_t> corrected;  // planned blocks
     std::uint64_t row_count;
@@ -61,10 +63,12 @@ class DeviceTables {
 
     // Of blocks and corrections.
     [[nodiscard]] std::size_t part_count() const { return blocks.size() + corrected.size(); }
+    // Of weights, in whole groups.
+    [[nodiscard]] std::uint64_t weight_rows() const { return align_up(row_count, group_rows); }
     [[nodiscard]] std::uint64_t bytes() const;
   };
 
-  Slice& slice_for(const RenderPlan& plan, const TableSlice& slice, Precision precision,
+  Slice& slice_for(const RenderPlan& plan, const TableSlice& slice, Precision precision, std::uint32_t group_rows,
                    DeviceMemory& memory);
   void write_all(const RenderPlan& plan, const TableSlice& slice, std::span<const TableColumnSource> columns,
                  Slice& to);

@@ -133,7 +133,7 @@ void Exposer::sum_up(std::span<const ExposedBand> bands, std::span<const TableSl
   for (const TableSlice& slice : slices) {
     const DeviceMemory::Scope slice_scope(memory_);
     const SliceTables tables =
-        device_.tables.slice(plan_, slice, work_.precision, memory_, statistics_.table_bytes_written);
+        device_.tables.slice(plan_, slice, work_.precision, work_.shape.table_rows(), memory_, statistics_.table_bytes_written);
     for (std::size_t blocks = read_blocks(slice.first_block, slice.last_block); blocks > 0;) {
       throw_if_cancelled(control);
       const DeviceMemory::Scope chunk_scope(memory_);

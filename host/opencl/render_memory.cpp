@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "opencl/kernel_tables.hpp"
+#include "opencl/work_shape.hpp"
 #include "render/picture_memory.hpp"
 
 namespace nutik {
@@ -57,7 +58,10 @@ LeastMemory least_memory(const RenderPlan& plan, const CaptureSource& source, co
   }
   const bool has_corrected = precision != Precision::fixed && plan.has_corrected();
   least.table_bytes = (has_corrected ? 2 : 1) * block_rows * row_bytes(plan, precision);
-  needs.add("gain tables of a block", least.table_bytes);
+  // Weights are there in whole groups of rows, on the device and while they are packed.
+  const std::uint64_t last_group_bytes =
+      2 * (WorkShape::kMaxTableRows - 1) * plan.function_count() * weight_bytes(precision);
+  needs.add("gain tables of a block", least.table_bytes + last_group_bytes);
   needs.add("a block", least.block_bytes);
   return least;
 }

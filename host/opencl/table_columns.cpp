@@ -10,19 +10,18 @@
 namespace nutik {
 namespace {
 
-// A block's rows of one column: the numbers of the samples from `first` on, 0 and flat boundaries round them.
+// A block's rows of one column, from `block_row` on: the numbers of the samples from `first` on, 0 and flat boundaries
+// round them.
 template <typename Number, typename Values, typename Convert>
 void write_block(const Values& weights, const Values& boundaries, std::uint32_t first,
-                 std::uint32_t sample_count, const TableColumn& column, Convert convert) {
+                 std::uint32_t sample_count, const TableColumn& column, std::uint64_t block_row, Convert convert) {
   const auto count = static_cast<std::uint32_t>(weights.size());
-  const auto put = [&](std::byte* to, std::uint32_t row, const Number& number) {
-    std::memcpy(to + row * column.stride, &number, sizeof number);
-  };
+  const auto put = [](std::byte* to, const Number& number) { std::memcpy(to, &number, sizeof number); };
   for (std::uint32_t row = 0; row <= sample_count; ++row) {
     const std::uint32_t i = std::clamp(row, first, first + count) - first;
     const bool is_live = row >= first && i < count;
-    put(column.weights, row, is_live ? convert(weights[i]) : Number{});
-    put(column.boundaries, row, boundaries.empty() ? Number{} : convert(boundaries[i]));
+    put(column.weight(block_row + row), is_live ? convert(weights[i]) : Number{});
+    put(column.boundary(block_row + row), boundaries.empty() ? Number{} : convert(boundaries[i]));
   }
 }
 
@@ -49,19 +48,17 @@ void pack_column(const GainTable& table, const RenderPlan& plan, const TableSlic
   GainTable::Reader reader(table);
   const auto write = [&](std::uint64_t row, std::uint32_t samples, std::span<const double> weights,
                          std::span<const double> boundaries, std::uint32_t first) {
-    const std::size_t offset = row * column.stride;
-    const TableColumn to{column.weights + offset, column.boundaries + offset, column.stride};
     switch (precision) {
       case Precision::single_:
-        write_block<float>(weights, boundaries, first, samples, to,
+        write_block<float>(weights, boundaries, first, samples, column, row,
                            [](double number) { return static_cast<float>(number); });
         break;
       case Precision::compensated:
-        write_block<FloatPair>(weights, boundaries, first, samples, to, pair_of);
+        write_block<FloatPair>(weights, boundaries, first, samples, column, row, pair_of);
         break;
       case Precision::double_:
       case Precision::fixed:
-        write_block<double>(weights, boundaries, first, samples, to, std::identity{});
+        write_block<double>(weights, boundaries, first, samples, column, row, std::identity{});
         break;
     }
   };
@@ -72,9 +69,7 @@ void pack_column(const GainTable& table, const RenderPlan& plan, const TableSlic
     if (precision == Precision::fixed) {
       const BlockTable from = reader.block(planned.block);
       const FixedBlock whole = fixed_block(from, exponent);
-      const std::size_t offset = row * column.stride;
-      write_block<std::int64_t>(whole.weights, whole.boundaries, from.span.first, samples,
-                                {column.weights + offset, column.boundaries + offset, column.stride},
+      write_block<std::int64_t>(whole.weights, whole.boundaries, from.span.first, samples, column, row,
                                 std::identity{});
     } else if (const SteadyGain steady = steady_of(table, plan, planned); steady.is_steady()) {
       const HatNumbers hats = hats_of(planned.extent, plan.layout->timeline, steady.bundle.halves);

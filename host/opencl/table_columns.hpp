@@ -8,11 +8,19 @@
 
 namespace nutik {
 
-// Where the numbers of one function go: a row after another, `stride` bytes apart.
+// Where the numbers of one function go: boundaries a row after another, `stride` bytes apart; weights in groups of rows,
+// whose own lie side by side (kernels/row_groups.clh).
 struct TableColumn {
   std::byte* weights;
   std::byte* boundaries;
   std::size_t stride;
+  std::size_t number_bytes;
+  std::uint32_t group_rows;
+
+  [[nodiscard]] std::byte* weight(std::uint64_t row) const {
+    return weights + row / group_rows * group_rows * stride + row % group_rows * number_bytes;
+  }
+  [[nodiscard]] std::byte* boundary(std::uint64_t row) const { return boundaries + row * stride; }
 };
 
 // Writes a function's numbers for the rows of a slice, every byte of them: in steady blocks those of light · ns, unless

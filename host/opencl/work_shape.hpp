@@ -19,6 +19,10 @@ struct WorkShape {
   std::uint32_t lanes;
   std::uint32_t group_items;
 
+  // Rows of weights that lie side by side for each function: NUTIK_TABLE_ROWS in kernels/row_groups.clh.
+  static constexpr std::uint32_t kMaxTableRows = 4;
+  [[nodiscard]] std::uint32_t table_rows() const { return lanes < 8 ? 1 : kMaxTableRows; }
+
   // Work-items for a picture of so many tiles.
   [[nodiscard]] std::uint64_t items(std::uint64_t tile_count) const {
     return (tile_count + item_tiles - 1) / item_tiles * (kTilePixels / item_pixels);

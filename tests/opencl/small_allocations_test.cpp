@@ -8,6 +8,7 @@
 #include "opencl/allocation_cuts.hpp"
 #include "opencl/kernel_tables.hpp"
 #include "opencl/opencl_renderer.hpp"
+#include "opencl/work_shape.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/raster_stream.hpp"
@@ -82,7 +83,8 @@ std::uint64_t smallest_allocation(const RenderPlan& plan, const MemoryCapture& c
   for (const PlannedBlock& block : plan.blocks) {
     bytes =
         std::max({bytes, kPageBytes + align_up(capture.view(block.block).payload().size(), kBlockAlignment),
-                  block.row_count() * plan.function_count() * weight_bytes(precision)});
+                  align_up(block.row_count(), WorkShape::kMaxTableRows) * plan.function_count() *
+                      weight_bytes(precision)});
   }
   return bytes;
 }

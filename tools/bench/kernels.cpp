@@ -1,6 +1,7 @@
 // How fast the kernels read a capture, against the limit of the memory they read it from.
 //
 //   bench_kernels [--width N] [--height N] [--samples N] [--runs N] [--device I] [--csv FILE] [--quick]
+//                 [--precision P] [--transfer T]
 //                 [--item-pixels N] [--item-tiles N] [--lanes N] [--group-items N]
 //
 // Needs only OpenCL and a compiler. Kernel times are the device's own (profiling events), medians of
@@ -33,6 +34,7 @@ struct Settings {
   int runs = 7;
   std::size_t device = 0;
   std::string csv;
+  std::string precision, transfer;  // the only ones; empty: all
   bool quick = false;
   OpenClOptions options;  // how the work is cut, for tuning; 0: as the device's kind suggests
 };
@@ -47,6 +49,8 @@ Settings parse(int argc, char** argv) {
                 {"--runs", &settings.runs},
                 {"--device", &settings.device},
                 {"--csv", &settings.csv},
+                {"--precision", &settings.precision},
+                {"--transfer", &settings.transfer},
                 {"--item-pixels", &options.item_pixels},
                 {"--item-tiles", &options.item_tiles},
                 {"--lanes", &options.lanes},
@@ -172,6 +176,11 @@ int run(const Settings& settings) {
       return one.content != Content::dense || one.regions != Regions::uniform;
     });
   }
+
+  std::erase_if(cases, [&](const Case& one) {
+    return (!settings.precision.empty() && to_text(one.precision) != settings.precision) ||
+           (!settings.transfer.empty() && one.transfer.text() != settings.transfer);
+  });
 
   std::printf(
       "limit: %s, measured before and after each case\n\n",
