@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <future>
 #include <optional>
 #include <utility>
@@ -227,18 +228,25 @@ RenderPlan Session::Implementation::plan(const ExposureRequest& request) {
                      plan_options_of(request, format_.shape));
 }
 
-// A device that is still starting loads its kernels beside the first block, unless much of that may not be needed.
+// Blocks that are unpacked before a device asks for them. None of their memory is used twice.
+constexpr std::uint64_t kMaxPreloadedBytes = 256 << 20;
+
+// A device that is still starting loads its kernels beside the first blocks, as far as they are packed and all of them
+// is needed.
 void Session::Implementation::warm_up(CaptureSource& source, const RenderPlan& plan,
                                       const OutputFormat& output) {
   if (devices_->is_ready()) return;
   auto ready = std::async(std::launch::async, [&] { devices_->renderer().prepare(plan, output); });
-  if (!plan.blocks.empty()) {
-    const PlannedBlock& first = plan.blocks.front();
+  std::uint64_t left = std::min(memory().bytes / 4, kMaxPreloadedBytes);
+  for (const PlannedBlock& planned : plan.blocks) {
+    const std::uint64_t bytes = source.lent_bytes(planned.block);
     const bool is_read_whole = std::ranges::none_of(plan.functions, [&](const PlannedFunction& function) {
-      return function.table->span_in(first.extent).empty();
+      return function.table->span_in(planned.extent).empty();
     });
-    const bool is_small = source.lent_bytes(first.block) <= memory().bytes / 4;
-    if (is_read_whole && is_small) source.preload(first.block);
+    if (bytes == 0 || bytes > left || !is_read_whole) break;
+    source.preload(planned.block);
+    left -= bytes;
+    if (ready.wait_for(std::chrono::seconds(0)) == std::future_status::ready) break;
   }
   ready.get();
 }

@@ -226,21 +226,18 @@ BlockLease Reader::unpacked(std::uint64_t block, const BlockHeader& header, cons
 }
 
 void Reader::preload(std::uint64_t block) {
-  constexpr std::uint64_t kLargest = 64 << 20;  // what is unpacked in the time that a device takes to start
   const BlockHeader header = block_header(block);
-  if (!is_packed(header) || header.payload_bytes > kLargest) return;
+  if (!is_packed(header)) return;
   BlockLease lease = unpacked(block, header, {});
   const std::scoped_lock lock(preloading_);
-  preloaded_ = {block, std::move(lease)};
+  preloaded_.insert_or_assign(block, std::move(lease));
 }
 
 // Once: whoever wants to have it again later keeps the lease.
 BlockLease Reader::take_preloaded(std::uint64_t block) {
   const std::scoped_lock lock(preloading_);
-  if (!preloaded_ || preloaded_->block != block) return {};
-  BlockLease lease = std::move(preloaded_->lease);
-  preloaded_.reset();
-  return lease;
+  auto found = preloaded_.extract(block);
+  return found.empty() ? BlockLease() : std::move(found.mapped());
 }
 
 std::vector<TileEntry> Reader::directory(std::uint64_t block) const {

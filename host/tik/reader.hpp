@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -45,7 +46,7 @@ class Reader final : public CaptureSource {
     return index_[block].codec == static_cast<std::uint32_t>(CodecId::none) ? 0 : index_[block].payload_bytes;
   }
 
-  // Unpacks a packed block, unless it is large.
+  // Unpacks a packed block.
   void preload(std::uint64_t block) override;
 
   // A block as it lies in the file, its checksum compared. Throws as acquire() does.
@@ -108,12 +109,8 @@ class Reader final : public CaptureSource {
   std::vector<IndexEntry> index_;
   Timeline timeline_ = Timeline::constant({1, 1}, Timeline::kFullShutter, 0);
 
-  struct Preloaded {
-    std::uint64_t block;
-    BlockLease lease;
-  };
   std::mutex preloading_;  // guards what follows
-  std::optional<Preloaded> preloaded_;
+  std::map<std::uint64_t, BlockLease> preloaded_;
 };
 
 }  // namespace nutik::tik

@@ -153,12 +153,21 @@ TEST(TikFile, UnpacksAheadWhatItIsAskedFor) {
   while (RandomCase(seed).timeline.sample_count() < 4) ++seed;
   RandomCase random(seed);
   random.block_samples = 2;
-  for (const CodecId codec : {CodecId::none, CodecId::zstd}) {
+  for (const CodecId codec : {CodecId::none, CodecId::rice, CodecId::zstd}) {
     const Scratch scratch;
     Reader reader(write_tik(random, {codec, 0}, scratch));
     ASSERT_GE(reader.block_count(), 2u);
     reader.preload(1);
+    reader.preload(0);
     test::expect_same_capture(random, reader);
+    // Once: what was unpacked ahead asks for no room, the next time does.
+    reader.preload(0);
+    reader.preload(1);
+    const LeaseTerms no_room{[](std::uint64_t) { return std::span<std::byte>(); }};
+    for (const std::uint64_t block : {1u, 0u}) {
+      EXPECT_FALSE(reader.acquire(block, no_room).is_empty());
+      EXPECT_EQ(reader.acquire(block, no_room).is_empty(), codec != CodecId::none);
+    }
   }
 }
 
