@@ -80,8 +80,8 @@ DeviceTables::Slice& DeviceTables::slice_for(const RenderPlan& plan, const Table
   const std::uint64_t functions = plan.function_count();
   const std::uint64_t row_count = slice.row_count();
   Slice* const kept = recent_.find([&](const Slice& each) {
-    return each.precision == precision && each.group_rows == group_rows && each.columns.size() == functions && each.row_count == row_count &&
-           each.corrected == slice.corrected && is_of(each.blocks, plan, slice);
+    return each.precision == precision && each.group_rows == group_rows && each.columns.size() == functions &&
+           each.row_count == row_count && each.corrected == slice.corrected && is_of(each.blocks, plan, slice);
   });
   if (kept != nullptr) {
     memory.count(kept->bytes());
@@ -109,8 +109,8 @@ void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice,
   Bytes gains(parts.size() * number);
   const auto pack = [&](std::uint64_t f) {
     pack_column(*columns[f].table, plan, slice, to.precision, columns[f].exponent,
-                {weights.data() + f * to.group_rows * number, boundaries.data() + f * number, functions * number, number,
-                 to.group_rows});
+                {weights.data() + f * to.group_rows * number, boundaries.data() + f * number, functions * number,
+                 number, to.group_rows});
     const PartColumn of_function = part_column(*columns[f].table, plan, slice, to.precision);
     for (std::size_t b = 0; b < of_function.parts.size(); ++b) {
       parts[b * functions + f] = of_function.parts[b];

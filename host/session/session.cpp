@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <future>
 #include <optional>
 #include <utility>
@@ -19,6 +18,7 @@
 #include "session/clips/forward_clip.hpp"
 #include "session/clips/scratch_capture.hpp"
 #include "session/making/retiming.hpp"
+#include "session/preloading.hpp"
 
 namespace nutik {
 
@@ -228,26 +228,12 @@ RenderPlan Session::Implementation::plan(const ExposureRequest& request) {
                      plan_options_of(request, format_.shape));
 }
 
-// Blocks that are unpacked before a device asks for them. None of their memory is used twice.
-constexpr std::uint64_t kMaxPreloadedBytes = 256 << 20;
-
-// A device that is still starting loads its kernels beside the first blocks, as far as they are packed and all of them
-// is needed.
+// A device that is still starting loads its kernels beside the first blocks.
 void Session::Implementation::warm_up(CaptureSource& source, const RenderPlan& plan,
                                       const OutputFormat& output) {
   if (devices_->is_ready()) return;
   auto ready = std::async(std::launch::async, [&] { devices_->renderer().prepare(plan, output); });
-  std::uint64_t left = std::min(memory().bytes / 4, kMaxPreloadedBytes);
-  for (const PlannedBlock& planned : plan.blocks) {
-    const std::uint64_t bytes = source.lent_bytes(planned.block);
-    const bool is_read_whole = std::ranges::none_of(plan.functions, [&](const PlannedFunction& function) {
-      return function.table->span_in(planned.extent).empty();
-    });
-    if (bytes == 0 || bytes > left || !is_read_whole) break;
-    source.preload(planned.block);
-    left -= bytes;
-    if (ready.wait_for(std::chrono::seconds(0)) == std::future_status::ready) break;
-  }
+  preload_until(ready, source, plan, memory().bytes / 4);
   ready.get();
 }
 
