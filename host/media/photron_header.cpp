@@ -8,6 +8,7 @@
 
 #include "capture/error.hpp"
 #include "media/extension.hpp"
+#include "system/input_bytes.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
@@ -162,6 +163,7 @@ bool is_photron_header(const fs::path& path) {
 PhotronHeader read_photron_header(const fs::path& file) {
   const MappedFile mapped(file);
   const auto bytes = mapped.bytes();
+  check_text_bytes(file.string(), bytes.size());
   PhotronHeader header = parse_photron_header({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   header.file = file;
   return header;

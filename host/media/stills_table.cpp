@@ -8,6 +8,7 @@
 #include "capture/format.hpp"
 #include "capture/rational.hpp"
 #include "media/extension.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik {
 namespace {
@@ -86,6 +87,7 @@ bool is_stills_table(const std::filesystem::path& path) {
 std::vector<ListedStill> read_stills_table(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(format("{} cannot be read", path.string()));
+  check_text_bytes(path.string(), std::filesystem::file_size(path));
   std::vector<ListedStill> stills;
   std::string text;
   for (std::size_t line = 1; std::getline(in, text); ++line) {

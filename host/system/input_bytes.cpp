@@ -24,10 +24,17 @@ namespace {
 constexpr const char* kTitle = "standard input";
 constexpr const char* kFile = "/dev/stdin";
 
-std::string read_to_end(std::FILE* stream) {
+[[noreturn]] void fail_long(const std::string& title, std::size_t max_bytes) {
+  throw InputError(format("{} is longer than {} MiB; {}", title, max_bytes >> 20,
+                          max_bytes > kMaxTextBytes ? "name a file" : "no text that a person writes is"));
+}
+
+std::string read_to_end(std::FILE* stream, std::size_t max_bytes) {
   std::string bytes;
   std::array<char, 1 << 16> part;
   while (const std::size_t count = std::fread(part.data(), 1, part.size(), stream)) {
+    check_interruption();
+    if (count > max_bytes - bytes.size()) fail_long(kTitle, max_bytes);
     bytes.append(part.data(), count);
   }
   if (std::ferror(stream) != 0)
@@ -84,12 +91,16 @@ std::string input_title(const std::string& name) {
   return is_standard_input(name) || name == kFile ? kTitle : name;
 }
 
-InputBytes::InputBytes(const std::string& name) {
+void check_text_bytes(const std::string& title, std::uintmax_t bytes) {
+  if (bytes > kMaxTextBytes) fail_long(title, kMaxTextBytes);
+}
+
+InputBytes::InputBytes(const std::string& name, std::size_t max_piped_bytes) : title_(input_title(name)) {
   if (!is_standard_input(name)) {
     bytes_ = file_.emplace(name).bytes();
     return;
   }
-  static const std::string all = read_to_end(stdin);
+  static const std::string all = read_to_end(stdin, max_piped_bytes);
   bytes_ = std::as_bytes(std::span(all));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -22,18 +23,27 @@ namespace nutik {
 // is a terminal, empty, or cannot be read, OutputError where there is no space. Any thread may ask.
 [[nodiscard]] const std::filesystem::path& standard_input_file();
 
+// The most that is read of what a person writes: ten million control points have less.
+inline constexpr std::size_t kMaxTextBytes = std::size_t{256} << 20;
+
+// Throws InputError where a text has more.
+void check_text_bytes(const std::string& title, std::uintmax_t bytes);
+
 // Its bytes. Standard input is read to its end once; whoever asks again gets the same.
 class InputBytes {
  public:
-  // Throws InputError where it cannot be read.
-  explicit InputBytes(const std::string& name);
+  // Throws InputError where it cannot be read, or standard input has more bytes.
+  explicit InputBytes(const std::string& name, std::size_t max_piped_bytes = kMaxTextBytes);
 
   [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+  // Throws InputError where it is longer than a text is.
   [[nodiscard]] std::string_view text() const {
+    check_text_bytes(title_, bytes_.size());
     return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
   }
 
  private:
+  std::string title_;
   std::optional<MappedFile> file_;
   std::span<const std::byte> bytes_;
 };

@@ -88,6 +88,30 @@ TEST_F(Ceilings, OfLists) {
   expect_refused({"batch", ".", "c.tik"}, 3, ". is a folder, not a list");
 }
 
+// What comes through a pipe may have no end, and a file may be long without taking any room.
+TEST_F(Ceilings, OfTexts) {
+  test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  const auto piped =
+      test::run_shell(format("(yes '# and so on' | '{}' --renderer reference -k - c.tik p.png)", NUTIK_TEST_PROGRAM),
+                      scratch_.folder());
+  EXPECT_EQ(piped.status, 3);
+  EXPECT_NE(piped.err.find("standard input is longer than 256 MiB; no text that a person writes is"), std::string::npos)
+      << piped.err;
+  EXPECT_LT(peak_mb(), 60 + 2 * 256 + 64);  // where it grows, old and new room are there
+  for (const char* name : {"long.fn", "long.noise", "long.csv", "long.cih", "long.path"}) {
+    std::filesystem::resize_file(scratch_.write(name, ""), std::uintmax_t{20} << 30);
+  }
+  const auto expect_long = [&](const std::vector<std::string>& words, const std::string& name) {
+    expect_refused(words, 3, name + " is longer than 256 MiB; no text that a person writes is");
+  };
+  expect_long({"--renderer", "reference", "-k", "long.fn", "c.tik", "p.png"}, "long.fn");
+  expect_long({"--renderer", "reference", "--noise", "long.noise", "--start", "0s", "--exposure", "1s", "c.tik", "p.png"},
+              "long.noise");
+  expect_long({"encode", "long.csv", "d.tik"}, "long.csv");
+  expect_long({"encode", "long.cih", "d.tik"}, "long.cih");
+  expect_long({"encode", "-f", "10", "--align-along", "long.path", "long.csv", "d.tik"}, "long.path");
+}
+
 // Blocks of 16 MB are copied one at a time, from captures of 210 MB.
 TEST_F(Ceilings, OfJoining) {
   scratch_.write("black.raw", "");

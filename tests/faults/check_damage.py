@@ -9,8 +9,8 @@
     golden     captures of earlier programs, cut, and with a bit flipped N / 8 times in every class of their bytes
 
 All samples are exposed by the reference. A damaged file is refused with status 3 and a sentence, or its picture is the
-right one, or a note or warning tells that something is damaged or missing. Where a format keeps no checksum, a flipped bit may be another picture too:
-these are counted and printed. Nothing else may happen: no signal, no other status, no other picture in silence.
+right one, or a note or warning tells that something is damaged or missing. Where a format keeps no checksum, a flipped bit may be another picture too, and where it says nowhere how many records
+it has, whole ones may be missing at its end: these are counted and printed. Nothing else may happen: no signal, no other status, no other picture in silence.
 """
 
 import argparse
@@ -30,7 +30,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent / "tools"), str(HERE.parent / "fuzz")]
-from make_seeds import cine  # noqa: E402
+from make_seeds import cine, dng  # noqa: E402
 from report import Report  # noqa: E402
 
 WIDTH, HEIGHT, PICTURES = 48, 32, 6
@@ -53,7 +53,8 @@ class Input(NamedTuple):
     name: str
     words: list                        # how the program is told to read it
     damaged: str                       # the file that is damaged
-    notices: Callable = nowhere  # where a flipped bit must be noticed: pairs of offset and bytes
+    notices: Callable = nowhere        # where a flipped bit must be noticed: pairs of offset and bytes
+    record_bytes: int = 0              # whole records that are missing at the end leave a shorter file that is whole
 
 
 def pictures(channels):
@@ -67,6 +68,12 @@ def pictures(channels):
 
 def whole_file(path):
     return [(0, path.stat().st_size)]
+
+
+def jpeg_front(path):
+    """The marker that a lossless JPEG begins with, and its size: without them nothing is developed."""
+    start = path.read_bytes().index(b"\xff\xd8")
+    return [(start, 2), (start + 7, 4)]
 
 
 def packets(path):
@@ -94,6 +101,12 @@ def write_stills(folder):
         yield Input(name, ["-f", "100", name], f"{name}/2{ending}", whole_file if ending == ".png" else nowhere)
     cv2.imwritemulti(str(folder / "pages.tif"), list(colour), [cv2.IMWRITE_TIFF_COMPRESSION, 1])
     yield Input("tiff of pages", ["-f", "100", "pages.tif"], "pages.tif")
+    mosaic = grey[..., 0].astype(np.uint16) * 200 + 512
+    for name, packed in ("dng", False), ("dng-packed", True):
+        (folder / name).mkdir()
+        for k, picture in enumerate(mosaic):
+            (folder / name / f"{k}.dng").write_bytes(dng(picture, packed))
+        yield Input(name, ["-f", "100", name], f"{name}/2.dng", jpeg_front if packed else nowhere)
     (folder / "camera").mkdir()
     for k, picture in enumerate(grey):
         cv2.imwrite(str(folder / "camera" / f"{k}.png"), picture)
@@ -137,6 +150,34 @@ def write_recordings(folder):
     yield Input("raw video", ["-f", "100", "--raw", f"{WIDTH}x{HEIGHT}:gray", "raw.gray"], "raw.gray")
     (folder / "clip.cine").write_bytes(cine())
     yield Input(".cine", ["clip.cine"], "clip.cine")
+    frames = b"".join(b"FRAME\n" + picture.tobytes() for picture in pictures(1))
+    (folder / "clip.y4m").write_bytes(f"YUV4MPEG2 W{WIDTH} H{HEIGHT} F100:1 Ip A1:1 Cmono\n".encode() + frames)
+    yield Input(".y4m", ["clip.y4m"], "clip.y4m")
+    for name, data, record_bytes in event_files():
+        (folder / name).write_bytes(data)
+        yield Input(name, [name], name, record_bytes=record_bytes)
+
+
+def event_files():
+    """A dot that wanders, in each format of events: name, file, and the bytes of a record."""
+    little = lambda size, *words: b"".join(word.to_bytes(size, "little") for word in words)
+    events = [(64 * k, 3 + k % 40, 5 + k % 20, k % 3 != 0) for k in range(1, 400)]  # microsecond, x, y, up
+    size = f"height={HEIGHT};width={WIDTH}"
+    header = lambda kind: f"% format {kind};{size}\n% geometry {WIDTH}x{HEIGHT}\n% end\n".encode()
+    yield "evt2.raw", header("EVT2") + b"".join(
+        little(4, 8 << 28 | at // 64, up << 28 | at % 64 << 22 | x << 11 | y) for at, x, y, up in events), 4
+    yield "evt21.raw", header("EVT21") + b"".join(
+        little(8, 8 << 60 | at // 64 << 32, up << 60 | at % 64 << 54 | x // 32 * 32 << 43 | y << 32 | 1 << x % 32)
+        for at, x, y, up in events), 8
+    yield "evt3.raw", header("EVT3") + b"".join(
+        little(2, 8 << 12 | at >> 12, 6 << 12 | at & 0xFFF, y, 2 << 12 | up << 11 | x) for at, x, y, up in events), 2
+    yield "events.dat", f"% Height {HEIGHT}\n% Width {WIDTH}\n".encode() + b"\x0c\x08" + b"".join(
+        little(4, at, up << 28 | y << 14 | x) for at, x, y, up in events), 8
+    # ADΔER of version 2: units of light since the event before at the same pixel, then the mark of its end.
+    told = b"".join(struct.pack(">HHBI", x, y, 6, 500 + 100 * (k + x) % 700) for k in range(3)
+                    for y in range(HEIGHT) for x in range(WIDTH))
+    yield "light.adder", (b"adder" + struct.pack(">BcHHIIIBBII", 2, b"b", WIDTH, HEIGHT, 120_000, 5000, 50_000, 9, 1, 0, 0) +
+                          told + b"\xff" * 9), 0
 
 
 def write_videos(folder):
@@ -285,7 +326,8 @@ def check_each(report, bench, flips, seed, inputs):
             path.write_bytes(data[:-cut])
             outcome = bench.outcome(each.words, right)
             came[outcome] += 1
-            if outcome not in ("refused", "same", "told"):
+            is_whole = each.record_bytes > 0 and cut % each.record_bytes == 0
+            if outcome not in ("refused", "same", "told") and not (is_whole and outcome == "silent"):
                 wrong.append(f"cut by {cut}: {outcome}")
         path.write_bytes(data)
         noticed = each.notices(path)

@@ -59,6 +59,60 @@ def stills():
     yield "a.ppm", b"P3 1 2 65535 0 1 2 65535 4 5\n"
 
 
+def lossless_jpeg(codes):
+    """A grey picture of 16 bits: each pixel is told from its left neighbour, by how many bits the difference has."""
+    height, width = codes.shape
+    bits = []
+    for y in range(height):
+        for x in range(width):
+            left = int(codes[y, x - 1]) if x > 0 else int(codes[y - 1, 0]) if y > 0 else 1 << 15
+            difference = (int(codes[y, x]) - left + (1 << 15)) % (1 << 16) - (1 << 15)
+            size = abs(difference).bit_length()
+            bits.append(f"{size:05b}")  # seventeen codes of five bits
+            if size:
+                bits.append(f"{difference if difference > 0 else difference + (1 << size) - 1:0{size}b}")
+    stream = "".join(bits)
+    stream += "1" * (-len(stream) % 8)
+    data = bytes(int(stream[at:at + 8], 2) for at in range(0, len(stream), 8)).replace(b"\xff", b"\xff\0")
+    marker = lambda code, body: struct.pack(">BBH", 255, code, len(body) + 2) + body
+    return (b"\xff\xd8" + marker(0xc3, struct.pack(">BHHB3B", 16, height, width, 1, 1, 0x11, 0)) +
+            marker(0xc4, b"\0" + bytes([0, 0, 0, 0, 17] + [0] * 11) + bytes(range(17))) +
+            marker(0xda, b"\1\1\0\1\0\0") + data + b"\xff\xd9")
+
+
+def dng(codes, packed=False):
+    """A sensor's mosaic R G / G B, [height, width] of 16 bits, as a DNG."""
+    height, width = codes.shape
+    pixels = lossless_jpeg(codes) if packed else codes.astype("<u2").tobytes()
+    longs = lambda *words: struct.pack(f"<{len(words)}i", *words)
+    matrix = longs(*(word for number in (6700, -1000, -600, -4000, 11600, 2600, -500, 1200, 6000)
+                     for word in (number, 10000)))
+    tags = [(254, 4, 1, longs(0)), (256, 3, 1, longs(width)), (257, 3, 1, longs(height)), (258, 3, 1, longs(16)),
+            (259, 3, 1, longs(7 if packed else 1)), (262, 3, 1, longs(32803)), (271, 2, 8, b"Made up\0"),
+            (272, 2, 8, b"Made up\0"), (273, 4, 1, None), (274, 3, 1, longs(1)), (277, 3, 1, longs(1)),
+            (278, 3, 1, longs(height)), (279, 4, 1, longs(len(pixels))), (284, 3, 1, longs(1)),
+            (33421, 3, 2, struct.pack("<HH", 2, 2)), (33422, 1, 4, b"\0\1\1\2"), (33434, 5, 1, longs(1, 200)),
+            (36867, 2, 20, b"2026:11:21 13:22:27\0"), (50706, 1, 4, b"\1\4\0\0"), (50707, 1, 4, b"\1\1\0\0"),
+            (50708, 2, 8, b"Made up\0"), (50714, 4, 1, longs(512)), (50717, 4, 1, longs(65535)),
+            (50721, 10, 9, matrix), (50728, 5, 3, longs(1, 2, 1, 1, 4, 5)), (50778, 3, 1, longs(21)),
+            (51044, 10, 1, longs(24, 1))]
+    behind_at = 8 + 2 + 12 * len(tags) + 4
+    sizes = [len(data) for *_, data in tags if data is not None and len(data) > 4]
+    pixels_at, head, behind = behind_at + sum(sizes), struct.pack("<H", len(tags)), b""
+    for tag, kind, count, data in tags:
+        data = longs(pixels_at) if data is None else data
+        head += struct.pack("<HHI", tag, kind, count)
+        head += data.ljust(4, b"\0") if len(data) <= 4 else longs(behind_at + len(behind))
+        behind += data if len(data) > 4 else b""
+    return b"II*\0\x08\0\0\0" + head + longs(0) + behind + pixels
+
+
+def sensors():
+    mosaic = (np.arange(32 * 24).reshape(24, 32) * 251 % 60000 + 600).astype(np.uint16)
+    yield "a.dng", dng(mosaic)
+    yield "a.dng", dng(mosaic, packed=True)
+
+
 def cine():
     """A Phantom file of two pictures of 16-bit words, with their times."""
     width, height = 8, 4
@@ -135,6 +189,14 @@ def texts(tests):
     for word in ("t0.4s", "t10ms", "t1/100s", "t37f", "t250us", "r29.97", "r30000/1001", "sbox", "strapezoid:0.2",
                  "shann", "sgaussian", "sstrobe:5", "sstrobe:3,0.25", "sspline:0=0,0.5=1,1=0.25", "striangle"):
         yield "words", word.encode()
+    batch = ("# the paper's figure\n-k figure14.fn -m mask.pgm ball.tik 'a picture.png'\r\n\n"
+             "--start 0.4s --exposure 10ms --ev -1 --precision double --depth 16 c.tik -o \"b.png\"\n"
+             "  --shutter hann --shutter-angle 180 --region 1,2,30,40 --frames 1-9 c.tik\n")
+    yield "lists", b"b" + batch.encode()
+    yield "lists", b"b--delay each.pgm:0s..5s --mask-to n.pgm --feather 3 --noise auto --device all c.tik a\\ b.png"
+    for pattern, *files in (("frame%04d.png", "frame0001.png", "frame0002.png", "frame0003.png"), ("",  "1.png", "2.png", "4.png"),
+                            ("f*[0-9].tif", "f1.tif", "f10.tif", "f2.tif"), ("%3d.dng", "  1.dng", "  2.dng")):
+        yield "lists", b"n" + "\n".join((pattern, *files)).encode()
     yield "recipes", RECIPE.encode()
     png = encoded(".png", picture(np.uint8))
     yield "recipes", with_text(png, RECIPE)
@@ -174,6 +236,7 @@ def main():
     parser.add_argument("--tests", type=Path, required=True)
     parser.add_argument("--seeds", type=Path, required=True)
     parser.add_argument("--still-kinds", nargs="+", required=True)
+    parser.add_argument("--sensor-kinds", nargs="+", required=True)
     parser.add_argument("--video-kinds", nargs="+", required=True)
     arguments = parser.parse_args()
 
@@ -181,7 +244,7 @@ def main():
         return ((target, bytes([kinds.index(name)]) + data) for name, data in made)
 
     seeds = [*texts(arguments.tests), *captures(arguments.tests), *clips("stills", arguments.still_kinds, stills()),
-             *clips("videos", arguments.video_kinds, videos())]
+             *clips("sensors", arguments.sensor_kinds, sensors()), *clips("videos", arguments.video_kinds, videos())]
     for number, (target, data) in enumerate(seeds):
         folder = arguments.seeds / target
         folder.mkdir(parents=True, exist_ok=True)

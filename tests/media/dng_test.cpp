@@ -292,5 +292,40 @@ TEST(Dng, ThatIsDamagedIsRefused) {
   }
 }
 
+// `tag` of one value of two or four bytes, with another.
+std::string with_value(std::string file, int tag, int type, std::int64_t value) {
+  const std::size_t at = file.find(shorts({tag, type}) + longs({1}));
+  EXPECT_NE(at, std::string::npos);
+  return file.replace(at + 8, 4, longs({value}));
+}
+
+void expect_refused(const std::string& file, const std::string& part) {
+  const Scratch scratch;
+  try {
+    static_cast<void>(read_all(*open_test_clip(scratch.write("a.dng", file))));
+    ADD_FAILURE() << "it is read, and not refused: " << part;
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+TEST(Dng, ThatStatesMoreThanItsBytesHoldIsRefused) {
+  const std::string large = with_value(with_value(Dng{}.file(), 256, 3, 40'000), 257, 3, 40'000);
+  expect_refused(large, "it states 40000 x 40000 pixels, which its ");
+}
+
+// LibRaw would read it, whatever it is.
+TEST(Dng, IsOneByWhatItHolds) {
+  expect_refused("P5 4 4 255\n" + std::string(16, 'a'), "it is damaged or no DNG");
+  std::string nameless = Dng{}.file();
+  nameless.replace(nameless.find(shorts({50'706, 1})), 2, shorts({50'705}));
+  expect_refused(nameless, "it is damaged or no DNG");
+}
+
+// LibRaw leaves the picture black where no JPEG begins.
+TEST(Dng, WhosePackedPictureDoesNotBeginIsRefused) {
+  expect_refused(with_value(Dng{}.file(), 259, 3, 7), "it is damaged or was cut off");
+}
+
 }  // namespace
 }  // namespace nutik

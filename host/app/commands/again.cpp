@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include "app/commands/commands.hpp"
 #include "app/output/console.hpp"
@@ -56,7 +58,7 @@ class RecipeFiles {
     for (const fs::path& place : folders_) {
       const fs::path path = place / text.name;
       if (!fs::is_regular_file(path)) continue;
-      if (content(path) == text.bytes) return path;
+      if (holds(path, text)) return path;
       is_changed = true;
     }
     write(text, what, folder / text.name, is_changed);
@@ -68,7 +70,7 @@ class RecipeFiles {
  private:
   static void write(const Recipe::Text& text, std::string_view what, const fs::path& path, bool is_changed) {
     if (fs::exists(path)) {
-      if (content(path) == text.bytes) return;
+      if (holds(path, text)) return;
       throw OutputError(format("{} exists and is another file; it is not replaced. Move it away",
                                (path.parent_path() / shown(text.name)).string()));
     }
@@ -88,9 +90,10 @@ class RecipeFiles {
     }
   }
 
-  static std::string content(const fs::path& path) {
+  static bool holds(const fs::path& path, const Recipe::Text& text) {
+    if (!fs::is_regular_file(path)) return false;
     const MappedFile file(path);
-    return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
+    return std::ranges::equal(file.bytes(), std::as_bytes(std::span(text.bytes)));
   }
 
   [[nodiscard]] std::string folders_text() const {

@@ -9,6 +9,7 @@
 #include "session/output_check.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/checksum.hpp"
+#include "system/input_bytes.hpp"
 #include "system/mapped_file.hpp"
 #include "system/output_file.hpp"
 
@@ -41,7 +42,7 @@ struct Noted {
   explicit Noted(const std::filesystem::path& commands) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(commands, error)) return;
-    const std::string text = content_of(commands);
+    const std::string text(InputBytes(commands.string()).text());
     const std::size_t notes = text.find(kAboutSums);
     if (!text.starts_with(kAboutCommands) || notes == std::string::npos) return;
     for (std::size_t begin = notes + kAboutSums.size(); begin < text.size();) {

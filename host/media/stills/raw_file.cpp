@@ -9,10 +9,13 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
+#include <span>
 #include <string>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/mapped_file.hpp"
 
 namespace nutik::stills {
 namespace {
@@ -24,6 +27,78 @@ constexpr int kRational = 5, kSignedRational = 10;
 void check(int code, const std::filesystem::path& file) {
   if (code == LIBRAW_SUCCESS) return;
   throw InputError(format("{} cannot be read: LibRaw says: {}", file.string(), libraw_strerror(code)));
+}
+
+// LibRaw reads a thousand kinds of files, whatever their names; only DNG is meant here. What it states is compared with
+// the file before there is room for it: zeros are packed to a thousandth at most, of 8 pixels a byte.
+void open_dng(LibRaw& raw, const std::filesystem::path& file) {
+  constexpr std::uint64_t kMaxPixelsAByte = 1032 * 8, kSmallPixels = 16 << 20;
+  const std::string start = first_bytes(file).substr(0, 4);
+  const bool is_tiff = start == std::string("II*\0", 4) || start == std::string("MM\0*", 4);
+  if (is_tiff) check(raw.open_file(file.c_str()), file);
+  if (!is_tiff || raw.imgdata.idata.dng_version == 0) {
+    throw InputError(format("{} cannot be read: it is damaged or no DNG", file.string()));
+  }
+  const auto& sizes = raw.imgdata.sizes;
+  const std::uint64_t bytes = std::filesystem::file_size(file);
+  const std::uint64_t pixels = std::max(std::uint64_t{sizes.raw_width} * sizes.raw_height,
+                                        std::uint64_t{sizes.width} * sizes.height);
+  if (pixels <= std::max(kSmallPixels, bytes * kMaxPixelsAByte)) return;
+  throw InputError(
+      format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged",
+             file.string(), sizes.raw_width, sizes.raw_height, bytes));
+}
+
+std::uint64_t number_at(std::span<const std::byte> bytes, std::uint64_t at, std::size_t count, bool big_end_first) {
+  if (at > bytes.size() || bytes.size() - at < count) return 0;
+  std::uint64_t number = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    number = number << 8 | std::to_integer<std::uint64_t>(bytes[at + (big_end_first ? i : count - 1 - i)]);
+  }
+  return number;
+}
+
+// Samples that a lossless JPEG announces that begins there; 0 where none does.
+std::uint64_t jpeg_samples(std::span<const std::byte> bytes, std::uint64_t at) {
+  constexpr std::uint64_t kStart = 0xFFD8, kFrame = 0xFFC3, kTables = 0xFFC4, kScan = 0xFFDA;
+  const auto number = [&](std::uint64_t from, std::size_t count) { return number_at(bytes, from, count, true); };
+  if (number(at, 2) != kStart) return 0;
+  std::uint64_t samples = 0;
+  bool has_tables = false;
+  for (at += 2; number(at, 1) == 0xFF; at += 2 + number(at + 2, 2)) {
+    const std::uint64_t marker = number(at, 2);
+    if (marker == kScan) return has_tables ? samples : 0;
+    if (marker == kFrame) samples = number(at + 5, 2) * number(at + 7, 2) * number(at + 9, 1);
+    if (marker == kTables) has_tables = true;
+  }
+  return 0;
+}
+
+// Where a JPEG does not begin, LibRaw leaves its part of the picture black and says nothing; where rows have another
+// length than the picture's, it goes on in the next.
+bool is_of_size(std::uint64_t samples, std::uint64_t width, std::uint64_t height) {
+  return width > 0 && samples >= width * height && samples % width == 0;
+}
+
+bool lacks_a_jpeg(LibRaw& raw, const std::filesystem::path& file) {
+  constexpr unsigned kJpeg = 7, kBigEnd = 0x4D4D;
+  const auto& unpacker = raw.get_internal_data_pointer()->unpacker_data;
+  const auto& sizes = raw.imgdata.sizes;
+  if (unpacker.tiff_compress != kJpeg || sizes.raw_width == 0 || sizes.raw_height == 0) return false;
+  const MappedFile mapped(file);
+  const auto begin = static_cast<std::uint64_t>(unpacker.data_offset);
+  if (unpacker.tile_length >= std::numeric_limits<int>::max()) {
+    return !is_of_size(jpeg_samples(mapped.bytes(), begin), sizes.raw_width, sizes.raw_height);
+  }
+  if (unpacker.tile_width == 0 || unpacker.tile_length == 0) return true;
+  const std::uint64_t across = (sizes.raw_width - 1) / unpacker.tile_width + 1;
+  const std::uint64_t tiles = across * ((sizes.raw_height - 1) / unpacker.tile_length + 1);
+  for (std::uint64_t tile = 0; tile < tiles; ++tile) {
+    const bool big_end_first = static_cast<unsigned short>(unpacker.order) == kBigEnd;
+    const std::uint64_t at = number_at(mapped.bytes(), begin + 4 * tile, 4, big_end_first);
+    if (!is_of_size(jpeg_samples(mapped.bytes(), at), unpacker.tile_width, unpacker.tile_length)) return true;
+  }
+  return false;
 }
 
 // A number of four bytes; 0 where the file ends before.
@@ -69,7 +144,7 @@ RawTags read_raw_tags(const std::filesystem::path& file) {
   const auto raw = std::make_unique<LibRaw>();  // too large for a thread's stack
   RawTags tags;
   raw->set_exifparser_handler(&take_tag, &tags);
-  check(raw->open_file(file.c_str()), file);
+  open_dng(*raw, file);
   return tags;
 }
 
@@ -111,12 +186,21 @@ Picture RawDeveloper::develop(const std::filesystem::path& file) {
   wishes.use_camera_wb = 1;
   wishes.adjust_maximum_thr = 0.0F;  // else white follows the brightest pixel
   // LibRaw itself goes on with what it has, and prints a line.
-  bool is_damaged = false;
-  raw->set_dataerror_handler([](void* data, const char*, auto) { *static_cast<bool*>(data) = true; },
-                             &is_damaged);
-  check(raw->open_file(file.c_str()), file);
-  check(raw->unpack(), file);
-  if (is_damaged) throw InputError(format("{} cannot be read: it is damaged or was cut off", file.string()));
+  struct Damage {
+    LibRaw& raw;
+    bool is_found = false;
+  } damage{*raw};
+  raw->set_dataerror_handler(
+      [](void* data, const char*, auto) {
+        static_cast<Damage*>(data)->is_found = true;
+        static_cast<Damage*>(data)->raw.setCancelFlag();
+      },
+      &damage);
+  open_dng(*raw, file);
+  const int unpacked = raw->unpack();
+  if (damage.is_found || lacks_a_jpeg(*raw, file))
+    throw InputError(format("{} cannot be read: it is damaged or was cut off", file.string()));
+  check(unpacked, file);
   if (first_) {
     first_->put(raw->imgdata.color);
     first_->put(raw->imgdata.rawdata.color);  // what developing starts from

@@ -28,6 +28,7 @@ std::string format_text(const CaptureFormat& format) {
 CameraNoise read_noise_file(const std::filesystem::path& path) {
   const MappedFile file(path);
   const auto bytes = file.bytes();
+  check_text_bytes(path.string(), bytes.size());
   return parse_noise({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 

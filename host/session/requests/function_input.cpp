@@ -15,6 +15,12 @@
 #include "system/input_bytes.hpp"
 
 namespace nutik {
+namespace {
+
+// Of a mask that comes through a pipe: one of 32767 x 32767 pixels.
+constexpr std::size_t kMaxPipedMask = std::size_t{1} << 30;
+
+}  // namespace
 
 FunctionInput read_functions(std::string_view text, const std::string& title) {
   const FunctionFile file = parse_functions(text);
@@ -30,7 +36,7 @@ FunctionInput read_function_input(const std::string& name) {
 }
 
 Mask read_mask_input(const std::string& name, const std::optional<std::string>& capture) {
-  const InputBytes input(name);
+  const InputBytes input(name, kMaxPipedMask);
   const auto shape = capture ? known_shape(*capture) : std::nullopt;
   return Mask::from_picture(
       read_mask(input.bytes(), input_title(name), [&](std::uint32_t width, std::uint32_t height) {
@@ -85,7 +91,7 @@ Mask read_layered_mask_input(const std::string& name, std::uint8_t rest,
 }
 
 std::string mask_checksum(const std::string& name) {
-  if (is_standard_input(name) || !layers_name(name)) return bytes_checksum(InputBytes(name).bytes());
+  if (is_standard_input(name) || !layers_name(name)) return bytes_checksum(InputBytes(name, kMaxPipedMask).bytes());
   std::vector<std::filesystem::path> files;
   for (const auto& [tag, file] : layer_files(name)) files.push_back(file);
   return files_checksum(files);
