@@ -158,6 +158,7 @@ class ShotPlanner {
 }  // namespace
 
 PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request, const StudyTerms& terms) {
+  check_study(request);
   const std::string name = source.path.string();
   const ShotPlanner planner(request, terms, name);
   std::vector<SampleRange> shots;
