@@ -250,15 +250,20 @@ void check_track(const SubjectTrack& track, const std::string& name, std::uint32
               "sways before a texture that repeats itself looks so, too: align the clip"));
   }
   if (track.is_scraps()) {
-    throw NoSubject(
-        format("{}: nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is "
-               "{:.0f} % of what "
-               "differs from the scene at rest: of one of these a subject is half or more. A thing that goes "
-               "less than its own "
-               "size, shakes, grows or shines shows its edges only, and cannot be shown twice. Take a clip "
-               "in which it goes "
-               "further, name a region with a single subject, or the moments to show",
-               name, 100 * track.fill, 100 * track.share));
+    const double length = track.length();
+    throw NoSubject(format(
+        "{}: nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is {:.0f} % "
+        "of what "
+        "differs from the scene at rest: of one of these a subject is half or more. {} shows its edges only, "
+        "and cannot "
+        "be shown twice. Take a clip in which it goes further, name a region with a single subject, or the "
+        "moments to "
+        "show",
+        name, 100 * track.fill, 100 * track.share,
+        track.extent < length
+            ? format("It is {:.0f} pixels long and goes {:.0f}: a thing that goes less than its own size",
+                     length, track.extent)
+            : "A thing that shakes, grows or shines"));
   }
   if (track.flickers) {
     throw NoSubject(
