@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
 
@@ -39,6 +40,11 @@ class StudyStyles : public test::StudyTest {
     cv::Mat difference;
     cv::subtract(picture("styled.png"), ground_of(7), difference, {}, CV_16S);
     return difference;
+  }
+  // Of an sRGB code.
+  static double light_of(int code) {
+    const double share = code / 255.0;
+    return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
   }
   // On the square's way, on average.
   static double trail(const cv::Mat& difference, int from, int to) {
@@ -107,10 +113,17 @@ TEST_F(StudyStyles, AreBlendedAsFarAsIsStated) {
   const auto beside = [&](const char* feather) {
     const cv::Mat is = difference({"--moments", "15f", "--feather", feather});
     EXPECT_TRUE(shows_square(is, 15)) << feather;
-    return trail(is, left(15) + kSide + 5, left(15) + kSide + 7);
+    double light = 0;  // beyond the ground's
+    for (int y = kTop + 2; y < kTop + kSide - 2; ++y) {
+      for (int x = left(15) + kSide + 5; x < left(15) + kSide + 7; ++x) {
+        const int ground = ground_of(7).at<std::uint8_t>(y, x);
+        light += light_of(ground + is.at<short>(y, x)) - light_of(ground);
+      }
+    }
+    return light;
   };
   const double narrow = beside("2px"), wide = beside("6px");
-  EXPECT_GT(narrow, 5);
+  EXPECT_GT(narrow, 0);
   EXPECT_NEAR(wide, narrow / 2, narrow / 10);
   for (const auto& [style, feather] : {std::pair("trail", "6px"), std::pair("trail", "0px"),
                                        std::pair("trail", "3.51px"), std::pair("slit", "M1=4px")}) {
