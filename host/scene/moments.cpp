@@ -8,8 +8,6 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint32_t kGapPixels = 8;  // between moments: for the soft borders of both
-
 // Whether two places touch or overlap when each is grown by half of so many cells.
 bool overlap(const SubjectPlace& a, const SubjectPlace& b, std::size_t columns, std::size_t gap) {
   for (const std::size_t cell : a.cells) {
@@ -26,7 +24,8 @@ bool overlap(const SubjectPlace& a, const SubjectPlace& b, std::size_t columns, 
 
 class Chooser {
  public:
-  Chooser(const SubjectTrack& track, std::uint32_t count) : track_(track), count_(count) {}
+  Chooser(const SubjectTrack& track, std::uint32_t count, std::uint32_t gap_pixels)
+      : track_(track), count_(count), gap_(gap_pixels == 0 ? 0 : (gap_pixels - 1) / track.cell_side + 1) {}
 
   // Those nearest to wishes that are spread evenly over candidates.
   void add_evenly(const Places& candidates, MomentSpacing spacing) {
@@ -81,23 +80,24 @@ class Chooser {
 
  private:
   [[nodiscard]] bool is_free(const SubjectPlace& place) const {
-    const std::size_t gap = (kGapPixels - 1) / track_.cell_side + 1;
-    return std::ranges::none_of(
-        chosen_, [&](const SubjectPlace* other) { return overlap(place, *other, track_.cell_columns, gap); });
+    return std::ranges::none_of(chosen_, [&](const SubjectPlace* other) {
+      return overlap(place, *other, track_.cell_columns, gap_);
+    });
   }
 
   const SubjectTrack& track_;
   std::uint32_t count_;
+  std::size_t gap_;  // in cells
   Places chosen_;
 };
 
 }  // namespace
 
 std::vector<SubjectPlace> choose_moments(const SubjectTrack& track, std::uint32_t count,
-                                         MomentSpacing spacing) {
+                                         MomentSpacing spacing, std::uint32_t gap_pixels) {
   const Places candidates = telling_places(track.places);
   const Places whole = whole_places(candidates);
-  Chooser chooser(track, count);
+  Chooser chooser(track, count, gap_pixels);
   if (const Places& most = whole.size() >= count ? whole : candidates; !most.empty()) {
     chooser.add_evenly(most, spacing);
   }

@@ -22,6 +22,20 @@ struct Field {
   std::size_t left, top, right, bottom;
 };
 
+// Of a box, in pixels.
+std::uint32_t border_of(std::uint32_t cell_side) { return 2 * cell_side + 2; }
+
+// A median over places; 0 where there are none.
+double usual(const std::vector<SubjectPlace>& places,
+             const std::function<double(const SubjectPlace&)>& measure) {
+  std::vector<double> values;
+  for (const SubjectPlace& place : places) values.push_back(measure(place));
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 // What hangs together at one sample.
 SubjectPlace place_of(std::vector<std::size_t> cells, std::uint64_t sample, const DifferingCells& differing,
                       std::uint32_t side, const Shape& shape, const Field& field) {
@@ -46,7 +60,7 @@ SubjectPlace place_of(std::vector<std::size_t> cells, std::uint64_t sample, cons
   place.fill = count / (static_cast<double>(right - left + 1) * static_cast<double>(bottom - top + 1));
   place.centre = {side * sum_x / count, side * sum_y / count};
   const auto pixels = [&](std::size_t cell) { return static_cast<std::uint32_t>(cell) * side; };
-  const std::uint32_t border = 2 * side + 2;
+  const std::uint32_t border = border_of(side);
   place.box.x = pixels(left) - std::min(pixels(left), border);
   place.box.y = pixels(top) - std::min(pixels(top), border);
   place.box.width = std::min(pixels(right + 1) + border, shape.width) - place.box.x;
@@ -316,12 +330,15 @@ class Tracker {
 double min_misplaced_pixels(const Shape& shape) { return Difference::side(shape) / 2.0; }
 
 double SubjectTrack::size() const {
-  std::vector<std::size_t> sizes;
-  for (const SubjectPlace& place : places) sizes.push_back(place.cells.size());
-  if (sizes.empty()) return 0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::ranges::nth_element(sizes, middle);
-  return cell_side * std::sqrt(static_cast<double>(*middle));
+  return cell_side * std::sqrt(usual(places, [](const SubjectPlace& place) {
+           return static_cast<double>(place.cells.size());
+         }));
+}
+
+double SubjectTrack::length() const {
+  return usual(places, [&](const SubjectPlace& place) {
+    return std::max(place.box.width, place.box.height) - 2.0 * border_of(cell_side);
+  });
 }
 
 double SubjectTrack::covered_share() const {

@@ -45,6 +45,8 @@ struct SubjectTrack {
 
   // In pixels: the root of the area that it usually covers. 0 where there is none.
   [[nodiscard]] double size() const;
+  // In pixels: the longer side of the least box that usually holds it; less at the picture's border.
+  [[nodiscard]] double length() const;
   // Less than half of its boxes, and less than half of what differs: most of what is seen there is the plate, and most of
   // what moves is elsewhere. So are edges of something that shakes or grows.
   [[nodiscard]] bool is_scraps() const { return fill < 0.5 && share < 0.5; }

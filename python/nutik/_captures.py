@@ -197,13 +197,15 @@ class Capture:
 
     def study(self, style: str = "trail", *, moments: Union[int, Sequence[Time], None] = None, spacing: str = "time",
               trail: Optional[str] = None, slit_from: str = "left", regions: Sequence[Sequence[int]] = (),
-              codes: bool = False, dtype: Any = None, transfer: Optional[str] = None,
-              progress: Progress = None) -> _finds.Study:
+              by: Optional[int] = None, feather: Union[str, float, None] = None, codes: bool = False,
+              dtype: Any = None, transfer: Optional[str] = None, progress: Progress = None) -> _finds.Study:
         """A motion study that finds its subject by itself (docs/how-to/study.md).
 
         style: 'trail', 'strobe', 'rear-curtain', 'frozen', 'clean' or 'slit'. moments: how many, or which times. spacing:
         'time' or 'distance'. trail: 'even', 'fade', 'ramp' or 'none'. slit_from: 'left', 'right', 'top' or 'bottom'.
-        regions: (x, y, width, height) each with a subject of its own. progress: as of nutik.open().
+        regions: (x, y, width, height) each with a subject of its own. by: codes that the subject must differ by more than
+        from the empty scene; None: 1/16 of white. feather: pixels that its border is blended over; None: 2. progress: as
+        of nutik.open().
 
         Raises InputError where nothing moves or everything does: the camera must stand still (align='rigid' where it is
         encoded).
@@ -218,7 +220,9 @@ class Capture:
         moved = self._held.moved_camera()
         if moved:
             warn([f"{moved}; align='rigid' moves the clip's pictures back when it is encoded"])
-        settings = settings_of({"style": style, "spacing": spacing, "trail": trail, "slit_from": slit_from})
+        settings = settings_of({"style": style, "spacing": spacing, "trail": trail, "slit_from": slit_from,
+                                "by": None if by is None else str(count_of(by, "by")),
+                                "feather": f"{feather:g}px" if isinstance(feather, (int, float)) else feather})
         boxes = [box_of(each, "a region") for each in regions]
         return _finds.study(self._held, settings, asked, boxes, self._output(codes, dtype, transfer, None),
                             progress)

@@ -59,6 +59,8 @@ StudyRequest study_request(const Settings& settings,
                                        {"right", SlitFrom::right},
                                        {"top", SlitFrom::top},
                                        {"bottom", SlitFrom::bottom}});
+  if (settings.contains("by")) request.by_codes = static_cast<std::uint32_t>(std::stoul(settings.at("by")));
+  if (settings.contains("feather")) request.feather = Feather::parse(settings.at("feather"));
   if (const auto* count = std::get_if<std::uint32_t>(&moments)) {
     request.moments = *count;
   } else {
@@ -97,7 +99,7 @@ py::dict study(const OpenCapture& capture, const Settings& settings,
     RenderControl control;
     control.stop = stopping.stop;
     found.exposed =
-        session.render(study_exposure(found.study, request.style, found.mask->mask), format, control);
+        session.render(study_exposure(found.study, request, found.mask->mask), format, control);
     return found;
   }, progress);
   py::dict told;

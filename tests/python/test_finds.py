@@ -87,6 +87,9 @@ class Finds(support.TestCase):
         self.assertEqual(len(study.moments), 3)
         by_hand = self.capture.render(study.functions, study.mask, feather="2px", normalize="integral", codes=True)
         self.assert_same(by_hand.array, study.picture.array)
+        self.run_program("study", "-q", "--by", "9", "--feather", "4px", "clip.tik", "soft.ppm")
+        soft = self.capture.study(by=9, feather=4, codes=True)
+        self.assert_same(soft.picture.array, support.read_netpbm(self.path("soft.ppm")))
         self.run_program("study", "-q", "--style", "slit", "--moments", "100", "clip.tik", "slit.ppm")
         self.assert_same(self.capture.study("slit", moments=100, codes=True).picture.array,
                          support.read_netpbm(self.path("slit.ppm")))

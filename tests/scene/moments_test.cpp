@@ -29,22 +29,25 @@ std::vector<std::uint64_t> samples_of(const std::vector<SubjectPlace>& places) {
 
 using Samples = std::vector<std::uint64_t>;
 
+constexpr std::uint32_t kGap = 8;
+
 TEST(Moments, AreSpreadEvenlyInTimeOrAlongTheWay) {
   const SubjectTrack track = track_of({{0, 4}, {10, 24}, {20, 44}, {30, 204}, {40, 404}});
-  EXPECT_EQ(samples_of(choose_moments(track, 3, MomentSpacing::time)), (Samples{0, 20, 40}));
-  EXPECT_EQ(samples_of(choose_moments(track, 3, MomentSpacing::distance)), (Samples{0, 30, 40}));
-  EXPECT_EQ(samples_of(choose_moments(track, 1, MomentSpacing::time)), (Samples{20}));
+  EXPECT_EQ(samples_of(choose_moments(track, 3, MomentSpacing::time, kGap)), (Samples{0, 20, 40}));
+  EXPECT_EQ(samples_of(choose_moments(track, 3, MomentSpacing::distance, kGap)), (Samples{0, 30, 40}));
+  EXPECT_EQ(samples_of(choose_moments(track, 1, MomentSpacing::time, kGap)), (Samples{20}));
 }
 
 // At the middle of the time nothing was found: what lies furthest from the others takes its place.
 TEST(Moments, AreFilledUpWithTheFurthest) {
   const SubjectTrack track = track_of({{0, 4}, {20, 124}, {22, 204}, {24, 164}, {100, 404}});
-  EXPECT_EQ(samples_of(choose_moments(track, 3, MomentSpacing::time)), (Samples{0, 22, 100}));
+  EXPECT_EQ(samples_of(choose_moments(track, 3, MomentSpacing::time, kGap)), (Samples{0, 22, 100}));
 }
 
 TEST(Moments, DoNotTouch) {
   const SubjectTrack track = track_of({{0, 4}, {10, 12}, {20, 20}, {30, 28}, {40, 36}});
-  EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time)), (Samples{0, 20, 40}));
+  EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time, kGap)), (Samples{0, 20, 40}));
+  EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time, 2 * kGap)), (Samples{0, 40}));
 }
 
 // Of a subject of four cells the border leaves one, two and three.
@@ -56,7 +59,7 @@ TEST(Moments, ShowAtLeastHalfOfTheSubject) {
     place.is_cut_off = cells[i] < 4;
     while (place.cells.size() < cells[i]) place.cells.push_back(place.cells.back() + 1);
   }
-  EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time)), (Samples{10, 20, 30, 40}));
+  EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time, kGap)), (Samples{10, 20, 30, 40}));
 }
 
 }  // namespace

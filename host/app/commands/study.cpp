@@ -36,7 +36,7 @@ Options exposing(const Options& options, const StudyFiles& files, StudyStyle sty
   Options by_hand = options;
   by_hand.mask = not_an_option(files.mask.string());
   by_hand.functions = not_an_option(files.functions.string());
-  if (style != StudyStyle::slit) by_hand.feather = kStudyFeather;
+  if (style != StudyStyle::slit && !options.feather) by_hand.feather = format("{}px", kStudyFeather / 100);
   by_hand.normalize = "integral";
   return by_hand;
 }
@@ -58,6 +58,7 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
       regions += format(" --grid {}x{}", grid->columns, grid->rows);
     } else {
       regions += format(" \\\n  --tag {} --subject {}f", step.tag, study.moments[step.tag - 1U]);
+      if (step.by_codes) regions += format(" --by {}", *step.by_codes);
     }
     for (const RegionChange& change : step.changes) regions += " " + change_words(change);
   }
@@ -161,7 +162,7 @@ int run_study(const Options& stated) {
   }
   const MadeMask made = make_regions(study, session.capture(), capture_name);
   const ExposedPicture exposed =
-      session.render(study_exposure(study, request.style, made.mask),
+      session.render(study_exposure(study, request, made.mask),
                      output_format(output_request(options), files.picture, session.format()));
   tally.add(exposed);
   print_warnings(exposure_warnings(exposed));

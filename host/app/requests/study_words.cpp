@@ -98,9 +98,11 @@ StudyRequest study_request(const Options& options) {
   if (options.slit_from && !is_slit) {
     throw UsageError("--slit-from goes with --style slit only; leave it out, or state that style");
   }
-  for (const auto& [said, name] : {std::pair(options.moments.has_value() && !is_slit, "--moments"),
-                                   std::pair(options.spacing.has_value(), "--spacing"),
-                                   std::pair(options.trail.has_value(), "--trail")}) {
+  for (const auto& [said, name] :
+       {std::pair(options.moments.has_value() && !is_slit, "--moments"),
+        std::pair(options.feather.has_value() && !is_slit, "--feather"),
+        std::pair(options.by.has_value(), "--by"), std::pair(options.spacing.has_value(), "--spacing"),
+        std::pair(options.trail.has_value(), "--trail")}) {
     if ((is_slit || is_clean) && said) {
       throw UsageError(format("{} says nothing to --style {}, which shows {}; leave it out", name,
                               *options.style, is_slit ? "a moment in each strip" : "no subject"));
@@ -114,6 +116,8 @@ StudyRequest study_request(const Options& options) {
                               *options.style));
     }
   }
+  if (options.by) request.by_codes = parse_whole_number(*options.by, "--by", 1, 65'535);
+  if (options.feather) request.feather = Feather::parse(*options.feather);
   if (is_slit) request.moments = kMaxStrips;
   if (options.moments) request.moments = parse_moments(*options.moments, request.style);
   const bool shows_one = request.style == StudyStyle::rear_curtain || request.style == StudyStyle::frozen;

@@ -26,8 +26,18 @@ constexpr double kMaxPlateEdges = 0.15;
 constexpr double kMinCoveredInPlate = 0.4;
 constexpr std::size_t kMinLooks = 8;
 constexpr double kMinExtent = 1.0 / 16;  // of the picture's longer side, that a subject goes
-// In pixels: without specks, without holes, and with the subject's soft border.
-constexpr double kSmoothRadius = 1, kGrowRadius = 9, kShrinkRadius = 7;
+// In pixels: without specks and without holes.
+constexpr double kSmoothRadius = 1, kCloseRadius = 7;
+
+Feather feather_of(const StudyRequest& request) {
+  return request.feather.value_or(Feather{request.style == StudyStyle::slit ? 0 : kStudyFeather, {}});
+}
+
+// How far regions reach beyond the subject, so that they are blended outside of it: in whole pixels, and as far as it is
+// blended usually, for its own border is soft.
+std::uint32_t border_pixels(const StudyRequest& request) {
+  return static_cast<std::uint32_t>((std::max(feather_of(request).everywhere, kStudyFeather) + 99) / 100);
+}
 
 bool shows_one(StudyStyle style) { return style == StudyStyle::rear_curtain || style == StudyStyle::frozen; }
 
@@ -88,11 +98,12 @@ class StudyPlanner {
             duration_text(timeline_.start_ns(study.moments[i])), study.moments[i],
             tracks_.size() > 1 ? " in " + text_of(regions_[study.subjects[i]]) : ""));
       }
+      step.by_codes = request_.by_codes;
       step.changes = {{RegionChange::Kind::within, 0.0, box_at(study.subjects[i], study.moments[i])},
                       {RegionChange::Kind::largest, 0.0, {}},
                       {RegionChange::Kind::smooth, kSmoothRadius, {}},
-                      {RegionChange::Kind::grow, kGrowRadius, {}},
-                      {RegionChange::Kind::shrink, kShrinkRadius, {}}};
+                      {RegionChange::Kind::grow, kCloseRadius + border_pixels(request_), {}},
+                      {RegionChange::Kind::shrink, kCloseRadius, {}}};
       study.mask.steps.push_back(std::move(step));
     }
   }
@@ -109,7 +120,8 @@ class StudyPlanner {
     if (request_.style == StudyStyle::rear_curtain) return {last_large_place(track.places).sample};
     const std::uint32_t wanted = shows_one(request_.style) ? 1 : std::get<std::uint32_t>(request_.moments);
     std::vector<std::uint64_t> moments;
-    for (const SubjectPlace& place : choose_moments(track, wanted, request_.spacing)) {
+    for (const SubjectPlace& place :
+         choose_moments(track, wanted, request_.spacing, 4 * border_pixels(request_))) {
       moments.push_back(place.sample);
     }
     if (moments.size() < std::min(wanted, 2u)) {
@@ -221,7 +233,8 @@ void check_track(const SubjectTrack& track, const std::string& name, std::uint32
   }
   if (track.places.empty()) {
     throw NoSubject(
-        format("{}: nothing moves: no part of it differs from the rest of the time by more than {} codes",
+        format("{}: nothing moves: no part of it differs from the rest of the time by more than {} codes. "
+               "State fewer to find what hardly stands out",
                name, by_codes));
   }
   if (is_stated) return;
@@ -237,15 +250,20 @@ void check_track(const SubjectTrack& track, const std::string& name, std::uint32
               "sways before a texture that repeats itself looks so, too: align the clip"));
   }
   if (track.is_scraps()) {
-    throw NoSubject(
-        format("{}: nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is "
-               "{:.0f} % of what "
-               "differs from the scene at rest: of one of these a subject is half or more. A thing that goes "
-               "less than its own "
-               "size, shakes, grows or shines shows its edges only, and cannot be shown twice. Take a clip "
-               "in which it goes "
-               "further, name a region with a single subject, or the moments to show",
-               name, 100 * track.fill, 100 * track.share));
+    const double length = track.length();
+    throw NoSubject(format(
+        "{}: nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is {:.0f} % "
+        "of what "
+        "differs from the scene at rest: of one of these a subject is half or more. {} shows its edges only, "
+        "and cannot "
+        "be shown twice. Take a clip in which it goes further, name a region with a single subject, or the "
+        "moments to "
+        "show",
+        name, 100 * track.fill, 100 * track.share,
+        track.extent < length
+            ? format("It is {:.0f} pixels long and goes {:.0f}: a thing that goes less than its own size",
+                     length, track.extent)
+            : "A thing that shakes, grows or shines"));
   }
   if (track.flickers) {
     throw NoSubject(
@@ -295,13 +313,32 @@ MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& c
   return made;
 }
 
+void check_study(const StudyRequest& request) {
+  if (!request.feather || request.style == StudyStyle::slit) return;
+  if (!request.feather->of_tag.empty()) {
+    throw UsageError(
+        "the feather of a study is one width for all of its moments, 6px; exposed by hand, each may have its "
+        "own");
+  }
+  if (request.feather->everywhere > kMaxStudyFeather) {
+    throw UsageError(format(
+        "the feather of a study reaches {} pixels at most, for its moments lie four times as far apart",
+        kMaxStudyFeather / 100));
+  }
+}
+
 Study plan_study(CaptureSource& capture, const std::string& capture_name, const StudyRequest& request,
                  const MemoryBudget& memory, const ReportedProgress& progress) {
+  check_study(request);
   if (request.style == StudyStyle::slit) {
     return slit_study(capture, capture_name, std::get<std::uint32_t>(request.moments), request.slit_from);
   }
   const CaptureFormat& format = capture.format();
   const std::vector<Rectangle> regions = regions_of(request, capture_name, format.shape);
+  if (request.by_codes.value_or(0) >= format.white_code) {
+    throw UsageError(nutik::format("{}: no codes differ by more than {}, for white is {}; state fewer codes",
+                                   capture_name, *request.by_codes, format.white_code));
+  }
   MadePlate plate = make_rough_plate(capture, capture_name, memory, progress);
   const double moving = uncertain_share(plate.uncertain, regions);
   if (moving > kMaxMoving) {
@@ -316,7 +353,8 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
     study.plate = std::move(plate.picture);
     return study;
   }
-  const auto by_codes = static_cast<std::uint32_t>(std::ceil(2 * CodeBand::kMinShare * format.white_code));
+  const std::uint32_t by_codes = request.by_codes.value_or(
+      static_cast<std::uint32_t>(std::ceil(2 * CodeBand::kMinShare * format.white_code)));
   std::vector<SubjectTrack> tracks = track_subjects(capture, plate.picture, by_codes, regions, progress);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const bool is_stated = std::holds_alternative<std::vector<StatedTime>>(request.moments);
@@ -337,11 +375,11 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
   return study;
 }
 
-ExposureRequest study_exposure(const Study& study, StudyStyle style, const Mask& regions) {
+ExposureRequest study_exposure(const Study& study, const StudyRequest& asked, const Mask& regions) {
   ExposureRequest request;
   request.gains = Shared(FunctionSet(study.functions));
-  request.mask = Shared(MaskWithRegions(
-      style == StudyStyle::slit ? regions : feathered(regions, Feather::parse(kStudyFeather))));
+  const Feather feather = feather_of(asked);
+  request.mask = Shared(MaskWithRegions(feather == Feather{} ? regions : feathered(regions, feather)));
   request.normalization = Normalization::parse("integral");
   return request;
 }

@@ -13,6 +13,7 @@
 
 #include "capture/error.hpp"
 #include "imev/capture_source.hpp"
+#include "mask/feather.hpp"
 #include "render/render_plan.hpp"
 #include "scene/moments.hpp"
 #include "scene/shots.hpp"
@@ -46,6 +47,9 @@ struct StudyRequest {
   SlitFrom slit_from = SlitFrom::left;
   std::vector<Rectangle>
       regions;  // each with a subject of its own, in pixels; none: one in all of the picture
+  std::optional<std::uint32_t>
+      by_codes;  // only larger differences from the plate are the subject; none: than 1/16 of white, or than the noise
+  std::optional<Feather> feather;  // none: kStudyFeather, and none of a slit's strips
 
   friend bool operator==(const StudyRequest&, const StudyRequest&) = default;
 };
@@ -74,6 +78,9 @@ struct Study {
   std::vector<std::string> notes;
 };
 
+// Throws UsageError where what is stated does not go together, whatever the capture is.
+void check_study(const StudyRequest& request);
+
 // Looks at all of the capture. Throws UsageError where moments are stated that do not go together; InputError where
 // nothing moves or everything does, with what was found; MemoryTooLittle.
 [[nodiscard]] Study plan_study(CaptureSource& capture, const std::string& capture_name,
@@ -84,10 +91,11 @@ struct Study {
 // were found cover one another.
 [[nodiscard]] MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& capture_name);
 
-// How far the subject's border is blended with what lies around it; a slit's strips are not.
-inline constexpr const char* kStudyFeather = "2px";
+// How far the subject's border is blended with what lies around it, in hundredths of a pixel: usually, and at most.
+inline constexpr std::int32_t kStudyFeather = 200, kMaxStudyFeather = 3200;
 
 // What exposes the study's picture through these regions.
-[[nodiscard]] ExposureRequest study_exposure(const Study& study, StudyStyle style, const Mask& regions);
+[[nodiscard]] ExposureRequest study_exposure(const Study& study, const StudyRequest& request,
+                                             const Mask& regions);
 
 }  // namespace nutik

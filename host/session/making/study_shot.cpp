@@ -67,6 +67,7 @@ class ShotPlanner {
       }
       if (may_align) return plan_aligned(source, samples);
     }
+    check_alignment(session.capture());
     try {
       return plan_as_it_is(std::move(session), std::move(moved));
     } catch (const EverythingMoves&) {
@@ -113,7 +114,6 @@ class ShotPlanner {
   }
 
   [[nodiscard]] PlannedStudy plan_as_it_is(Session session, std::optional<MovedCamera> moved) const {
-    check_alignment(session.capture());
     Study study = plan_study(session.capture(), name_, request_, terms_.devices->request().memory,
                              progress("looking for the subject"));
     return {std::move(session), std::move(study), std::move(moved)};
@@ -135,6 +135,7 @@ class ShotPlanner {
         continue;
       }
       check_regions(session->format().shape);
+      check_alignment(session->capture());
       try {
         PlannedStudy planned = plan_as_it_is(std::move(*session), {});
         planned.aligned_to = reference;
@@ -158,6 +159,7 @@ class ShotPlanner {
 }  // namespace
 
 PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request, const StudyTerms& terms) {
+  check_study(request);
   const std::string name = source.path.string();
   const ShotPlanner planner(request, terms, name);
   std::vector<SampleRange> shots;

@@ -12,8 +12,6 @@
 namespace nutik::studio {
 namespace {
 
-constexpr int kStudyFeather = 200;  // as nutik-cl study blends a subject's border
-
 QString text_of(std::span<const std::string> lines) {
   QStringList texts;
   for (const std::string& line : lines) texts += QString::fromStdString(line);

@@ -1,0 +1,187 @@
+// Styles and trails of motion studies, how faint a subject they find, and how softly it ends.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <opencv2/imgproc.hpp>
+
+#include "support/drawn_clip.hpp"
+#include "support/study_test.hpp"
+
+namespace nutik {
+namespace {
+
+using test::DrawnClip;
+using test::ground_of;
+using StudyChoices = test::StudyTest;
+
+// A square that goes its way over a texture after six empty pictures: 7 pixels to the right from one to the next.
+class StudyStyles : public test::StudyTest {
+ protected:
+  static constexpr int kTop = 40, kSide = 12, kEmpty = 6, kMoving = 20;
+
+  StudyStyles() {
+    DrawnClip clip(scratch_ / "way");
+    for (int k = 0; k < kEmpty + kMoving; ++k) {
+      cv::Mat frame = ground_of(7);
+      if (k >= kEmpty) frame(cv::Rect(left(k), kTop, kSide, kSide)) = 250;
+      clip.add(frame);
+    }
+  }
+
+  static int left(int picture) { return 4 + 7 * (picture - kEmpty); }
+
+  // By how much the study differs from the scene without the square.
+  [[nodiscard]] cv::Mat difference(std::vector<std::string> words) const {
+    words.insert(words.begin(), {"study", "-f", "100", "way", "-o", "styled.png"});
+    const auto result = run(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    cv::Mat difference;
+    cv::subtract(picture("styled.png"), ground_of(7), difference, {}, CV_16S);
+    return difference;
+  }
+  // Of an sRGB code.
+  static double light_of(int code) {
+    const double share = code / 255.0;
+    return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
+  }
+  // On the square's way, on average.
+  static double trail(const cv::Mat& difference, int from, int to) {
+    return cv::mean(difference(cv::Rect(from, kTop + 2, to - from, kSide - 4)))[0];
+  }
+  static bool shows_square(const cv::Mat& difference, int picture) {
+    cv::Mat shown;
+    cv::add(ground_of(7), difference, shown, {}, CV_16S);
+    const cv::Mat inner = shown(cv::Rect(left(picture) + 2, kTop + 2, kSide - 4, kSide - 4));
+    return cv::countNonZero(cv::abs(inner - 250) > 1) == 0;
+  }
+};
+
+TEST_F(StudyStyles, HaveNoStepAlongRegionsEdges) {
+  for (const char* style : {"trail", "strobe", "rear-curtain", "frozen"}) {
+    const cv::Mat is = difference({"--style", style});
+    // Beside the way nothing ever moved; regions reach into that.
+    const cv::Mat mask = picture("styled.pgm");
+    EXPECT_GT(cv::countNonZero(mask.row(kTop - 2)), 0) << style;
+    int most = 0;
+    for (int y = 0; y + 1 < is.rows; ++y) {
+      if (y + 1 >= kTop && y < kTop + kSide) continue;
+      for (int x = 0; x + 1 < is.cols; ++x) {
+        const int here = is.at<short>(y, x);
+        most = std::max(
+            {most, std::abs(here - is.at<short>(y, x + 1)), std::abs(here - is.at<short>(y + 1, x))});
+      }
+    }
+    EXPECT_LE(most, 2) << style;
+  }
+}
+
+TEST_F(StudyStyles, ShowWhatTheirNamesSay) {
+  const cv::Mat strobe = difference({"--style", "strobe", "--moments", "8f,22f"});
+  EXPECT_TRUE(shows_square(strobe, 8) && shows_square(strobe, 22));
+  EXPECT_NEAR(trail(strobe, 50, 100), 0, 1) << "nothing between the moments";
+
+  const cv::Mat curtain = difference({"--style", "rear-curtain"});
+  EXPECT_TRUE(shows_square(curtain, kEmpty + kMoving - 1));
+  EXPECT_GT(trail(curtain, 90, 120), 2 * trail(curtain, 20, 50)) << "the trail grows towards it";
+
+  const cv::Mat frozen = difference({"--style", "frozen", "--moments", "15f"});
+  EXPECT_TRUE(shows_square(frozen, 15));
+  EXPECT_GT(trail(frozen, 20, 50), 5);
+  EXPECT_NEAR(trail(frozen, 20, 50), trail(frozen, 90, 120), 0.2 * trail(frozen, 20, 50)) << "and goes on";
+}
+
+TEST_F(StudyStyles, HaveTheTrailThatIsNamed) {
+  const auto early_and_late = [&](const char* shape) {
+    const cv::Mat is = difference({"--moments", "15f", "--trail", shape});
+    EXPECT_TRUE(shows_square(is, 15)) << shape;
+    return std::pair(trail(is, 20, 50), trail(is, 90, 120));
+  };
+  const auto even = early_and_late("even"), fade = early_and_late("fade"), ramp = early_and_late("ramp"),
+             none = early_and_late("none");
+  EXPECT_GT(even.first, 5);
+  EXPECT_NEAR(even.first, even.second, 0.2 * even.first);
+  EXPECT_GT(fade.first, 2 * fade.second);
+  EXPECT_GT(ramp.second, 2 * ramp.first);
+  EXPECT_NEAR(none.first, 0, 1);
+  EXPECT_NEAR(none.second, 0, 1);
+}
+
+// Of a region whose edge lies 6 pixels outside the square half of the trail is seen there; of one at 2, all.
+TEST_F(StudyStyles, AreBlendedAsFarAsIsStated) {
+  const auto beside = [&](const char* feather) {
+    const cv::Mat is = difference({"--moments", "15f", "--feather", feather});
+    EXPECT_TRUE(shows_square(is, 15)) << feather;
+    double light = 0;  // beyond the ground's
+    for (int y = kTop + 2; y < kTop + kSide - 2; ++y) {
+      for (int x = left(15) + kSide + 5; x < left(15) + kSide + 7; ++x) {
+        const int ground = ground_of(7).at<std::uint8_t>(y, x);
+        light += light_of(ground + is.at<short>(y, x)) - light_of(ground);
+      }
+    }
+    return light;
+  };
+  const double narrow = beside("2px"), wide = beside("6px");
+  EXPECT_GT(narrow, 0);
+  EXPECT_NEAR(wide, narrow / 2, narrow / 10);
+  for (const auto& [style, feather] : {std::pair("trail", "6px"), std::pair("trail", "0px"),
+                                       std::pair("trail", "3.51px"), std::pair("slit", "M1=4px")}) {
+    const auto result = run({"study", "-f", "100", "way", "--moments", "2", "--style", style, "--feather",
+                             feather, "-o", "study.png"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    expect_the_same_by_hand(std::string(style) + " " + feather);
+  }
+  for (const auto& [words, why] :
+       {std::pair(std::vector<std::string>{"--feather", "33px"},
+                  "the feather of a study reaches 32 pixels at most"),
+        std::pair(std::vector<std::string>{"--feather", "M1=6px"}, "the feather of a study is one width"),
+        std::pair(std::vector<std::string>{"--style", "clean", "--feather", "6px"},
+                  "--feather says nothing to --style clean"),
+        std::pair(std::vector<std::string>{"--style", "slit", "--by", "6"},
+                  "--by says nothing to --style slit")}) {
+    std::vector<std::string> all{"study", "-f", "100", "way", "-o", "no.png"};
+    all.insert(all.end(), words.begin(), words.end());
+    const auto refused = run(all);
+    EXPECT_EQ(refused.status, 2) << why;
+    EXPECT_NE(refused.err.find(why), std::string::npos) << refused.err;
+  }
+}
+
+// A square that is 10 codes brighter than the scene: 16 are the usual threshold.
+TEST_F(StudyChoices, FindsWhatDiffersByAsMuchAsIsStated) {
+  DrawnClip clip(scratch_ / "faint");
+  for (int k = 0; k < 20; ++k) {
+    cv::Mat frame = ground_of(7);
+    const cv::Rect square(4 + 7 * k, 40, 12, 12);
+    frame(square) += 10;
+    clip.add(frame);
+  }
+  const auto study = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"study", "-f", "100", "faint", "-o", "study.png"});
+    return run(words);
+  };
+  const auto refused = study({});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find(
+                "nothing moves: no part of it differs from the rest of the time by more than 16 codes"),
+            std::string::npos)
+      << refused.err;
+  const auto found = study({"--by", "6", "--moments", "2f,15f"});
+  ASSERT_EQ(found.status, 0) << found.err;
+  const cv::Mat mask = picture("study.pgm");
+  EXPECT_EQ(cv::countNonZero(mask(cv::Rect(4 + 7 * 2, 40, 12, 12)) != 1), 0);
+  EXPECT_EQ(cv::countNonZero(mask(cv::Rect(4 + 7 * 15, 40, 12, 12)) != 2), 0);
+  expect_the_same_by_hand("--by 6");
+  const auto none = study({"--by", "255"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("faint: no codes differ by more than 255, for white is 255; state fewer codes"),
+            std::string::npos)
+      << none.err;
+  const auto zero = study({"--by", "0"});
+  EXPECT_EQ(zero.status, 2);
+  EXPECT_NE(zero.err.find("--by '0'"), std::string::npos) << zero.err;
+}
+
+}  // namespace
+}  // namespace nutik
