@@ -60,7 +60,7 @@ TEST(PictureLine, EndsWithWhatFailsFirst) {
   line.add([](const RenderControl&) -> int { throw std::runtime_error("lost"); });
   for (int k = 0; k < 3; ++k) {
     try {
-      line.take();
+      static_cast<void>(line.take());
       FAIL();
     } catch (const std::runtime_error& error) {
       EXPECT_STREQ(error.what(), "lost");
