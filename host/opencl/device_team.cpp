@@ -133,6 +133,7 @@ DeviceTeam::DeviceTeam(std::span<const std::size_t> devices, const OpenClOptions
   std::iota(all_.begin(), all_.end(), std::size_t{0});
   available_ = common_precisions(members_.front().renderer->precisions(), members_);
   split_.emplace(speeds);
+  free_.insert(all_.begin(), all_.end());
 }
 
 // Calls work(member, stop) for each, one on this thread and the others on their own. The first error is thrown when all
@@ -173,12 +174,12 @@ void DeviceTeam::on_each(std::span<const std::size_t> members, const std::stop_t
 }
 
 void DeviceTeam::keep_resident(const CaptureSource* source) {
-  const std::scoped_lock turn(turn_);
+  const std::unique_lock turn(turn_);
   for (const Member& member : members_) member.renderer->keep_resident(source);
 }
 
 void DeviceTeam::prepare(const RenderPlan& plan, const OutputFormat& output) {
-  const std::scoped_lock turn(turn_);
+  const std::unique_lock turn(turn_);
   Rendered ignored;
   choose(plan, output, precision_, ignored);
 }
@@ -204,29 +205,101 @@ std::string DeviceTeam::names_of(std::span<const std::size_t> members) const {
 }
 
 void DeviceTeam::choose(const RenderPlan& plan, const OutputFormat& output, std::optional<Precision> asked,
-                        Rendered& rendered) const {
-  const auto fault_of = [&](Precision precision) -> std::string {
-    std::vector<std::string> faults(members_.size());
-    on_each(all_, {}, [&](std::size_t member, const std::stop_token&) {
-      faults[member] = members_[member].renderer->fault_in(precision, plan, output);
-    });
-    for (const std::size_t member : all_) {
-      if (!faults[member].empty()) return format("device {}: {}", members_[member].device, faults[member]);
-    }
-    return {};
-  };
-  choose_arithmetic(plan, output, available_, asked, name(), fault_of, rendered);
+                        Rendered& rendered) {
+  const std::scoped_lock choosing(choosing_);
+  choose_arithmetic(
+      plan, output, available_, asked, name(),
+      [&](Precision precision) { return fault_of(precision, plan, output); }, rendered);
+}
+
+// A device that is busy would keep others waiting: each is asked once.
+std::string DeviceTeam::fault_of(Precision precision, const RenderPlan& plan, const OutputFormat& output) {
+  const bool is_mixed = !plan.map->mixed.empty(), has_delays = plan.map->has_delays();
+  const auto known = std::ranges::find_if(known_faults_, [&](const KnownFault& each) {
+    return each.precision == precision && each.is_mixed == is_mixed && each.has_delays == has_delays &&
+           each.output == output && each.capture == plan.capture;
+  });
+  if (known != known_faults_.end()) return known->fault;
+  std::vector<std::string> faults(members_.size());
+  on_each(all_, {}, [&](std::size_t member, const std::stop_token&) {
+    faults[member] = members_[member].renderer->fault_in(precision, plan, output);
+  });
+  std::string fault;
+  for (const std::size_t member : all_) {
+    if (fault.empty() && !faults[member].empty())
+      fault = format("device {}: {}", members_[member].device, faults[member]);
+  }
+  if (!plan.blocks.empty()) known_faults_.push_back({precision, plan.capture, output, is_mixed, has_delays, fault});
+  return fault;
 }
 
 Rendered DeviceTeam::render_part(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output,
                                  const Rectangle& rectangle, const RenderControl& control) {
-  const std::scoped_lock turn(turn_);
   const std::optional<Precision> asked = control.precision ? control.precision : precision_;
   Rendered chosen;
   choose(plan, output, asked, chosen);
   if (asked) chosen.warnings.clear();  // the devices say so themselves
-  RenderControl of_band = control;
-  of_band.precision = chosen.precision;
+  RenderControl of_part = control;
+  of_part.precision = chosen.precision;
+  std::optional<Rendered> rendered;
+  if (control.by_one_device && !source.is_forward_only()) {
+    rendered = render_alone(plan, source, output, rectangle, of_part);
+  }
+  if (!rendered) rendered = render_together(plan, source, output, rectangle, of_part);
+  rendered->precision = chosen.precision;
+  rendered->choice = std::move(chosen.choice);
+  rendered->warnings.insert(rendered->warnings.begin(), chosen.warnings.begin(), chosen.warnings.end());
+  return std::move(*rendered);
+}
+
+std::size_t DeviceTeam::take_free(const std::stop_token& stop) {
+  std::unique_lock lock(freeing_);
+  const std::uint64_t place = next_in_line_++;
+  // Also whoever is cancelled waits for its place, and does not keep it.
+  freed_.wait(lock, [&] { return served_ == place && (!free_.empty() || stop.stop_requested()); });
+  ++served_;
+  freed_.notify_all();
+  if (stop.stop_requested()) throw Cancelled();
+  return free_.extract(free_.begin()).value();
+}
+
+void DeviceTeam::give_back(std::size_t member) {
+  const std::scoped_lock lock(freeing_);
+  free_.insert(member);
+  freed_.notify_all();
+}
+
+std::optional<Rendered> DeviceTeam::render_alone(const RenderPlan& plan, CaptureSource& source,
+                                                 const OutputFormat& output, const Rectangle& rectangle,
+                                                 const RenderControl& control) {
+  const std::shared_lock turn(turn_);
+  RenderControl own = control;
+  if (control.memory_bytes != 0) {
+    own.memory_bytes = control.memory_bytes / members_.size();
+    const Shape shape{rectangle.width, rectangle.height, plan.capture.shape.channels};
+    const MemoryNeeds least = least_memory(plan, source, shape, output.type, *control.precision).needs;
+    if (least.bytes() > own.memory_bytes) return std::nullopt;
+  }
+  own.rectangle = rectangle;
+  const struct Taken {
+    explicit Taken(DeviceTeam& of, const std::stop_token& stop) : team(of), member(team.take_free(stop)) {}
+    ~Taken() { team.give_back(member); }
+    DeviceTeam& team;
+    std::size_t member;
+  } taken(*this, control.stop);
+  const auto& [device, renderer] = members_[taken.member];
+  try {
+    Rendered rendered = renderer->render(plan, source, output, own);
+    rendered.renderer = name();
+    return rendered;
+  } catch (const DeviceError& error) {
+    throw_numbered(device, error);
+  }
+}
+
+Rendered DeviceTeam::render_together(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output,
+                                     const Rectangle& rectangle, const RenderControl& control) {
+  const std::unique_lock turn(turn_);
   std::vector<Rectangle> bands = split_->cut(rectangle);
   std::vector<std::size_t> at_work;
   std::ranges::copy_if(all_, std::back_inserter(at_work),
@@ -235,10 +308,7 @@ Rendered DeviceTeam::render_part(const RenderPlan& plan, CaptureSource& source, 
     at_work = {0};
     bands.front() = rectangle;
   }
-  Rendered rendered = render_bands(plan, source, output, rectangle, of_band, bands, at_work);
-  rendered.precision = chosen.precision;
-  rendered.choice = std::move(chosen.choice);
-  rendered.warnings.insert(rendered.warnings.begin(), chosen.warnings.begin(), chosen.warnings.end());
+  Rendered rendered = render_bands(plan, source, output, rectangle, control, bands, at_work);
   rendered.renderer = names_of(at_work);
   return rendered;
 }

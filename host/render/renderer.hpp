@@ -25,6 +25,10 @@ struct RenderControl {
   std::optional<Rectangle> rectangle;  // only these pixels, which are the whole picture's; none: all
   std::optional<Precision> precision;  // instead of what the renderer was made with
 
+  // Of several devices, that one makes all of it which is free first: pictures that are asked for at the same time are
+  // then made by different devices.
+  bool by_one_device = false;
+
   // What the render may take, the picture included: MemoryTooLittle where that does not do. 0: it may take what the
   // renderer was made with for blocks, and for the picture what that needs.
   std::uint64_t memory_bytes = 0;

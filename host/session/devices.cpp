@@ -79,9 +79,10 @@ OpenClRenderer& Devices::opencl() {
   throw UsageError("the reference is no OpenCL device");
 }
 
-bool Devices::has_several() {
-  return request_.renderer == RendererKind::opencl && may_mean_several(request_.device) &&
-         dynamic_cast<DeviceTeam*>(&renderer()) != nullptr;
+std::size_t Devices::count() {
+  if (request_.renderer != RendererKind::opencl || !may_mean_several(request_.device)) return 1;
+  const auto* team = dynamic_cast<DeviceTeam*>(&renderer());
+  return team == nullptr ? 1 : team->size();
 }
 
 bool Devices::is_ready() {

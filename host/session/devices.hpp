@@ -56,9 +56,10 @@ class Devices {
   // opencl() throws UsageError if the reference was asked for, SeveralDevices if they are.
   [[nodiscard]] Renderer& renderer();
   [[nodiscard]] OpenClRenderer& opencl();
-  // Whether pictures are shared out among several devices (opencl/device_team.hpp). Waits only where the request may
-  // mean that.
-  [[nodiscard]] bool has_several();
+  // How many devices pictures are shared out among (opencl/device_team.hpp). Waits only where the request may mean
+  // several.
+  [[nodiscard]] std::size_t count();
+  [[nodiscard]] bool has_several() { return count() > 1; }
   // Whether it has started.
   [[nodiscard]] bool is_ready();
 

@@ -89,11 +89,14 @@ class Session::Implementation {
   [[nodiscard]] SourceCheck compare_with(const SourceRequest& clip, const ReportedProgress& progress);
 
   [[nodiscard]] const MemoryBudget& memory() const { return devices_->request().memory; }
+  [[nodiscard]] std::size_t pictures_at_once(ValueType type, std::size_t count) const;
 
  private:
   [[nodiscard]] MemoryNeeds besides_of(const CaptureFormat& format) const {
     return besides_ ? besides_(format) : MemoryNeeds();
   }
+  // How many pictures of a type may be in line, the finished ones and those that devices make.
+  [[nodiscard]] std::size_t line_length(ValueType type) const;
   // What is held while a picture is rendered, beside what rendering itself takes.
   [[nodiscard]] MemoryNeeds held_needs() const;
   // The same while the capture is read without a picture: with a block of it.
@@ -213,6 +216,24 @@ auto Session::Implementation::within(const MemoryNeeds& more, Work work) const {
   }
 }
 
+// A device that is four times as fast as another need not wait for it. Waiting pictures take little of the memory, so that
+// none is refused for them which bands would make.
+std::size_t Session::Implementation::line_length(ValueType type) const {
+  const std::uint64_t room = memory().bytes / 16 / (format_.shape.value_count() * value_bytes(type));
+  return static_cast<std::size_t>(std::min<std::uint64_t>(4 * devices_->count(), room));
+}
+
+// Each device makes pictures of its own where that reads no more than bands do. Of packed blocks a band unpacks no others'
+// tiles, and each device would unpack all.
+std::size_t Session::Implementation::pictures_at_once(ValueType type, std::size_t count) const {
+  const std::size_t devices = devices_->count();
+  if (devices == 1 || count < devices || !reader_ || line_length(type) < devices) return 1;
+  for (std::uint64_t block = 0; block < reader_->block_count(); ++block) {
+    if (reader_->lent_bytes(block) > 0) return 1;
+  }
+  return line_length(type);
+}
+
 void Session::Implementation::spend() {
   if (is_spent_.exchange(reading_ == Reading::forward)) throw SessionIsSpent();
 }
@@ -248,8 +269,13 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());
   // In the mask and in its map.
   const std::uint64_t mixed_bytes = 2 * mask.mixed.bytes();
-  Rendered rendered =
-      within({{"reading the clip", stream_bytes}, {"mixed pixels", mixed_bytes}}, [&](std::uint64_t left) {
+  const std::uint64_t line_bytes =
+      control.by_one_device
+          ? line_length(output.type) * format_.shape.value_count() * value_bytes(output.type)
+          : 0;
+  Rendered rendered = within(
+      {{"reading the clip", stream_bytes}, {"mixed pixels", mixed_bytes}, {"pictures in line", line_bytes}},
+      [&](std::uint64_t left) {
         RenderControl limited = control;
         if (limited.memory_bytes == 0 || limited.memory_bytes > left) limited.memory_bytes = left;
         return devices_->renderer().render(plan, source, output, limited);
@@ -359,6 +385,9 @@ const std::vector<Note>& Session::notes() const { return implementation_->notes(
 const std::vector<std::string>& Session::warnings() const { return implementation_->warnings(); }
 std::uint32_t Session::waiting_pictures(ValueType type) const {
   return nutik::waiting_pictures(format().shape.value_count() * value_bytes(type));
+}
+std::size_t Session::pictures_at_once(ValueType type, std::size_t count) const {
+  return implementation_->pictures_at_once(type, count);
 }
 tik::Reader& Session::capture() { return implementation_->capture(); }
 

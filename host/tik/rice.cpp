@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include "tik/rice_stream.hpp"
 #include "tik/row_prediction.hpp"

@@ -264,39 +264,14 @@ NUTIK_INLINE void add_up(const CodeLanes<Code>& differences, Code corner, CodeLa
 
 // ── Rice codes of a plane ──
 
-// Of 64 values v: their `low` lowest bits, and how often 2^low still goes into the largest.
+// How many low bits 64 values have of their own, so that less than 16 levels are left. One more costs 64 bits and halves
+// the levels: it saves some where they add up to more than about 80, for half of the halves are cut off. What is left of a
+// sum after k of them is about (sum + 48) / 2^k - 48.
 template <typename Code>
-NUTIK_INLINE std::uint8_t choose_shape(const CodeLanes<Code>& values, std::uint32_t sum) {
-  if (sum == 0) return 0;
-  const std::uint32_t any = bits_in(values);
-  const auto width = static_cast<std::uint32_t>(std::bit_width(any));
-  std::uint32_t low = width > kLevelBits ? width - kLevelBits : 0;
-  CodeLanes<Code> rest;
-  for (std::size_t p = 0; p < kParts<Code>; ++p) rest.part[p] = values.part[p] >> static_cast<Code>(low);
-  if (low != 0) sum = sum_of(rest);
-  // One more low bit costs 64 bits and halves the levels.
-  while (sum > kTilePixels) {
-    CodeLanes<Code> half;
-    for (std::size_t p = 0; p < kParts<Code>; ++p) half.part[p] = rest.part[p] >> 1;
-    const std::uint32_t half_sum = sum_of(half);
-    if (half_sum + kTilePixels >= sum) break;
-    assign(rest, half);
-    sum = half_sum;
-    ++low;
-  }
-  // The largest of what is left: below 16.
-  std::uint32_t most = any >> low;
-  if (std::popcount(most) != 1) {
-    Lanes<Code> largest = rest.part[0];
-    for (std::size_t p = 1; p < kParts<Code>; ++p)
-      largest = largest > rest.part[p] ? largest : rest.part[p];
-    most = 0;
-    for (std::size_t i = 0; i < kVectorBytes / sizeof(Code); ++i) {
-      const Code value = largest[i];
-      most = std::max<std::uint32_t>(most, value);
-    }
-  }
-  return static_cast<std::uint8_t>(low << kLevelBits | most);
+NUTIK_INLINE std::uint32_t choose_low(const CodeLanes<Code>& values, std::uint32_t sum) {
+  const auto width = static_cast<std::uint32_t>(std::bit_width(bits_in(values)));
+  const auto worth = static_cast<std::uint32_t>(std::bit_width((sum + 48) >> 7));
+  return std::max(width > kLevelBits ? width - kLevelBits : 0, worth);
 }
 
 // The bytes of all lanes, shifted to the right by `low`: levels, of which the largest is below 16.
@@ -315,10 +290,9 @@ NUTIK_INLINE void levels_of(const CodeLanes<Code>& values, std::uint32_t low, By
   }
 }
 
-// Writes a plane's values as they were shaped; returns whether its lines are told.
+// Writes a plane's values; returns its shape, and whether its lines are told.
 template <typename Code>
-NUTIK_INLINE bool write_plane(const CodeLanes<Code>& values, std::uint8_t shape, RiceWriter& to) {
-  const std::uint32_t low = shape >> kLevelBits, most = shape & kMaxLevels;
+NUTIK_INLINE std::pair<std::uint8_t, bool> write_plane(const CodeLanes<Code>& values, std::uint32_t low, RiceWriter& to) {
   ByteLanes bytes;
   levels_of(values, 0, bytes);
   for (std::uint32_t bit = 0; bit < low; ++bit) {
@@ -328,19 +302,20 @@ NUTIK_INLINE bool write_plane(const CodeLanes<Code>& values, std::uint8_t shape,
       highest.part[p] = bytes.part[p] << static_cast<std::uint8_t>(7 - bit % 8);
     to.put_plane(highest_bits(highest));
   }
-  if (most == 0) return false;
   ByteLanes levels;
   levels_of(values, low, levels);
   std::uint64_t lanes = ~std::uint64_t{0};
   bool tells_lines = false;
-  for (std::uint32_t level = 1; level <= most; ++level) {
+  std::uint32_t level = 0;  // the last one that any lane reached
+  for (;; ++level) {
     ByteLanes reached;
     for (std::size_t p = 0; p < kBytesParts; ++p) {
-      reached.part[p] = reinterpret_cast<Bytes>(reinterpret_cast<SignedBytes>(levels.part[p]) >=
+      reached.part[p] = reinterpret_cast<Bytes>(reinterpret_cast<SignedBytes>(levels.part[p]) >
                                                 static_cast<std::int8_t>(level));
     }
     const std::uint64_t reach = highest_bits(reached);
-    if (level == 1) {
+    if (reach == 0) break;
+    if (level == 0) {
       const std::uint64_t lines = lines_of(reach);
       if (std::popcount(lines) <= kFewLanes) {
         tells_lines = true;
@@ -351,7 +326,7 @@ NUTIK_INLINE bool write_plane(const CodeLanes<Code>& values, std::uint8_t shape,
     to.put(gathered(reach, lanes), static_cast<std::uint32_t>(std::popcount(lanes)));
     lanes = reach;
   }
-  return tells_lines;
+  return {static_cast<std::uint8_t>(low << kLevelBits | level), tells_lines};
 }
 
 template <typename Code>
@@ -514,8 +489,8 @@ class Kernel {
   template <typename Value>
   NUTIK_INLINE static void write(const CodeLanes<Value>& values, std::uint32_t sum, RiceMode mode, bool leans,
                                  RiceWriter& to) {
-    const std::uint8_t shape = choose_shape(values, sum);
-    const bool tells_lines = write_plane(values, shape, to);
+    const auto [shape, tells_lines] =
+        sum == 0 ? std::pair(std::uint8_t{0}, false) : write_plane(values, choose_low(values, sum), to);
     to.put_mark(shape, static_cast<std::uint8_t>(static_cast<unsigned>(mode) | (leans ? kLeans : 0u) |
                                                  (tells_lines ? kTellsLines : 0u)));
   }

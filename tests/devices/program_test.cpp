@@ -23,6 +23,7 @@ class SeveralDevices : public testing::Test {
     }
     write_clip();
     ASSERT_EQ(run({"-q", "encode", "-f", "100", "--codec", "zstd", "frames", "clip.tik"}).status, 0);
+    ASSERT_EQ(run({"-q", "encode", "-f", "100", "--codec", "none", "frames", "plain.tik"}).status, 0);
     std::string mask = "P5\n40 37\n255\n";
     for (int pixel = 0; pixel < 40 * 37; ++pixel)
       mask.push_back(static_cast<char>(pixel % 40 < 13 || pixel > 900));
@@ -69,6 +70,8 @@ class SeveralDevices : public testing::Test {
     EXPECT_FALSE(std::filesystem::exists(scratch_ / "new.png"));
   }
 
+  void expect_end_where_one_is_lost(const Words& words) const;
+
   test::Scratch scratch_;
 };
 
@@ -89,6 +92,11 @@ TEST_F(SeveralDevices, WriteTheFilesOfOne) {
        {"s-0.png", "s-1.png", "s-2.png"}},
       {{"video", "--out-fps", "25", "clip.tik", "new.avi"}, {"new.avi"}},
       {{"batch", "list.txt", "clip.tik"}, {"batch-a.png", "batch-b.pfm"}},
+      // Of a capture that is not packed each device makes pictures of its own.
+      {command({"expose"}, {"--every", "20ms", "--count", "8", "plain.tik", "-o", "s-%d.png"}),
+       {"s-0.png", "s-1.png", "s-2.png", "s-3.png", "s-4.png", "s-5.png", "s-6.png", "s-7.png"}},
+      {{"video", "--out-fps", "50", "plain.tik", "new.avi"}, {"new.avi"}},
+      {{"batch", "list.txt", "plain.tik"}, {"batch-a.png", "batch-b.pfm"}},
       {{"contact", "--every", "60ms", "--exposure", "40ms", "clip.tik", "sheet.png"}, {"sheet.png"}},
   };
   for (const auto& [words, files] : commands) {
@@ -158,10 +166,20 @@ TEST_F(SeveralDevices, KeepToTheMemoryThatTheyAskFor) {
 
 // A call of either device fails, early and late, once: the message says on which, and there is no picture.
 TEST_F(SeveralDevices, EndWhereOneIsLost) {
-  const Words words{"expose",   "--device", "0,1",    "--precision", "fixed",  "-m",
-                    "mask.pgm", "-k",       "two.fn", "clip.tik",    "new.png"};
+  expect_end_where_one_is_lost({"expose", "--device", "0,1", "--precision", "fixed", "-m", "mask.pgm", "-k", "two.fn",
+                                "clip.tik", "new.png"});
+}
+
+// The same of a film whose frames are shared out.
+TEST_F(SeveralDevices, EndAFilmWhereOneIsLost) {
+  expect_end_where_one_is_lost({"video", "--device", "0,1", "--precision", "fixed", "--out-fps", "50", "plain.tik",
+                                "new.avi"});
+}
+
+void SeveralDevices::expect_end_where_one_is_lost(const Words& words) const {
+  const std::string& output = words.back();
   ASSERT_EQ(run(words).status, 0);  // kernels are built
-  std::filesystem::remove(scratch_ / "new.png");
+  std::filesystem::remove(scratch_ / output);
   const std::string library =
       (std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path() / "tests" / "libfail_device.so").string();
   for (const char* call : {"enqueue", "allocate", "wait"}) {
@@ -170,7 +188,7 @@ TEST_F(SeveralDevices, EndWhereOneIsLost) {
                       "NUTIK_FAIL_REPORT=" + report};
     std::filesystem::remove(report);
     ASSERT_EQ(run(words, fault).status, 0);
-    std::filesystem::remove(scratch_ / "new.png");
+    std::filesystem::remove(scratch_ / output);
     const int calls = std::stoi(test::read_file(report));
     ASSERT_GT(calls, 1);
     for (const int at : {1, calls / 2, calls}) {
@@ -182,7 +200,7 @@ TEST_F(SeveralDevices, EndWhereOneIsLost) {
       EXPECT_TRUE(
           std::regex_search(result.err, std::regex("nutik-cl: device [01]: pthread-.*another device")))
           << result.err;
-      EXPECT_FALSE(std::filesystem::exists(scratch_ / "new.png"));
+      EXPECT_FALSE(std::filesystem::exists(scratch_ / output));
     }
   }
 }

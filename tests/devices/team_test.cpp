@@ -4,9 +4,12 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <functional>
+#include <future>
 #include <set>
 #include <span>
+#include <thread>
 
 #include "capture/memory_needs.hpp"
 #include "opencl/device_team.hpp"
@@ -263,6 +266,85 @@ TEST(DeviceTeam, EndsWhenItIsCancelled) {
     EXPECT_THROW(static_cast<void>(team.render(plan, stopping, kCodes, control)), Cancelled);
   }
   EXPECT_NO_THROW(static_cast<void>(team.render(plan, capture, kCodes)));
+}
+
+// Pictures of their own, at the same time: the first one's block is not lent before the second one's is asked for.
+TEST(DeviceTeam, MakesPicturesSideBySide) {
+  OpenClRenderer alone(block_by_block());
+  DeviceTeam team(kTwice, block_by_block());
+  const Scene scene;
+  MemoryCapture capture = scene.capture();
+  const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
+  std::atomic<int> began{0};
+  std::atomic<bool> met{true};
+  WatchedCapture waiting(capture, [&](std::uint64_t block) {
+    if (block != 0) return;
+    ++began;
+    for (int i = 0; i < 3000 && began < 2; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (began < 2) met = false;
+  });
+  RenderControl own;
+  own.by_one_device = true;
+  const auto render = [&] { return team.render(plan, waiting, kCodes, own); };
+  auto other = std::async(std::launch::async, render);
+  const Rendered one = render(), two = other.get();
+  EXPECT_TRUE(met);
+  EXPECT_EQ(one.renderer, team.name());
+  const Picture picture = alone.render(plan, capture, kCodes).picture;
+  EXPECT_EQ(one.picture, picture);
+  EXPECT_EQ(two.picture, picture);
+}
+
+// More pictures than devices, with what a device is lost at: its number is told, and it is free for the next one.
+TEST(DeviceTeam, MakesPicturesOfOneDeviceEach) {
+  const OpenClOptions options = test::renderer_options(Precision::fixed);
+  OpenClRenderer alone(options);
+  DeviceTeam team(kThrice, options);
+  const Scene scene;
+  MemoryCapture capture = scene.capture();
+  const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
+  const Picture picture = alone.render(plan, capture, kCodes).picture;
+  for (int round = 0; round < 3; ++round) {
+    std::vector<std::future<Rendered>> pictures;
+    for (int i = 0; i < 9; ++i) {
+      pictures.push_back(std::async(std::launch::async, [&] {
+        RenderControl own;
+        own.by_one_device = true;
+        return team.render(plan, capture, kCodes, own);
+      }));
+    }
+    for (auto& each : pictures) EXPECT_EQ(each.get().picture, picture);
+    EXPECT_EQ(team.render(plan, capture, kCodes).picture, picture);  // in bands
+    WatchedCapture lost(capture, [&](std::uint64_t) { throw DeviceError("it is lost"); });
+    RenderControl own;
+    own.by_one_device = true;
+    EXPECT_EQ(test::message_of<DeviceError>([&] { static_cast<void>(team.render(plan, lost, kCodes, own)); }),
+              "device 0: it is lost");
+    std::stop_source stop;
+    stop.request_stop();
+    own.stop = stop.get_token();
+    EXPECT_THROW(static_cast<void>(team.render(plan, capture, kCodes, own)), Cancelled);
+  }
+}
+
+// Half of the memory is too little for a picture of one device: both make it in bands, in which it has room.
+TEST(DeviceTeam, MakesBandsWhereMemoryIsLittle) {
+  const OpenClOptions options = test::renderer_options(Precision::fixed);
+  OpenClRenderer alone(options);
+  DeviceTeam team(kTwice, options);
+  const Scene scene;
+  MemoryCapture capture = scene.capture();
+  const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
+  RenderControl own;
+  own.by_one_device = true;
+  own.memory_bytes = 1;
+  try {
+    static_cast<void>(team.render(plan, capture, kCodes, own));
+    FAIL() << "a byte is enough";
+  } catch (const MemoryTooLittle& error) {
+    own.memory_bytes = error.min_bytes();
+  }
+  EXPECT_EQ(team.render(plan, capture, kCodes, own).picture, alone.render(plan, capture, kCodes).picture);
 }
 
 TEST(DeviceTeam, NamesTheLeastMemoryThatItWorksWith) {

@@ -17,6 +17,7 @@
 #include "app/text/message_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
+#include "session/making/listed_pictures.hpp"
 #include "session/making/made_already.hpp"
 #include "session/making/picture_queue.hpp"
 #include "session/text/shell_text.hpp"
@@ -88,17 +89,18 @@ Options line_options(const std::string& text, const Options& batch,
 
 class Batch {
  public:
-  Batch(const Options& options, const std::string& list_name)
+  Batch(const Options& options, const std::string& list_name, std::size_t exposures)
       : options_(options),
         list_title_(input_title(list_name)),
         reads_list_from_input_(is_standard_input(list_name)),
         devices_(make_devices(options)),
+        exposures_(exposures),
         pictures_([this](std::size_t line, const Error& error) { report(line, error); }) {
     devices_->start();
   }
 
   void expose(const ListedExposure& listed, const std::optional<std::string>& capture_name) {
-    try {
+    reported(listed.line, [&] {
       Options line = line_options(listed.text, options_, capture_name);
       if (reads_list_from_input_ && reads_standard_input(line)) {
         throw UsageError("standard input holds the list already; name a file for functions and mask");
@@ -122,23 +124,16 @@ class Batch {
         }
       }
       Session& session = session_of(line.operands.front());
-      const OutputRequest wishes = output_request(line);
-      ExposedPicture exposed = session.render(request, output_format(wishes, output, session.format()));
-      tally_.add(exposed);
-      for (const std::string& warning : exposure_warnings(exposed)) {
-        print_warning(format("{}:{}: {}", list_title_, listed.line, warning));
-      }
-      if (options_.verbose && !options_.json) print_line(format("{}: {}", output.string(), tally_.report()));
-      pictures_.push(listed.line, output, std::move(exposed.picture), recipe_text(line, tally_.precision()), file_wishes(wishes));
-    } catch (const UsageError& error) {
-      report(listed.line, error);
-    } catch (const InputError& error) {
-      report(listed.line, error);
-    }
+      listed_->add(request, output_format(output_request(line), output, session.format()),
+                   [this, number = listed.line, line, output](const ListedPictures::Take& take) {
+                     reported(number, [&] { write(number, line, output, take()); });
+                   });
+    });
   }
 
   // After the last one: how many of the exposures failed.
   [[nodiscard]] std::size_t finish() {
+    if (listed_) listed_->finish();
     pictures_.finish();
     return failed_lines_.size();
   }
@@ -155,6 +150,15 @@ class Batch {
   [[nodiscard]] std::string renderer_name() const { return devices_->renderer().name(); }
 
  private:
+  void write(std::size_t number, const Options& line, const std::filesystem::path& output, ExposedPicture exposed) {
+    tally_.add(exposed);
+    for (const std::string& warning : exposure_warnings(exposed))
+      print_warning(format("{}:{}: {}", list_title_, number, warning));
+    if (options_.verbose && !options_.json) print_line(format("{}: {}", output.string(), tally_.report()));
+    pictures_.push(number, output, std::move(exposed.picture), recipe_text(line, tally_.precision()),
+                   file_wishes(output_request(line)));
+  }
+
   std::string recipe_text(const Options& line, const std::string& precision) {
     if (line.no_recipe) return {};
     const std::string& name = line.operands.front();
@@ -163,13 +167,16 @@ class Batch {
   }
 
   // Any line may ask for floating point.
-  static ValueType widest(const CaptureFormat&) { return ValueType::light32; }
+  static constexpr auto widest = [](const CaptureFormat&) { return ValueType::light32; };
 
   // Lines mostly expose one capture, or one after another: the last one stays open.
   Session& session_of(const std::string& name) {
     if (!session_ || session_->source().path != name) {
+      if (listed_) listed_->finish();
+      listed_.reset();
       session_.reset();
       session_.emplace(open_session(name, options_, devices_, {.besides = PictureQueue::needs(widest)}));
+      listed_.emplace(*session_, widest({}), exposures_);
       Answer source{{{"capture", name}}};
       source.tell_source(*session_);
       source.json["notes"] = source.notes;
@@ -179,6 +186,9 @@ class Batch {
     return *session_;
   }
 
+  void reported(std::size_t line, const std::function<void()>& work) {
+    unless_wrong(work, [&](const Error& error) { report(line, error); });
+  }
   // From either thread.
   void report(std::size_t line, const Error& error) {
     const std::lock_guard lock(reporting_);
@@ -195,7 +205,9 @@ class Batch {
   std::optional<std::pair<std::string, std::string>> capture_checksum_;  // of the capture that a recipe was last for
   std::size_t skipped_ = 0;
   bool failed_to_write_ = false;
+  std::size_t exposures_;
   std::optional<Session> session_;
+  std::optional<ListedPictures> listed_;
   Json clips_ = Json::array();
   std::map<std::filesystem::path, std::size_t> line_of_output_;
   std::mutex reporting_;
@@ -225,7 +237,7 @@ int run_batch(const Options& options) {
     if (exposures.empty()) throw UsageError(format("{} lists no exposure in lines {}", list, lines.text()));
   }
 
-  Batch batch(options, list);
+  Batch batch(options, list, exposures.size());
   Progress progress("exposing", exposures.size(), options.quiet, progress_lines(options));
   for (std::size_t i = 0; i < exposures.size(); ++i) {
     progress.show(i);

@@ -4,6 +4,7 @@
 #include <exception>
 #include <utility>
 
+#include "session/making/picture_line.hpp"
 #include "session/making/picture_queue.hpp"
 
 namespace nutik {
@@ -17,10 +18,15 @@ void make_series(Session& session, ExposureRequest exposure, const std::vector<S
     if (!has_failed) failure = std::current_exception();
     has_failed = true;
   });
+  PictureLine<ExposedPicture> line(session.pictures_at_once(output.type, pictures.size()));
+  std::size_t asked = 0;
   for (std::uint64_t k = 0; k < pictures.size() && !has_failed; ++k) {
     if (progress) progress(k, pictures.size());
-    exposure.start = pictures[k].start;
-    ExposedPicture exposed = session.render(exposure, output);
+    for (; asked < pictures.size() && !line.is_full(); ++asked) {
+      exposure.start = pictures[asked].start;
+      line.add([&, exposure](const RenderControl& control) { return session.render(exposure, output, control); });
+    }
+    ExposedPicture exposed = line.take();
     std::string text = add ? add(k, exposed) : std::string();
     queue.push(k, pictures[k].path, std::move(exposed.picture), std::move(text), file);
   }

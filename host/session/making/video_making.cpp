@@ -5,6 +5,7 @@
 #include "exposure/function_text.hpp"
 #include "media/frame_queue.hpp"
 #include "media/input_checksum.hpp"
+#include "session/making/picture_line.hpp"
 
 namespace nutik {
 
@@ -41,7 +42,7 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   CaptureFormat capture = session.format();
   const PlanOptions plan = plan_options_of(request.exposure, capture.shape);
   const bool mask_changes = !request.keys.masks.empty();
-  Mask mask = mask_changes ? Mask() : mask_of(exposure_of(request, frames, 0), capture.shape);
+  const Mask mask = mask_changes ? Mask() : mask_of(exposure_of(request, frames, 0), capture.shape);
   const OutputFormat frame_format = output.frame_format(capture);
   capture.transfer = plan.transfer.value_or(capture.transfer);
 
@@ -49,17 +50,27 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   const TimeToEnd is_kept;  // the frames so far, whatever a frame takes
   FrameQueue queue([&] { return output.open(capture, frame_format); },
                    session.waiting_pictures(frame_format.type));
+  const std::size_t count = frames.numbers.size();
+  PictureLine<ExposedPicture> line(session.pictures_at_once(frame_format.type, count));
+  std::size_t asked = 0;
+  const auto expose = [&](std::uint64_t frame, const RenderControl& control) {
+    const ExposureRequest wanted = exposure_of(request, frames, frame);
+    const FunctionSet functions = functions_of(wanted, frames.exposure(frame), session.timeline());
+    return session.render(functions, mask_changes ? mask_of(wanted, capture.shape) : mask, plan, frame_format,
+                          control);
+  };
   try {
-    for (; made.frames < frames.numbers.size(); ++made.frames) {
+    for (; made.frames < count; ++made.frames) {
       check_interruption();
-      if (progress) progress(made.frames, frames.numbers.size());
+      if (progress) progress(made.frames, count);
+      for (; asked < count && !line.is_full(); ++asked) {
+        line.add([&expose, frame = frames.numbers[asked]](const RenderControl& control) {
+          return expose(frame, control);
+        });
+      }
       const std::uint64_t frame = frames.numbers[made.frames];
-      const Exposure exposure = frames.exposure(frame);
-      const ExposureRequest wanted = exposure_of(request, frames, frame);
-      const FunctionSet functions = functions_of(wanted, exposure, session.timeline());
-      if (mask_changes) mask = mask_of(wanted, capture.shape);
-      ExposedPicture exposed = session.render(functions, mask, plan, frame_format);
-      std::string text = add ? add(frame, exposure, exposed) : std::string();
+      ExposedPicture exposed = line.take();
+      std::string text = add ? add(frame, frames.exposure(frame), exposed) : std::string();
       if (!queue.push(std::move(exposed.picture), std::move(text), frame)) break;
     }
   } catch (const Interrupted& caught) {
