@@ -6,7 +6,7 @@
 namespace nutik {
 namespace {
 
-constexpr std::int64_t kLargestTerm = 1'000'000'000;  // keeps every product below 2^126
+constexpr std::int64_t kLargestFrameTerm = 1'000'000'000;  // keeps every product below 2^126
 constexpr std::int64_t kFinestAngle = 1'000'000;
 constexpr std::int64_t kLongestFrameNs = 1'000'000'000'000'000'000;
 
@@ -38,7 +38,7 @@ int128 common_divisor(int128 a, int128 b) {
 
 void check_term(Rational value, const char* what) {
   if (value.numerator <= 0) throw UsageError(format("{} {} is not positive", what, value.text()));
-  if (value.numerator > kLargestTerm || value.denominator > kLargestTerm) {
+  if (value.numerator > kLargestFrameTerm || value.denominator > kLargestFrameTerm) {
     throw UsageError(
         format("{} {} is written with more than nine digits above or below the fraction line, the "
                "most that times stay exact with",
@@ -80,11 +80,11 @@ FrameTimes::FrameTimes(ExactTime from, Rational rate, Rational speed, Rational a
   check_term(rate, "frame rate");
   check_term(speed, "speed");
   if (angle.numerator <= 0) throw UsageError(format("shutter angle {} is not positive", angle.text()));
-  if (angle.numerator > kLargestTerm || angle.denominator > kFinestAngle) {
+  if (angle.numerator > kLargestFrameTerm || angle.denominator > kFinestAngle) {
     throw UsageError(format("shutter angle {} has more than six decimals or nine digits", angle.text()));
   }
   period_s_ = Rational::of(speed.numerator * rate.denominator, speed.denominator * rate.numerator);
-  if (period_s_.numerator > kLargestTerm || period_s_.denominator > kLargestTerm) {
+  if (period_s_.numerator > kLargestFrameTerm || period_s_.denominator > kLargestFrameTerm) {
     throw UsageError(
         format("{} frames a second at speed {} are {} s of the capture each: more digits than times "
                "stay exact with (nine above and below the fraction line)",

@@ -15,12 +15,12 @@
 namespace nutik {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_decimal(char c) { return c >= '0' && c <= '9'; }
 bool is_sign(char c) { return c == '+' || c == '-'; }
 
 std::size_t digits_at(std::string_view text, std::size_t at) {
   const auto begin = text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size()));
-  return static_cast<std::size_t>(std::find_if_not(begin, text.end(), is_digit) - begin);
+  return static_cast<std::size_t>(std::find_if_not(begin, text.end(), is_decimal) - begin);
 }
 
 // [+-] digits [. digits] [e [+-] digits], with a digit before or after the point.

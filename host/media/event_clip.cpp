@@ -23,16 +23,16 @@ struct Kind {
   std::string_view what, way_out;  // empty: it is read
 };
 constexpr std::string_view kAdder = "adder";
-constexpr Kind kKinds[] = {
+constexpr Kind kEventKinds[] = {
     {"% ", {}, {}},
     {kAdder, {}, {}},
     {"addec", "a compressed ADΔER file", "save it uncompressed (raw) with adder-viz or the adder-codec-rs library"},
     {"\x89HDF\r\n\x1a\n", "an HDF5 file", "if it holds events, convert it to DAT with metavision_file_to_dat"},
     {"#!AER-DAT", "an AEDAT file", "convert it to EVT or DAT with faery"}};
 
-const Kind* kind_of(const std::filesystem::path& path) {
+const Kind* event_kind_of(const std::filesystem::path& path) {
   const std::string start = first_bytes(path);
-  for (const Kind& kind : kKinds) {
+  for (const Kind& kind : kEventKinds) {
     if (start.starts_with(kind.start)) return &kind;
   }
   return nullptr;
@@ -79,12 +79,12 @@ class EventClip final : public Clip {
 }  // namespace
 
 bool is_event_recording(const std::filesystem::path& path) {
-  return kind_of(is_standard_input(path.string()) ? standard_input_file() : path) != nullptr;
+  return event_kind_of(is_standard_input(path.string()) ? standard_input_file() : path) != nullptr;
 }
 
 std::unique_ptr<Clip> open_event_clip(const std::filesystem::path& path, const ClipOptions& options) {
   const std::string name = input_title(path.string());
-  const Kind* kind = kind_of(path);
+  const Kind* kind = event_kind_of(path);
   if (kind == nullptr) throw InputError(format("{} is no recording of events", name));
   if (!kind->what.empty()) throw InputError(format("{} is {}, which is not read; {}", name, kind->what, kind->way_out));
   if (options.rate) {

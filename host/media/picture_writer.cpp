@@ -46,7 +46,7 @@ void write_exr_file(OutputFile& file, const Picture& picture, const std::string&
   still_module().write_exr(file, picture, text, wishes.as_half);
 }
 
-constexpr std::array<FileKind, 10> kKinds{{
+constexpr std::array<FileKind, 10> kFileKinds{{
     {.extension = ".png", .code_bits = 16, .write = write_png_file},
     {.extension = ".tif", .code_bits = 16, .holds_light = true, .write = write_tiff_file},
     {.extension = ".tiff", .is_preferred = false, .code_bits = 16, .holds_light = true, .write = write_tiff_file},
@@ -63,12 +63,12 @@ constexpr std::string_view kStandardOutput = "-", kBehindKind = ":-";
 
 const FileKind* find_kind(const std::filesystem::path& path) {
   const std::string extension = picture_extension(path);
-  const auto found = std::find_if(kKinds.begin(), kKinds.end(),
+  const auto found = std::find_if(kFileKinds.begin(), kFileKinds.end(),
                                   [&](const FileKind& kind) { return extension == kind.extension; });
-  return found == kKinds.end() ? nullptr : &*found;
+  return found == kFileKinds.end() ? nullptr : &*found;
 }
 
-const FileKind& kind_of(const std::filesystem::path& path) {
+const FileKind& file_kind_of(const std::filesystem::path& path) {
   if (const FileKind* kind = find_kind(path)) return *kind;
   throw UsageError(format("{}: pictures are written as {}, not as '{}'", path.string(), picture_extensions(),
                           path.extension().string()));
@@ -78,7 +78,7 @@ const FileKind& kind_of(const std::filesystem::path& path) {
 template <typename Wanted>
 std::string extensions_of(Wanted wanted) {
   std::vector<std::string> names;
-  for (const FileKind& kind : kKinds) {
+  for (const FileKind& kind : kFileKinds) {
     if (kind.is_preferred && wanted(kind)) names.emplace_back(kind.extension);
   }
   std::string text;
@@ -100,7 +100,7 @@ Depth parse_depth(std::string_view text) {
 
 ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth> wish, ValueType usual,
                          std::uint32_t channels) {
-  const FileKind& kind = kind_of(path);
+  const FileKind& kind = file_kind_of(path);
   if (kind.only_channels != 0 && kind.only_channels != channels) {
     throw UsageError(format("{} holds {} pictures only and this one {}; write a .png or .tif", path.string(),
                             channels == 1 ? "colour" : "grey", channels == 1 ? "is grey" : "has colour"));
@@ -152,7 +152,7 @@ std::string picture_extensions() {
 
 void write_picture(const std::filesystem::path& path, const Picture& picture, const std::string& text,
                    const FileWishes& wishes) {
-  const FileKind& kind = kind_of(path);
+  const FileKind& kind = file_kind_of(path);
   const bool fits = holds_codes(picture.type) ? value_bytes(picture.type) * 8 <= kind.code_bits
                                               : picture.type == ValueType::light32 && kind.holds_light;
   if (!fits) throw UsageError(format("{} cannot hold the values of this picture", path.string()));

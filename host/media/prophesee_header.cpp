@@ -9,7 +9,7 @@ namespace {
 
 // A line of a header; what is longer is an event that begins like one.
 constexpr std::size_t kLongestLine = 1024;
-constexpr std::uint32_t kLargestSide = 1u << 14;
+constexpr std::uint32_t kLargestSensor = 1u << 14;
 
 std::string small(std::string_view text) {
   std::string result(text);
@@ -18,7 +18,7 @@ std::string small(std::string_view text) {
   return result;
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.remove_suffix(1);
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   return text;
@@ -29,7 +29,7 @@ void add_format(PropheseeHeader& header, std::string_view text) {
   bool is_name = true;
   while (!text.empty()) {
     const auto end = std::min(text.find(';'), text.size());
-    const std::string_view part = trimmed(text.substr(0, end));
+    const std::string_view part = without_blanks(text.substr(0, end));
     const auto equals = part.find('=');
     if (is_name) {
       header.values["format"] = std::string(part);
@@ -48,7 +48,7 @@ std::uint32_t PropheseeHeader::pixels(const std::string& keyword) const {
   std::uint32_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool is_whole = error == std::errc() && end == text.data() + text.size();
-  return is_whole && number <= kLargestSide ? number : 0;
+  return is_whole && number <= kLargestSensor ? number : 0;
 }
 
 PropheseeHeader read_prophesee_header(std::span<const std::byte> file) {
@@ -57,12 +57,12 @@ PropheseeHeader read_prophesee_header(std::span<const std::byte> file) {
   while (text.substr(header.bytes, 2) == "% ") {
     const auto length = text.substr(header.bytes, kLongestLine).find('\n');
     if (length == text.npos) break;
-    const std::string_view line = trimmed(text.substr(header.bytes + 2, length - 2));
+    const std::string_view line = without_blanks(text.substr(header.bytes + 2, length - 2));
     header.bytes += length + 1;
     if (line == "end") break;
     const auto blank = std::min(line.find(' '), line.size());
     const std::string keyword = small(line.substr(0, blank));
-    const std::string_view value = trimmed(line.substr(blank));
+    const std::string_view value = without_blanks(line.substr(blank));
     if (keyword == "format") {
       add_format(header, value);
     } else {

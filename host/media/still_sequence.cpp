@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Extensions and the kind of file that they stand for.
-constexpr std::array<std::array<std::string_view, 2>, 9> kKinds{{{".png", "PNG"},
+constexpr std::array<std::array<std::string_view, 2>, 9> kStillKinds{{{".png", "PNG"},
                                                                  {".tif", "TIFF"},
                                                                  {".tiff", "TIFF"},
                                                                  {".pgm", "Netpbm"},
@@ -35,11 +35,11 @@ constexpr std::array<std::array<std::string_view, 2>, 9> kKinds{{{".png", "PNG"}
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 // The kind of picture that a name promises; empty where it promises none.
-std::string_view kind_of(const fs::path& path) {
+std::string_view still_kind_of(const fs::path& path) {
   const std::string extension = extension_of(path);
   const auto found =
-      std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& kind) { return kind[0] == extension; });
-  return found == kKinds.end() ? std::string_view() : (*found)[1];
+      std::find_if(kStillKinds.begin(), kStillKinds.end(), [&](const auto& kind) { return kind[0] == extension; });
+  return found == kStillKinds.end() ? std::string_view() : (*found)[1];
 }
 
 // Whether a comes before b as a person counts: runs of digits compare as numbers.
@@ -86,17 +86,17 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 
 std::vector<fs::path> pictures_in(const fs::path& folder) {
   std::vector<fs::path> files = files_in(folder);
-  std::erase_if(files, [](const fs::path& file) { return kind_of(file).empty(); });
+  std::erase_if(files, [](const fs::path& file) { return still_kind_of(file).empty(); });
   if (files.empty()) {
     throw InputError(
         format("{}: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg, .dng)", folder.string()));
   }
   // Two kinds are two sequences, or a sequence and something else: neither may be guessed at.
   for (const fs::path& file : files) {
-    if (kind_of(file) == kind_of(files.front())) continue;
+    if (still_kind_of(file) == still_kind_of(files.front())) continue;
     throw InputError(format("{}: the folder holds {} files ({}) and {} files ({}); name one kind: '{}'",
-                            folder.string(), kind_of(files.front()), files.front().filename().string(),
-                            kind_of(file), file.filename().string(),
+                            folder.string(), still_kind_of(files.front()), files.front().filename().string(),
+                            still_kind_of(file), file.filename().string(),
                             (folder / ("*" + files.front().extension().string())).string()));
   }
   return files;
@@ -200,7 +200,7 @@ std::optional<std::vector<fs::path>> list_stills(const fs::path& path) {
     return files;
   }
   if (fs::exists(path, error)) {
-    if (!kind_of(path).empty()) return std::vector<fs::path>{path};
+    if (!still_kind_of(path).empty()) return std::vector<fs::path>{path};
     return std::nullopt;
   }
   if (const auto numbered = NumberedName::parse(path.filename().string())) {

@@ -23,7 +23,7 @@ constexpr std::string_view kColumns[] = {"file", "start_ns", "exposure_ns"};
   throw InputError(format("{}:{}: {}", table.string(), line, why), std::move(settings));
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view trimmed_field(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
@@ -34,14 +34,14 @@ std::optional<std::vector<std::string>> fields_of(std::string_view row) {
   std::vector<std::string> fields(1);
   bool quoted = false, was_quoted = false;
   const auto end_field = [&] {
-    if (!was_quoted) fields.back() = trimmed(fields.back());
+    if (!was_quoted) fields.back() = trimmed_field(fields.back());
     was_quoted = false;
   };
   for (std::size_t i = 0; i < row.size(); ++i) {
     const char c = row[i];
     if (c == '"' && quoted && i + 1 < row.size() && row[i + 1] == '"') {
       fields.back() += row[++i];
-    } else if (c == '"' && (quoted || trimmed(fields.back()).empty())) {
+    } else if (c == '"' && (quoted || trimmed_field(fields.back()).empty())) {
       if (!quoted) fields.back().clear();
       quoted = !quoted;
       was_quoted = true;
@@ -94,7 +94,7 @@ std::vector<ListedStill> read_stills_table(const std::filesystem::path& path) {
     std::string_view row = text;
     if (line == 1 && row.starts_with("\xEF\xBB\xBF")) row.remove_prefix(3);
     if (row.ends_with('\r')) row.remove_suffix(1);
-    if (trimmed(row).empty()) continue;
+    if (trimmed_field(row).empty()) continue;
     auto fields = fields_of(row);
     if (!fields) fail(path, line, "a quote is not closed on its line");
     if (stills.empty() && is_header(*fields)) continue;

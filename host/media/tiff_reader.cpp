@@ -15,7 +15,7 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint64_t kLargestSide = 1u << 20;
+constexpr std::uint64_t kLargestPageSide = 1u << 20;
 constexpr std::uint64_t kLargestPage = std::uint64_t{16} << 30;  // bytes
 
 // What a page may take that lies in a file of so many bytes. LZW, which packs most of what photographs are kept in,
@@ -67,8 +67,8 @@ class PageReader {
     bits_ = field<std::uint16_t>(TIFFTAG_BITSPERSAMPLE, 1);
     photometric_ = field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
     separate_ = field<std::uint16_t>(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_SEPARATE;
-    if (shape_.width == 0 || shape_.height == 0 || shape_.width > kLargestSide ||
-        shape_.height > kLargestSide) {
+    if (shape_.width == 0 || shape_.height == 0 || shape_.width > kLargestPageSide ||
+        shape_.height > kLargestPageSide) {
       fail(format("it states {} x {} pixels", shape_.width, shape_.height));
     }
     // Before anything is allocated.
@@ -185,7 +185,7 @@ class PageReader {
     const auto height = field<std::uint32_t>(TIFFTAG_TILELENGTH, 0);
     const std::uint64_t row_bytes = TIFFTileRowSize64(file_), tile_bytes = TIFFTileSize64(file_);
     const std::uint64_t together = separate_ ? 1 : shape_.channels;
-    if (width == 0 || height == 0 || width > kLargestSide || height > kLargestSide ||
+    if (width == 0 || height == 0 || width > kLargestPageSide || height > kLargestPageSide ||
         row_bytes < (width * together * bits_ + 7) / 8 || tile_bytes < row_bytes * height ||
         tile_bytes > max_page_bytes(file_bytes_)) {
       fail(format("it states tiles of {} x {} pixels", width, height));

@@ -7,7 +7,7 @@
 namespace nutik {
 namespace {
 
-constexpr int kPasses = 30;
+constexpr int kFitPasses = 30;
 constexpr double kHuber = 2.0;        // uncertainties up to which a point has its full say
 constexpr double kModelError = 0.01;  // share of sd to which no camera follows the model
 
@@ -59,7 +59,7 @@ SensorFit fit_sensor(std::span<const MeasuredPoint> points, std::uint32_t white_
   }
   if (*std::ranges::max_element(weights) == 0) weights.assign(weights.size(), 1);  // no noise anywhere
   Line line;
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < kFitPasses; ++pass) {
     line = weighted_line(in_light, weights);
     for (std::size_t i = 0; i < weights.size(); ++i) {
       const double expected = line.constant + line.slope * in_light[i].light;

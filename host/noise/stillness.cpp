@@ -10,7 +10,7 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint64_t kMaxPixels = 16 * 1024;
+constexpr std::uint64_t kMaxComparedPixels = 16 * 1024;
 constexpr std::uint64_t kRegionPixels = 64;  // looked at, or more
 constexpr std::uint32_t kMaxRegions = 8;    // in a row, and in a column
 constexpr double kMinTold = 16;  // pixels of a region, over all stretches: fewer tell nothing of it
@@ -18,7 +18,7 @@ constexpr double kMinTold = 16;  // pixels of a region, over all stretches: fewe
 // its band has where nothing else is said.
 constexpr float kChange = 4.5F;
 constexpr double kSure = 5;      // standard deviations of a mean: one in 3.5 million is further off
-constexpr double kClipping = 3;  // standard deviations from black and white within which codes are cut off
+constexpr double kCutOff = 3;  // standard deviations from black and white within which codes are cut off
 
 // Two halves of some samples, [begin, middle) and [middle, end).
 struct Halves {
@@ -56,7 +56,7 @@ std::uint32_t pitch_of(const Shape& shape) {
   const auto count = [&] {
     return std::uint64_t{places(shape.width, pitch).size()} * places(shape.height, pitch).size();
   };
-  while (count() > kMaxPixels) pitch = std::max(pitch + 1, kNeighbourPixels + 1);
+  while (count() > kMaxComparedPixels) pitch = std::max(pitch + 1, kNeighbourPixels + 1);
   return pitch;
 }
 
@@ -160,7 +160,7 @@ class StillnessWatch::Stretch {
       const double mean = static_cast<double>(sums(samples_)[i]) / samples_;
       const double sd = noise.sd(channel, mean);
       precision[i] = static_cast<float>(1 / sd);
-      is_told_[i] = mean >= kClipping * sd && mean + kClipping * sd <= white;
+      is_told_[i] = mean >= kCutOff * sd && mean + kCutOff * sd <= white;
     }
     changes_.resize(halves_.size() * pixels_);
     differences_.resize(halves_.size() * pixels_);

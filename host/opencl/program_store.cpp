@@ -11,7 +11,7 @@
 namespace nutik {
 namespace {
 
-constexpr std::string_view kMagic = "nutik-cl program 2\n";
+constexpr std::string_view kProgramMagic = "nutik-cl program 2\n";
 
 // How often a driver is asked to build a kernel before it is taken at its word.
 constexpr int kAttempts = 4;
@@ -59,8 +59,8 @@ bool ProgramStore::load(const std::string& name, const std::string& key, const s
   const std::string bytes = read_from_cache(file_for(name, key));
   std::string_view rest = bytes;
   std::uint64_t key_bytes = 0, binary_bytes = 0, hash = 0;
-  if (!rest.starts_with(kMagic)) return false;
-  rest.remove_prefix(kMagic.size());
+  if (!rest.starts_with(kProgramMagic)) return false;
+  rest.remove_prefix(kProgramMagic.size());
   if (!take_number(rest, key_bytes) || rest.substr(0, key_bytes) != key) return false;
   rest.remove_prefix(key.size());
   if (!take_number(rest, binary_bytes) || !take_number(rest, hash)) return false;
@@ -130,7 +130,7 @@ void ProgramStore::save_new_binaries() {
       if (binaries.empty() || binaries.front().empty()) continue;
       const std::string_view binary(reinterpret_cast<const char*>(binaries.front().data()),
                                     binaries.front().size());
-      std::string bytes(kMagic);
+      std::string bytes(kProgramMagic);
       append_number(bytes, key.size());
       bytes += key;
       append_number(bytes, binary.size());

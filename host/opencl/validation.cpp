@@ -8,7 +8,7 @@
 namespace nutik {
 namespace {
 
-constexpr OutputFormat kLight{ValueType::light64, 0};
+constexpr OutputFormat kWholeLight{ValueType::light64, 0};
 
 using Clock = std::chrono::steady_clock;
 
@@ -51,7 +51,7 @@ Validation validate(const RenderPlan& plan, CaptureSource& capture, const Output
   const Clock::time_point start = Clock::now();
   RenderControl control;
   control.memory_bytes = memory_bytes;
-  const Picture expected = ReferenceRenderer().render(plan, capture, kLight, control).picture;
+  const Picture expected = ReferenceRenderer().render(plan, capture, kWholeLight, control).picture;
   validation.reference_ms = milliseconds_since(start);
   step();
 
@@ -64,7 +64,7 @@ Validation validate(const RenderPlan& plan, CaptureSource& capture, const Output
   for (const Precision precision : precisions) {
     ValidatedVariant& variant = validation.variants.emplace_back();
     variant.bound = error_bound(plan, precision, output);
-    variant.light = light_errors(plan, variant.bound, expected, render(precision, kLight).picture);
+    variant.light = light_errors(plan, variant.bound, expected, render(precision, kWholeLight).picture);
     step();
     const Rendered rendered = render(precision, output);
     variant.stored = stored_errors(plan, variant.bound, expected, rendered.picture);

@@ -13,7 +13,7 @@ namespace nutik {
 namespace {
 
 // Counts the scenes: what they hold is part of what was tested.
-constexpr std::string_view kMagic = "nutik-cl self-test 1\n";
+constexpr std::string_view kVerdictMagic = "nutik-cl self-test 1\n";
 constexpr std::string_view kPrefix = "self-test-";
 
 std::string verdict_line(Precision precision, const Verdict& verdict) {
@@ -62,7 +62,7 @@ bool is_worse(const Verdict& a, const Verdict& b) {
 }  // namespace
 
 VerdictStore::VerdictStore(const cl::Device& device, std::filesystem::path folder)
-    : device_key_(format("{}{}{:016x} {:016x}\n", kMagic, identity_of(device),
+    : device_key_(format("{}{}{:016x} {:016x}\n", kVerdictMagic, identity_of(device),
                          checksum(kernel_source("expose")), checksum(kernel_source("develop")))),
       folder_(std::move(folder)) {}
 

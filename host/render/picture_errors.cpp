@@ -10,12 +10,12 @@
 namespace nutik {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 // In u₆₄ of the white code: what a place on the scale of codes is computed to (the inverse transfer function's power,
 // quotient and product).
 constexpr double kPlaceRoundings = 32;
-constexpr double kRoundoff64 = 0x1p-53;
+constexpr double kRoundoff = 0x1p-53;
 
 void check(const RenderPlan& plan, const Picture& expected, const Picture& picture) {
   if (expected.shape != plan.capture.shape || picture.shape != plan.capture.shape) {
@@ -71,7 +71,7 @@ StoredErrors code_errors(const RenderPlan& plan, const ErrorBound& bound, const 
     if (code == std::floor(place + 0.5)) continue;
     ++errors.differing;
     const double allowed =
-        bounds.of(i / plan.capture.shape.channels).steps + kPlaceRoundings * kRoundoff64 * picture.white_code;
+        bounds.of(i / plan.capture.shape.channels).steps + kPlaceRoundings * kRoundoff * picture.white_code;
     if (code <= white && distance_to_code(place, code, white) <= allowed) ++errors.explained;
   }
   return errors;
@@ -100,7 +100,7 @@ StoredErrors real_errors(const RenderPlan& plan, const ErrorBound& bound, const 
 
 // Of an error above 0.
 double share_of(double error, double allowed) {
-  if (std::isnan(error)) return kInfinite;  // no bound allows what is no number
+  if (std::isnan(error)) return kNoBound;  // no bound allows what is no number
   if (std::isinf(allowed)) return std::isinf(error) ? 1.0 : 0.0;
   return error / allowed;
 }
@@ -120,10 +120,10 @@ LightErrors light_errors(const RenderPlan& plan, const ErrorBound& bound, const 
     const double allowed = bounds.of(i / plan.capture.shape.channels).light;
     if (const double share = share_of(error, allowed); share > errors.share_of_bound) {
       errors.share_of_bound = share;
-      errors.bounded_error = std::isnan(error) ? kInfinite : error;
+      errors.bounded_error = std::isnan(error) ? kNoBound : error;
       errors.bound = allowed;
     }
-    if (std::isnan(error)) error = kInfinite;
+    if (std::isnan(error)) error = kNoBound;
     if (error > errors.worst) {
       errors.worst = error;
       errors.worst_value = i;

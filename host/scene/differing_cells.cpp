@@ -7,13 +7,13 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint32_t kMaxCellsToASide = 480;
+constexpr std::uint32_t kMaxFineCellsToASide = 480;
 constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
 }  // namespace
 
 std::uint32_t Difference::side(const Shape& shape) {
-  return (std::max(shape.width, shape.height) - 1) / kMaxCellsToASide + 1;
+  return (std::max(shape.width, shape.height) - 1) / kMaxFineCellsToASide + 1;
 }
 
 Difference::Difference(const CaptureFormat& capture, const Picture& plate, std::uint32_t by_codes)

@@ -10,9 +10,9 @@
 namespace nutik::sheet {
 namespace {
 
-constexpr std::uint32_t kWidth = 1200, kHeight = 640;
-constexpr plot::Box kMoved{80, 50, kWidth - 80 - 30, 300};
-constexpr plot::Box kTurned{80, 400, kWidth - 80 - 30, 170};
+constexpr std::uint32_t kPathWidth = 1200, kPathHeight = 640;
+constexpr plot::Box kMoved{80, 50, kPathWidth - 80 - 30, 300};
+constexpr plot::Box kTurned{80, 400, kPathWidth - 80 - 30, 170};
 
 // A course over the pictures' times.
 struct Course {
@@ -45,7 +45,7 @@ void draw(plot::Canvas& canvas, const plot::Box& box, const Timeline& timeline,
 }  // namespace
 
 Picture camera_chart(const std::string& heading, const CameraPath& path, const Timeline& timeline) {
-  plot::Canvas canvas(kWidth, kHeight);
+  plot::Canvas canvas(kPathWidth, kPathHeight);
   Course right{{}, plot::kPalette[0]}, down{{}, plot::kPalette[1]}, turned{{}, plot::kPalette[2]};
   for (std::uint64_t picture = 0; picture < path.pictures.size(); ++picture) {
     const auto time = static_cast<double>(timeline.start_ns(picture));

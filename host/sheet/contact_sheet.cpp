@@ -11,7 +11,7 @@
 namespace nutik::sheet {
 namespace {
 
-constexpr std::uint32_t kMargin = 12;
+constexpr std::uint32_t kSheetMargin = 12;
 constexpr std::uint32_t kGap = 8;
 constexpr std::uint32_t kLabelHeight = 20;  // below each picture
 constexpr std::uint32_t kHeadingHeight = 26;
@@ -34,9 +34,9 @@ std::uint32_t default_columns(const Shape& picture, std::uint32_t count, std::ui
 
 }  // namespace
 
-std::uint32_t SheetLayout::width() const { return 2 * kMargin + columns * cell_width + (columns - 1) * kGap; }
+std::uint32_t SheetLayout::width() const { return 2 * kSheetMargin + columns * cell_width + (columns - 1) * kGap; }
 std::uint32_t SheetLayout::height() const {
-  return 2 * kMargin + kHeadingHeight + rows * (cell_height + kLabelHeight) + (rows - 1) * kGap;
+  return 2 * kSheetMargin + kHeadingHeight + rows * (cell_height + kLabelHeight) + (rows - 1) * kGap;
 }
 
 SheetLayout lay_out(const Shape& picture, std::uint32_t count, const SheetWishes& wishes) {
@@ -44,7 +44,7 @@ SheetLayout lay_out(const Shape& picture, std::uint32_t count, const SheetWishes
   SheetLayout layout;
   layout.columns = std::min(wishes.columns.value_or(default_columns(picture, count, width)), count);
   layout.rows = (count + layout.columns - 1) / layout.columns;
-  const std::int64_t room = std::int64_t{width} - 2 * kMargin - std::int64_t{layout.columns - 1} * kGap;
+  const std::int64_t room = std::int64_t{width} - 2 * kSheetMargin - std::int64_t{layout.columns - 1} * kGap;
   const std::int64_t cell = room / layout.columns;
   if (cell < kNarrowestCell) {
     throw UsageError(format("{} pictures beside each other in {} pixels would be {} wide; at least {} are "
@@ -60,7 +60,7 @@ SheetLayout lay_out(const Shape& picture, std::uint32_t count, const SheetWishes
   const double height = std::round(static_cast<double>(layout.cell_width) * picture.height / picture.width);
   layout.cell_height = static_cast<std::uint32_t>(std::clamp(height, 1.0, double{plot::kLargestSide}));
   const double total = static_cast<double>(layout.rows) * (layout.cell_height + kLabelHeight + kGap);
-  if (total > plot::kLargestSide - 2 * kMargin - kHeadingHeight) {
+  if (total > plot::kLargestSide - 2 * kSheetMargin - kHeadingHeight) {
     throw UsageError(
         format(
             "{} rows of pictures {} pixels high pass the {} that a sheet can have; make fewer pictures, or "
@@ -74,15 +74,15 @@ SheetLayout lay_out(const Shape& picture, std::uint32_t count, const SheetWishes
 ContactSheet::ContactSheet(const SheetLayout& layout, const std::string& heading)
     : layout_(layout), canvas_(layout.width(), layout.height()) {
   const plot::TextStyle style{.size = 15.0, .rise = plot::Rise::top, .bold = true};
-  canvas_.text({kMargin, kMargin - 3.0},
-               plot::fitted(canvas_, heading, layout.width() - 2.0 * kMargin, style), style);
+  canvas_.text({kSheetMargin, kSheetMargin - 3.0},
+               plot::fitted(canvas_, heading, layout.width() - 2.0 * kSheetMargin, style), style);
 }
 
 void ContactSheet::add(const std::string& label, const Picture& picture) {
   const std::uint32_t column = count_ % layout_.columns, row = count_ / layout_.columns;
   ++count_;
-  const plot::Box box{kMargin + column * (layout_.cell_width + double{kGap}),
-                      kMargin + kHeadingHeight + row * (layout_.cell_height + kLabelHeight + double{kGap}),
+  const plot::Box box{kSheetMargin + column * (layout_.cell_width + double{kGap}),
+                      kSheetMargin + kHeadingHeight + row * (layout_.cell_height + kLabelHeight + double{kGap}),
                       double(layout_.cell_width), double(layout_.cell_height)};
   canvas_.picture(box, thumbnail(picture, layout_.cell_width, layout_.cell_height));
   const plot::TextStyle style{.size = 13.0, .rise = plot::Rise::top};

@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint32_t kNarrowest = 480;  // in which a legend can be read
 constexpr double kTint = 0.5;
 constexpr std::size_t kColours = plot::kPalette.size() - 1;  // without black, which shadows have
-constexpr double kMargin = 10.0;
+constexpr double kLegendMargin = 10.0;
 constexpr double kLegendLine = 22.0;
 constexpr double kSwatch = 14.0;
 constexpr std::size_t kMaxInLegend = 60;
@@ -137,10 +137,10 @@ Picture mask_overlay(const Mask& mask, const Picture& picture) {
   for (const std::string& line : legend) widest = std::max(widest, ruler.text_width(line));
   const double column = kSwatch + 6 + widest + 24;
   const auto columns =
-      std::max<std::size_t>(1, static_cast<std::size_t>((width - 2 * kMargin + 24) / column));
+      std::max<std::size_t>(1, static_cast<std::size_t>((width - 2 * kLegendMargin + 24) / column));
   const std::size_t lines = (legend.size() + columns - 1) / columns;
   const auto legend_height =
-      static_cast<std::uint32_t>(2 * kMargin + static_cast<double>(lines) * kLegendLine);
+      static_cast<std::uint32_t>(2 * kLegendMargin + static_cast<double>(lines) * kLegendLine);
 
   plot::Canvas canvas(width, height + legend_height);
   canvas.picture(plot::Box{0, 0, double(width), double(height)},
@@ -149,8 +149,8 @@ Picture mask_overlay(const Mask& mask, const Picture& picture) {
     if (tag.tag != 0) number_region(canvas, mask, tag, width, height);
   }
   for (std::size_t i = 0; i < legend.size(); ++i) {
-    const double x = kMargin + static_cast<double>(i % columns) * column;
-    const double y = height + kMargin + (static_cast<double>(i / columns) + 0.5) * kLegendLine;
+    const double x = kLegendMargin + static_cast<double>(i % columns) * column;
+    const double y = height + kLegendMargin + (static_cast<double>(i / columns) + 0.5) * kLegendLine;
     if (i < tags.size() && i < kMaxInLegend) {
       const plot::Box swatch{x, y - kSwatch / 2, kSwatch, kSwatch};
       canvas.fill(swatch, tags[i].colour);

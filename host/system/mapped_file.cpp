@@ -41,7 +41,7 @@ std::size_t page_bytes() {
   return bytes;
 }
 
-std::size_t whole_pages(std::size_t bytes) {
+std::size_t whole_file_pages(std::size_t bytes) {
   return (bytes + page_bytes() - 1) / page_bytes() * page_bytes();
 }
 
@@ -53,7 +53,7 @@ void replace_lost_pages(int number, siginfo_t* info, void*) {
   for (WatchedMapping* mapping = shared_state().mappings.load(); mapping != nullptr;
        mapping = mapping->next) {
     const std::uintptr_t begin = mapping->begin.load();
-    const std::uintptr_t end = begin + whole_pages(mapping->bytes.load());
+    const std::uintptr_t end = begin + whole_file_pages(mapping->bytes.load());
     if (at < begin || at >= end) continue;
     const std::uintptr_t page = at / page_bytes() * page_bytes();
     if (mmap(reinterpret_cast<void*>(page), end - page, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED,

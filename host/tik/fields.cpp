@@ -39,7 +39,7 @@ void append(std::vector<std::byte>& bytes, const T& value) {
 }
 
 template <typename T>
-T load(std::span<const std::byte> bytes, std::size_t at) {
+T value_at(std::span<const std::byte> bytes, std::size_t at) {
   T value;
   std::memcpy(&value, bytes.data() + at, sizeof value);
   return value;
@@ -77,18 +77,18 @@ ReadFields read_fields(std::span<const std::byte> bytes, const std::string& name
                name));
   };
   if (bytes.size() < sizeof(ListHeader) + sizeof(std::uint64_t)) throw damaged();
-  const auto header = load<ListHeader>(bytes, 0);
+  const auto header = value_at<ListHeader>(bytes, 0);
   if (std::memcmp(header.magic, kMagic, sizeof header.magic) != 0 || header.bytes > bytes.size() ||
       header.bytes < sizeof(ListHeader) + sizeof(std::uint64_t)) {
     throw damaged();
   }
   const auto list = bytes.first(header.bytes - sizeof(std::uint64_t));
-  if (load<std::uint64_t>(bytes, list.size()) != checksum(list)) throw damaged();
+  if (value_at<std::uint64_t>(bytes, list.size()) != checksum(list)) throw damaged();
   ReadFields read{{}, header.bytes};
   std::size_t at = sizeof header;
   for (std::uint32_t i = 0; i < header.count; ++i) {
     if (list.size() - at < sizeof(FieldHeader)) throw damaged();
-    const auto field = load<FieldHeader>(list, at);
+    const auto field = value_at<FieldHeader>(list, at);
     at += sizeof field;
     if (field.bytes > list.size() - at) throw damaged();
     read.fields.push_back({std::string(field.tag, sizeof field.tag), (field.flags & kMustBeUnderstood) != 0,

@@ -25,7 +25,7 @@ std::uint64_t index_count(const TileEntry& entry, const BlockGeometry& geometry)
   return geometry.row_index_bytes(entry.rows()) == 0 ? 0 : entry.rows();
 }
 
-std::uint64_t index_bytes(const TileGroup& group) {
+std::uint64_t all_index_bytes(const TileGroup& group) {
   std::uint64_t count = 0;
   for (const TileEntry& entry : group.entries) count += index_count(entry, group.geometry);
   return count * group.geometry.index_bytes();
@@ -68,7 +68,7 @@ void write_indices(const TileGroup& group, std::span<const std::byte> payload,
 }
 
 template <typename Index>
-void read_indices(const TileGroup& group, const std::byte* from, std::span<std::byte> payload) {
+void read_all_indices(const TileGroup& group, const std::byte* from, std::span<std::byte> payload) {
   for (const TileEntry& entry : group.entries) {
     std::byte* body = payload.data() + entry.offset * kBlockAlignment;
     // Padding behind a rows tile's list.
@@ -123,11 +123,11 @@ class Predictor {
 
   static void reconstruct(const TileGroup& group, const PlainGroup& plain, std::span<std::byte> payload) {
     if (group.geometry.index_bytes() == 1) {
-      read_indices<std::uint8_t>(group, plain.head.data(), payload);
+      read_all_indices<std::uint8_t>(group, plain.head.data(), payload);
     } else {
-      read_indices<std::uint16_t>(group, plain.head.data(), payload);
+      read_all_indices<std::uint16_t>(group, plain.head.data(), payload);
     }
-    const std::byte* marks = plain.head.data() + index_bytes(group);
+    const std::byte* marks = plain.head.data() + all_index_bytes(group);
     std::array<const std::byte*, kPlainParts> from;
     for (std::size_t part = 0; part < kPlainParts; ++part) from[part] = plain.parts[part].data();
     for (const TileEntry& entry : group.entries) {
@@ -190,7 +190,7 @@ auto with_predictor(const BlockGeometry& geometry, Use use) {
 }  // namespace
 
 std::uint64_t head_bytes(const TileGroup& group) {
-  return index_bytes(group) + row_total(group) * group.geometry.channels;
+  return all_index_bytes(group) + row_total(group) * group.geometry.channels;
 }
 
 PlainGroup predict(const TileGroup& group, std::span<const std::byte> payload) {
@@ -201,7 +201,7 @@ std::optional<std::array<std::uint64_t, kPlainParts>> part_bytes(const TileGroup
                                                                  std::span<const std::byte> head) {
   std::array<std::uint64_t, kPlainParts> bytes{};
   std::uint32_t channel = 0;
-  for (const std::byte mark : head.subspan(index_bytes(group))) {
+  for (const std::byte mark : head.subspan(all_index_bytes(group))) {
     if (static_cast<std::size_t>(mark) >= kModes * kReaches) return std::nullopt;
     const Reach reach = reach_of_mark(mark);
     bytes[part_of(channel, reach)] += kPackedBytes[static_cast<std::size_t>(reach)];

@@ -18,7 +18,7 @@ namespace nutik {
 namespace {
 
 constexpr double kMaxPixels = 0.05, kMaxDegrees = 0.01;  // root of the mean square
-constexpr std::uint32_t kWidth = 320, kHeight = 240;
+constexpr std::uint32_t kSceneWidth = 320, kSceneHeight = 240;
 constexpr std::size_t kPictures = 8;
 
 // Waves of many directions, none shorter than three pixels.
@@ -55,7 +55,7 @@ struct Look {
 
 CaptureFormat format_of(const Look& look) {
   CaptureFormat format;
-  format.shape = {kWidth, kHeight, look.channels};
+  format.shape = {kSceneWidth, kSceneHeight, look.channels};
   format.code_bytes = look.code_bytes;
   format.white_code = look.white;
   return format;
@@ -77,13 +77,13 @@ class Scene {
     const Warp back = inverse(warp);
     std::vector<std::byte> raster(format_of(look_).sample_bytes());
     std::normal_distribution<double> noise(0, 0.006);
-    for (std::uint32_t y = 0; y < kHeight; ++y) {
-      for (std::uint32_t x = 0; x < kWidth; ++x) {
+    for (std::uint32_t y = 0; y < kSceneHeight; ++y) {
+      for (std::uint32_t x = 0; x < kSceneWidth; ++x) {
         const Place place = back.at(x, y);
         const double light = 0.5 + gain * 0.25 * grey(place, static_cast<double>(picture));
         for (std::uint32_t channel = 0; channel < look_.channels; ++channel) {
           const double code = std::round(look_.white * std::clamp(light + noise(random_), 0.0, 1.0));
-          const std::size_t value = (std::size_t{y} * kWidth + x) * look_.channels + channel;
+          const std::size_t value = (std::size_t{y} * kSceneWidth + x) * look_.channels + channel;
           if (look_.code_bytes == 1) {
             raster[value] = static_cast<std::byte>(code);
           } else {
@@ -98,7 +98,7 @@ class Scene {
 
  private:
   [[nodiscard]] double grey(const Place& place, double time) const {
-    const double radius = std::sqrt(kWidth * kHeight / 5.0 / std::numbers::pi);
+    const double radius = std::sqrt(kSceneWidth * kSceneHeight / 5.0 / std::numbers::pi);
     const double x = place.x - 100 - 11 * time, y = place.y - 120;
     if (std::hypot(x, y) > radius) return scene_.at(place);
     const double c = std::cos(0.05 * time), s = std::sin(0.05 * time);
@@ -113,7 +113,7 @@ class Scene {
 // Turned about the picture's middle, then moved, then seen from the side.
 Warp moved(double x, double y, double degrees, double tilt_x = 0, double tilt_y = 0) {
   const double turn = degrees / 180 * std::numbers::pi, c = std::cos(turn), s = std::sin(turn);
-  const double mx = (kWidth - 1) / 2.0, my = (kHeight - 1) / 2.0;
+  const double mx = (kSceneWidth - 1) / 2.0, my = (kSceneHeight - 1) / 2.0;
   const Warp rigid{{c, -s, mx + x - c * mx + s * my, s, c, my + y - s * mx - c * my, 0, 0, 1}};
   const Warp to_middle{{1, 0, -mx, 0, 1, -my, 0, 0, 1}}, back{{1, 0, mx, 0, 1, my, 0, 0, 1}};
   return chained(rigid, chained(chained(to_middle, Warp{{1, 0, 0, 0, 1, 0, tilt_x, tilt_y, 1}}), back));
@@ -159,15 +159,15 @@ TEST_P(Recovery, FindsShiftsAndTurnsWithASubjectOverAFifthOfThePicture) {
         scene.seen(truth[picture], picture, 1 + c.gain_step * static_cast<double>(picture)), guess);
     EXPECT_TRUE(is_sure(found)) << "picture " << picture << ": " << found.agreeing;
     EXPECT_LT(found.residual_pixels, 0.5) << "picture " << picture;
-    for (double y = 0; y < kHeight; y += 16) {
-      for (double x = 0; x < kWidth; x += 16) {
+    for (double y = 0; y < kSceneHeight; y += 16) {
+      for (double x = 0; x < kSceneWidth; x += 16) {
         const Place is = found.warp.at(x, y), should = truth[picture].at(x, y);
         squared_pixels += std::pow(is.x - should.x, 2) + std::pow(is.y - should.y, 2);
         ++places;
       }
     }
-    const double turned = found.warp.degrees_at(kWidth / 2.0, kHeight / 2.0) -
-                          truth[picture].degrees_at(kWidth / 2.0, kHeight / 2.0);
+    const double turned = found.warp.degrees_at(kSceneWidth / 2.0, kSceneHeight / 2.0) -
+                          truth[picture].degrees_at(kSceneWidth / 2.0, kSceneHeight / 2.0);
     squared_degrees += turned * turned;
     ++pictures;
     if (is_sure(found)) guess = found.warp;
@@ -202,13 +202,13 @@ TEST(Registrar, FindsAPictureThatLiesFarFromWhereItWasExpected) {
 TEST(Registrar, FollowsFineTextureBehindWhatLeftItsPlace) {
   const Texture texture(16, 6);
   const auto seen = [&](double shift, int left) {
-    std::vector<std::byte> raster(kWidth * kHeight);
-    for (int y = 0; y < static_cast<int>(kHeight); ++y) {
-      for (int x = 0; x < static_cast<int>(kWidth); ++x) {
+    std::vector<std::byte> raster(kSceneWidth * kSceneHeight);
+    for (int y = 0; y < static_cast<int>(kSceneHeight); ++y) {
+      for (int x = 0; x < static_cast<int>(kSceneWidth); ++x) {
         const bool is_thing = x >= left && x < left + 128 && y >= 60 && y < 180;
         const double light = is_thing ? 180 + 20 * std::sin((x - left) / 7.0)
                                       : 110 + 40 * texture.at({x - shift, static_cast<double>(y)});
-        raster[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)] =
+        raster[static_cast<std::size_t>(y) * kSceneWidth + static_cast<std::size_t>(x)] =
             static_cast<std::byte>(std::clamp(std::round(light), 0.0, 255.0));
       }
     }
@@ -268,11 +268,11 @@ TEST(Registrar, LeavesNearByWhatRests) {
 TEST(Registrar, TakesNoThingBeforeABareWallForTheCamera) {
   const Texture texture(15);
   const auto wall = [&](int left) {
-    std::vector<std::byte> raster(kWidth * kHeight, std::byte{100});
+    std::vector<std::byte> raster(kSceneWidth * kSceneHeight, std::byte{100});
     for (int y = 90; y < 140; ++y) {
       for (int x = left; x < left + 50; ++x) {
         const double grey = texture.at({double(x - left), double(y)});
-        raster[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)] =
+        raster[static_cast<std::size_t>(y) * kSceneWidth + static_cast<std::size_t>(x)] =
             static_cast<std::byte>(std::clamp(130 + 50 * grey, 0.0, 255.0));
       }
     }
@@ -285,12 +285,12 @@ TEST(Registrar, TakesNoThingBeforeABareWallForTheCamera) {
 // A pole swings by up to three pixels, and of a fainter edge that rests parts lie within a pixel of where that leads.
 TEST(Registrar, TakesNoPoleThatSwingsBesideWhatRestsForTheCamera) {
   const auto wall = [](double turn) {
-    std::vector<std::byte> raster(kWidth * kHeight);
-    for (int y = 0; y < static_cast<int>(kHeight); ++y) {
-      for (int x = 0; x < static_cast<int>(kWidth); ++x) {
+    std::vector<std::byte> raster(kSceneWidth * kSceneHeight);
+    for (int y = 0; y < static_cast<int>(kSceneHeight); ++y) {
+      for (int x = 0; x < static_cast<int>(kSceneWidth); ++x) {
         const double pole = std::clamp(8.5 - std::abs(x - 140 + turn * y), 0.0, 1.0);
         const double light = std::lerp(x < 300 ? 20 : 60, y % 40 < 6 ? 60 : 200, pole);
-        raster[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)] =
+        raster[static_cast<std::size_t>(y) * kSceneWidth + static_cast<std::size_t>(x)] =
             static_cast<std::byte>(std::round(light));
       }
     }
@@ -317,7 +317,7 @@ std::string why_not(const std::vector<std::byte>& reference) {
 }
 
 TEST(Registrar, SaysWhyNothingCanBeRegistered) {
-  std::vector<std::byte> raster(kWidth * kHeight, std::byte{99});
+  std::vector<std::byte> raster(kSceneWidth * kSceneHeight, std::byte{99});
   EXPECT_EQ(why_not(raster), "it has 0 pixels whose surroundings can be recognized, and 60 are needed");
   for (std::size_t i = 0; i < raster.size(); ++i)
     raster[i] = static_cast<std::byte>(100 + 50 * (i % 20 / 10));

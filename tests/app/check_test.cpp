@@ -17,8 +17,8 @@ using nlohmann::json;
 using test::ProgramResult;
 using test::Scratch;
 
-constexpr int kWidth = 120;
-constexpr int kHeight = 80;
+constexpr int kClipWidth = 120;
+constexpr int kClipHeight = 80;
 
 // A capture of 30 pictures of 120 × 80 pixels at 10 a second, 3 s, and a mask of three regions.
 class Check : public testing::Test {
@@ -27,10 +27,10 @@ class Check : public testing::Test {
     std::filesystem::create_directory(scratch_ / "frames");
     for (int k = 0; k < 30; ++k) {
       const std::string name = "frames/" + std::to_string(100 + k) + ".pgm";
-      cv::imwrite((scratch_ / name).string(), cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar::all(8 * k)));
+      cv::imwrite((scratch_ / name).string(), cv::Mat(kClipHeight, kClipWidth, CV_8UC1, cv::Scalar::all(8 * k)));
     }
     ASSERT_EQ(run({"-f", "10", "frames", "clip.tik"}).status, 0);
-    mask_ = cv::Mat::zeros(kHeight, kWidth, CV_8UC1);
+    mask_ = cv::Mat::zeros(kClipHeight, kClipWidth, CV_8UC1);
     cv::rectangle(mask_, {10, 10}, {39, 59}, cv::Scalar::all(128), cv::FILLED);
     cv::circle(mask_, {80, 40}, 25, cv::Scalar::all(255), cv::FILLED);
     save_mask();
@@ -129,7 +129,7 @@ TEST_F(Check, SaysEverythingThatIsWrongAtOnce) {
       "bad.fn",
       "M0 [5:1], [5:0]\nM1{[0:0], [1:1], [100000000:1], [1000000002:-25], [1010000001:0]}\nM300 [0:1]\n");
   cv::imwrite((scratch_ / "small.pgm").string(),
-              cv::Mat(kWidth / 2, kHeight / 2, CV_8UC1, cv::Scalar::all(7)));
+              cv::Mat(kClipWidth / 2, kClipHeight / 2, CV_8UC1, cv::Scalar::all(7)));
   std::string capture = test::read_file(scratch_ / "clip.tik");
   // In the first picture.
   capture[capture.size() / 2] ^= 0x55;
@@ -150,7 +150,7 @@ TEST_F(Check, ADamagedBlockIsNamedAndTheRestIsChecked) {
   std::string capture = test::read_file(scratch_ / "clip.tik");
   // The one block lies somewhere behind the first picture; other damage there is named otherwise.
   bool is_found = false;
-  for (std::size_t offset = kWidth * kHeight; offset < capture.size() && !is_found; offset += 16) {
+  for (std::size_t offset = kClipWidth * kClipHeight; offset < capture.size() && !is_found; offset += 16) {
     std::string damaged = capture;
     damaged[offset] = static_cast<char>(damaged[offset] ^ 0x55);
     scratch_.write("damaged.tik", damaged);
@@ -264,7 +264,7 @@ TEST_F(Check, MasksThatWereSmoothedOrKeptAsJpeg) {
     cv::imencode(".jpg", mask_, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
     const cv::Mat damaged = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
     std::vector<bool> is_new(256);
-    for (int i = 0; i < kWidth * kHeight; ++i) is_new[damaged.data[i]] = true;
+    for (int i = 0; i < kClipWidth * kClipHeight; ++i) is_new[damaged.data[i]] = true;
     const auto values = std::count(is_new.begin(), is_new.end(), true) - 3;
     ASSERT_GT(values, 10);
     // Some of what JPEG leaves lies in flat patches, where nothing tells it from paint but that it has no

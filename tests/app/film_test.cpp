@@ -11,16 +11,16 @@ namespace {
 
 using test::Scratch;
 
-constexpr int kWidth = 8, kHeight = 8, kCount = 10;
+constexpr int kFilmWidth = 8, kFilmHeight = 8, kFilmSamples = 10;
 
 // Ten pictures, a tenth of a second each; picture k has the linear code 10 (k + 1) everywhere.
 class Film : public testing::Test {
  protected:
   void SetUp() override {
     std::filesystem::create_directory(scratch_ / "frames");
-    for (int k = 0; k < kCount; ++k) {
+    for (int k = 0; k < kFilmSamples; ++k) {
       scratch_.write("frames/" + std::to_string(k) + ".pgm",
-                     "P5 8 8 255\n" + std::string(kWidth * kHeight, static_cast<char>(10 * (k + 1))));
+                     "P5 8 8 255\n" + std::string(kFilmWidth * kFilmHeight, static_cast<char>(10 * (k + 1))));
     }
     run({"-f", "10", "--transfer", "linear", "frames", "c.tik", "-q"});
   }
@@ -42,14 +42,14 @@ class Film : public testing::Test {
     std::vector<std::vector<int>> rows;
     for (const auto& raster : test::read_all(*test::open_test_clip(scratch_ / "out/%02d.pgm"))) {
       rows.emplace_back();
-      for (int x = 0; x < kWidth; ++x) rows.back().push_back(static_cast<int>(raster[static_cast<std::size_t>(x)]));
+      for (int x = 0; x < kFilmWidth; ++x) rows.back().push_back(static_cast<int>(raster[static_cast<std::size_t>(x)]));
     }
     return rows;
   }
   std::vector<int> codes(std::vector<std::string> options) const {
     std::vector<int> codes;
     for (const auto& row : rows(std::move(options))) {
-      EXPECT_EQ(row, std::vector<int>(kWidth, row[0]));
+      EXPECT_EQ(row, std::vector<int>(kFilmWidth, row[0]));
       codes.push_back(row[0]);
     }
     return codes;
@@ -59,7 +59,7 @@ class Film : public testing::Test {
   // The columns left of `edge` have mask value 255.
   void write_mask(const std::string& name, int edge) const {
     std::string mask = "P5 8 8 255\n";
-    for (int i = 0; i < kWidth * kHeight; ++i) mask += i % kWidth < edge ? '\xff' : '\0';
+    for (int i = 0; i < kFilmWidth * kFilmHeight; ++i) mask += i % kFilmWidth < edge ? '\xff' : '\0';
     scratch_.write(name, mask);
   }
   // A boxcar that begins `start` tenths of a second after a frame's start and lasts `length` of them.
@@ -134,7 +134,7 @@ TEST_F(Film, MovesTheEdgesOfAMask) {
   const auto got = rows({"--mask-key", "0s", "a.pgm", "--mask-key", "0.4s", "b.pgm", "-k", "f.fn"});
   ASSERT_EQ(got.size(), 8u);
   for (int k = 0; k < 8; ++k) {
-    std::vector<int> expected(kWidth, 10 * (k + 1));
+    std::vector<int> expected(kFilmWidth, 10 * (k + 1));
     for (int x = 0; x < std::min(2 + k, 6); ++x) expected[static_cast<std::size_t>(x)] = 10 * (k + 2);
     EXPECT_EQ(got[static_cast<std::size_t>(k)], expected) << k;
   }

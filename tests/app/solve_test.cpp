@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kWidth = 96, kHeight = 48;
+constexpr int kSceneWidth = 96, kSceneHeight = 48;
 // The paper's Figure 14, M0, with a name in place of its -25.
 constexpr const char* kFigure14 =
     "# the trail, and the ball at rest\n"
@@ -28,9 +28,9 @@ class Solve : public test::ProgramTest {
   void SetUp() override {
     std::filesystem::create_directory(scratch_ / "frames");
     for (int k = 0; k < 120; ++k) {
-      cv::Mat frame(kHeight, kWidth, CV_8UC1);
-      for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x)
+      cv::Mat frame(kSceneHeight, kSceneWidth, CV_8UC1);
+      for (int y = 0; y < kSceneHeight; ++y) {
+        for (int x = 0; x < kSceneWidth; ++x)
           frame.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(60 + x / 2 + y);
       }
       frame(cv::Rect(k < 75 ? 2 + 3 * k / 4 : kRest, kTop, kSide, kSide)) = 210;

@@ -9,7 +9,7 @@
 namespace nutik {
 namespace {
 
-const Transfer kAll[] = {Transfer::srgb(),     Transfer::bt709(), Transfer::linear(), Transfer::gamma(2.2),
+const Transfer kAllTransfers[] = {Transfer::srgb(),     Transfer::bt709(), Transfer::linear(), Transfer::gamma(2.2),
                          Transfer::gamma(0.5), Transfer::hlg(),   Transfer::pq()};
 
 // Values of the standards, from their own formulas worked out by hand.
@@ -20,7 +20,7 @@ TEST(Transfer, HasTheStandardsValues) {
   EXPECT_DOUBLE_EQ(Transfer::bt709().light_of(0.045), 0.01);
   EXPECT_DOUBLE_EQ(Transfer::gamma(2.0).light_of(0.5), 0.25);
   EXPECT_EQ(Transfer::linear().light_of(0.3), 0.3);
-  for (const Transfer& transfer : kAll) {
+  for (const Transfer& transfer : kAllTransfers) {
     EXPECT_EQ(transfer.light_of(0.0), 0.0) << transfer.text();
     EXPECT_DOUBLE_EQ(transfer.light_of(1.0), 1.0) << transfer.text();
   }
@@ -48,7 +48,7 @@ TEST(Transfer, HasThoseOfHighDynamicRange) {
 
 // What bounds of codes take for granted (render/error_bound.hpp): a function bends one way only.
 TEST(Transfer, BendsOneWay) {
-  for (const Transfer& transfer : kAll) {
+  for (const Transfer& transfer : kAllTransfers) {
     const bool bends_down = transfer.fraction_of(0.25) > 0.25;
     if (transfer.is_linear()) continue;
     double last = bends_down ? HUGE_VAL : 0.0;
@@ -63,7 +63,7 @@ TEST(Transfer, BendsOneWay) {
 }
 
 TEST(Transfer, GivesEveryCodeBack) {
-  for (const Transfer& transfer : kAll) {
+  for (const Transfer& transfer : kAllTransfers) {
     for (const std::uint32_t white : {255u, 1023u, 4095u, 65'535u}) {
       for (std::uint32_t code = 0; code <= white; ++code) {
         const double light = transfer.light_of(static_cast<double>(code) / white);
@@ -76,7 +76,7 @@ TEST(Transfer, GivesEveryCodeBack) {
 
 // A code's threshold separates it from the one below: light on either side rounds to either code.
 TEST(Transfer, ThresholdsLieBetweenCodes) {
-  for (const Transfer& transfer : kAll) {
+  for (const Transfer& transfer : kAllTransfers) {
     const auto light = transfer.light_of_codes(255);
     const auto thresholds = transfer.code_thresholds(255);
     ASSERT_EQ(thresholds.size(), 256u);
@@ -89,7 +89,7 @@ TEST(Transfer, ThresholdsLieBetweenCodes) {
 }
 
 TEST(Transfer, ReadsItsOwnText) {
-  for (const Transfer& transfer : kAll) EXPECT_EQ(Transfer::parse(transfer.text()), transfer);
+  for (const Transfer& transfer : kAllTransfers) EXPECT_EQ(Transfer::parse(transfer.text()), transfer);
 }
 
 TEST(Transfer, RefusesOthersByName) {

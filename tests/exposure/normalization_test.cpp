@@ -15,7 +15,7 @@ namespace {
 
 using test::Exact;
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kSecondNs = 1'000'000'000;
 
 GainFunction normalized(const char* how, const GainFunction& function, std::int64_t duration_ns,
                         double gain = 1.0) {
@@ -71,7 +71,7 @@ TEST(Normalization, DividesByWhatItSays) {
     const std::vector<test::ExactStretch> light{{0, duration_ns, Exact(1, 5), Exact(1)}};
     const Exact exposed = test::integrate_product(exact, light);
     const double gain = random.pick<double>({1.0, 3.7, -0.25});
-    const Exact seconds(std::int64_t{3} * kSecond, 7);
+    const Exact seconds(std::int64_t{3} * kSecondNs, 7);
     const Exact cancels = Exact(abs(summary.integral_ns)) / summary.absolute_integral_ns;
     const Exact magnitude =
         test::exact_summary(test::exact_gain(magnitudes(function), duration_ns)).integral_ns;
@@ -119,12 +119,12 @@ TEST(Normalization, RefusesAnIntegralThatCancels) {
   const GainFunction difference(
       {{0, -1.0}, {10'000'000, -1.0}, {10'000'001, 1.0}, {20'000'000, 1.0}, {20'000'001, 0.0}});
   const std::string message =
-      test::message_of<InputError>([&] { static_cast<void>(normalized("integral", difference, kSecond)); });
+      test::message_of<InputError>([&] { static_cast<void>(normalized("integral", difference, kSecondNs)); });
   EXPECT_EQ(
       message,
       "M0: the positive and negative parts of its gains cancel (the still gain is -2.5e-08), so there is no "
       "integral to divide by; use support, absolute or seconds:S");
-  EXPECT_NO_THROW(static_cast<void>(normalized("absolute", difference, kSecond)));
+  EXPECT_NO_THROW(static_cast<void>(normalized("absolute", difference, kSecondNs)));
 }
 
 TEST(Normalization, LeavesAFunctionThatIsZeroInTheCapture) {

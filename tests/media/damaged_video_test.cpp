@@ -14,15 +14,15 @@ using test::open_test_clip;
 using test::read_all;
 using test::Scratch;
 
-constexpr Shape kShape{64, 48, 1};
+constexpr Shape kVideoShape{64, 48, 1};
 constexpr int kPictures = 30;
 
 class DamagedVideo : public testing::Test {
  protected:
   void make_clip(const std::string& codec, const std::string& name) const {
-    const auto pictures = test::random_stills(kShape, 255, kPictures, 1);
+    const auto pictures = test::random_stills(kVideoShape, 255, kPictures, 1);
     scratch_.write("raw", test::bytes_of(pictures));
-    test::make(scratch_, test::from_raw(kShape, "gray") + codec + " " + name);
+    test::make(scratch_, test::from_raw(kVideoShape, "gray") + codec + " " + name);
   }
   // A copy of whole.mkv in whose middle the bytes of three pictures are lost.
   std::filesystem::path write_hole() const {
@@ -227,9 +227,9 @@ TEST_F(DamagedVideo, ThatWasCutOffSaysSo) {
 
 TEST_F(DamagedVideo, WithSoundThatLastsLongerIsWhole) {
   NEEDS_FFMPEG();
-  scratch_.write("raw", test::bytes_of(test::random_stills(kShape, 255, kPictures, 1)));
+  scratch_.write("raw", test::bytes_of(test::random_stills(kVideoShape, 255, kPictures, 1)));
   for (const char* name : {"s.mkv", "s.mp4", "s.avi"}) {
-    test::make(scratch_, test::from_raw(kShape, "gray") +
+    test::make(scratch_, test::from_raw(kVideoShape, "gray") +
                              "-f lavfi -i sine=duration=5 -c:v mjpeg -pix_fmt yuvj420p -c:a aac " + name);
     const auto clip = open_test_clip(scratch_ / name);
     EXPECT_TRUE(clip->info().notes.empty()) << name << ": " << clip->info().notes.front().text;

@@ -11,7 +11,7 @@ using test::open_test_clip;
 using test::read_all;
 using test::Scratch;
 
-constexpr Shape kShape{64, 48, 1};
+constexpr Shape kFrameShape{64, 48, 1};
 constexpr int kFrames = 8;
 
 // Of 50 pictures a second each frame has the odd lines of one and the even lines of the next. `first` is t or b.
@@ -89,8 +89,8 @@ TEST_F(InterlacedVideo, BecomesWhatFfmpegMakesOfIt) {
     make_interlaced(scratch_, first, "-c:v ffv1", "a.mkv");
     const std::string frames = joined(read("a.mkv", Interlaced::frames)),
                       fields = joined(read("a.mkv", Interlaced::fields));
-    EXPECT_EQ(frames.size(), kShape.pixel_count() * kFrames);
-    EXPECT_EQ(fields.size(), kShape.pixel_count() * kFrames * 2);
+    EXPECT_EQ(frames.size(), kFrameShape.pixel_count() * kFrames);
+    EXPECT_EQ(fields.size(), kFrameShape.pixel_count() * kFrames * 2);
     EXPECT_TRUE(frames == by_ffmpeg("a.mkv", "-vf bwdif=mode=send_frame"));
     EXPECT_TRUE(fields == by_ffmpeg("a.mkv", "-vf bwdif=mode=send_field"));
     // Frames as they are combs.
@@ -170,7 +170,7 @@ TEST_F(InterlacedVideo, OfSixteenBitsAndColourIsDeinterlaced) {
                              pixels + ",setfield=tff -c:v ffv1 -level 3 a.mkv");
     const auto rasters = read("a.mkv", Interlaced::frames);
     ASSERT_EQ(rasters.size(), 3u);
-    EXPECT_EQ(rasters[0].size(), kShape.pixel_count() * bytes);
+    EXPECT_EQ(rasters[0].size(), kFrameShape.pixel_count() * bytes);
   }
 }
 

@@ -23,7 +23,7 @@ using test::Scratch;
 using test::tiff_file;
 using test::TiffOptions;
 
-constexpr Shape kGrey{17, 9, 1}, kColour{17, 9, 3};
+constexpr Shape kGreyShape{17, 9, 1}, kColourShape{17, 9, 3};
 
 void expect_codes(Clip& clip, const std::vector<Picture>& stills) {
   EXPECT_EQ(clip.info().format.shape, stills[0].shape);
@@ -62,7 +62,7 @@ void write_with_opencv(const std::filesystem::path& path, const Picture& still) 
 
 TEST(StillClip, GivesTheCodesOfPngAndTiffBack) {
   for (const char* extension : {".png", ".tif"}) {
-    for (const Shape shape : {kGrey, kColour, Shape{1, 1, 1}, Shape{64, 65, 3}}) {
+    for (const Shape shape : {kGreyShape, kColourShape, Shape{1, 1, 1}, Shape{64, 65, 3}}) {
       for (const std::uint32_t white : {255u, 65'535u}) {
         SCOPED_TRACE(std::string(extension) + ", white " + std::to_string(white));
         const Scratch scratch;
@@ -83,7 +83,7 @@ TEST(StillClip, GivesTheCodesOfPngAndTiffBack) {
 }
 
 TEST(StillClip, TakesTheWhiteCodeOfNetpbm) {
-  for (const Shape shape : {kGrey, kColour}) {
+  for (const Shape shape : {kGreyShape, kColourShape}) {
     for (const std::uint32_t white : {1u, 100u, 255u, 256u, 1023u, 4095u, 65'535u}) {
       for (const bool plain : {false, true}) {
         SCOPED_TRACE("white " + std::to_string(white) + (plain ? ", plain" : ", raw"));
@@ -111,18 +111,18 @@ TEST(StillClip, ReadsTiffStacksOfEveryLayout) {
     std::uint32_t stated_white;
   };
   const Case cases[] = {
-      {"16 bits", kGrey, 65'535, {}, 65'535},
-      {"big-endian", kGrey, 65'535, {16, true}, 65'535},
-      {"colour, big-endian", kColour, 65'535, {16, true}, 65'535},
-      {"colour, planar", kColour, 65'535, {16, false, false, true}, 65'535},
-      {"8 bits, planar, big-endian", kColour, 255, {8, true, false, true}, 255},
-      {"12 bits packed", kGrey, 4095, {12}, 4095},
-      {"10 bits packed, colour", kColour, 1023, {10}, 1023},
-      {"14 bits packed, planar", kColour, 16'383, {14, true, false, true}, 16'383},
-      {"inverted", kGrey, 255, {8, false, true}, 255},
-      {"inverted, 12 bits", kGrey, 4095, {12, false, true}, 4095},
-      {"states 4095", kGrey, 4095, {16, false, false, false, 4095}, 4095},
-      {"states a value that occurs", kGrey, 5000, {16, false, false, false, 5000}, 65'535},
+      {"16 bits", kGreyShape, 65'535, {}, 65'535},
+      {"big-endian", kGreyShape, 65'535, {16, true}, 65'535},
+      {"colour, big-endian", kColourShape, 65'535, {16, true}, 65'535},
+      {"colour, planar", kColourShape, 65'535, {16, false, false, true}, 65'535},
+      {"8 bits, planar, big-endian", kColourShape, 255, {8, true, false, true}, 255},
+      {"12 bits packed", kGreyShape, 4095, {12}, 4095},
+      {"10 bits packed, colour", kColourShape, 1023, {10}, 1023},
+      {"14 bits packed, planar", kColourShape, 16'383, {14, true, false, true}, 16'383},
+      {"inverted", kGreyShape, 255, {8, false, true}, 255},
+      {"inverted, 12 bits", kGreyShape, 4095, {12, false, true}, 4095},
+      {"states 4095", kGreyShape, 4095, {16, false, false, false, 4095}, 4095},
+      {"states a value that occurs", kGreyShape, 5000, {16, false, false, false, 5000}, 65'535},
   };
   for (const Case& tested : cases) {
     SCOPED_TRACE(tested.name);
@@ -143,7 +143,7 @@ TEST(StillClip, ReadsLongStacksInOneGo) {
 }
 
 TEST(StillClip, ReadsJpeg) {
-  for (const Shape shape : {kGrey, kColour}) {
+  for (const Shape shape : {kGreyShape, kColourShape}) {
     const Scratch scratch;
     const auto stills = test::random_stills(shape, 255, 1, 3);
     write_with_opencv(scratch / "f.jpg", stills[0]);
@@ -183,7 +183,7 @@ TEST(StillClip, TurnsJpegUpright) {
 
 TEST(StillClip, AStatedWhiteCodeGoesBeforeTheFiles) {
   const Scratch scratch;
-  const auto stills = test::random_stills(kGrey, 4095, 1, 3);
+  const auto stills = test::random_stills(kGreyShape, 4095, 1, 3);
   write_with_opencv(scratch / "f.png", stills[0]);
   ClipOptions options;
   options.white_code = 4095;
@@ -195,7 +195,7 @@ TEST(StillClip, AStatedWhiteCodeGoesBeforeTheFiles) {
 // A stack's pages are chained: where a link leads nowhere the rest would be lost without a word.
 TEST(StillClip, RefusesAStackThatWasCutOff) {
   const Scratch scratch;
-  const std::string whole = tiff_file(test::random_stills(kGrey, 65'535, 4, 1), {});
+  const std::string whole = tiff_file(test::random_stills(kGreyShape, 65'535, 4, 1), {});
   for (const std::size_t eighths : {3u, 5u, 7u}) {
     expect_refused(scratch.write("cut.tif", whole.substr(0, whole.size() * eighths / 8)), {"cut.tif"});
   }
@@ -203,7 +203,7 @@ TEST(StillClip, RefusesAStackThatWasCutOff) {
 
 // The last bytes of a TIFF say that no page follows. Without them the picture may be whole, and the file is not.
 TEST(StillClip, RefusesATiffThatLacksItsLastBytes) {
-  const auto stills = test::random_stills(kGrey, 255, 3, 1);
+  const auto stills = test::random_stills(kGreyShape, 255, 3, 1);
   const auto file_of = [](const std::vector<Picture>& pages) { return tiff_file(pages, {8}); };
   for (std::size_t missing = 1; missing <= 8; ++missing) {
     SCOPED_TRACE(missing);
@@ -235,26 +235,26 @@ TEST(StillClip, SaysWhichStillDiffersAndHow) {
     }
   };
   for (const char* folder : {"size", "depth", "channels"}) {
-    write(std::string(folder) + "/f0.png", kGrey, 255);
-    write(std::string(folder) + "/f1.png", kGrey, 255);
+    write(std::string(folder) + "/f0.png", kGreyShape, 255);
+    write(std::string(folder) + "/f1.png", kGreyShape, 255);
   }
   write("size/f2.png", {18, 9, 1}, 255);
-  write("depth/f2.png", kGrey, 65'535);
-  write("channels/f2.png", kColour, 255);
+  write("depth/f2.png", kGreyShape, 65'535);
+  write("channels/f2.png", kColourShape, 255);
   expect_refused(scratch / "size",
                  {"size/f2.png is 18 x 9 grey of 8 bits", "size/f0.png, is 17 x 9 grey of 8 bits"});
   expect_refused(scratch / "depth", {"depth/f2.png is 17 x 9 grey of 16 bits", "17 x 9 grey of 8 bits"});
   expect_refused(scratch / "channels", {"channels/f2.png is 17 x 9 colour", "17 x 9 grey"});
 
-  write("white/f0.pgm", kGrey, 1023);
-  write("white/f1.pgm", kGrey, 4095);
+  write("white/f0.pgm", kGreyShape, 1023);
+  write("white/f1.pgm", kGreyShape, 4095);
   expect_refused(scratch / "white", {"f1.pgm is 17 x 9 grey of 16 bits, white code 4095", "white code 1023",
                                      "state what is white"});
   ClipOptions options;
   options.white_code = 4095;
   EXPECT_EQ(read_all(*open_test_clip(scratch / "white", options)).size(), 2u);
 
-  auto pages = test::random_stills(kGrey, 65'535, 2, 1);
+  auto pages = test::random_stills(kGreyShape, 65'535, 2, 1);
   pages.push_back(test::random_stills({9, 17, 1}, 65'535, 1, 1)[0]);
   expect_refused(scratch.write("stack.tif", tiff_file(pages, {})), {"stack.tif, page 3, is 9 x 17 grey"});
 }
@@ -295,7 +295,7 @@ TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
 
 TEST(StillClip, AStackThatIsCutOffNamesThePage) {
   const Scratch scratch;
-  const auto stills = test::random_stills(kGrey, 65'535, 4, 8);
+  const auto stills = test::random_stills(kGreyShape, 65'535, 4, 8);
   std::string bytes = tiff_file(stills, {});
   // The third page's pixels lie where the file says that they do no more: behind its end.
   const std::string two = tiff_file({stills[0], stills[1]}, {});
@@ -316,7 +316,7 @@ TEST(StillClip, AStackThatIsCutOffNamesThePage) {
 TEST(StillClip, NotesAHoleInAFolderOfNumberedStills) {
   const Scratch scratch;
   std::filesystem::create_directory(scratch / "frames");
-  const auto stills = test::random_stills(kGrey, 255, 3, 11);
+  const auto stills = test::random_stills(kGreyShape, 255, 3, 11);
   const char* names[] = {"frames/f1.pgm", "frames/f2.pgm", "frames/f4.pgm"};
   for (std::size_t k = 0; k < 3; ++k) scratch.write(names[k], netpbm_file(stills[k], false));
   const auto folder = open_test_clip(scratch / "frames");
@@ -333,7 +333,7 @@ TEST(StillClip, NotesAHoleInAFolderOfNumberedStills) {
 // A module is a library of its own, and a signal the program's.
 TEST(StillClip, EndsAtASignal) {
   const Scratch scratch;
-  const auto path = scratch.write("a.tif", tiff_file(test::random_stills(kGrey, 255, 1, 1), {8}));
+  const auto path = scratch.write("a.tif", tiff_file(test::random_stills(kGreyShape, 255, 1, 1), {8}));
   EXPECT_EQ(read_all(*open_test_clip(path)).size(), 1u);
   catch_interruptions();
   std::raise(SIGTERM);
@@ -348,7 +348,7 @@ TEST(StillClip, TakesThePixelAspectFromTheFile) {
   for (const std::string name : {"a.png", "a.tif", "a.jpg"}) {
     for (const auto& [aspect, text] :
          {std::pair(Rational{32, 27}, "pixels 32:27"), {Rational{10, 11}, "pixels 10:11"}}) {
-      Picture picture = test::random_stills(kGrey, 255, 1, 3).front();
+      Picture picture = test::random_stills(kGreyShape, 255, 1, 3).front();
       picture.pixel_aspect = aspect;
       write_picture(scratch / name, picture);
       const auto clip = open_test_clip(scratch / name);
@@ -358,7 +358,7 @@ TEST(StillClip, TakesThePixelAspectFromTheFile) {
       stated.pixel_aspect = Rational{2, 1};
       EXPECT_EQ(open_test_clip(scratch / name, stated)->info().format.pixel_aspect, (Rational{2, 1}));
     }
-    Picture square = test::random_stills(kGrey, 255, 1, 3).front();
+    Picture square = test::random_stills(kGreyShape, 255, 1, 3).front();
     write_picture(scratch / name, square);
     EXPECT_EQ(open_test_clip(scratch / name)->info().format.pixel_aspect, (Rational{1, 1}));
   }
@@ -366,7 +366,7 @@ TEST(StillClip, TakesThePixelAspectFromTheFile) {
 
 TEST(StillClip, OfPixelsOfOtherShapesIsRefused) {
   const Scratch scratch;
-  const auto pictures = test::random_stills(kGrey, 255, 2, 3);
+  const auto pictures = test::random_stills(kGreyShape, 255, 2, 3);
   for (const std::string name : {"a.png", "a.tif", "a.jpg"}) {
     const auto folder = scratch / ("of " + name);
     std::filesystem::create_directories(folder);
@@ -394,7 +394,7 @@ TEST(StillClip, OfPngStandsForWhatItsChunksName) {
     lines.erase(lines.begin());
     return std::pair(clip->info().format.transfer, lines);
   };
-  Picture picture = test::random_stills(kColour, 65'535, 1, 3).front();
+  Picture picture = test::random_stills(kColourShape, 65'535, 1, 3).front();
   EXPECT_EQ(facts_of(picture).second[0], "transfer linear, assumed");
   EXPECT_EQ(facts_of(picture).second[1], "primaries bt709, assumed");
   for (const Transfer& transfer : {Transfer::srgb(), Transfer::bt709(), Transfer::linear(), Transfer::hlg(),

@@ -17,12 +17,12 @@ namespace {
 using test::open_test_clip;
 using test::Scratch;
 
-constexpr Shape kShape{16, 8, 1};
+constexpr Shape kStillShape{16, 8, 1};
 
 // Three stills, a.pgm, b.pgm and `c, 2.pgm`, in a folder of their own.
 std::vector<Picture> write_stills(const Scratch& scratch) {
   std::filesystem::create_directory(scratch / "shots");
-  const auto stills = test::random_stills(kShape, 255, 3, 4);
+  const auto stills = test::random_stills(kStillShape, 255, 3, 4);
   scratch.write("shots/a.pgm", test::netpbm_file(stills[0], false));
   scratch.write("shots/b.pgm", test::netpbm_file(stills[1], false));
   scratch.write("shots/c, 2.pgm", test::netpbm_file(stills[2], false));
@@ -78,8 +78,8 @@ TEST(StillsTable, NamesFileAndBothValuesOfWhatIsWrong) {
   const Scratch scratch;
   write_stills(scratch);
   scratch.write("shots/large.pgm", test::netpbm_file(test::random_stills({17, 8, 1}, 255, 1, 1)[0], false));
-  scratch.write("shots/deep.pgm", test::netpbm_file(test::random_stills(kShape, 4095, 1, 1)[0], false));
-  scratch.write("shots/pages.tif", test::tiff_file(test::random_stills(kShape, 65'535, 2, 1), {}));
+  scratch.write("shots/deep.pgm", test::netpbm_file(test::random_stills(kStillShape, 4095, 1, 1)[0], false));
+  scratch.write("shots/pages.tif", test::tiff_file(test::random_stills(kStillShape, 65'535, 2, 1), {}));
   struct Case {
     const char* table;
     std::vector<const char*> parts;

@@ -14,12 +14,12 @@ namespace nutik {
 namespace {
 
 // No multiple of a tile's side.
-constexpr std::uint32_t kWidth = 41, kHeight = 23, kTileSide = 16;
+constexpr std::uint32_t kPageWidth = 41, kPageHeight = 23, kTileSide = 16;
 
-struct Close {
+struct CloseTiff {
   void operator()(TIFF* file) const { TIFFClose(file); }
 };
-using File = std::unique_ptr<TIFF, Close>;
+using TiffFile = std::unique_ptr<TIFF, CloseTiff>;
 
 std::uint32_t code_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
   return x * 5 + y * 3 + channel * 20;
@@ -30,10 +30,10 @@ struct Kind {
   bool tiled, separate;
 };
 
-File begun(const std::filesystem::path& path, const Kind& kind) {
-  File file(TIFFOpen(path.c_str(), "w"));
-  TIFFSetField(file.get(), TIFFTAG_IMAGEWIDTH, kWidth);
-  TIFFSetField(file.get(), TIFFTAG_IMAGELENGTH, kHeight);
+TiffFile begun(const std::filesystem::path& path, const Kind& kind) {
+  TiffFile file(TIFFOpen(path.c_str(), "w"));
+  TIFFSetField(file.get(), TIFFTAG_IMAGEWIDTH, kPageWidth);
+  TIFFSetField(file.get(), TIFFTAG_IMAGELENGTH, kPageHeight);
   TIFFSetField(file.get(), TIFFTAG_BITSPERSAMPLE, kind.bits);
   TIFFSetField(file.get(), TIFFTAG_SAMPLESPERPIXEL, kind.channels);
   TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC,
@@ -64,14 +64,14 @@ std::vector<std::uint8_t> packed(const Kind& kind, std::uint32_t left, std::uint
 }
 
 void write(const std::filesystem::path& path, const Kind& kind) {
-  const File file = begun(path, kind);
+  const TiffFile file = begun(path, kind);
   for (std::uint16_t plane = 0; plane < (kind.separate ? kind.channels : 1); ++plane) {
-    for (std::uint32_t y = 0; y < kHeight; y += kind.tiled ? kTileSide : 1) {
+    for (std::uint32_t y = 0; y < kPageHeight; y += kind.tiled ? kTileSide : 1) {
       if (!kind.tiled) {
-        TIFFWriteScanline(file.get(), packed(kind, 0, y, kWidth, 1, plane).data(), y, plane);
+        TIFFWriteScanline(file.get(), packed(kind, 0, y, kPageWidth, 1, plane).data(), y, plane);
         continue;
       }
-      for (std::uint32_t x = 0; x < kWidth; x += kTileSide) {
+      for (std::uint32_t x = 0; x < kPageWidth; x += kTileSide) {
         TIFFWriteTile(file.get(), packed(kind, x, y, kTileSide, kTileSide, plane).data(), x, y, 0, plane);
       }
     }
@@ -88,13 +88,13 @@ TEST_P(TiffKinds, GiveTheCodesThatTheyHold) {
   const TiffPage page = *reader.next();
   EXPECT_FALSE(reader.next());
   const Shape& shape = page.picture.shape;
-  ASSERT_EQ(shape, (Shape{kWidth, kHeight, GetParam().channels}));
+  ASSERT_EQ(shape, (Shape{kPageWidth, kPageHeight, GetParam().channels}));
   for (std::size_t i = 0; i < shape.value_count(); ++i) {
     const std::uint32_t code = GetParam().bits == 8 ? page.picture.values<std::uint8_t>()[i]
                                                     : page.picture.values<std::uint16_t>()[i];
     const auto pixel = static_cast<std::uint32_t>(i / shape.channels),
                channel = static_cast<std::uint32_t>(i % shape.channels);
-    const std::uint32_t expected = code_at(pixel % kWidth, pixel / kWidth, channel);
+    const std::uint32_t expected = code_at(pixel % kPageWidth, pixel / kPageWidth, channel);
     ASSERT_EQ(code, GetParam().bits == 8 ? expected & 255 : expected) << "value " << i;
   }
 }
@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(All, TiffKinds,
 TEST(TiffPalette, GivesItsColours) {
   const test::Scratch scratch;
   {
-    const File file = begun(scratch / "a.tif", {8, 1, false, false});
+    const TiffFile file = begun(scratch / "a.tif", {8, 1, false, false});
     TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_PALETTE);
     std::vector<std::uint16_t> red(256), green(256), blue(256);
     for (std::uint16_t i = 0; i < 256; ++i) {
@@ -134,16 +134,16 @@ TEST(TiffPalette, GivesItsColours) {
       blue[i] = 0x1200;
     }
     TIFFSetField(file.get(), TIFFTAG_COLORMAP, red.data(), green.data(), blue.data());
-    for (std::uint32_t y = 0; y < kHeight; ++y) {
-      TIFFWriteScanline(file.get(), packed({8, 1, false, false}, 0, y, kWidth, 1, 0).data(), y, 0);
+    for (std::uint32_t y = 0; y < kPageHeight; ++y) {
+      TIFFWriteScanline(file.get(), packed({8, 1, false, false}, 0, y, kPageWidth, 1, 0).data(), y, 0);
     }
   }
   const Picture picture = TiffReader(scratch / "a.tif").next()->picture;
-  ASSERT_EQ(picture.shape, (Shape{kWidth, kHeight, 3}));
+  ASSERT_EQ(picture.shape, (Shape{kPageWidth, kPageHeight, 3}));
   const auto codes = picture.values<std::uint8_t>();
-  for (std::uint32_t y = 0; y < kHeight; ++y) {
-    for (std::uint32_t x = 0; x < kWidth; ++x) {
-      const std::uint32_t entry = code_at(x, y, 0) & 255, at = (y * kWidth + x) * 3;
+  for (std::uint32_t y = 0; y < kPageHeight; ++y) {
+    for (std::uint32_t x = 0; x < kPageWidth; ++x) {
+      const std::uint32_t entry = code_at(x, y, 0) & 255, at = (y * kPageWidth + x) * 3;
       ASSERT_EQ(codes[at], entry);
       ASSERT_EQ(codes[at + 1], 255 - entry);
       ASSERT_EQ(codes[at + 2], 0x12);

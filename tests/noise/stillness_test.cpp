@@ -20,7 +20,7 @@ using test::Light;
 using test::NoisyCamera;
 using test::Rasters;
 
-NoisyCamera camera_of(std::uint32_t channels, std::uint32_t white, Transfer transfer) {
+NoisyCamera still_camera(std::uint32_t channels, std::uint32_t white, Transfer transfer) {
   NoisyCamera camera;
   camera.format.shape = {96, 64, channels};
   camera.format.code_bytes = white > 255 ? 2 : 1;
@@ -29,9 +29,9 @@ NoisyCamera camera_of(std::uint32_t channels, std::uint32_t white, Transfer tran
   return camera;
 }
 
-NoisyCamera grey_camera() { return camera_of(1, 255, Transfer::srgb()); }
+NoisyCamera grey_camera() { return still_camera(1, 255, Transfer::srgb()); }
 NoisyCamera deep_camera() {
-  NoisyCamera camera = camera_of(1, 4095, Transfer::linear());
+  NoisyCamera camera = still_camera(1, 4095, Transfer::linear());
   camera.read = 0.002;
   camera.shot = 0.0001;
   return camera;
@@ -57,7 +57,7 @@ Stillness judged(const NoisyCamera& camera, std::uint64_t samples, std::uint64_t
 bool stands_still(const Stillness& found) { return found.stray <= found.limit; }
 
 // Waves of 12 to 40 pixels in several directions, between about -1 and 1: as they stand, or as they run at time k.
-double waves(double x, double y, double k = 0) {
+double ripples(double x, double y, double k = 0) {
   double sum = 0;
   for (int j = 0; j < 8; ++j) {
     const double length = 12 + 4 * j, angle = 0.9 * j;
@@ -81,7 +81,7 @@ Light scene(const NoisyCamera& camera, OfPlace of_place) {
   };
 }
 
-double textured(Place at) { return 0.3 + 0.1 * waves(at.x, at.y) + 0.001 * at.x; }
+double textured(Place at) { return 0.3 + 0.1 * ripples(at.x, at.y) + 0.001 * at.x; }
 
 Light panned(const NoisyCamera& camera, double pixels_a_picture) {
   return scene(camera, [=](Place at, double k) { return textured({at.x + pixels_a_picture * k, at.y}); });
@@ -99,7 +99,7 @@ TEST(Stillness, IsSeenInEveryCamera) {
        {Case{3, 255, Transfer::srgb(), 0.004, 0.0004}, Case{1, 255, Transfer::linear(), 0.0005, 0.00001},
         Case{1, 255, Transfer::srgb(), 0, 0}, Case{1, 4095, Transfer::linear(), 0.001, 0.0001},
         Case{3, 65'535, Transfer::bt709(), 0.002, 0.0003}}) {
-    NoisyCamera camera = camera_of(each.channels, each.white, each.transfer);
+    NoisyCamera camera = still_camera(each.channels, each.white, each.transfer);
     camera.read = each.read;
     camera.shot = each.shot;
     for (const std::uint64_t samples : {3U, 4U, 5U, 17U, 64U, 100U}) {
@@ -197,7 +197,7 @@ TEST(Stillness, IsMissedInAnEighth) {
         const double still = textured(at);
         if (at.x < 48 || at.x >= 60 || k < 64) return still;
         return still +
-               strays * std::sqrt(camera.read * camera.read + camera.shot * still) * waves(at.x, at.y, k);
+               strays * std::sqrt(camera.read * camera.read + camera.shot * still) * ripples(at.x, at.y, k);
       });
       const Stillness found = judged(camera, 128, 5, light);
       EXPECT_GT(found.max_stray, found.max_limit) << strays;

@@ -14,7 +14,7 @@ namespace {
 
 using test::RandomCase;
 
-constexpr OutputFormat kLight{ValueType::light64, 0};
+constexpr OutputFormat kDelayedLight{ValueType::light64, 0};
 
 // NUTIK_TEST_CASES=10000 is the full run (docs/explanation/accuracy.md). Every third mask is soft.
 TEST(Delays, StayWithinTheirBoundsOnRandomCases) {
@@ -41,8 +41,8 @@ TEST(Delays, StayWithinTheirBoundsOnRandomCases) {
 }
 
 // 40 x 264 pixels, 60 samples at 100 a second, tiles of all kinds.
-struct Scene {
-  Scene() {
+struct DelayScene {
+  DelayScene() {
     format.shape = {40, 264, 3};
     test::Random random(5);
     rasters = test::random_rasters(random, format, 60);
@@ -67,7 +67,7 @@ GainFunction triangle(std::int64_t begin_ns, std::int64_t end_ns) {
 
 // It is the same function in the same place, in tables of the same kind: not only within the bound.
 TEST(Delays, OfOneLengthAreAMovedFunctionToTheLastBit) {
-  const Scene scene;
+  const DelayScene scene;
   MemoryCapture capture = scene.capture();
   for (const std::int64_t delay_ns : {-37'123'456, 0, 123'456'789}) {
     const GainFunction function = triangle(100'000'000, 190'000'001);
@@ -76,12 +76,12 @@ TEST(Delays, OfOneLengthAreAMovedFunctionToTheLastBit) {
         make_plan(capture, {{0, function}}, scene.mask(),
                   delayed_by(DelayMap::by_rows(scene.format.shape, {delay_ns, delay_ns})));
     ReferenceRenderer reference;
-    EXPECT_EQ(reference.render(delayed, capture, kLight).picture.bytes,
-              reference.render(moved, capture, kLight).picture.bytes);
+    EXPECT_EQ(reference.render(delayed, capture, kDelayedLight).picture.bytes,
+              reference.render(moved, capture, kDelayedLight).picture.bytes);
     for (const Precision precision : precisions_of(list_devices().front())) {
       OpenClRenderer renderer(test::renderer_options(precision));
-      EXPECT_EQ(renderer.render(delayed, capture, kLight).picture.bytes,
-                renderer.render(moved, capture, kLight).picture.bytes)
+      EXPECT_EQ(renderer.render(delayed, capture, kDelayedLight).picture.bytes,
+                renderer.render(moved, capture, kDelayedLight).picture.bytes)
           << to_text(precision) << ", " << delay_ns << " ns";
     }
   }
@@ -89,7 +89,7 @@ TEST(Delays, OfOneLengthAreAMovedFunctionToTheLastBit) {
 
 // 256 strips of a row each, whose functions expose whole samples, are what a map of 256 steps makes without a mask.
 TEST(Delays, Of256StepsAreARecipeOf256Strips) {
-  Scene scene;
+  DelayScene scene;
   scene.format.shape.height = 256;
   for (auto& raster : scene.rasters) raster.resize(scene.format.sample_bytes());
   scene.timeline = Timeline::constant({100, 1}, Timeline::kFullShutter, 60);
@@ -113,7 +113,7 @@ TEST(Delays, Of256StepsAreARecipeOf256Strips) {
   EXPECT_TRUE(map.warnings.empty());
   for (const Precision precision : precisions_of(list_devices().front())) {
     OpenClRenderer renderer(test::renderer_options(precision));
-    for (const OutputFormat& output : {kLight, OutputFormat{ValueType::code8, 255}}) {
+    for (const OutputFormat& output : {kDelayedLight, OutputFormat{ValueType::code8, 255}}) {
       EXPECT_EQ(renderer.render(map, capture, output).picture.bytes,
                 renderer.render(recipe, capture, output).picture.bytes)
           << to_text(precision);
@@ -123,7 +123,7 @@ TEST(Delays, Of256StepsAreARecipeOf256Strips) {
 
 // More functions than a byte counts, exposed again and again from what stays on the device.
 TEST(Delays, GiveTheSamePictureFromAResidentCapture) {
-  const Scene scene;
+  const DelayScene scene;
   MemoryCapture capture = scene.capture();
   OpenClRenderer resident(test::renderer_options(Precision::single_));
   resident.keep_resident(&capture);
@@ -133,13 +133,13 @@ TEST(Delays, GiveTheSamePictureFromAResidentCapture) {
                   delayed_by(DelayMap::by_rows(scene.format.shape, {0, 100'000'000})));
     ASSERT_EQ(plan.function_count(), 264u);
     OpenClRenderer fresh(test::renderer_options(Precision::single_));
-    EXPECT_EQ(resident.render(plan, capture, kLight).picture.bytes,
-              fresh.render(plan, capture, kLight).picture.bytes);
+    EXPECT_EQ(resident.render(plan, capture, kDelayedLight).picture.bytes,
+              fresh.render(plan, capture, kDelayedLight).picture.bytes);
   }
 }
 
 TEST(Delays, AreTestedByTheRenderersOwnTest) {
-  const Scene scene;
+  const DelayScene scene;
   MemoryCapture capture = scene.capture();
   const RenderPlan plan = make_plan(capture, {{0, triangle(0, 90'000'000)}}, scene.mask(),
                                     delayed_by(DelayMap::by_rows(scene.format.shape, {0, 100'000'000})));
@@ -147,7 +147,7 @@ TEST(Delays, AreTestedByTheRenderersOwnTest) {
     OpenClOptions options = test::renderer_options(precision);
     options.tests_itself = true;
     options.cache_folder.clear();
-    EXPECT_TRUE(OpenClRenderer(options).render(plan, capture, kLight).passed_self_test) << to_text(precision);
+    EXPECT_TRUE(OpenClRenderer(options).render(plan, capture, kDelayedLight).passed_self_test) << to_text(precision);
   }
 }
 

@@ -49,12 +49,12 @@ constexpr test::Exclusion kAbsent[] = {
 // A capture that meets all of the kernels' ways: 17 tiles that are still, rows, dense and records, under one function
 // and under several; a block whose samples are counted in 16 bits and one with 8; gains of both signs, and one that
 // lives in the second block only.
-class Scene {
+class BuildScene {
  public:
   static constexpr std::uint64_t kSamples = 300;
   static constexpr std::uint32_t kBlockSamples = 260;
 
-  explicit Scene(const KernelBuild& build)
+  explicit BuildScene(const KernelBuild& build)
       : capture_(capture_of(build)),
         plan_(make_plan(capture_, functions(), mask(), {})),
         light_(ReferenceRenderer().render(plan_, capture_, {ValueType::light64, 0}).picture) {}
@@ -116,10 +116,10 @@ class Scene {
   Picture light_;
 };
 
-Scene& scene_for(const KernelBuild& build) {
-  static std::map<std::tuple<std::string, std::uint32_t, std::uint32_t>, std::unique_ptr<Scene>> scenes;
-  std::unique_ptr<Scene>& scene = scenes[{build.transfer().text(), build.code_bytes, build.channels}];
-  if (scene == nullptr) scene = std::make_unique<Scene>(build);
+BuildScene& scene_for(const KernelBuild& build) {
+  static std::map<std::tuple<std::string, std::uint32_t, std::uint32_t>, std::unique_ptr<BuildScene>> scenes;
+  std::unique_ptr<BuildScene>& scene = scenes[{build.transfer().text(), build.code_bytes, build.channels}];
+  if (scene == nullptr) scene = std::make_unique<BuildScene>(build);
   return *scene;
 }
 
@@ -157,7 +157,7 @@ TEST_P(KernelBuilds, StayWithinTheirBounds) {
     }
     SCOPED_TRACE(build.name() + "; rerun: NUTIK_TEST_BUILDS=" + build.name() + " " + test::rerun());
     OpenClRenderer renderer(build.options());
-    Scene& scene = scene_for(build);
+    BuildScene& scene = scene_for(build);
     double most = 0.0;
     for (const OutputFormat& output : {build.output, OutputFormat{ValueType::light64, 0}}) {
       const ErrorBound bound = error_bound(scene.plan(), build.precision, output);
@@ -226,7 +226,7 @@ TEST(KernelBuildTable, MeetsAnyTwoValues) {
 }
 
 TEST(KernelBuildTable, IsTriedOnTilesOfAllKinds) {
-  Scene& scene = scene_for(test::possible_builds().front());
+  BuildScene& scene = scene_for(test::possible_builds().front());
   for (std::uint64_t b = 0; b < scene.capture().block_count(); ++b) {
     const BlockView block = scene.capture().view(b);
     std::set<TileKind> kinds;

@@ -18,7 +18,7 @@ using test::RandomCase;
 
 const test::CodeFormat kColour{3, 1, 255, Transfer::srgb()};
 
-std::vector<std::byte> part_of(const Picture& picture, const Rectangle& rectangle) {
+std::vector<std::byte> cut_of(const Picture& picture, const Rectangle& rectangle) {
   std::vector<std::byte> part;
   const std::size_t pixel_bytes = picture.bytes.size() / picture.shape.pixel_count();
   for (std::uint32_t y = 0; y < rectangle.height; ++y) {
@@ -53,7 +53,7 @@ void expect_rectangles(Renderer& renderer, const RandomCase& random, RenderContr
       control.rectangle = rectangle;
       const Picture part = renderer.render(plan, capture, output, control).picture;
       ASSERT_EQ(part.shape, (Shape{rectangle.width, rectangle.height, plan.capture.shape.channels}));
-      EXPECT_EQ(part.bytes, part_of(whole, rectangle))
+      EXPECT_EQ(part.bytes, cut_of(whole, rectangle))
           << rectangle.x << "," << rectangle.y << " " << rectangle.width << " x " << rectangle.height << ": "
           << random.text();
     }
@@ -176,7 +176,7 @@ TEST(RenderControl, ManyThreadsMayAskAtATime) {
           try {
             const Rendered rendered = renderer.render(plan, capture, output, control);
             wrong += rendered.precision != *control.precision ||
-                     rendered.picture.bytes != part_of(expected[p], *control.rectangle);
+                     rendered.picture.bytes != cut_of(expected[p], *control.rectangle);
           } catch (const Cancelled&) {
             ++cancelled;
           }

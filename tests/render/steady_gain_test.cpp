@@ -11,7 +11,7 @@
 namespace nutik {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kMsNs = 1'000'000;
 constexpr std::uint64_t kBlocks = 40;
 constexpr std::uint32_t kSamples = 16;
 
@@ -20,7 +20,7 @@ CaptureLayout layout(std::uint32_t samples = kSamples) {
   for (std::uint64_t block = 0; block < kBlocks; ++block) {
     made.blocks.push_back({block * samples, samples});
     const auto begin_ms = static_cast<std::int64_t>(block * samples);
-    made.reaches.push_back({begin_ms * kMs, (begin_ms + samples) * kMs});
+    made.reaches.push_back({begin_ms * kMsNs, (begin_ms + samples) * kMsNs});
   }
   return made;
 }
@@ -31,7 +31,7 @@ SteadyStretches stretches(const CaptureLayout& layout, const GainFunction& funct
 }
 
 SteadyStretches stretches(const CaptureLayout& layout, std::int64_t from_ms, std::int64_t to_ms) {
-  return stretches(layout, GainFunction::boxcar(from_ms * kMs, to_ms * kMs));
+  return stretches(layout, GainFunction::boxcar(from_ms * kMsNs, to_ms * kMsNs));
 }
 
 TEST(SteadyGain, BundlesReachAnEndOfTheirGroup) {
@@ -117,7 +117,7 @@ TEST(SteadyGain, ABlockBetweenTwoGainsHasNoHalves) {
   const CaptureLayout blocks = layout(kLong);
   const std::int64_t end_ns = blocks.timeline.duration_ns();
   for (const std::int64_t at_ms : {1, 20, 32, 40, 63}) {
-    const std::int64_t step_ns = (20 * kLong + at_ms) * kMs;
+    const std::int64_t step_ns = (20 * kLong + at_ms) * kMsNs;
     const GainFunction steps({{0, 1.0}, {step_ns, 1.0}, {step_ns, 2.0}, {end_ns, 2.0}});
     EXPECT_EQ(stretches(blocks, steps).in(20, blocks).bundle.halves, Halves::both) << at_ms;
   }

@@ -12,55 +12,55 @@
 namespace nutik {
 namespace {
 
-constexpr Shape kShape{160, 120, 1};
-constexpr std::uint64_t kSamples = 40;
-constexpr int kWidth = 24, kHeight = 16, kTop = 60;
+constexpr Shape kSceneShape{160, 120, 1};
+constexpr std::uint64_t kSceneSamples = 40;
+constexpr int kBallWidth = 24, kBallHeight = 16, kBallTop = 60;
 
 int left_at(std::uint64_t sample) { return 10 + 3 * static_cast<int>(sample); }
 
 // Grey but where `differs(x, y, sample)`.
 std::vector<SubjectTrack> tracked(const std::function<bool(int, int, std::uint64_t)>& differs,
-                                  const Rectangle& region = Rectangle::whole(kShape)) {
+                                  const Rectangle& region = Rectangle::whole(kSceneShape)) {
   CaptureFormat format;
-  format.shape = kShape;
+  format.shape = kSceneShape;
   std::vector<std::vector<std::byte>> rasters;
-  for (std::uint64_t k = 0; k < kSamples; ++k) {
+  for (std::uint64_t k = 0; k < kSceneSamples; ++k) {
     std::vector<std::byte>& raster = rasters.emplace_back(format.sample_bytes(), std::byte{100});
-    for (int y = 0; y < static_cast<int>(kShape.height); ++y) {
-      for (int x = 0; x < static_cast<int>(kShape.width); ++x) {
+    for (int y = 0; y < static_cast<int>(kSceneShape.height); ++y) {
+      for (int x = 0; x < static_cast<int>(kSceneShape.width); ++x) {
         if (differs(x, y, k))
-          raster[static_cast<std::size_t>(y) * kShape.width + static_cast<std::size_t>(x)] = std::byte{200};
+          raster[static_cast<std::size_t>(y) * kSceneShape.width + static_cast<std::size_t>(x)] = std::byte{200};
       }
     }
   }
-  MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, kSamples), rasters, 16);
-  Picture plate(kShape, ValueType::code8, 255);
+  MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, kSceneSamples), rasters, 16);
+  Picture plate(kSceneShape, ValueType::code8, 255);
   std::fill(plate.bytes.begin(), plate.bytes.end(), std::byte{100});
   return track_subjects(capture, plate, 8, {region});
 }
 
 TEST(Subject, IsFollowedWhereItGoes) {
   const auto tracks = tracked([](int x, int y, std::uint64_t sample) {
-    return x >= left_at(sample) && x < left_at(sample) + kWidth && y >= kTop && y < kTop + kHeight;
+    return x >= left_at(sample) && x < left_at(sample) + kBallWidth && y >= kBallTop && y < kBallTop + kBallHeight;
   });
   ASSERT_EQ(tracks.size(), 1u);
   const SubjectTrack& track = tracks[0];
-  ASSERT_EQ(track.places.size(), kSamples);
+  ASSERT_EQ(track.places.size(), kSceneSamples);
   const double side = track.cell_side;
   for (const SubjectPlace& place : track.places) {
-    EXPECT_NEAR(place.centre.x, left_at(place.sample) + kWidth / 2.0, side) << place.sample;
-    EXPECT_NEAR(place.centre.y, kTop + kHeight / 2.0, side) << place.sample;
+    EXPECT_NEAR(place.centre.x, left_at(place.sample) + kBallWidth / 2.0, side) << place.sample;
+    EXPECT_NEAR(place.centre.y, kBallTop + kBallHeight / 2.0, side) << place.sample;
     EXPECT_LE(place.box.x, static_cast<std::uint32_t>(left_at(place.sample)));
-    EXPECT_LE(place.box.y, static_cast<std::uint32_t>(kTop));
-    EXPECT_GE(place.box.x + place.box.width, static_cast<std::uint32_t>(left_at(place.sample) + kWidth));
-    EXPECT_GE(place.box.y + place.box.height, static_cast<std::uint32_t>(kTop + kHeight));
+    EXPECT_LE(place.box.y, static_cast<std::uint32_t>(kBallTop));
+    EXPECT_GE(place.box.x + place.box.width, static_cast<std::uint32_t>(left_at(place.sample) + kBallWidth));
+    EXPECT_GE(place.box.y + place.box.height, static_cast<std::uint32_t>(kBallTop + kBallHeight));
     EXPECT_EQ(place.share, 1) << "nothing else differs";
     EXPECT_EQ(place.fill, 1) << "a rectangle fills its box";
     EXPECT_NEAR(place.contrast, 100.0 / 255, 0.1);
     EXPECT_FALSE(place.is_cut_off);
   }
-  EXPECT_NEAR(track.extent, left_at(kSamples - 1) - left_at(0), 2 * side);
-  EXPECT_NEAR(track.size(), std::sqrt(kWidth * kHeight), 2 * side);
+  EXPECT_NEAR(track.extent, left_at(kSceneSamples - 1) - left_at(0), 2 * side);
+  EXPECT_NEAR(track.size(), std::sqrt(kBallWidth * kBallHeight), 2 * side);
   EXPECT_FALSE(track.is_scraps());
   EXPECT_FALSE(track.flickers);
   EXPECT_TRUE(track.rests.empty());
@@ -71,12 +71,12 @@ TEST(Subject, IsFollowedWhereItGoes) {
     swept.insert(place.cells.begin(), place.cells.end());
   }
   EXPECT_DOUBLE_EQ(track.covered_share(),
-                   static_cast<double>(sum) / static_cast<double>(swept.size() * kSamples));
+                   static_cast<double>(sum) / static_cast<double>(swept.size() * kSceneSamples));
 }
 
 TEST(Subject, IsCutOffAtTheBorder) {
   const auto tracks = tracked([](int x, int y, std::uint64_t sample) {
-    return x >= left_at(sample) - 10 && x < left_at(sample) + kWidth && y >= 0 && y < kHeight;
+    return x >= left_at(sample) - 10 && x < left_at(sample) + kBallWidth && y >= 0 && y < kBallHeight;
   });
   ASSERT_EQ(tracks.size(), 1u);
   for (const SubjectPlace& place : tracks[0].places) EXPECT_TRUE(place.is_cut_off);
@@ -85,7 +85,7 @@ TEST(Subject, IsCutOffAtTheBorder) {
 TEST(Subject, IsCutOffAtTheBorderOfItsRegion) {
   const auto tracks = tracked(
       [](int x, int y, std::uint64_t sample) {
-        return x >= left_at(sample) && x < left_at(sample) + kWidth && y >= kTop && y < kTop + kHeight;
+        return x >= left_at(sample) && x < left_at(sample) + kBallWidth && y >= kBallTop && y < kBallTop + kBallHeight;
       },
       {80, 0, 80, 120});
   ASSERT_EQ(tracks.size(), 1u);
@@ -94,7 +94,7 @@ TEST(Subject, IsCutOffAtTheBorderOfItsRegion) {
     const int left = left_at(place.sample);
     if (left < 79) {
       EXPECT_TRUE(place.is_cut_off) << left;
-    } else if (left > 84 && left + kWidth < 155) {
+    } else if (left > 84 && left + kBallWidth < 155) {
       EXPECT_FALSE(place.is_cut_off) << left;
     }
     whole += place.is_cut_off ? 0 : 1;

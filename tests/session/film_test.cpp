@@ -10,7 +10,7 @@
 namespace nutik {
 namespace {
 
-const Timeline kTimeline = Timeline::constant({100, 1}, {360, 1}, 100);  // one second, 10 ms each
+const Timeline kFilmTimeline = Timeline::constant({100, 1}, {360, 1}, 100);  // one second, 10 ms each
 
 FramesRequest film(const char* angle = "180") {
   FramesRequest request;
@@ -25,7 +25,7 @@ FilmCurve curve_of(std::string_view text) { return FilmCurve::parse(text, "ramp.
 Frames frames_on(std::string_view curve, const char* angle = "180") {
   FramesRequest request = film(angle);
   request.curve = curve_of(curve);
-  return frames_of(request, kTimeline);
+  return frames_of(request, kFilmTimeline);
 }
 
 constexpr std::int64_t kMs = 1'000'000;
@@ -55,9 +55,9 @@ TEST(FilmCurve, ThatTurnsRoundExposesToTheTurn) {
 TEST(FilmCurve, OfConstantSpeedIsThatSpeed) {
   FramesRequest request = film();
   request.rate = {30000, 1001};
-  const Frames plain = frames_of(request, kTimeline);
+  const Frames plain = frames_of(request, kFilmTimeline);
   request.curve = FilmCurve::parse("0s,0s\n1s,1s", "line.csv", request.film_times());
-  const Frames curved = frames_of(request, kTimeline);
+  const Frames curved = frames_of(request, kFilmTimeline);
   ASSERT_EQ(curved.count, plain.count);
   for (std::uint64_t k = 0; k < plain.count; ++k) EXPECT_EQ(curved.exposure(k), plain.exposure(k)) << k;
 }
@@ -117,7 +117,7 @@ FramesRequest keyed_film() {
 TEST(KeyFrames, MoveControlPointsWithTheFilm) {
   const FramesRequest request = keyed_film();
   request.keys.check();
-  const Frames frames = frames_of(request, kTimeline);
+  const Frames frames = frames_of(request, kFilmTimeline);
   // The longest key needs 300 ms and 1 ns of the second.
   EXPECT_EQ(frames.count, 7u);
   const auto text = [&](std::uint64_t frame) {
@@ -167,12 +167,12 @@ TEST(FrameRanges, AreReadInTheWordsOfFarms) {
 TEST(FrameRanges, ChooseFramesOfTheWholeFilm) {
   FramesRequest request = film();
   request.numbers = FrameRanges::parse("8-20", "--frames");
-  const Frames frames = frames_of(request, kTimeline);
+  const Frames frames = frames_of(request, kFilmTimeline);
   EXPECT_EQ(frames.count, 10u);
   EXPECT_EQ(frames.numbers, (std::vector<std::uint64_t>{8, 9}));
   EXPECT_EQ(frames.span(), (Exposure{800 * kMs, 950 * kMs}));
   request.numbers = FrameRanges::parse("10-20", "--frames");
-  EXPECT_EQ(test::message_of<UsageError>([&] { static_cast<void>(frames_of(request, kTimeline)); }),
+  EXPECT_EQ(test::message_of<UsageError>([&] { static_cast<void>(frames_of(request, kFilmTimeline)); }),
             "none of the frames 10-20 is there: the film has 10, numbered from 0 to 9");
 }
 

@@ -20,27 +20,27 @@ namespace {
 
 using test::RandomCase;
 
-constexpr std::size_t kThreads = 4;
-constexpr std::size_t kRequests = 36;
+constexpr std::size_t kSessionThreads = 4;
+constexpr std::size_t kSessionRequests = 36;
 
 bool is_cancelled(std::size_t k) { return k % 3 == 2; }
 
-struct Asked {
+struct AskedOfThread {
   ExposureRequest exposure;
   OutputFormat output;
   std::optional<Rectangle> rectangle;
 };
 
 // No two are alike: another function, brightness, format or part of the picture.
-std::vector<Asked> requests_of(const RandomCase& random) {
+std::vector<AskedOfThread> requests_of(const RandomCase& random) {
   const std::array outputs{OutputFormat{ValueType::code8, 255},
                            OutputFormat{ValueType::code16, 65'535, NegativeLight::offset},
                            OutputFormat{ValueType::light32, 0}};
   const Shape& shape = random.capture.shape;
   const std::int64_t duration_ns = random.timeline.duration_ns();
-  std::vector<Asked> requests;
-  for (std::size_t k = 0; k < kRequests; ++k) {
-    Asked asked{{}, outputs[k % outputs.size()], std::nullopt};
+  std::vector<AskedOfThread> requests;
+  for (std::size_t k = 0; k < kSessionRequests; ++k) {
+    AskedOfThread asked{{}, outputs[k % outputs.size()], std::nullopt};
     const auto step = static_cast<std::int64_t>(k);
     if (k % 2 == 0) {
       asked.exposure.gains =
@@ -58,7 +58,7 @@ std::vector<Asked> requests_of(const RandomCase& random) {
 }
 
 // Once one thread gets a picture, or none because it is cancelled a little later than that.
-std::optional<ExposedPicture> ask(Session& session, const Asked& asked, std::stop_token stop) {
+std::optional<ExposedPicture> ask(Session& session, const AskedOfThread& asked, std::stop_token stop) {
   RenderControl control;
   control.stop = std::move(stop);
   control.rectangle = asked.rectangle;
@@ -82,20 +82,20 @@ void expect_threads_get_the_same(const RandomCase& random, const tik::Codec& cod
   const test::Scratch scratch;
   SourceRequest source;
   source.path = test::write_tik(random, codec, scratch);
-  const std::vector<Asked> requests = requests_of(random);
+  const std::vector<AskedOfThread> requests = requests_of(random);
 
   std::vector<ExposedPicture> expected;
   Session alone(source, computing);
-  for (const Asked& asked : requests) expected.push_back(ask(alone, asked, {}).value());
+  for (const AskedOfThread& asked : requests) expected.push_back(ask(alone, asked, {}).value());
 
   Session shared(source, computing);
-  std::vector<std::optional<ExposedPicture>> got(kRequests);
+  std::vector<std::optional<ExposedPicture>> got(kSessionRequests);
   std::atomic<std::size_t> next = 0;
   {
     std::vector<std::jthread> threads;
-    for (std::size_t t = 0; t < kThreads; ++t) {
+    for (std::size_t t = 0; t < kSessionThreads; ++t) {
       threads.emplace_back([&] {
-        for (std::size_t k = next++; k < kRequests; k = next++) {
+        for (std::size_t k = next++; k < kSessionRequests; k = next++) {
           std::stop_source stop;
           // Before it begins, or while it is on its way.
           std::jthread impatient([&, k] {
@@ -110,7 +110,7 @@ void expect_threads_get_the_same(const RandomCase& random, const tik::Codec& cod
     }
   }
   std::size_t cancelled = 0;
-  for (std::size_t k = 0; k < kRequests; ++k) {
+  for (std::size_t k = 0; k < kSessionRequests; ++k) {
     if (got[k]) {
       expect_same(*got[k], expected[k], k);
     } else {
@@ -118,7 +118,7 @@ void expect_threads_get_the_same(const RandomCase& random, const tik::Codec& cod
       ++cancelled;
     }
   }
-  EXPECT_GE(cancelled, kRequests / 6) << "those that were cancelled before they began";
+  EXPECT_GE(cancelled, kSessionRequests / 6) << "those that were cancelled before they began";
 }
 
 ComputingRequest computing(RendererKind kind) {

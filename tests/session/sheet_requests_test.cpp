@@ -6,9 +6,9 @@
 namespace nutik {
 namespace {
 
-const Timeline kTimeline = Timeline::constant({100, 1}, {180, 1}, 10);  // 10 ms each, open for 5
+const Timeline kSheetTimeline = Timeline::constant({100, 1}, {180, 1}, 10);  // 10 ms each, open for 5
 
-StatedTime time(std::string_view text) { return StatedTime::parse(text, "time"); }
+StatedTime stated(std::string_view text) { return StatedTime::parse(text, "time"); }
 
 FunctionSet box(std::int64_t from_ns, std::int64_t to_ns) {
   FunctionSet functions;
@@ -31,39 +31,39 @@ TEST(SweepRequest, VariesTheFirstRangeFastest) {
 
 TEST(SweepRequest, AppliesItsValues) {
   const SweepRequest pictures{{{SweepParameter::shift, {-1, 1}, {1, 1}, {1, 1}, true}}};
-  EXPECT_EQ(pictures.varied(box(20'000'000, 30'000'000), {2}, kTimeline), box(30'000'000, 40'000'000));
+  EXPECT_EQ(pictures.varied(box(20'000'000, 30'000'000), {2}, kSheetTimeline), box(30'000'000, 40'000'000));
   const SweepRequest stretch{{{SweepParameter::stretch, {1, 1}, {2, 1}, {1, 1}, false}}};
-  EXPECT_EQ(stretch.varied(box(20'000'000, 30'000'000), {1}, kTimeline), box(20'000'000, 40'000'000));
+  EXPECT_EQ(stretch.varied(box(20'000'000, 30'000'000), {1}, kSheetTimeline), box(20'000'000, 40'000'000));
 }
 
 TEST(SweepRequest, OfTimesInThirdsOfNanosecondsNeverDrifts) {
-  const Rational step = time("1/300s").modest_nanoseconds();
+  const Rational step = stated("1/300s").modest_nanoseconds();
   EXPECT_EQ(step, (Rational{10'000'000, 3}));
   const SweepRange range{SweepParameter::shift, {0, 1}, {1'000'000'000, 1}, step, false};
   ASSERT_EQ(range.count(), 301u);
   for (std::uint64_t k = 0; k <= 300; ++k)
     ASSERT_EQ(range.shift_ns(k), static_cast<std::int64_t>((k * 20'000'000 + 3) / 6)) << k;
   EXPECT_EQ(range.label(150), "+500 ms");
-  EXPECT_EQ(time("1/999999999999999ns").modest_nanoseconds(), (Rational{0, 1})) << "rounded";
+  EXPECT_EQ(stated("1/999999999999999ns").modest_nanoseconds(), (Rational{0, 1})) << "rounded";
   const SweepRequest sweep{{range}};
-  EXPECT_EQ(sweep.varied(box(0, 10), {300}, kTimeline), box(1'000'000'000, 1'000'000'010));
+  EXPECT_EQ(sweep.varied(box(0, 10), {300}, kSheetTimeline), box(1'000'000'000, 1'000'000'010));
 }
 
 TEST(ContactRequest, CountsPicturesOrTimes) {
-  EXPECT_EQ(exposures_of({}, kTimeline).size(), 10u);
-  const std::vector<Exposure> pictures = exposures_of({time("1f"), time("4f"), {}}, kTimeline);
+  EXPECT_EQ(exposures_of({}, kSheetTimeline).size(), 10u);
+  const std::vector<Exposure> pictures = exposures_of({stated("1f"), stated("4f"), {}}, kSheetTimeline);
   EXPECT_EQ(pictures, (std::vector<Exposure>{
                           {10'000'000, 15'000'000}, {50'000'000, 55'000'000}, {90'000'000, 95'000'000}}));
-  const std::vector<Exposure> times = exposures_of({time("0s"), time("40ms"), time("30ms")}, kTimeline);
+  const std::vector<Exposure> times = exposures_of({stated("0s"), stated("40ms"), stated("30ms")}, kSheetTimeline);
   EXPECT_EQ(times,
             (std::vector<Exposure>{{0, 30'000'000}, {40'000'000, 70'000'000}, {80'000'000, 110'000'000}}));
-  EXPECT_EQ(labels_of(times, kTimeline)[1], "40 ms   4f");
+  EXPECT_EQ(labels_of(times, kSheetTimeline)[1], "40 ms   4f");
 }
 
 // Each ends where the next begins, whatever is rounded.
 TEST(ContactRequest, OfTimesBesideEachOtherLeavesNoGaps) {
   for (const char* length : {"1/300s", "1001/240000s"}) {
-    const std::vector<Exposure> all = exposures_of({time("1/7s"), time(length), time(length)},
+    const std::vector<Exposure> all = exposures_of({stated("1/7s"), stated(length), stated(length)},
                                                    Timeline::constant({1000, 1}, {360, 1}, 300));
     ASSERT_GT(all.size(), 30u);
     for (std::size_t k = 1; k < all.size(); ++k) EXPECT_EQ(all[k].start_ns, all[k - 1].end_ns) << length << k;
@@ -72,7 +72,7 @@ TEST(ContactRequest, OfTimesBesideEachOtherLeavesNoGaps) {
 
 TEST(ContactRequest, SaysWhichStepFitsASheet) {
   try {
-    static_cast<void>(exposures_of({time("0s"), time("1us"), {}}, kTimeline));
+    static_cast<void>(exposures_of({stated("0s"), stated("1us"), {}}, kSheetTimeline));
     FAIL() << "a sheet has no room for 100 000 pictures";
   } catch (const TooManyForSheet& error) {
     EXPECT_EQ(error.min_every.text(), "250us");

@@ -7,14 +7,14 @@
 namespace nutik::studio {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kMsNs = 1'000'000;
 
 // 20 samples of 10 ms; a region of the square's way, exposed from 40 to 80 ms.
 class InteractionsTest : public StudioTest {
  protected:
   void SetUp() override {
     open_clip();
-    document().set_boxcar({40 * kMs, 40 * kMs}, "Begin");
+    document().set_boxcar({40 * kMsNs, 40 * kMsNs}, "Begin");
     click_button("add_region");
     paint_region(document(), rectangle(96, 48, {4, 18}, 60, 12), document().selected_tag(), "Rectangle");
     divide_by("integral");  // what is longer looks different
@@ -66,25 +66,25 @@ class InteractionsTest : public StudioTest {
 };
 
 TEST_F(InteractionsTest, ControlPointsAreDraggedAddedAndTakenAway) {
-  expect_followed([&] { drag(curves(), place(2), place(120 * kMs, 1)); },
-                  [&] { EXPECT_EQ(points()[2].time_ns, 120 * kMs) << "snapped to a sample"; });
+  expect_followed([&] { drag(curves(), place(2), place(120 * kMsNs, 1)); },
+                  [&] { EXPECT_EQ(points()[2].time_ns, 120 * kMsNs) << "snapped to a sample"; });
   expect_followed([&] { drag(curves(), place(2), place(2) - QPoint(7, 0), Qt::ControlModifier); },
-                  [&] { EXPECT_NE(points()[2].time_ns % (10 * kMs), 0) << "with Ctrl it does not snap"; });
-  QTest::mouseClick(&curves(), Qt::LeftButton, {}, place(180 * kMs, 0.7));  // nothing is selected any more
+                  [&] { EXPECT_NE(points()[2].time_ns % (10 * kMsNs), 0) << "with Ctrl it does not snap"; });
+  QTest::mouseClick(&curves(), Qt::LeftButton, {}, place(180 * kMsNs, 0.7));  // nothing is selected any more
   expect_followed(
       [&] { drag(curves(), place(1), place(1) + QPoint(40, 0), Qt::ShiftModifier | Qt::ControlModifier); },
       [&] {
         const double ns = 4 * curves().frame().ns_per_pixel();
-        EXPECT_NEAR(static_cast<double>(points()[1].time_ns - 40 * kMs), ns, 0.6 * ns) << "a tenth";
+        EXPECT_NEAR(static_cast<double>(points()[1].time_ns - 40 * kMsNs), ns, 0.6 * ns) << "a tenth";
       });
   // A point on the curve changes nothing that is seen; dragged, it does.
   const QImage unchanged = canvas().image();
-  QTest::mouseClick(&curves(), Qt::LeftButton, {}, place(60 * kMs, 1));
+  QTest::mouseClick(&curves(), Qt::LeftButton, {}, place(60 * kMsNs, 1));
   ASSERT_EQ(points().size(), 5u);
-  EXPECT_EQ(points()[2], (ControlPoint{60 * kMs, 1}));
+  EXPECT_EQ(points()[2], (ControlPoint{60 * kMsNs, 1}));
   ASSERT_TRUE(settles());
   EXPECT_EQ(difference(canvas().image(), unchanged), "");
-  expect_followed([&] { drag(curves(), place(2), place(60 * kMs, 0.5)); },
+  expect_followed([&] { drag(curves(), place(2), place(60 * kMsNs, 0.5)); },
                   [&] { EXPECT_NEAR(points()[2].gain, 0.5, 0.02); });
   expect_followed([&] { QTest::mouseClick(&curves(), Qt::RightButton, {}, place(2)); },
                   [&] { EXPECT_EQ(points().size(), 4u); });
@@ -98,19 +98,19 @@ TEST_F(InteractionsTest, SeveralPointsAreTransformed) {
       if (which == part) return area.center().toPoint();
     throw std::logic_error("no such handle");
   };
-  const int to_120 = place(120 * kMs, 0).x() - place(80 * kMs, 0).x();
+  const int to_120 = place(120 * kMsNs, 0).x() - place(80 * kMsNs, 0).x();
   expect_followed(
       [&] {
         const QPoint from = handle(BoxPart::right);
         drag(curves(), from, from + QPoint(to_120, 0));
       },
-      [&] { EXPECT_EQ(points()[2].time_ns, 120 * kMs); });
+      [&] { EXPECT_EQ(points()[2].time_ns, 120 * kMsNs); });
   expect_followed(
       [&] {
-        const QPoint from = place(60 * kMs, 0.4);
+        const QPoint from = place(60 * kMsNs, 0.4);
         drag(curves(), from, from + QPoint(to_120 / 2, 0));
       },
-      [&] { EXPECT_EQ(points()[1].time_ns, 60 * kMs); });
+      [&] { EXPECT_EQ(points()[1].time_ns, 60 * kMsNs); });
   // All gains alike change nothing where they are divided by their integral; beside an open time they do.
   divide_by("support");
   expect_followed(
@@ -125,28 +125,28 @@ TEST_F(InteractionsTest, BoxcarsHaveHandles) {
   const auto handles = [&] {
     return BoxcarHandles::of(curves().frame(), boxcars_of(points()).front(), curves().lane_top());
   };
-  const int ten = place(50 * kMs, 0).x() - place(40 * kMs, 0).x();
+  const int ten = place(50 * kMsNs, 0).x() - place(40 * kMsNs, 0).x();
   expect_followed(
       [&] {
         const QPoint from = handles().bar.center().toPoint();
         drag(curves(), from, from + QPoint(2 * ten, 0));
       },
       [&] {
-        EXPECT_EQ(points()[1].time_ns, 60 * kMs);
-        EXPECT_EQ(points()[2].time_ns, 100 * kMs);
+        EXPECT_EQ(points()[1].time_ns, 60 * kMsNs);
+        EXPECT_EQ(points()[2].time_ns, 100 * kMsNs);
       });
   expect_followed(
       [&] {
         const QPoint from = handles().begin.center().toPoint();
         drag(curves(), from, from - QPoint(3 * ten, 0));
       },
-      [&] { EXPECT_EQ(points()[1].time_ns, 30 * kMs); });
+      [&] { EXPECT_EQ(points()[1].time_ns, 30 * kMsNs); });
   expect_followed(
       [&] {
         const QPoint from = handles().end.center().toPoint();
         drag(curves(), from, from + QPoint(2 * ten, 0));
       },
-      [&] { EXPECT_EQ(points()[2].time_ns, 120 * kMs); });
+      [&] { EXPECT_EQ(points()[2].time_ns, 120 * kMsNs); });
   document().set_points(kBackground, {{0, 1.0}, {document().duration_ns(), 1.0}}, "Begin");
   divide_by("support");
   expect_followed(
@@ -187,36 +187,36 @@ TEST_F(InteractionsTest, TheIntervalIsScrubbedSteppedAndTyped) {
   const auto middle = [&] { return strip().boxcar_area().center().toPoint(); };
   expect_followed(
       [&] {
-        drag(strip(), middle(), {in_strip(120 * kMs), middle().y()});
+        drag(strip(), middle(), {in_strip(120 * kMsNs), middle().y()});
       },
       [&] {
-        EXPECT_EQ(document().boxcar(), (Boxcar{100 * kMs, 40 * kMs}));
+        EXPECT_EQ(document().boxcar(), (Boxcar{100 * kMsNs, 40 * kMsNs}));
       });
   expect_followed(
       [&] {
-        drag(strip(), {in_strip(100 * kMs), middle().y()}, {in_strip(20 * kMs), middle().y()});
+        drag(strip(), {in_strip(100 * kMsNs), middle().y()}, {in_strip(20 * kMsNs), middle().y()});
       },
       [&] {
-        EXPECT_EQ(document().boxcar(), (Boxcar{20 * kMs, 120 * kMs}));
+        EXPECT_EQ(document().boxcar(), (Boxcar{20 * kMsNs, 120 * kMsNs}));
       });
   strip().setFocus();
   expect_followed([&] { QTest::keyClick(&strip(), Qt::Key_Right); },
-                  [&] { EXPECT_EQ(document().boxcar().start_ns, 30 * kMs); });
+                  [&] { EXPECT_EQ(document().boxcar().start_ns, 30 * kMsNs); });
   expect_followed([&] { QTest::keyClick(&strip(), Qt::Key_Down, Qt::ShiftModifier); },
                   [&] {
-                    EXPECT_EQ(document().boxcar(), (Boxcar{30 * kMs, 20 * kMs}));
+                    EXPECT_EQ(document().boxcar(), (Boxcar{30 * kMsNs, 20 * kMsNs}));
                   });
   expect_followed([&] { QTest::keyClick(&strip(), Qt::Key_Left, Qt::ShiftModifier); },
                   [&] { EXPECT_EQ(document().boxcar().start_ns, 0) << "no further than the capture"; });
   QTest::keyClick(&strip(), Qt::Key_O);
-  document().set_boxcar({60 * kMs, 30 * kMs}, "Begin");
+  document().set_boxcar({60 * kMsNs, 30 * kMsNs}, "Begin");
   QTest::keyClick(&strip(), Qt::Key_O);
-  document().set_boxcar({50 * kMs, 10 * kMs}, "Begin");
+  document().set_boxcar({50 * kMsNs, 10 * kMsNs}, "Begin");
   QTest::keyClick(&strip(), Qt::Key_I);
   ASSERT_TRUE(settles());
   expect_followed([&] { QTest::keyClick(&strip(), Qt::Key_X); },
                   [&] {
-                    EXPECT_EQ(document().boxcar(), (Boxcar{50 * kMs, 40 * kMs})) << "from mark to mark";
+                    EXPECT_EQ(document().boxcar(), (Boxcar{50 * kMsNs, 40 * kMsNs})) << "from mark to mark";
                   });
   auto& width = child<QLineEdit>("width");
   expect_followed(
@@ -227,7 +227,7 @@ TEST_F(InteractionsTest, TheIntervalIsScrubbedSteppedAndTyped) {
         curves().setFocus();
       },
       [&] {
-        EXPECT_EQ(document().boxcar(), (Boxcar{50 * kMs, 12'500'000}));
+        EXPECT_EQ(document().boxcar(), (Boxcar{50 * kMsNs, 12'500'000}));
       });
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using test::Random;
 
-constexpr std::uint32_t kWidth = test::MovingSquare::kWidth, kHeight = test::MovingSquare::kHeight;
+constexpr std::uint32_t kSheetWidth = test::MovingSquare::kSheetWidth, kSheetHeight = test::MovingSquare::kSheetHeight;
 
 // Regions as sheets on a table: each keeps its whole area, whatever lies over it.
 struct Sheets {
@@ -167,7 +167,7 @@ class RegionsTest : public StudioTest {
   }
   [[nodiscard]] std::uint8_t owner(int x, int y) {
     return (*document().state().mask)
-        ->mask.tags[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)];
+        ->mask.tags[static_cast<std::size_t>(y) * kSheetWidth + static_cast<std::size_t>(x)];
   }
   void expect_picture() {
     ASSERT_TRUE(settles());
@@ -238,7 +238,7 @@ TEST_F(RegionsTest, ARegionIsPaintedBeneathThoseBeforeIt) {
   document().select_tag(kBackground);
   drag(canvas(), at(45, 35), at(46, 35));
   EXPECT_EQ(owner(45, 35), kBackground) << "the background takes from all";
-  EXPECT_EQ(region_of(document(), behind_).inside[35 * kWidth + 45], 0);
+  EXPECT_EQ(region_of(document(), behind_).inside[35 * kSheetWidth + 45], 0);
   expect_picture();
 }
 

@@ -13,7 +13,7 @@
 namespace nutik::studio {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kStripMs = 1'000'000;
 
 // 100 samples of 10 ms; 100 ms from 450 ms on are exposed.
 class TimeStripTest : public testing::Test {
@@ -69,89 +69,89 @@ class TimeStripTest : public testing::Test {
 TEST_F(TimeStripTest, ScrubsTheBoxcarFromWhereItWasPressedInOneStepOfUndo) {
   QSignalSpy changed(&document_, &Document::changed), released(&document_, &Document::released);
   ASSERT_EQ(document_.mode(), ExposureMode::functions);
-  drag(at(480 * kMs), at(680 * kMs));
-  EXPECT_EQ(document_.boxcar(), (Boxcar{650 * kMs, 100 * kMs}));
+  drag(at(480 * kStripMs), at(680 * kStripMs));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{650 * kStripMs, 100 * kStripMs}));
   EXPECT_EQ(document_.mode(), ExposureMode::boxcar);
   EXPECT_GT(changed.count(), 5) << "live";
   EXPECT_EQ(released.count(), 1);
   EXPECT_EQ(document_.undo_stack().count(), 1);
   document_.undo_stack().undo();
-  EXPECT_EQ(document_.boxcar(), (Boxcar{450 * kMs, 100 * kMs}));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{450 * kStripMs, 100 * kStripMs}));
 }
 
 TEST_F(TimeStripTest, BringsTheBoxcarToAPressElsewhere) {
-  const QPoint there = at(200 * kMs);
+  const QPoint there = at(200 * kStripMs);
   press(there);
-  EXPECT_EQ(document_.boxcar(), (Boxcar{150 * kMs, 100 * kMs}));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{150 * kStripMs, 100 * kStripMs}));
   move(there + QPoint(0, 5));
-  EXPECT_EQ(document_.boxcar(), (Boxcar{150 * kMs, 100 * kMs}));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{150 * kStripMs, 100 * kStripMs}));
   release(there);
-  drag(at(200 * kMs), at(5'000 * kMs));
-  EXPECT_EQ(document_.boxcar(), (Boxcar{900 * kMs, 100 * kMs})) << "it stays in the capture";
+  drag(at(200 * kStripMs), at(5'000 * kStripMs));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{900 * kStripMs, 100 * kStripMs})) << "it stays in the capture";
 }
 
 TEST_F(TimeStripTest, MakesTheBoxcarLongerAndShorterAtItsEnds) {
-  drag(at(550 * kMs), at(700 * kMs));
-  EXPECT_EQ(document_.boxcar(), (Boxcar{450 * kMs, 250 * kMs}));
-  drag(at(450 * kMs), at(300 * kMs));
-  EXPECT_EQ(document_.boxcar(), (Boxcar{300 * kMs, 400 * kMs}));
-  drag(at(300 * kMs), at(950 * kMs));
+  drag(at(550 * kStripMs), at(700 * kStripMs));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{450 * kStripMs, 250 * kStripMs}));
+  drag(at(450 * kStripMs), at(300 * kStripMs));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{300 * kStripMs, 400 * kStripMs}));
+  drag(at(300 * kStripMs), at(950 * kStripMs));
   EXPECT_EQ(document_.boxcar().length_ns, 1) << "it does not turn over";
 }
 
 TEST_F(TimeStripTest, MovesATenthAsFastWithShiftAndFreelyWithControl) {
-  const QPoint from = at(500 * kMs);
+  const QPoint from = at(500 * kStripMs);
   press(from);
   move(from + QPoint(7, 0), Qt::ControlModifier);
-  const double free_ns = static_cast<double>(document_.boxcar().start_ns - 450 * kMs);
+  const double free_ns = static_cast<double>(document_.boxcar().start_ns - 450 * kStripMs);
   EXPECT_NEAR(free_ns, 7 * axis_.ns_per_pixel(strip_.width()), 2);
   release(from);
-  document_.set_boxcar({450 * kMs, 100 * kMs}, "Back");
+  document_.set_boxcar({450 * kStripMs, 100 * kStripMs}, "Back");
   press(from);
   move(from + QPoint(100, 0), Qt::ShiftModifier | Qt::ControlModifier);
-  EXPECT_NEAR(static_cast<double>(document_.boxcar().start_ns - 450 * kMs),
+  EXPECT_NEAR(static_cast<double>(document_.boxcar().start_ns - 450 * kStripMs),
               10 * axis_.ns_per_pixel(strip_.width()), 2);
   release(from);
 }
 
 TEST_F(TimeStripTest, StepsBySamples) {
   key(Qt::Key_Right);
-  EXPECT_EQ(document_.boxcar(), (Boxcar{460 * kMs, 100 * kMs}));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{460 * kStripMs, 100 * kStripMs}));
   key(Qt::Key_Left, Qt::ShiftModifier);
-  EXPECT_EQ(document_.boxcar(), (Boxcar{360 * kMs, 100 * kMs}));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{360 * kStripMs, 100 * kStripMs}));
   key(Qt::Key_Right, Qt::ControlModifier);
-  EXPECT_EQ(document_.boxcar().start_ns, 360 * kMs + 1);
+  EXPECT_EQ(document_.boxcar().start_ns, 360 * kStripMs + 1);
   key(Qt::Key_Left, Qt::ControlModifier);
   key(Qt::Key_Up);
-  EXPECT_EQ(document_.boxcar(), (Boxcar{360 * kMs, 110 * kMs}));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{360 * kStripMs, 110 * kStripMs}));
   key(Qt::Key_Down, Qt::ShiftModifier);
-  EXPECT_EQ(document_.boxcar(), (Boxcar{360 * kMs, 10 * kMs}));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{360 * kStripMs, 10 * kStripMs}));
   key(Qt::Key_Down);
-  EXPECT_EQ(document_.boxcar(), (Boxcar{360 * kMs, 10 * kMs})) << "nothing would be left";
+  EXPECT_EQ(document_.boxcar(), (Boxcar{360 * kStripMs, 10 * kStripMs})) << "nothing would be left";
   key(Qt::Key_Home);
   EXPECT_EQ(document_.boxcar().start_ns, 0);
   key(Qt::Key_End);
-  EXPECT_EQ(document_.boxcar().start_ns, 990 * kMs);
+  EXPECT_EQ(document_.boxcar().start_ns, 990 * kStripMs);
   EXPECT_EQ(document_.mode(), ExposureMode::boxcar);
 }
 
 TEST_F(TimeStripTest, SetsMovesAndTakesAwayMarks) {
   key(Qt::Key_I);
   key(Qt::Key_O);
-  EXPECT_EQ(axis_.mark_in(), 450 * kMs);
-  EXPECT_EQ(axis_.mark_out(), 550 * kMs);
-  const QPoint mark = strip_.mark_place(550 * kMs).toPoint();
-  drag(mark, {at(800 * kMs).x(), mark.y()});
-  EXPECT_EQ(axis_.mark_out(), 800 * kMs);
+  EXPECT_EQ(axis_.mark_in(), 450 * kStripMs);
+  EXPECT_EQ(axis_.mark_out(), 550 * kStripMs);
+  const QPoint mark = strip_.mark_place(550 * kStripMs).toPoint();
+  drag(mark, {at(800 * kStripMs).x(), mark.y()});
+  EXPECT_EQ(axis_.mark_out(), 800 * kStripMs);
   EXPECT_EQ(document_.undo_stack().count(), 0) << "marks are no edits";
   key(Qt::Key_X);
-  EXPECT_EQ(document_.boxcar(), (Boxcar{450 * kMs, 350 * kMs}));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{450 * kStripMs, 350 * kStripMs}));
   key(Qt::Key_Z);
   EXPECT_GT(axis_.begin_ns(), 400e6);
   EXPECT_LT(axis_.end_ns(), 850e6);
   key(Qt::Key_F);
   EXPECT_LT(axis_.begin_ns(), 0);
-  QTest::mouseClick(&strip_, Qt::RightButton, {}, strip_.mark_place(800 * kMs).toPoint());
+  QTest::mouseClick(&strip_, Qt::RightButton, {}, strip_.mark_place(800 * kStripMs).toPoint());
   EXPECT_FALSE(axis_.mark_out());
   key(Qt::Key_I, Qt::ShiftModifier);
   EXPECT_FALSE(axis_.mark_in());
@@ -159,8 +159,8 @@ TEST_F(TimeStripTest, SetsMovesAndTakesAwayMarks) {
 
 TEST_F(TimeStripTest, TakesADragBackByEscape) {
   const DocumentState before = document_.state();
-  press(at(500 * kMs));
-  move(at(800 * kMs));
+  press(at(500 * kStripMs));
+  move(at(800 * kStripMs));
   EXPECT_NE(document_.boxcar(), before.boxcar);
   key(Qt::Key_Escape);
   EXPECT_EQ(document_.state(), before);
@@ -172,16 +172,16 @@ TEST_F(TimeStripTest, TakesTypedTimesExactly) {
   EXPECT_EQ(shown("width"), "100 ms");
   EXPECT_EQ(shown("start"), "450 ms");
   type("width", "12.345678 ms");
-  EXPECT_EQ(document_.boxcar(), (Boxcar{450 * kMs, 12'345'678}));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{450 * kStripMs, 12'345'678}));
   type("width", "1/100s");
-  EXPECT_EQ(document_.boxcar().length_ns, 10 * kMs);
+  EXPECT_EQ(document_.boxcar().length_ns, 10 * kStripMs);
   EXPECT_EQ(shown("width"), "10 ms");
   type("start", "37f");
-  EXPECT_EQ(document_.boxcar().start_ns, 370 * kMs);
+  EXPECT_EQ(document_.boxcar().start_ns, 370 * kStripMs);
   type("in", "0.2s");
   type("out", "800 ms");
-  EXPECT_EQ(axis_.mark_in(), 200 * kMs);
-  EXPECT_EQ(axis_.mark_out(), 800 * kMs);
+  EXPECT_EQ(axis_.mark_in(), 200 * kStripMs);
+  EXPECT_EQ(axis_.mark_out(), 800 * kStripMs);
   type("in", "");
   EXPECT_FALSE(axis_.mark_in());
 }
@@ -201,7 +201,7 @@ TEST_F(TimeStripTest, SaysWhatIsWrongWithATypedTimeAndKeepsIt) {
     EXPECT_TRUE(is_said) << text;
   }
   type("width", "10 ms");
-  EXPECT_EQ(document_.boxcar().length_ns, 10 * kMs);
+  EXPECT_EQ(document_.boxcar().length_ns, 10 * kStripMs);
 }
 
 TEST_F(TimeStripTest, ShowsActivityAndThumbnailsWhereTheyAre) {
@@ -211,18 +211,18 @@ TEST_F(TimeStripTest, ShowsActivityAndThumbnailsWhereTheyAre) {
   for (std::size_t i = 80; i < 90; ++i) overview.changed_share[i] = 0.5;
   document_.set_overview(overview);
   const QImage active = strip_.grab().toImage();
-  EXPECT_NE(active.pixel(at(850 * kMs)), empty.pixel(at(850 * kMs)));
-  EXPECT_EQ(active.pixel(at(200 * kMs)), empty.pixel(at(200 * kMs)));
-  EXPECT_TRUE(strip_.text_at(at(850 * kMs)).contains("50 % of the pixels change"));
+  EXPECT_NE(active.pixel(at(850 * kStripMs)), empty.pixel(at(850 * kStripMs)));
+  EXPECT_EQ(active.pixel(at(200 * kStripMs)), empty.pixel(at(200 * kStripMs)));
+  EXPECT_TRUE(strip_.text_at(at(850 * kStripMs)).contains("50 % of the pixels change"));
   for (int i = 0; i < 10; ++i) {
     QImage image(32, 24, QImage::Format_RGB32);
     image.fill(i < 5 ? Qt::red : Qt::green);
-    overview.thumbnails.push_back({i * 111 * kMs, image});
+    overview.thumbnails.push_back({i * 111 * kStripMs, image});
   }
   document_.set_overview(overview);
   const QImage pictured = strip_.grab().toImage();
-  EXPECT_EQ(pictured.pixelColor(at(103 * kMs).x(), 40), QColor(Qt::red));
-  EXPECT_EQ(pictured.pixelColor(at(903 * kMs).x(), 40), QColor(Qt::green));
+  EXPECT_EQ(pictured.pixelColor(at(103 * kStripMs).x(), 40), QColor(Qt::red));
+  EXPECT_EQ(pictured.pixelColor(at(903 * kStripMs).x(), 40), QColor(Qt::green));
 }
 
 TEST_F(TimeStripTest, ZoomsToThePointer) {

@@ -16,7 +16,7 @@ constexpr std::uint64_t kMaxCombinations = 1'000'000;
 // together.
 constexpr std::uint64_t kDefaultCombinations = 20'000;
 // Which numbers a name may stand for, in nanoseconds.
-struct TimeRange {
+struct FreeRange {
   std::int64_t from_ns = 0, to_ns = 0;
 };
 
@@ -32,7 +32,7 @@ class Candidates {
     std::vector<std::size_t> unstepped;
     for (const std::string& name : functions_.times) {
       const TimeFreedom& free = freedom(name);
-      const TimeRange range = range_of(free, name);
+      const FreeRange range = range_of(free, name);
       CandidateTimes& each = candidates.emplace_back();
       if (free.step) {
         each.times_ns = stepped(free, range);
@@ -86,8 +86,8 @@ class Candidates {
     return std::get<TimeFreedom>(found->range);
   }
 
-  [[nodiscard]] TimeRange range_of(const TimeFreedom& free, const std::string& name) const {
-    const TimeRange range{moment_ns(free.from, timeline_), moment_ns(free.to, timeline_)};
+  [[nodiscard]] FreeRange range_of(const TimeFreedom& free, const std::string& name) const {
+    const FreeRange range{moment_ns(free.from, timeline_), moment_ns(free.to, timeline_)};
     if (range.from_ns > range.to_ns)
       throw UsageError(format("{}: {} is behind {}", name, free.from.text(), free.to.text()));
     if (range.from_ns < 0 || range.to_ns > timeline_.duration_ns()) {
@@ -97,7 +97,7 @@ class Candidates {
     return range;
   }
 
-  [[nodiscard]] std::vector<std::int64_t> stepped(const TimeFreedom& free, const TimeRange& range) const {
+  [[nodiscard]] std::vector<std::int64_t> stepped(const TimeFreedom& free, const FreeRange& range) const {
     std::vector<std::int64_t> times_ns;
     if (free.step->counts_samples()) {
       std::uint64_t sample = sample_at(range.from_ns, timeline_);

@@ -144,7 +144,7 @@ HardCase gains_at_the_limits_of_single_precision() {
                      GainFunction({{0, 0.0}, {10, 1e37}, {20, 0.0}, {end_ns - 1, 0.0}, {end_ns, 1e-30}})});
 }
 
-constexpr NamedHardCase kCases[] = {
+constexpr NamedHardCase kGainCases[] = {
     {"SignChangesWithinSamples",
      "weights are 0 or nearly so where |g| is 1: errors are not in proportion to them",
      sign_changes_within_samples},
@@ -165,6 +165,6 @@ constexpr NamedHardCase kCases[] = {
 
 }  // namespace
 
-std::span<const NamedHardCase> hard_gains() { return kCases; }
+std::span<const NamedHardCase> hard_gains() { return kGainCases; }
 
 }  // namespace nutik::test

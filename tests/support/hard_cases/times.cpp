@@ -139,7 +139,7 @@ HardCase functions_outside() {
        GainFunction({{-far_ns, -static_cast<double>(far_ns)}, {end_ns, static_cast<double>(end_ns)}})});
 }
 
-constexpr NamedHardCase kCases[] = {
+constexpr NamedHardCase kTimeCases[] = {
     {"NanosecondStepsAtEdges", "steps of 1 ns on and round the edges of samples, gaps and the capture",
      nanosecond_steps_at_edges},
     {"NanosecondStepsWithoutGaps", "the same where one sample's end is the next one's start",
@@ -164,6 +164,6 @@ constexpr NamedHardCase kCases[] = {
 
 }  // namespace
 
-std::span<const NamedHardCase> hard_times() { return kCases; }
+std::span<const NamedHardCase> hard_times() { return kTimeCases; }
 
 }  // namespace nutik::test
