@@ -47,7 +47,7 @@ TEST(Moments, AreFilledUpWithTheFurthest) {
 TEST(Moments, DoNotTouch) {
   const SubjectTrack track = track_of({{0, 4}, {10, 12}, {20, 20}, {30, 28}, {40, 36}});
   EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time, kGap)), (Samples{0, 20, 40}));
-  EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time, 2 * kGap)), (Samples{0, 40}));
+  EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time, 2 * kGap)), (Samples{0, 30}));
 }
 
 // Of a subject of four cells the border leaves one, two and three.

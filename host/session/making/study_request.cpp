@@ -261,8 +261,9 @@ void check_track(const SubjectTrack& track, const std::string& name, std::uint32
         "show",
         name, 100 * track.fill, 100 * track.share,
         track.extent < length
-            ? format("It is {:.0f} pixels long and goes {:.0f}: a thing that goes less than its own size",
-                     length, track.extent)
+            ? format(
+                  "Its box is {:.0f} pixels long and goes {:.0f}: a thing that goes less than its own size",
+                  length, track.extent)
             : "A thing that shakes, grows or shines"));
   }
   if (track.flickers) {
