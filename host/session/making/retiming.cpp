@@ -85,7 +85,8 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
   std::vector<std::string> facts = before.facts;
   const auto state = [&](Setting setting, const std::string& text) {
     const std::string line = Fact{text, Origin::stated, setting}.line();
-    const auto corrected = std::ranges::find(facts, std::optional(setting), correction_of);
+    const auto corrected = std::ranges::find_if(
+        facts, [&](const std::string& fact) { return correction_of(fact) == setting; });
     if (corrected == facts.end()) {
       facts.push_back(line);
     } else {
