@@ -30,7 +30,7 @@ def measure(clip, build, folder, runs):
                               "/dev/null"),
         "opencv": lambda: float(output_of(PYTHON, LOOPS, "decode", clip)),
         "encode, none": lambda: encode("none"),
-        "encode, zstd": lambda: encode("zstd"),
+        "encode, rice": lambda: encode("rice"),
         "expose": lambda: run(program, "expose", "-q", "--start", "0s", "--exposure", "24h", clip, picture),
     }
     seconds = {name: [] for name in timed}
@@ -44,7 +44,7 @@ def main():
     arguments = command_line(__doc__, runs=7, clips=True).parse_args()
     rows = []
     print(f"{'':34} {'decode':>7} {'ffmpeg':>7} {'opencv':>7}  encode, none: s, / decode, / ffmpeg, / opencv   "
-          "zstd: s, / decode   expose: s, / decode, / ffmpeg, / opencv")
+          "rice: s, / decode   expose: s, / decode, / ffmpeg, / opencv")
     with tempfile.TemporaryDirectory() as scratch:
         for name in arguments.only:
             row = measure(arguments.clips / name, arguments.build.resolve(), pathlib.Path(scratch), arguments.runs)
@@ -52,7 +52,7 @@ def main():
             peers = ("decode", "ffmpeg", "opencv")
             print(f"{name:34} " + " ".join(f"{row[peer]:7.3f}" for peer in peers)
                   + f"  {row['encode, none']:14.3f} " + " ".join(f"{row['encode, none'] / row[p]:9.2f}" for p in peers)
-                  + f"   {row['encode, zstd']:7.3f} {row['encode, zstd'] / row['decode']:8.2f}"
+                  + f"   {row['encode, rice']:7.3f} {row['encode, rice'] / row['decode']:8.2f}"
                   + f"   {row['expose']:9.3f} " + " ".join(f"{row['expose'] / row[p]:9.2f}" for p in peers),
                   flush=True)
     write_outputs(arguments, rows)

@@ -51,10 +51,10 @@ def programs(build, clip, folder, frames, values, slow):
     plain = ("--start", "0s", "--exposure", "24h")
     masked = ("-m", folder / "regions.pgm", "-k", folder / "regions.fn")
     picture = folder / "picture.png"
-    for codec in ("none", "zstd"):
+    for codec in ("none", "rice"):
         run_once(program, "encode", "-q", "--codec", codec, clip, folder / f"{codec}.tik")
     yield "nutik-cl, from the clip", (program, "expose", "-q", *plain, clip, picture), 1
-    yield "nutik-cl, from a capture (zstd)", (program, "expose", "-q", *plain, folder / "zstd.tik", picture), 1
+    yield "nutik-cl, from a capture (rice)", (program, "expose", "-q", *plain, folder / "rice.tik", picture), 1
     yield "nutik-cl, from a capture (none)", (program, "expose", "-q", *plain, folder / "none.tik", picture), 1
     yield "nutik-cl, 16 regions, from a capture (none)", (program, "expose", "-q", *masked, folder / "none.tik",
                                                           picture), 1
