@@ -25,7 +25,7 @@ using test::TiffOptions;
 
 constexpr Shape kGreyShape{17, 9, 1}, kColourShape{17, 9, 3};
 
-void expect_codes(Clip& clip, const std::vector<Picture>& stills) {
+void expect_still_codes(Clip& clip, const std::vector<Picture>& stills) {
   EXPECT_EQ(clip.info().format.shape, stills[0].shape);
   EXPECT_EQ(clip.info().sample_count, stills.size());
   const auto rasters = read_all(clip);
@@ -76,7 +76,7 @@ TEST(StillClip, GivesTheCodesOfPngAndTiffBack) {
         EXPECT_EQ(format.transfer, white == 255 ? Transfer::srgb() : Transfer::linear());
         // 16 bits of which the files do not say how many are used.
         EXPECT_EQ(clip->info().notes.size(), white == 255 ? 0u : 1u);
-        expect_codes(*clip, stills);
+        expect_still_codes(*clip, stills);
       }
     }
   }
@@ -96,7 +96,7 @@ TEST(StillClip, TakesTheWhiteCodeOfNetpbm) {
         const auto clip = open_test_clip(scratch / ("f%d" + extension), {});
         EXPECT_EQ(clip->info().format.white_code, white);
         EXPECT_TRUE(clip->info().notes.empty());
-        expect_codes(*clip, stills);
+        expect_still_codes(*clip, stills);
       }
     }
   }
@@ -131,7 +131,7 @@ TEST(StillClip, ReadsTiffStacksOfEveryLayout) {
     const auto path = scratch.write("stack.tif", tiff_file(stills, tested.options));
     const auto clip = open_test_clip(path, {});
     EXPECT_EQ(clip->info().format.white_code, tested.stated_white);
-    expect_codes(*clip, stills);
+    expect_still_codes(*clip, stills);
   }
 }
 
@@ -139,7 +139,7 @@ TEST(StillClip, ReadsTiffStacksOfEveryLayout) {
 TEST(StillClip, ReadsLongStacksInOneGo) {
   const Scratch scratch;
   const auto stills = test::random_stills({4, 4, 1}, 65'535, 4000, 1);
-  expect_codes(*open_test_clip(scratch.write("long.tif", tiff_file(stills, {})), {}), stills);
+  expect_still_codes(*open_test_clip(scratch.write("long.tif", tiff_file(stills, {})), {}), stills);
 }
 
 TEST(StillClip, ReadsJpeg) {
@@ -324,10 +324,10 @@ TEST(StillClip, NotesAHoleInAFolderOfNumberedStills) {
   EXPECT_NE(folder->info().notes[0].text.find("f3.pgm is missing between f2.pgm and f4.pgm"),
             std::string::npos)
       << folder->info().notes[0].text;
-  expect_codes(*folder, stills);
+  expect_still_codes(*folder, stills);
   const auto pattern = open_test_clip(scratch / "frames/*.pgm");
   EXPECT_TRUE(pattern->info().notes.empty());
-  expect_codes(*pattern, stills);
+  expect_still_codes(*pattern, stills);
 }
 
 // A module is a library of its own, and a signal the program's.

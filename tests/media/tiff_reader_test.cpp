@@ -25,12 +25,12 @@ std::uint32_t code_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
   return x * 5 + y * 3 + channel * 20;
 }
 
-struct Kind {
+struct TiffKind {
   std::uint16_t bits, channels;
   bool tiled, separate;
 };
 
-TiffFile begun(const std::filesystem::path& path, const Kind& kind) {
+TiffFile begun(const std::filesystem::path& path, const TiffKind& kind) {
   TiffFile file(TIFFOpen(path.c_str(), "w"));
   TIFFSetField(file.get(), TIFFTAG_IMAGEWIDTH, kPageWidth);
   TIFFSetField(file.get(), TIFFTAG_IMAGELENGTH, kPageHeight);
@@ -48,7 +48,7 @@ TiffFile begun(const std::filesystem::path& path, const Kind& kind) {
 }
 
 // Codes of a part of the picture, those of `plane` alone where planes are separate.
-std::vector<std::uint8_t> packed(const Kind& kind, std::uint32_t left, std::uint32_t top, std::uint32_t width,
+std::vector<std::uint8_t> packed(const TiffKind& kind, std::uint32_t left, std::uint32_t top, std::uint32_t width,
                                  std::uint32_t height, std::uint32_t plane) {
   std::vector<std::uint8_t> bytes;
   for (std::uint32_t y = top; y < top + height; ++y) {
@@ -63,7 +63,7 @@ std::vector<std::uint8_t> packed(const Kind& kind, std::uint32_t left, std::uint
   return bytes;
 }
 
-void write(const std::filesystem::path& path, const Kind& kind) {
+void write(const std::filesystem::path& path, const TiffKind& kind) {
   const TiffFile file = begun(path, kind);
   for (std::uint16_t plane = 0; plane < (kind.separate ? kind.channels : 1); ++plane) {
     for (std::uint32_t y = 0; y < kPageHeight; y += kind.tiled ? kTileSide : 1) {
@@ -78,7 +78,7 @@ void write(const std::filesystem::path& path, const Kind& kind) {
   }
 }
 
-class TiffKinds : public testing::TestWithParam<Kind> {};
+class TiffKinds : public testing::TestWithParam<TiffKind> {};
 
 TEST_P(TiffKinds, GiveTheCodesThatTheyHold) {
   const test::Scratch scratch;
@@ -116,10 +116,10 @@ TEST_P(TiffKinds, AreRefusedWhereTheyAreDamaged) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TiffKinds,
-                         testing::Values(Kind{8, 1, true, false}, Kind{8, 3, true, false},
-                                         Kind{16, 3, true, false}, Kind{16, 1, true, false},
-                                         Kind{8, 3, true, true}, Kind{16, 3, false, true},
-                                         Kind{8, 3, false, false}));
+                         testing::Values(TiffKind{8, 1, true, false}, TiffKind{8, 3, true, false},
+                                         TiffKind{16, 3, true, false}, TiffKind{16, 1, true, false},
+                                         TiffKind{8, 3, true, true}, TiffKind{16, 3, false, true},
+                                         TiffKind{8, 3, false, false}));
 
 // A palette's colours, as libtiff shows them: the upper half of 16 bits.
 TEST(TiffPalette, GivesItsColours) {

@@ -17,7 +17,7 @@ namespace {
 
 using test::Scratch;
 
-std::string test_picture(const std::string& size) {
+std::string coloured_picture(const std::string& size) {
   return "-f lavfi -i testsrc2=s=" + size + ":d=0.08:r=25 -c:v ffv1 -pix_fmt yuv420p ";
 }
 
@@ -29,7 +29,7 @@ TEST(MatrixOfYuv, OfAMatrixThatIsNotKnownIsRefused) {
   const Scratch scratch;
   for (const char* named :
        {"ictcp", "smpte2085", "chroma-derived-c", "bt2020c", "chroma-derived-nc -color_primaries film"}) {
-    test::make(scratch, test_picture("64x48") + "-colorspace " + named + " clip.mkv");
+    test::make(scratch, coloured_picture("64x48") + "-colorspace " + named + " clip.mkv");
     try {
       static_cast<void>(test::open_test_clip(scratch / "clip.mkv"));
       FAIL() << named << " was read";
@@ -57,7 +57,7 @@ TEST(MatrixOfYuv, OfAMatrixFromPrimariesFollowsThese) {
   const Scratch scratch;
   for (const auto& [primaries, matrix] :
        {std::pair{"bt709", "matrix bt709"}, {"bt2020", "matrix bt2020"}, {"smpte432", "matrix p3"}}) {
-    test::make(scratch, test_picture("64x48") + "-colorspace chroma-derived-nc -color_primaries " +
+    test::make(scratch, coloured_picture("64x48") + "-colorspace chroma-derived-nc -color_primaries " +
                             primaries + " clip.mkv");
     EXPECT_EQ(matrix_of(*test::open_test_clip(scratch / "clip.mkv")),
               std::string(matrix) + ", from the file");

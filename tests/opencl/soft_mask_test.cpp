@@ -43,8 +43,8 @@ TEST(SoftMasks, StayWithinTheirBoundsOnRandomCases) {
 }
 
 // A picture of 99 x 45 pixels and 40 samples, four functions, mixed in part.
-struct Scene {
-  explicit Scene(std::uint64_t seed = 3) {
+struct SoftScene {
+  explicit SoftScene(std::uint64_t seed = 3) {
     format.shape = {99, 45, 3};
     test::Random random(seed);
     rasters = test::random_rasters(random, format, 40);
@@ -81,7 +81,7 @@ std::uint64_t bits_at(const Picture& picture, std::uint64_t value) {
 }
 
 TEST(SoftMasks, LeaveOtherTilesAndWholeSharesAsTheyAre) {
-  const Scene scene;
+  const SoftScene scene;
   MemoryCapture capture = scene.capture();
   const RenderPlan hard = make_plan(capture, scene.functions, scene.hard, {});
   const RenderPlan soft = make_plan(capture, scene.functions, scene.soft, {});
@@ -98,7 +98,7 @@ TEST(SoftMasks, LeaveOtherTilesAndWholeSharesAsTheyAre) {
           continue;
         }
         // Whole numbers are blended with fewer bits.
-        if (precision == Precision::fixed && Scene::is_mixed(pixel % 99, pixel / 99)) continue;
+        if (precision == Precision::fixed && SoftScene::is_mixed(pixel % 99, pixel / 99)) continue;
         ASSERT_EQ(bits_at(of_hard, value), bits_at(of_soft, value))
             << to_text(precision) << ", value " << value;
       }
@@ -108,7 +108,7 @@ TEST(SoftMasks, LeaveOtherTilesAndWholeSharesAsTheyAre) {
 }
 
 TEST(SoftMasks, DoNotDependOnHowTheWorkIsCut) {
-  const Scene scene;
+  const SoftScene scene;
   MemoryCapture capture = scene.capture();
   const RenderPlan plan = make_plan(capture, scene.functions, scene.soft, {});
   for (const Precision precision : precisions_of(list_devices().front())) {
@@ -256,7 +256,7 @@ TEST(SoftMasks, KeepToTheirBoundWhereCodesAreClose) {
 // What kernels work through: of a hard mask each tile once and nothing else, of a soft one the mixed tiles once for each
 // of their functions, as tiles that have that function alone.
 TEST(SoftMasks, TakeAUniformTileForEachFunctionAndHardMasksNoMoreThanTheirTiles) {
-  const Scene scene;
+  const SoftScene scene;
   const Rectangle all = Rectangle::whole(scene.format.shape);
   const TileGrid grid(scene.format.shape);
   const auto mapped = [&](const Mask& mask) {
@@ -280,7 +280,7 @@ TEST(SoftMasks, TakeAUniformTileForEachFunctionAndHardMasksNoMoreThanTheirTiles)
   for (std::uint64_t tile = 0; tile < grid.tile_count(); ++tile) {
     const std::uint64_t x = tile % grid.columns() * kTileSide, y = tile / grid.columns() * kTileSide;
     const std::uint32_t first = soft.first_of[tile], last = soft.first_of[tile + 1];
-    if (!Scene::is_mixed(x, y)) {
+    if (!SoftScene::is_mixed(x, y)) {
       EXPECT_EQ(last - first, 1u) << tile;
       EXPECT_NE(soft.of_tile[first], kMixedFunctions) << tile;
       continue;

@@ -15,7 +15,7 @@ namespace {
 
 using test::Random;
 
-constexpr std::uint32_t kSheetWidth = test::MovingSquare::kSheetWidth, kSheetHeight = test::MovingSquare::kSheetHeight;
+constexpr std::uint32_t kSheetWidth = test::MovingSquare::kWidth, kSheetHeight = test::MovingSquare::kHeight;
 
 // Regions as sheets on a table: each keeps its whole area, whatever lies over it.
 struct Sheets {
