@@ -3,6 +3,7 @@
 #include <charconv>
 #include <fstream>
 #include <string_view>
+#include <system_error>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -87,7 +88,9 @@ bool is_stills_table(const std::filesystem::path& path) {
 std::vector<ListedStill> read_stills_table(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(format("{} cannot be read", path.string()));
-  check_text_bytes(path.string(), std::filesystem::file_size(path));
+  std::error_code has_none;  // a folder and a pipe have no size
+  const std::uintmax_t bytes = std::filesystem::file_size(path, has_none);
+  if (!has_none) check_text_bytes(path.string(), bytes);
   std::vector<ListedStill> stills;
   std::string text;
   for (std::size_t line = 1; std::getline(in, text); ++line) {
