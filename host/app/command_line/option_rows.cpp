@@ -317,8 +317,7 @@ constexpr Option kRows[] = {
      "the largest difference from the empty scene that is not the subject, in codes: fewer find what hardly stands out, "
      "more leave out shadows (default: 1/16 of white; twice the noise, if that is more, for the subject's outline)"},
     {0, "feather", "PIXELS", exposure, bit(Id::study), &Options::feather,
-     "blend the subject's region with what lies around it, so far to either side of its edge, which lies as far outside "
-     "the subject: 6px, at most 32px (default: 2px); of slit its strips (default: 0px)"},
+     "blend the subject's region, or slit's strips, over so many pixels: 6px, at most 32px (default: 2px; strips: 0px)"},
     {0, "slit-from", "SIDE", subject, bit(Id::study), &Options::slit_from,
      "where slit begins: left, right (columns), top or bottom (rows) (default: left)", "left right top bottom"},
 

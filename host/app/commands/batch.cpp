@@ -47,8 +47,7 @@ std::vector<ListedExposure> read_list(const std::string& name) {
 }
 
 // The options of one line, with those of the whole batch. `capture`, if any, is the operand that lines leave out.
-Options line_options(const std::string& text, const Options& batch,
-                     const std::optional<std::string>& capture) {
+Options line_options(const std::string& text, const Options& batch, const std::optional<std::string>& capture) {
   std::vector<std::string> words = shell_words(text);
   for (const std::string& word : words) {
     if (word == "--help" || word == "-h" || word == "--version") {
@@ -69,10 +68,8 @@ Options line_options(const std::string& text, const Options& batch,
     if (option.is_of(CommandId::batch) && !option.is_in(options)) option.copy(options, batch);
   }
   if (stated_transfer && batch.noise) {
-    throw UsageError(
-        format("--transfer holds for all exposures where --noise does, whose light it tells: nutik-cl batch "
-               "--transfer {} …",
-               *options.transfer));
+    throw UsageError(format("--transfer holds for all exposures where --noise does, whose light it tells: "
+                            "nutik-cl batch --transfer {} …", *options.transfer));
   }
   if (options.every || options.count) {
     throw UsageError("--every and --count make a series; a line of a batch is one picture");
@@ -113,8 +110,7 @@ class Batch {
       check_output(output, OutputKind::picture, input_files(line));
       const auto [earlier, is_new] =
           line_of_output_.try_emplace(std::filesystem::absolute(output).lexically_normal(), listed.line);
-      if (!is_new)
-        throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
+      if (!is_new) throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
       if (line.skip_existing) {
         require_recipes(line, output);
         if (is_made(output, stated_precision(line),
@@ -219,13 +215,10 @@ class Batch {
 
 int run_batch(const Options& options) {
   if (options.operands.empty() || options.operands.size() > 2) {
-    throw UsageError(
-        "batch takes a list of exposures and, if they share one, a capture: "
-        "nutik-cl batch list.txt clip.tik");
+    throw UsageError("batch takes a list of exposures and, if they share one, a capture: nutik-cl batch list.txt clip.tik");
   }
   const std::string& list = options.operands.front();
-  const std::optional<std::string> capture =
-      options.operands.size() == 2 ? std::optional(options.operands[1]) : std::nullopt;
+  const auto capture = options.operands.size() == 2 ? std::optional(options.operands[1]) : std::nullopt;
   std::vector<ListedExposure> exposures = read_list(list);
   if (exposures.empty()) throw InputError(format("{} lists no exposure", list));
   if (options.frames) {
@@ -261,8 +254,7 @@ int run_batch(const Options& options) {
     print_notes(batch.tally().notes());
   }
   constexpr int kSomeAreWrong = 1, kSomeWereNotWritten = 5;
-  if (failed == 0) return 0;
-  return batch.failed_to_write() ? kSomeWereNotWritten : kSomeAreWrong;
+  return failed == 0 ? 0 : batch.failed_to_write() ? kSomeWereNotWritten : kSomeAreWrong;
 }
 
 }  // namespace nutik::app

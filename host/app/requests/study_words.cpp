@@ -99,8 +99,7 @@ StudyRequest study_request(const Options& options) {
     throw UsageError("--slit-from goes with --style slit only; leave it out, or state that style");
   }
   for (const auto& [said, name] :
-       {std::pair(options.moments.has_value() && !is_slit, "--moments"),
-        std::pair(options.feather.has_value() && !is_slit, "--feather"),
+       {std::pair(options.moments && !is_slit, "--moments"), std::pair(options.feather && !is_slit, "--feather"),
         std::pair(options.by.has_value(), "--by"), std::pair(options.spacing.has_value(), "--spacing"),
         std::pair(options.trail.has_value(), "--trail")}) {
     if ((is_slit || is_clean) && said) {
