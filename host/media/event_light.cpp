@@ -15,7 +15,7 @@ namespace {
 // Most sensors' thresholds are set to 0.1 … 0.3. Mid-grey leaves room for eight such steps up, and for fifty down.
 constexpr Contrast kDefaultContrast{0.2, 0.2};
 constexpr double kMidGrey = 0.18;
-constexpr std::int64_t kMicrosecond = 1000;
+constexpr std::int64_t kEventUnitNs = 1000;
 
 // Of a picture of the same size, the light of each pixel.
 std::vector<double> light_of_picture(const std::filesystem::path& path, const Shape& wanted) {
@@ -132,7 +132,7 @@ EventLight light_of_events(const CameraEvents& recording, const std::string& nam
 
   const LightCodes codes(capture.transfer, capture.white_code);
   EventLight result{std::vector<std::uint16_t>(pixels),
-                    ChangedSamples(options.events.tick_ns.value_or(kMicrosecond))};
+                    ChangedSamples(options.events.tick_ns.value_or(kEventUnitNs))};
   // From no light at all no number of steps leads anywhere: half a code is the least.
   const double least = codes.light_of(1) / 2;
   std::vector<double> logs(pixels);
@@ -143,7 +143,7 @@ EventLight light_of_events(const CameraEvents& recording, const std::string& nam
   enum : std::uint8_t { kStill = 0, kActive = 1, kAboveWhite = 2 };
   std::vector<std::uint8_t> seen(pixels, kStill);
   const std::int64_t origin_us = recording.events.front().time_us;
-  const auto time_ns = [&](const CameraEvent& event) { return (event.time_us - origin_us) * kMicrosecond; };
+  const auto time_ns = [&](const CameraEvent& event) { return (event.time_us - origin_us) * kEventUnitNs; };
   const std::uint64_t samples = count_samples(result.samples, recording.events, time_ns);
   check_event_memory({sizeof(CameraEvent), recording.events.size(), samples}, capture.shape, options);
   result.samples.reserve(recording.events.size(), samples);
@@ -155,7 +155,7 @@ EventLight light_of_events(const CameraEvents& recording, const std::string& nam
     const auto code = static_cast<std::uint16_t>(codes.code_of(std::min(light, 1.0)));
     result.samples.add(time_ns(event), {static_cast<std::uint32_t>(pixel), {code}});
   }
-  result.end_ns = (recording.events.back().time_us - origin_us + 1) * kMicrosecond;
+  result.end_ns = (recording.events.back().time_us - origin_us + 1) * kEventUnitNs;
   const auto count = [&](std::uint8_t of) {
     return static_cast<std::uint64_t>(std::ranges::count_if(seen, [of](std::uint8_t is) { return is & of; }));
   };

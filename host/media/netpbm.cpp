@@ -10,7 +10,7 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint64_t kLargestNetpbm = 1u << 20;
+constexpr std::uint64_t kLargestNetpbmSide = 1u << 20;
 
 class NetpbmReader {
  public:
@@ -25,8 +25,8 @@ class NetpbmReader {
     }
     at_ = 2;
     Shape shape;
-    shape.width = number("width", kLargestNetpbm);
-    shape.height = number("height", kLargestNetpbm);
+    shape.width = number("width", kLargestNetpbmSide);
+    shape.height = number("height", kLargestNetpbmSide);
     shape.channels = kind == '3' || kind == '6' ? 3 : 1;
     const std::uint32_t maximum = number("maximum", 65'535);
     if (shape.width == 0 || shape.height == 0 || maximum == 0) fail("its size or maximum is 0");

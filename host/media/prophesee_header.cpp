@@ -9,7 +9,7 @@ namespace {
 
 // A line of a header; what is longer is an event that begins like one.
 constexpr std::size_t kLongestLine = 1024;
-constexpr std::uint32_t kLargestSensor = 1u << 14;
+constexpr std::uint32_t kLargestSensorSide = 1u << 14;
 
 std::string small(std::string_view text) {
   std::string result(text);
@@ -48,7 +48,7 @@ std::uint32_t PropheseeHeader::pixels(const std::string& keyword) const {
   std::uint32_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool is_whole = error == std::errc() && end == text.data() + text.size();
-  return is_whole && number <= kLargestSensor ? number : 0;
+  return is_whole && number <= kLargestSensorSide ? number : 0;
 }
 
 PropheseeHeader read_prophesee_header(std::span<const std::byte> file) {

@@ -10,7 +10,7 @@
 namespace nutik {
 namespace {
 
-constexpr double kNoBound = std::numeric_limits<double>::infinity();
+constexpr double kInfiniteError = std::numeric_limits<double>::infinity();
 
 // In u₆₄ of the white code: what a place on the scale of codes is computed to (the inverse transfer function's power,
 // quotient and product).
@@ -100,7 +100,7 @@ StoredErrors real_errors(const RenderPlan& plan, const ErrorBound& bound, const 
 
 // Of an error above 0.
 double share_of(double error, double allowed) {
-  if (std::isnan(error)) return kNoBound;  // no bound allows what is no number
+  if (std::isnan(error)) return kInfiniteError;  // no bound allows what is no number
   if (std::isinf(allowed)) return std::isinf(error) ? 1.0 : 0.0;
   return error / allowed;
 }
@@ -120,10 +120,10 @@ LightErrors light_errors(const RenderPlan& plan, const ErrorBound& bound, const 
     const double allowed = bounds.of(i / plan.capture.shape.channels).light;
     if (const double share = share_of(error, allowed); share > errors.share_of_bound) {
       errors.share_of_bound = share;
-      errors.bounded_error = std::isnan(error) ? kNoBound : error;
+      errors.bounded_error = std::isnan(error) ? kInfiniteError : error;
       errors.bound = allowed;
     }
-    if (std::isnan(error)) error = kNoBound;
+    if (std::isnan(error)) error = kInfiniteError;
     if (error > errors.worst) {
       errors.worst = error;
       errors.worst_value = i;
