@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "opencl/kernel_tables.hpp"
+#include "opencl/work_shape.hpp"
 #include "render/plan_cache.hpp"
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
@@ -59,9 +60,14 @@ class Incremental : public testing::TestWithParam<Precision> {
   PlanCache cache_;
   OpenClRenderer renderer_{test::renderer_options(GetParam())};
 
-  // Of one function: a row for each sample and one more for each block, twice; a part and a gain for each block.
+  // Of one function: a row for each sample and one more for each block, of boundaries and, in whole groups of rows, of
+  // weights; a part and a gain for each block.
+  static std::uint32_t table_rows() {
+    return work_shape(test::renderer_options(GetParam()), GetParam(), list_devices().front()).table_rows();
+  }
+  static constexpr std::uint64_t kRows = kSamples + kSamples / kBlockSamples;
   const std::uint64_t column_bytes_ =
-      2 * (kSamples + kSamples / kBlockSamples) * weight_bytes(GetParam()) +
+      (kRows + align_up(kRows, table_rows())) * weight_bytes(GetParam()) +
       kSamples / kBlockSamples * (sizeof(BlockPart) + weight_bytes(GetParam()));
 };
 

@@ -311,7 +311,8 @@ TEST_P(SmallAllocations, RefuseWhatCannotBeCut) {
   }
   MemoryCapture long_blocks(wide, scene.timeline, still, 2 * Scene::kSamples);
   const RenderPlan of_all = make_plan(long_blocks, all, each, {});
-  const std::uint64_t table_bytes = kMaskValues * (Scene::kSamples + 1) * weight_bytes(GetParam());
+  const std::uint64_t table_bytes =
+      kMaskValues * align_up(Scene::kSamples + 1, WorkShape::kMaxTableRows) * weight_bytes(GetParam());
   ASSERT_GT(table_bytes, row_bytes);
   EXPECT_EQ(message(table_bytes, of_all, long_blocks), "");
   expect_parts(message(table_bytes - 1, of_all, long_blocks),
