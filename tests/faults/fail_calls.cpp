@@ -8,17 +8,20 @@
 //
 // Calls that the C library makes of its own are not seen.
 #include <dlfcn.h>
+#include <execinfo.h>
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 
 #include "faults/fault.hpp"
 
@@ -97,11 +100,20 @@ constinit Next<int(void**, std::size_t, std::size_t)> next_posix_memalign{"posix
        next_mmap64, next_mremap, next_posix_memalign);
 }
 
-// PoCL ends the process where there is no room for what it has begun to run; of its buffers, see fail_device.cpp.
-bool is_of_pocl(const void* caller) {
-  Dl_info found{};
-  return dladdr(caller, &found) != 0 && found.dli_fname != nullptr &&
-         std::strstr(found.dli_fname, "libpocl") != nullptr;
+// PoCL ends the process where there is no room for what it has begun to run, and where LLVM finds none for a program PoCL
+// keeps a lock of its own, for which the release of any program waits forever; of its buffers, see fail_device.cpp.
+bool is_for_pocl() {
+  void* callers[64];
+  const int count = backtrace(callers, std::size(callers));
+  return std::any_of(callers, callers + count, [](const void* caller) {
+    Dl_info found{};
+    return dladdr(caller, &found) != 0 && found.dli_fname != nullptr &&
+           std::strstr(found.dli_fname, "libpocl") != nullptr;
+  });
+}
+
+bool allocation_fails(std::size_t bytes) {
+  return bytes >= kLargeAllocation && !is_for_pocl() && fails("malloc");
 }
 
 bool open_fails(const char* path) {
@@ -212,28 +224,28 @@ void* mremap(void* address, std::size_t before, std::size_t bytes, int flags, ..
 // dlsym() may allocate: the C library's own names need no search.
 void* __libc_malloc(std::size_t bytes);
 void* malloc(std::size_t bytes) noexcept {
-  return bytes >= kLargeAllocation && fails("malloc") ? nullptr : __libc_malloc(bytes);
+  return allocation_fails(bytes) ? nullptr : __libc_malloc(bytes);
 }
 
 void* __libc_calloc(std::size_t count, std::size_t bytes);
 void* calloc(std::size_t count, std::size_t bytes) noexcept {
   std::size_t all = 0;
-  const bool is_large = __builtin_mul_overflow(count, bytes, &all) || all >= kLargeAllocation;
-  return is_large && fails("malloc") ? nullptr : __libc_calloc(count, bytes);
+  if (__builtin_mul_overflow(count, bytes, &all)) all = SIZE_MAX;
+  return allocation_fails(all) ? nullptr : __libc_calloc(count, bytes);
 }
 
 void* __libc_realloc(void* before, std::size_t bytes);
 void* realloc(void* before, std::size_t bytes) noexcept {
-  return bytes >= kLargeAllocation && fails("malloc") ? nullptr : __libc_realloc(before, bytes);
+  return allocation_fails(bytes) ? nullptr : __libc_realloc(before, bytes);
 }
 
 void* __libc_memalign(std::size_t alignment, std::size_t bytes);
 void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept {
-  return bytes >= kLargeAllocation && fails("malloc") ? nullptr : __libc_memalign(alignment, bytes);
+  return allocation_fails(bytes) ? nullptr : __libc_memalign(alignment, bytes);
 }
 
 int posix_memalign(void** made, std::size_t alignment, std::size_t bytes) noexcept {
-  if (bytes >= kLargeAllocation && !is_of_pocl(__builtin_return_address(0)) && fails("malloc")) return errno;
+  if (allocation_fails(bytes)) return errno;
   return next_posix_memalign.get()(made, alignment, bytes);
 }
 
