@@ -95,8 +95,9 @@ struct LightFrom {
 // Follows every value's events.
 class AdderEvents {
  public:
-  AdderEvents(const AdderHeader& header, const LightCodes& codes, double white)
-      : header_(header),
+  AdderEvents(const std::string& name, const AdderHeader& header, const LightCodes& codes, double white)
+      : name_(name),
+        header_(header),
         codes_(codes),
         light_of_unit_(header.interval / white),
         ticks_(std::size_t{header.width} * header.height * header.channels),
@@ -125,6 +126,7 @@ class AdderEvents {
  private:
   void add(std::size_t value, std::uint32_t d, std::uint32_t time);
 
+  const std::string& name_;
   bool is_keeping_ = false;
   AdderHeader header_;
   const LightCodes& codes_;
@@ -185,7 +187,8 @@ void AdderEvents::add(std::size_t value, std::uint32_t d, std::uint32_t time) {
   // So that times in nanoseconds have 62 bits.
   constexpr std::int64_t kLongest = std::int64_t{1} << 62;
   if (until > kLongest || until > static_cast<int128>(header_.ticks_a_second) * (kLongest / kSecondNs)) {
-    throw InputError("its events last longer than 146 years: its ticks a second or its times are damaged");
+    throw InputError(
+        format("{}: its events last longer than 146 years: its ticks a second or its times are damaged", name_));
   }
   end_tick = std::max(end_tick, until);
   ticks_[value] = until;
@@ -227,13 +230,13 @@ EventLight read_adder_file(Bytes file, const std::string& name, const ClipOption
   const std::uint32_t white = white_of(header, options, info);
   check_event_memory({sizeof(LightFrom), 0, 1}, capture.shape, options);  // of its pixels, before any is counted
   const std::uint64_t count = [&] {
-    AdderEvents counted(header, codes, white);
+    AdderEvents counted(name, header, codes, white);
     counted.read(file);
     return counted.found_count;
   }();
   if (count == 0) throw InputError(format("{} holds no event", name));
   check_event_memory({sizeof(LightFrom), count, 1}, capture.shape, options);
-  AdderEvents events(header, codes, white);
+  AdderEvents events(name, header, codes, white);
   events.keep(count);
   events.read(file);
 

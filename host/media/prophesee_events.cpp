@@ -44,7 +44,7 @@ std::uint64_t word_at(Bytes bytes, std::size_t at, std::size_t size) {
 // A clock of so many bits, which begins again when they are used up.
 class CameraClock {
  public:
-  explicit CameraClock(unsigned clock_bits) : period_(std::int64_t{1} << clock_bits) {}
+  CameraClock(unsigned clock_bits, const std::string& name) : period_(std::int64_t{1} << clock_bits), name_(name) {}
 
   [[nodiscard]] bool is_set() const { return is_set_; }
   [[nodiscard]] std::int64_t time_us() const { return time_; }
@@ -56,7 +56,8 @@ class CameraClock {
       now += period_;
       constexpr std::int64_t kLongestUs = (std::int64_t{1} << 62) / 1000;  // as nanoseconds, too, it has 62 bits
       if (loops_ > kLongestUs) {
-        throw InputError("its clock begins again so often that it lasts longer than 146 years: its times are damaged");
+        throw InputError(format(
+            "{}'s clock begins again so often that it lasts longer than 146 years: its times are damaged", name_));
       }
     } else if (loops_ > 0 && now > time_ + period_ / 2) {
       now -= period_;  // a straggler from before it began again
@@ -67,6 +68,7 @@ class CameraClock {
 
  private:
   std::int64_t period_;
+  const std::string& name_;
   std::int64_t loops_ = 0;
   std::int64_t time_ = 0;
   bool is_set_ = false;
@@ -139,9 +141,9 @@ void add_evt2(Decoder& decoder, CameraClock& high, std::uint32_t word, std::uint
 
 constexpr unsigned kEvt2ClockBits = 34;
 
-Decoder decode_evt2(Bytes words, KnownCount known) {
+Decoder decode_evt2(Bytes words, KnownCount known, const std::string& name) {
   Decoder decoder(words, 4, known);
-  CameraClock high(kEvt2ClockBits);
+  CameraClock high(kEvt2ClockBits, name);
   decoder.for_each_word([&](std::uint64_t word) { add_evt2(decoder, high, static_cast<std::uint32_t>(word), 1); });
   return decoder;
 }
@@ -162,9 +164,9 @@ bool has_type_above(Bytes words, const std::string& endianness) {
   return unknown[1] <= unknown[0];
 }
 
-Decoder decode_evt21(Bytes words, bool type_is_above, KnownCount known) {
+Decoder decode_evt21(Bytes words, bool type_is_above, KnownCount known, const std::string& name) {
   Decoder decoder(words, 8, known);
-  CameraClock high(kEvt2ClockBits);
+  CameraClock high(kEvt2ClockBits, name);
   decoder.for_each_word([&](std::uint64_t word) {
     const std::uint32_t lower = bits(word, 0, 32), upper = bits(word, 32, 32);
     add_evt2(decoder, high, type_is_above ? upper : lower, type_is_above ? lower : upper);
@@ -172,10 +174,10 @@ Decoder decode_evt21(Bytes words, bool type_is_above, KnownCount known) {
   return decoder;
 }
 
-Decoder decode_evt3(Bytes words, KnownCount known) {
+Decoder decode_evt3(Bytes words, KnownCount known, const std::string& name) {
   enum Type : std::uint32_t { kY = 0, kX = 2, kBaseX = 3, kVector12 = 4, kVector8 = 5, kLow = 6, kHigh = 8 };
   Decoder decoder(words, 2, known);
-  CameraClock clock(24);
+  CameraClock clock(24, name);
   std::uint32_t y = 0, base_x = 0, high = 0;
   bool is_this_camera = true, is_up = false;
   const auto add = [&](std::uint32_t x, bool up) {
@@ -221,9 +223,9 @@ Decoder decode_evt3(Bytes words, KnownCount known) {
   return decoder;
 }
 
-Decoder decode_dat(Bytes words, KnownCount known) {
+Decoder decode_dat(Bytes words, KnownCount known, const std::string& name) {
   Decoder decoder(words, 8, known);
-  CameraClock clock(32);
+  CameraClock clock(32, name);
   decoder.for_each_word([&](std::uint64_t word) {
     clock.set(bits(word, 0, 32));
     decoder.add(clock.time_us(), bits(word, 32, 14), bits(word, 46, 14), bits(word, 60, 4) != 0);
@@ -316,15 +318,15 @@ Decoder decode(Bytes file, const PropheseeHeader& header, const std::string& nam
   const std::string& evt = header.of("evt");
   if (format_name == "EVT2" || (format_name.empty() && evt == "2.0")) {
     kind = "EVT 2.0";
-    return decode_evt2(words, known);
+    return decode_evt2(words, known, name);
   }
   if (format_name == "EVT21" || (format_name.empty() && evt == "2.1")) {
     kind = "EVT 2.1";
-    return decode_evt21(words, has_type_above(words, header.of("endianness")), known);
+    return decode_evt21(words, has_type_above(words, header.of("endianness")), known, name);
   }
   if (format_name == "EVT3" || (format_name.empty() && evt == "3.0")) {
     kind = "EVT 3.0";
-    return decode_evt3(words, known);
+    return decode_evt3(words, known, name);
   }
   if (!format_name.empty() || !evt.empty()) {
     throw InputError(nutik::format(
@@ -332,7 +334,7 @@ Decoder decode(Bytes file, const PropheseeHeader& header, const std::string& nam
         name, format_name.empty() ? "EVT " + evt : format_name, name));
   }
   kind = "DAT";
-  return decode_dat(dat_words(file, header, name), known);
+  return decode_dat(dat_words(file, header, name), known, name);
 }
 
 }  // namespace

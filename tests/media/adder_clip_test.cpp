@@ -201,7 +201,7 @@ TEST(AdderClip, RefusesTimesThatNobodyFilmed) {
   std::string content = file.header();
   for (const unsigned d : {20u, 255u, 255u, 200u}) content += file.event(0, 0, 0, d, 0xFFFFFFFF);
   const auto path = scratch.write("long.adder", content);
-  EXPECT_NE(message_of<InputError>([&] { open_test_clip(path); }).find("its events last longer than 146 years"),
+  EXPECT_NE(message_of<InputError>([&] { open_test_clip(path); }).find("long.adder: its events last longer than 146 years"),
             std::string::npos);
 }
 

@@ -251,6 +251,11 @@ TEST(EventClip, RefusesWhatItCannotRead) {
   expect("narrow.raw", test::raw_header("EVT2", 8, 8) + words, "correct the size in its header");
   expect("empty.raw", test::raw_header("EVT3", 8, 8), "holds no event (EVT 3.0, 0 bytes after its header)");
   expect("4.raw", test::raw_header("EVT4", 8, 8) + words, "is in the format EVT4; EVT 2.0, 2.1 and 3.0 are read");
+  std::string turns;  // of the clock, each of three steps
+  for (int turn = 0; turn < 270'000; ++turn) {
+    for (const std::uint64_t time : {0x0000000u, 0x6000000u, 0xC000000u}) turns += test::little_endian(8u << 28 | time, 4);
+  }
+  expect("turns.raw", test::raw_header("EVT2", 8, 8) + turns, "turns.raw's clock begins again so often that");
   expect("trigger.dat", "% Version 2\n\x0e\x08", "holds events of the type 14, of 8 bytes");
   expect("short.dat", "% Version 2\n\x0c", "ends within its header");
   expect("c.adder", "addec...", "is a compressed ADΔER file, which is not read; save it uncompressed");
