@@ -103,7 +103,7 @@ constinit Next<int(void**, std::size_t, std::size_t)> next_posix_memalign{"posix
 // PoCL ends the process where there is no room for what it has begun to run, and where LLVM finds none for a program PoCL
 // keeps a lock of its own, for which the release of any program waits forever; of its buffers, see fail_device.cpp.
 bool is_for_pocl() {
-  void* callers[64];
+  void* callers[256];  // LLVM recurses
   const int count = backtrace(callers, std::size(callers));
   return std::any_of(callers, callers + count, [](const void* caller) {
     Dl_info found{};
