@@ -52,17 +52,17 @@ NUTIK_INLINE Pixels pixels_at(const size_t tile, const uint lane, const uint wid
 // 0 and at the white code. thresholds[0], which nothing is compared with, holds what white is on the scale of
 // the others; thresholds[white code + 1] is beyond all light. `guesses` has for each of guess_count equal steps
 // of the square root of light the right code or one below it.
-NUTIK_INLINE uints codes_of(const Lights light, global const Threshold* restrict thresholds,
-                            global const uint* restrict guesses, const uint guess_count) {
+NUTIK_INLINE uints codes_of(const Lights light, global const Threshold* thresholds,
+                            global const uint* guesses, const uint guess_count) {
   const reals root = sqrt(share_of_white(light, thresholds[0]));
   const uints step = min(NUTIK_TO_UINTS(root * guess_count), (uints)(guess_count - 1));
   const uints guess = gather_uint(guesses, step);
   return guess + one_where_reached(thresholds, guess + 1, light);
 }
 
-NUTIK_INLINE void write_codes(const Pixels* pixels, const Lights* lights,
-                              global const Threshold* restrict thresholds, global const uint* restrict guesses,
-                              const uint guess_count, global raster_code* restrict raster) {
+NUTIK_INLINE void write_codes(const Pixels* pixels, const Lights* lights, global const Threshold* thresholds,
+                              global const uint* guesses, const uint guess_count,
+                              global raster_code* raster) {
   uint codes[NUTIK_CHANNELS][NUTIK_LANES];
 #pragma unroll
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
@@ -76,15 +76,15 @@ NUTIK_INLINE void write_codes(const Pixels* pixels, const Lights* lights,
   }
 }
 
-NUTIK_INLINE uints functions_of(global const function_index* restrict function_of_lane, const size_t tile,
+NUTIK_INLINE uints functions_of(global const function_index* function_of_lane, const size_t tile,
                                 const uint lane) {
   return NUTIK_TO_UINTS(NUTIK_LOAD(function_of_lane + tile * NUTIK_TILE_PIXELS + lane));
 }
 
 // Light of a tile's sums, by channel, between 0 and white.
-NUTIK_INLINE void develop_tile(const size_t tile, const uint lane, global const Sum* restrict sums,
-                               global const LightScale* restrict scales,
-                               global const function_index* restrict function_of_lane, const Threshold white, Lights* lights) {
+NUTIK_INLINE void develop_tile(const size_t tile, const uint lane, global const Sum* sums,
+                               global const LightScale* scales, global const function_index* function_of_lane,
+                               const Threshold white, Lights* lights) {
   const uints functions = functions_of(function_of_lane, tile, lane);
 #pragma unroll
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
@@ -94,7 +94,7 @@ NUTIK_INLINE void develop_tile(const size_t tile, const uint lane, global const 
 }
 
 // raster: [pixel][channel][plane]
-NUTIK_INLINE void write_sums(const Pixels* pixels, global const Sum* restrict sums, global Sum* restrict raster) {
+NUTIK_INLINE void write_sums(const Pixels* pixels, global const Sum* sums, global Sum* raster) {
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
     for (uint plane = 0; plane < NUTIK_SUM_PLANES; ++plane) {
       global const Sum* from = sums + sums_at(pixels->tile, NUTIK_CHANNELS, channel, pixels->lane) +
@@ -119,9 +119,9 @@ kernel void develop_sums(global const Sum* restrict sums, const uint width, cons
 
 #if NUTIK_BLENDS
 // The same of the sums of the tiles `first` to `last`, each one function's: Σ share · light.
-NUTIK_INLINE void blend_tiles(const size_t first, const size_t last, const uint lane, global const Sum* restrict sums,
-                              global const LightScale* restrict blend_scales,
-                              global const function_index* restrict function_of_lane, global const ushort* restrict shares,
+NUTIK_INLINE void blend_tiles(const size_t first, const size_t last, const uint lane, global const Sum* sums,
+                              global const LightScale* blend_scales,
+                              global const function_index* function_of_lane, global const ushort* shares,
                               const uint blend_shift, const Threshold white, Lights* lights) {
 #pragma unroll
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {

@@ -15,8 +15,8 @@
 
 // Adds the sums of a block, a half or a bundle to the picture's, which start with the first entry: with 0, for which
 // entry comes first depends on what is kept, and 0 + -0 is 0.
-NUTIK_INLINE void add_sums(global Sum* restrict sums, const size_t tile, const uint lane,
-                           const Sums* block_sums, const bool is_start) {
+NUTIK_INLINE void add_sums(global Sum* sums, const size_t tile, const uint lane, const Sums* block_sums,
+                           const bool is_start) {
 #pragma unroll
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
 #pragma unroll
@@ -28,7 +28,7 @@ NUTIK_INLINE void add_sums(global Sum* restrict sums, const size_t tile, const u
   }
 }
 
-NUTIK_INLINE void load_tile(global const Sum* restrict from, const size_t tile, const uint lane, Sums* sums) {
+NUTIK_INLINE void load_tile(global const Sum* from, const size_t tile, const uint lane, Sums* sums) {
 #pragma unroll
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
 #pragma unroll
@@ -39,11 +39,6 @@ NUTIK_INLINE void load_tile(global const Sum* restrict from, const size_t tile, 
   }
 }
 
-NUTIK_INLINE void clear(Sums* sums) {
-#pragma unroll
-  for (uint i = 0; i < NUTIK_ITEM_VECTORS; ++i) sums[i] = zero();
-}
-
 // Times the gain of one function.
 NUTIK_INLINE void scale(const Weight gain, Sums* sums) {
 #pragma unroll
@@ -51,8 +46,7 @@ NUTIK_INLINE void scale(const Weight gain, Sums* sums) {
 }
 
 // Times the gain of each pixel's function: exactly 1 where it is not steady.
-NUTIK_INLINE void scale_each(global const Weight* restrict gains, global const function_index* restrict functions,
-                             Sums* sums) {
+NUTIK_INLINE void scale_each(global const Weight* gains, global const function_index* functions, Sums* sums) {
 #pragma unroll
   for (uint group = 0; group < NUTIK_GROUPS; ++group) {
     const Weights gain = pick_weights(gains, functions + group * NUTIK_LANES, 1);
@@ -66,8 +60,8 @@ NUTIK_INLINE void scale_each(global const Weight* restrict gains, global const f
 #if NUTIK_FUNCTION_BYTES == 2
 // The samples of a block that any of the item's pixels needs: with delays few of those that some pixel of the picture
 // does. A tile that needs none need not be there.
-NUTIK_INLINE void narrow(Block* block, global const BlockPart* restrict parts,
-                         global const function_index* restrict functions) {
+NUTIK_INLINE void narrow(Block* block, global const BlockPart* parts,
+                         global const function_index* functions) {
   uint first = block->sample_count, last = 0;
   for (uint i = 0; i < NUTIK_ITEM_PIXELS; ++i) {
     const BlockPart part = parts[functions[i]];
