@@ -2,6 +2,7 @@
 
 #include <sys/mman.h>
 
+#include <cstring>
 #include <new>
 #include <utility>
 
@@ -55,12 +56,18 @@ void PageBuffer::grow(std::uint64_t bytes) {
     *this = PageBuffer(bytes);
     return;
   }
+#ifdef __SANITIZE_THREAD__  // it does not see pages move, and takes what was there before for a race
+  PageBuffer larger(bytes);
+  std::memcpy(larger.data_, data_, bytes_);
+  *this = std::move(larger);
+#else
   // Pages are moved, not copied.
   void* mapped = mremap(data_, bytes_, whole_pages(bytes), MREMAP_MAYMOVE);
   if (mapped == MAP_FAILED) throw std::bad_alloc();
   data_ = static_cast<std::byte*>(mapped);
   bytes_ = whole_pages(bytes);
   prefer_huge_pages(data_, bytes_);
+#endif
 }
 
 void PageBuffer::reserve(std::uint64_t bytes) {
