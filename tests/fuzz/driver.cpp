@@ -1,8 +1,12 @@
 #include <sanitizer/allocator_interface.h>
+#include <sys/mman.h>
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -24,20 +28,49 @@ std::atomic<std::int64_t> allocated_bytes{
 std::atomic<std::int64_t> ceiling_bytes{kNoCeiling};
 std::atomic<std::size_t> input_bytes{0};
 
-void count_allocation(const volatile void* /*memory*/, std::size_t bytes) {
-  const std::int64_t now = allocated_bytes += static_cast<std::int64_t>(bytes);
-  const std::int64_t ceiling = ceiling_bytes;
-  if (now <= ceiling) return;
+[[noreturn]] void end_above_ceiling(std::int64_t bytes, std::int64_t ceiling) {
   ceiling_bytes = kNoCeiling;  // printing allocates
   std::fprintf(stderr, "%lld bytes allocated for an input of %zu; its ceiling is %lld\n",
-               static_cast<long long>(now), input_bytes.load(), static_cast<long long>(ceiling));
+               static_cast<long long>(bytes), input_bytes.load(), static_cast<long long>(ceiling));
   std::abort();
+}
+
+// Of blocks as large as these what was touched is counted, when they are released: FFmpeg reserves room for as many
+// entries of a table as a file states, up to 2 GB, and takes none of it where the file ends.
+constexpr std::size_t kReservedFromBytes = std::size_t{1} << 28;
+
+std::int64_t touched_bytes(const volatile void* memory, std::size_t bytes) {
+  const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(memory) / page * page;
+  std::int64_t touched = 0;
+  std::array<unsigned char, 4096> resident;
+  for (std::uintptr_t at = begin; at < begin + bytes; at += resident.size() * page) {
+    const std::size_t pages = std::min(resident.size(), (begin + bytes - at + page - 1) / page);
+    // Where the system does not tell, all counts.
+    if (mincore(reinterpret_cast<void*>(at), pages * page, resident.data()) != 0)
+      return static_cast<std::int64_t>(bytes);
+    for (std::size_t i = 0; i < pages; ++i) touched += resident[i] & 1 ? static_cast<std::int64_t>(page) : 0;
+  }
+  return touched;
+}
+
+void count_allocation(const volatile void* /*memory*/, std::size_t bytes) {
+  if (bytes >= kReservedFromBytes) return;
+  const std::int64_t now = allocated_bytes += static_cast<std::int64_t>(bytes);
+  const std::int64_t ceiling = ceiling_bytes;
+  if (now > ceiling) end_above_ceiling(now, ceiling);
 }
 
 void count_release(const volatile void* memory) {
   if (memory == nullptr) return;
-  allocated_bytes -=
-      static_cast<std::int64_t>(__sanitizer_get_allocated_size(const_cast<const void*>(memory)));
+  const std::size_t bytes = __sanitizer_get_allocated_size(const_cast<const void*>(memory));
+  if (bytes < kReservedFromBytes) {
+    allocated_bytes -= static_cast<std::int64_t>(bytes);
+    return;
+  }
+  const std::int64_t ceiling = ceiling_bytes;
+  const std::int64_t with_it = allocated_bytes + touched_bytes(memory, bytes);
+  if (with_it > ceiling) end_above_ceiling(with_it, ceiling);
 }
 
 // Of the process, so that a busy machine makes no findings.
