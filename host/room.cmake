@@ -9,7 +9,7 @@ add_library(nutik_warnings INTERFACE)
 target_compile_options(nutik_warnings INTERFACE -Wall -Wextra -Wconversion -Wshadow -Wpedantic)
 # GCC 12 warns of std::string's own code (its bug 105651).
 target_compile_options(nutik_warnings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
-# Where files are compiled together, names of one seem to shadow those of another, and none is a header.
+# If files are compiled together, names of one seem to shadow those of another, and GCC takes each file for a header.
 if(CMAKE_UNITY_BUILD)
   target_compile_options(nutik_warnings INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()

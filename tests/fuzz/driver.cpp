@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <mutex>
 #include <string>
 
 #include "capture/error.hpp"
@@ -35,27 +36,56 @@ std::atomic<std::size_t> input_bytes{0};
   std::abort();
 }
 
-// Of blocks as large as these what was touched is counted, when they are released: FFmpeg reserves room for as many
-// entries of a table as a file states, up to 2 GB, and takes none of it where the file ends.
-constexpr std::size_t kReservedFromBytes = std::size_t{1} << 28;
+// Of blocks of MemoryCeiling::reserved_from bytes and more what was touched counts, whenever one of them is released.
+struct Block {
+  const volatile void* memory = nullptr;
+  std::size_t bytes = 0;
+};
+std::mutex reserved_mutex;
+std::array<Block, 64> reserved;  // those that are there; the rest of them counts whole
 
-std::int64_t touched_bytes(const volatile void* memory, std::size_t bytes) {
+std::int64_t touched_bytes(const Block& block) {
   const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(memory) / page * page;
+  const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(block.memory) / page * page;
+  const std::uintptr_t end = reinterpret_cast<std::uintptr_t>(block.memory) + block.bytes;
   std::int64_t touched = 0;
   std::array<unsigned char, 4096> resident;
-  for (std::uintptr_t at = begin; at < begin + bytes; at += resident.size() * page) {
-    const std::size_t pages = std::min(resident.size(), (begin + bytes - at + page - 1) / page);
+  for (std::uintptr_t at = begin; at < end; at += resident.size() * page) {
+    const std::size_t pages = std::min(resident.size(), (end - at + page - 1) / page);
     // Where the system does not tell, all counts.
     if (mincore(reinterpret_cast<void*>(at), pages * page, resident.data()) != 0)
-      return static_cast<std::int64_t>(bytes);
+      return static_cast<std::int64_t>(block.bytes);
     for (std::size_t i = 0; i < pages; ++i) touched += resident[i] & 1 ? static_cast<std::int64_t>(page) : 0;
   }
   return touched;
 }
 
-void count_allocation(const volatile void* /*memory*/, std::size_t bytes) {
-  if (bytes >= kReservedFromBytes) return;
+bool is_reserved(const volatile void* memory, std::size_t bytes) {
+  if (bytes < kTarget.ceiling.reserved_from) return false;
+  const std::lock_guard lock(reserved_mutex);
+  const auto free = std::ranges::find(reserved, nullptr, &Block::memory);
+  if (free == reserved.end()) return false;
+  *free = {memory, bytes};
+  return true;
+}
+
+// Whether it was; with what was touched of it and the others until now.
+bool release_reserved(const volatile void* memory) {
+  const std::lock_guard lock(reserved_mutex);
+  const auto found = std::ranges::find(reserved, memory, &Block::memory);
+  if (found == reserved.end()) return false;
+  const std::int64_t ceiling = ceiling_bytes;
+  if (ceiling != kNoCeiling) {
+    std::int64_t now = allocated_bytes;
+    for (const Block& block : reserved) now += block.memory == nullptr ? 0 : touched_bytes(block);
+    if (now > ceiling) end_above_ceiling(now, ceiling);
+  }
+  *found = {};
+  return true;
+}
+
+void count_allocation(const volatile void* memory, std::size_t bytes) {
+  if (is_reserved(memory, bytes)) return;
   const std::int64_t now = allocated_bytes += static_cast<std::int64_t>(bytes);
   const std::int64_t ceiling = ceiling_bytes;
   if (now > ceiling) end_above_ceiling(now, ceiling);
@@ -64,13 +94,8 @@ void count_allocation(const volatile void* /*memory*/, std::size_t bytes) {
 void count_release(const volatile void* memory) {
   if (memory == nullptr) return;
   const std::size_t bytes = __sanitizer_get_allocated_size(const_cast<const void*>(memory));
-  if (bytes < kReservedFromBytes) {
-    allocated_bytes -= static_cast<std::int64_t>(bytes);
-    return;
-  }
-  const std::int64_t ceiling = ceiling_bytes;
-  const std::int64_t with_it = allocated_bytes + touched_bytes(memory, bytes);
-  if (with_it > ceiling) end_above_ceiling(with_it, ceiling);
+  if (bytes >= kTarget.ceiling.reserved_from && release_reserved(memory)) return;
+  allocated_bytes -= static_cast<std::int64_t>(bytes);
 }
 
 // Of the process, so that a busy machine makes no findings.

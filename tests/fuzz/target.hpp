@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -21,6 +22,8 @@ using Bytes = std::span<const std::byte>;
 struct MemoryCeiling {
   std::size_t fixed = 0;
   std::size_t per_input_byte = 0;
+  // Larger blocks count as far as they are touched, for libraries that reserve room for whatever a file states.
+  std::size_t reserved_from = std::numeric_limits<std::size_t>::max();
 };
 
 struct Target {
