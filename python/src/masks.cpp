@@ -38,7 +38,7 @@ HeldMask of_layers(const std::map<std::uint8_t, Codes<std::uint16_t>>& shares, s
   return {Shared(mask_of_layers(layers, rest))};
 }
 
-HeldMask read(const std::string& path, std::uint8_t rest) {
+HeldMask read_mask(const std::string& path, std::uint8_t rest) {
   const py::gil_scoped_release released;
   return {Shared(read_layered_mask_input(path, rest))};
 }
@@ -78,7 +78,7 @@ void bind_masks(py::module_& module) {
   py::class_<HeldMask>(module, "Mask")
       .def(py::init(&of_tags), py::arg("tags"))
       .def_static("of_layers", &of_layers, py::arg("shares"), py::arg("rest"))
-      .def_static("read", &read, py::arg("path"), py::arg("rest"))
+      .def_static("read", &read_mask, py::arg("path"), py::arg("rest"))
       .def("feathered", &feathered_mask, py::arg("feather"))
       .def("tags", &tags)
       .def("share", &share, py::arg("tag"))

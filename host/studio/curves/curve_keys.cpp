@@ -13,7 +13,7 @@ namespace nutik::studio {
 namespace {
 
 // Keys that belong to the curve while it has the focus, whatever they are shortcuts of elsewhere.
-bool is_own_key(const QKeyEvent& event) {
+bool is_key_of_curve(const QKeyEvent& event) {
   constexpr std::array kKeys{Qt::Key_Left,   Qt::Key_Right,  Qt::Key_Up,    Qt::Key_Down, Qt::Key_Home,
                              Qt::Key_End,    Qt::Key_Delete, Qt::Key_Enter, Qt::Key_Plus, Qt::Key_Backspace,
                              Qt::Key_Insert, Qt::Key_Return, Qt::Key_Minus, Qt::Key_F};
@@ -195,7 +195,7 @@ void CurveEditor::type_numbers() {
 }
 
 bool CurveEditor::event(QEvent* event) {
-  return answers_event(*this, *event, is_own_key) || QWidget::event(event);
+  return answers_event(*this, *event, is_key_of_curve) || QWidget::event(event);
 }
 
 QString CurveEditor::text_at(QPointF at) const {

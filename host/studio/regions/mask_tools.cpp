@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kMinSide = 0.5;  // of a shape, in pixels: less is a click
 
-QString tr(const char* text) { return Document::tr(text); }
-
 Point point_of(QPointF at) { return {at.x(), at.y()}; }
 
 // Which region a stroke is for.
@@ -77,7 +75,7 @@ class Brush : public CanvasTool {
     Region region = Region::none(shape.width, shape.height);
     for (int step = 0; step <= steps; ++step) stamp(region, last_ + (to - last_) * step / steps);
     last_ = to;
-    target_.stroke(document_, region, tr("Brush"));
+    target_.stroke(document_, region, Document::tr("Brush"));
   }
 
   void stamp(Region& region, QPointF at) const {
@@ -129,7 +127,8 @@ class BoxTool : public CanvasTool {
         is_ellipse_
             ? ellipse(shape.width, shape.height, point_of(box.center()), box.width() / 2, box.height() / 2)
             : rectangle(shape.width, shape.height, point_of(box.topLeft()), box.width(), box.height());
-    Target::of(document_, keys).stroke(document_, region, is_ellipse_ ? tr("Ellipse") : tr("Rectangle"));
+    Target::of(document_, keys)
+        .stroke(document_, region, is_ellipse_ ? Document::tr("Ellipse") : Document::tr("Rectangle"));
   }
   void give_up() override { is_drawn_ = false; }
   void paint(QPainter& painter, QPointF) const override {
@@ -163,7 +162,7 @@ class PolygonTool : public CanvasTool {
     corners_.clear();
     const Shape& shape = document_.facts()->format.shape;
     Target::of(document_, keys_)
-        .stroke(document_, polygon(shape.width, shape.height, corners), tr("Polygon"));
+        .stroke(document_, polygon(shape.width, shape.height, corners), Document::tr("Polygon"));
   }
   void give_up() override { corners_.clear(); }
   void paint(QPainter& painter, QPointF pointer) const override {
@@ -191,7 +190,7 @@ class Wand : public CanvasTool {
     const QSize size(static_cast<int>(shape.width), static_cast<int>(shape.height));
     if (image.size() != size || !image.rect().contains(pixel)) return;
     Target::of(document_, keys)
-        .stroke(document_, similar_pixels(image, pixel, settings_.wand_codes), tr("Magic wand"));
+        .stroke(document_, similar_pixels(image, pixel, settings_.wand_codes), Document::tr("Magic wand"));
   }
   void drag(QPointF, Qt::KeyboardModifiers) override {}
   void release(QPointF, Qt::KeyboardModifiers) override {}

@@ -9,8 +9,6 @@
 namespace nutik::studio {
 namespace {
 
-QString tr(const char* text) { return Document::tr(text); }
-
 void apply(Document& document, Covering covering, const QString& what) {
   DocumentState state = std::move(covering).state();
   state.mode = ExposureMode::functions;
@@ -56,7 +54,7 @@ void add_region(Document& document) {
   state.order.insert(state.order.begin(), *tag);
   state.looks[*tag] = {Document::tr("Region %1").arg(state.functions.size() - 1),
                        first_colour(static_cast<std::uint8_t>(state.functions.size() - 1)), true};
-  document.apply(std::move(state), tr("Add region"));
+  document.apply(std::move(state), Document::tr("Add region"));
   document.select_tag(*tag);
 }
 
@@ -66,7 +64,7 @@ void remove_region(Document& document, std::uint8_t tag) {
   covering.take(covering.area_of(tag), tag);
   DocumentState state = std::move(covering).state();
   state.functions.erase(tag);
-  document.apply(std::move(state), tr("Remove region"));
+  document.apply(std::move(state), Document::tr("Remove region"));
 }
 
 void move_region(Document& document, std::uint8_t tag, Move move) {
@@ -76,7 +74,8 @@ void move_region(Document& document, std::uint8_t tag, Move move) {
   if (move == Move::down && ++place == order.end()) return;
   Covering covering(document);
   if (!covering.move_up(*place)) return;
-  document.apply(std::move(covering).state(), tr(move == Move::up ? "Move region up" : "Move region down"));
+  document.apply(std::move(covering).state(),
+                 Document::tr(move == Move::up ? "Move region up" : "Move region down"));
 }
 
 void set_look(Document& document, std::uint8_t tag, const RegionLook& look, const QString& what) {
@@ -88,7 +87,7 @@ void set_look(Document& document, std::uint8_t tag, const RegionLook& look, cons
 void expose_over_boxcar(Document& document, std::uint8_t tag) {
   const GainFunction function = function_over(document.boxcar());
   document.set_points(tag, {function.points().begin(), function.points().end()},
-                      tr("Expose over the interval"));
+                      Document::tr("Expose over the interval"));
 }
 
 void paint_region(Document& document, const Region& region, std::uint8_t tag, const QString& what) {
@@ -109,25 +108,25 @@ void grow_region(Document& document, std::uint8_t tag, double radius) {
   if (document.facts() == nullptr || tag == kBackground) return;
   const Region region = region_of(document, tag);
   replace_area(document, tag, radius < 0 ? shrunk(region, -radius) : grown(region, radius),
-               radius < 0 ? tr("Shrink region") : tr("Grow region"));
+               radius < 0 ? Document::tr("Shrink region") : Document::tr("Grow region"));
 }
 
 void smooth_region(Document& document, std::uint8_t tag, double radius) {
   if (document.facts() == nullptr || tag == kBackground) return;
-  replace_area(document, tag, smoothed(region_of(document, tag), radius), tr("Smooth region"));
+  replace_area(document, tag, smoothed(region_of(document, tag), radius), Document::tr("Smooth region"));
 }
 
 void set_feather(Document& document, int feather) {
   DocumentState state = document.state();
   state.feather.everywhere = feather;
-  document.apply(std::move(state), tr("Feather"));
+  document.apply(std::move(state), Document::tr("Feather"));
 }
 
 void set_feather_of(Document& document, std::uint8_t tag, std::optional<int> feather) {
   DocumentState state = document.state();
   state.feather.of_tag.erase(tag);
   if (feather) state.feather.of_tag[tag] = *feather;
-  document.apply(std::move(state), tr("Feather of region"));
+  document.apply(std::move(state), Document::tr("Feather of region"));
 }
 
 }  // namespace nutik::studio

@@ -17,7 +17,7 @@ namespace {
 constexpr double kReach = 6;
 constexpr double kFine = 0.1;
 
-bool is_own_key(const QKeyEvent& event) {
+bool is_key_of_strip(const QKeyEvent& event) {
   constexpr std::array kKeys{Qt::Key_Left, Qt::Key_Right, Qt::Key_Up,    Qt::Key_Down, Qt::Key_Home,
                              Qt::Key_End,  Qt::Key_Plus,  Qt::Key_Minus, Qt::Key_I,    Qt::Key_O,
                              Qt::Key_X,    Qt::Key_Z,     Qt::Key_F};
@@ -252,7 +252,7 @@ void TimeStrip::focusOutEvent(QFocusEvent* event) {
 }
 
 bool TimeStrip::event(QEvent* event) {
-  return answers_event(*this, *event, is_own_key) || QWidget::event(event);
+  return answers_event(*this, *event, is_key_of_strip) || QWidget::event(event);
 }
 
 QString TimeStrip::text_at(QPointF at) const {

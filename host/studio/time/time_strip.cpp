@@ -12,7 +12,7 @@
 namespace nutik::studio {
 namespace {
 
-constexpr double kRuler = 30, kFoot = 4;
+constexpr double kRuler = 30, kStripFoot = 4;
 constexpr double kLabels = 18;            // the ruler's upper part; marks have the lower one
 constexpr double kThumbnailShare = 0.58;  // of the track's height
 
@@ -52,7 +52,7 @@ TimeStrip::TimeStrip(Document& document, TimeAxis& axis, QWidget* parent)
 }
 
 QRectF TimeStrip::track() const {
-  return QRectF(rect()).adjusted(TimeAxis::kLeft, kRuler, -TimeAxis::kRight, -kFoot);
+  return QRectF(rect()).adjusted(TimeAxis::kLeft, kRuler, -TimeAxis::kRight, -kStripFoot);
 }
 
 QRectF TimeStrip::boxcar_area() const {
