@@ -75,6 +75,15 @@ TEST_F(Outputs, GoToStandardOutput) {
   EXPECT_EQ(sheet.out, "\xFF\xD8\xFF") << sheet.err;
 }
 
+TEST_F(Outputs, ATerminalTakesNoPicture) {
+  if (!test::has_pseudo_terminals()) GTEST_SKIP() << "there is no pseudo terminal here, or no `script`";
+  const auto terminal = test::run_shell("script -qec '" NUTIK_TEST_PROGRAM
+                                        " expose -f 100 --exposure 1f frames -o -' /dev/null",
+                                        scratch_.folder());
+  EXPECT_EQ(terminal.status, 2);
+  EXPECT_NE(terminal.out.find("which is a terminal"), std::string::npos) << terminal.out << terminal.err;
+}
+
 TEST_F(Outputs, ThatStandardOutputCannotTakeAreRefused) {
   const auto refused = [&](const std::vector<std::string>& words, const std::string& part) {
     std::vector<std::string> all{words};
@@ -91,13 +100,6 @@ TEST_F(Outputs, ThatStandardOutputCannotTakeAreRefused) {
   scratch_.write("list.txt", "--exposure 1f -o -\n");
   const auto batch = test::run_program({"batch", "-f", "100", "list.txt", "frames"}, scratch_.folder());
   EXPECT_NE(batch.err.find("standard output takes one picture"), std::string::npos) << batch.err;
-  // `script` runs a command on a terminal.
-  const auto terminal = test::run_shell("script -qec '" + std::string(NUTIK_TEST_PROGRAM) +
-                                            " expose -f 100 --exposure 1f frames -o -' /dev/null",
-                                        scratch_.folder());
-  if (terminal.status == 127) GTEST_SKIP() << "the command script is missing, which makes a terminal";
-  EXPECT_EQ(terminal.status, 2);
-  EXPECT_NE(terminal.out.find("which is a terminal"), std::string::npos) << terminal.out << terminal.err;
   // Nothing stays in the temporary folder.
   std::filesystem::create_directory(scratch_ / "tmp");
   const auto full = test::run_program({"expose", "-f", "100", "--exposure", "1f", "frames", "-o", "-"},

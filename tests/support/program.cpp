@@ -37,6 +37,8 @@ ProgramResult run_shell(const std::string& command, const std::filesystem::path&
           read_file(streams / "err")};
 }
 
+bool has_pseudo_terminals() { return run_shell("script -qec true /dev/null", "/").status == 0; }
+
 ProgramResult run_program(const std::vector<std::string>& words, const std::filesystem::path& folder,
                           const std::vector<std::string>& environment) {
   std::string command = "env";

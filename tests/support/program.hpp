@@ -21,4 +21,7 @@ struct ProgramResult {
 // Any command line of a shell, for second programs that read what ours wrote.
 [[nodiscard]] ProgramResult run_shell(const std::string& command, const std::filesystem::path& folder);
 
+// Whether `script` can give a program a terminal here.
+[[nodiscard]] bool has_pseudo_terminals();
+
 }  // namespace nutik::test

@@ -149,7 +149,12 @@ PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
         self.start("slurmctld", "slurmctld", "-D", "-c")
         for each in "one", "two":
             self.start_node(each)
-        wait_for(lambda: self.ask("sinfo", "-h", "-t", "idle", "-o", "%D") == "2", "two idle nodes")
+        wait_for(self.has_two_idle_nodes, "two idle nodes")
+
+    def has_two_idle_nodes(self):
+        if ended := [name for name, daemon in self.daemons.items() if daemon.poll() is not None]:
+            raise SystemExit(f"FAILED  {', '.join(ended)} ended")
+        return self.ask("sinfo", "-h", "-t", "idle", "-o", "%D") == "2"
 
     def ask(self, *command):
         answer = subprocess.run(command, env=self.environment, capture_output=True, text=True)
@@ -232,6 +237,9 @@ def cluster(environment):
 
 def check_slurm(scene, farm, report):
     need("slurmctld", "slurmd", "munged", "sbatch")
+    if not os.path.ismount("/sys/fs/cgroup"):
+        print("SKIPPED: no control groups are mounted on /sys/fs/cgroup, without which slurmd does not start")
+        return
     with cluster(scene.environment) as slurm:
         tasks = -(-FRAMES // CHUNK)
         submit = ["sbatch", "--parsable", f"--array=0-{tasks - 1}", "--export", f"ALL,FRAMES={CHUNK}"]
