@@ -9,6 +9,7 @@
 #include "app/output/output_name.hpp"
 #include "app/text/message_text.hpp"
 #include "session/below/error.hpp"
+#include "session/devices.hpp"
 #include "system/interruption.hpp"
 #include "system/mapped_file.hpp"
 #include "system/output_file.hpp"
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
   nutik::catch_interruptions();
   nutik::catch_limits();
   nutik::watch_mapped_files();
+  nutik::have_kernels_built_once();
   try {
     const std::vector<std::string> words(argv + 1, argv + argc);
     nutik::app::ParsedCommandLine parsed = nutik::app::parse_command_line(words);

@@ -2,10 +2,12 @@
 #include <QApplication>
 #include <QCommandLineParser>
 
+#include "session/devices.hpp"
 #include "studio/window/appearance.hpp"
 #include "studio/window/main_window.hpp"
 
 int main(int count, char** words) {
+  nutik::have_kernels_built_once();
   QApplication application(count, words);
   QApplication::setApplicationName("nutik-studio");
   QApplication::setOrganizationName("nutik");

@@ -17,13 +17,9 @@ std::string arithmetics_text(const DeviceInfo& device, const Verdicts& verdicts)
   for (const Precision precision : precisions_of(device)) {
     text += (text.empty() ? "" : ", ") + to_text(precision);
     const auto known = verdicts.find(precision);
-    if (known == verdicts.end()) {
-      text += " not tested yet";
-    } else if (known->second.is_right) {
-      text += " right";
-    } else {
-      text += format(" WRONG ({})", fault_text(known->second));
-    }
+    text += known == verdicts.end()  ? " not tested yet"
+            : known->second.is_right ? " right"
+                                     : format(" WRONG ({})", fault_text(known->second));
   }
   return text;
 }
