@@ -36,7 +36,7 @@ in_bare() {
     shift
     mount -t proc proc "$bare/proc"
     mount -t sysfs -o ro sysfs "$bare/sys"                  # PoCL ends the program without it
-    mount -t cgroup2 cgroup2 "$bare/sys/fs/cgroup" || true  # no node of Slurm starts without them
+    mount --rbind /sys/fs/cgroup "$bare/sys/fs/cgroup"      # no node of Slurm starts without them
     for each in null zero random urandom; do
       [ -c "$bare/dev/$each" ] || { touch "$bare/dev/$each"; mount --bind "/dev/$each" "$bare/dev/$each"; }
     done

@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
   nutik::catch_interruptions();
   nutik::catch_limits();
   nutik::watch_mapped_files();
-  nutik::have_kernels_built_once();
+  nutik::prepare_for_pocl();
   try {
     const std::vector<std::string> words(argv + 1, argv + argc);
     nutik::app::ParsedCommandLine parsed = nutik::app::parse_command_line(words);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <utility>
 
 #include "capture/error.hpp"
@@ -147,6 +148,11 @@ DeviceInfo describe_device(const cl::Device& device) {
   device.getInfo(CL_DEVICE_HOST_UNIFIED_MEMORY, &unified);
   info.shares_host_memory = info.kind == DeviceKind::cpu && unified == CL_TRUE;
   return info;
+}
+
+void prepare_for_pocl() {
+  ::setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
+  ::setenv("HWLOC_PLUGINS_PATH", "/dev/null", 0);
 }
 
 std::vector<DeviceInfo> list_devices() {

@@ -28,6 +28,13 @@ struct DeviceInfo {
   bool shares_host_memory = false;
 };
 
+// For an application, before it has a second thread: sets variables of the environment.
+//
+// PoCL builds each kernel once then, for groups of any size, where it would build it for the size at hand and, for the
+// binary that is kept, again. Both run as fast. And it finds that hwloc looks for no plugins, which it would otherwise
+// say itself on whatever thread looks for devices, while others read the environment or start programs with it.
+void prepare_for_pocl();
+
 // Every device of every platform, the ones to prefer first: GPUs, accelerators, CPUs, and of a kind those without a
 // loop_limit; the position is the index that OpenClOptions::device takes. Throws DeviceError where there is no OpenCL
 // platform at all.

@@ -2,7 +2,6 @@
 
 #include <cctype>
 #include <chrono>
-#include <cstdlib>
 #include <utility>
 
 #include "capture/error.hpp"
@@ -60,8 +59,6 @@ std::map<Precision, Verdict> known_verdicts(std::size_t device) {
   const std::filesystem::path folder = default_cache_folder();
   return flaw_of_cache(folder).empty() ? kept_verdicts(device, folder) : std::map<Precision, Verdict>{};
 }
-
-void have_kernels_built_once() { ::setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0); }
 
 Devices::Devices(const ComputingRequest& request, Announce announce)
     : request_(request), announce_(std::move(announce)) {}

@@ -40,11 +40,6 @@ struct SeveralDevices : UsageError {
 // For each arithmetic that was tested on a device, its worst verdict (opencl/self_test.hpp).
 [[nodiscard]] std::map<Precision, Verdict> known_verdicts(std::size_t device);
 
-// For an application, before it has a second thread: PoCL builds each kernel once, for groups of any size, where it would
-// build it for the size at hand and, for the binary that is kept, again. Both run as fast. What
-// POCL_WORK_GROUP_SPECIALIZATION says already, stays.
-void have_kernels_built_once();
-
 class Devices {
  public:
   // Called with a whole line when something takes long: kernels are built. On any thread; may be empty.

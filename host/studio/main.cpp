@@ -7,7 +7,7 @@
 #include "studio/window/main_window.hpp"
 
 int main(int count, char** words) {
-  nutik::have_kernels_built_once();
+  nutik::prepare_for_pocl();
   QApplication application(count, words);
   QApplication::setApplicationName("nutik-studio");
   QApplication::setOrganizationName("nutik");

@@ -5,7 +5,10 @@
 #include <QApplication>
 #include <QTemporaryDir>
 
+#include "opencl/device.hpp"
+
 int main(int count, char** words) {
+  nutik::prepare_for_pocl();
   ::testing::InitGoogleTest(&count, words);
   qputenv("QT_QPA_PLATFORM", "offscreen");
   qputenv("NUTIK_MODULES", NUTIK_TEST_MODULES);

@@ -252,8 +252,9 @@ TEST_F(WindowTest, ChoosesToolsByKeyboard) {
 }
 
 TEST_F(WindowTest, OpensWhatIsDropped) {
-  ASSERT_EQ(
-      test::run_program({"encode", "-f", "100", "frames/%02d.pgm", "clip.tik"}, scratch_.folder()).status, 0);
+  const auto encoded =
+      test::run_program({"encode", "-f", "100", "frames/%02d.pgm", "clip.tik"}, scratch_.folder());
+  ASSERT_EQ(encoded.status, 0) << encoded.err;
   QMimeData files;
   files.setUrls({QUrl::fromLocalFile(path("clip.tik"))});
   QDragEnterEvent enter({10, 10}, Qt::CopyAction, &files, Qt::LeftButton, {});
