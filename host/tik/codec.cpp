@@ -246,9 +246,9 @@ std::string Codec::text() const {
   return {};
 }
 
-std::vector<std::byte> pack(const Codec& codec, const BlockGeometry& geometry,
-                            std::span<const std::byte> payload, std::uint32_t max_threads) {
-  if (codec.id == CodecId::none) return {payload.begin(), payload.end()};
+std::vector<std::vector<std::byte>> pack(const Codec& codec, const BlockGeometry& geometry,
+                                         std::span<const std::byte> payload, std::uint32_t max_threads) {
+  if (codec.id == CodecId::none) return {{payload.begin(), payload.end()}};
   std::vector<TileEntry> entries(geometry.tile_count);
   std::memcpy(entries.data(), payload.data(), entries.size() * sizeof(TileEntry));
   std::vector<std::uint32_t> counts;
@@ -258,35 +258,28 @@ std::vector<std::byte> pack(const Codec& codec, const BlockGeometry& geometry,
   const std::vector<std::uint32_t> sizes = group_sizes(entries, geometry);
   std::vector<std::size_t> firsts(sizes.size(), 0);
   for (std::size_t g = 1; g < sizes.size(); ++g) firsts[g] = firsts[g - 1] + sizes[g - 1];
-  std::vector<std::vector<std::byte>> packed(sizes.size());
+  std::vector<std::vector<std::byte>> stored(1 + sizes.size());
   parallel_for(
       sizes.size(),
       [&](std::uint64_t g) {
         const TileGroup group{std::span(entries).subspan(firsts[g], sizes[g]), geometry};
-        packed[g] = pack_group(codec, group, payload);
-        packed[g].shrink_to_fit();  // it grew part by part
+        stored[1 + g] = pack_group(codec, group, payload);
+        stored[1 + g].shrink_to_fit();  // it grew part by part
       },
       max_threads);
 
-  std::vector<std::byte> stored;
-  std::size_t packed_bytes = 0;
-  for (const std::vector<std::byte>& group : packed) packed_bytes += group.size();
-  stored.reserve(packed_bytes + sizes.size() * sizeof(StoredGroup) + ZSTD_compressBound(counts.size() * 4));
+  std::vector<std::byte>& front = stored.front();
   const std::array<std::uint32_t, 2> head{static_cast<std::uint32_t>(sizes.size()), 0};
-  append(stored, head.data(), sizeof head);
+  append(front, head.data(), sizeof head);
   for (std::size_t g = 0; g < sizes.size(); ++g) {
-    const StoredGroup group{sizes[g], static_cast<std::uint32_t>(packed[g].size())};
-    append(stored, &group, sizeof group);
+    const StoredGroup group{sizes[g], static_cast<std::uint32_t>(stored[1 + g].size())};
+    append(front, &group, sizeof group);
   }
   const std::vector<std::byte> packed_counts =
       compress(general_codec(codec), std::as_bytes(std::span(counts)));
   const std::array<std::uint32_t, 2> counts_head{static_cast<std::uint32_t>(packed_counts.size()), 0};
-  append(stored, counts_head.data(), sizeof counts_head);
-  append(stored, packed_counts.data(), packed_counts.size());
-  for (std::vector<std::byte>& group : packed) {
-    append(stored, group.data(), group.size());
-    group = {};  // its memory is wanted for those that follow
-  }
+  append(front, counts_head.data(), sizeof counts_head);
+  append(front, packed_counts.data(), packed_counts.size());
   return stored;
 }
 

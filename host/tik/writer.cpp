@@ -79,19 +79,22 @@ Writer::Writer(const std::filesystem::path& path, Header header, const Codec& co
 void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures) {
   const BlockGeometry geometry(header_.capture, block.extent.sample_count);
   const PayloadParts parts(geometry, block.payload);
-  std::vector<std::byte> packed;
-  std::span<const std::byte> packed_part;
+  std::vector<std::vector<std::byte>> packed;
+  std::vector<std::span<const std::byte>> packed_parts;
   std::span<const std::span<const std::byte>> stored = parts.parts();
+  std::uint64_t stored_bytes = parts.bytes();
   if (codec_.id != CodecId::none) {
     packed = pack(codec_, geometry, block.payload, max_threads_);
-    packed_part = packed;
-    stored = {&packed_part, 1};
+    packed_parts.assign(packed.begin(), packed.end());
+    stored = packed_parts;
+    stored_bytes = 0;
+    for (const std::span<const std::byte> part : stored) stored_bytes += part.size();
   }
   BlockHeader header{};
   header.first_sample = block.extent.first_sample;
   header.sample_count = block.extent.sample_count;
   header.codec = static_cast<std::uint32_t>(codec_.id);
-  header.stored_bytes = codec_.id == CodecId::none ? parts.bytes() : packed.size();
+  header.stored_bytes = stored_bytes;
   header.payload_bytes = parts.bytes();
   header.record_count = block.record_count;
   append(header, stored, exposures);
