@@ -28,11 +28,12 @@ struct DeviceInfo {
   bool shares_host_memory = false;
 };
 
-// For an application, before it has a second thread: sets variables of the environment.
+// For an application, before it has a second thread: sets two variables of the environment, where they are not set.
 //
-// PoCL builds each kernel once then, for groups of any size, where it would build it for the size at hand and, for the
-// binary that is kept, again. Both run as fast. And it finds that hwloc looks for no plugins, which it would otherwise
-// say itself on whatever thread looks for devices, while others read the environment or start programs with it.
+//   POCL_WORK_GROUP_SPECIALIZATION=0   PoCL builds each kernel once, for groups of any size. It would build it for the
+//                                      size at hand, and again for the binary that is kept; neither runs faster
+//   HWLOC_PLUGINS_PATH=/dev/null       PoCL sets this itself, on the thread that looks for devices. Where the variable
+//                                      is new, the environment moves, while other threads may be reading it
 void prepare_for_pocl();
 
 // Every device of every platform, the ones to prefer first: GPUs, accelerators, CPUs, and of a kind those without a

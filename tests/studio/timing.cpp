@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "opencl/device.hpp"
 #include "studio/curves/curve_editor.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "studio/time/time_strip.hpp"
@@ -60,6 +61,7 @@ void drag(MainWindow& window, QWidget& widget, QPoint from, const char* what, in
 }  // namespace
 
 int main(int count, char** words) {
+  nutik::prepare_for_pocl();  // as the program does
   qputenv("QT_QPA_PLATFORM", "offscreen");
   QApplication application(count, words);
   if (count < 2) {

@@ -244,6 +244,7 @@ int run(const Settings& settings) {
 }  // namespace nutik::bench
 
 int main(int argc, char** argv) {
+  nutik::prepare_for_pocl();  // as the program does
   try {
     return nutik::bench::run(nutik::bench::parse(argc, argv));
   } catch (const std::exception& error) {

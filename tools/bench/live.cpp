@@ -29,6 +29,7 @@
 #include <vector>
 
 #include "harness.hpp"
+#include "opencl/device.hpp"
 #include "opencl/opencl_renderer.hpp"
 #include "render/plan_cache.hpp"
 #include "synthetic_capture.hpp"
@@ -308,6 +309,7 @@ int run(const Settings& settings) {
 }  // namespace nutik::bench
 
 int main(int argc, char** argv) {
+  nutik::prepare_for_pocl();  // as the program does
   try {
     return nutik::bench::run(nutik::bench::parse(argc, argv));
   } catch (const std::exception& error) {

@@ -16,6 +16,7 @@
 #include "harness.hpp"
 #include "media/frame_queue.hpp"
 #include "media/picture_writer.hpp"
+#include "opencl/device.hpp"
 #include "opencl/opencl_renderer.hpp"
 #include "tik/reader.hpp"
 
@@ -89,6 +90,7 @@ int run(const std::filesystem::path& capture, const std::filesystem::path& video
 }  // namespace nutik
 
 int main(int argc, char** argv) {
+  nutik::prepare_for_pocl();  // as the program does
   if (argc < 3 || argc > 4) {
     std::fprintf(stderr, "usage: bench_video CAPTURE.tik VIDEO [RUNS]\n");
     return 2;
