@@ -29,6 +29,19 @@ std::string text_of(std::uint64_t allowed, const MemoryNeeds& least) {
 
 }  // namespace
 
+void MemoryNeeds::add(const std::string& what, std::uint64_t bytes) {
+  const auto same = std::ranges::find(parts_, what, &MemoryPart::what);
+  if (same == parts_.end()) {
+    parts_.push_back({what, bytes});
+  } else {
+    same->bytes += bytes;
+  }
+}
+
+void MemoryNeeds::add(const MemoryNeeds& others) {
+  for (const MemoryPart& part : others.parts_) add(part.what, part.bytes);
+}
+
 std::uint64_t MemoryNeeds::bytes() const {
   std::uint64_t bytes = 0;
   for (const MemoryPart& part : parts_) bytes += part.bytes;

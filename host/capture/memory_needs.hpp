@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <initializer_list>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -23,10 +22,9 @@ class MemoryNeeds {
   MemoryNeeds() = default;
   MemoryNeeds(std::initializer_list<MemoryPart> parts) : parts_(parts) {}
 
-  void add(std::string what, std::uint64_t bytes) { parts_.push_back({std::move(what), bytes}); }
-  void add(const MemoryNeeds& others) {
-    parts_.insert(parts_.end(), others.parts_.begin(), others.parts_.end());
-  }
+  // To the part of that name, if there is one.
+  void add(const std::string& what, std::uint64_t bytes);
+  void add(const MemoryNeeds& others);
 
   [[nodiscard]] const std::vector<MemoryPart>& parts() const { return parts_; }
   [[nodiscard]] std::uint64_t bytes() const;

@@ -1,7 +1,6 @@
 #include "opencl/device_team.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstring>
 #include <exception>
@@ -49,39 +48,6 @@ std::vector<Precision> common_precisions(std::span<const Precision> of_first, co
     });
   });
   return common;
-}
-
-// Parts of the same name as one.
-void add_by_name(std::vector<MemoryPart>& to, const MemoryNeeds& needs) {
-  for (const MemoryPart& part : needs.parts()) {
-    const auto same = std::ranges::find(to, part.what, &MemoryPart::what);
-    if (same == to.end()) {
-      to.push_back(part);
-    } else {
-      same->bytes += part.bytes;
-    }
-  }
-}
-
-// What each band may take of `allowed` bytes: its least, and of the rest a share for each of so many devices; those
-// without a band keep what stays on them. The whole picture is held besides. Throws MemoryTooLittle.
-std::vector<std::uint64_t> memory_of_bands(std::uint64_t allowed, const RenderPlan& plan,
-                                           const CaptureSource& source, std::span<const Shape> bands,
-                                           std::size_t devices, std::uint64_t picture_bytes, ValueType type,
-                                           Precision precision) {
-  std::vector<std::uint64_t> shares(bands.size(), 0);
-  if (allowed == 0) return shares;
-  std::vector<MemoryPart> parts{{"the picture", picture_bytes}};
-  for (std::size_t i = 0; i < bands.size(); ++i) {
-    const MemoryNeeds least = least_memory(plan, source, bands[i], type, precision).needs;
-    shares[i] = least.bytes();
-    add_by_name(parts, least);
-  }
-  MemoryNeeds all;
-  for (MemoryPart& part : parts) all.add(std::move(part.what), part.bytes);
-  const std::uint64_t rest = all.rest_of(allowed);
-  for (std::uint64_t& share : shares) share += rest / devices;
-  return shares;
 }
 
 // Of bands that were made at the same time. Each read the same blocks, and times run side by side; what is held and
@@ -316,42 +282,31 @@ Rendered DeviceTeam::render_together(const RenderPlan& plan, CaptureSource& sour
 Rendered DeviceTeam::render_bands(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output,
                                   const Rectangle& rectangle, const RenderControl& control,
                                   std::span<const Rectangle> bands, std::span<const std::size_t> at_work) {
-  std::vector<Rendered> made(members_.size());
-  std::vector<double> seconds(members_.size(), 0.0);
-  if (at_work.size() == 1) {
-    on_each(at_work, control.stop, [&](std::size_t member, std::stop_token stop) {
-      RenderControl whole = control;
-      whole.stop = std::move(stop);
-      whole.rectangle = rectangle;
-      if (!source.is_forward_only()) {
-        const std::array shape{Shape{rectangle.width, rectangle.height, plan.capture.shape.channels}};
-        whole.memory_bytes = memory_of_bands(control.memory_bytes, plan, source, shape, members_.size(), 0,
-                                             output.type, *control.precision)
-                                 .front();
-      }
-      made[member] = members_[member].renderer->render(plan, source, output, whole);
-    });
-    return std::move(made[at_work.front()]);
+  std::vector<std::uint64_t> shares(members_.size(), control.memory_bytes);
+  if (!source.is_forward_only()) {
+    shares = memory_of_bands(control.memory_bytes, plan, source, bands, output.type, *control.precision);
   }
-
-  const std::uint32_t channels = plan.capture.shape.channels;
-  const std::uint64_t row_bytes = std::uint64_t{rectangle.width} * channels * value_bytes(output.type);
-  std::vector<Shape> shapes;
-  for (const std::size_t member : at_work)
-    shapes.push_back({rectangle.width, bands[member].height, channels});
-  const std::vector<std::uint64_t> shares =
-      memory_of_bands(control.memory_bytes, plan, source, shapes, members_.size(),
-                      rectangle.height * row_bytes, output.type, *control.precision);
-  Rendered whole;
-  whole.picture = Picture({rectangle.width, rectangle.height, channels}, output.type, output.white_code);
-  on_each(at_work, control.stop, [&](std::size_t member, std::stop_token stop) {
-    const auto place = static_cast<std::size_t>(std::ranges::find(at_work, member) - at_work.begin());
+  std::vector<Rendered> made(members_.size());
+  const auto make_band = [&](std::size_t member, std::stop_token stop) {
     RenderControl of_band = control;
     of_band.stop = std::move(stop);
     of_band.rectangle = bands[member];
-    of_band.memory_bytes = shares[place];
-    const auto start = std::chrono::steady_clock::now();
+    of_band.memory_bytes = shares[member];
     made[member] = members_[member].renderer->render(plan, source, output, of_band);
+  };
+  if (at_work.size() == 1) {
+    on_each(at_work, control.stop, make_band);
+    return std::move(made[at_work.front()]);
+  }
+
+  std::vector<double> seconds(members_.size(), 0.0);
+  Rendered whole;
+  const std::uint32_t channels = plan.capture.shape.channels;
+  const std::uint64_t row_bytes = std::uint64_t{rectangle.width} * channels * value_bytes(output.type);
+  whole.picture = Picture({rectangle.width, rectangle.height, channels}, output.type, output.white_code);
+  on_each(at_work, control.stop, [&](std::size_t member, std::stop_token stop) {
+    const auto start = std::chrono::steady_clock::now();
+    make_band(member, std::move(stop));
     seconds[member] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const Picture band = std::move(made[member].picture);
     std::memcpy(whole.picture.bytes.data() + (bands[member].y - rectangle.y) * row_bytes, band.bytes.data(),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "imev/tile.hpp"
 #include "opencl/kernel_tables.hpp"
 #include "opencl/work_shape.hpp"
 #include "render/picture_memory.hpp"
@@ -87,6 +88,30 @@ RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan, co
   memory.held_bytes = memory.feed.resident_bytes / 8;
   memory.feed.resident_bytes -= 2 * memory.kept_bytes + memory.held_bytes;
   return memory;
+}
+
+std::vector<std::uint64_t> memory_of_bands(std::uint64_t allowed, const RenderPlan& plan,
+                                           const CaptureSource& source, std::span<const Rectangle> bands,
+                                           ValueType type, Precision precision) {
+  std::vector<std::uint64_t> shares(bands.size(), 0);
+  if (allowed == 0) return shares;
+  const std::uint32_t channels = plan.capture.shape.channels;
+  const auto least_of = [&](std::uint32_t width, std::uint32_t height) {
+    return least_memory(plan, source, {width, height, channels}, type, precision).needs;
+  };
+  // What a band takes grows with its rows of tiles, ever more slowly: together they take most where all are equal.
+  const Rectangle& first = bands.front();
+  const std::uint32_t end = bands.back().y + bands.back().height;
+  const std::uint64_t rows = (std::uint64_t{end} + kTileSide - 1) / kTileSide - first.y / kTileSide;
+  const std::uint64_t rows_of_each = (rows + bands.size() - 1) / bands.size();
+  const MemoryNeeds equal = least_of(first.width, static_cast<std::uint32_t>(rows_of_each * kTileSide));
+  MemoryNeeds most;
+  for (const MemoryPart& part : equal.parts()) most.add(part.what, part.bytes * bands.size());
+  most.add("the picture", std::uint64_t{end - first.y} * first.width * channels * value_bytes(type));
+  const std::uint64_t share_of_rest = most.rest_of(allowed) / bands.size();
+  for (std::size_t i = 0; i < bands.size(); ++i)
+    shares[i] = least_of(first.width, bands[i].height).bytes() + share_of_rest;
+  return shares;
 }
 
 }  // namespace nutik

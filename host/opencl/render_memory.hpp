@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "capture/memory_needs.hpp"
 #include "opencl/block_feed.hpp"
@@ -32,5 +34,13 @@ struct LeastMemory {
 [[nodiscard]] RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan,
                                              const CaptureSource& source, const Shape& picture,
                                              ValueType type, Precision precision);
+
+// Of `allowed` bytes for everything, by device: what each may take for its band of a picture that they make side by side
+// (BandSplit::cut()), the whole picture being held besides. 0: as much as they like. Throws MemoryTooLittle where `allowed`
+// is too little for any bands of that picture: how fast devices have been is no reason to refuse.
+[[nodiscard]] std::vector<std::uint64_t> memory_of_bands(std::uint64_t allowed, const RenderPlan& plan,
+                                                         const CaptureSource& source,
+                                                         std::span<const Rectangle> bands, ValueType type,
+                                                         Precision precision);
 
 }  // namespace nutik
