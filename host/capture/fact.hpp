@@ -4,7 +4,6 @@
 #include <string>
 
 #include "capture/error.hpp"
-#include "capture/format.hpp"
 
 namespace nutik {
 
@@ -22,7 +21,7 @@ struct Fact {
     const std::string from = origin == Origin::file     ? "from " + source
                              : origin == Origin::stated ? "as stated"
                                                         : "assumed";
-    return format("{}, {}{}{}", text, from, remark.empty() ? "" : "; ", remark);
+    return text + ", " + from + (remark.empty() ? "" : "; ") + remark;
   }
 };
 

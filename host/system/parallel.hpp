@@ -13,19 +13,21 @@
 
 namespace nutik {
 
-// Calls work(i) for every i in [0, count), each once, on as many threads as there are cores, or `max_threads` if
-// that is fewer. The first exception is thrown again when all have stopped; a signal is one
-// (system/interruption.hpp).
-template <typename Work>
-void parallel_for(std::uint64_t count, Work work, std::uint32_t max_threads = ~std::uint32_t{0}) {
+// Calls work(i, tools) for every i in [0, count), each once, on as many threads as there are cores, or `max_threads` if
+// that is fewer; each thread makes tools of its own first. The first exception is thrown again when all have stopped; a
+// signal is one (system/interruption.hpp).
+template <typename MakeTools, typename Work>
+void parallel_for_with(std::uint64_t count, MakeTools make_tools, Work work,
+                       std::uint32_t max_threads = ~std::uint32_t{0}) {
   std::atomic<std::uint64_t> next{0};
   std::exception_ptr failure;
   std::mutex failure_mutex;
   const auto run = [&] {
     try {
+      auto tools = make_tools();
       for (std::uint64_t i = next++; i < count; i = next++) {
         check_interruption();
-        work(i);
+        work(i, tools);
       }
     } catch (...) {
       next = count;
@@ -41,6 +43,13 @@ void parallel_for(std::uint64_t count, Work work, std::uint32_t max_threads = ~s
     run();
   }
   if (failure) std::rethrow_exception(failure);
+}
+
+// The same without tools: calls work(i).
+template <typename Work>
+void parallel_for(std::uint64_t count, Work work, std::uint32_t max_threads = ~std::uint32_t{0}) {
+  parallel_for_with(
+      count, [] { return 0; }, [&](std::uint64_t i, int) { work(i); }, max_threads);
 }
 
 }  // namespace nutik

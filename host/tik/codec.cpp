@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <new>
 #include <utility>
 
 #include "capture/error.hpp"
@@ -25,7 +27,13 @@ constexpr int kDefaultZstdLevel = 1;
 // What packs the counts of tiles and the heads of groups.
 Codec general_codec(const Codec& codec) { return codec.id == CodecId::rice ? Codec{CodecId::zstd, 0} : codec; }
 
-std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> plain) {
+// What a thread packs with, one group after the other.
+struct PackingTools {
+  RiceRoom room;
+  std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), &ZSTD_freeCCtx};
+};
+
+std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> plain, PackingTools& tools) {
   std::vector<std::byte> packed;
   if (codec.id == CodecId::lz4) {
     if (plain.size() > LZ4_MAX_INPUT_SIZE) {
@@ -40,8 +48,9 @@ std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> p
     packed.resize(static_cast<std::size_t>(bytes));
   } else {
     packed.resize(ZSTD_compressBound(plain.size()));
-    const std::size_t bytes = ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(),
-                                            codec.level == 0 ? kDefaultZstdLevel : codec.level);
+    if (!tools.zstd) throw std::bad_alloc();
+    const std::size_t bytes = ZSTD_compressCCtx(tools.zstd.get(), packed.data(), packed.size(), plain.data(),
+                                                plain.size(), codec.level == 0 ? kDefaultZstdLevel : codec.level);
     if (ZSTD_isError(bytes)) throw OutputError(format("zstd failed: {}", ZSTD_getErrorName(bytes)));
     packed.resize(bytes);
   }
@@ -73,15 +82,16 @@ struct StoredGroup {
 using GroupSizes = std::array<std::uint32_t, 1 + kPlainParts>;
 
 // A group of codec `rice`: the packed bytes of its head, these, and its body.
-std::vector<std::byte> pack_rice_group(const TileGroup& group, std::span<const std::byte> payload) {
-  const RiceGroup coded = encode_rice(group, payload);
-  const std::vector<std::byte> head = compress({CodecId::zstd, 0}, coded.head);
+std::vector<std::byte> pack_rice_group(const TileGroup& group, std::span<const std::byte> payload,
+                                       PackingTools& tools) {
+  const RiceGroup coded = encode_rice(group, payload, tools.room);
+  const std::vector<std::byte> head = compress({CodecId::zstd, 0}, coded.head, tools);
   const auto head_bytes = static_cast<std::uint32_t>(head.size());
   std::vector<std::byte> packed;
-  packed.reserve(sizeof head_bytes + head.size() + coded.body.size());
+  packed.reserve(sizeof head_bytes + head.size() + coded.planes.size() + coded.levels.size());
   append(packed, &head_bytes, sizeof head_bytes);
-  packed.insert(packed.end(), head.begin(), head.end());
-  packed.insert(packed.end(), coded.body.begin(), coded.body.end());
+  for (const std::span<const std::byte> part : {std::span(head), coded.planes, coded.levels})
+    append(packed, part.data(), part.size());
   return packed;
 }
 
@@ -96,14 +106,15 @@ bool unpack_rice_group(const TileGroup& group, std::span<const std::byte> packed
          decode_rice(group, head, packed.subspan(head_bytes), payload);
 }
 
-std::vector<std::byte> pack_group(const Codec& codec, const TileGroup& group, std::span<const std::byte> payload) {
-  if (codec.id == CodecId::rice) return pack_rice_group(group, payload);
+std::vector<std::byte> pack_group(const Codec& codec, const TileGroup& group, std::span<const std::byte> payload,
+                                  PackingTools& tools) {
+  if (codec.id == CodecId::rice) return pack_rice_group(group, payload, tools);
   const PlainGroup plain = predict(group, payload);
   GroupSizes sizes{};
   std::vector<std::byte> packed(sizeof sizes);
   const auto add = [&](std::size_t at, std::span<const std::byte> part) {
     if (part.empty()) return;
-    const std::vector<std::byte> bytes = compress(codec, part);
+    const std::vector<std::byte> bytes = compress(codec, part, tools);
     sizes[at] = static_cast<std::uint32_t>(bytes.size());
     packed.insert(packed.end(), bytes.begin(), bytes.end());
   };
@@ -259,11 +270,11 @@ std::vector<std::vector<std::byte>> pack(const Codec& codec, const BlockGeometry
   std::vector<std::size_t> firsts(sizes.size(), 0);
   for (std::size_t g = 1; g < sizes.size(); ++g) firsts[g] = firsts[g - 1] + sizes[g - 1];
   std::vector<std::vector<std::byte>> stored(1 + sizes.size());
-  parallel_for(
-      sizes.size(),
-      [&](std::uint64_t g) {
+  parallel_for_with(
+      sizes.size(), [] { return PackingTools(); },
+      [&](std::uint64_t g, PackingTools& tools) {
         const TileGroup group{std::span(entries).subspan(firsts[g], sizes[g]), geometry};
-        stored[1 + g] = pack_group(codec, group, payload);
+        stored[1 + g] = pack_group(codec, group, payload, tools);
         stored[1 + g].shrink_to_fit();  // it grew part by part
       },
       max_threads);
@@ -275,8 +286,9 @@ std::vector<std::vector<std::byte>> pack(const Codec& codec, const BlockGeometry
     const StoredGroup group{sizes[g], static_cast<std::uint32_t>(stored[1 + g].size())};
     append(front, &group, sizeof group);
   }
+  PackingTools tools;
   const std::vector<std::byte> packed_counts =
-      compress(general_codec(codec), std::as_bytes(std::span(counts)));
+      compress(general_codec(codec), std::as_bytes(std::span(counts)), tools);
   const std::array<std::uint32_t, 2> counts_head{static_cast<std::uint32_t>(packed_counts.size()), 0};
   append(front, counts_head.data(), sizeof counts_head);
   append(front, packed_counts.data(), packed_counts.size());

@@ -191,7 +191,8 @@ std::optional<std::uint64_t> low_bits(const TileGroup& group, std::span<const st
 
 std::uint64_t rice_head_bytes(const TileGroup& group) { return index_bytes(group) + 1 + 2 * plane_count(group); }
 
-RiceGroup encode_rice(const TileGroup& group, std::span<const std::byte> payload, Instructions instructions) {
+RiceGroup encode_rice(const TileGroup& group, std::span<const std::byte> payload, RiceRoom& room,
+                      Instructions instructions) {
   const std::uint64_t planes = plane_count(group);
   RiceGroup coded;
   coded.head.resize(rice_head_bytes(group));
@@ -204,15 +205,16 @@ RiceGroup encode_rice(const TileGroup& group, std::span<const std::byte> payload
   const std::uint32_t shift = unused_bits(group, payload);
   *marks = static_cast<std::byte>(shift);
   auto* const shapes = reinterpret_cast<std::uint8_t*>(marks + 1);
-  // What is never written takes no memory.
-  const auto low = std::make_unique_for_overwrite<std::byte[]>(planes * kMaxPlaneBytes);
-  const auto levels = std::make_unique_for_overwrite<std::byte[]>(planes * kMaxLevelBytes + 2 * sizeof(std::uint64_t));
-  RiceWriter writer(shapes, shapes + planes, low.get(), levels.get(), shift);
+  if (planes > room.plane_count) {
+    // What is never written takes no memory.
+    room = {planes, std::make_unique_for_overwrite<std::byte[]>(planes * kMaxPlaneBytes),
+            std::make_unique_for_overwrite<std::byte[]>(planes * kMaxLevelBytes + 2 * sizeof(std::uint64_t))};
+  }
+  RiceWriter writer(shapes, shapes + planes, room.planes.get(), room.levels.get(), shift);
   with_kernel(group.geometry, instructions, [&](auto kernel) { kernel.encode(group, payload, writer); });
   writer.finish_levels();
-  coded.body.reserve(static_cast<std::size_t>(writer.planes_end() - low.get() + writer.levels_end() - levels.get()));
-  coded.body.insert(coded.body.end(), low.get(), writer.planes_end());
-  coded.body.insert(coded.body.end(), levels.get(), writer.levels_end());
+  coded.planes = {room.planes.get(), writer.planes_end()};
+  coded.levels = {room.levels.get(), writer.levels_end()};
   return coded;
 }
 

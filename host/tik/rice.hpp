@@ -43,12 +43,19 @@ struct RiceMark {
 // Which instructions do it: those that every machine of a kind has, or the best of this one.
 enum class Instructions { portable, best };
 
-struct RiceGroup {
-  std::vector<std::byte> head;
-  std::vector<std::byte> body;  // planes, then levels
+// Memory that groups are packed in, one after the other: new memory for each would have to be cleared by the system.
+struct RiceRoom {
+  std::uint64_t plane_count = 0;  // that there is room for
+  std::unique_ptr<std::byte[]> planes, levels;
 };
 
-[[nodiscard]] RiceGroup encode_rice(const TileGroup& group, std::span<const std::byte> payload,
+// The body, planes and then levels, lies in the room until the next group is packed there.
+struct RiceGroup {
+  std::vector<std::byte> head;
+  std::span<const std::byte> planes, levels;
+};
+
+[[nodiscard]] RiceGroup encode_rice(const TileGroup& group, std::span<const std::byte> payload, RiceRoom& room,
                                     Instructions instructions = Instructions::best);
 
 [[nodiscard]] std::uint64_t rice_head_bytes(const TileGroup& group);

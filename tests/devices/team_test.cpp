@@ -22,12 +22,12 @@
 namespace nutik {
 namespace {
 
+using test::kLight;
 using test::RandomCase;
 
 constexpr std::array<std::size_t, 2> kTwice{0, 0};
 constexpr std::array<std::size_t, 3> kThrice{0, 0, 0};
 constexpr OutputFormat kCodes{ValueType::code8, 255};
-constexpr OutputFormat kLight{ValueType::light64, 0};
 
 // 21 x 77 pixels in colour, 40 samples in blocks of 8: ten rows of tiles, the last one cut.
 struct Scene {

@@ -18,7 +18,7 @@ using test::open_test_clip;
 using test::read_all;
 using test::Scratch;
 
-constexpr Shape kGrey{8, 5, 1}, kColour{4, 5, 3};
+constexpr Shape kPhotronGrey{8, 5, 1}, kPhotronColour{4, 5, 3};
 
 std::uint32_t code_of(const Picture& picture, std::size_t index) {
   return picture.type == ValueType::code8 ? picture.values<std::uint8_t>()[index]
@@ -52,7 +52,7 @@ std::string words(const std::vector<Picture>& pictures, std::uint32_t shift) {
 }
 
 struct Header {
-  Shape shape = kGrey;
+  Shape shape = kPhotronGrey;
   std::string colour = "Mono";
   int pixel_bits = 16, depth = 16;
   std::string side = "Lower";
@@ -90,17 +90,17 @@ TEST(PhotronClip, GivesTheCodesOfEveryLayoutBack) {
     std::uint32_t white;
   };
   const Case cases[] = {
-      {"8 bits", {kGrey, "Mono", 8, 8}, 255},
-      {"12 packed", {kGrey, "Mono", 12, 12}, 4095},
-      {"10 packed, raw", {kGrey, "Raw", 10, 10}, 1023},
-      {"16 bits", {kGrey, "Mono", 16, 16}, 65'535},
-      {"12 of 16, lower", {kGrey, "Mono", 16, 12}, 4095},
-      {"12 of 16, upper", {kGrey, "Mono", 16, 12, "Higher"}, 4095},
-      {"8 of 16, upper", {kGrey, "Mono", 16, 8, "Higher"}, 255},
-      {"8 of 16, lower", {kGrey, "Mono", 16, 8}, 255},
-      {"colour of 8 bits", {kColour, "Color", 24, 8}, 255},
-      {"colour of 12 packed", {kColour, "Color", 36, 12}, 4095},
-      {"colour of 16 bits", {kColour, "Color", 48, 16}, 65'535},
+      {"8 bits", {kPhotronGrey, "Mono", 8, 8}, 255},
+      {"12 packed", {kPhotronGrey, "Mono", 12, 12}, 4095},
+      {"10 packed, raw", {kPhotronGrey, "Raw", 10, 10}, 1023},
+      {"16 bits", {kPhotronGrey, "Mono", 16, 16}, 65'535},
+      {"12 of 16, lower", {kPhotronGrey, "Mono", 16, 12}, 4095},
+      {"12 of 16, upper", {kPhotronGrey, "Mono", 16, 12, "Higher"}, 4095},
+      {"8 of 16, upper", {kPhotronGrey, "Mono", 16, 8, "Higher"}, 255},
+      {"8 of 16, lower", {kPhotronGrey, "Mono", 16, 8}, 255},
+      {"colour of 8 bits", {kPhotronColour, "Color", 24, 8}, 255},
+      {"colour of 12 packed", {kPhotronColour, "Color", 36, 12}, 4095},
+      {"colour of 16 bits", {kPhotronColour, "Color", 48, 16}, 65'535},
   };
   for (const Case& tested : cases) {
     for (const bool is_xml : {false, true}) {
@@ -154,26 +154,26 @@ TEST(PhotronClip, SaysWhatItsHeaderDoesNotFit) {
   expect_refusal("ball.mraw has 241 bytes, and ball.cih names 3 pictures, 80 bytes each", {}, 241);
   expect_refusal("does not say how large", {{0, 5, 1}});
   expect_refusal("does not say how large", {{70'000, 5, 1}});
-  expect_refusal("its pixels have 0 bits", {kGrey, "Mono", 0, 0});
-  expect_refusal("its pixels have 7 bits", {kGrey, "Mono", 7, 7});
-  expect_refusal("its pixels have 32 bits", {kGrey, "Mono", 32, 16});
-  expect_refusal("its pixels have 16 bits in 3 channels", {kGrey, "Color", 16, 8});
-  expect_refusal("pictures of the type 'indexed' are not read", {kGrey, "Indexed"});
-  expect_refusal("mosaic of a colour sensor", {kGrey, "Bayer"});
-  expect_refusal("12 bits at the side 'higher' of values of 12 bits", {kGrey, "Mono", 12, 12, "Higher"});
-  expect_refusal("10 bits at the side 'lower' of values of 12 bits", {kGrey, "Mono", 12, 10});
+  expect_refusal("its pixels have 0 bits", {kPhotronGrey, "Mono", 0, 0});
+  expect_refusal("its pixels have 7 bits", {kPhotronGrey, "Mono", 7, 7});
+  expect_refusal("its pixels have 32 bits", {kPhotronGrey, "Mono", 32, 16});
+  expect_refusal("its pixels have 16 bits in 3 channels", {kPhotronGrey, "Color", 16, 8});
+  expect_refusal("pictures of the type 'indexed' are not read", {kPhotronGrey, "Indexed"});
+  expect_refusal("mosaic of a colour sensor", {kPhotronGrey, "Bayer"});
+  expect_refusal("12 bits at the side 'higher' of values of 12 bits", {kPhotronGrey, "Mono", 12, 12, "Higher"});
+  expect_refusal("10 bits at the side 'lower' of values of 12 bits", {kPhotronGrey, "Mono", 12, 10});
   expect_refusal("a picture is no whole number of bytes", {{3, 5, 1}, "Mono", 12, 12});
-  expect_refusal("17 bits at the side 'lower' of values of 16 bits", {kGrey, "Mono", 16, 17});
-  expect_refusal("at the side 'middle'", {kGrey, "Mono", 16, 12, "Middle"});
+  expect_refusal("17 bits at the side 'lower' of values of 16 bits", {kPhotronGrey, "Mono", 16, 17});
+  expect_refusal("at the side 'middle'", {kPhotronGrey, "Mono", 16, 12, "Middle"});
   // Every value is 0x0101.
   expect_refusal("picture 0 has the value 257, and ball.cih says that only the 12 upper of 16 bits count",
-                 {kGrey, "Mono", 16, 12, "Higher"});
-  expect_refusal("picture 0 has the value 257, and ball.cih says that 8 bits count", {kGrey, "Mono", 16, 8});
+                 {kPhotronGrey, "Mono", 16, 12, "Higher"});
+  expect_refusal("picture 0 has the value 257, and ball.cih says that 8 bits count", {kPhotronGrey, "Mono", 16, 8});
 }
 
 TEST(PhotronClip, IsTakenAsFarAsItGoes) {
   const Scratch scratch;
-  const auto stills = test::random_stills(kGrey, 65'535, 3, 1);
+  const auto stills = test::random_stills(kPhotronGrey, 65'535, 3, 1);
   const std::string whole = words(stills, 0);
   scratch.write("ball.mraw", whole.substr(0, whole.size() - 1));
   scratch.write("ball.cih", Header{}.text());
@@ -190,7 +190,7 @@ TEST(PhotronClip, IsTakenAsFarAsItGoes) {
 TEST(PhotronClip, OfAColourSensorIsRefusedWhereItIsAMosaic) {
   const Scratch scratch;
   scratch.write("ball.mraw", std::string(8 * 5 * 2 * 3, '\1'));
-  Header header{kGrey, "Raw"};
+  Header header{kPhotronGrey, "Raw"};
   std::string xml = header.xml();
   xml.replace(xml.find("</cih>"), 6,
               "<deviceInfo><deviceName>FASTCAM Nova S16 type 1100K-C-64GB</deviceName></deviceInfo></cih>");
@@ -234,7 +234,7 @@ TEST(PhotronClip, ItsChecksumIsThatOfBothFiles) {
   const auto header = scratch.write("ball.cih", Header{}.text());
   const std::string checksum = input_checksum(pictures);
   EXPECT_EQ(input_checksum(header), checksum);
-  scratch.write("ball.cih", Header{kGrey, "Mono", 16, 12}.text());
+  scratch.write("ball.cih", Header{kPhotronGrey, "Mono", 16, 12}.text());
   EXPECT_NE(input_checksum(pictures), checksum);
 }
 

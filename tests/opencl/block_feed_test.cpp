@@ -12,6 +12,7 @@
 namespace nutik {
 namespace {
 
+using test::kLight;
 using test::RandomCase;
 
 // A capture that counts how often its blocks are read, and may have a damaged one.
@@ -57,8 +58,6 @@ struct Scene {
   Timeline timeline = Timeline::constant({1, 1}, Timeline::kFullShutter, 1);
   std::optional<MemoryCapture> capture;
 };
-
-constexpr OutputFormat kLight{ValueType::light64, 0};
 
 std::vector<std::byte> render(OpenClRenderer& renderer, const RenderPlan& plan, CaptureSource& source) {
   return renderer.render(plan, source, kLight).picture.bytes;

@@ -12,9 +12,8 @@
 namespace nutik {
 namespace {
 
+using test::kLight;
 using test::RandomCase;
-
-constexpr OutputFormat kDelayedLight{ValueType::light64, 0};
 
 // NUTIK_TEST_CASES=10000 is the full run (docs/explanation/accuracy.md). Every third mask is soft.
 TEST(Delays, StayWithinTheirBoundsOnRandomCases) {
@@ -76,12 +75,12 @@ TEST(Delays, OfOneLengthAreAMovedFunctionToTheLastBit) {
         make_plan(capture, {{0, function}}, scene.mask(),
                   delayed_by(DelayMap::by_rows(scene.format.shape, {delay_ns, delay_ns})));
     ReferenceRenderer reference;
-    EXPECT_EQ(reference.render(delayed, capture, kDelayedLight).picture.bytes,
-              reference.render(moved, capture, kDelayedLight).picture.bytes);
+    EXPECT_EQ(reference.render(delayed, capture, kLight).picture.bytes,
+              reference.render(moved, capture, kLight).picture.bytes);
     for (const Precision precision : precisions_of(list_devices().front())) {
       OpenClRenderer renderer(test::renderer_options(precision));
-      EXPECT_EQ(renderer.render(delayed, capture, kDelayedLight).picture.bytes,
-                renderer.render(moved, capture, kDelayedLight).picture.bytes)
+      EXPECT_EQ(renderer.render(delayed, capture, kLight).picture.bytes,
+                renderer.render(moved, capture, kLight).picture.bytes)
           << to_text(precision) << ", " << delay_ns << " ns";
     }
   }
@@ -113,7 +112,7 @@ TEST(Delays, Of256StepsAreARecipeOf256Strips) {
   EXPECT_TRUE(map.warnings.empty());
   for (const Precision precision : precisions_of(list_devices().front())) {
     OpenClRenderer renderer(test::renderer_options(precision));
-    for (const OutputFormat& output : {kDelayedLight, OutputFormat{ValueType::code8, 255}}) {
+    for (const OutputFormat& output : {kLight, OutputFormat{ValueType::code8, 255}}) {
       EXPECT_EQ(renderer.render(map, capture, output).picture.bytes,
                 renderer.render(recipe, capture, output).picture.bytes)
           << to_text(precision);
@@ -133,8 +132,8 @@ TEST(Delays, GiveTheSamePictureFromAResidentCapture) {
                   delayed_by(DelayMap::by_rows(scene.format.shape, {0, 100'000'000})));
     ASSERT_EQ(plan.function_count(), 264u);
     OpenClRenderer fresh(test::renderer_options(Precision::single_));
-    EXPECT_EQ(resident.render(plan, capture, kDelayedLight).picture.bytes,
-              fresh.render(plan, capture, kDelayedLight).picture.bytes);
+    EXPECT_EQ(resident.render(plan, capture, kLight).picture.bytes,
+              fresh.render(plan, capture, kLight).picture.bytes);
   }
 }
 
@@ -147,7 +146,7 @@ TEST(Delays, AreTestedByTheRenderersOwnTest) {
     OpenClOptions options = test::renderer_options(precision);
     options.tests_itself = true;
     options.cache_folder.clear();
-    EXPECT_TRUE(OpenClRenderer(options).render(plan, capture, kDelayedLight).passed_self_test) << to_text(precision);
+    EXPECT_TRUE(OpenClRenderer(options).render(plan, capture, kLight).passed_self_test) << to_text(precision);
   }
 }
 

@@ -15,7 +15,7 @@
 namespace nutik {
 namespace {
 
-constexpr OutputFormat kSummedLight{ValueType::light64, 0};
+using test::kLight;
 
 // A boxcar, or steps of several gains: from and to edges of blocks and samples, a nanosecond beside them, or anywhere.
 GainFunction random_steps(test::Random& random, const MemoryCapture& capture) {
@@ -123,15 +123,15 @@ TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
     corrected += plan.has_corrected();
     halves += has_halves(plan);
     noisy += random.capture->format().noise.camera.has_value();
-    const Picture expected = reference.render(plan, *random.capture, kSummedLight).picture;
-    const Picture made = fresh_.render(plan, *random.capture, kSummedLight).picture;
-    const LightErrors errors = light_errors(plan, error_bound(plan, GetParam(), kSummedLight), expected, made);
+    const Picture expected = reference.render(plan, *random.capture, kLight).picture;
+    const Picture made = fresh_.render(plan, *random.capture, kLight).picture;
+    const LightErrors errors = light_errors(plan, error_bound(plan, GetParam(), kLight), expected, made);
     ASSERT_LE(errors.share_of_bound, 1.0) << test::rerun(seed);
     worst = std::max(worst, errors.share_of_bound);
     renderer_.keep_resident(&*random.capture);
     for (int time = 0; time < 3; ++time) {
       // Another plan of the same functions: all are exposed again.
-      const Rendered again = renderer_.render(random.plan(), *random.capture, kSummedLight);
+      const Rendered again = renderer_.render(random.plan(), *random.capture, kLight);
       ASSERT_TRUE(again.picture.bytes == made.bytes) << test::rerun(seed);
       kept += again.statistics.kept_sums;
       if (time == 0) {
@@ -144,8 +144,8 @@ TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
     // What another function wants of the same sums.
     random.functions.at(0) = GainFunction({{0, 0.7}});
     const RenderPlan other = random.plan();
-    ASSERT_EQ(renderer_.render(other, *random.capture, kSummedLight).picture.bytes,
-              fresh_.render(other, *random.capture, kSummedLight).picture.bytes)
+    ASSERT_EQ(renderer_.render(other, *random.capture, kLight).picture.bytes,
+              fresh_.render(other, *random.capture, kLight).picture.bytes)
         << test::rerun(seed);
   }
   renderer_.keep_resident(nullptr);
@@ -180,8 +180,8 @@ TEST_P(KeptSumsOf, AMovedBoxcarReadsItsEnds) {
   for (const std::int64_t start_ms : {100, 101, 102, 118}) {
     const GainFunction boxcar = GainFunction::boxcar(start_ms * 1'000'000, (start_ms + 1234) * 1'000'000);
     const RenderPlan plan = plans.plan(capture, {{0, boxcar}}, Mask::uniform(24, 16, 0), {});
-    const Rendered rendered = renderer.render(plan, capture, kSummedLight);
-    EXPECT_EQ(rendered.picture.bytes, fresh_.render(plan, capture, kSummedLight).picture.bytes);
+    const Rendered rendered = renderer.render(plan, capture, kLight);
+    EXPECT_EQ(rendered.picture.bytes, fresh_.render(plan, capture, kLight).picture.bytes);
     all.push_back(rendered.statistics);
   }
   if (GetParam() == Precision::fixed) {
@@ -214,8 +214,8 @@ TEST_P(KeptSumsOf, HalvesOfCutBlocksAreKept) {
   for (const std::int64_t start_ms : {110, 111, 112, 114}) {  // in block 3, ends in block 42
     const GainFunction boxcar = GainFunction::boxcar(start_ms * 1'000'000, (start_ms + 1250) * 1'000'000);
     const RenderPlan plan = plans.plan(capture, {{0, boxcar}}, Mask::uniform(24, 16, 0), {});
-    const Rendered rendered = renderer.render(plan, capture, kSummedLight);
-    EXPECT_EQ(rendered.picture.bytes, fresh_.render(plan, capture, kSummedLight).picture.bytes);
+    const Rendered rendered = renderer.render(plan, capture, kLight);
+    EXPECT_EQ(rendered.picture.bytes, fresh_.render(plan, capture, kLight).picture.bytes);
     all.push_back(rendered.statistics);
   }
   EXPECT_EQ(all[0].made_sums, 0u);
@@ -240,8 +240,8 @@ TEST_P(KeptSumsOf, AChangedFunctionAloneIsExposed) {
   const std::int64_t end_ns = capture.timeline().duration_ns();
   const auto render = [&] {
     const RenderPlan plan = plans.plan(capture, random.functions, random.mask, {});
-    const Rendered rendered = renderer_.render(plan, capture, kSummedLight);
-    EXPECT_TRUE(rendered.picture.bytes == fresh_.render(plan, capture, kSummedLight).picture.bytes);
+    const Rendered rendered = renderer_.render(plan, capture, kLight);
+    EXPECT_TRUE(rendered.picture.bytes == fresh_.render(plan, capture, kLight).picture.bytes);
     return rendered.statistics;
   };
   for (std::uint8_t tag = 0; tag < 3; ++tag) {
@@ -282,8 +282,8 @@ TEST_P(KeptSumsOf, BlackIsZeroWhateverIsExposedFirst) {
     const FunctionSet functions{{0, GainFunction::boxcar(16'000'000, 32'000'000, gain)},
                                 {1, GainFunction({{0, 0.5}})}};
     const RenderPlan plan = plans.plan(capture, functions, mask, {});
-    EXPECT_TRUE(renderer_.render(plan, capture, kSummedLight).picture.bytes ==
-                fresh_.render(plan, capture, kSummedLight).picture.bytes)
+    EXPECT_TRUE(renderer_.render(plan, capture, kLight).picture.bytes ==
+                fresh_.render(plan, capture, kLight).picture.bytes)
         << gain;
   }
   renderer_.keep_resident(nullptr);
@@ -295,7 +295,7 @@ TEST_P(KeptSumsOf, AnyMemoryHasTheSamePictures) {
   MemoryCapture& capture = const_cast<MemoryCapture&>(*random.capture);
   const RenderPlan plan = make_plan(capture, {{0, GainFunction({{0, 0.5}})}},
                                     Mask::uniform(random.mask.width, random.mask.height, 0), {});
-  const std::vector<std::byte> expected = fresh_.render(plan, capture, kSummedLight).picture.bytes;
+  const std::vector<std::byte> expected = fresh_.render(plan, capture, kLight).picture.bytes;
   for (const std::uint64_t bytes : {std::uint64_t{1} << 17, std::uint64_t{1} << 18, std::uint64_t{1} << 30}) {
     OpenClOptions options = test::renderer_options(GetParam());
     options.memory_bytes = bytes;
@@ -303,7 +303,7 @@ TEST_P(KeptSumsOf, AnyMemoryHasTheSamePictures) {
     OpenClRenderer renderer(options);
     renderer.keep_resident(&capture);
     for (int time = 0; time < 3; ++time) {
-      ASSERT_EQ(renderer.render(plan, capture, kSummedLight).picture.bytes, expected) << bytes;
+      ASSERT_EQ(renderer.render(plan, capture, kLight).picture.bytes, expected) << bytes;
     }
   }
 }

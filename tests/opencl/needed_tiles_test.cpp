@@ -9,10 +9,9 @@
 namespace nutik {
 namespace {
 
+using test::kLight;
 using test::PackedCapture;
 using test::RandomCase;
-
-constexpr OutputFormat kNeededLight{ValueType::light64, 0};
 
 // Functions that need some samples only, for some of the mask's values.
 FunctionSet short_functions(const FunctionSet& functions, const Timeline& timeline, test::Random& draw) {
@@ -60,10 +59,10 @@ TEST(NeededTiles, LeaveThePictureAsItIs) {
       options.unmapped_is_zero = true;
       const RenderPlan plan =
           make_plan(capture, short_functions(random.functions, random.timeline, draw), mask, options);
-      const Picture expected = plain.render(plan, capture, kNeededLight, control).picture;
-      EXPECT_EQ(passing.render(plan, packed, kNeededLight, control).picture, expected) << turn;
-      EXPECT_EQ(holding.render(plan, packed, kNeededLight, control).picture, expected) << turn;
-      EXPECT_EQ(holding.render(plan, packed, kNeededLight, control).picture, expected) << turn << ", again";
+      const Picture expected = plain.render(plan, capture, kLight, control).picture;
+      EXPECT_EQ(passing.render(plan, packed, kLight, control).picture, expected) << turn;
+      EXPECT_EQ(holding.render(plan, packed, kLight, control).picture, expected) << turn;
+      EXPECT_EQ(holding.render(plan, packed, kLight, control).picture, expected) << turn << ", again";
     }
     holding.keep_resident(nullptr);
     left_out += packed.groups_left_out;
@@ -93,8 +92,8 @@ TEST(NeededTiles, AreThoseOfTheFunctionsThatAreNotZero) {
   const RenderPlan plan = make_plan(capture, functions, mask, options);
   ASSERT_EQ(plan.blocks.size(), 3u);
   OpenClRenderer renderer(test::renderer_options(Precision::fixed));
-  const Picture expected = renderer.render(plan, capture, kNeededLight).picture;
-  EXPECT_EQ(renderer.render(plan, packed, kNeededLight).picture, expected);
+  const Picture expected = renderer.render(plan, capture, kLight).picture;
+  EXPECT_EQ(renderer.render(plan, packed, kLight).picture, expected);
   EXPECT_EQ(packed.groups_unpacked, 3u * 2);
   EXPECT_EQ(packed.groups_left_out, 3u * 62);
 }

@@ -19,7 +19,7 @@
 namespace nutik {
 namespace {
 
-constexpr OutputFormat kLight{ValueType::light64, 0};
+using test::kLight;
 
 // Six times a power of two: a weight is then its gain over the number of samples, exactly, if the gain has 51 bits and
 // there are a power of two of samples.

@@ -19,9 +19,8 @@
 namespace nutik {
 namespace {
 
+using test::kLight;
 using test::RandomCase;
-
-constexpr OutputFormat kLight{ValueType::light64, 0};
 
 TEST(SoftMasks, StayWithinTheirBoundsOnRandomCases) {
   test::PrecisionCheck check;

@@ -19,10 +19,10 @@
 namespace nutik {
 namespace {
 
+using test::kLight;
 using test::RandomCase;
 
 constexpr std::int64_t kMs = 1'000'000;
-constexpr OutputFormat kLight{ValueType::light64, 0};
 
 PlanOptions delayed_by(DelayMap map) {
   PlanOptions options;

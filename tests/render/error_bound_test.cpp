@@ -13,19 +13,18 @@
 namespace nutik {
 namespace {
 
+using test::kLight;
 using test::RandomCase;
-
-constexpr OutputFormat kWholeLight{ValueType::light64, 0};
 
 TEST(ErrorBound, ShrinksWithBetterArithmetic) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const RandomCase random(seed);
     const MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-    const ErrorBound single = error_bound(plan, Precision::single_, kWholeLight);
-    const ErrorBound fixed = error_bound(plan, Precision::fixed, kWholeLight);
-    const ErrorBound compensated = error_bound(plan, Precision::compensated, kWholeLight);
-    const ErrorBound real64 = error_bound(plan, Precision::double_, kWholeLight);
+    const ErrorBound single = error_bound(plan, Precision::single_, kLight);
+    const ErrorBound fixed = error_bound(plan, Precision::fixed, kLight);
+    const ErrorBound compensated = error_bound(plan, Precision::compensated, kLight);
+    const ErrorBound real64 = error_bound(plan, Precision::double_, kLight);
     for (std::size_t f = 0; f < plan.functions.size(); ++f) {
       if (plan.functions[f].summary.support_ns == 0) {
         EXPECT_EQ(single.functions[f].light, 0.0) << random.text();
@@ -151,7 +150,7 @@ TEST(PrecisionChoice, TakesTheFirstThatIsRightEnoughElseTheBest) {
   EXPECT_EQ(choose(1e4, codes, without_double).precision(), Precision::fixed);
   EXPECT_EQ(choose(1e7, codes, without_double).precision(), Precision::compensated);
   EXPECT_EQ(choose(1.0, {ValueType::light32, 0}, all).precision(), Precision::double_);
-  EXPECT_EQ(choose(1.0, kWholeLight, all).precision(), Precision::double_);
+  EXPECT_EQ(choose(1.0, kLight, all).precision(), Precision::double_);
   const PrecisionChoice none = choose(1e18, codes, all);
   EXPECT_EQ(none.precision(), Precision::double_);
   EXPECT_FALSE(none.is_right_enough());
@@ -188,7 +187,7 @@ TEST(PrecisionChoice, SaysWhatItMayErrBy) {
   EXPECT_EQ(error_text({3.1e-7, 0.2625}, {ValueType::code16, 1000}),
             "light within 3.1e-07, 0.26 of a code of 1000");
   EXPECT_EQ(error_text({1e-8, 0.17}, {ValueType::light32, 0}), "light within 1e-08, 0.17 of a float's step");
-  EXPECT_EQ(error_text({1e-13, 0.1}, kWholeLight), "light within 1e-13");
+  EXPECT_EQ(error_text({1e-13, 0.1}, kLight), "light within 1e-13");
 }
 
 }  // namespace

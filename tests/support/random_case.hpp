@@ -11,9 +11,13 @@
 #include "capture/timeline.hpp"
 #include "exposure/mask.hpp"
 #include "imev/capture_source.hpp"
+#include "render/output_format.hpp"
 #include "render/render_plan.hpp"
 
 namespace nutik::test {
+
+// Light as it is computed, where every rounding shows.
+inline constexpr OutputFormat kLight{ValueType::light64, 0};
 
 // Draws with a fixed meaning per seed, whatever the standard library.
 class Random {

@@ -9,6 +9,7 @@
 
 #include "capture/error.hpp"
 #include "capture/fact.hpp"
+#include "capture/format.hpp"
 #include "media/clip.hpp"
 #include "media/settled_fact.hpp"
 #include "session/clips/clip_source.hpp"
