@@ -82,17 +82,16 @@ struct StoredGroup {
 using GroupSizes = std::array<std::uint32_t, 1 + kPlainParts>;
 
 // A group of codec `rice`: the packed bytes of its head, these, and its body.
-std::vector<std::byte> pack_rice_group(const TileGroup& group, std::span<const std::byte> payload,
-                                       PackingTools& tools) {
+void pack_rice_group(const TileGroup& group, std::span<const std::byte> payload, PackingTools& tools,
+                     std::vector<std::byte>& packed) {
   const RiceGroup coded = encode_rice(group, payload, tools.room);
   const std::vector<std::byte> head = compress({CodecId::zstd, 0}, coded.head, tools);
   const auto head_bytes = static_cast<std::uint32_t>(head.size());
-  std::vector<std::byte> packed;
+  packed.clear();
   packed.reserve(sizeof head_bytes + head.size() + coded.planes.size() + coded.levels.size());
   append(packed, &head_bytes, sizeof head_bytes);
   for (const std::span<const std::byte> part : {std::span(head), coded.planes, coded.levels})
     append(packed, part.data(), part.size());
-  return packed;
 }
 
 bool unpack_rice_group(const TileGroup& group, std::span<const std::byte> packed, std::span<std::byte> payload) {
@@ -106,12 +105,15 @@ bool unpack_rice_group(const TileGroup& group, std::span<const std::byte> packed
          decode_rice(group, head, packed.subspan(head_bytes), payload);
 }
 
-std::vector<std::byte> pack_group(const Codec& codec, const TileGroup& group, std::span<const std::byte> payload,
-                                  PackingTools& tools) {
-  if (codec.id == CodecId::rice) return pack_rice_group(group, payload, tools);
+void pack_group(const Codec& codec, const TileGroup& group, std::span<const std::byte> payload, PackingTools& tools,
+                std::vector<std::byte>& packed) {
+  if (codec.id == CodecId::rice) {
+    pack_rice_group(group, payload, tools, packed);
+    return;
+  }
   const PlainGroup plain = predict(group, payload);
   GroupSizes sizes{};
-  std::vector<std::byte> packed(sizeof sizes);
+  packed.assign(sizeof sizes, std::byte{0});
   const auto add = [&](std::size_t at, std::span<const std::byte> part) {
     if (part.empty()) return;
     const std::vector<std::byte> bytes = compress(codec, part, tools);
@@ -121,7 +123,6 @@ std::vector<std::byte> pack_group(const Codec& codec, const TileGroup& group, st
   add(0, plain.head);
   for (std::size_t part = 0; part < kPlainParts; ++part) add(1 + part, plain.parts[part]);
   std::memcpy(packed.data(), sizes.data(), sizeof sizes);
-  return packed;
 }
 
 bool unpack_group(CodecId codec, const TileGroup& group, std::span<const std::byte> packed,
@@ -257,9 +258,12 @@ std::string Codec::text() const {
   return {};
 }
 
-std::vector<std::vector<std::byte>> pack(const Codec& codec, const BlockGeometry& geometry,
-                                         std::span<const std::byte> payload, std::uint32_t max_threads) {
-  if (codec.id == CodecId::none) return {{payload.begin(), payload.end()}};
+void pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std::byte> payload,
+          std::vector<std::vector<std::byte>>& parts, std::uint32_t max_threads) {
+  if (codec.id == CodecId::none) {
+    parts.assign(1, {payload.begin(), payload.end()});
+    return;
+  }
   std::vector<TileEntry> entries(geometry.tile_count);
   std::memcpy(entries.data(), payload.data(), entries.size() * sizeof(TileEntry));
   std::vector<std::uint32_t> counts;
@@ -269,21 +273,21 @@ std::vector<std::vector<std::byte>> pack(const Codec& codec, const BlockGeometry
   const std::vector<std::uint32_t> sizes = group_sizes(entries, geometry);
   std::vector<std::size_t> firsts(sizes.size(), 0);
   for (std::size_t g = 1; g < sizes.size(); ++g) firsts[g] = firsts[g - 1] + sizes[g - 1];
-  std::vector<std::vector<std::byte>> stored(1 + sizes.size());
+  parts.resize(1 + sizes.size());
   parallel_for_with(
       sizes.size(), [] { return PackingTools(); },
       [&](std::uint64_t g, PackingTools& tools) {
         const TileGroup group{std::span(entries).subspan(firsts[g], sizes[g]), geometry};
-        stored[1 + g] = pack_group(codec, group, payload, tools);
-        stored[1 + g].shrink_to_fit();  // it grew part by part
+        pack_group(codec, group, payload, tools, parts[1 + g]);
       },
       max_threads);
 
-  std::vector<std::byte>& front = stored.front();
+  std::vector<std::byte>& front = parts.front();
+  front.clear();
   const std::array<std::uint32_t, 2> head{static_cast<std::uint32_t>(sizes.size()), 0};
   append(front, head.data(), sizeof head);
   for (std::size_t g = 0; g < sizes.size(); ++g) {
-    const StoredGroup group{sizes[g], static_cast<std::uint32_t>(stored[1 + g].size())};
+    const StoredGroup group{sizes[g], static_cast<std::uint32_t>(parts[1 + g].size())};
     append(front, &group, sizeof group);
   }
   PackingTools tools;
@@ -292,7 +296,6 @@ std::vector<std::vector<std::byte>> pack(const Codec& codec, const BlockGeometry
   const std::array<std::uint32_t, 2> counts_head{static_cast<std::uint32_t>(packed_counts.size()), 0};
   append(front, counts_head.data(), sizeof counts_head);
   append(front, packed_counts.data(), packed_counts.size());
-  return stored;
 }
 
 std::vector<TileEntry> unpack_directory(CodecId codec, const BlockGeometry& geometry,

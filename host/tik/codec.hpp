@@ -38,11 +38,10 @@ struct Codec {
   friend bool operator==(const Codec&, const Codec&) = default;
 };
 
-// The stored form of a payload, in parts that belong one behind the other; `geometry` is its block's. No more threads
-// than these work on it.
-[[nodiscard]] std::vector<std::vector<std::byte>> pack(const Codec& codec, const BlockGeometry& geometry,
-                                                       std::span<const std::byte> payload,
-                                                       std::uint32_t max_threads = ~std::uint32_t{0});
+// The stored form of a payload, in parts that belong one behind the other, in place of what `parts` were, whose memory is
+// used again; `geometry` is its block's. No more threads than these work on it.
+void pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std::byte> payload,
+          std::vector<std::vector<std::byte>>& parts, std::uint32_t max_threads = ~std::uint32_t{0});
 
 // Writes the payload, whose size the block's header tells; with `wants` only its directory and those groups of tiles
 // of which any is wanted (imev/block_lease.hpp). Throws InputError where the stored form is damaged, as far as it was

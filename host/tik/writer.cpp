@@ -79,13 +79,12 @@ Writer::Writer(const std::filesystem::path& path, Header header, const Codec& co
 void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures) {
   const BlockGeometry geometry(header_.capture, block.extent.sample_count);
   const PayloadParts parts(geometry, block.payload);
-  std::vector<std::vector<std::byte>> packed;
   std::vector<std::span<const std::byte>> packed_parts;
   std::span<const std::span<const std::byte>> stored = parts.parts();
   std::uint64_t stored_bytes = parts.bytes();
   if (codec_.id != CodecId::none) {
-    packed = pack(codec_, geometry, block.payload, max_threads_);
-    packed_parts.assign(packed.begin(), packed.end());
+    pack(codec_, geometry, block.payload, packed_, max_threads_);
+    packed_parts.assign(packed_.begin(), packed_.end());
     stored = packed_parts;
     stored_bytes = 0;
     for (const std::span<const std::byte> part : stored) stored_bytes += part.size();

@@ -64,6 +64,7 @@ class Writer {
   Header header_;
   Codec codec_;
   std::uint32_t max_threads_;  // that pack
+  std::vector<std::vector<std::byte>> packed_;  // the last block, whose memory the next one is packed into
   std::vector<IndexEntry> index_;
   Checksum headers_;  // of all block headers so far
   std::uint64_t front_checksum_ = 0;  // of what stands before the first block

@@ -15,7 +15,10 @@ using test::RandomCase;
 
 const Codec kCodecs[] = {{CodecId::none, 0}, {CodecId::lz4, 0}, {CodecId::zstd, 0}, {CodecId::rice, 0}, {CodecId::zstd, 9}};
 
-std::vector<std::byte> joined(const std::vector<std::vector<std::byte>>& parts) {
+// Packed into the memory of what was packed before.
+std::vector<std::byte> packed(const Codec& codec, const BlockGeometry& geometry, std::span<const std::byte> payload) {
+  static std::vector<std::vector<std::byte>> parts;
+  pack(codec, geometry, payload, parts);
   std::vector<std::byte> all;
   for (const std::vector<std::byte>& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;
@@ -29,7 +32,7 @@ TEST(Codec, GivesEveryPayloadBackBitForBit) {
       const BlockView view = capture.view(b);
       const BlockGeometry geometry(random.capture, view.extent().sample_count);
       for (const Codec& codec : kCodecs) {
-        const std::vector<std::byte> stored = joined(pack(codec, geometry, view.payload()));
+        const std::vector<std::byte> stored = packed(codec, geometry, view.payload());
         std::vector<std::byte> payload(view.payload().size(), std::byte{0xEE});
         unpack(codec.id, geometry, stored, payload);
         ASSERT_TRUE(std::equal(payload.begin(), payload.end(), view.payload().begin()))
@@ -74,7 +77,7 @@ TEST(Codec, SurvivesDamage) {
     const MemoryCapture capture = random.encode();
     const BlockView view = capture.view(0);
     for (const Codec& codec : {kCodecs[0], kCodecs[1], kCodecs[2], kCodecs[3]}) {
-      const std::vector<std::byte> stored = joined(pack(codec, view.geometry(), view.payload()));
+      const std::vector<std::byte> stored = packed(codec, view.geometry(), view.payload());
       test::Random draw(seed);
       for (int i = 0; i < 30; ++i) {
         std::vector<std::byte> damaged = stored;
@@ -115,7 +118,7 @@ TEST(Codec, RefusesWhatNoPayloadIsStoredAs) {
     return value;
   };
   for (const Codec& codec : {kCodecs[1], kCodecs[2], kCodecs[3]}) {
-    const std::vector<std::byte> stored = joined(pack(codec, geometry, view.payload()));
+    const std::vector<std::byte> stored = packed(codec, geometry, view.payload());
     const auto message = [&](const std::vector<std::byte>& damaged, std::uint64_t payload_bytes) {
       std::vector<std::byte> payload(payload_bytes);
       try {
@@ -164,7 +167,7 @@ TEST(Codec, RefusesATileThatNoBlockCanHave) {
     std::vector<std::byte> payload(longer.directory_bytes() + longer.body_bytes(entry));
     std::memcpy(payload.data(), &entry, sizeof entry);
     for (const Codec& codec : {kCodecs[1], kCodecs[2], kCodecs[3]}) {
-      const std::vector<std::byte> stored = joined(pack(codec, longer, payload));
+      const std::vector<std::byte> stored = packed(codec, longer, payload);
       std::vector<std::byte> unpacked(payload.size());
       unpack(codec.id, longer, stored, unpacked);
       try {
