@@ -53,9 +53,8 @@ const void* load_module(const char* name, const char* symbol, const char* withou
       tried += format("\n  {}: no such file", file.string());
       continue;
     }
-    // Never closed: OpenCV's and FFmpeg's threads may outlive any place where that would be safe. Lazily: what these call of
-    // each other is looked up when it is called; what the module calls is there or the module is not loaded, for so it is
-    // linked (-z now).
+    // Never closed: OpenCV's and FFmpeg's threads may outlive any place where that would be safe. Lazily: what libraries
+    // below the module call is looked up when they call it. What the module calls is looked up now (-z now).
     void* library = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (library == nullptr) {
       tried += format("\n  {}", dlerror());  // which names the file
