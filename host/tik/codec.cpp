@@ -123,6 +123,7 @@ void pack_group(const Codec& codec, const TileGroup& group, std::span<const std:
   add(0, plain.head);
   for (std::size_t part = 0; part < kPlainParts; ++part) add(1 + part, plain.parts[part]);
   std::memcpy(packed.data(), sizes.data(), sizeof sizes);
+  packed.shrink_to_fit();  // it grew part by part
 }
 
 bool unpack_group(CodecId codec, const TileGroup& group, std::span<const std::byte> packed,
