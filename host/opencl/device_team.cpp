@@ -282,10 +282,10 @@ Rendered DeviceTeam::render_together(const RenderPlan& plan, CaptureSource& sour
 Rendered DeviceTeam::render_bands(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output,
                                   const Rectangle& rectangle, const RenderControl& control,
                                   std::span<const Rectangle> bands, std::span<const std::size_t> at_work) {
-  std::vector<std::uint64_t> shares(members_.size(), control.memory_bytes);
-  if (!source.is_forward_only()) {
-    shares = memory_of_bands(control.memory_bytes, plan, source, bands, output.type, *control.precision);
-  }
+  const std::vector<std::uint64_t> shares =
+      source.is_forward_only()
+          ? std::vector(members_.size(), control.memory_bytes)
+          : memory_of_bands(control.memory_bytes, plan, source, bands, output.type, *control.precision);
   std::vector<Rendered> made(members_.size());
   const auto make_band = [&](std::size_t member, std::stop_token stop) {
     RenderControl of_band = control;

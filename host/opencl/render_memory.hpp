@@ -35,9 +35,9 @@ struct LeastMemory {
                                              const CaptureSource& source, const Shape& picture,
                                              ValueType type, Precision precision);
 
-// Of `allowed` bytes for everything, by device: what each may take for its band of a picture that they make side by side
-// (BandSplit::cut()), the whole picture being held besides. 0: as much as they like. Throws MemoryTooLittle where `allowed`
-// is too little for any bands of that picture: how fast devices have been is no reason to refuse.
+// What each device may take for its band of a picture that they make side by side (BandSplit::cut()), of `allowed`
+// bytes for everything; 0 is as much as they like. The whole picture is held besides. Throws MemoryTooLittle where some
+// bands of that picture would take more: what is refused must not depend on how fast devices have been.
 [[nodiscard]] std::vector<std::uint64_t> memory_of_bands(std::uint64_t allowed, const RenderPlan& plan,
                                                          const CaptureSource& source,
                                                          std::span<const Rectangle> bands, ValueType type,

@@ -38,8 +38,8 @@ struct Codec {
   friend bool operator==(const Codec&, const Codec&) = default;
 };
 
-// The stored form of a payload, in parts that belong one behind the other, in place of what `parts` were, whose memory is
-// used again; `geometry` is its block's. No more threads than these work on it.
+// Makes `parts` the stored form of a payload, one behind the other, in the memory that they have; `geometry` is its
+// block's. No more threads than these work on it.
 void pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std::byte> payload,
           std::vector<std::vector<std::byte>>& parts, std::uint32_t max_threads = ~std::uint32_t{0});
 

@@ -39,6 +39,19 @@ struct DrawnPayload {
   }
 };
 
+// All tiles of a random capture's first block.
+struct RandomGroup {
+  RandomCase drawn;
+  MemoryCapture capture = drawn.encode();
+  BlockView view = capture.view(0);
+  std::vector<TileEntry> entries;
+
+  explicit RandomGroup(std::uint64_t seed) : drawn(seed) {
+    for (std::uint64_t tile = 0; tile < view.geometry().tile_count; ++tile) entries.push_back(view.entry(tile));
+  }
+  [[nodiscard]] TileGroup group() const { return {entries, view.geometry()}; }
+};
+
 struct PackedGroup {
   std::vector<std::byte> head, body;
 };
@@ -75,12 +88,8 @@ void expect_same_bytes_and_back(const TileGroup& group, std::span<const std::byt
 
 TEST(Rice, AnyInstructionsMakeTheSameBytesOfCaptures) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
-    const RandomCase random(seed);
-    const MemoryCapture capture = random.encode();
-    const BlockView view = capture.view(0);
-    std::vector<TileEntry> entries;
-    for (std::uint64_t tile = 0; tile < view.geometry().tile_count; ++tile) entries.push_back(view.entry(tile));
-    expect_same_bytes_and_back({entries, view.geometry()}, view.payload(), random.text());
+    const RandomGroup random(seed);
+    expect_same_bytes_and_back(random.group(), random.view.payload(), random.drawn.text());
   }
 }
 
@@ -108,14 +117,11 @@ TEST(Rice, AnyInstructionsMakeTheSameBytesOfNoise) {
 TEST(Rice, ARoomIsUsedAgain) {
   RiceRoom room;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const RandomCase random(seed);
-    const MemoryCapture capture = random.encode();
-    const BlockView view = capture.view(0);
-    std::vector<TileEntry> entries;
-    for (std::uint64_t tile = 0; tile < view.geometry().tile_count; ++tile) entries.push_back(view.entry(tile));
-    const TileGroup group{entries, view.geometry()};
-    const PackedGroup again = packed(group, view.payload(), room), fresh = packed(group, view.payload());
-    EXPECT_TRUE(again.head == fresh.head && again.body == fresh.body) << random.text();
+    const RandomGroup random(seed);
+    const TileGroup group = random.group();
+    const auto payload = random.view.payload();
+    const PackedGroup again = packed(group, payload, room), fresh = packed(group, payload);
+    EXPECT_TRUE(again.head == fresh.head && again.body == fresh.body) << random.drawn.text();
   }
 }
 
@@ -143,13 +149,9 @@ TEST(Rice, LeavesOutLowBitsThatNoCodeHas) {
 TEST(Rice, SurvivesDamageOfEachStream) {
   std::uint64_t refused = 0, tried = 0;
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
-    const RandomCase random(seed);
-    const MemoryCapture capture = random.encode();
-    const BlockView view = capture.view(0);
-    std::vector<TileEntry> entries;
-    for (std::uint64_t tile = 0; tile < view.geometry().tile_count; ++tile) entries.push_back(view.entry(tile));
-    const TileGroup group{entries, view.geometry()};
-    const PackedGroup coded = packed(group, view.payload());
+    const RandomGroup random(seed);
+    const TileGroup group = random.group();
+    const PackedGroup coded = packed(group, random.view.payload());
     test::Random draw(seed);
     for (int i = 0; i < 60; ++i) {
       PackedGroup damaged = coded;
@@ -158,13 +160,13 @@ TEST(Rice, SurvivesDamageOfEachStream) {
       stream[at] ^= static_cast<std::byte>(draw.whole(1, 255));
       if (i % 6 == 1) stream.resize(at);
       constexpr std::size_t kCanary = 64;
-      std::vector<std::byte> room(view.payload().size() + kCanary, std::byte{0xA5});
-      const auto payload = std::span(room).first(view.payload().size());
+      std::vector<std::byte> room(random.view.payload().size() + kCanary, std::byte{0xA5});
+      const auto payload = std::span(room).first(random.view.payload().size());
       ++tried;
       const Instructions instructions = i % 4 < 2 ? Instructions::best : Instructions::portable;
       if (!decode_rice(group, damaged.head, damaged.body, payload, instructions)) ++refused;
       for (std::size_t c = 0; c < kCanary; ++c) {
-        ASSERT_EQ(room[view.payload().size() + c], std::byte{0xA5}) << "seed " << seed << ", case " << i;
+        ASSERT_EQ(room[random.view.payload().size() + c], std::byte{0xA5}) << "seed " << seed << ", case " << i;
       }
     }
   }
