@@ -1,5 +1,5 @@
 // Preloaded before the program: lets one call of the system fail, so that it can be seen what becomes of the output
-// (faults/fault.hpp: kinds are open, read, write, truncate, fsync, rename, mmap and malloc; mremap is a mapping, and
+// (faults/fault.hpp: kinds are open, read, write, fsync, rename, mmap and malloc; mremap is a mapping, and
 // calloc, realloc and aligned memory are malloc's).
 //
 //   NUTIK_FAIL_FOLDER   calls count whose file lies in it; of memory those of a mebibyte and more
@@ -84,8 +84,6 @@ constinit Next<ssize_t(int, const iovec*, int)> next_writev{"writev"};
 constinit Next<ssize_t(int, const void*, std::size_t, off64_t)> next_pwrite64{"pwrite64"};
 constinit Next<ssize_t(int, void*, std::size_t, off64_t)> next_pread{"pread"};
 constinit Next<ssize_t(int, const void*, std::size_t, off64_t)> next_pwrite{"pwrite"};
-constinit Next<int(int, off64_t)> next_ftruncate{"ftruncate"};
-constinit Next<int(int, off64_t)> next_ftruncate64{"ftruncate64"};
 constinit Next<int(int)> next_fsync{"fsync"};
 constinit Next<int(const char*, const char*)> next_rename{"rename"};
 constinit Next<void*(void*, std::size_t, int, int, int, off64_t)> next_mmap64{"mmap64"};
@@ -96,8 +94,8 @@ constinit Next<int(void**, std::size_t, std::size_t)> next_posix_memalign{"posix
 [[gnu::constructor]] void find_all() {
   const auto find = [](auto&... each) { (each.get(), ...); };
   find(next_open, next_open64, next_fopen, next_fopen64, next_read, next_pread64, next_write, next_writev,
-       next_pwrite64, next_pread, next_pwrite, next_ftruncate, next_ftruncate64, next_fsync, next_rename,
-       next_mmap64, next_mremap, next_posix_memalign);
+       next_pwrite64, next_pread, next_pwrite, next_fsync, next_rename, next_mmap64, next_mremap,
+       next_posix_memalign);
 }
 
 // PoCL ends the process where there is no room for what it has begun to run, and where LLVM finds none for a program PoCL
@@ -179,14 +177,6 @@ ssize_t pread(int descriptor, void* into, std::size_t bytes, off_t offset) {
 ssize_t pwrite(int descriptor, const void* from, std::size_t bytes, off_t offset) {
   return lies_in_folder(descriptor) && fails("write") ? -1
                                                       : next_pwrite.get()(descriptor, from, bytes, offset);
-}
-
-int ftruncate(int descriptor, off_t bytes) noexcept {
-  return lies_in_folder(descriptor) && fails("truncate") ? -1 : next_ftruncate.get()(descriptor, bytes);
-}
-
-int ftruncate64(int descriptor, off64_t bytes) noexcept {
-  return lies_in_folder(descriptor) && fails("truncate") ? -1 : next_ftruncate64.get()(descriptor, bytes);
 }
 
 int fsync(int descriptor) {
