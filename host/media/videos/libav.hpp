@@ -21,7 +21,6 @@ extern "C" {
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <new>
 #include <optional>
@@ -103,11 +102,11 @@ inline std::optional<std::int64_t> most_pixels(const AVCodecParameters& told) {
 }
 
 // What a file of this size is believed to hold: 7680 x 4320 in any case. Larger pictures need 4 kB and more, which those
-// of any camera have.
+// of any camera have. FFmpeg takes no setting above an int.
 inline std::int64_t most_pixels(const AVFormatContext& context) {
-  constexpr std::int64_t kPixelsAByte = 8256, kSmall = std::int64_t{1} << 25;
+  constexpr std::int64_t kPixelsAByte = 8256, kSmall = std::int64_t{1} << 25, kMost = INT32_MAX;
   const std::int64_t bytes = avio_size(context.pb);
-  return bytes < 0 ? std::numeric_limits<std::int32_t>::max() : std::max(kSmall, bytes * kPixelsAByte);
+  return bytes < 0 || bytes > kMost / kPixelsAByte ? kMost : std::max(kSmall, bytes * kPixelsAByte);
 }
 
 // Of each stream what is not known before some of its pictures are decoded, which comes before memory is counted.
