@@ -5,9 +5,11 @@
 #include "session/devices.hpp"
 #include "studio/window/appearance.hpp"
 #include "studio/window/main_window.hpp"
+#include "system/mapped_file.hpp"
 
 int main(int count, char** words) {
   nutik::prepare_for_pocl();
+  nutik::watch_mapped_files();  // a capture that somebody cuts off must not end the window
   QApplication application(count, words);
   QApplication::setApplicationName("nutik-studio");
   QApplication::setOrganizationName("nutik");
