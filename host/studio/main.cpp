@@ -32,11 +32,7 @@ int main(int count, char** words) {
   MainWindow window(computing);
   window.show();
   const QStringList files = parser.positionalArguments();
-  if (files.isEmpty() && !nutik::studio::Autosave::found().isEmpty())
-    window.notice().say(
-        nutik::studio::Notice::Kind::note,
-        MainWindow::tr(
-            "There is unsaved work of a window that did not end well: File, Recover unsaved work."));
   if (!files.isEmpty()) window.open(files.front(), parser.value(rate));
+  window.autosave().keep_at_signals();
   return QApplication::exec();
 }

@@ -1,8 +1,10 @@
 // The window: opening, saving, exporting.
+#include <QDir>
 #include <QFile>
 #include <QMimeData>
 #include <QToolButton>
 #include <QTreeWidget>
+#include <csignal>
 
 #include "studio/regions/region_edits.hpp"
 #include "studio/window/project_file.hpp"
@@ -13,6 +15,39 @@ namespace {
 
 class WindowTest : public StudioTest {
  protected:
+  static QDir kept_folder() { return {QStandardPaths::writableLocation(QStandardPaths::AppDataLocation)}; }
+  static void remove_all_kept() {
+    for (const Autosave::Found& each : Autosave::found()) KeptProject(each.path).remove();
+  }
+  void open_in(MainWindow& window) {
+    window.open(path("frames/%02d.pgm"), "100");
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
+    ASSERT_NE(window.document().facts(), nullptr);
+  }
+  // As a crash leaves it: the window goes, and nothing is asked.
+  DocumentState leave_unsaved(int width) {
+    MainWindow window;
+    open_in(window);
+    add_region(window.document());
+    paint_region(window.document(), rectangle(96, 48, {10, 10}, width, 20), window.document().selected_tag(),
+                 "Rectangle");
+    window.autosave().keep();
+    return window.document().state();
+  }
+  // Of a window whose changes are given up.
+  void open_again_without_asking(MainWindow& window) {
+    window.document().undo_stack().setClean();
+    open_in(window);
+  }
+  static QMenu& unsaved_menu(MainWindow& window) {
+    for (QAction* action : window.menuBar()->actions().front()->menu()->actions()) {
+      if (!action->text().contains("unsaved")) continue;
+      Q_EMIT action->menu()->aboutToShow();
+      return *action->menu();
+    }
+    throw std::logic_error("no menu of unsaved work");
+  }
+
   // The exported picture, and that of the line, are the same file.
   void expect_same_picture_by_command() {
     window_.export_picture(path("window.png"));
@@ -69,22 +104,92 @@ TEST_F(WindowTest, OpensAProjectAsItWasSaved) {
 }
 
 TEST_F(WindowTest, KeepsWhatIsNotSaved) {
-  Autosave::forget();
-  open_clip();
-  window_.autosave().keep();
-  EXPECT_EQ(Autosave::found(), "") << "nothing was changed";
-  add_region(document());
-  const DocumentState changed = document().state();
-  window_.autosave().keep();
-  ASSERT_NE(Autosave::found(), "");
-
-  MainWindow next;
-  next.recover();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return next.is_settled(); }, kMaxWaitMs));
-  EXPECT_TRUE(next.document().state() == changed);
-  EXPECT_TRUE(next.isWindowModified()) << "it is to be saved where a person says";
+  remove_all_kept();
+  {
+    MainWindow unchanged;
+    open_in(unchanged);
+    unchanged.autosave().keep();
+  }
+  EXPECT_TRUE(Autosave::found().empty()) << "nothing was changed";
+  const DocumentState changed = leave_unsaved(10);
+  ASSERT_EQ(Autosave::found().size(), 1u);
+  EXPECT_EQ(Autosave::found().front().capture, "%02d.pgm");
+  const QString kept = Autosave::found().front().path;
+  EXPECT_EQ(kept_folder().entryList({"unsaved*"}).size(), 2) << "one file, and its lock";
+  {
+    MainWindow next;
+    next.recover(kept);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return next.is_settled(); }, kMaxWaitMs));
+    EXPECT_TRUE(next.document().state() == changed) << next.notice().text().toStdString();
+    EXPECT_TRUE(next.isWindowModified()) << "it is to be saved where a person says";
+    EXPECT_TRUE(Autosave::found().empty()) << "it has it";
+    window_.recover(kept);
+    EXPECT_TRUE(window_.notice().text().contains("nother window")) << window_.notice().text().toStdString();
+    EXPECT_EQ(document().facts(), nullptr);
+  }
+  ASSERT_EQ(Autosave::found().size(), 1u) << "that one did not end well either";
+  window_.recover(kept);
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(document().state() == changed);
   ASSERT_TRUE(window_.save_project(path("saved.nutik")));
-  EXPECT_EQ(Autosave::found(), "");
+  EXPECT_TRUE(Autosave::found().empty());
+  EXPECT_FALSE(QFile::exists(kept));
+}
+
+// Whatever is done, short of taking it over or removing it.
+TEST_F(WindowTest, OffersWhatIsNotSavedAtEveryStartUntilAPersonDecides) {
+  remove_all_kept();
+  EXPECT_FALSE(MainWindow().offer().text().contains("unsaved work"));
+  leave_unsaved(10);
+  leave_unsaved(20);
+  const auto still_there = [] { return Autosave::found().size() == 2; };
+  ASSERT_TRUE(still_there()) << "one for each window";
+  open_clip();
+  add_region(document());
+  window_.autosave().keep();  // beside theirs
+  ASSERT_TRUE(window_.save_project(path("saved.nutik")));
+  EXPECT_TRUE(still_there()) << "another window's saving";
+  for (const QMessageBox::StandardButton button : {QMessageBox::Discard, QMessageBox::Cancel}) {
+    MainWindow next;
+    EXPECT_TRUE(next.offer().text().contains("unsaved work"));
+    open_in(next);
+    EXPECT_TRUE(next.offer().text().contains("unsaved work")) << "opening a clip does not hide it";
+    add_region(next.document());
+    next.autosave().keep();
+    answer_next(button);
+    EXPECT_EQ(next.close(), button == QMessageBox::Discard);
+    EXPECT_TRUE(is_asked_);
+    EXPECT_TRUE(still_there()) << "another window's closing";
+    open_again_without_asking(next);
+    EXPECT_TRUE(still_there()) << "another clip";
+  }
+  MainWindow next;
+  answer_next(QMessageBox::No);
+  unsaved_menu(next).actions().back()->trigger();
+  EXPECT_TRUE(still_there());
+  EXPECT_EQ(unsaved_menu(next).actions().size(), 4) << "two, a line, and their removal";
+  answer_next(QMessageBox::Yes);
+  unsaved_menu(next).actions().back()->trigger();
+  EXPECT_TRUE(Autosave::found().empty());
+  EXPECT_TRUE(kept_folder().entryList({"unsaved*"}).isEmpty());
+}
+
+TEST_F(WindowTest, KeepsWhatIsNotSavedWhereItIsAskedToEnd) {
+  remove_all_kept();
+  DocumentState changed;
+  {
+    MainWindow ended;
+    open_in(ended);
+    add_region(ended.document());
+    changed = ended.document().state();
+    ended.autosave().keep_at_signals();
+    raise(SIGTERM);
+    EXPECT_EQ(QApplication::exec(), 128 + SIGTERM);
+  }
+  ASSERT_EQ(Autosave::found().size(), 1u);
+  window_.recover(Autosave::found().front().path);
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(document().state() == changed);
 }
 
 TEST_F(WindowTest, SaysWhyAFileIsRefused) {

@@ -4,6 +4,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QGuiApplication>
+#include <QLocale>
 #include <QMenu>
 #include <QMessageBox>
 #include <QSettings>
@@ -58,7 +59,7 @@ bool MainWindow::save_project(const QString& path) {
   files_ = files;
   known_ = times_of({path, files.functions, files.mask});
   note_capture();
-  Autosave::forget();
+  autosave_.begin();
   document_.undo_stack().setClean();
   remember(path);
   follow_title();
@@ -115,11 +116,32 @@ void MainWindow::tell_changes() {
   if (!text.isEmpty()) notice_->say(Notice::Kind::note, text);
 }
 
-void MainWindow::recover() {
-  const QString kept = Autosave::found();
-  if (kept.isEmpty() || !may_leave()) return;
+void MainWindow::recover(const QString& kept) {
+  if (!may_leave()) return;
   notice_->clear();
-  open_project(kept, Origin::Kind::recovered);  // it is saved where a person says
+  offer_->clear();
+  try_to([&] { open_project(kept, std::make_shared<KeptProject>(kept)); });  // saved where a person says
+}
+
+void MainWindow::remove_unsaved() {
+  const auto found = Autosave::found();
+  if (QMessageBox::question(this, tr("Unsaved work"),
+                            tr("Remove unsaved work of %n window(s) for good?", nullptr,
+                               static_cast<int>(found.size()))) != QMessageBox::Yes)
+    return;
+  offer_->clear();
+  for (const Autosave::Found& each : found) try_to([&] { KeptProject(each.path).remove(); });
+}
+
+void MainWindow::fill_unsaved(QMenu& menu) {
+  menu.clear();
+  for (const Autosave::Found& each : Autosave::found()) {
+    const QString time = QLocale().toString(each.time, QLocale::ShortFormat);
+    const QString name = QString(each.capture).replace('&', "&&");  // no letter to press
+    menu.addAction(tr("%1, %2").arg(name, time), this, [this, path = each.path] { recover(path); });
+  }
+  menu.addSeparator();
+  menu.addAction(tr("&Remove all of these…"), this, &MainWindow::remove_unsaved);
 }
 
 bool MainWindow::save_as() {

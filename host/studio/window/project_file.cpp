@@ -23,6 +23,8 @@ namespace {
 
 constexpr const char* kVersionKey = "nutik-studio";
 constexpr int kVersion = 1;
+// Functions and mask of a project whose files do not hold them.
+constexpr const char* kUnwrittenKey = "unwritten";
 
 void write_text(const QString& path, std::string_view text) {
   OutputFile file(path.toStdString());
@@ -42,22 +44,42 @@ std::int64_t time_in(const QJsonObject& object, const char* name, const QString&
   return time_ns;
 }
 
-QString text_of(const Region& region) {
-  const auto* bytes = reinterpret_cast<const char*>(region.inside.data());
-  const auto size = static_cast<qsizetype>(region.inside.size());
+QString packed_text(const std::vector<std::uint8_t>& pixels) {
+  const auto* bytes = reinterpret_cast<const char*>(pixels.data());
+  const auto size = static_cast<qsizetype>(pixels.size());
   return QString::fromLatin1(qCompress(QByteArray::fromRawData(bytes, size)).toBase64());
+}
+
+// Nothing where the text is damaged, or of another number of pixels.
+QByteArray unpacked(const QString& text, std::size_t pixels) {
+  const QByteArray packed = QByteArray::fromBase64(text.toLatin1());
+  // What is packed begins with its size: nothing is unpacked that has another one.
+  const bool is_as_large = packed.size() > 4 && qFromBigEndian<quint32>(packed.constData()) == pixels;
+  const QByteArray bytes = is_as_large ? qUncompress(packed) : QByteArray();
+  return bytes.size() == static_cast<qsizetype>(pixels) ? bytes : QByteArray();
+}
+
+Mask mask_in(const QJsonObject& object, const QString& path) {
+  constexpr int kMaxSide = 32767;
+  const auto side = [&](const char* name) {
+    const int pixels = object[name].toInt();
+    if (pixels < 1 || pixels > kMaxSide)
+      refuse(path, format("its mask's {} is not from 1 to {}", name, kMaxSide));
+    return static_cast<std::uint32_t>(pixels);
+  };
+  Mask mask = Mask::uniform(side("width"), side("height"), 0);
+  const QByteArray bytes = unpacked(object["tags"].toString(), mask.tags.size());
+  if (bytes.isEmpty()) refuse(path, "the mask in it is damaged");
+  std::ranges::copy(bytes, mask.tags.begin());
+  return mask;
 }
 
 // As large as the mask.
 Region region_in(const QString& text, const Mask& mask, const QString& path) {
-  const QByteArray packed = QByteArray::fromBase64(text.toLatin1());
   Region region = Region::none(mask.width, mask.height);
-  // What is packed begins with its size: nothing is unpacked that has another one.
-  const bool is_as_large =
-      packed.size() > 4 && qFromBigEndian<quint32>(packed.constData()) == region.inside.size();
-  const QByteArray bytes = is_as_large ? qUncompress(packed) : QByteArray();
+  const QByteArray bytes = unpacked(text, region.inside.size());
   const auto is_flag = [](char byte) { return byte == 0 || byte == 1; };
-  if (bytes.size() != static_cast<qsizetype>(region.inside.size()) || !std::ranges::all_of(bytes, is_flag))
+  if (bytes.isEmpty() || !std::ranges::all_of(bytes, is_flag))
     refuse(path, format("what is covered of a region is damaged, or not {} x {} pixels large as the mask is",
                         mask.width, mask.height));
   std::ranges::copy(bytes, region.inside.begin());
@@ -84,6 +106,57 @@ void read_looks(const QJsonArray& regions, DocumentState& state, const QString& 
   tidy_covered(state);
 }
 
+QJsonObject object_of(const QString& path, const Document& document, const CommandFiles& files) {
+  const DocumentState& state = document.state();
+  const QDir folder = QFileInfo(path).absoluteDir();
+  const auto named = [&](const QString& file) {
+    return folder.relativeFilePath(QFileInfo(file).absoluteFilePath());
+  };
+  QJsonArray regions;
+  std::vector<std::uint8_t> tags = state.order;
+  if (state.looks.contains(kBackground)) tags.push_back(kBackground);
+  for (const std::uint8_t tag : tags) {
+    const RegionLook& look = state.looks.at(tag);
+    QJsonObject region{
+        {"tag", tag}, {"name", look.name}, {"colour", look.colour.name()}, {"visible", look.is_visible}};
+    if (const auto found = state.covered.find(tag); found != state.covered.end())
+      region["covered"] = packed_text(found->second->inside);
+    regions += region;
+  }
+  QJsonObject object{{kVersionKey, kVersion},
+                     {"capture", named(document.facts()->path)},
+                     {"functions", named(files.functions)},
+                     {"exposes", state.mode == ExposureMode::boxcar ? "interval" : "regions"},
+                     {"start_ns", QString::number(state.boxcar.start_ns)},
+                     {"length_ns", QString::number(state.boxcar.length_ns)},
+                     {"normalize", QString::fromStdString(state.normalization.text())},
+                     {"feather", QString::fromStdString(feather_text(state.feather))},
+                     {"ev", state.brightness_ev},
+                     {"regions", regions}};
+  if (state.mask) object["mask"] = named(files.mask);
+  if (!document.facts()->rate.isEmpty()) object["fps"] = document.facts()->rate;
+  return object;
+}
+
+// With all that the files hold.
+QJsonObject whole_object_of(const QString& path, const Document& document, const CommandFiles& files) {
+  const DocumentState& state = document.state();
+  QJsonObject unwritten{{"functions", QString::fromStdString(functions_text(state.functions))}};
+  if (state.mask) {
+    const Mask& mask = (*state.mask)->mask;
+    unwritten["mask"] = QJsonObject{{"width", static_cast<int>(mask.width)},
+                                    {"height", static_cast<int>(mask.height)},
+                                    {"tags", packed_text(mask.tags)}};
+  }
+  QJsonObject object = object_of(path, document, files);
+  object[kUnwrittenKey] = unwritten;
+  return object;
+}
+
+void write_object(const QString& path, const QJsonObject& object) {
+  write_text(path, QJsonDocument(object).toJson().toStdString());
+}
+
 }  // namespace
 
 CommandFiles files_beside(const QString& project) {
@@ -107,37 +180,19 @@ Shared<MaskWithRegions> load_mask(const QString& path) {
 }
 
 void save_project(const QString& path, const Document& document, const CommandFiles& files) {
-  const DocumentState& state = document.state();
-  const QDir folder = QFileInfo(path).absoluteDir();
-  const auto named = [&](const QString& file) {
-    return folder.relativeFilePath(QFileInfo(file).absoluteFilePath());
-  };
-  save_functions(files.functions, state.functions);
-  if (state.mask) save_mask(files.mask, (*state.mask)->mask);
-  QJsonArray regions;
-  std::vector<std::uint8_t> tags = state.order;
-  if (state.looks.contains(kBackground)) tags.push_back(kBackground);
-  for (const std::uint8_t tag : tags) {
-    const RegionLook& look = state.looks.at(tag);
-    QJsonObject region{
-        {"tag", tag}, {"name", look.name}, {"colour", look.colour.name()}, {"visible", look.is_visible}};
-    if (const auto found = state.covered.find(tag); found != state.covered.end())
-      region["covered"] = text_of(*found->second);
-    regions += region;
-  }
-  QJsonObject object{{kVersionKey, kVersion},
-                     {"capture", named(document.facts()->path)},
-                     {"functions", named(files.functions)},
-                     {"exposes", state.mode == ExposureMode::boxcar ? "interval" : "regions"},
-                     {"start_ns", QString::number(state.boxcar.start_ns)},
-                     {"length_ns", QString::number(state.boxcar.length_ns)},
-                     {"normalize", QString::fromStdString(state.normalization.text())},
-                     {"feather", QString::fromStdString(feather_text(state.feather))},
-                     {"ev", state.brightness_ev},
-                     {"regions", regions}};
-  if (state.mask) object["mask"] = named(files.mask);
-  if (!document.facts()->rate.isEmpty()) object["fps"] = document.facts()->rate;
-  write_text(path, QJsonDocument(object).toJson().toStdString());
+  save_functions(files.functions, document.state().functions);
+  if (document.state().mask) save_mask(files.mask, (*document.state().mask)->mask);
+  write_object(path, object_of(path, document, files));
+}
+
+void keep_project(const QString& path, const Document& document) {
+  write_object(path, whole_object_of(path, document, files_beside(path)));
+}
+
+QString capture_name_in(const QString& path) {
+  QFile file(path);
+  if (!file.open(QIODevice::ReadOnly)) return {};
+  return QFileInfo(QJsonDocument::fromJson(file.readAll())["capture"].toString()).fileName();
 }
 
 Project load_project(const QString& path) {
@@ -164,10 +219,16 @@ Project load_project(const QString& path) {
   project.files = files_beside(path);
   project.files.functions = resolved("functions");
   DocumentState& state = project.state;
-  state.functions = load_functions(project.files.functions);
-  if (object.contains("mask")) {
-    project.files.mask = resolved("mask");
-    state.mask = load_mask(project.files.mask);
+  if (object.contains("mask")) project.files.mask = resolved("mask");
+  if (object.contains(kUnwrittenKey)) {
+    const QJsonObject unwritten = object[kUnwrittenKey].toObject();
+    state.functions =
+        *read_functions(unwritten["functions"].toString().toStdString(), path.toStdString()).functions;
+    if (unwritten.contains("mask"))
+      state.mask = Shared(MaskWithRegions(mask_in(unwritten["mask"].toObject(), path)));
+  } else {
+    state.functions = load_functions(project.files.functions);
+    if (object.contains("mask")) state.mask = load_mask(project.files.mask);
   }
   state.mode = object["exposes"].toString() == "interval" ? ExposureMode::boxcar : ExposureMode::functions;
   state.boxcar = {time_in(object, "start_ns", path), time_in(object, "length_ns", path)};

@@ -26,6 +26,10 @@ inline constexpr const char* kProjectExtension = ".nutik";
 // A project's mask and functions where it names none: beside it.
 [[nodiscard]] CommandFiles files_beside(const QString& project);
 void save_project(const QString& path, const Document& document, const CommandFiles& files);
+// The same in one file, which has functions and mask in it.
+void keep_project(const QString& path, const Document& document);
+// The name of the clip or capture that a project says it is of; empty: none.
+[[nodiscard]] QString capture_name_in(const QString& path);
 // Throws InputError that says what is wrong with which of its files.
 [[nodiscard]] Project load_project(const QString& path);
 
