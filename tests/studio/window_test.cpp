@@ -320,6 +320,79 @@ TEST_F(WindowTest, AsksBeforeItReplacesWhatChangedOutside) {
   EXPECT_NE(test::read_file(scratch_ / "saved.fn"), "M0 [0:1]\n") << window_.notice().text().toStdString();
 }
 
+TEST_F(WindowTest, AsksBeforeItReplacesWhatAProjectMerelyNames) {
+  open_clip();
+  add_region(document());
+  paint_region(document(), rectangle(96, 48, {10, 10}, 20, 20), document().selected_tag(), "Rectangle");
+  save_mask(path("theirs.pgm"), (*document().state().mask)->mask);
+  save_functions(path("theirs.fn"), document().functions());
+  const std::string mask = test::read_file(scratch_ / "theirs.pgm");
+  const std::string functions = test::read_file(scratch_ / "theirs.fn");
+  ASSERT_TRUE(window_.save_project(path("mine.nutik")));
+  std::string project = test::read_file(scratch_ / "mine.nutik");
+  for (const char* name : {"mine.fn", "mine.pgm"}) project.replace(project.find(name), 4, "theirs");
+  scratch_.write("mine.nutik", project);
+  window_.open(path("mine.nutik"));
+  ASSERT_TRUE(settles());
+  document().set_points(0, {{0, 0.25}}, "Move point");
+  const auto save_answering = [&](QMessageBox::StandardButton button) {
+    window_.activateWindow();  // which a desktop does once a question is gone
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+    QString said;
+    answer_next<QMessageBox>([&](QMessageBox& question) {
+      said = question.text();
+      QTest::mouseClick(question.button(button), Qt::LeftButton);
+    });
+    QTest::keyClick(&window_, Qt::Key_S, Qt::ControlModifier);
+    ASSERT_TRUE(is_asked_);
+    EXPECT_TRUE(said.contains("theirs.pgm was not written for this project")) << said.toStdString();
+    EXPECT_TRUE(said.contains("theirs.fn was not written for this project")) << said.toStdString();
+  };
+  ASSERT_NO_FATAL_FAILURE(save_answering(QMessageBox::No));
+  EXPECT_EQ(test::read_file(scratch_ / "theirs.pgm"), mask);
+  EXPECT_EQ(test::read_file(scratch_ / "theirs.fn"), functions);
+  EXPECT_TRUE(window_.isWindowModified());
+  ASSERT_NO_FATAL_FAILURE(save_answering(QMessageBox::Yes));
+  EXPECT_NE(test::read_file(scratch_ / "theirs.fn"), functions);
+  document().set_points(0, {{0, 0.75}}, "Move point");
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  QTest::keyClick(&window_, Qt::Key_S, Qt::ControlModifier);
+  EXPECT_FALSE(window_.isWindowModified()) << "nothing is asked: they are its own now";
+  EXPECT_EQ(load_functions(path("theirs.fn")), document().functions());
+}
+
+TEST_F(WindowTest, ShowsAProjectWhoseSaveWasEndedAsItWasToBe) {
+  open_clip();
+  add_region(document());
+  ASSERT_TRUE(window_.save_project(path("saved.nutik")));
+  document().set_points(0, {{0, 0.25}}, "Move point");
+  const std::string functions = test::read_file(scratch_ / "saved.fn");
+  // As long as the functions cannot be written.
+  std::filesystem::rename(scratch_ / "saved.fn", scratch_ / "away");
+  std::filesystem::create_directory(scratch_ / "saved.fn");
+  EXPECT_FALSE(window_.save_project(path("saved.nutik")));
+  EXPECT_TRUE(window_.notice().text().contains("saved.fn")) << window_.notice().text().toStdString();
+  EXPECT_TRUE(window_.isWindowModified());
+  std::filesystem::remove(scratch_ / "saved.fn");
+  std::filesystem::rename(scratch_ / "away", scratch_ / "saved.fn");
+
+  MainWindow other;
+  other.show();
+  other.open(path("saved.nutik"));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return other.is_settled(); }, kMaxWaitMs));
+  EXPECT_TRUE(other.document().state() == document().state());
+  EXPECT_TRUE(other.notice().text().contains("did not come to its end"))
+      << other.notice().text().toStdString();
+  EXPECT_FALSE(other.has_files());
+  EXPECT_EQ(test::read_file(scratch_ / "saved.fn"), functions) << "opening writes nothing";
+  other.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&other));
+  QTest::keyClick(&other, Qt::Key_S, Qt::ControlModifier);
+  EXPECT_TRUE(other.has_files()) << other.notice().text().toStdString();
+  EXPECT_EQ(load_functions(path("saved.fn")), document().functions());
+}
+
 TEST_F(WindowTest, SaysOnceWhatHappenedToItsFilesOutside) {
   open_clip();
   add_region(document());

@@ -53,12 +53,16 @@ void MainWindow::choose_capture() {
 
 bool MainWindow::save_project(const QString& path) {
   if (document_.facts() == nullptr) return false;
-  const CommandFiles files = path == project_ && !files_.functions.isEmpty() ? files_ : files_beside(path);
-  if (!try_to([&] { nutik::studio::save_project(path, document_, files); })) return false;
+  const CommandFiles files =
+      path == project_ && !files_.functions.isEmpty() ? files_ : free_files_beside(path);
+  const bool is_saved = try_to([&] { nutik::studio::save_project(path, document_, files); });
+  if (is_saved || path == project_) {  // what a save that failed has written is ours as well
+    known_ = times_of({path, files.functions, files.mask});
+    note_capture();
+  }
+  if (!is_saved) return false;
   project_ = path;
   files_ = files;
-  known_ = times_of({path, files.functions, files.mask});
-  note_capture();
   autosave_.begin();
   document_.undo_stack().setClean();
   remember(path);
@@ -69,11 +73,16 @@ bool MainWindow::save_project(const QString& path) {
 bool MainWindow::save() {
   if (project_.isEmpty()) return save_as();
   const QStringList changed = changed_outside();
-  if (!changed.isEmpty() &&
-      QMessageBox::question(
-          this, tr("Changed outside"),
-          tr("These files were changed by another program since they were read:\n%1\nReplace them?")
-              .arg(changed.join('\n'))) != QMessageBox::Yes)
+  QStringList lines;
+  for (const QString& file : changed)
+    lines += tr("%1 was changed by another program since it was read.").arg(file);
+  CommandFiles written = files_;
+  if (!document_.state().mask) written.mask.clear();
+  for (const QString& file : foreign_files(project_, written))
+    if (!changed.contains(file)) lines += tr("%1 was not written for this project.").arg(file);
+  lines += tr("Replace what is there? Save project as… writes new files.");
+  if (lines.size() > 1 &&
+      QMessageBox::question(this, tr("Files of others"), lines.join('\n')) != QMessageBox::Yes)
     return false;
   return save_project(project_);
 }
@@ -149,8 +158,14 @@ bool MainWindow::save_as() {
   QString path = QFileDialog::getSaveFileName(this, tr("Save the project"), suggested(kProjectExtension),
                                               tr("Projects (*%1)").arg(kProjectExtension));
   if (path.isEmpty()) return false;
-  if (!path.endsWith(QLatin1String(kProjectExtension))) path += QLatin1String(kProjectExtension);
-  return save_project(path);
+  if (!path.endsWith(QLatin1String(kProjectExtension))) {
+    path += QLatin1String(kProjectExtension);  // of which the dialog did not know
+    if (QFileInfo::exists(path) &&
+        QMessageBox::question(this, tr("Save the project"),
+                              tr("%1 is there already. Replace it?").arg(path)) != QMessageBox::Yes)
+      return false;
+  }
+  return path == project_ ? save() : save_project(path);
 }
 
 bool MainWindow::may_leave() {

@@ -131,6 +131,7 @@ void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptPro
       origin.kind = Origin::Kind::project;
       origin.project = path;
       origin.files = project.files;
+      origin.is_unwritten = project.is_unwritten;
       origin.known = times_of({path, project.files.functions, project.files.mask});
     }
     open_capture_file(project.capture, project.rate, std::move(origin));
@@ -203,7 +204,12 @@ void MainWindow::take(Opened opened, Origin origin) {
   live_.show(nullptr);
   session_ = opened.session;
   document_.start(std::move(opened.facts), std::move(state));
-  if (origin.kind == Origin::Kind::recovered) document_.undo_stack().resetClean();
+  if (origin.kind == Origin::Kind::recovered || origin.is_unwritten) document_.undo_stack().resetClean();
+  if (origin.is_unwritten && notice_->text().isEmpty())
+    notice_->say(
+        Notice::Kind::note,
+        tr("The project's last save did not come to its end. It is shown as it was to be; its functions "
+           "and mask may be as they were before. Saving it writes them."));
   axis_.set_duration(document_.duration_ns());
   note_capture();
   live_.show(session_);

@@ -44,6 +44,7 @@ struct Origin {
   std::optional<DocumentState> state;  // none: the document starts anew
   std::optional<DocumentState> left;   // what the document was when it was left for this
   std::shared_ptr<const KeptProject> kept = {};  // of Kind::recovered
+  bool is_unwritten = false;                     // of Kind::project: its last save was ended in the middle
 };
 
 class MainWindow : public QMainWindow {

@@ -6,6 +6,7 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QUuid>
 #include <QtEndian>
 #include <algorithm>
 
@@ -16,6 +17,7 @@
 #include "studio/document/texts.hpp"
 #include "studio/regions/covering.hpp"
 #include "studio/regions/region_edits.hpp"
+#include "system/checksum.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::studio {
@@ -25,6 +27,7 @@ constexpr const char* kVersionKey = "nutik-studio";
 constexpr int kVersion = 1;
 // Functions and mask of a project whose files do not hold them.
 constexpr const char* kUnwrittenKey = "unwritten";
+constexpr const char* kIdKey = "id";
 
 void write_text(const QString& path, std::string_view text) {
   OutputFile file(path.toStdString());
@@ -138,9 +141,8 @@ QJsonObject object_of(const QString& path, const Document& document, const Comma
   return object;
 }
 
-// With all that the files hold.
-QJsonObject whole_object_of(const QString& path, const Document& document, const CommandFiles& files) {
-  const DocumentState& state = document.state();
+// What the files are to hold.
+QJsonObject unwritten_object_of(const DocumentState& state) {
   QJsonObject unwritten{{"functions", QString::fromStdString(functions_text(state.functions))}};
   if (state.mask) {
     const Mask& mask = (*state.mask)->mask;
@@ -148,9 +150,24 @@ QJsonObject whole_object_of(const QString& path, const Document& document, const
                                     {"height", static_cast<int>(mask.height)},
                                     {"tags", packed_text(mask.tags)}};
   }
-  QJsonObject object = object_of(path, document, files);
-  object[kUnwrittenKey] = unwritten;
-  return object;
+  return unwritten;
+}
+
+QJsonObject object_in(const QString& path) {
+  QFile file(path);
+  if (!file.open(QIODevice::ReadOnly)) return {};
+  return QJsonDocument::fromJson(file.readAll()).object();
+}
+
+// A random number that was made for the project; empty: it has none.
+QString id_in(const QString& path) { return object_in(path)[kIdKey].toString(); }
+
+// What the project's files carry. A copy under another name has another mark: it does not replace them unasked.
+QString mark_of(const QString& path, const QString& id) {
+  if (id.isEmpty()) return {};
+  const std::string both = format("{} {}", id.toStdString(), QFileInfo(path).fileName().toStdString());
+  return QString::fromStdString(
+      format("of the nutik-studio project {:016x}", checksum(std::string_view(both))));
 }
 
 void write_object(const QString& path, const QJsonObject& object) {
@@ -159,18 +176,37 @@ void write_object(const QString& path, const QJsonObject& object) {
 
 }  // namespace
 
-CommandFiles files_beside(const QString& project) {
+CommandFiles free_files_beside(const QString& project) {
   const QFileInfo info(project);
   const QString stem = info.dir().filePath(info.completeBaseName());
-  return {stem + ".pgm", stem + ".fn"};
+  for (int tried = 1;; ++tried) {
+    const QString name = tried == 1 ? stem : QString("%1-%2").arg(stem).arg(tried);
+    CommandFiles files{name + ".pgm", name + ".fn"};
+    if (foreign_files(project, files).isEmpty()) return files;
+  }
 }
 
-void save_functions(const QString& path, const FunctionSet& functions) {
-  write_text(path, functions_text(functions));
+QStringList foreign_files(const QString& project, const CommandFiles& files) {
+  const QByteArray mark = mark_of(project, id_in(project)).toUtf8();
+  QStringList foreign;
+  for (const QString& path : {files.functions, files.mask}) {
+    if (path.isEmpty() || (!QFileInfo::exists(path) && !QFileInfo(path).isSymLink())) continue;
+    constexpr qint64 kMostBefore = 4096;  // a mark is at the beginning
+    QFile file(path);
+    const bool is_ours =
+        !mark.isEmpty() && file.open(QIODevice::ReadOnly) && file.read(kMostBefore).contains(mark);
+    if (!is_ours) foreign += path;
+  }
+  return foreign;
 }
 
-void save_mask(const QString& path, const Mask& mask) {
-  write_picture(path.toStdString(), mask.to_picture());
+void save_functions(const QString& path, const FunctionSet& functions, const QString& mark) {
+  const std::string comment = mark.isEmpty() ? "" : format("# {}\n", mark.toStdString());
+  write_text(path, comment + functions_text(functions));
+}
+
+void save_mask(const QString& path, const Mask& mask, const QString& mark) {
+  write_picture(path.toStdString(), mask.to_picture(), mark.toStdString());
 }
 
 FunctionSet load_functions(const QString& path) { return *read_function_input(path.toStdString()).functions; }
@@ -180,19 +216,28 @@ Shared<MaskWithRegions> load_mask(const QString& path) {
 }
 
 void save_project(const QString& path, const Document& document, const CommandFiles& files) {
-  save_functions(files.functions, document.state().functions);
-  if (document.state().mask) save_mask(files.mask, (*document.state().mask)->mask);
-  write_object(path, object_of(path, document, files));
+  const QString found = id_in(path);
+  const QString id = found.isEmpty() ? QUuid::createUuid().toString(QUuid::WithoutBraces) : found;
+  const QString mark = mark_of(path, id);
+  QJsonObject object = object_of(path, document, files);
+  object[kIdKey] = id;
+  // All is in one file, and so saved at once. Those beside it follow, and until they have followed they are not asked.
+  QJsonObject whole = object;
+  whole[kUnwrittenKey] = unwritten_object_of(document.state());
+  write_object(path, whole);
+  save_functions(files.functions, document.state().functions, mark);
+  if (document.state().mask) save_mask(files.mask, (*document.state().mask)->mask, mark);
+  write_object(path, object);
 }
 
 void keep_project(const QString& path, const Document& document) {
-  write_object(path, whole_object_of(path, document, files_beside(path)));
+  QJsonObject whole = object_of(path, document, {path, path});  // no files
+  whole[kUnwrittenKey] = unwritten_object_of(document.state());
+  write_object(path, whole);
 }
 
 QString capture_name_in(const QString& path) {
-  QFile file(path);
-  if (!file.open(QIODevice::ReadOnly)) return {};
-  return QFileInfo(QJsonDocument::fromJson(file.readAll())["capture"].toString()).fileName();
+  return QFileInfo(object_in(path)["capture"].toString()).fileName();
 }
 
 Project load_project(const QString& path) {
@@ -216,11 +261,16 @@ Project load_project(const QString& path) {
   Project project;
   project.capture = resolved("capture");
   project.rate = object["fps"].toString();
-  project.files = files_beside(path);
+  const CommandFiles free_files = free_files_beside(path);
+  project.files = free_files;
   project.files.functions = resolved("functions");
   DocumentState& state = project.state;
   if (object.contains("mask")) project.files.mask = resolved("mask");
   if (object.contains(kUnwrittenKey)) {
+    project.is_unwritten = true;
+    // Those that nobody has read are not written wherever a project says.
+    if (!QFileInfo::exists(project.files.functions)) project.files.functions = free_files.functions;
+    if (!QFileInfo::exists(project.files.mask)) project.files.mask = free_files.mask;
     const QJsonObject unwritten = object[kUnwrittenKey].toObject();
     state.functions =
         *read_functions(unwritten["functions"].toString().toStdString(), path.toStdString()).functions;
