@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
   nutik::catch_interruptions();
   nutik::catch_limits();
   nutik::watch_mapped_files();
+  nutik::do_one_work();
   nutik::prepare_for_pocl();
   try {
     const std::vector<std::string> words(argv + 1, argv + argc);

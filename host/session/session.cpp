@@ -45,6 +45,7 @@ class StoppableSource final : public CaptureSource {
     return source_.lent_bytes(block);
   }
   void preload(std::uint64_t block) override { source_.preload(block); }
+  void check_unchanged() const override { source_.check_unchanged(); }
 
  private:
   BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override {

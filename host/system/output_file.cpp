@@ -15,7 +15,6 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "system/mapped_file.hpp"
 #include "system/reused_entries.hpp"
 #include "system/shared_state.hpp"
 
@@ -166,7 +165,7 @@ OutputFile::~OutputFile() {
 
 void OutputFile::fail(const char* what) const {
   const int reason = errno;
-  check_mapped_files();  // what cannot be read cannot be written either
+  check_mapped_files(losses_before_);  // what cannot be read cannot be written either
   errno = reason;
   throw OutputError(format("{} {}: {}", path_.string(), what, std::strerror(errno)));
 }
@@ -223,7 +222,7 @@ void OutputFile::write(std::string_view text) { write(std::as_bytes(std::span(te
 
 void OutputFile::commit() {
   if (lasting_ == Lasting::no) {
-    check_mapped_files();
+    check_mapped_files(losses_before_);
     close(std::exchange(descriptor_, -1));
     return;
   }
@@ -234,7 +233,7 @@ void OutputFile::commit() {
   // Not every file system can; all that can fail to write say so here.
   if (fsync(descriptor_) != 0 && errno != EINVAL) fail("cannot be written");
   // All of it has been read and written by now. It is right, whatever becomes of what it was made of after this.
-  check_mapped_files();
+  check_mapped_files(losses_before_);
   if (rename(temporary_path_.c_str(), path_.c_str()) != 0) fail("cannot be written");
   shared_state().has_kept_output = true;
   make_unknown(known_);
@@ -253,7 +252,7 @@ void OutputFile::keep_name() const {
 }
 
 void OutputFile::send_to_standard_output() {
-  check_mapped_files();
+  check_mapped_files(losses_before_);
   const MappedFile written(temporary_path_);
   for (auto rest = written.bytes(); !rest.empty();) {
     const ssize_t sent = ::write(STDOUT_FILENO, rest.data(), rest.size());

@@ -9,6 +9,8 @@
 #include <span>
 #include <string_view>
 
+#include "system/mapped_file.hpp"
+
 namespace nutik {
 
 // What a signal handler knows of a temporary file.
@@ -50,7 +52,8 @@ class OutputFile {
   void replace(std::uint64_t offset, std::span<const std::byte> bytes);
 
   // Gives the file its name, once it has reached the disk, and the mode of what it replaces, without set-id bits.
-  // Throws InputError where what it was made of was lost (system/mapped_file.hpp).
+  // Throws InputError where a file that is mapped was lost since this began, or, in a process that does one work, since
+  // that did (system/mapped_file.hpp).
   void commit();
 
   // Sends what was written to standard output, and leaves no file behind. Throws as commit() does.
@@ -64,6 +67,7 @@ class OutputFile {
   std::filesystem::path temporary_path_;
   Lasting lasting_;
   std::optional<std::uint32_t> replaced_mode_;
+  MappedLosses losses_before_ = losses_so_far();
   KnownTemporary* known_ = nullptr;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;

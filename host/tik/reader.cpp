@@ -29,7 +29,10 @@ void Reader::check_front() const {
   }
 }
 
-void Reader::fail(const std::string& why) const { throw InputError(nutik::format("{}: {}", name_, why)); }
+void Reader::fail(const std::string& why) const {
+  file_.check();  // what seems damaged may have changed under our hands
+  throw InputError(nutik::format("{}: {}", name_, why));
+}
 
 void Reader::read_footer() {
   const std::span<const std::byte> file = file_.bytes();
@@ -131,6 +134,7 @@ std::span<const std::byte> Reader::first_sample() const {
 }
 
 void Reader::fail_block(std::uint64_t block, const std::string& why) const {
+  file_.check();
   const SampleRange samples = block_extent(block).range();
   throw InputError(
       nutik::format("{}: the block of samples {} to {} ({} to {}) is damaged: {}; other times of the "
@@ -182,7 +186,7 @@ void Reader::check_payload(std::uint64_t block, std::span<const std::byte> paylo
 }
 
 BlockLease Reader::lend(std::uint64_t block, const LeaseTerms& terms) {
-  check_mapped_files();
+  file_.check();
   if (BlockLease preloaded = take_preloaded(block); !preloaded.is_empty()) return preloaded;
   const BlockHeader header = block_header(block);
   if (is_packed(header)) return unpacked(block, header, terms);
