@@ -3,8 +3,8 @@
 
     check_foreign.py --program nutik-cl --libraries FOLDER --work FOLDER
 
-Files, folders and links stand in TMPDIR, in the folder of the outputs and in the working folder, under all names that the
-program ever gave to something temporary: as users' own, or as what a killed process left. Compared are names, bytes,
+Files, folders and links stand in TMPDIR, in the folder of the outputs and in the working folder, under all names that
+the program ever gave to something temporary: as users' own, or as what a killed process left. Compared are names, bytes,
 modes, times, and where links lead. At last programs write one output at a time where locks of files lock nothing, as on
 network file systems: there is what one of them wrote, whole.
 """
@@ -94,7 +94,8 @@ class Bench:
             (place / "nutik-111111").symlink_to("nutik-photos")
             (place / "nutik-222222").symlink_to("absent")
         outputs = sorted({output for _, outputs in COMMANDS for output in outputs.split()})
-        for folder, names in ((self.out, outputs), (self.folder / "tmp", ["nutik-picture.png", "nutik-picture", "capture.tik"])):
+        of_earlier_versions = ["nutik-picture.png", "nutik-picture", "capture.tik"]
+        for folder, names in ((self.out, outputs), (self.folder / "tmp", of_earlier_versions)):
             for name in names:
                 for k, part in enumerate((".nutik.part", ".nutik-1.part", ".nutik-2.part", ".nutik-3.part")):
                     temporary = folder / f".{name}{part}"
@@ -161,7 +162,8 @@ def check_writers(report, bench, library):
             wrong.append("the output is nobody's")
         wrong += [f"{left.name} is left" for left in bench.out.glob(".new.tik.nutik-" + 16 * "?" + ".part")]
     output.unlink()
-    report.hold(not wrong, f"three write one capture, {WRITER_ROUNDS} times" + "".join(f"\n    {each}" for each in wrong[:12]))
+    report.hold(not wrong, f"three write one capture, {WRITER_ROUNDS} times" +
+                "".join(f"\n    {each}" for each in wrong[:12]))
 
 
 def main():
