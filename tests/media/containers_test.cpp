@@ -1,0 +1,153 @@
+// Which of the containers that FFmpeg knows are read, what is believed of them, and what is refused by name.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <sstream>
+
+#include "media/module.hpp"
+#include "media/videos/containers.hpp"
+#include "support/ffmpeg.hpp"
+#include "support/messages.hpp"
+#include "support/stills.hpp"
+
+namespace nutik {
+namespace {
+
+using test::make;
+using test::open_test_clip;
+using test::read_all;
+using test::Scratch;
+
+// A limit that follows from a file's size has a limit itself: FFmpeg's settings are ints.
+TEST(Containers, WithoutASizeAreReadHoweverLargeTheyAre) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  constexpr Shape kShape{352, 288, 1};
+  scratch.write("raw", test::bytes_of(test::random_stills(kShape, 255, 12, 1)));
+  for (const auto& [name, codec] : std::vector<std::pair<std::string, std::string>>{
+           {"a.ts", "-c:v mpeg2video -q:v 1"},
+           {"a.mts", "-c:v libx264 -preset ultrafast -qp 4 -f mpegts"},
+           {"a.m2ts", "-c:v libx264 -preset ultrafast -qp 4 -bf 0"},
+           {"a.mpg", "-c:v mpeg2video -q:v 1"},
+           {"a.m2v", "-c:v mpeg2video -q:v 1"},
+           {"a.h264", "-c:v libx264 -preset ultrafast -qp 4"},
+           {"a.hevc", "-c:v libx265 -preset ultrafast -x265-params qp=4:log-level=none"},
+           {"a.mpeg4", "-c:v mpeg4 -q:v 1 -f m4v"},
+           {"a.h263", "-c:v h263 -q:v 1"},
+           {"a.mjpeg", "-c:v mjpeg -q:v 1 -pix_fmt yuvj420p"},
+           {"a.obu", "-c:v libaom-av1 -cpu-used 8 -crf 1 -row-mt 1"},
+           {"a.drc", "-c:v vc2"},
+           {"a.dv", "-s 720x576 -pix_fmt yuv420p"}}) {
+    SCOPED_TRACE(name);
+    make(scratch, test::from_raw(kShape, "gray") + "-pix_fmt yuv420p " + codec + " " + name);
+    ASSERT_GT(std::filesystem::file_size(scratch / name), 261'000u);
+    ClipOptions options;
+    options.interlaced = Interlaced::ignored;
+    EXPECT_EQ(read_all(*open_test_clip(scratch / name, options)).size(), 12u);
+  }
+}
+
+// What stands in backquotes in that row of SECURITY.md.
+std::set<std::string> listed(const std::string& row) {
+  std::istringstream page(test::read_file(NUTIK_SECURITY_PAGE));
+  std::set<std::string> names;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("| " + row)) continue;
+    for (std::size_t from = line.find('`'); from != std::string::npos;) {
+      const std::size_t to = line.find('`', from + 1);
+      names.insert(line.substr(from + 1, to - from - 1));
+      from = line.find('`', to + 1);
+    }
+  }
+  return names;
+}
+
+TEST(Containers, AreThoseThatTheSecurityPageLists) {
+  std::set<std::string> read, refused;
+  for (const videos::Containers& containers : videos::kContainers)
+    (containers.refusal.empty() ? read : refused).insert(containers.names.begin(), containers.names.end());
+  EXPECT_EQ(listed("containers of FFmpeg that are read"), read);
+  EXPECT_EQ(listed("refused by name"), refused);
+  const std::set<std::string> modules = listed("modules");
+  for (const char* file : {VideoModule::kFile, StillModule::kFile, MotionModule::kFile})
+    EXPECT_TRUE(modules.contains(file)) << file;
+}
+
+// Playlists, and whatever else names files, beside a film that they could show.
+TEST(Containers, ThatNameOtherFilesAreRefused) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25:d=1 -c:v mpeg2video a.ts");
+  EXPECT_EQ(read_all(*open_test_clip(scratch / "a.ts")).size(), 25u);
+  const auto said_of = [&](const std::string& name, const std::string& text) {
+    const auto path = scratch.write(name, text);
+    return test::message_of<InputError>([&] { read_all(*open_test_clip(path)); });
+  };
+  const std::string hls = "#EXTM3U\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\na.ts\n";
+  for (const auto& [name, kind, text] : std::vector<std::tuple<std::string, std::string, std::string>>{
+           {"l.m3u8", "hls", hls},
+           {"self.m3u8", "hls", "#EXTM3U\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\nself.m3u8\n"},
+           {"l.mpd", "dash",
+            "<?xml version=\"1.0\"?>\n<MPD xmlns=\"urn:mpeg:dash:schema:mpd:2011\" type=\"static\" "
+            "profiles=\"urn:mpeg:dash:profile:isoff-on-demand:2011\" "
+            "mediaPresentationDuration=\"PT1S\"><Period><AdaptationSet "
+            "mimeType=\"video/mp4\"><Representation id=\"1\" "
+            "bandwidth=\"1\"><BaseURL>a.ts</BaseURL></Representation></AdaptationSet></Period></MPD>"},
+           {"l.txt", "concat", "ffconcat version 1.0\nfile a.ts\n"},
+           {"holiday.mp4", "concat", "ffconcat version 1.0\nfile a.ts\n"},
+           {"l.sdp", "sdp",
+            "v=0\no=- 0 0 IN IP4 127.0.0.1\ns=x\nc=IN IP4 127.0.0.1\nt=0 0\nm=video 5004 RTP/AVP 96\n"}}) {
+    const std::string said = said_of(name, text);
+    EXPECT_NE(said.find("it is taken for " + kind + " ("), std::string::npos) << name << ": " << said;
+    EXPECT_NE(said.find("names other files"), std::string::npos) << name << ": " << said;
+  }
+  EXPECT_NE(said_of("film.mp4", hls), "");
+}
+
+TEST(Containers, OfWhichTooLittleIsKnownAreRefusedByName) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  std::string numbers;
+  for (int k = 0; k < 3000; ++k) numbers += std::to_string(k) + " ";
+  scratch.write("n.txt", numbers);
+  make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 1 a.fits");
+  make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 1 a.dpx");
+  make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 1 a.webp");
+  make(scratch, "-f lavfi -i sine=duration=1 a.wav");
+  std::string ser = "LUCAM-RECORDER";
+  for (const std::uint32_t number : {0u, 0u, 0u, 8u, 4u, 16u, 1u})
+    ser.append(reinterpret_cast<const char*>(&number), sizeof number);
+  scratch.write("a.ser", ser.append(136 + 64, '\0'));
+  for (const auto& [name, said] : std::vector<std::pair<std::string, std::string>>{
+           {"n.txt", "it is taken for tty (Tele-typewriter), which is text"},
+           {"a.fits", "it is taken for fits (Flexible Image Transport System), which would be stretched"},
+           {"a.dpx", "which is a still picture of a kind that is not read. ffmpeg -i"},
+           {"a.webp", "which is a still picture of a kind that is not read. ffmpeg -i"},
+           {"a.wav", "it is taken for wav (WAV / WAVE (Waveform Audio)), which is not read"},
+           {"a.ser", "which would be read with bytes, depth and times as few of its writers mean them"}}) {
+    test::expect_clip_refused(scratch / name, {}, name + " is no video that can be read: ");
+    test::expect_clip_refused(scratch / name, {}, said);
+  }
+}
+
+// FFmpeg takes what stands before a colon for a protocol.
+TEST(Containers, HaveTheNameThatWasStatedWhateverItLooksLike) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25:d=0.4 -c:v ffv1 part.mkv");
+  make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25:d=0.8 -c:v ffv1 whole.mkv");
+  std::filesystem::rename(scratch / "whole.mkv", scratch / "file:part.mkv");
+  std::filesystem::copy_file(scratch / "part.mkv", scratch / "12:30:01.mkv");
+  const auto in = [&](const std::vector<std::string>& words) {
+    const auto ran = test::run_program(words, scratch.folder());
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    return ran.out;
+  };
+  EXPECT_NE(in({"encode", "file:part.mkv", "a.tik"}).find("20 samples"), std::string::npos);
+  EXPECT_NE(in({"encode", "12:30:01.mkv", "b.tik"}).find("10 samples"), std::string::npos);
+  in({"video", "b.tik", "12:30 film.mkv"});
+  EXPECT_GT(read_all(*open_test_clip(scratch / "12:30 film.mkv")).size(), 5u);
+}
+
+}  // namespace
+}  // namespace nutik
