@@ -17,6 +17,7 @@
 #include "media/still_sequence.hpp"
 #include "media/stills_table.hpp"
 #include "system/input_bytes.hpp"
+#include "system/is_absent.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
@@ -157,8 +158,7 @@ std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOp
     if (is_stills_table(path)) return open_table(path, options);
     if (const auto stills = list_stills(path)) return open_stills(path, *stills, options);
   }
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
+  if (is_absent(path)) {
     throw InputError(format("{} cannot be read: no such file", input_title(path.string())));
   }
   if (options.raw) return open_raw(path, options);

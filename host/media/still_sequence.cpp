@@ -15,6 +15,7 @@
 #include "media/numbered_name.hpp"
 #include "media/stills_table.hpp"
 #include "system/input_bytes.hpp"
+#include "system/is_absent.hpp"
 
 namespace nutik {
 namespace {
@@ -199,7 +200,7 @@ std::optional<std::vector<fs::path>> list_stills(const fs::path& path) {
     for (const ListedStill& still : read_stills_table(path)) files.push_back(still.file);
     return files;
   }
-  if (fs::exists(path, error)) {
+  if (!is_absent(path)) {
     if (!still_kind_of(path).empty()) return std::vector<fs::path>{path};
     return std::nullopt;
   }
@@ -252,7 +253,7 @@ std::string sequence_name(const fs::path& path) {
   if (whole.filename().empty()) whole = whole.parent_path();
   if (fs::is_directory(path, error)) return whole.filename().string();
   std::string name = path.stem().string();
-  if (fs::exists(path, error)) return name;
+  if (!is_absent(path)) return name;
   if (const auto numbered = NumberedName::parse(path.filename().string())) {
     name = numbered->before;
   } else if (is_glob(name)) {

@@ -5,11 +5,13 @@
 //   NUTIK_FAIL_FOLDER   calls count whose file lies in it; of memory those of a mebibyte and more
 //   NUTIK_CUT_FILE      a file that somebody else makes shorter at the same time ...
 //   NUTIK_CUT_AT        ... as the first call of this kind, fsync or rename, has been made
+//   NUTIK_NO_LOCKS      locks of files are given to everybody, as on file systems that keep them on each machine
 //
 // Calls that the C library makes of its own are not seen.
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
@@ -85,6 +87,7 @@ constinit Next<ssize_t(int, const void*, std::size_t, off64_t)> next_pwrite64{"p
 constinit Next<ssize_t(int, void*, std::size_t, off64_t)> next_pread{"pread"};
 constinit Next<ssize_t(int, const void*, std::size_t, off64_t)> next_pwrite{"pwrite"};
 constinit Next<int(int)> next_fsync{"fsync"};
+constinit Next<int(int, int)> next_flock{"flock"};
 constinit Next<int(const char*, const char*)> next_rename{"rename"};
 constinit Next<void*(void*, std::size_t, int, int, int, off64_t)> next_mmap64{"mmap64"};
 constinit Next<void*(void*, std::size_t, std::size_t, int, ...)> next_mremap{"mremap"};
@@ -94,7 +97,7 @@ constinit Next<int(void**, std::size_t, std::size_t)> next_posix_memalign{"posix
 [[gnu::constructor]] void find_all() {
   const auto find = [](auto&... each) { (each.get(), ...); };
   find(next_open, next_open64, next_fopen, next_fopen64, next_read, next_pread64, next_write, next_writev,
-       next_pwrite64, next_pread, next_pwrite, next_fsync, next_rename, next_mmap64, next_mremap,
+       next_pwrite64, next_pread, next_pwrite, next_fsync, next_flock, next_rename, next_mmap64, next_mremap,
        next_posix_memalign);
 }
 
@@ -183,6 +186,11 @@ int fsync(int descriptor) {
   const int result = lies_in_folder(descriptor) && fails("fsync") ? -1 : next_fsync.get()(descriptor);
   cut_at("fsync");
   return result;
+}
+
+int flock(int descriptor, int operation) noexcept {
+  static const bool are_everybodys = std::getenv("NUTIK_NO_LOCKS") != nullptr;
+  return are_everybodys ? 0 : next_flock.get()(descriptor, operation);
 }
 
 int rename(const char* from, const char* to) noexcept {

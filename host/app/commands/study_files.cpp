@@ -11,6 +11,7 @@
 #include "session/text/shell_text.hpp"
 #include "system/checksum.hpp"
 #include "system/input_bytes.hpp"
+#include "system/is_absent.hpp"
 #include "system/mapped_file.hpp"
 #include "system/output_file.hpp"
 
@@ -112,7 +113,7 @@ void StudyFiles::check(std::span<const std::string> inputs) const {
       throw UsageError(
           format("{} is also an input; it is not replaced. Choose another name for the picture", name));
     }
-    if (!std::filesystem::exists(*file, error)) continue;
+    if (is_absent(*file)) continue;
     if (!std::filesystem::is_regular_file(*file, error) || !noted.knows(*file)) {
       throw UsageError(format(
           "{} exists and is of no study; it is not replaced. Choose another name for the picture", name));
@@ -125,7 +126,7 @@ void StudyFiles::check(std::span<const std::string> inputs) const {
     }
   }
   const std::filesystem::path other = picture.parent_path() / noted.picture;
-  if (!noted.picture.empty() && noted.picture != name_of(picture) && std::filesystem::exists(other, error)) {
+  if (!noted.picture.empty() && noted.picture != name_of(picture) && !is_absent(other)) {
     throw UsageError(
         format("{}, {} and {} are those of {}; they are not replaced. Choose another name for the picture",
                mask.string(), functions.string(), commands.string(), other.string()));
