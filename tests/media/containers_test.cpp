@@ -149,5 +149,53 @@ TEST(Containers, HaveTheNameThatWasStatedWhateverItLooksLike) {
   EXPECT_GT(read_all(*open_test_clip(scratch / "12:30 film.mkv")).size(), 5u);
 }
 
+// FFmpeg makes 25 a second of nothing.
+TEST(Containers, WhoseRateNobodyStatesNeedOne) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const std::string film = "-f lavfi -i testsrc2=s=64x48:r=50 -frames:v 6 ";
+  const std::string untold = " does not say how fast it was taken; state the rate";
+  const auto expect_untold = [&](const std::string& name, const std::string& said) {
+    SCOPED_TRACE(name);
+    test::expect_clip_refused(scratch / name, {}, name + said);
+    ClipOptions stated;
+    stated.rate = Rational{240, 1};
+    const auto clip = open_test_clip(scratch / name, stated);
+    EXPECT_GT(read_all(*clip).size(), 0u);
+    EXPECT_EQ(timeline_of(name, clip->info(), stated, {360, 1}, 6).rate(), (Rational{240, 1}));
+  };
+  const std::string vui = film + "-c:v libx264 -preset ultrafast -bsf:v h264_metadata=tick_rate=";
+  make(scratch, film + "-c:v libx264 -preset ultrafast t.h264");
+  std::string y4m = "YUV4MPEG2 W4 H2 Ip Cmono\n";
+  for (int k = 0; k < 6; ++k) y4m += "FRAME\n01234567";
+  scratch.write("b.y4m", y4m);
+  scratch.write("c.y4m", y4m.insert(y4m.find(" Ip"), " F0:0"));
+  make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p a.mjpeg");
+  make(scratch, film + "-frames:v 1 a.bmp");
+  make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p -f mpjpeg a.mpjpeg");
+  make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p told.avi");
+  std::string avi = test::read_file(scratch / "told.avi");
+  avi.replace(avi.find("avih") + 8, 4, 4, '\0');
+  avi.replace(avi.find("strh") + 28, 8, 8, '\0');
+  scratch.write("a.avi", avi);
+  make(scratch, film + "told.gif");
+  std::string gif = test::read_file(scratch / "told.gif");
+  const std::string control = "\x21\xF9\x04";
+  for (auto at = gif.find(control); at != gif.npos; at = gif.find(control, at + 1))
+    gif.replace(at + 4, 2, 2, '\0');
+  scratch.write("a.gif", gif);
+  for (const char* name : {"b.y4m", "c.y4m", "a.mjpeg", "a.bmp", "a.mpjpeg", "a.avi", "a.gif"})
+    expect_untold(name, untold);
+  for (const char* ticks : {"2000000", "180000"}) {
+    const std::string name = std::string(ticks) + ".h264";
+    make(scratch, vui + ticks + " " + name);
+    expect_untold(name, " does not say how fast it was taken: its header states ");
+  }
+  for (const char* name : {"told.avi", "told.gif", "t.h264"}) {
+    const auto rate = open_test_clip(scratch / name)->info().timing.rate;
+    EXPECT_EQ(rate, (Rational{50, 1})) << name << " has " << (rate ? rate->text() : "no rate");
+  }
+}
+
 }  // namespace
 }  // namespace nutik

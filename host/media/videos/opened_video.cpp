@@ -81,7 +81,11 @@ OpenedVideo open_video(const std::filesystem::path& path, const std::optional<Ra
   int code = avio_open(&context->pb, url_of(path).c_str(), AVIO_FLAG_READ);
   if (code < 0) throw InputError(format("{} cannot be read: {}", title, error_text(code)));
   const AVInputFormat& kind = raw ? *av_find_input_format("rawvideo") : kind_of(*context->pb, path);
+  // Settings that a container's reader does not have are left out.
   AVDictionary* settings = nullptr;
+  av_dict_set(&settings, "framerate", format("{}/{}", kUnstatedRate.num, kUnstatedRate.den).c_str(), 0);
+  av_dict_set(&settings, "min_delay", "1", 0);  // hundredths of a second, of a GIF's picture; less is not stated
+  av_dict_set_int(&settings, "default_delay", kUnstatedDelay, 0);
   if (raw) {
     av_dict_set(&settings, "video_size", format("{}x{}", raw->width, raw->height).c_str(), 0);
     av_dict_set(&settings, "pixel_format", raw->pixel_format.c_str(), 0);

@@ -11,6 +11,7 @@
 #include "media/videos/phantom_packing.hpp"
 #include "media/videos/picture_decoder.hpp"
 #include "media/videos/picture_times.hpp"
+#include "system/mapped_file.hpp"
 
 namespace nutik::videos {
 namespace {
@@ -229,6 +230,12 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.stream = opened.stream;
   result.shape = {static_cast<std::uint32_t>(codec.width), static_cast<std::uint32_t>(codec.height), 3};
   result.pixels = pixel_kind(codec, input_title(path.string()));
+  if (!raw && is_mosaic(static_cast<AVPixelFormat>(codec.format))) {
+    throw InputError(
+        format("{} holds the mosaic of a colour sensor, whose black, white and colours are not known here: save what "
+               "the camera's program makes of it, 16-bit TIFFs for example, or DNGs, which are developed",
+               input_title(path.string())));
+  }
   result.pixel_format = static_cast<AVPixelFormat>(codec.format);
   result.upright = upright(stream);
   const unsigned curve = number_of(codec.color_trc), matrix = number_of(codec.color_space),
@@ -302,8 +309,12 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   if (auto note = cut_picture_note(*opened.format, last_byte, packets.size())) {
     result.notes.emplace_back(std::move(*note));
   }
-  result.timing = timing_of(*opened.format, stream, picture_times(path, opened, packets, result),
-                            input_title(path.string()));
+  const std::vector<std::int64_t> times = picture_times(path, opened, packets, result);
+  if (auto doubt = doubt_about_rate(*opened.format, stream, MappedFile(path).bytes())) {
+    result.timing.rate_doubt = std::move(*doubt);
+  } else {
+    result.timing = timing_of(*opened.format, stream, times, input_title(path.string()));
+  }
   if (cine) add_cine_header(*cine, opened, input_title(path.string()), result);
   if (const auto filmed = capture_rate(*opened.format, path, result.notes)) {
     apply_capture_rate(*filmed, result.timing, result.notes);
