@@ -9,6 +9,7 @@
 #include "support/ffmpeg.hpp"
 #include "support/messages.hpp"
 #include "support/stills.hpp"
+#include "system/mapped_file.hpp"
 
 namespace nutik {
 namespace {
@@ -194,6 +195,95 @@ TEST(Containers, WhoseRateNobodyStatesNeedOne) {
   for (const char* name : {"told.avi", "told.gif", "t.h264"}) {
     const auto rate = open_test_clip(scratch / name)->info().timing.rate;
     EXPECT_EQ(rate, (Rational{50, 1})) << name << " has " << (rate ? rate->text() : "no rate");
+  }
+}
+
+// Of a file whose edit list has one part: bytes behind it, and the speed of the first.
+std::string with_edits(std::string file, const std::string& more, const std::string& speed) {
+  const auto add = [&](std::size_t at, std::size_t count) {
+    std::uint32_t number = 0;
+    for (std::size_t i = 0; i < 4; ++i) number = number << 8 | static_cast<std::uint8_t>(file[at + i]);
+    number += static_cast<std::uint32_t>(count);
+    for (std::size_t i = 0; i < 4; ++i) file[at + i] = static_cast<char>(number >> (24 - 8 * i));
+  };
+  const std::size_t list = file.find("elst");
+  file.replace(list + 20, 4, speed);
+  file.insert(list + 24, more);
+  for (const char* box : {"moov", "trak", "edts", "elst"}) add(file.find(box) - 4, more.size());
+  add(list + 8, more.size() / 12);
+  return file;
+}
+
+TEST(Containers, WithAnEditListGivePicturesOnceInTheirOrder) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  make(scratch,
+       "-f lavfi -i testsrc2=s=64x48:r=100 -frames:v 20 -c:v libx264 -bf 0 -pix_fmt yuv420p whole.mp4");
+  const std::string whole = test::read_file(scratch / "whole.mp4");
+  const auto plain = open_test_clip(scratch / "whole.mp4");
+  EXPECT_TRUE(plain->info().notes.empty());
+  const auto pictures = read_all(*plain);
+  ASSERT_EQ(pictures.size(), 20u);
+  const std::string normal("\0\1\0\0", 4), quarter("\0\0\x40\0", 4);
+  const std::string again = std::string("\0\0\0\xC8\0\0\0\0", 8) + normal;
+  for (const std::string& edited : {with_edits(whole, again, normal), with_edits(whole, "", quarter)}) {
+    const auto clip = open_test_clip(scratch.write("edited.mp4", edited));
+    EXPECT_TRUE(read_all(*clip) == pictures);
+    EXPECT_EQ(clip->info().timing.rate, (Rational{100, 1}));
+    ASSERT_EQ(clip->info().notes.size(), 1u);
+    EXPECT_NE(clip->info().notes[0].text.find("edit list"), std::string::npos);
+  }
+}
+
+TEST(Containers, NameWhatIsMissingOrNotKnown) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const std::string film = "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 5 -pix_fmt ";
+  make(scratch, film + "yuv420p -c:v libx264 a.mp4");
+  const std::string whole = test::read_file(scratch / "a.mp4");
+  test::expect_clip_refused(scratch.write("b.mp4", whole.substr(0, whole.find("moov") - 4)), {},
+                            "its index (moov) is missing");
+  make(scratch, film + "gray -c:v rawvideo a.avi");
+  std::string avi = test::read_file(scratch / "a.avi");
+  for (auto at = avi.find("Y800"); at != avi.npos; at = avi.find("Y800", at)) avi.replace(at, 4, "BA81");
+  test::expect_clip_refused(scratch.write("b.avi", avi), {}, "which the file calls 'BA81'");
+  make(scratch, "-i a.mp4 -i a.mp4 -map 0 -map 1 -c copy two.mkv");
+  const auto notes = open_test_clip(scratch / "two.mkv")->info().notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0].text.find("the file has 2 streams of pictures, and stream 0 is taken"), 0u)
+      << notes[0].text;
+}
+
+// What was lost is a warning, which is said also where notes are not.
+TEST(Containers, ThatWereCutOffWarn) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const std::string film = "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 20 ";
+  for (const auto& [name, codec] :
+       std::vector<std::pair<std::string, std::string>>{{"a.mkv", "-c:v ffv1"},
+                                                        {"a.gif", ""},
+                                                        {"a.y4m", "-pix_fmt yuv420p"},
+                                                        {"live.mkv", "-c:v mjpeg -live 1"}}) {
+    SCOPED_TRACE(name);
+    make(scratch, film + codec + " " + name);
+    EXPECT_TRUE(open_test_clip(scratch / name)->info().notes.empty());
+    const std::string whole = test::read_file(scratch / name);
+    const auto cut = open_test_clip(scratch.write("cut-" + name, whole.substr(0, whole.size() * 2 / 3)));
+    ASSERT_FALSE(cut->info().notes.empty());
+    EXPECT_TRUE(cut->info().notes[0].is_warning) << cut->info().notes[0].text;
+  }
+}
+
+// As of a capture: what was made of a file that changed meanwhile is not used.
+TEST(Containers, ThatAreMadeShorterWhileTheyAreReadAreNoticed) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 20 -c:v ffv1 a.mkv");
+  {
+    const auto clip = open_test_clip(scratch / "a.mkv");
+    EXPECT_NO_THROW(check_mapped_files());
+    std::filesystem::resize_file(scratch / "a.mkv", 3000);
+    EXPECT_THROW(check_mapped_files(), InputError);
   }
 }
 

@@ -114,6 +114,14 @@ std::uint32_t PixelKind::white_code() const {
 PixelKind pixel_kind(const AVCodecParameters& codec, const std::string& name) {
   const AVPixFmtDescriptor* pixels = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(codec.format));
   if (pixels == nullptr || codec.width <= 0 || codec.height <= 0) {
+    if (codec.codec_id == AV_CODEC_ID_NONE && codec.codec_tag != 0) {
+      char tag[AV_FOURCC_MAX_STRING_SIZE];
+      throw InputError(
+          format("{}: no decoder here knows its pictures, which the file calls '{}': save them from the camera's "
+                 "program as 16-bit TIFFs, or uncompressed under a name that FFmpeg knows (Y800 for grey of 8 bits)",
+                 name, av_fourcc_make_string(tag, codec.codec_tag)),
+          {Setting::raw_layout});
+    }
     throw InputError(
         format("{}: no decoder here knows its pictures; a video without a header has to be described", name),
         {Setting::raw_layout});
