@@ -307,7 +307,9 @@ Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOp
                      Rational shutter_angle, std::uint64_t sample_count) {
   if (options.rate) return Timeline::constant(*options.rate, shutter_angle, sample_count);
   if (!info.timing.is_known()) {
-    throw InputError(format("{} does not say how fast it was taken; state the rate", name),
+    const std::string& doubt = info.timing.rate_doubt;
+    throw InputError(format("{} does not say how fast it was taken{}{}; state the rate", name,
+                            doubt.empty() ? "" : ": ", doubt),
                      {Setting::frame_rate});
   }
   if (info.timing.rate) {

@@ -9,6 +9,7 @@
 #include "support/ffmpeg.hpp"
 #include "support/messages.hpp"
 #include "support/stills.hpp"
+#include "system/mapped_file.hpp"
 
 namespace nutik {
 namespace {
@@ -147,6 +148,143 @@ TEST(Containers, HaveTheNameThatWasStatedWhateverItLooksLike) {
   EXPECT_NE(in({"encode", "12:30:01.mkv", "b.tik"}).find("10 samples"), std::string::npos);
   in({"video", "b.tik", "12:30 film.mkv"});
   EXPECT_GT(read_all(*open_test_clip(scratch / "12:30 film.mkv")).size(), 5u);
+}
+
+// FFmpeg makes 25 a second of nothing.
+TEST(Containers, WhoseRateNobodyStatesNeedOne) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const std::string film = "-f lavfi -i testsrc2=s=64x48:r=50 -frames:v 6 ";
+  const std::string untold = " does not say how fast it was taken; state the rate";
+  const auto expect_untold = [&](const std::string& name, const std::string& said) {
+    SCOPED_TRACE(name);
+    test::expect_clip_refused(scratch / name, {}, name + said);
+    ClipOptions stated;
+    stated.rate = Rational{240, 1};
+    const auto clip = open_test_clip(scratch / name, stated);
+    EXPECT_GT(read_all(*clip).size(), 0u);
+    EXPECT_EQ(timeline_of(name, clip->info(), stated, {360, 1}, 6).rate(), (Rational{240, 1}));
+  };
+  const std::string vui = film + "-c:v libx264 -preset ultrafast -bsf:v h264_metadata=tick_rate=";
+  make(scratch, film + "-c:v libx264 -preset ultrafast t.h264");
+  std::string y4m = "YUV4MPEG2 W4 H2 Ip Cmono\n";
+  for (int k = 0; k < 6; ++k) y4m += "FRAME\n01234567";
+  scratch.write("b.y4m", y4m);
+  scratch.write("c.y4m", y4m.insert(y4m.find(" Ip"), " F0:0"));
+  make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p a.mjpeg");
+  make(scratch, film + "-frames:v 1 a.bmp");
+  make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p -f mpjpeg a.mpjpeg");
+  make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p told.avi");
+  std::string avi = test::read_file(scratch / "told.avi");
+  avi.replace(avi.find("avih") + 8, 4, 4, '\0');
+  avi.replace(avi.find("strh") + 28, 8, 8, '\0');
+  scratch.write("a.avi", avi);
+  make(scratch, film + "told.gif");
+  std::string gif = test::read_file(scratch / "told.gif");
+  const std::string control = "\x21\xF9\x04";
+  for (auto at = gif.find(control); at != gif.npos; at = gif.find(control, at + 1))
+    gif.replace(at + 4, 2, 2, '\0');
+  scratch.write("a.gif", gif);
+  for (const char* name : {"b.y4m", "c.y4m", "a.mjpeg", "a.bmp", "a.mpjpeg", "a.avi", "a.gif"})
+    expect_untold(name, untold);
+  for (const char* ticks : {"2000000", "180000"}) {
+    const std::string name = std::string(ticks) + ".h264";
+    make(scratch, vui + ticks + " " + name);
+    expect_untold(name, " does not say how fast it was taken: its header states ");
+  }
+  for (const char* name : {"told.avi", "told.gif", "t.h264"}) {
+    const auto rate = open_test_clip(scratch / name)->info().timing.rate;
+    EXPECT_EQ(rate, (Rational{50, 1})) << name << " has " << (rate ? rate->text() : "no rate");
+  }
+}
+
+// Of a file whose edit list has one part: bytes behind it, and the speed of the first.
+std::string with_edits(std::string file, const std::string& more, const std::string& speed) {
+  const auto add = [&](std::size_t at, std::size_t count) {
+    std::uint32_t number = 0;
+    for (std::size_t i = 0; i < 4; ++i) number = number << 8 | static_cast<std::uint8_t>(file[at + i]);
+    number += static_cast<std::uint32_t>(count);
+    for (std::size_t i = 0; i < 4; ++i) file[at + i] = static_cast<char>(number >> (24 - 8 * i));
+  };
+  const std::size_t list = file.find("elst");
+  file.replace(list + 20, 4, speed);
+  file.insert(list + 24, more);
+  for (const char* box : {"moov", "trak", "edts", "elst"}) add(file.find(box) - 4, more.size());
+  add(list + 8, more.size() / 12);
+  return file;
+}
+
+TEST(Containers, WithAnEditListGivePicturesOnceInTheirOrder) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  make(scratch,
+       "-f lavfi -i testsrc2=s=64x48:r=100 -frames:v 20 -c:v libx264 -bf 0 -pix_fmt yuv420p whole.mp4");
+  const std::string whole = test::read_file(scratch / "whole.mp4");
+  const auto plain = open_test_clip(scratch / "whole.mp4");
+  EXPECT_TRUE(plain->info().notes.empty());
+  const auto pictures = read_all(*plain);
+  ASSERT_EQ(pictures.size(), 20u);
+  const std::string normal("\0\1\0\0", 4), quarter("\0\0\x40\0", 4);
+  const std::string again = std::string("\0\0\0\xC8\0\0\0\0", 8) + normal;
+  for (const std::string& edited : {with_edits(whole, again, normal), with_edits(whole, "", quarter)}) {
+    const auto clip = open_test_clip(scratch.write("edited.mp4", edited));
+    EXPECT_TRUE(read_all(*clip) == pictures);
+    EXPECT_EQ(clip->info().timing.rate, (Rational{100, 1}));
+    ASSERT_EQ(clip->info().notes.size(), 1u);
+    EXPECT_NE(clip->info().notes[0].text.find("edit list"), std::string::npos);
+  }
+}
+
+TEST(Containers, NameWhatIsMissingOrNotKnown) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const std::string film = "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 5 -pix_fmt ";
+  make(scratch, film + "yuv420p -c:v libx264 a.mp4");
+  const std::string whole = test::read_file(scratch / "a.mp4");
+  test::expect_clip_refused(scratch.write("b.mp4", whole.substr(0, whole.find("moov") - 4)), {},
+                            "its index (moov) is missing");
+  make(scratch, film + "gray -c:v rawvideo a.avi");
+  std::string avi = test::read_file(scratch / "a.avi");
+  for (auto at = avi.find("Y800"); at != avi.npos; at = avi.find("Y800", at)) avi.replace(at, 4, "BA81");
+  test::expect_clip_refused(scratch.write("b.avi", avi), {}, "which the file calls 'BA81'");
+  make(scratch, "-i a.mp4 -i a.mp4 -map 0 -map 1 -c copy two.mkv");
+  const auto notes = open_test_clip(scratch / "two.mkv")->info().notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0].text.find("the file has 2 streams of pictures, and stream 0 is taken"), 0u)
+      << notes[0].text;
+}
+
+// What was lost is a warning, which is said also where notes are not.
+TEST(Containers, ThatWereCutOffWarn) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const std::string film = "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 20 ";
+  for (const auto& [name, codec] :
+       std::vector<std::pair<std::string, std::string>>{{"a.mkv", "-c:v ffv1"},
+                                                        {"a.gif", ""},
+                                                        {"a.y4m", "-pix_fmt yuv420p"},
+                                                        {"live.mkv", "-c:v mjpeg -live 1"}}) {
+    SCOPED_TRACE(name);
+    make(scratch, film + codec + " " + name);
+    EXPECT_TRUE(open_test_clip(scratch / name)->info().notes.empty());
+    const std::string whole = test::read_file(scratch / name);
+    const auto cut = open_test_clip(scratch.write("cut-" + name, whole.substr(0, whole.size() * 2 / 3)));
+    ASSERT_FALSE(cut->info().notes.empty());
+    EXPECT_TRUE(cut->info().notes[0].is_warning) << cut->info().notes[0].text;
+  }
+}
+
+// As of a capture: what was made of a file that changed meanwhile is not used.
+TEST(Containers, ThatAreMadeShorterWhileTheyAreReadAreNoticed) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 20 -c:v ffv1 a.mkv");
+  {
+    const auto clip = open_test_clip(scratch / "a.mkv");
+    EXPECT_NO_THROW(check_mapped_files());
+    std::filesystem::resize_file(scratch / "a.mkv", 3000);
+    EXPECT_THROW(check_mapped_files(), InputError);
+  }
 }
 
 }  // namespace

@@ -57,7 +57,15 @@ void Answer::tell_source(const std::vector<Fact>& facts, const std::vector<Note>
   source = fact_lines(facts);
   for (const Fact& fact : facts)
     json["facts"].push_back({{"fact", fact.line()}, {"option", option_of(fact.setting)}});
-  std::ranges::move(note_texts(more), std::back_inserter(notes));
+  for (const Note& note : more) {
+    std::string text = note_texts({note}).front();
+    if (note.is_warning) {
+      print_warning(text);
+      json["warnings"].push_back(text);
+    } else {
+      notes.push_back(std::move(text));
+    }
+  }
 }
 
 void Answer::tell_source(const Session& session) {

@@ -20,14 +20,15 @@ inline constexpr std::string_view kFilms[] = {
     "mpegts", "mpegvideo", "mxf", "nut",  "ogg", "rm",  "smjpeg", "vc1test", "wtv", "yuv4mpegpipe"};
 // Of several names each.
 inline constexpr std::string_view kFamilies[] = {"matroska,webm", "mov,mp4,m4a,3gp,3g2,mj2"};
-// Pictures one behind the other, without a container.
-inline constexpr std::string_view kStreams[] = {"av1",        "avs2", "avs3", "cavsvideo", "dirac",
-                                                "dnxhd",      "h264", "hevc", "m4v",       "mjpeg",
-                                                "mjpeg_2000", "obu",  "vc1"};
-// The same, and stills as pipes carry them. The floating point of OpenEXR is refused with its own way out.
-inline constexpr std::string_view kUntimed[] = {"bmp_pipe",  "exr_pipe", "h261",     "h263",
-                                                "jpeg_pipe", "mpjpeg",   "pam_pipe", "pbm_pipe",
-                                                "pgm_pipe",  "png_pipe", "ppm_pipe", "rawvideo"};
+// Pictures one behind the other, which may say how fast they follow each other; stills, as pipes carry them, do not. The
+// floating point of OpenEXR is refused with its own way out.
+inline constexpr std::string_view kStreams[] = {"av1",        "avs2", "avs3",     "cavsvideo", "dirac",
+                                                "dnxhd",      "h264", "hevc",     "m4v",       "mjpeg",
+                                                "mjpeg_2000", "obu",  "rawvideo", "vc1"};
+inline constexpr std::string_view kPipes[] = {"bmp_pipe", "exr_pipe", "jpeg_pipe", "pam_pipe",
+                                              "pbm_pipe", "pgm_pipe", "png_pipe",  "ppm_pipe"};
+// None of these says it, and FFmpeg makes up a rate.
+inline constexpr std::string_view kUntimed[] = {"h261", "h263", "mpjpeg"};
 inline constexpr std::string_view kPlaylists[] = {"concat", "dash", "hls", "imf", "sdp", "vobsub"};
 inline constexpr std::string_view kTexts[] = {"adf", "bin", "idf", "tty", "xbin"};
 inline constexpr std::string_view kStills[] = {"dpx_pipe",    "ico",      "j2k_pipe",  "jpegls_pipe",
@@ -38,6 +39,7 @@ inline constexpr Containers kContainers[] = {
     {kFilms},
     {kFamilies},
     {kStreams},
+    {kPipes},
     {kUntimed},
     {kPlaylists,
      "names other files, and none is opened that you did not name. ffmpeg -i LIST -c copy film.mkv makes one "

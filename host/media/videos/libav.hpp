@@ -113,6 +113,10 @@ struct OpenedVideo {
   int stream = 0;
 };
 
+// What FFmpeg is told to take where a stream does not say how fast its pictures follow each other: nobody films so.
+inline constexpr AVRational kUnstatedRate{104'729, 3571};
+inline constexpr int kUnstatedDelay = 997;  // hundredths of a second, of a GIF
+
 // The name's own file, whatever the name looks like: FFmpeg takes what stands before a colon for a protocol.
 inline std::string url_of(const std::filesystem::path& path) { return "file:" + path.string(); }
 

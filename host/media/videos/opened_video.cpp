@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "media/videos/capture_rate.hpp"
 #include "media/videos/containers.hpp"
 #include "media/videos/libav.hpp"
 
@@ -81,7 +82,12 @@ OpenedVideo open_video(const std::filesystem::path& path, const std::optional<Ra
   int code = avio_open(&context->pb, url_of(path).c_str(), AVIO_FLAG_READ);
   if (code < 0) throw InputError(format("{} cannot be read: {}", title, error_text(code)));
   const AVInputFormat& kind = raw ? *av_find_input_format("rawvideo") : kind_of(*context->pb, path);
+  // Settings that a container's reader does not have are left out.
   AVDictionary* settings = nullptr;
+  av_dict_set(&settings, "framerate", format("{}/{}", kUnstatedRate.num, kUnstatedRate.den).c_str(), 0);
+  if (has_edits(path)) av_dict_set(&settings, "ignore_editlist", "1", 0);
+  av_dict_set(&settings, "min_delay", "1", 0);  // hundredths of a second, of a GIF's picture; less is not stated
+  av_dict_set_int(&settings, "default_delay", kUnstatedDelay, 0);
   if (raw) {
     av_dict_set(&settings, "video_size", format("{}x{}", raw->width, raw->height).c_str(), 0);
     av_dict_set(&settings, "pixel_format", raw->pixel_format.c_str(), 0);
@@ -92,6 +98,12 @@ OpenedVideo open_video(const std::filesystem::path& path, const std::optional<Ra
   av_dict_free(&settings);
   if (code < 0) {
     avio_closep(&bytes);
+    if (opened.log->said().value_or("").find("moov atom not found") != std::string::npos) {
+      throw InputError(
+          format("{} cannot be read: its index (moov) is missing, which cameras write when a recording ends; "
+                 "programs that repair such files make it anew from another recording of the same camera",
+                 title));
+    }
     throw InputError(
         format("{} is no video that can be read: {}; a video without a header has to be described", title,
                error_text(code)),
