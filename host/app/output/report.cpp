@@ -132,6 +132,11 @@ void ExposureTally::end(Answer& answer, Session& session, bool verbose, const st
 
 std::vector<std::string> exposure_warnings(const ExposedPicture& exposed) {
   std::vector<std::string> warnings = exposed.warnings;
+  const std::uint64_t pixels = exposed.picture.shape.pixel_count();
+  if (holds_codes(exposed.output.type) && exposed.saturation.above == pixels) {
+    warnings.push_back("every pixel comes out white: all light is above 1; --normalize integral, --gain or --ev makes it "
+                       "less, an .exr or a .tif with --depth float keeps it");
+  }
   if (!holds_codes(exposed.output.type) || exposed.output.negative != NegativeLight::saturate)
     return warnings;
   // Light below 0 is black in a picture of codes: a still scene under a negative still gain disappears.
@@ -143,6 +148,8 @@ std::vector<std::string> exposure_warnings(const ExposedPicture& exposed) {
                "offset shows light below 0, an .exr or a .tif with --depth float keeps it",
                function.tag, still_gain));
   }
+  if (exposed.saturation.below == pixels && warnings.size() == exposed.warnings.size())
+    warnings.push_back("every pixel comes out black: all light is below 0");
   return warnings;
 }
 
