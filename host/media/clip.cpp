@@ -10,6 +10,7 @@
 #include "capture/seconds_text.hpp"
 #include "media/clip_part.hpp"
 #include "media/event_clip.hpp"
+#include "media/file_kinds.hpp"
 #include "media/module.hpp"
 #include "media/photron_clip.hpp"
 #include "media/photron_header.hpp"
@@ -150,6 +151,7 @@ void refuse_event_options(const std::filesystem::path& path, const EventOptions&
 
 // All of it, as its files have it.
 std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOptions& options) {
+  if (!options.raw) refuse_unread_kind(path);
   const bool holds_events = !options.raw && is_event_recording(path);
   if (holds_events) return open_event_clip(path, options);
   refuse_event_options(path, options.events);
@@ -162,7 +164,9 @@ std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOp
     throw InputError(format("{} cannot be read: no such file", input_title(path.string())));
   }
   if (options.raw) return open_raw(path, options);
-  return is_photron_clip(path) ? open_photron_clip(path, options) : video_module().open(path, options);
+  if (is_photron_clip(path)) return open_photron_clip(path, options);
+  refuse_text(path);
+  return video_module().open(path, options);
 }
 
 }  // namespace

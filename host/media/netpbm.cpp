@@ -3,6 +3,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "capture/capture_mark.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "system/interruption.hpp"
@@ -19,6 +20,9 @@ class NetpbmReader {
 
   Picture read() {
     if (text_.size() < 3 || text_[0] != 'P') fail("it is no Netpbm picture");
+    if (begins_as_capture(text_)) {
+      fail("it is a capture (.tik), whose front shows its first sample alone; expose a picture from it");
+    }
     const char kind = text_[1];
     if (kind != '2' && kind != '3' && kind != '5' && kind != '6') {
       fail(format("it is a P{}; PGM (P2, P5) and PPM (P3, P6) are read", kind));

@@ -12,6 +12,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/extension.hpp"
+#include "media/file_kinds.hpp"
 #include "media/numbered_name.hpp"
 #include "media/stills_table.hpp"
 #include "system/input_bytes.hpp"
@@ -88,6 +89,9 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
   std::vector<fs::path> files = files_in(folder);
   std::erase_if(files, [](const fs::path& file) { return still_kind_of(file).empty(); });
   if (files.empty()) {
+    for (const fs::path& file : files_in(folder)) {
+      if (const auto kind = unread_kind_text(file)) throw InputError(*kind);
+    }
     throw InputError(
         format("{}: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg, .dng)", folder.string()));
   }
@@ -200,7 +204,7 @@ std::optional<std::vector<fs::path>> list_stills(const fs::path& path) {
     return files;
   }
   if (fs::exists(path, error)) {
-    if (!still_kind_of(path).empty()) return std::vector<fs::path>{path};
+    if (!still_kind_of(path).empty() || begins_as_tiff(path)) return std::vector<fs::path>{path};
     return std::nullopt;
   }
   if (const auto numbered = NumberedName::parse(path.filename().string())) {

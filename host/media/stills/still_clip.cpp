@@ -10,6 +10,7 @@
 #include "capture/format.hpp"
 #include "media/colour_profile.hpp"
 #include "media/extension.hpp"
+#include "media/file_kinds.hpp"
 #include "media/jpeg_file.hpp"
 #include "media/netpbm.hpp"
 #include "media/png_file.hpp"
@@ -216,6 +217,7 @@ class StillClip final : public Clip {
             const ClipOptions& options) {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     for (const std::filesystem::path& file : files) {
+      refuse_unread_kind(file);
       const std::uint64_t count = is_tiff(file) ? TiffReader(file).page_count() : 1;
       if (count > 1 && timing.is_known()) {
         throw InputError(format("{} has {} pages; in a table with times each picture is a file of its own",
@@ -272,7 +274,9 @@ class StillClip final : public Clip {
 
  private:
   static bool is_raw(const std::filesystem::path& file) { return has_extension(file, {".dng"}); }
-  static bool is_tiff(const std::filesystem::path& file) { return has_extension(file, {".tif", ".tiff"}); }
+  static bool is_tiff(const std::filesystem::path& file) {
+    return has_extension(file, {".tif", ".tiff"}) || (!is_raw(file) && begins_as_tiff(file));
+  }
 
   // A profile was made for these codes: what it says and is not known here would be right.
   void add_unread_colours(const ClipOptions& options) {
