@@ -127,7 +127,9 @@ std::unique_ptr<Clip> open_stills(const std::filesystem::path& path,
   std::error_code error;
   if (!std::filesystem::is_directory(path, error)) return clip;
   ClipInfo info = clip->info();
-  if (auto note = missing_still_note(path, stills)) info.notes.emplace_back(std::move(*note));
+  for (auto note : {missing_still_note(path, stills), left_out_note(path, stills)}) {
+    if (note) info.notes.emplace_back(std::move(*note));
+  }
   add_photron_header(info, path);
   return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
 }

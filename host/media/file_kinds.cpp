@@ -134,4 +134,23 @@ bool begins_as_tiff(const std::filesystem::path& file) {
                              [&](auto magic) { return start.starts_with(magic); });
 }
 
+// Chunks: u32 length, four letters, so many bytes, a checksum. acTL stands before the first picture.
+bool is_animated_png(const std::filesystem::path& file) {
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+  if (!first_bytes(file).starts_with(kSignature)) return false;
+  const MappedFile mapped(file);
+  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
+  const auto number_at = [&](std::size_t at) {
+    std::uint32_t number = 0;
+    for (std::size_t i = at; i < at + 4; ++i) number = number << 8 | static_cast<unsigned char>(bytes[i]);
+    return number;
+  };
+  for (std::size_t at = kSignature.size(); at + 12 <= bytes.size(); at += 12 + std::size_t{number_at(at)}) {
+    const std::string_view name = bytes.substr(at + 4, 4);
+    if (name == "acTL") return number_at(at + 8) > 1;
+    if (name == "IDAT") return false;
+  }
+  return false;
+}
+
 }  // namespace nutik

@@ -21,4 +21,7 @@ void refuse_text(const std::filesystem::path& file);
 // Whether it begins as a TIFF, of either order of bytes and size of offsets.
 [[nodiscard]] bool begins_as_tiff(const std::filesystem::path& file);
 
+// Whether it is a PNG of several pictures, whatever its name ends with: a video.
+[[nodiscard]] bool is_animated_png(const std::filesystem::path& file);
+
 }  // namespace nutik
