@@ -10,6 +10,7 @@
 #include "capture/seconds_text.hpp"
 #include "media/clip_part.hpp"
 #include "media/event_clip.hpp"
+#include "media/file_kinds.hpp"
 #include "media/module.hpp"
 #include "media/photron_clip.hpp"
 #include "media/photron_header.hpp"
@@ -48,6 +49,7 @@ class DescribedClip final : public Clip {
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
   bool read(std::span<std::byte> raster) override { return clip_->read(raster); }
   bool skip(std::span<std::byte> room) override { return clip_->skip(room); }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
 
  private:
   std::unique_ptr<Clip> clip_;
@@ -126,7 +128,9 @@ std::unique_ptr<Clip> open_stills(const std::filesystem::path& path,
   std::error_code error;
   if (!std::filesystem::is_directory(path, error)) return clip;
   ClipInfo info = clip->info();
-  if (auto note = missing_still_note(path, stills)) info.notes.emplace_back(std::move(*note));
+  for (auto note : {missing_still_note(path, stills), left_out_note(path, stills)}) {
+    if (note) info.notes.emplace_back(std::move(*note));
+  }
   add_photron_header(info, path);
   return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
 }
@@ -151,6 +155,7 @@ void refuse_event_options(const std::filesystem::path& path, const EventOptions&
 
 // All of it, as its files have it.
 std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOptions& options) {
+  if (!options.raw) refuse_unread_kind(path);
   const bool holds_events = !options.raw && is_event_recording(path);
   if (holds_events) return open_event_clip(path, options);
   refuse_event_options(path, options.events);
@@ -162,7 +167,9 @@ std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOp
     throw InputError(format("{} cannot be read: no such file", input_title(path.string())));
   }
   if (options.raw) return open_raw(path, options);
-  return is_photron_clip(path) ? open_photron_clip(path, options) : video_module().open(path, options);
+  if (is_photron_clip(path)) return open_photron_clip(path, options);
+  refuse_text(path);
+  return video_module().open(path, options);
 }
 
 }  // namespace

@@ -163,10 +163,7 @@ class PhotronClip final : public Clip {
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
 
   bool read(std::span<std::byte> raster) override {
-    if (next_ == count_) return false;
-    if ((next_ + 1) * layout_.picture_bytes() > file_.bytes().size()) {
-      throw cut_off();
-    }
+    if (!has_next()) return false;
     const auto picture = file_.bytes().subspan(next_ * layout_.picture_bytes(), layout_.picture_bytes());
     if (layout_.is_packed()) {
       unpack(picture, layout_.bits,
@@ -182,12 +179,19 @@ class PhotronClip final : public Clip {
   }
 
   bool skip(std::span<std::byte> /*room*/) override {
-    if (next_ == count_) return false;
+    if (!has_next()) return false;
     ++next_;
     return true;
   }
 
  private:
+  // Throws where the file ends before the next picture does.
+  [[nodiscard]] bool has_next() const {
+    if (next_ == count_) return false;
+    if ((next_ + 1) * layout_.picture_bytes() > file_.bytes().size()) throw cut_off();
+    return true;
+  }
+
   [[nodiscard]] std::string described() const {
     return format("{} x {} pixels of {} bits", layout_.shape.width, layout_.shape.height,
                   layout_.bits * layout_.shape.channels);

@@ -155,7 +155,7 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
   if (!is_clip_) {
     if (source.describes_clip()) {
       throw UsageError(nutik::format(
-          "what is stated describes a clip that is encoded; {} was encoded already", source.path.string()));
+          "what is stated describes a clip that is encoded; {} was encoded already", input_title(source.path.string())));
     }
     reader_ = std::make_unique<tik::Reader>(source.path);
     check_transfer(source.clip.transfer);

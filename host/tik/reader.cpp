@@ -7,13 +7,15 @@
 #include "capture/format.hpp"
 #include "capture/seconds_text.hpp"
 #include "system/checksum.hpp"
+#include "system/input_bytes.hpp"
 #include "system/interruption.hpp"
 #include "tik/block_headers.hpp"
 #include "tik/codec.hpp"
 
 namespace nutik::tik {
 
-Reader::Reader(const std::filesystem::path& path) : name_(path.string()), file_(path) {
+Reader::Reader(const std::filesystem::path& path)
+    : name_(input_title(path.string())), file_(is_standard_input(path.string()) ? standard_input_file() : path) {
   header_ = parse_header(file_.bytes(), name_).header;
   read_footer();
   check_front();

@@ -30,8 +30,8 @@ struct Recoverable : InputError {
 // Any number of threads may acquire blocks and ask for everything else, at a time.
 class Reader final : public CaptureSource {
  public:
-  // Throws InputError where the file is no .tik, of another version, damaged at its front; Recoverable where it
-  // is damaged at its end or cut off.
+  // `-` is standard input. Throws InputError where the file is no .tik, of another version, damaged at its front;
+  // Recoverable where it is damaged at its end or cut off.
   explicit Reader(const std::filesystem::path& path);
 
   [[nodiscard]] const CaptureFormat& format() const override { return header_.capture; }
