@@ -47,7 +47,7 @@ constexpr Kind kKinds[] = {
     {"XPDS", {}, "a DPX picture", "make PNGs of them: ffmpeg -i frame%04d.dpx -pix_fmt rgb48 frame%04d.png"},
     {"\x80\x2A\x5F\xD7", {}, "a Cineon picture", kToPng},
     {"\x76\x2F\x31\x01", {}, "an OpenEXR picture of floating-point light",
-     "make whole numbers of its light from black to white: ffmpeg -i PICTURE -vf scale=in_range=full -pix_fmt rgb48 PICTURE.png"},
+     "make whole numbers of its light from black to white: ffmpeg -i PICTURE -vf scale=in_range=full PICTURE.png"},
     {"PF\n", {}, "a PFM picture of floating-point light", kToPng},
     {"Pf\n", {}, "a PFM picture of floating-point light", kToPng},
     {"II*\0\x10\0\0\0CR"sv, {}, "a Canon CR2 picture of a sensor", kToDng},

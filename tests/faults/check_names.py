@@ -63,7 +63,7 @@ class Bench:
         if status != 0:
             return status, 0, said
         _, told, _ = self.run("info", capture)
-        return status, int(re.search(r"(\d[\d ]*) samples?", told)[1].replace(" ", "")), said
+        return status, int(re.search(r"samples +(\d[\d ]*)", told)[1].replace(" ", "")), said
 
     def mean(self, capture, samples):
         picture = capture.with_suffix(f".{samples}.tif")
