@@ -218,8 +218,10 @@ TEST(ClipTimes, OfAStreamCutInItsMiddleAreThoseOfTheDecodedPictures) {
         });
       };
       EXPECT_TRUE(says("packets give no picture, as where it was cut in its middle"));
-      EXPECT_TRUE(says("cut off within one of its packets"));
-      EXPECT_EQ(opened->info().notes.size(), 2u);
+      // Those of a broadcast have 188 bytes, and are not held together by anything else.
+      const bool is_within_packet = name.ends_with(".ts") && std::filesystem::file_size(scratch / name) % 188 != 0;
+      EXPECT_EQ(says("cut off within one of its packets"), is_within_packet);
+      EXPECT_EQ(opened->info().notes.size(), is_within_packet ? 2u : 1u);
       const Timeline timeline = timeline_of(name, opened->info(), {}, {360, 1}, want.pictures);
       const double tick_ns = want.tick_s.value() * 1e9;
       for (std::size_t k = 0; k < want.ticks.size(); ++k) {
