@@ -11,7 +11,6 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "imev/changed_row.hpp"
 #include "imev/expected_values.hpp"
 #include "imev/tile_log.hpp"
 #include "imev/tile_step.hpp"

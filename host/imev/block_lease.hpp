@@ -9,11 +9,36 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "imev/block.hpp"
 #include "system/page_buffer.hpp"
 
 namespace nutik {
+
+// A payload as files hold it.
+//
+//   in:      a payload in memory, whose bodies may lie apart
+//   out:     its parts in the order of files: a directory for bodies that lie one behind the other, then those
+//            bodies, not copied; neighbours in memory are one part
+class PayloadParts {
+ public:
+  // `payload` must outlive this.
+  PayloadParts(const BlockGeometry& geometry, std::span<const std::byte> payload);
+  PayloadParts(const PayloadParts&) = delete;
+  PayloadParts& operator=(const PayloadParts&) = delete;
+
+  [[nodiscard]] std::span<const std::span<const std::byte>> parts() const { return parts_; }
+  // Of all parts together.
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+  // Writes them one behind the other to `into`, which has at least as many bytes.
+  void copy_to(std::span<std::byte> into) const;
+
+ private:
+  std::vector<std::byte> directory_;
+  std::vector<std::span<const std::byte>> parts_;
+  std::uint64_t bytes_;
+};
 
 // Finds room for a payload of so many bytes: at least as much, from a multiple of 64 bytes on, to be left alone while
 // the lease lives. An empty span: there is none, and the block is not wanted now.

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "capture/format.hpp"
+#include "imev/block_lease.hpp"
 #include "imev/expected_values.hpp"
-#include "imev/payload_parts.hpp"
 #include "system/interruption.hpp"
 
 namespace nutik {

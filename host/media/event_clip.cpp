@@ -8,7 +8,6 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/adder_events.hpp"
 #include "media/event_light.hpp"
 #include "media/prophesee_events.hpp"
 #include "system/input_bytes.hpp"

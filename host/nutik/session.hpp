@@ -40,7 +40,6 @@
 #include "session/making/video_making.hpp"
 #include "session/making/video_output.hpp"
 #include "session/output_check.hpp"
-#include "session/requests/computing_request.hpp"
 #include "session/requests/contact_request.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "session/requests/frames_request.hpp"

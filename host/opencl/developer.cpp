@@ -4,7 +4,7 @@
 #include <array>
 
 #include "opencl/kernel_tables.hpp"
-#include "opencl/launch.hpp"
+#include "opencl/opencl_api.hpp"
 
 namespace nutik {
 namespace {

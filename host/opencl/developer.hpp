@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "opencl/allocation_cuts.hpp"
-#include "opencl/build_options.hpp"
 #include "opencl/device_memory.hpp"
 #include "opencl/kernel_constants.hpp"
 #include "opencl/opencl_api.hpp"

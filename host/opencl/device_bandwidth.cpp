@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "capture/error.hpp"
-#include "opencl/launch.hpp"
 #include "opencl/opencl_api.hpp"
 
 namespace nutik {

@@ -1,11 +1,52 @@
 #include "opencl/kernel_constants.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "capture/format.hpp"
 #include "opencl/light_source.hpp"
 #include "render/fixed_scale.hpp"
 
 namespace nutik {
+namespace {
+
+const char* kernel_name_of(Precision precision) {
+  switch (precision) {
+    case Precision::single_: return "NUTIK_SINGLE";
+    case Precision::compensated: return "NUTIK_COMPENSATED";
+    case Precision::double_: return "NUTIK_DOUBLE";
+    case Precision::fixed: return "NUTIK_FIXED";
+  }
+  return "";
+}
+
+// -w: drivers print how many warnings they counted, in their own headers too. tools/check_kernels looks at ours.
+std::string common_options(const Work& work, const CaptureFormat& capture, bool has_delays) {
+  return format(
+      "-w -cl-std=CL1.2 -DNUTIK_PRECISION={} -DNUTIK_HAS_FMA={} -DNUTIK_CHANNELS={} -DNUTIK_FUNCTION_BYTES={}",
+      kernel_name_of(work.precision), work.has_fma ? 1 : 0, capture.shape.channels, has_delays ? 2 : 1);
+}
+
+}  // namespace
+
+std::string expose_options(const Work& work, const CaptureFormat& capture, const char* light_kind,
+                           bool has_delays) {
+  return format(
+      "{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
+      "-DNUTIK_LANES={}",
+      common_options(work, capture, has_delays), capture.code_bytes, light_kind, work.shape.item_pixels,
+      work.shape.item_tiles, work.shape.lanes);
+}
+
+std::string develop_options(const Work& work, const CaptureFormat& capture, const OutputFormat& output,
+                            bool blends, bool has_delays) {
+  const std::size_t raster_bytes = holds_codes(output.type) ? value_bytes(output.type) : 1;
+  return format(
+      "{} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} -DNUTIK_LANES={} "
+      "-DNUTIK_RASTER_BYTES={} -DNUTIK_BLENDS={}",
+      common_options(work, capture, has_delays), work.shape.item_pixels, work.shape.item_tiles,
+      std::min(work.shape.lanes, kTileSide), raster_bytes, blends ? 1 : 0);
+}
 
 const DeviceLight& KernelConstants::light(const RenderPlan& plan, Precision precision, bool permutes_pieces,
                                           DeviceMemory& memory) {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "opencl/allocation_cuts.hpp"
@@ -14,9 +15,31 @@
 #include "opencl/kernel_tables.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/recent.hpp"
+#include "opencl/work_shape.hpp"
 #include "render/mask_map.hpp"
+#include "render/output_format.hpp"
 
 namespace nutik {
+
+// How one picture is computed.
+struct Work {
+  Precision precision;
+  WorkShape shape;
+  bool has_fma;  // in the reals of the precision
+};
+
+// The build-time constants of the kernels (kernels/*.cl) for one picture.
+//
+//   in:      how and from what a picture is computed
+//   out:     `-D NAME=value …`
+//   always:  all that the kernels need: one that is missing stops their build (#error)
+//
+// `has_delays`: where pixels have delays, so that there may be more functions than a byte counts.
+[[nodiscard]] std::string expose_options(const Work& work, const CaptureFormat& capture,
+                                         const char* light_kind, bool has_delays);
+// `blends`: where functions share pixels.
+[[nodiscard]] std::string develop_options(const Work& work, const CaptureFormat& capture,
+                                          const OutputFormat& output, bool blends, bool has_delays);
 
 // Light of a capture's codes.
 struct LightKey {

@@ -10,12 +10,10 @@
 #include "opencl/allocation_cuts.hpp"
 #include "opencl/arithmetic_choice.hpp"
 #include "opencl/block_feed.hpp"
-#include "opencl/build_options.hpp"
 #include "opencl/developer.hpp"
 #include "opencl/device_memory.hpp"
 #include "opencl/device_tables.hpp"
 #include "opencl/exposer.hpp"
-#include "opencl/incremental_exposer.hpp"
 #include "opencl/kernel_constants.hpp"
 #include "opencl/kernel_sources.hpp"
 #include "opencl/light_source.hpp"
@@ -23,7 +21,6 @@
 #include "opencl/program_store.hpp"
 #include "opencl/render_memory.hpp"
 #include "opencl/self_test.hpp"
-#include "opencl/verdict_store.hpp"
 
 namespace nutik {
 namespace {

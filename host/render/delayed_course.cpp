@@ -5,7 +5,7 @@
 
 #include "capture/format.hpp"
 #include "capture/seconds_text.hpp"
-#include "exposure/whole_course.hpp"
+#include "exposure/gain_function.hpp"
 
 namespace nutik {
 

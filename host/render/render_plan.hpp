@@ -47,7 +47,7 @@ struct PlannedFunction {
   std::shared_ptr<const GainTable> table;
 
   // With a time map: by how much it comes later. `function` is without that, `summary` and table with it, and D is that of
-  // its whole course (exposure/whole_course.hpp).
+  // its whole course (exposure/gain_function.hpp).
   bool is_delayed = false;
   std::int64_t delay_ns = 0;
 };

@@ -7,17 +7,43 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "capture/picture.hpp"
 #include "imev/capture_source.hpp"
+#include "render/error_bound.hpp"
 #include "render/output_format.hpp"
-#include "render/precision_choice.hpp"
 #include "render/render_plan.hpp"
 
 namespace nutik {
+
+// `auto`: the fastest arithmetic that is right enough for the picture asked for.
+//
+//   in:      a plan, the format of the picture, what the device can do
+//   out:     an arithmetic, its bound, and those that were faster but not sure enough
+//   always:  known before a sample is read, and the same on every device that has the same arithmetics
+
+// The largest error that a picture is given, in steps of its format (PictureError::steps).
+inline constexpr double kMaxSteps = 0.5;
+
+struct PrecisionChoice {
+  ErrorBound bound;                  // of the arithmetic that was chosen
+  std::vector<ErrorBound> rejected;  // faster ones that may err by more than kMaxSteps
+
+  [[nodiscard]] Precision precision() const { return bound.precision; }
+  [[nodiscard]] bool is_right_enough() const { return bound.worst.steps <= kMaxSteps; }
+};
+
+// The first of `available` (fastest first, not empty) whose bound keeps the format within kMaxSteps; where none
+// does, the one with the least bound.
+[[nodiscard]] PrecisionChoice choose_precision(const RenderPlan& plan, const OutputFormat& output,
+                                               std::span<const Precision> available);
+
+// `light within 3.1e-07, 0.01 of an 8-bit code`
+[[nodiscard]] std::string error_text(const PictureError& error, const OutputFormat& output);
 
 // What one render is asked for beside its picture.
 struct RenderControl {
@@ -98,5 +124,9 @@ class Renderer {
 inline void throw_if_cancelled(const RenderControl& control) {
   if (control.stop.stop_requested()) throw Cancelled();
 }
+
+// What a render did and took, for a person, in two lines: blocks, times and memory; the arithmetic, its bound, and those
+// of arithmetics that were not taken. Empty of the reference, which measures nothing.
+[[nodiscard]] std::string rendering_report(const Rendered& rendered, const OutputFormat& output);
 
 }  // namespace nutik

@@ -18,7 +18,7 @@
 #include "capture/picture.hpp"
 #include "imev/capture_source.hpp"
 #include "mask/region.hpp"
-#include "scene/code_band.hpp"
+#include "scene/place_times.hpp"
 
 namespace nutik {
 

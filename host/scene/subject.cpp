@@ -262,15 +262,6 @@ std::vector<SampleRange> rests_of(const std::vector<SubjectPlace>& places, std::
   return rests;
 }
 
-double middle_of(const std::vector<SubjectPlace>& places, double SubjectPlace::*value) {
-  std::vector<double> values;
-  for (const SubjectPlace& place : places) values.push_back(place.*value);
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 // Finds the subject of a region.
 class Tracker {
  public:
@@ -311,8 +302,8 @@ class Tracker {
     track_.extent = way.extent();
     // A pendulum turns often on its long way; who stands for a while stirs, and yet goes somewhere.
     constexpr double kMaxTurnsOfLength = 1.3, kMaxTurnsOfExtent = 2;
-    track_.fill = middle_of(track_.places, &SubjectPlace::fill);
-    track_.share = middle_of(track_.places, &SubjectPlace::share);
+    track_.fill = usual(track_.places, &SubjectPlace::fill);
+    track_.share = usual(track_.places, &SubjectPlace::share);
     track_.flickers = way.turns_of_length() > kMaxTurnsOfLength && way.turns_of_extent() > kMaxTurnsOfExtent;
     return std::move(track_);
   }

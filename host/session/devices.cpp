@@ -2,9 +2,9 @@
 
 #include <cctype>
 #include <chrono>
-#include <utility>
+#include <cstdlib>
+#include <string_view>
 
-#include "capture/error.hpp"
 #include "opencl/cache_folder.hpp"
 #include "opencl/device_team.hpp"
 #include "render/reference_renderer.hpp"
@@ -39,6 +39,14 @@ std::shared_ptr<Renderer> made(const ComputingRequest& request, Devices::Announc
 }
 
 }  // namespace
+
+ComputingRequest ComputingRequest::of_environment() {
+  ComputingRequest request;
+  if (const char* device = std::getenv("NUTIK_DEVICE")) request.device = device;
+  const char* self_test = std::getenv("NUTIK_SELF_TEST");
+  request.tests_drivers = self_test == nullptr || std::string_view(self_test) != "off";
+  return request;
+}
 
 std::vector<std::string> DeviceNotFound::words() const {
   std::vector<std::string> words;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "exposure/whole_course.hpp"
+#include "exposure/gain_function.hpp"
 
 namespace nutik {
 namespace {

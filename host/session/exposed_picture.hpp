@@ -8,7 +8,6 @@
 #include "capture/timeline.hpp"
 #include "render/render_plan.hpp"
 #include "render/renderer.hpp"
-#include "render/rendering_report.hpp"
 
 namespace nutik {
 

@@ -5,7 +5,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "plot/fitted_text.hpp"
+#include "plot/canvas.hpp"
 #include "sheet/thumbnail.hpp"
 
 namespace nutik::sheet {

@@ -19,6 +19,17 @@
 
 namespace nutik::tik {
 
+// Saves what is whole of a .tik that was cut off.
+struct Recovery {
+  std::uint64_t block_count = 0;
+  std::uint64_t sample_count = 0;
+  std::uint64_t lost_bytes = 0;  // after the last whole block
+};
+
+// Copies the whole blocks at the front of a cut-off .tik into a new, complete one. Throws InputError
+// where there is none, OutputError where it cannot be written.
+Recovery recover(const std::filesystem::path& damaged, const std::filesystem::path& whole);
+
 // A .tik that cannot be read to its end, of which recover() may save the front.
 struct Recoverable : InputError {
   Recoverable(const std::string& message, std::string file_name)

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "capture/error.hpp"
-#include "imev/payload_parts.hpp"
+#include "imev/block_lease.hpp"
 
 namespace nutik::tik {
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "session/requests/computing_request.hpp"
+#include "session/devices.hpp"
 #include "session/requests/source_request.hpp"
 
 namespace nutik::python {

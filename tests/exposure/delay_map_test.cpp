@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "exposure/whole_course.hpp"
+#include "exposure/gain_function.hpp"
 #include "support/exact.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"

@@ -1,6 +1,6 @@
 // Lost digits: every one whose loss turns a step of the paper's functions into a ramp is named, with what
 // stood there, and nothing else is.
-#include "exposure/mistyped_time.hpp"
+#include "exposure/function_check.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,6 @@
 #include "render/reference_renderer.hpp"
 #include "system/checksum.hpp"
 #include "tik/reader.hpp"
-#include "tik/recovery.hpp"
 
 namespace nutik::fuzz {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "render/reference_renderer.hpp"
-#include "render/rendering_report.hpp"
+#include "render/renderer.hpp"
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
 

@@ -6,10 +6,9 @@
 #include <numeric>
 #include <vector>
 
-#include "opencl/build_options.hpp"
+#include "opencl/kernel_constants.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "opencl/kernel_sources.hpp"
-#include "opencl/launch.hpp"
 #include "opencl/opencl_api.hpp"
 
 namespace nutik {

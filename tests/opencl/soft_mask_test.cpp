@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "capture/format.hpp"
-#include "opencl/function_map.hpp"
+#include "opencl/kernel_constants.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "render/fixed_scale.hpp"
 #include "render/reference_renderer.hpp"

@@ -1,4 +1,4 @@
-#include "plot/fitted_text.hpp"
+#include "plot/canvas.hpp"
 
 #include <gtest/gtest.h>
 

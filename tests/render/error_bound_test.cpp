@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "render/fixed_scale.hpp"
-#include "render/precision_choice.hpp"
+#include "render/renderer.hpp"
 #include "support/packed_tables.hpp"
 #include "support/random_case.hpp"
 

@@ -1,5 +1,5 @@
 // Integrals of a region's light times gains.
-#include "solve/light_course.hpp"
+#include "solve/region_light.hpp"
 
 #include <gtest/gtest.h>
 #include <malloc.h>

@@ -6,7 +6,6 @@
 #include "studio/curves/drags.hpp"
 #include "studio/curves/handles.hpp"
 #include "studio/curves/points.hpp"
-#include "studio/curves/snapping.hpp"
 #include "studio/time/sample_times.hpp"
 #include "studio/time/typed_numbers.hpp"
 

@@ -12,7 +12,6 @@
 #include "support/tik_files.hpp"
 #include "system/checksum.hpp"
 #include "tik/reader.hpp"
-#include "tik/recovery.hpp"
 
 namespace nutik::tik {
 namespace {

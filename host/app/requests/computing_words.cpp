@@ -1,13 +1,25 @@
-#include "app/requests/requests.hpp"
+#include <malloc.h>
 
 #include "app/output/console.hpp"
+#include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
-#include "system/freed_memory.hpp"
 
 namespace nutik::app {
 namespace {
+
+// Lets freed memory go back to the system soon, which is slower than keeping it for the next time. For programs that
+// are to keep within little memory; holds for all of the process. Does nothing where the C library has no such choice.
+void return_freed_memory() {
+#ifdef __GLIBC__
+  // Blocks from this size on are mapped, each for itself, and unmapped when they are freed. Otherwise the limit grows
+  // to 32 MiB with what is freed, and pictures leave holes in heaps.
+  constexpr int kMappedFrom = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, kMappedFrom);
+  mallopt(M_TRIM_THRESHOLD, 2 * kMappedFrom);
+#endif
+}
 
 ComputingRequest computing_request(const Options& options) {
   ComputingRequest request = ComputingRequest::of_environment();

@@ -1,12 +1,9 @@
-#include "media/stills/png_tags.hpp"
+#include "media/stills/stills.hpp"
 
 #include <algorithm>
-#include <string_view>
-#include <utility>
 
 #include "capture/format.hpp"
 #include "media/coding_points.hpp"
-#include "media/stills/stills.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::stills {

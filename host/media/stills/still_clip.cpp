@@ -15,7 +15,6 @@
 #include "media/netpbm.hpp"
 #include "media/png_file.hpp"
 #include "media/settled_fact.hpp"
-#include "media/stills/png_tags.hpp"
 #include "media/stills/raw_file.hpp"
 #include "media/stills/stills.hpp"
 #include "media/tiff_reader.hpp"

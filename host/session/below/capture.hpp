@@ -9,4 +9,3 @@
 #include "imev/expected_values.hpp"
 #include "tik/header.hpp"
 #include "tik/reader.hpp"
-#include "tik/recovery.hpp"

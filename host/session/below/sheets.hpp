@@ -2,8 +2,6 @@
 #pragma once
 
 #include "plot/canvas.hpp"
-#include "plot/colour.hpp"
-#include "plot/fitted_text.hpp"
 #include "plot/graph.hpp"
 #include "plot/ticks.hpp"
 #include "sheet/contact_sheet.hpp"

@@ -2,5 +2,4 @@
 #pragma once
 
 #include "media/frame_queue.hpp"
-#include "media/video_codec.hpp"
 #include "media/video_writer.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "capture/format.hpp"
-#include "exposure/whole_course.hpp"
+#include "exposure/gain_function.hpp"
 #include "render/delayed_course.hpp"
 #include "session/text/size_text.hpp"
 

@@ -7,7 +7,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "mask/feather.hpp"
-#include "scene/code_band.hpp"
+#include "scene/place_times.hpp"
 #include "scene/telling_places.hpp"
 #include "session/making/mask_making.hpp"
 #include "session/making/plate_request.hpp"

@@ -4,7 +4,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "exposure/whole_course.hpp"
+#include "exposure/gain_function.hpp"
 #include "session/text/time_text.hpp"
 
 namespace nutik {

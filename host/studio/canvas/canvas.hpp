@@ -45,7 +45,6 @@ class View {
   [[nodiscard]] QSize picture() const { return picture_; }
 
   [[nodiscard]] double zoom() const { return zoom_; }
-  [[nodiscard]] bool is_fitted() const { return is_fitted_; }
 
   void fit();
   // The picture's point under `at` stays there.

@@ -7,13 +7,48 @@
 
 #include <QPointF>
 #include <QString>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "studio/curves/handles.hpp"
-#include "studio/curves/snapping.hpp"
+#include "studio/curves/points.hpp"
 
 namespace nutik::studio {
+
+// Times and gains that a drag is drawn to.
+//
+//   in:      where the hand is, and how far (in ns and in gain) a target may be
+//   out:     the target, and what it is, to be said; none if nothing is near
+//   always:  a point of a function, a mark or an end of the capture comes before samples, which may lie too densely to
+//            leave anything else a chance
+struct TimeSnap {
+  std::int64_t time_ns = 0;
+  QString what;  // `M128's point`, `start of sample 37`
+};
+struct GainSnap {
+  double gain = 0.0;
+  QString what;
+};
+
+class Snapper {
+ public:
+  // What of a capture and other functions there is to snap to. The timeline outlives the snapper.
+  Snapper(const Timeline* timeline, const FunctionSet& functions, std::uint8_t moved_tag);
+
+  // More of both: where a drag began, marks.
+  void add_time(std::int64_t time_ns, const QString& what);
+  void add_gain(double gain, const QString& what);
+
+  [[nodiscard]] std::optional<TimeSnap> time(std::int64_t time_ns, double reach_ns) const;
+  [[nodiscard]] std::optional<GainSnap> gain(double gain, double reach) const;
+
+ private:
+  const Timeline* timeline_;
+  std::vector<TimeSnap> times_;  // increasing
+  std::vector<GainSnap> gains_;
+};
 
 // How far the hand has come, and how far from a target it is drawn to it. Elsewhere a drag ends at round numbers, so that
 // function files hold no digits that nobody chose.
@@ -40,7 +75,6 @@ class Drag {
   [[nodiscard]] virtual Dragged by(const HandShift& shift) const = 0;
   // For the undo menu.
   [[nodiscard]] virtual QString name() const = 0;
-  [[nodiscard]] const Points& begun_with() const { return points_; }
 
  protected:
   Drag(Points points, Snapper snapper) : points_(std::move(points)), snapper_(std::move(snapper)) {}

@@ -66,7 +66,6 @@ struct GainRange {
 class GainAxis {
  public:
   [[nodiscard]] const GainRange& range() const { return range_; }
-  [[nodiscard]] bool is_automatic() const { return is_automatic_; }
 
   // The function that is shown. Does nothing while the axis was zoomed by hand.
   void follow(std::span<const ControlPoint> points);

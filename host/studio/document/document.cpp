@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "session/below/format.hpp"
+
 namespace nutik::studio {
 
 // One step of undo: the state before and after it.
@@ -200,6 +202,20 @@ QColor first_colour(std::uint8_t tag) {
   // Steps of the golden angle: neighbours in number are far apart in hue.
   const int hue = static_cast<int>(std::fmod(205.0 + 137.5 * tag, 360.0));
   return QColor(QColor::fromHsl(hue, 150, 150).rgb());  // as files have it
+}
+
+std::string feather_text(const Feather& feather) {
+  std::string text;
+  if (feather.everywhere != 0 || feather.of_tag.empty()) text = format("{}px", feather.everywhere / 100.0);
+  for (const auto& [tag, reach] : feather.of_tag)
+    text += format("{}M{}={}px", text.empty() ? "" : ",", tag, reach / 100.0);
+  return text;
+}
+
+std::string functions_text(const FunctionSet& functions) {
+  std::string text;
+  for (const auto& [tag, function] : functions) text += function_text(tag, function) + "\n";
+  return text;
 }
 
 }  // namespace nutik::studio

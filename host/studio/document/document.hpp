@@ -10,7 +10,9 @@
 #pragma once
 
 #include <QColor>
+#include <QImage>
 #include <QObject>
+#include <QPoint>
 #include <QString>
 #include <QUndoStack>
 #include <cstdint>
@@ -18,15 +20,42 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
+#include "session/below/capture.hpp"
 #include "session/below/functions.hpp"
 #include "session/below/regions.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "session/shared.hpp"
-#include "studio/document/capture_facts.hpp"
 
 namespace nutik::studio {
+
+// What the window knows of the capture that is open. Values: read once by the engine's threads, then only looked at.
+
+// Of an opened capture: its shape, codes and times. timeline.rate() is its sample rate.
+struct CaptureFacts {
+  QString path;  // as the person gave it: a .tik or a clip
+  CaptureFormat format;
+  Timeline timeline;
+  QString rate = {};  // pictures a second, as a person stated it; empty: what the clip says
+};
+
+// What the time strip shows behind the boxcar. Measured after the first picture, so that it does not delay it.
+struct CaptureOverview {
+  struct Thumbnail {
+    std::int64_t time_ns = 0;
+    QImage image;
+  };
+  std::vector<double> changed_share;  // of the pixels, by sample, 0 … 1; empty until it is measured
+  std::vector<Thumbnail> thumbnails;  // in time order, evenly spaced
+};
+
+// The light of one pixel at each sample, drawn behind the curves.
+struct Waveform {
+  QPoint pixel;
+  std::vector<double> light;  // by sample, mean of the channels, 1 is the capture's white
+};
 
 enum class ExposureMode {
   boxcar,    // all pixels are exposed over Boxcar: for scrubbing
@@ -161,5 +190,12 @@ class Document : public QObject {
 
 // The colour that the region with a tag begins with: calm ones, told apart on dark and light.
 [[nodiscard]] QColor first_colour(std::uint8_t tag);
+
+// Parts of a document as files and command lines have them.
+
+// `2px`, `2px,M128=6px`, `M128=6px`; of none `0px`.
+[[nodiscard]] std::string feather_text(const Feather& feather);
+// A function file.
+[[nodiscard]] std::string functions_text(const FunctionSet& functions);
 
 }  // namespace nutik::studio

@@ -1,1 +1,1 @@
-set(files capture_facts.hpp document.cpp document.hpp texts.cpp texts.hpp)
+set(files document.cpp document.hpp)

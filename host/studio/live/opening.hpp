@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "session/session.hpp"
-#include "studio/document/capture_facts.hpp"
+#include "studio/document/document.hpp"
 #include "studio/live/jobs.hpp"
 
 namespace nutik::studio {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "session/session.hpp"
-#include "studio/document/capture_facts.hpp"
+#include "studio/document/document.hpp"
 #include "studio/live/jobs.hpp"
 
 namespace nutik::studio {

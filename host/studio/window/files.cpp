@@ -12,7 +12,7 @@
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/output_check.hpp"
-#include "studio/document/texts.hpp"
+#include "studio/document/document.hpp"
 #include "studio/window/main_window.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio/window/starting_points.hpp"

@@ -19,7 +19,7 @@
 #include "studio/regions/mask_tools.hpp"
 #include "studio/time/time_axis.hpp"
 #include "studio/window/autosave.hpp"
-#include "studio/window/command_line.hpp"
+#include "studio/window/project_file.hpp"
 #include "studio/window/status_line.hpp"
 
 class QActionGroup;
@@ -83,7 +83,6 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] Canvas& canvas() { return *canvas_; }
   [[nodiscard]] Notice& notice() { return *notice_; }
   [[nodiscard]] Notice& offer() { return *offer_; }  // of what was kept; stays whatever else is said
-  [[nodiscard]] ToolSettings& tool_settings() { return tool_settings_; }
 
  protected:
   bool event(QEvent* event) override;

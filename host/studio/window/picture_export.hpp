@@ -6,7 +6,7 @@
 #include "session/session.hpp"
 #include "studio/document/document.hpp"
 #include "studio/live/jobs.hpp"
-#include "studio/window/command_line.hpp"
+#include "studio/window/project_file.hpp"
 
 namespace nutik::studio {
 

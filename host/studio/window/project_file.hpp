@@ -9,11 +9,24 @@
 #include <QString>
 #include <QStringList>
 #include <optional>
+#include <string>
 
+#include "session/making/picture_recipe.hpp"
 #include "studio/document/document.hpp"
-#include "studio/window/command_line.hpp"
 
 namespace nutik::studio {
+
+// Where a document's mask and functions are; not used of a plain interval.
+struct CommandFiles {
+  QString mask, functions;
+};
+
+// The command line that makes a document's picture, one line for a POSIX shell, and the recipe that the picture carries:
+// both come from one list of options, and nutik-cl writes the same bytes.
+[[nodiscard]] QString command_line(const Document& document, const CommandFiles& files,
+                                   const QString& picture);
+// Reads both files.
+[[nodiscard]] RecipeSources recipe_sources(const Document& document, const CommandFiles& files);
 
 struct Project {
   QString capture;
