@@ -18,15 +18,26 @@ struct WrongOutputName : UsageError {
   OutputKind kind;
 };
 
+// What is there is not replaced unless asked.
+struct OutputIsThere : UsageError {
+  using UsageError::UsageError;
+};
+
+// What an output may take the place of: nothing but an empty file and a picture that carries its recipe, and so can be
+// made again, or all of its kind.
+enum class Replacing { made_by_recipe, all };
+
 // Throws UsageError where `output` names one of the inputs, has a name of another kind, would replace a file of
-// another kind (a mask replaces no exposure, which carries a recipe, nor a picture in colour), or is standard output
-// and that a terminal.
-void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs);
+// another kind (a mask replaces no exposure, which carries a recipe, nor a picture in colour) or one that it
+// may not, or is standard output and that a terminal.
+void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs,
+                  Replacing replacing = Replacing::all);
 // The same of a mask, whose file keeps every tag.
-void check_mask_output(const std::filesystem::path& output, std::span<const std::string> inputs);
+void check_mask_output(const std::filesystem::path& output, std::span<const std::string> inputs,
+                       Replacing replacing = Replacing::all);
 [[nodiscard]] bool is_mask_name(const std::filesystem::path& path);
 // The same of a picture of 8-bit codes, where its file cannot hold so many channels, too.
 void check_picture_output(const std::filesystem::path& output, std::uint32_t channels,
-                          std::span<const std::string> inputs);
+                          std::span<const std::string> inputs, Replacing replacing = Replacing::all);
 
 }  // namespace nutik

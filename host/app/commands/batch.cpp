@@ -107,7 +107,7 @@ class Batch {
       if (names_standard_output(output)) {
         throw UsageError("standard output takes one picture, and a batch makes many; name a file");
       }
-      check_output(output, OutputKind::picture, input_files(line));
+      check_output(output, OutputKind::picture, input_files(line), replacing(line));
       const auto [earlier, is_new] =
           line_of_output_.try_emplace(std::filesystem::absolute(output).lexically_normal(), listed.line);
       if (!is_new) throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));

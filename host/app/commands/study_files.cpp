@@ -6,7 +6,6 @@
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/pictures.hpp"
-#include "session/output_check.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/checksum.hpp"
 #include "system/input_bytes.hpp"
@@ -85,8 +84,8 @@ std::filesystem::path StudyFiles::beside(const char* extension) const {
   return path;
 }
 
-void StudyFiles::check(std::span<const std::string> inputs) const {
-  check_output(picture, OutputKind::picture, inputs);
+void StudyFiles::check(std::span<const std::string> inputs, Replacing replacing) const {
+  check_output(picture, OutputKind::picture, inputs, replacing);
   if (is_alone_) return;
   check_output(mask, OutputKind::mask, inputs);
   const Noted noted(commands);
@@ -97,7 +96,7 @@ void StudyFiles::check(std::span<const std::string> inputs) const {
       throw UsageError(
           format("{} is also an input; it is not replaced. Choose another name for the picture", name));
     }
-    if (!std::filesystem::exists(*file, error)) continue;
+    if (replacing == Replacing::all || !std::filesystem::exists(*file, error)) continue;
     if (!std::filesystem::is_regular_file(*file, error) || !noted.knows(*file)) {
       throw UsageError(format(
           "{} exists and is of no study; it is not replaced. Choose another name for the picture", name));
@@ -110,7 +109,8 @@ void StudyFiles::check(std::span<const std::string> inputs) const {
     }
   }
   const std::filesystem::path other = picture.parent_path() / noted.picture;
-  if (!noted.picture.empty() && noted.picture != name_of(picture) && std::filesystem::exists(other, error)) {
+  if (replacing != Replacing::all && !noted.picture.empty() && noted.picture != name_of(picture) &&
+      std::filesystem::exists(other, error)) {
     throw UsageError(
         format("{}, {} and {} are those of {}; they are not replaced. Choose another name for the picture",
                mask.string(), functions.string(), commands.string(), other.string()));

@@ -1,7 +1,7 @@
 // The files of a study: its picture, and beside it what that was made with, to be changed by hand.
 //
-//   always:  what was changed by hand since, or is of no study, is not replaced. The commands' text knows the others by
-//            their checksums
+//   always:  what was changed by hand since, or is of no study, is not replaced unless asked. The commands' text knows
+//            the others by their checksums
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "session/output_check.hpp"
 
 namespace nutik::app {
 
@@ -19,8 +21,8 @@ class StudyFiles {
   // A picture on standard output has nothing beside it.
   [[nodiscard]] bool is_alone() const { return is_alone_; }
 
-  // Throws UsageError where a file is an input too, or must not be replaced.
-  void check(std::span<const std::string> inputs) const;
+  // Throws UsageError where a file is an input too, or may not be replaced.
+  void check(std::span<const std::string> inputs, Replacing replacing) const;
 
   void write_functions(std::string_view text) const;
   // The last: it notes what the others hold.
