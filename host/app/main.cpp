@@ -2,6 +2,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/command_line/command_line.hpp"
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
   nutik::catch_interruptions();
   nutik::catch_limits();
   nutik::watch_mapped_files();
+  nutik::do_one_work();
   nutik::prepare_for_pocl();
   try {
     const std::vector<std::string> words(argv + 1, argv + argc);
@@ -63,6 +65,11 @@ int main(int argc, char** argv) {
     return kSignal + interruption.signal;
   } catch (const std::bad_alloc&) {
     nutik::app::print_error("out of memory");
+    return kMemory;
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::resource_unavailable_try_again) return fail(error, kOther);
+    nutik::app::print_error("the system starts no more threads; raise the limit of processes (ulimit -u, or that of the "
+                            "container), or end other programs");
     return kMemory;
   } catch (const std::exception& error) {
     return fail(error, kOther);

@@ -65,7 +65,14 @@ struct Note {
 
   std::string text;
   std::vector<Setting> settings;
+  bool is_warning = false;  // something is lost: that is said also where nothing else is (--quiet)
 };
+
+[[nodiscard]] inline Note warning_of(std::string said) {
+  Note note(std::move(said));
+  note.is_warning = true;
+  return note;
+}
 
 // The request itself makes no sense: options that contradict each other, an unknown name.
 struct UsageError : Error {

@@ -10,7 +10,8 @@ namespace nutik {
 std::string Diagnostic::text(std::string_view file_name) const {
   const std::string_view kind = severity == Severity::warning ? "warning: " : "";
   const std::string first = format("{}:{}:{}: {}{}", file_name, place.line, place.column, kind, message);
-  if (excerpt.text.empty()) return first;  // an empty line shows nothing
+  // An empty line shows nothing, nor does one of no text.
+  if (excerpt.text.empty() || excerpt.text.find("\\x00") != std::string::npos) return first;
   return format("{}\n    {}\n    {}^", first, excerpt.text, excerpt.indent);
 }
 

@@ -37,6 +37,9 @@ class CaptureSource {
     return lend(block, terms);
   }
 
+  // Throws InputError where what was lent may have changed meanwhile.
+  virtual void check_unchanged() const {}
+
   // What a block's payload takes in memory while it is on loan, at most: nothing where it lies in memory anyway.
   [[nodiscard]] virtual std::uint64_t lent_bytes(std::uint64_t /*block*/) const { return 0; }
 

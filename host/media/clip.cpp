@@ -10,6 +10,7 @@
 #include "capture/seconds_text.hpp"
 #include "media/clip_part.hpp"
 #include "media/event_clip.hpp"
+#include "media/file_kinds.hpp"
 #include "media/module.hpp"
 #include "media/photron_clip.hpp"
 #include "media/photron_header.hpp"
@@ -17,6 +18,7 @@
 #include "media/still_sequence.hpp"
 #include "media/stills_table.hpp"
 #include "system/input_bytes.hpp"
+#include "system/is_absent.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
@@ -47,6 +49,7 @@ class DescribedClip final : public Clip {
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
   bool read(std::span<std::byte> raster) override { return clip_->read(raster); }
   bool skip(std::span<std::byte> room) override { return clip_->skip(room); }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
 
  private:
   std::unique_ptr<Clip> clip_;
@@ -125,7 +128,9 @@ std::unique_ptr<Clip> open_stills(const std::filesystem::path& path,
   std::error_code error;
   if (!std::filesystem::is_directory(path, error)) return clip;
   ClipInfo info = clip->info();
-  if (auto note = missing_still_note(path, stills)) info.notes.emplace_back(std::move(*note));
+  for (auto note : {missing_still_note(path, stills), left_out_note(path, stills)}) {
+    if (note) info.notes.emplace_back(std::move(*note));
+  }
   add_photron_header(info, path);
   return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
 }
@@ -150,6 +155,7 @@ void refuse_event_options(const std::filesystem::path& path, const EventOptions&
 
 // All of it, as its files have it.
 std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOptions& options) {
+  if (!options.raw) refuse_unread_kind(path);
   const bool holds_events = !options.raw && is_event_recording(path);
   if (holds_events) return open_event_clip(path, options);
   refuse_event_options(path, options.events);
@@ -157,12 +163,13 @@ std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOp
     if (is_stills_table(path)) return open_table(path, options);
     if (const auto stills = list_stills(path)) return open_stills(path, *stills, options);
   }
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
+  if (is_absent(path)) {
     throw InputError(format("{} cannot be read: no such file", input_title(path.string())));
   }
   if (options.raw) return open_raw(path, options);
-  return is_photron_clip(path) ? open_photron_clip(path, options) : video_module().open(path, options);
+  if (is_photron_clip(path)) return open_photron_clip(path, options);
+  refuse_text(path);
+  return video_module().open(path, options);
 }
 
 }  // namespace
@@ -307,7 +314,9 @@ Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOp
                      Rational shutter_angle, std::uint64_t sample_count) {
   if (options.rate) return Timeline::constant(*options.rate, shutter_angle, sample_count);
   if (!info.timing.is_known()) {
-    throw InputError(format("{} does not say how fast it was taken; state the rate", name),
+    const std::string& doubt = info.timing.rate_doubt;
+    throw InputError(format("{} does not say how fast it was taken{}{}; state the rate", name,
+                            doubt.empty() ? "" : ": ", doubt),
                      {Setting::frame_rate});
   }
   if (info.timing.rate) {

@@ -31,6 +31,7 @@ struct ClipTiming {
   // Of each sample, beside rate or starts, where the camera wrote it down.
   std::optional<std::int64_t> exposed_ns;
   std::string rate_from = "the file";  // what tells the times, for people
+  std::string rate_doubt = {};         // why a rate that it states is none, where nothing else tells the times
 
   [[nodiscard]] bool is_known() const { return rate || !starts_ns.empty() || !exposures.empty(); }
 };

@@ -17,26 +17,8 @@
 namespace nutik {
 namespace {
 
-// How recordings begin, and of kinds that are not read what to do about it.
-struct Kind {
-  std::string_view start;
-  std::string_view what, way_out;  // empty: it is read
-};
-constexpr std::string_view kAdder = "adder";
-constexpr Kind kEventKinds[] = {
-    {"% ", {}, {}},
-    {kAdder, {}, {}},
-    {"addec", "a compressed ADΔER file", "save it uncompressed (raw) with adder-viz or the adder-codec-rs library"},
-    {"\x89HDF\r\n\x1a\n", "an HDF5 file", "if it holds events, convert it to DAT with metavision_file_to_dat"},
-    {"#!AER-DAT", "an AEDAT file", "convert it to EVT or DAT with faery"}};
-
-const Kind* event_kind_of(const std::filesystem::path& path) {
-  const std::string start = first_bytes(path);
-  for (const Kind& kind : kEventKinds) {
-    if (start.starts_with(kind.start)) return &kind;
-  }
-  return nullptr;
-}
+// How recordings begin.
+constexpr std::string_view kProphesee = "% ", kAdder = "adder";
 
 // A recording of light, ready to be read.
 class EventClip final : public Clip {
@@ -79,21 +61,20 @@ class EventClip final : public Clip {
 }  // namespace
 
 bool is_event_recording(const std::filesystem::path& path) {
-  return event_kind_of(is_standard_input(path.string()) ? standard_input_file() : path) != nullptr;
+  const std::string start = first_bytes(is_standard_input(path.string()) ? standard_input_file() : path);
+  return start.starts_with(kProphesee) || start.starts_with(kAdder);
 }
 
 std::unique_ptr<Clip> open_event_clip(const std::filesystem::path& path, const ClipOptions& options) {
   const std::string name = input_title(path.string());
-  const Kind* kind = event_kind_of(path);
-  if (kind == nullptr) throw InputError(format("{} is no recording of events", name));
-  if (!kind->what.empty()) throw InputError(format("{} is {}, which is not read; {}", name, kind->what, kind->way_out));
+  if (!is_event_recording(path)) throw InputError(format("{} is no recording of events", name));
   if (options.rate) {
     throw UsageError(format("{} has times of its own at every pixel, and no rate", name), {Setting::frame_rate});
   }
   const MappedFile file(path);
   ClipInfo info;
   info.timing.rate_from = "the times of its events";
-  if (kind->start == kAdder) {
+  if (first_bytes(path).starts_with(kAdder)) {
     EventLight light = read_adder_file(file.bytes(), name, options, info);
     return std::make_unique<EventClip>(std::move(info), std::move(light));
   }

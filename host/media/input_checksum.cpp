@@ -10,6 +10,7 @@
 #include "media/stills_table.hpp"
 #include "system/checksum.hpp"
 #include "system/input_bytes.hpp"
+#include "system/is_absent.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
@@ -81,7 +82,7 @@ std::string bytes_checksum(std::span<const std::byte> bytes) {
 std::string input_name(const fs::path& path) {
   if (is_standard_input(path.string())) return "standard-input";
   std::error_code error;
-  if (fs::exists(path, error)) {
+  if (!is_absent(path)) {
     const fs::path whole = fs::absolute(path, error).lexically_normal();
     return (whole.filename().empty() ? whole.parent_path() : whole).filename().string();
   }

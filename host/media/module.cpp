@@ -9,6 +9,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/is_absent.hpp"
 
 #ifndef NUTIK_INSTALLED_MODULES
 #error "NUTIK_INSTALLED_MODULES is not set: the folder of installed modules, relative to the program's"
@@ -49,7 +50,7 @@ const void* load_module(const char* name, const char* symbol, const char* withou
   std::string tried;
   for (const std::filesystem::path& folder : module_folders()) {
     const std::filesystem::path file = folder / name;
-    if (!folder.empty() && !std::filesystem::exists(file)) {
+    if (!folder.empty() && is_absent(file)) {
       tried += format("\n  {}: no such file", file.string());
       continue;
     }

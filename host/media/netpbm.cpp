@@ -3,6 +3,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "capture/capture_mark.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "system/interruption.hpp"
@@ -17,8 +18,45 @@ class NetpbmReader {
   NetpbmReader(std::span<const std::byte> file, const std::string& name)
       : text_(reinterpret_cast<const char*>(file.data()), file.size()), name_(name) {}
 
+  // Passes over a picture: how many bytes it has.
+  std::size_t pass() {
+    const auto [shape, maximum, raw] = read_front();
+    const std::uint64_t value_size = maximum > 255 ? 2 : 1;
+    if (raw) return at_ + shape.value_count() * value_size;
+    for (std::uint64_t i = 0; i < shape.value_count(); ++i) number("value", 65'535);
+    return at_;
+  }
+
   Picture read() {
+    const auto [shape, maximum, raw] = read_front();
+    const std::uint64_t value_size = maximum > 255 ? 2 : 1;
+    Picture picture(shape, maximum > 255 ? ValueType::code16 : ValueType::code8, maximum);
+    for (std::uint64_t i = 0; i < shape.value_count(); ++i) {
+      if (i % 65'536 == 0) check_interruption();
+      const std::uint32_t code = raw ? raw_value(value_size) : number("value", 65'535);
+      if (code > maximum) fail(format("value {} is above its maximum of {}", code, maximum));
+      if (maximum > 255) {
+        picture.values<std::uint16_t>()[i] = static_cast<std::uint16_t>(code);
+      } else {
+        picture.values<std::uint8_t>()[i] = static_cast<std::uint8_t>(code);
+      }
+    }
+    return picture;
+  }
+
+ private:
+  struct Front {
+    Shape shape;
+    std::uint32_t maximum;
+    bool is_raw;
+  };
+
+  // All before the values, which follow if they are raw.
+  Front read_front() {
     if (text_.size() < 3 || text_[0] != 'P') fail("it is no Netpbm picture");
+    if (begins_as_capture(text_)) {
+      fail("it is a capture (.tik), whose front shows its first sample alone; expose a picture from it");
+    }
     const char kind = text_[1];
     if (kind != '2' && kind != '3' && kind != '5' && kind != '6') {
       fail(format("it is a P{}; PGM (P2, P5) and PPM (P3, P6) are read", kind));
@@ -39,21 +77,9 @@ class NetpbmReader {
       fail(format("it was cut off: {} x {} pixels need {} bytes, {} are left", shape.width, shape.height,
                   needed, text_.size() - std::min(at_, text_.size())));
     }
-    Picture picture(shape, maximum > 255 ? ValueType::code16 : ValueType::code8, maximum);
-    for (std::uint64_t i = 0; i < shape.value_count(); ++i) {
-      if (i % 65'536 == 0) check_interruption();
-      const std::uint32_t code = raw ? raw_value(value_size) : number("value", 65'535);
-      if (code > maximum) fail(format("value {} is above its maximum of {}", code, maximum));
-      if (maximum > 255) {
-        picture.values<std::uint16_t>()[i] = static_cast<std::uint16_t>(code);
-      } else {
-        picture.values<std::uint8_t>()[i] = static_cast<std::uint8_t>(code);
-      }
-    }
-    return picture;
+    return {shape, maximum, raw};
   }
 
- private:
   [[noreturn]] void fail(const std::string& why) const {
     throw InputError(format("{} cannot be read: {}", name_, why));
   }
@@ -104,6 +130,21 @@ class NetpbmReader {
 
 Picture read_netpbm(std::span<const std::byte> file, const std::string& name) {
   return NetpbmReader(file, name).read();
+}
+
+std::vector<std::size_t> netpbm_starts(std::span<const std::byte> file, const std::string& name) {
+  std::vector<std::size_t> starts{0};
+  try {
+    for (std::size_t at = 0;;) {
+      at += NetpbmReader(file.subspan(at), name).pass();
+      while (at < file.size() && file[at] == std::byte{'\n'}) ++at;
+      const std::string_view rest(reinterpret_cast<const char*>(file.data()) + at, std::min<std::size_t>(file.size() - at, 3));
+      if (!begins_as_netpbm(rest)) return starts;
+      starts.push_back(at);
+    }
+  } catch (const InputError&) {  // it is said when that picture is read
+    return starts;
+  }
 }
 
 std::string netpbm_text(const Picture& picture, const std::string& comment) {

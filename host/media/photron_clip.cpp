@@ -10,6 +10,7 @@
 #include "media/extension.hpp"
 #include "media/photron_header.hpp"
 #include "media/settled_fact.hpp"
+#include "system/is_absent.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
@@ -88,8 +89,7 @@ PhotronHeader header_of(const fs::path& path) {
   fs::path text = path, xml = path;
   text.replace_extension(".cih");
   xml.replace_extension(".cihx");
-  std::error_code error;
-  const bool has_text = fs::exists(text, error), has_xml = fs::exists(xml, error);
+  const bool has_text = !is_absent(text), has_xml = !is_absent(xml);
   if (has_text && has_xml) {
     throw InputError(
         format("{}: two headers lie beside it, {} and {}; name the one that is right in its place",
@@ -111,8 +111,7 @@ fs::path pictures_of(const fs::path& path) {
   for (const char* extension : {".mraw", ".MRAW"}) {
     fs::path pictures = path;
     pictures.replace_extension(extension);
-    std::error_code error;
-    if (fs::exists(pictures, error)) return pictures;
+    if (!is_absent(pictures)) return pictures;
   }
   fs::path wanted = path.filename();
   wanted.replace_extension(".mraw");
@@ -164,10 +163,7 @@ class PhotronClip final : public Clip {
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
 
   bool read(std::span<std::byte> raster) override {
-    if (next_ == count_) return false;
-    if ((next_ + 1) * layout_.picture_bytes() > file_.bytes().size()) {
-      throw cut_off();
-    }
+    if (!has_next()) return false;
     const auto picture = file_.bytes().subspan(next_ * layout_.picture_bytes(), layout_.picture_bytes());
     if (layout_.is_packed()) {
       unpack(picture, layout_.bits,
@@ -183,12 +179,19 @@ class PhotronClip final : public Clip {
   }
 
   bool skip(std::span<std::byte> /*room*/) override {
-    if (next_ == count_) return false;
+    if (!has_next()) return false;
     ++next_;
     return true;
   }
 
  private:
+  // Throws where the file ends before the next picture does.
+  [[nodiscard]] bool has_next() const {
+    if (next_ == count_) return false;
+    if ((next_ + 1) * layout_.picture_bytes() > file_.bytes().size()) throw cut_off();
+    return true;
+  }
+
   [[nodiscard]] std::string described() const {
     return format("{} x {} pixels of {} bits", layout_.shape.width, layout_.shape.height,
                   layout_.bits * layout_.shape.channels);

@@ -158,8 +158,8 @@ void write_picture(const std::filesystem::path& path, const Picture& picture, co
   if (!fits) throw UsageError(format("{} cannot hold the values of this picture", path.string()));
   if (names_standard_output(path)) {
     // Made whole before anything is sent; some of it is written by libraries that go back in their file.
-    OutputFile file(temporary_folder() / (std::string("nutik-picture") + kind.extension),
-                    OutputFile::Lasting::no);
+    const NamelessFile nameless;
+    OutputFile file(nameless.path(), OutputFile::Lasting::no);
     kind.write(file, picture, text, wishes);
     file.send_to_standard_output();
     return;

@@ -12,9 +12,11 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/extension.hpp"
+#include "media/file_kinds.hpp"
 #include "media/numbered_name.hpp"
 #include "media/stills_table.hpp"
 #include "system/input_bytes.hpp"
+#include "system/is_absent.hpp"
 
 namespace nutik {
 namespace {
@@ -84,10 +86,75 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
-std::vector<fs::path> pictures_in(const fs::path& folder) {
+// A file's name round its last number, and that number.
+struct CountedName {
+  std::string before, digits, after;
+  std::uint64_t number = 0;
+};
+
+// Empty where the name has no number, or none of 64 bits.
+std::optional<CountedName> counted_name(const fs::path& file) {
+  constexpr const char* kDigits = "0123456789";
+  constexpr std::size_t kMaxDigits = 18;
+  const std::string stem = file.stem().string();
+  const auto last = stem.find_last_of(kDigits);
+  if (last == stem.npos) return std::nullopt;
+  const auto other = stem.find_last_not_of(kDigits, last);
+  const std::size_t first = other == stem.npos ? 0 : other + 1;
+  if (last + 1 - first > kMaxDigits) return std::nullopt;
+  CountedName name{stem.substr(0, first), stem.substr(first, last + 1 - first),
+                   stem.substr(last + 1) + file.extension().string()};
+  name.number = std::stoul(name.digits);
+  return name;
+}
+
+// Its name with a mark in the place of each number: files of one sequence have the same, and copies, dark pictures or
+// another camera's have others.
+std::string name_without_numbers(const fs::path& file) {
+  std::string text;
+  for (const char c : file.stem().string()) {
+    if (!is_digit(c)) text += c;
+    if (is_digit(c) && !text.ends_with('#')) text += '#';
+  }
+  return text;
+}
+
+// The pictures of the sequence that most of them belong to, or all, where there is none. Throws where there are two.
+std::vector<fs::path> main_sequence(const fs::path& folder, const std::vector<fs::path>& files) {
+  std::map<std::string, std::vector<fs::path>> by_name;
+  for (const fs::path& file : files) by_name[name_without_numbers(file)].push_back(file);
+  const std::vector<fs::path>* main = nullptr;
+  for (const auto& [name, group] : by_name) {
+    if (group.size() < 2 || name.find('#') == std::string::npos) continue;
+    if (main == nullptr) {
+      main = &group;
+      continue;
+    }
+    const auto pattern = [&](const fs::path& file) {
+      const CountedName counted = counted_name(file).value_or(CountedName{"", "", file.extension().string()});
+      return "'" + (folder / (counted.before + "*" + counted.after)).string() + "'";
+    };
+    throw InputError(format("{}: the folder holds two sequences, of {} ({} pictures) and of {} ({}): name one: {} or {}; '{}' "
+                            "takes all",
+                            folder.string(), main->front().filename().string(), main->size(),
+                            group.front().filename().string(), group.size(), pattern(main->front()), pattern(group.front()),
+                            (folder / ("*" + files.front().extension().string())).string()));
+  }
+  return main != nullptr && 2 * main->size() > files.size() ? *main : files;
+}
+
+std::vector<fs::path> all_pictures_in(const fs::path& folder) {
   std::vector<fs::path> files = files_in(folder);
   std::erase_if(files, [](const fs::path& file) { return still_kind_of(file).empty(); });
+  return files;
+}
+
+std::vector<fs::path> pictures_in(const fs::path& folder) {
+  const std::vector<fs::path> files = all_pictures_in(folder);
   if (files.empty()) {
+    for (const fs::path& file : files_in(folder)) {
+      if (const auto kind = unread_kind_text(file)) throw InputError(*kind);
+    }
     throw InputError(
         format("{}: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg, .dng)", folder.string()));
   }
@@ -99,7 +166,7 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
                             still_kind_of(file), file.filename().string(),
                             (folder / ("*" + files.front().extension().string())).string()));
   }
-  return files;
+  return main_sequence(folder, files);
 }
 
 std::vector<fs::path> matching_files(const fs::path& pattern) {
@@ -165,28 +232,6 @@ std::vector<fs::path> numbered_files(const fs::path& path, const NumberedName& n
   return files;
 }
 
-// A file's name round its last number, and that number.
-struct CountedName {
-  std::string before, digits, after;
-  std::uint64_t number = 0;
-};
-
-// Empty where the name has no number, or none of 64 bits.
-std::optional<CountedName> counted_name(const fs::path& file) {
-  constexpr const char* kDigits = "0123456789";
-  constexpr std::size_t kMaxDigits = 18;
-  const std::string stem = file.stem().string();
-  const auto last = stem.find_last_of(kDigits);
-  if (last == stem.npos) return std::nullopt;
-  const auto other = stem.find_last_not_of(kDigits, last);
-  const std::size_t first = other == stem.npos ? 0 : other + 1;
-  if (last + 1 - first > kMaxDigits) return std::nullopt;
-  CountedName name{stem.substr(0, first), stem.substr(first, last + 1 - first),
-                   stem.substr(last + 1) + file.extension().string()};
-  name.number = std::stoul(name.digits);
-  return name;
-}
-
 bool is_glob(const std::string& path) { return path.find_first_of("*?[") != std::string::npos; }
 
 }  // namespace
@@ -199,8 +244,9 @@ std::optional<std::vector<fs::path>> list_stills(const fs::path& path) {
     for (const ListedStill& still : read_stills_table(path)) files.push_back(still.file);
     return files;
   }
-  if (fs::exists(path, error)) {
-    if (!still_kind_of(path).empty()) return std::vector<fs::path>{path};
+  if (!is_absent(path)) {
+    if (is_animated_png(path)) return std::nullopt;
+    if (!still_kind_of(path).empty() || begins_as_tiff(path)) return std::vector<fs::path>{path};
     return std::nullopt;
   }
   if (const auto numbered = NumberedName::parse(path.filename().string())) {
@@ -244,6 +290,20 @@ std::optional<std::string> missing_still_note(const fs::path& folder, std::span<
       (folder / ("*" + files.front().extension().string())).string());
 }
 
+std::optional<std::string> left_out_note(const fs::path& folder, std::span<const fs::path> files) {
+  std::string names;
+  std::size_t count = 0;
+  for (const fs::path& file : all_pictures_in(folder)) {
+    if (std::ranges::find(files, file) != files.end()) continue;
+    if (++count <= 3) names += (count == 1 ? "" : ", ") + file.filename().string();
+  }
+  if (count == 0) return std::nullopt;
+  return format("{}: not taken along, because their names are of another kind than {}: {}{}; '{}' takes all",
+                folder.string(), files.front().filename().string(), names,
+                count > 3 ? format(" and {} more", count - 3) : "",
+                (folder / ("*" + files.front().extension().string())).string());
+}
+
 std::string sequence_name(const fs::path& path) {
   if (is_standard_input(path.string())) return "standard-input";
   std::error_code error;
@@ -252,7 +312,7 @@ std::string sequence_name(const fs::path& path) {
   if (whole.filename().empty()) whole = whole.parent_path();
   if (fs::is_directory(path, error)) return whole.filename().string();
   std::string name = path.stem().string();
-  if (fs::exists(path, error)) return name;
+  if (!is_absent(path)) return name;
   if (const auto numbered = NumberedName::parse(path.filename().string())) {
     name = numbered->before;
   } else if (is_glob(name)) {

@@ -11,7 +11,8 @@ namespace nutik {
 
 // The files that `path` stands for where it is a sequence of stills or a single still:
 //   a folder            every picture in it that is not hidden, in the order a person counts (2 before
-//                       10); all must be of one kind of file
+//                       10); all must be of one kind of file. If most are numbered alike, these are it; two numbered
+//                       sequences are none
 //   `frames/*.png`      every file that matches (*, ? and [a-z], as shells have them), in that order
 //   `frame%04d.png`     numbered files as printf writes them, from the lowest number on
 //   a picture           that file (a TIFF may hold several pictures)
@@ -26,6 +27,10 @@ namespace nutik {
 // differ in more than one number, or go up by this and that.
 [[nodiscard]] std::optional<std::string> missing_still_note(const std::filesystem::path& folder,
                                                             std::span<const std::filesystem::path> files);
+
+// What to tell of a folder of which some pictures are not among its sequence; empty where all are.
+[[nodiscard]] std::optional<std::string> left_out_note(const std::filesystem::path& folder,
+                                                       std::span<const std::filesystem::path> files);
 
 // What to call that which is made from a clip: `clip` for clip.mp4, `frames` for the folder frames/
 // and for frames/*.png, `shot` for shot_%04d.png.

@@ -103,7 +103,7 @@ std::vector<ListedStill> read_stills_table(const std::filesystem::path& path) {
     if (stills.empty() && is_header(*fields)) continue;
     if (fields->size() > std::size(kColumns)) {
       fail(path, line,
-           format("{} columns, and there are three: file,start_ns,exposure_ns; a name with a comma "
+           format("{} columns, and a table of stills has three: file,start_ns,exposure_ns; a name with a comma "
                   "stands in quotes",
                   fields->size()));
     }

@@ -10,6 +10,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/input_bytes.hpp"
 #include "system/interruption.hpp"
 
 namespace nutik {
@@ -31,13 +32,14 @@ class PageReader {
   PageReader(TIFF* file, std::string name)
       : file_(file), name_(std::move(name)), file_bytes_(TIFFGetSizeProc(file)(TIFFClientdata(file))) {}
 
-  TiffPage read() {
+  // Of a page that has no directory of its own the bytes lie so many behind the first one's.
+  TiffPage read(std::uint64_t bytes_behind = 0) {
+    bytes_behind_ = bytes_behind;
     read_layout();
     TiffPage page;
     if (is_plain()) {
-      check_plain();
       page.maximum = stated_maximum();
-      page.picture = Picture(shape_, bits_ > 8 ? ValueType::code16 : ValueType::code8, (1u << bits_) - 1);
+      page.picture = Picture(shape_, bits_ > 8 ? ValueType::code16 : ValueType::code8, (1u << std::max<std::uint32_t>(bits_, 8)) - 1);
       for (std::uint16_t plane = 0; plane < (separate_ ? shape_.channels : 1); ++plane) {
         TIFFIsTiled(file_) ? read_tiles(page.picture, plane) : read_rows(page.picture, plane);
       }
@@ -82,6 +84,16 @@ class PageReader {
       fail(format("it has {} channels; grey (1) and colour (3) are read, transparency is not",
                   shape_.channels));
     }
+    const auto sample_format = field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
+    if (bits_ > 16 || sample_format != SAMPLEFORMAT_UINT) {
+      fail(format("it has {}-bit {} values; whole numbers without sign of up to 16 bits are read", bits_,
+                  sample_format == SAMPLEFORMAT_INT      ? "signed"
+                  : sample_format == SAMPLEFORMAT_IEEEFP ? "floating-point"
+                                                         : "unsigned"));
+    }
+    if (is_grey() && shape_.channels == 3) {
+      fail("its 3 samples a pixel are channels of grey, not colour (photometric interpretation MinIsBlack); save one of them, or all as RGB");
+    }
     const auto orientation = field<std::uint16_t>(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
     if (orientation != ORIENTATION_TOPLEFT) {
       fail(format("its orientation is {}; only upright pictures (1) are read. Turn it upright first",
@@ -92,19 +104,11 @@ class PageReader {
   // Whether the values are codes as they stand, rather than indices of a palette, YCbCr or single
   // bits.
   [[nodiscard]] bool is_plain() const {
-    const bool grey = photometric_ == PHOTOMETRIC_MINISBLACK || photometric_ == PHOTOMETRIC_MINISWHITE;
-    return bits_ >= 8 &&
-           (grey ? shape_.channels == 1 : photometric_ == PHOTOMETRIC_RGB && shape_.channels == 3);
+    if (is_grey()) return shape_.channels == 1 && (bits_ >= 8 || bits_ == 1 || bits_ == 2 || bits_ == 4);
+    return bits_ >= 8 && photometric_ == PHOTOMETRIC_RGB && shape_.channels == 3;
   }
-
-  void check_plain() const {
-    const auto sample_format = field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
-    if (bits_ > 16 || sample_format != SAMPLEFORMAT_UINT) {
-      fail(format("it has {}-bit {} values; whole numbers without sign of up to 16 bits are read", bits_,
-                  sample_format == SAMPLEFORMAT_INT      ? "signed"
-                  : sample_format == SAMPLEFORMAT_IEEEFP ? "floating-point"
-                                                         : "unsigned"));
-    }
+  [[nodiscard]] bool is_grey() const {
+    return photometric_ == PHOTOMETRIC_MINISBLACK || photometric_ == PHOTOMETRIC_MINISWHITE;
   }
 
   [[nodiscard]] std::optional<std::pair<double, double>> resolution() const {
@@ -125,7 +129,7 @@ class PageReader {
 
   [[nodiscard]] std::optional<std::uint32_t> stated_maximum() const {
     const std::uint32_t full = (1u << bits_) - 1;
-    if (bits_ != 16) return bits_ == 8 ? std::nullopt : std::optional(full);
+    if (bits_ != 16) return bits_ <= 8 ? std::nullopt : std::optional(full);
     std::uint16_t stated = 0;
     if (TIFFGetField(file_, TIFFTAG_MAXSAMPLEVALUE, &stated) != 1) return std::nullopt;
     if (stated <= 255 || (stated & (stated + 1u)) != 0) return std::nullopt;
@@ -154,7 +158,8 @@ class PageReader {
     const std::size_t to = (std::size_t{y} * shape_.width + x) * shape_.channels + plane;
     for (std::size_t i = 0; i < std::size_t{count} * together; ++i) {
       const std::uint32_t stored = value(row, offset, i);
-      const std::uint32_t code = inverted ? full - stored : stored;
+      // Fewer than 8 bits are spread over 8, as all programs show them.
+      const std::uint32_t code = (inverted ? full - stored : stored) * (bits_ < 8 ? 255 / full : 1);
       const std::size_t at = to + i / together * shape_.channels + i % together;
       if (picture.type == ValueType::code8) {
         picture.bytes[at] = static_cast<std::byte>(code);
@@ -173,11 +178,26 @@ class PageReader {
     std::vector<std::uint8_t> row(row_bytes);
     for (std::uint32_t y = 0; y < shape_.height; ++y) {
       check_interruption();
-      if (TIFFReadScanline(file_, row.data(), y, plane) < 0) {
+      const bool is_there = bytes_behind_ > 0 ? read_behind(row, y) : TIFFReadScanline(file_, row.data(), y, plane) >= 0;
+      if (!is_there) {
         fail(format("it is damaged or was cut off at row {} of {}", y, shape_.height));
       }
       place(picture, row, 0, 0, y, shape_.width, plane);
     }
+  }
+
+  // A row of what lies behind the first page.
+  bool read_behind(std::vector<std::uint8_t>& row, std::uint32_t y) const {
+    const std::uint64_t* offsets = nullptr;
+    if (TIFFGetField(file_, TIFFTAG_STRIPOFFSETS, &offsets) != 1 || offsets == nullptr) return false;
+    const auto stream = TIFFClientdata(file_);
+    const std::uint64_t at = offsets[0] + bytes_behind_ + y * std::uint64_t{row.size()};
+    if (TIFFGetSeekProc(file_)(stream, at, SEEK_SET) != at) return false;
+    if (TIFFGetReadProc(file_)(stream, row.data(), static_cast<tmsize_t>(row.size())) != static_cast<tmsize_t>(row.size())) return false;
+    if (bits_ == 16 && TIFFIsByteSwapped(file_)) {
+      TIFFSwabArrayOfShort(reinterpret_cast<std::uint16_t*>(row.data()), static_cast<tmsize_t>(row.size() / 2));
+    }
+    return true;
   }
 
   void read_tiles(Picture& picture, std::uint16_t plane) const {
@@ -236,7 +256,28 @@ class PageReader {
   std::uint16_t bits_ = 0;
   std::uint16_t photometric_ = 0;
   bool separate_ = false;
+  std::uint64_t bytes_behind_ = 0;
 };
+
+// Of a page whose codes lie in one piece as they are, their bytes; 0 of any other.
+std::uint64_t bytes_in_one_piece(TIFF* file) {
+  std::uint16_t bits = 0, compression = 0, plane = 0;
+  TIFFGetFieldDefaulted(file, TIFFTAG_BITSPERSAMPLE, &bits);
+  TIFFGetFieldDefaulted(file, TIFFTAG_COMPRESSION, &compression);
+  TIFFGetFieldDefaulted(file, TIFFTAG_PLANARCONFIG, &plane);
+  const bool is_plain = (bits == 8 || bits == 16) && compression == COMPRESSION_NONE && plane == PLANARCONFIG_CONTIG;
+  std::uint32_t height = 0;
+  const std::uint64_t* offsets = nullptr;
+  if (!is_plain || TIFFIsTiled(file) || TIFFGetField(file, TIFFTAG_IMAGELENGTH, &height) != 1 ||
+      TIFFGetField(file, TIFFTAG_STRIPOFFSETS, &offsets) != 1 || offsets == nullptr) {
+    return 0;
+  }
+  const std::uint64_t row_bytes = TIFFScanlineSize64(file), strip_bytes = TIFFStripSize64(file);
+  for (std::uint32_t strip = 1; strip < TIFFNumberOfStrips(file); ++strip) {
+    if (offsets[strip] != offsets[0] + strip * strip_bytes) return 0;
+  }
+  return row_bytes * height;
+}
 
 }  // namespace
 
@@ -275,7 +316,7 @@ struct TiffReader::File {
 };
 
 TiffReader::TiffReader(const std::filesystem::path& path)
-    : name_(path.string()), file_(std::make_unique<File>(path)) {
+    : name_(input_title(path.string())), file_(std::make_unique<File>(path)) {
   if (!file_->handle) throw InputError(format("{} cannot be read: it is damaged or no TIFF", name_));
   page_count_ = TIFFNumberOfDirectories(file_->handle.get());
   if (page_count_ == 0 || !file_->trouble.empty()) {
@@ -283,16 +324,47 @@ TiffReader::TiffReader(const std::filesystem::path& path)
         format("{} cannot be read: it is damaged or was cut off: its list of pages breaks at page {} ({})",
                name_, page_count_ + 1, file_->trouble));
   }
+  follow_story();
 }
 TiffReader::~TiffReader() = default;
+
+void TiffReader::follow_story() {
+  TIFF* const handle = file_->handle.get();
+  const char* description = nullptr;
+  if (TIFFGetField(handle, TIFFTAG_IMAGEDESCRIPTION, &description) != 1 || description == nullptr) return;
+  Shape shape;
+  std::uint16_t channels = 1;
+  TIFFGetFieldDefaulted(handle, TIFFTAG_SAMPLESPERPIXEL, &channels);
+  shape.channels = std::max<std::uint16_t>(channels, 1);
+  story_ = read_tiff_story(description, shape);
+  if (page_count_ > 1 && !story_.mixed.empty()) {
+    throw InputError(
+        format("{} holds {}, as its description by {} says, and its pages are not moments one after another; save one "
+               "channel and slice as a TIFF of its own (in Fiji: Image, Hyperstacks, Make Subset)",
+               name_, story_.mixed, story_.who));
+  }
+  if (page_count_ > 1 || story_.pictures <= 1) return;
+  const std::uint64_t page_bytes = bytes_in_one_piece(handle), file_bytes = TIFFGetSizeProc(handle)(TIFFClientdata(handle));
+  const std::uint64_t* offsets = nullptr;
+  const bool has_offsets = TIFFGetField(handle, TIFFTAG_STRIPOFFSETS, &offsets) == 1 && offsets != nullptr;
+  if (!has_offsets || page_bytes == 0 || offsets[0] >= file_bytes) return;
+  const std::uint64_t held = (file_bytes - offsets[0]) / page_bytes;
+  is_in_one_ = held > 1;  // else it is one page that kept the description of a stack
+  if (!is_in_one_) return;
+  if (held < story_.pictures) {
+    throw InputError(format("{} was cut off: its description by {} says that it holds {} pictures, and {} are there", name_,
+                            story_.who, story_.pictures, held));
+  }
+  page_count_ = story_.pictures;
+}
 
 std::optional<TiffPage> TiffReader::next() {
   if (pages_read_ == page_count_) return std::nullopt;
   const std::string page_name = format("{}, page {},", name_, pages_read_ + 1);
   TIFF* const handle = file_->handle.get();
-  const bool found = pages_read_ == 0 || TIFFReadDirectory(handle) != 0;
+  const bool found = pages_read_ == 0 || is_in_one_ || TIFFReadDirectory(handle) != 0;
   std::optional<TiffPage> page;
-  if (found) page = PageReader(handle, page_name).read();
+  if (found) page = PageReader(handle, page_name).read(is_in_one_ ? pages_read_ * bytes_in_one_piece(handle) : 0);
   if (!found || !file_->trouble.empty()) {
     throw InputError(format("{} cannot be read: it is damaged ({})", page_name, file_->trouble));
   }

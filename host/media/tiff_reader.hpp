@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "capture/picture.hpp"
+#include "media/tiff_story.hpp"
 
 namespace nutik {
 
@@ -34,7 +35,10 @@ class TiffReader {
   explicit TiffReader(const std::filesystem::path& path);
   ~TiffReader();
 
+  // Of these one directory may stand for many, whose codes lie one behind the other, as the description says.
   [[nodiscard]] std::uint64_t page_count() const { return page_count_; }
+  // What the first page's description says.
+  [[nodiscard]] const TiffStory& story() const { return story_; }
 
   // The next page, in time proportional to its size. Empty after the last one. Throws InputError
   // naming file and page where it is damaged, as far as libtiff notices, or of a kind that is not read.
@@ -43,10 +47,15 @@ class TiffReader {
  private:
   struct File;
 
+  // Throws where the description says of more than moments; makes pages of what it says that no directory does.
+  void follow_story();
+
   std::string name_;
   std::unique_ptr<File> file_;
   std::uint64_t page_count_ = 0;
   std::uint64_t pages_read_ = 0;
+  TiffStory story_;
+  bool is_in_one_ = false;  // whether all pages have the first one's directory
 };
 
 }  // namespace nutik

@@ -20,7 +20,7 @@ void warn(Rendered& rendered, const OutputFormat& output, const std::string& dev
 
 void choose_arithmetic(const RenderPlan& plan, const OutputFormat& output,
                        std::span<const Precision> available, std::optional<Precision> asked,
-                       const std::string& device, const FaultOf& fault_of, Rendered& rendered) {
+                       const std::string& device, bool takes_wrong, const FaultOf& fault_of, Rendered& rendered) {
   std::vector<Precision> left(available.begin(), available.end());
   if (asked) left = {*asked};
   std::string faults;
@@ -29,10 +29,11 @@ void choose_arithmetic(const RenderPlan& plan, const OutputFormat& output,
     rendered.precision = rendered.choice->precision();
     const std::string fault = fault_of(rendered.precision);
     rendered.passed_self_test = fault.empty();
-    if (asked && !fault.empty()) {
-      rendered.warnings.push_back(
-          format("{}: this driver computes `{}` wrongly (self-test: {}); use another arithmetic", device,
-                 to_text(*asked), fault));
+    if (asked && !fault.empty() && !takes_wrong) {
+      throw DeviceError(format("{}: this driver computes `{}` wrongly (self-test: {}); use auto or another arithmetic, "
+                               "another device or the reference",
+                               device, to_text(*asked), fault),
+                        {Setting::precision, Setting::renderer});
     }
     if (!asked && fault.empty()) warn(rendered, output, device);
     if (asked || fault.empty()) return;

@@ -7,6 +7,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "opencl/cache_folder.hpp"
 #include "opencl/opencl_api.hpp"
 
 namespace nutik {
@@ -101,6 +102,13 @@ DeviceError device_failed(const cl::Error& error, const std::string& doing) {
 }
 
 std::vector<cl::Device> all_devices() {
+  choose_cache_of_pocl();
+  if (const std::string flaw = flaw_of_pocl_cache(); !flaw.empty()) {
+    throw DeviceError(format("PoCL has no folder to build kernels in: {}; set POCL_CACHE_DIR to a folder of yours "
+                             "alone with room, or use the reference",
+                             flaw),
+                      {Setting::renderer});
+  }
   std::vector<cl::Platform> platforms;
   try {
     cl::Platform::get(&platforms);
@@ -153,6 +161,7 @@ DeviceInfo describe_device(const cl::Device& device) {
 void prepare_for_pocl() {
   ::setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
   ::setenv("HWLOC_PLUGINS_PATH", "/dev/null", 0);
+  choose_cache_of_pocl();
 }
 
 std::vector<DeviceInfo> list_devices() {

@@ -28,12 +28,13 @@ struct DeviceInfo {
   bool shares_host_memory = false;
 };
 
-// For an application, before it has a second thread: sets two variables of the environment, where they are not set.
+// For an application, before it has a second thread: sets variables of the environment, where they are not set.
 //
 //   POCL_WORK_GROUP_SPECIALIZATION=0   PoCL builds each kernel once, for groups of any size. It would build it for the
 //                                      size at hand, and again for the binary that is kept; neither runs faster
 //   HWLOC_PLUGINS_PATH=/dev/null       PoCL sets this itself, on the thread that looks for devices. Where the variable
 //                                      is new, the environment moves, while other threads may be reading it
+//   POCL_CACHE_DIR                     only where PoCL's usual folder is not safe (opencl/cache_folder.hpp)
 void prepare_for_pocl();
 
 // Every device of every platform, the ones to prefer first: GPUs, accelerators, CPUs, and of a kind those without a

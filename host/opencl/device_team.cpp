@@ -139,15 +139,26 @@ void DeviceTeam::on_each(std::span<const std::size_t> members, const std::stop_t
   if (failure) std::rethrow_exception(failure);
 }
 
+// A shared_mutex lets who shares it in past who waits for it alone: pictures of single devices that overlap without end
+// would keep bands waiting without end. So all pass the door, one by one, and stand in it while they wait.
+std::unique_lock<std::shared_mutex> DeviceTeam::turn_of_all() {
+  const std::scoped_lock passing(door_);
+  return std::unique_lock(turn_);
+}
+std::shared_lock<std::shared_mutex> DeviceTeam::turn_of_one() {
+  const std::scoped_lock passing(door_);
+  return std::shared_lock(turn_);
+}
+
 void DeviceTeam::keep_resident(const CaptureSource* source) {
-  const std::unique_lock turn(turn_);
+  const std::unique_lock turn = turn_of_all();
   for (const Member& member : members_) member.renderer->keep_resident(source);
 }
 
 void DeviceTeam::prepare(const RenderPlan& plan, const OutputFormat& output) {
-  const std::unique_lock turn(turn_);
+  const std::unique_lock turn = turn_of_all();
   Rendered ignored;
-  choose(plan, output, precision_, ignored);
+  choose(plan, output, precision_, false, ignored);
 }
 
 std::string DeviceTeam::name() const { return names_of(all_); }
@@ -171,10 +182,10 @@ std::string DeviceTeam::names_of(std::span<const std::size_t> members) const {
 }
 
 void DeviceTeam::choose(const RenderPlan& plan, const OutputFormat& output, std::optional<Precision> asked,
-                        Rendered& rendered) {
+                        bool takes_wrong, Rendered& rendered) {
   const std::scoped_lock choosing(choosing_);
   choose_arithmetic(
-      plan, output, available_, asked, name(),
+      plan, output, available_, asked, name(), takes_wrong,
       [&](Precision precision) { return fault_of(precision, plan, output); }, rendered);
 }
 
@@ -203,8 +214,7 @@ Rendered DeviceTeam::render_part(const RenderPlan& plan, CaptureSource& source, 
                                  const Rectangle& rectangle, const RenderControl& control) {
   const std::optional<Precision> asked = control.precision ? control.precision : precision_;
   Rendered chosen;
-  choose(plan, output, asked, chosen);
-  if (asked) chosen.warnings.clear();  // the devices say so themselves
+  choose(plan, output, asked, control.takes_wrong, chosen);
   RenderControl of_part = control;
   of_part.precision = chosen.precision;
   std::optional<Rendered> rendered;
@@ -238,7 +248,7 @@ void DeviceTeam::give_back(std::size_t member) {
 std::optional<Rendered> DeviceTeam::render_alone(const RenderPlan& plan, CaptureSource& source,
                                                  const OutputFormat& output, const Rectangle& rectangle,
                                                  const RenderControl& control) {
-  const std::shared_lock turn(turn_);
+  const std::shared_lock turn = turn_of_one();
   RenderControl own = control;
   if (control.memory_bytes != 0) {
     own.memory_bytes = control.memory_bytes / members_.size();
@@ -265,7 +275,7 @@ std::optional<Rendered> DeviceTeam::render_alone(const RenderPlan& plan, Capture
 
 Rendered DeviceTeam::render_together(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output,
                                      const Rectangle& rectangle, const RenderControl& control) {
-  const std::unique_lock turn(turn_);
+  const std::unique_lock turn = turn_of_all();
   std::vector<Rectangle> bands = split_->cut(rectangle);
   std::vector<std::size_t> at_work;
   std::ranges::copy_if(all_, std::back_inserter(at_work),

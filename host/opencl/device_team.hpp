@@ -51,12 +51,14 @@ class DeviceTeam final : public Renderer {
     bool is_mixed, has_delays;
     std::string fault;
   };
+  [[nodiscard]] std::unique_lock<std::shared_mutex> turn_of_all();
+  [[nodiscard]] std::shared_lock<std::shared_mutex> turn_of_one();
   // What is done on several of them at once; `outer` ends it.
   template <typename Work>
   void on_each(std::span<const std::size_t> members, const std::stop_token& outer, Work work) const;
   [[nodiscard]] std::string names_of(std::span<const std::size_t> members) const;
   void choose(const RenderPlan& plan, const OutputFormat& output, std::optional<Precision> asked,
-              Rendered& rendered);
+              bool takes_wrong, Rendered& rendered);
   [[nodiscard]] std::string fault_of(Precision precision, const RenderPlan& plan, const OutputFormat& output);
   [[nodiscard]] Rendered render_part(const RenderPlan& plan, CaptureSource& source,
                                      const OutputFormat& output, const Rectangle& rectangle,
@@ -86,6 +88,7 @@ class DeviceTeam final : public Renderer {
   std::condition_variable freed_;
   std::set<std::size_t> free_;
   std::uint64_t next_in_line_ = 0, served_ = 0;
+  std::mutex door_;         // to the turn
   std::shared_mutex turn_;  // of a picture in bands; shared by those that single devices make
   std::optional<BandSplit> split_;
 };

@@ -103,7 +103,7 @@ class OpenClRenderer::Implementation {
     const std::scoped_lock turn(turn_);
     try {
       Rendered ignored;
-      choose(plan, output, options_.precision, ignored);
+      choose(plan, output, options_.precision, false, ignored);
     } catch (const cl::Error& error) {
       throw device_failed(error, format("{} failed", info_.name));
     }
@@ -126,7 +126,7 @@ class OpenClRenderer::Implementation {
     const std::scoped_lock turn(turn_);
     try {
       Rendered rendered;
-      choose(request.plan, request.output, asked, rendered);
+      choose(request.plan, request.output, asked, request.control.takes_wrong, rendered);
       const Work work = work_for(rendered.precision);
       expose_and_develop(work, request, develop_program(work, request.plan, request.output), rendered);
       programs_->save_new_binaries();
@@ -180,9 +180,9 @@ class OpenClRenderer::Implementation {
 
   // Kernels of the arithmetic that is chosen are built and tested.
   void choose(const RenderPlan& plan, const OutputFormat& output, std::optional<Precision> asked,
-              Rendered& rendered) {
+              bool takes_wrong, Rendered& rendered) {
     choose_arithmetic(
-        plan, output, precisions(), asked, info_.name,
+        plan, output, precisions(), asked, info_.name, takes_wrong,
         [&](Precision precision) { return fault_text_of(precision, plan, output); }, rendered);
   }
 

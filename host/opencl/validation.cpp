@@ -51,6 +51,7 @@ Validation validate(const RenderPlan& plan, CaptureSource& capture, const Output
   const Clock::time_point start = Clock::now();
   RenderControl control;
   control.memory_bytes = memory_bytes;
+  control.takes_wrong = true;
   const Picture expected = ReferenceRenderer().render(plan, capture, kWholeLight, control).picture;
   validation.reference_ms = milliseconds_since(start);
   step();

@@ -2,7 +2,6 @@
 
 #include "capture/format.hpp"
 #include "render/code_scale.hpp"
-#include "system/mapped_file.hpp"
 
 namespace nutik {
 namespace {
@@ -30,7 +29,7 @@ Rendered Renderer::render(const RenderPlan& plan, CaptureSource& source, const O
   throw_if_cancelled(control);
   Rendered rendered = render_part(plan, source, output, rectangle, control);
   if (rendered.renderer.empty()) rendered.renderer = name();
-  check_mapped_files();  // blocks may lie where the system maps them, and be read by a device at any time
+  source.check_unchanged();  // blocks may lie where the system maps them, and be read by a device at any time
   state_values(rendered.picture, plan.capture, output);
   return rendered;
 }

@@ -24,6 +24,7 @@ struct RenderControl {
   std::stop_token stop;                // looked at between launches: render() throws Cancelled
   std::optional<Rectangle> rectangle;  // only these pixels, which are the whole picture's; none: all
   std::optional<Precision> precision;  // instead of what the renderer was made with
+  bool takes_wrong = false;  // to measure an arithmetic that its device computes wrongly; else it is refused
 
   // Of several devices, that one makes all of it which is free first: pictures that are asked for at the same time are
   // then made by different devices.
@@ -61,7 +62,7 @@ struct Rendered {
   Saturation saturation;  // none where light was kept
   std::optional<PrecisionChoice>
       choice;                    // the arithmetic's bound and what was not taken; none of the reference
-  bool passed_self_test = true;  // false: asked for by name, though the device computes it wrongly
+  bool passed_self_test = true;  // false: RenderControl::takes_wrong, and it is
   RenderStatistics statistics;
   std::vector<std::string> warnings;  // what is doubtful about the picture, whole sentences
 };

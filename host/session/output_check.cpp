@@ -4,10 +4,12 @@
 
 #include <string_view>
 
+#include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "exposure/function_file.hpp"
 #include "media/picture_writer.hpp"
 #include "media/recipe.hpp"
+#include "system/is_absent.hpp"
 #include "system/mapped_file.hpp"
 #include "tik/header.hpp"
 
@@ -68,8 +70,21 @@ bool is_video_content(std::string_view bytes) {
   return is_matroska || is_mp4 || is_avi;
 }
 
+// What a file begins with; of what is no regular file nothing, as that is never written to. What it is must be known.
+std::string beginning_of(const std::filesystem::path& file) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(file, unknown) && !unknown) return {};
+  try {
+    static_cast<void>(MappedFile(file));
+  } catch (const InputError& error) {
+    throw OutputError(format("{}; so it is not known what it is, and it is not replaced. Choose another name",
+                             error.what()));
+  }
+  return first_bytes(file);
+}
+
 bool is_content_of(OutputKind kind, const std::filesystem::path& file) {
-  const std::string bytes = first_bytes(file);
+  const std::string bytes = beginning_of(file);
   if (bytes.empty()) return true;
   switch (kind) {
     case OutputKind::tik: return is_tik_content(bytes);
@@ -138,7 +153,7 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
     throw WrongOutputName(kind, format("{}: tables are written as .csv", name));
   }
   std::error_code error;
-  if (!std::filesystem::exists(output, error)) return;
+  if (is_absent(output)) return;
   if (std::filesystem::is_directory(output, error)) {
     throw UsageError(format("{} is a folder; name a file in it", name));
   }

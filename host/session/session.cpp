@@ -45,6 +45,7 @@ class StoppableSource final : public CaptureSource {
     return source_.lent_bytes(block);
   }
   void preload(std::uint64_t block) override { source_.preload(block); }
+  void check_unchanged() const override { source_.check_unchanged(); }
 
  private:
   BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override {
@@ -154,7 +155,7 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
   if (!is_clip_) {
     if (source.describes_clip()) {
       throw UsageError(nutik::format(
-          "what is stated describes a clip that is encoded; {} was encoded already", source.path.string()));
+          "what is stated describes a clip that is encoded; {} was encoded already", input_title(source.path.string())));
     }
     reader_ = std::make_unique<tik::Reader>(source.path);
     check_transfer(source.clip.transfer);

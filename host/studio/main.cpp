@@ -5,9 +5,11 @@
 #include "session/devices.hpp"
 #include "studio/window/appearance.hpp"
 #include "studio/window/main_window.hpp"
+#include "system/mapped_file.hpp"
 
 int main(int count, char** words) {
   nutik::prepare_for_pocl();
+  nutik::watch_mapped_files();  // a capture that somebody cuts off must not end the window
   QApplication application(count, words);
   QApplication::setApplicationName("nutik-studio");
   QApplication::setOrganizationName("nutik");
@@ -30,11 +32,7 @@ int main(int count, char** words) {
   MainWindow window(computing);
   window.show();
   const QStringList files = parser.positionalArguments();
-  if (files.isEmpty() && !nutik::studio::Autosave::found().isEmpty())
-    window.notice().say(
-        nutik::studio::Notice::Kind::note,
-        MainWindow::tr(
-            "There is unsaved work of a window that did not end well: File, Recover unsaved work."));
   if (!files.isEmpty()) window.open(files.front(), parser.value(rate));
+  window.autosave().keep_at_signals();
   return QApplication::exec();
 }

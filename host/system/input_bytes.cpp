@@ -1,6 +1,5 @@
 #include "system/input_bytes.hpp"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -50,13 +49,11 @@ void keep_standard_input() {
     throw InputError(format("{} is a terminal; send a clip there: ffmpeg … -f yuv4mpegpipe - | …", kTitle));
   }
   if (fstat(STDIN_FILENO, &input) == 0 && S_ISREG(input.st_mode)) return;
-  const std::filesystem::path folder = temporary_folder();
-  const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  const auto fail = [&](int reason) {
-    if (file >= 0) close(file);
-    throw OutputError(format("{} cannot be kept in {}: {}", kTitle, folder.string(), std::strerror(reason)));
+  const NamelessFile file;
+  const auto fail = [](int reason) {
+    throw OutputError(
+        format("{} cannot be kept in {}: {}", kTitle, temporary_folder().string(), std::strerror(reason)));
   };
-  if (file < 0) fail(errno);
   std::array<char, 1 << 16> part;
   std::uint64_t bytes = 0;
   for (;;) {
@@ -66,15 +63,15 @@ void keep_standard_input() {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw InputError(format("{} cannot be read: {}", kTitle, std::strerror(errno)));
     for (ssize_t at = 0; at < count;) {
-      const ssize_t written = write(file, part.data() + at, static_cast<std::size_t>(count - at));
+      const ssize_t written =
+          write(file.descriptor(), part.data() + at, static_cast<std::size_t>(count - at));
       if (written < 0 && errno != EINTR) fail(errno);
       at += std::max<ssize_t>(written, 0);
     }
     bytes += static_cast<std::uint64_t>(count);
   }
   if (bytes == 0) throw InputError(format("{} is empty", kTitle));
-  if (dup2(file, STDIN_FILENO) < 0) fail(errno);
-  close(file);
+  if (dup2(file.descriptor(), STDIN_FILENO) < 0) fail(errno);
 }
 
 }  // namespace
@@ -107,7 +104,8 @@ InputBytes::InputBytes(const std::string& name, std::size_t max_piped_bytes) : t
 std::string text_up_to(const std::string& name, std::size_t max_bytes) {
   const std::string title = input_title(name);
   std::error_code ignored;
-  if (std::filesystem::is_directory(name, ignored)) throw InputError(format("{} is a folder, not a list", title));
+  if (std::filesystem::is_directory(name, ignored))
+    throw InputError(format("{} is a folder, not a list", title));
   std::ifstream file;
   std::istream& stream = is_standard_input(name) ? std::cin : file;
   if (!is_standard_input(name)) file.open(name);

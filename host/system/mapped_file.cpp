@@ -26,9 +26,11 @@ struct WatchedMapping {
   // What a signal handler looks at; 0 where nothing is mapped.
   std::atomic<std::uintptr_t> begin{0};
   std::atomic<std::size_t> bytes{0};
+  std::atomic<bool> is_lost{false};
   WatchedMapping* next = nullptr;
   // The rest is guarded by `registering_mappings`.
   bool is_free = false;
+  bool is_counted = false;
   std::string name;
   int descriptor = -1;
   struct stat at_first {};
@@ -47,28 +49,38 @@ std::size_t whole_file_pages(std::size_t bytes) {
 
 // Puts zeros where the file's bytes were, from the page on that could not be read, so that whoever reads them can go
 // on until it is asked whether anything was lost.
-void replace_lost_pages(int number, siginfo_t* info, void*) {
+void replace_lost_pages(int number, siginfo_t* info, void* context) {
   const int error = errno;
   const auto at = reinterpret_cast<std::uintptr_t>(info->si_addr);
   for (WatchedMapping* mapping = shared_state().mappings.load(); mapping != nullptr;
        mapping = mapping->next) {
     const std::uintptr_t begin = mapping->begin.load();
     const std::uintptr_t end = begin + whole_file_pages(mapping->bytes.load());
-    if (at < begin || at >= end) continue;
+    if (info->si_code <= 0 || at < begin || at >= end) continue;  // sent by a process: of no address
     const std::uintptr_t page = at / page_bytes() * page_bytes();
     if (mmap(reinterpret_cast<void*>(page), end - page, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED,
              -1, 0) == MAP_FAILED) {
       break;
     }
-    shared_state().lost_mapping.store(mapping);
+    mapping->is_lost.store(true);
     errno = error;
     return;
   }
-  std::signal(number, SIG_DFL);  // not of ours: it has its usual end
-  raise(number);
+  const struct sigaction& action_before = shared_state().bus_action_before;
+  // Not of ours: it is for whoever was asked before, or has its usual end.
+  if ((action_before.sa_flags & SA_SIGINFO) != 0) {
+    action_before.sa_sigaction(number, info, context);
+  } else if (action_before.sa_handler != SIG_DFL && action_before.sa_handler != SIG_IGN) {
+    action_before.sa_handler(number);
+  } else {
+    std::signal(number, SIG_DFL);
+    raise(number);
+  }
+  errno = error;
 }
 
 bool is_unchanged(const WatchedMapping& mapping) {
+  if (mapping.is_lost.load()) return false;
   struct stat now {};
   const struct stat& before = mapping.at_first;
   return fstat(mapping.descriptor, &now) == 0 && now.st_size == before.st_size &&
@@ -78,6 +90,8 @@ bool is_unchanged(const WatchedMapping& mapping) {
 WatchedMapping* watch(std::string name, int descriptor, const struct stat& status, const void* begin) {
   const std::scoped_lock lock(shared_state().registering_mappings);
   WatchedMapping* const mapping = &reused_entry(shared_state().mappings);
+  mapping->is_lost.store(false);
+  mapping->is_counted = false;
   mapping->name = std::move(name);
   mapping->descriptor = descriptor;
   mapping->at_first = status;
@@ -86,21 +100,36 @@ WatchedMapping* watch(std::string name, int descriptor, const struct stat& statu
   return mapping;
 }
 
+// Under the lock.
+void count_loss(WatchedMapping& mapping) {
+  if (mapping.is_counted || is_unchanged(mapping)) return;
+  mapping.is_counted = true;
+  shared_state().mapped_losses += 1;
+  shared_state().last_lost_file = mapping.name;
+}
+
+void count_losses() {
+  for (WatchedMapping* mapping = shared_state().mappings.load(); mapping != nullptr;
+       mapping = mapping->next) {
+    if (mapping->descriptor >= 0) count_loss(*mapping);
+  }
+}
+
 void forget(WatchedMapping* mapping) {
   const std::scoped_lock lock(shared_state().registering_mappings);
-  if (!is_unchanged(*mapping)) shared_state().lost_mapping.store(mapping);
+  count_loss(*mapping);
   close(mapping->descriptor);
   mapping->descriptor = -1;
   mapping->bytes.store(0);
   mapping->begin.store(0);
-  mapping->is_free = shared_state().lost_mapping.load() != mapping;  // its name is still to be told
+  mapping->is_free = true;
 }
 
-[[noreturn]] void throw_lost(const WatchedMapping& mapping) {
+[[noreturn]] void throw_lost(const std::string& name) {
   throw InputError(
       format("{} changed or could not be read any more while it was read; what was being made of it is not "
              "kept. Leave the file alone, or make a copy first",
-             mapping.name));
+             name));
 }
 
 }  // namespace
@@ -142,6 +171,10 @@ MappedFile::~MappedFile() {
 MappedFile::MappedFile(MappedFile&& other) noexcept
     : bytes_(std::exchange(other.bytes_, {})), watched_(std::exchange(other.watched_, nullptr)) {}
 
+void MappedFile::check() const {
+  if (watched_ != nullptr && !is_unchanged(*watched_)) throw_lost(watched_->name);
+}
+
 void MappedFile::release(std::span<const std::byte> part) const {
   // Whole pages only: those at the ends hold others' bytes too.
   const std::size_t page = page_bytes();
@@ -155,21 +188,26 @@ void watch_mapped_files() {
   static_cast<void>(page_bytes());  // a handler may not be the first to ask
   struct sigaction action {};
   action.sa_sigaction = replace_lost_pages;
-  action.sa_flags = SA_SIGINFO;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK;  // as whoever was asked before may need it
   sigemptyset(&action.sa_mask);
-  sigaction(SIGBUS, &action, nullptr);
+  static const bool is_watching = sigaction(SIGBUS, nullptr, &shared_state().bus_action_before) == 0 &&
+                                  sigaction(SIGBUS, &action, nullptr) == 0;
+  static_cast<void>(is_watching);
 }
 
-void check_mapped_files() {
-  if (const WatchedMapping* lost = shared_state().lost_mapping.load()) throw_lost(*lost);
+void do_one_work() { shared_state().is_one_work = true; }
+
+MappedLosses losses_so_far() {
+  if (shared_state().is_one_work) return {};
   const std::scoped_lock lock(shared_state().registering_mappings);
-  for (WatchedMapping* mapping = shared_state().mappings.load(); mapping != nullptr;
-       mapping = mapping->next) {
-    if (mapping->descriptor >= 0 && !is_unchanged(*mapping)) {
-      shared_state().lost_mapping.store(mapping);
-      throw_lost(*mapping);
-    }
-  }
+  count_losses();
+  return {shared_state().mapped_losses};
+}
+
+void check_mapped_files(MappedLosses before) {
+  const std::scoped_lock lock(shared_state().registering_mappings);
+  count_losses();
+  if (shared_state().mapped_losses > before.count) throw_lost(shared_state().last_lost_file);
 }
 
 std::string first_bytes(const std::filesystem::path& path) {

@@ -1,7 +1,7 @@
 #include "system/output_file.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -15,8 +15,6 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "system/checksum.hpp"
-#include "system/mapped_file.hpp"
 #include "system/reused_entries.hpp"
 #include "system/shared_state.hpp"
 
@@ -47,55 +45,48 @@ void make_unknown(KnownTemporary* known) {
   known->is_free = true;
 }
 
-// What a link points to is written, not the link replaced; also where it points to nothing yet.
-std::filesystem::path followed(std::filesystem::path path) {
-  if (std::error_code ignored; !std::filesystem::is_symlink(path, ignored)) return path;
-  std::error_code error;
-  if (std::filesystem::exists(path, error)) {
-    const std::filesystem::path target = std::filesystem::canonical(path, error);
-    return error ? path : target;
-  }
-  for (int links = 0; std::filesystem::is_symlink(path, error); ++links) {
-    constexpr int kMaxLinks = 40;  // as many as the system follows
-    const std::filesystem::path target = std::filesystem::read_symlink(path, error);
-    if (error || links == kMaxLinks) {
-      throw OutputError(format("{} is a link that leads nowhere; choose another name", path.string()));
-    }
-    path = path.parent_path() / target;
-  }
-  return path;
+[[noreturn]] void refuse(const std::filesystem::path& path, int reason) {
+  throw OutputError(format("{} cannot be created: {}", path.string(), std::strerror(reason)));
 }
 
-// An open, locked, empty file of ours under this name; -1 and errno where there is none to be had. EEXIST: another
-// process's, or another's altogether.
-int open_temporary(const std::filesystem::path& path) {
-  for (;;) {
-    const int descriptor = open(path.c_str(), O_CREAT | O_NOFOLLOW | O_WRONLY | O_CLOEXEC | O_NONBLOCK, 0666);
-    if (descriptor < 0) {
-      const int reason = errno;
-      struct stat there {};
-      errno = lstat(path.c_str(), &there) == 0 ? EEXIST : reason;
-      return -1;
+// Closed at the end of its block.
+struct Opened {
+  ~Opened() {
+    if (descriptor >= 0) close(descriptor);
+  }
+  const int descriptor;
+};
+
+// Whether somebody else has put a link into a folder in which all may put something, such as /tmp: Linux refuses to
+// follow it, too (fs.protected_symlinks), unless it was told otherwise.
+bool is_foreign_in_shared_folder(const struct stat& link, const std::filesystem::path& folder) {
+  struct stat around {};
+  if (stat(folder.empty() ? "." : folder.c_str(), &around) != 0) refuse(folder, errno);
+  constexpr mode_t kShared = S_ISVTX | S_IWOTH;
+  return (around.st_mode & kShared) == kShared && link.st_uid != geteuid() && link.st_uid != around.st_uid;
+}
+
+// What a link points to is written, not the link replaced; also where it points to nothing yet.
+std::filesystem::path followed(std::filesystem::path path) {
+  constexpr int kMaxLinks = 40;  // as many as the system follows
+  for (int links = 0;; ++links) {
+    // The link itself, so that nobody can put another in its place meanwhile.
+    const Opened link{open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC)};
+    if (link.descriptor < 0 && errno == ENOENT) return path;
+    struct stat status {};
+    if (link.descriptor < 0 || fstat(link.descriptor, &status) != 0) refuse(path, errno);
+    if (!S_ISLNK(status.st_mode)) return path;
+    if (links == kMaxLinks) {
+      throw OutputError(format("{} is a link that leads nowhere; choose another name", path.string()));
     }
-    const auto refuse = [&](int error) {
-      close(descriptor);
-      errno = error;
-      return -1;
-    };
-    struct stat opened {};
-    struct stat named {};
-    if (fstat(descriptor, &opened) != 0) return refuse(errno);
-    // Never through what somebody else put there, in a folder that all may write to.
-    if (!S_ISREG(opened.st_mode) || opened.st_uid != geteuid() || opened.st_nlink > 1) return refuse(EEXIST);
-    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return refuse(EEXIST);
-    // Its process may have given it its name before this one held the lock.
-    if (lstat(path.c_str(), &named) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev) {
-      if (ftruncate(descriptor, 0) == 0) return descriptor;
-      const int reason = errno;
-      unlink(path.c_str());
-      return refuse(reason);
+    if (is_foreign_in_shared_folder(status, path.parent_path())) {
+      throw OutputError(format(
+          "{} is another user's link in a folder that all may write to; choose another name", path.string()));
     }
-    close(descriptor);
+    std::array<char, 4096> target{};
+    const ssize_t length = readlinkat(link.descriptor, "", target.data(), target.size());
+    if (length < 0) refuse(path, errno);
+    path = path.parent_path() / std::string_view(target.data(), static_cast<std::size_t>(length));
   }
 }
 
@@ -114,20 +105,15 @@ std::string_view beginning(std::string_view name, std::size_t bytes) {
   return name.substr(0, bytes);
 }
 
-// Beside `path`. The same at every run, so that one run takes over what another left. Where the name has no room for
-// more, its end gives way to a checksum of all of it: names that differ only there have temporary files of their own.
-std::filesystem::path temporary_beside(const std::filesystem::path& path, int tried) {
-  const std::string ending = tried == 0 ? ".nutik.part" : format(".nutik-{}.part", tried);
+// Beside `path`, and as no other file is called: 64 random bits. Where the name has no room for more, its end gives way.
+std::filesystem::path temporary_beside(const std::filesystem::path& path) {
+  std::uint64_t random = 0;
+  if (getrandom(&random, sizeof random, 0) != sizeof random) refuse(path, errno);
+  const std::string ending = format(".nutik-{:016x}.part", random);
   const std::string name = path.filename().string();
   const std::size_t room = longest_name(path.parent_path());
-  // What has no room at all is refused when it is created, not when all has been written.
-  if (1 + name.size() + ending.size() <= room || name.size() > room) {
-    return path.parent_path() / format(".{}{}", name, ending);
-  }
-  const std::string sum = format("-{:016x}", checksum(std::string_view(name)));
-  const std::size_t taken = 1 + sum.size() + ending.size();
-  return path.parent_path() /
-         format(".{}{}{}", beginning(name, room > taken ? room - taken : 0), sum, ending);
+  const std::size_t taken = 1 + ending.size();
+  return path.parent_path() / format(".{}{}", beginning(name, room > taken ? room - taken : 0), ending);
 }
 
 }  // namespace
@@ -142,31 +128,44 @@ void remove_temporary_files() {
 bool has_kept_output() { return shared_state().has_kept_output; }
 
 OutputFile::OutputFile(std::filesystem::path path, Lasting lasting)
-    : path_(followed(std::move(path))), lasting_(lasting) {
-  std::error_code ignored;
-  if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored)) {
-    throw OutputError(format("{} exists and is no regular file; choose another name", path_.string()));
+    : path_(std::move(path)), lasting_(lasting) {
+  if (lasting_ == Lasting::no) {
+    temporary_path_ = path_;
+    descriptor_ = open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail("cannot be written");
+    return;
   }
-  constexpr int kMaxTries = 100;
-  for (int tried = 0; descriptor_ < 0 && tried < kMaxTries; ++tried) {
-    temporary_path_ = temporary_beside(path_, tried);
-    descriptor_ = open_temporary(temporary_path_);
-    if (descriptor_ < 0 && errno != EEXIST) break;
+  struct stat replaced {};
+  if (stat(path_.c_str(), &replaced) == 0) {
+    if (!S_ISREG(replaced.st_mode)) {
+      throw OutputError(format("{} exists and is no regular file; choose another name", path_.string()));
+    }
+    replaced_mode_ = replaced.st_mode;
+  } else if (errno != ENOENT && errno != ELOOP) {
+    fail("cannot be created");
   }
+  path_ = followed(std::move(path_));
+  temporary_path_ = temporary_beside(path_);
+  // Nobody sees more of it than of what it replaces. What stands under this name already is somebody else's.
+  constexpr mode_t kOurs = 0600, kAsTheUserWants = 0666;
+  descriptor_ = open(temporary_path_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC,
+                     replaced_mode_ ? kOurs : kAsTheUserWants);
   if (descriptor_ < 0) fail("cannot be created");
   known_ = make_known(temporary_path_.string());
 }
 
 OutputFile::~OutputFile() {
   if (descriptor_ < 0) return;
-  unlink(temporary_path_.c_str());
-  make_unknown(known_);
-  close(descriptor_);  // and with it the lock
+  if (known_ != nullptr) {
+    unlink(temporary_path_.c_str());
+    make_unknown(known_);
+  }
+  close(descriptor_);
 }
 
 void OutputFile::fail(const char* what) const {
   const int reason = errno;
-  check_mapped_files();  // what cannot be read cannot be written either
+  check_mapped_files(losses_before_);  // what cannot be read cannot be written either
   errno = reason;
   throw OutputError(format("{} {}: {}", path_.string(), what, std::strerror(errno)));
 }
@@ -222,21 +221,38 @@ void OutputFile::replace(std::uint64_t offset, std::span<const std::byte> bytes)
 void OutputFile::write(std::string_view text) { write(std::as_bytes(std::span(text))); }
 
 void OutputFile::commit() {
-  // A temporary file has the process's own permissions; what it replaces keeps its mode.
-  struct stat before {};
-  if (stat(path_.c_str(), &before) == 0) fchmod(descriptor_, before.st_mode & 07777);
+  if (lasting_ == Lasting::no) {
+    check_mapped_files(losses_before_);
+    close(std::exchange(descriptor_, -1));
+    return;
+  }
+  // What it replaces keeps its mode, but for the bits by which a program runs as its owner: this is another content.
+  constexpr mode_t kKept = 01777;
+  if (struct stat before{}; stat(path_.c_str(), &before) == 0) replaced_mode_ = before.st_mode;
+  if (replaced_mode_) fchmod(descriptor_, *replaced_mode_ & kKept);
   // Not every file system can; all that can fail to write say so here.
-  if (lasting_ == Lasting::yes && fsync(descriptor_) != 0 && errno != EINVAL) fail("cannot be written");
+  if (fsync(descriptor_) != 0 && errno != EINVAL) fail("cannot be written");
   // All of it has been read and written by now. It is right, whatever becomes of what it was made of after this.
-  check_mapped_files();
+  check_mapped_files(losses_before_);
   if (rename(temporary_path_.c_str(), path_.c_str()) != 0) fail("cannot be written");
-  if (lasting_ == Lasting::yes) shared_state().has_kept_output = true;
+  shared_state().has_kept_output = true;
   make_unknown(known_);
   close(std::exchange(descriptor_, -1));
+  keep_name();
+}
+
+// The name is the folder's, and reaches the disk with it. A folder that may be written to but not read cannot be asked.
+void OutputFile::keep_name() const {
+  const std::filesystem::path parent = path_.parent_path();
+  const Opened folder{open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+  if (folder.descriptor >= 0 && fsync(folder.descriptor) != 0 && errno != EINVAL) {
+    throw OutputError(format("{} is whole, but whether its name has reached the disk is not known: {}",
+                             path_.string(), std::strerror(errno)));
+  }
 }
 
 void OutputFile::send_to_standard_output() {
-  check_mapped_files();
+  check_mapped_files(losses_before_);
   const MappedFile written(temporary_path_);
   for (auto rest = written.bytes(); !rest.empty();) {
     const ssize_t sent = ::write(STDOUT_FILENO, rest.data(), rest.size());

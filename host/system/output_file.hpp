@@ -5,8 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string_view>
+
+#include "system/mapped_file.hpp"
 
 namespace nutik {
 
@@ -21,13 +24,14 @@ void remove_temporary_files();
 
 class OutputFile {
  public:
-  // Where a file is to be found again after the power failed, or only while the program runs.
+  // Whether a file gets a name, or is one without (system/temporary_folder.hpp), to which `path` leads and which is
+  // written where it lies.
   enum class Lasting { yes, no };
 
-  // Creates the temporary file, `.<name>.nutik.part`, or `.<name>.nutik-1.part` where another process is writing that
-  // one; of a name that has no room for this, only the beginning, and a checksum. What a process left behind that was
-  // killed is taken over. A link's target is written, whether there is one or not. Throws OutputError where the folder
-  // is absent or not writable.
+  // Creates the temporary file, `.<name>.nutik-<16 random digits>.part`; of a name that has no room for this, only the
+  // beginning. No file that is there is opened, so none can be lost, whatever it is called. A link's target is
+  // written, whether there is one or not, unless the link is another user's in a folder that all may write to. Throws
+  // OutputError where the folder is absent or not writable, or where it cannot be told what stands under `path`.
   explicit OutputFile(std::filesystem::path path, Lasting lasting = Lasting::yes);
   // Removes the temporary file unless commit() was called.
   ~OutputFile();
@@ -47,8 +51,9 @@ class OutputFile {
   // Replaces what was written at `offset`, as many bytes.
   void replace(std::uint64_t offset, std::span<const std::byte> bytes);
 
-  // Gives the file its name, once it has reached the disk. Throws InputError where what it was made of was lost
-  // (system/mapped_file.hpp).
+  // Gives the file its name, once it has reached the disk, and the mode of what it replaces, without set-id bits.
+  // Throws InputError where a file that is mapped was lost since this began, or, in a process that does one work, since
+  // that did (system/mapped_file.hpp).
   void commit();
 
   // Sends what was written to standard output, and leaves no file behind. Throws as commit() does.
@@ -56,12 +61,15 @@ class OutputFile {
 
  private:
   [[noreturn]] void fail(const char* what) const;
+  void keep_name() const;
 
   std::filesystem::path path_;
   std::filesystem::path temporary_path_;
   Lasting lasting_;
+  std::optional<std::uint32_t> replaced_mode_;
+  MappedLosses losses_before_ = losses_so_far();
   KnownTemporary* known_ = nullptr;
-  int descriptor_ = -1;  // locked: the process lives
+  int descriptor_ = -1;
   std::uint64_t size_ = 0;
 };
 

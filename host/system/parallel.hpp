@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -39,7 +40,11 @@ void parallel_for_with(std::uint64_t count, MakeTools make_tools, Work work,
     const std::uint64_t workers =
         std::min<std::uint64_t>(count, std::min(max_threads, std::thread::hardware_concurrency()));
     std::vector<std::jthread> helpers;
-    for (std::uint64_t i = 1; i < workers; ++i) helpers.emplace_back(run);
+    try {
+      for (std::uint64_t i = 1; i < workers; ++i) helpers.emplace_back(run);
+    } catch (const std::system_error&) {
+      // The system has no more threads: those there are do the work.
+    }
     run();
   }
   if (failure) std::rethrow_exception(failure);

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <atomic>
+#include <csignal>
+#include <cstdint>
 #include <mutex>
+#include <string>
 
 namespace nutik {
 
@@ -17,8 +20,11 @@ struct SharedState {
 
   // Lists that never get shorter, whose entries are used again. Who is no signal handler adds to them under a lock.
   std::atomic<WatchedMapping*> mappings{nullptr};
-  std::atomic<const WatchedMapping*> lost_mapping{nullptr};
-  std::mutex registering_mappings;
+  std::mutex registering_mappings;  // guards both that follow
+  std::uint64_t mapped_losses = 0;
+  std::string last_lost_file;
+  std::atomic<bool> is_one_work{false};
+  struct sigaction bus_action_before {};  // what is done where no file of ours was lost
   std::atomic<KnownTemporary*> temporaries{nullptr};
   std::mutex registering_temporaries;
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <string_view>
 
+#include "capture/capture_mark.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/noise_file.hpp"
@@ -18,7 +19,7 @@
 namespace nutik::tik {
 namespace {
 
-constexpr std::string_view kComment = "# TIK ";
+constexpr std::string_view kComment = kCaptureComment;
 constexpr std::string_view kPurpose =
     " - an image evolution model; the picture is the first sample, change records follow it.";
 constexpr std::string_view kNoise = "noise";
@@ -29,11 +30,6 @@ constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = 
                            kMeans = "mean", kRice = "rice", kPart = "part";
 constexpr std::array<std::string_view, 7> kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned,
                                                        kMeans,       kRice,      kPart};
-
-bool is_netpbm(std::string_view text) {
-  return text.size() > 2 && text[0] == 'P' && text[1] >= '1' && text[1] <= '7' &&
-         (text[2] == '\n' || text[2] == '\r' || text[2] == ' ' || text[2] == '\t');
-}
 
 class HeaderParser {
  public:
@@ -91,7 +87,7 @@ class HeaderParser {
   }
 
   void check_kind() {
-    if (!is_netpbm(text_)) {
+    if (!begins_as_netpbm(text_)) {
       throw InputError(format("{} is no .tik capture; a clip becomes one when it is encoded", name_));
     }
     at_ = 3;
@@ -362,8 +358,7 @@ void check_raster(const ParsedHeader& parsed, std::uint64_t file_bytes, const st
 }  // namespace
 
 bool looks_like_tik(std::span<const std::byte> file) {
-  const std::string_view text = front_text(file);
-  return is_netpbm(text) && text.substr(3).starts_with(kComment);
+  return begins_as_capture(front_text(file));
 }
 
 ParsedHeader parse_header(std::span<const std::byte> file, const std::string& name) {

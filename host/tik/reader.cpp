@@ -7,13 +7,15 @@
 #include "capture/format.hpp"
 #include "capture/seconds_text.hpp"
 #include "system/checksum.hpp"
+#include "system/input_bytes.hpp"
 #include "system/interruption.hpp"
 #include "tik/block_headers.hpp"
 #include "tik/codec.hpp"
 
 namespace nutik::tik {
 
-Reader::Reader(const std::filesystem::path& path) : name_(path.string()), file_(path) {
+Reader::Reader(const std::filesystem::path& path)
+    : name_(input_title(path.string())), file_(is_standard_input(path.string()) ? standard_input_file() : path) {
   header_ = parse_header(file_.bytes(), name_).header;
   read_footer();
   check_front();
@@ -29,7 +31,10 @@ void Reader::check_front() const {
   }
 }
 
-void Reader::fail(const std::string& why) const { throw InputError(nutik::format("{}: {}", name_, why)); }
+void Reader::fail(const std::string& why) const {
+  file_.check();  // what seems damaged may have changed under our hands
+  throw InputError(nutik::format("{}: {}", name_, why));
+}
 
 void Reader::read_footer() {
   const std::span<const std::byte> file = file_.bytes();
@@ -131,6 +136,7 @@ std::span<const std::byte> Reader::first_sample() const {
 }
 
 void Reader::fail_block(std::uint64_t block, const std::string& why) const {
+  file_.check();
   const SampleRange samples = block_extent(block).range();
   throw InputError(
       nutik::format("{}: the block of samples {} to {} ({} to {}) is damaged: {}; other times of the "
@@ -182,7 +188,7 @@ void Reader::check_payload(std::uint64_t block, std::span<const std::byte> paylo
 }
 
 BlockLease Reader::lend(std::uint64_t block, const LeaseTerms& terms) {
-  check_mapped_files();
+  file_.check();
   if (BlockLease preloaded = take_preloaded(block); !preloaded.is_empty()) return preloaded;
   const BlockHeader header = block_header(block);
   if (is_packed(header)) return unpacked(block, header, terms);

@@ -30,8 +30,8 @@ struct Recoverable : InputError {
 // Any number of threads may acquire blocks and ask for everything else, at a time.
 class Reader final : public CaptureSource {
  public:
-  // Throws InputError where the file is no .tik, of another version, damaged at its front; Recoverable where it
-  // is damaged at its end or cut off.
+  // `-` is standard input. Throws InputError where the file is no .tik, of another version, damaged at its front;
+  // Recoverable where it is damaged at its end or cut off.
   explicit Reader(const std::filesystem::path& path);
 
   [[nodiscard]] const CaptureFormat& format() const override { return header_.capture; }
@@ -75,13 +75,14 @@ class Reader final : public CaptureSource {
  private:
   void read_footer();
   void check_front() const;
+  void check_unchanged() const override { file_.check(); }
   // A block that is not packed is lent where it is mapped; a packed one where it is unpacked.
   BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override;
   [[nodiscard]] BlockLease unpacked(std::uint64_t block, const BlockHeader& header,
                                     const LeaseTerms& terms) const;
   [[nodiscard]] BlockLease take_preloaded(std::uint64_t block);
   // Checksums, and of a block that is not packed the payload.
-  // Once for each block: check_mapped_files() tells where the file was written to since.
+  // Once for each block: check_unchanged() tells where the file was written to since.
   void check(std::uint64_t block, const BlockHeader& header) const;
   // Whether all is well with a payload as check() looks at it, in one pass.
   [[nodiscard]] bool is_right(std::uint64_t block, const BlockHeader& header,

@@ -14,7 +14,6 @@
 #include "session/memory_budget.hpp"
 #include "session/requests/output_request.hpp"
 #include "system/interruption.hpp"
-#include "system/mapped_file.hpp"
 
 namespace nutik::python {
 
@@ -76,16 +75,6 @@ void raise(PyObject* type, const Error& error) {
   PyErr_SetObject(type, raised.ptr());
 }
 
-// What seems damaged may be a file that changed under our hands.
-void raise_input(const InputError& error) {
-  try {
-    check_mapped_files();
-  } catch (const InputError& lost) {
-    return raise(types().input, lost);
-  }
-  raise(types().input, error);
-}
-
 void translate(std::exception_ptr thrown) {
   try {
     std::rethrow_exception(thrown);
@@ -94,7 +83,7 @@ void translate(std::exception_ptr thrown) {
   } catch (const UsageError& error) {
     raise(types().usage, error);
   } catch (const InputError& error) {
-    raise_input(error);
+    raise(types().input, error);
   } catch (const DeviceError& error) {
     raise(types().device, error);
   } catch (const OutputError& error) {

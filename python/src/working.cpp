@@ -1,8 +1,5 @@
 #include "working.hpp"
 
-#include "session/below/error.hpp"
-#include "system/mapped_file.hpp"
-
 namespace nutik::python {
 
 ReportedProgress Stopping::progress() const {
@@ -43,7 +40,5 @@ std::optional<py::error_already_set> wait_for(const std::function<bool()>& is_do
   tell();
   return raised;
 }
-
-void check_files() { check_mapped_files(); }
 
 }  // namespace nutik::python

@@ -18,7 +18,9 @@
 #include <stop_token>
 #include <utility>
 
+#include "session/below/error.hpp"
 #include "session/reported_progress.hpp"
+#include "system/mapped_file.hpp"
 
 namespace nutik::python {
 
@@ -43,12 +45,10 @@ struct Stopping {
 [[nodiscard]] std::optional<py::error_already_set> wait_for(const std::function<bool()>& is_done,
                                                             std::stop_source& stopping, const Steps& steps,
                                                             const py::object& told);
-// Throws InputError where a mapped file was lost meanwhile.
-void check_files();
-
 // Calls work(Stopping) and returns what that does.
 template <typename Work>
 auto without_lock(Work work, const py::object& progress = py::none()) {
+  const MappedLosses losses = losses_so_far();
   std::stop_source source;
   const Stopping stopping{source.get_token(), std::make_shared<Steps>()};
   auto future = std::async(std::launch::async, [&] { return work(stopping); });
@@ -56,13 +56,18 @@ auto without_lock(Work work, const py::object& progress = py::none()) {
       [&] { return future.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready; }, source,
       *stopping.steps, progress);
   if (raised) throw *raised;
-  if constexpr (std::is_void_v<decltype(future.get())>) {
-    future.get();
-    check_files();
-  } else {
-    auto result = future.get();
-    check_files();
-    return result;
+  try {
+    if constexpr (std::is_void_v<decltype(future.get())>) {
+      future.get();
+      check_mapped_files(losses);
+    } else {
+      auto result = future.get();
+      check_mapped_files(losses);
+      return result;
+    }
+  } catch (const InputError&) {
+    check_mapped_files(losses);  // what seems damaged may be a file that changed under our hands
+    throw;
   }
 }
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Runs every example of every command's help, word for word, beside a scene that has the files they name.
 
-All that is asked of an example is that it works: a shell runs it, and its exit status is 0.
+Of an example is asked that it works (a shell runs it, and its exit status is 0), and that its pictures show something:
+they are neither white nor black. So are those that a solved function exposes, by the command that solve prints.
 """
 import argparse
 import os
@@ -99,6 +100,26 @@ def make_scene(folder, program):
     (folder / "damaged.tik").write_bytes(whole[:len(whole) - 10])
 
 
+def flaw_of_picture(path):
+    """What is wrong with a picture; empty where something is to be seen. Masks are black where they say 0."""
+    picture = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
+    if picture is None:
+        return f"{path.name} cannot be read"
+    if picture.ndim == 3 and picture.shape[2] == 4:
+        picture = picture[:, :, :3]
+    white = numpy.iinfo(picture.dtype).max if picture.dtype.kind == "u" else 1
+    values = picture.reshape(picture.shape[0] * picture.shape[1], -1)
+    shares = {"white": (values >= white).all(axis=1).mean(), "black": (values <= 0).all(axis=1).mean()}
+    return "".join(f"{path.name} is {name} in {100 * share:.0f} % of its pixels" for name, share in shares.items()
+                   if share > 0.99)
+
+
+def pictures_in(folder):
+    """Pictures, and when they were written."""
+    return {path: path.stat().st_mtime_ns for path in folder.rglob("*")
+            if path.suffix in (".png", ".jpg", ".tif", ".pgm", ".pfm")}
+
+
 def examples_of(page):
     """The lines below `Examples:`, some over several lines, as a shell takes them."""
     text = page.split("\nExamples:\n", 1)[1]
@@ -124,6 +145,8 @@ def main():
     commands = re.findall(r"^  ([a-z]+) {2,}[A-Z]", help_of(), re.M)
     assert len(commands) >= 18, commands
 
+    seen = []  # pictures that were judged
+
     def failures_of(command):
         """How many of a command's examples ran, and what went wrong with others."""
         examples = [example for example in examples_of(help_of(command))
@@ -132,11 +155,22 @@ def main():
         folder = arguments.work / command
         shutil.copytree(scene, folder)
         failures = []
-        for example in examples:
-            result = subprocess.run(["bash", "-o", "pipefail", "-c", example], cwd=folder, env=environment,
+
+        def run(line):
+            result = subprocess.run(["bash", "-o", "pipefail", "-c", line], cwd=folder, env=environment,
                                     text=True, capture_output=True, stdin=subprocess.DEVNULL)
             if result.returncode != 0:
-                failures.append(f"{example}\n  {result.returncode}: {result.stderr.strip()}")
+                failures.append(f"{line}\n  {result.returncode}: {result.stderr.strip()}")
+            return result
+
+        for example in examples:
+            before = pictures_in(folder)
+            result = run(example)
+            if command == "solve" and result.returncode == 0:
+                run(re.search(r"^try: (.*)$", result.stdout, re.M)[1])
+            made = [path for path, time in pictures_in(folder).items() if before.get(path) != time]
+            seen.extend(made)
+            failures.extend(f"{example}\n  {flaw}" for flaw in map(flaw_of_picture, made) if flaw)
         shutil.rmtree(folder)
         return len(examples), failures
 
@@ -144,7 +178,8 @@ def main():
         results = list(pool.map(failures_of, commands))
     failures = [failure for _, failed in results for failure in failed]
     count = sum(number for number, _ in results)
-    print("\n".join(failures) or f"{count} examples of {len(commands)} commands run")
+    print("\n".join(failures) or f"{count} examples of {len(commands)} commands run, {len(seen)} pictures looked at")
+    assert len(seen) > 50 or failures, seen
     return 1 if failures else 0
 
 

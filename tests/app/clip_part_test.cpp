@@ -150,7 +150,9 @@ TEST_F(PartOfAClip, ComesThroughAPipe) {
       << behind.err;
   const auto cut = shell("head -c 40000 a.y4m | " + program + " encode - cut.tik");
   EXPECT_EQ(cut.status, 0) << cut.err;
-  EXPECT_NE(cut.err.find("note: it was cut off within picture "), std::string::npos) << cut.err;
+  EXPECT_NE(cut.err.find("warning: it was cut off within picture "), std::string::npos) << cut.err;
+  const auto quiet = shell("head -c 40000 a.y4m | " + program + " encode -q - quiet.tik");
+  EXPECT_NE(quiet.err.find("warning: it was cut off within picture "), std::string::npos) << quiet.err;
   EXPECT_EQ(cut.err.find("/dev/stdin"), std::string::npos) << cut.err;
 }
 

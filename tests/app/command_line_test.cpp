@@ -179,7 +179,7 @@ TEST_F(CommandLine, RefusesWhatMakesNoSense) {
 
 TEST_F(CommandLine, SaysWhatIsWrongWithInput) {
   expect_refused({"absent.mp4", "x.tik"}, 3, "absent.mp4 cannot be read: no such file");
-  expect_refused({"one.fn", "x.tik"}, 3, "one.fn is no video that can be read");
+  expect_refused({"one.fn", "x.tik"}, 3, "one.fn is a text, and no clip");
   expect_refused({"-k", "absent.fn", "clip.tik"}, 3, "absent.fn cannot be read: No such file");
   expect_refused({"-k", "one.fn", "-m", "mask.pgm", "clip.tik"}, 3,
                  "mask values without a function: 9 (100 pixels)");

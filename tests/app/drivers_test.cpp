@@ -65,7 +65,7 @@ TEST_F(Drivers, VerdictsAreShown) {
   EXPECT_EQ(json::parse(run({"devices", "--json"}).out)["devices"][0]["arithmetics"][0]["is_right"], false);
 }
 
-TEST_F(Drivers, AWrongArithmeticIsAvoidedOrWarnedOf) {
+TEST_F(Drivers, AWrongArithmeticIsAvoidedOrRefused) {
   ASSERT_EQ(expose({"clip.tik", "right.png"}).status, 0);
   turn_verdicts("single right", "single wrong");
   const ProgramResult automatic = expose({"--json", "clip.tik", "auto.png"});
@@ -73,8 +73,10 @@ TEST_F(Drivers, AWrongArithmeticIsAvoidedOrWarnedOf) {
   EXPECT_NE(json::parse(automatic.out)["precision"], "single");
   EXPECT_EQ(automatic.err.find("wrongly"), std::string::npos) << automatic.err;
   const ProgramResult asked = expose({"--precision", "single", "clip.tik", "asked.png"});
-  EXPECT_EQ(asked.status, 0) << asked.err;
+  EXPECT_EQ(asked.status, 4) << asked.err;
   expect_part(asked.err, "this driver computes `single` wrongly (self-test: ");
+  expect_part(asked.err, "use auto or another arithmetic, another device or the reference (--precision, --renderer)");
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "asked.png"));
 }
 
 TEST_F(Drivers, ADeviceThatIsAlwaysWrongEndsWithTheWayOut) {

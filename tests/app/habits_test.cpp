@@ -93,6 +93,14 @@ TEST_F(Habits, NamesStandardInput) {
 
 TEST_F(Habits, SuggestsWhatWasMeant) {
   expect_refused({"--expo", "10ms", "clip.tik"}, 2, "there is no option --expo; did you mean --exposure?");
+  for (const auto& [words, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"encode", "--exposur", "1s", "c.mp4"}, "there is no option --exposur; see nutik-cl encode --help"},
+           {{"-ss", "1", "clip.tik", "a.png"}, "there is no option -ss; see nutik-cl --help"},
+           {{"-vX", "clip.tik", "a.png"}, "there is no option -X; see nutik-cl --help"},
+           {{"video", "--quality", "50", "clip.tik", "a.mkv"},
+            "a quality is one of .jpg pictures, and a.mkv is none; leave it out (--quality)"}}) {
+    expect_refused(words, 2, said);
+  }
   expect_refused({"shutter", "hann", "--expo", "10ms"}, 2,
                  "did you mean --exposure?; see nutik-cl shutter --help");
   expect_refused({"expose", "--shut", "hann"}, 2,

@@ -88,7 +88,7 @@ TEST_F(Interruption, LeavesOnlyTheTemporaryFileOfAVideoThatIsKilled) {
       << test::read_file(scratch_ / "log");
   EXPECT_EQ(running.end_with(SIGKILL), -SIGKILL);
   EXPECT_FALSE(fs::exists(scratch_ / "v.mkv"));
-  EXPECT_EQ(files_with(scratch_.folder(), ".v.mkv.nutik.part").size(), 1u);
+  EXPECT_EQ(files_with(scratch_.folder(), ".v.mkv.nutik-").size(), 1u);
 }
 
 TEST_F(Interruption, KeepsTheStillsThatAreWhole) {

@@ -238,6 +238,8 @@ TEST_F(MaskCommand, RefusesWhatMakesNoSense) {
                  "tag '256' is no whole number of 0 … 255");
   expect_refused({"mask", "--grow", "2", "clip.tik"}, 2,
                  "--grow changes the region before it: first select one");
+  expect_refused({"mask", "--moving", "--tag", "3", "clip.tik"}, 2,
+                 "--tag 3 is of the regions behind it, and there is none: write --tag 3 before --moving");
   expect_refused({"mask", "--moving", "--tag", "2", "--grow", "2", "clip.tik"}, 2,
                  "after --tag there is none yet");
   expect_refused({"mask", "--moving", "--grow", "-1", "clip.tik"}, 2, "--grow '-1' is no number of pixels");

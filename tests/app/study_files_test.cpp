@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 
+#include "capture/format.hpp"
 #include "support/moving_square_test.hpp"
 
 namespace nutik {
@@ -70,6 +71,46 @@ TEST_F(StudyFiles, ReplaceNoneOfAnotherPicture) {
       << refused.err;
   std::filesystem::remove(scratch_ / "one.png");
   EXPECT_EQ(study("one.jpg").status, 0);
+}
+
+// Wherever a study is ended, the next one goes through; what was changed by hand since is still refused.
+TEST_F(StudyFiles, AreReplacedByTheNextStudyWhereverOneEnds) {
+  const std::string library =
+      (std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path() / "tests" / "libfail_calls.so").string();
+  const auto faulty = [&](const char* call, int at, const char* error, const char* style) {
+    return test::run_shell(format("LD_PRELOAD='{}' NUTIK_FAIL_FOLDER='{}' NUTIK_FAIL_CALL={} NUTIK_FAIL_AT={} "
+                                  "NUTIK_FAIL_ERROR={} NUTIK_FAIL_AFTER=on '{}' study clip.tik --style {} -o s.png",
+                                  library, scratch_.folder().string(), call, at, error, NUTIK_TEST_PROGRAM, style),
+                           scratch_.folder())
+        .status;
+  };
+  const std::vector<std::string> names{"s.fn", "s.pgm", "s.txt", "s.png"};
+  ASSERT_EQ(study("right.png", "strobe").status, 0);
+  for (const bool is_first : {true, false}) {
+    for (const auto& [call, error] : {std::pair("rename", "kill"), std::pair("rename", "28"),
+                                      std::pair("fsync", "kill"), std::pair("write", "28")}) {
+      int ended = 0;
+      for (int at = 1;; ++at) {
+        for (const std::string& name : names) std::filesystem::remove(scratch_ / name);
+        if (!is_first) {
+          ASSERT_EQ(study("s.png", "trail").status, 0);
+        }
+        if (faulty(call, at, error, "strobe") == 0) break;
+        ++ended;
+        if (std::filesystem::exists(scratch_ / "s.pgm")) {
+          const std::string written = content("s.pgm");
+          scratch_.write("s.pgm", written + "mine");
+          EXPECT_EQ(study("s.png", "strobe").status, 2);
+          scratch_.write("s.pgm", written);
+        }
+        const auto again = study("s.png", "strobe");
+        EXPECT_EQ(again.status, 0) << call << " " << at << " " << error << ": " << again.err;
+        EXPECT_TRUE(content("s.fn") == content("right.fn") && content("s.pgm") == content("right.pgm"));
+        EXPECT_EQ(content("s.txt").find("not finished"), std::string::npos);
+      }
+      EXPECT_GE(ended, 4) << call << " " << error;
+    }
+  }
 }
 
 TEST_F(StudyFiles, HaveCommandsThatRunWhateverTheClipIsCalled) {

@@ -3,8 +3,9 @@
 
     check_faults.py --program nutik-cl --libraries FOLDER --work FOLDER [--kills N] [--points N] [--only SECTION]
 
-    calls   the n-th open, read, write, truncation, fsync, rename, mapping or large allocation fails, once or from then
-            on; somebody else makes the input shorter right before the output gets its name, or right after that
+    calls   the n-th open, read, write, fsync, rename, mapping, large allocation or start of a thread fails, once or
+            from then on; somebody else makes the input shorter right before the output gets its name, or right after
+            that
     device  the n-th call of OpenCL of a kind fails, once or from then on, in every command that uses a device
     kills   SIGKILL, SIGTERM or SIGINT at a random moment
 
@@ -34,10 +35,10 @@ from report import Report  # noqa: E402
 
 WIDTH, HEIGHT, PICTURES = 160, 120, 24
 ERRORS = {"open": [errno.EMFILE, errno.EACCES], "read": [errno.EIO], "write": [errno.ENOSPC, errno.EIO],
-          "truncate": [errno.EIO], "fsync": [errno.EIO], "rename": [errno.ENOSPC], "mmap": [errno.ENOMEM],
-          "malloc": [errno.ENOMEM]}
+          "fsync": [errno.EIO], "rename": [errno.ENOSPC], "mmap": [errno.ENOMEM],
+          "malloc": [errno.ENOMEM], "thread": [errno.EAGAIN]}
 # Those without which no output appears whole and for good.
-NEEDED_CALLS = ["open", "write", "truncate", "fsync", "rename"]
+NEEDED_CALLS = ["open", "write", "fsync", "rename"]
 
 # Of OpenCL, by kind of call (fail_device.cpp).
 OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY, NO_ALLOCATION, LOST_EVENT, NO_BUILD = -5, -6, -4, -14, -11

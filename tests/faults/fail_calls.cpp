@@ -1,15 +1,18 @@
 // Preloaded before the program: lets one call of the system fail, so that it can be seen what becomes of the output
-// (faults/fault.hpp: kinds are open, read, write, truncate, fsync, rename, mmap and malloc; mremap is a mapping, and
+// (faults/fault.hpp: kinds are open, read, write, fsync, rename, mmap, malloc and thread; mremap is a mapping, and
 // calloc, realloc and aligned memory are malloc's).
 //
 //   NUTIK_FAIL_FOLDER   calls count whose file lies in it; of memory those of a mebibyte and more
 //   NUTIK_CUT_FILE      a file that somebody else makes shorter at the same time ...
 //   NUTIK_CUT_AT        ... as the first call of this kind, fsync or rename, has been made
+//   NUTIK_NO_LOCKS      locks of files are given to everybody, as on file systems that keep them on each machine
 //
 // Calls that the C library makes of its own are not seen.
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <fcntl.h>
+#include <pthread.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
@@ -84,20 +87,20 @@ constinit Next<ssize_t(int, const iovec*, int)> next_writev{"writev"};
 constinit Next<ssize_t(int, const void*, std::size_t, off64_t)> next_pwrite64{"pwrite64"};
 constinit Next<ssize_t(int, void*, std::size_t, off64_t)> next_pread{"pread"};
 constinit Next<ssize_t(int, const void*, std::size_t, off64_t)> next_pwrite{"pwrite"};
-constinit Next<int(int, off64_t)> next_ftruncate{"ftruncate"};
-constinit Next<int(int, off64_t)> next_ftruncate64{"ftruncate64"};
 constinit Next<int(int)> next_fsync{"fsync"};
+constinit Next<int(int, int)> next_flock{"flock"};
 constinit Next<int(const char*, const char*)> next_rename{"rename"};
 constinit Next<void*(void*, std::size_t, int, int, int, off64_t)> next_mmap64{"mmap64"};
 constinit Next<void*(void*, std::size_t, std::size_t, int, ...)> next_mremap{"mremap"};
 constinit Next<int(void**, std::size_t, std::size_t)> next_posix_memalign{"posix_memalign"};
+constinit Next<int(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*)> next_pthread_create{"pthread_create"};
 
 // Later, a search would wait for the loader, and the loader for whoever calls from a library that it is loading.
 [[gnu::constructor]] void find_all() {
   const auto find = [](auto&... each) { (each.get(), ...); };
   find(next_open, next_open64, next_fopen, next_fopen64, next_read, next_pread64, next_write, next_writev,
-       next_pwrite64, next_pread, next_pwrite, next_ftruncate, next_ftruncate64, next_fsync, next_rename,
-       next_mmap64, next_mremap, next_posix_memalign);
+       next_pwrite64, next_pread, next_pwrite, next_fsync, next_flock, next_rename, next_mmap64, next_mremap,
+       next_posix_memalign, next_pthread_create);
 }
 
 // PoCL ends the process where there is no room for what it has begun to run, and where LLVM finds none for a program PoCL
@@ -181,18 +184,15 @@ ssize_t pwrite(int descriptor, const void* from, std::size_t bytes, off_t offset
                                                       : next_pwrite.get()(descriptor, from, bytes, offset);
 }
 
-int ftruncate(int descriptor, off_t bytes) noexcept {
-  return lies_in_folder(descriptor) && fails("truncate") ? -1 : next_ftruncate.get()(descriptor, bytes);
-}
-
-int ftruncate64(int descriptor, off64_t bytes) noexcept {
-  return lies_in_folder(descriptor) && fails("truncate") ? -1 : next_ftruncate64.get()(descriptor, bytes);
-}
-
 int fsync(int descriptor) {
   const int result = lies_in_folder(descriptor) && fails("fsync") ? -1 : next_fsync.get()(descriptor);
   cut_at("fsync");
   return result;
+}
+
+int flock(int descriptor, int operation) noexcept {
+  static const bool are_everybodys = std::getenv("NUTIK_NO_LOCKS") != nullptr;
+  return are_everybodys ? 0 : next_flock.get()(descriptor, operation);
 }
 
 int rename(const char* from, const char* to) noexcept {
@@ -247,6 +247,12 @@ void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept {
 int posix_memalign(void** made, std::size_t alignment, std::size_t bytes) noexcept {
   if (allocation_fails(bytes)) return errno;
   return next_posix_memalign.get()(made, alignment, bytes);
+}
+
+// Threads of drivers are not ours: PoCL aborts where there are none.
+int pthread_create(pthread_t* thread, const pthread_attr_t* how, void* (*work)(void*), void* with) noexcept {
+  if (!is_for_pocl() && fails("thread")) return errno;
+  return next_pthread_create.get()(thread, how, work, with);
 }
 
 }  // extern "C"

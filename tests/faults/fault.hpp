@@ -2,7 +2,7 @@
 //
 //   NUTIK_FAIL_CALL     the kind of call
 //   NUTIK_FAIL_AT       which of them, from 1 on; 0: none
-//   NUTIK_FAIL_ERROR    with which error
+//   NUTIK_FAIL_ERROR    with which error; "kill": the process ends there, by SIGKILL
 //   NUTIK_FAIL_AFTER    "on": all that follow fail as well, as on a full disk
 //   NUTIK_FAIL_REPORT   a file that the number of calls so far is written to
 #pragma once
@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -47,6 +48,7 @@ inline int fault_of(const char* call, int usual) {
   const long at = wanted.at == nullptr ? 0 : std::atol(wanted.at);
   const bool goes_on = wanted.after != nullptr && std::strcmp(wanted.after, "on") == 0;
   if (at == 0 || number < at || (number > at && !goes_on)) return 0;
+  if (wanted.error != nullptr && std::strcmp(wanted.error, "kill") == 0) kill(getpid(), SIGKILL);
   return wanted.error == nullptr ? usual : std::atoi(wanted.error);
 }
 

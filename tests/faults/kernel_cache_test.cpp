@@ -9,6 +9,7 @@
 #include "capture/format.hpp"
 #include "support/made_up_tik.hpp"
 #include "support/program_test.hpp"
+#include "support/running_program.hpp"
 
 namespace nutik {
 namespace {
@@ -88,6 +89,30 @@ TEST_F(KernelCache, ThatOthersMayWriteToIsNotUsed) {
       test::run_program({"devices"}, scratch_.folder(), {"XDG_CACHE_HOME=" + (scratch_ / "home").string()})
           .status,
       0);
+}
+
+// PoCL's compiler would end the process with "LLVM ERROR". In a namespace of its own, in which disks can be mounted.
+TEST_F(KernelCache, OnAFullDiskIsNotPocls) {
+  fs::create_directories(scratch_ / "disk");
+  fs::create_directories(scratch_ / "temporary");
+  const auto expose_on_full_disk = [&](const std::string& settings) {
+    return test::run_shell(format("unshare -rm sh -c 'mount -t tmpfs -o size=1M none disk || exit 77; {} \"{}\" --start "
+                                  "0s --exposure 1s --no-recipe c.tik p.png'",
+                                  settings, NUTIK_TEST_PROGRAM),
+                           scratch_.folder());
+  };
+  const auto made = expose_on_full_disk("XDG_CACHE_HOME=$PWD/disk TMPDIR=$PWD/temporary");
+  if (made.err.find("unshare") != std::string::npos || made.status == 77) GTEST_SKIP() << made.err;
+  EXPECT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(test::read_file(scratch_ / "p.png"), right_picture());
+  for (const char* settings : {"XDG_CACHE_HOME=$PWD/disk TMPDIR=$PWD/disk", "POCL_CACHE_DIR=$PWD/disk"}) {
+    const auto result = expose_on_full_disk(settings);
+    EXPECT_EQ(result.status, 4) << result.err;
+    EXPECT_NE(result.err.find("there are not 8 MB of room for " + (scratch_ / "disk").string()), std::string::npos)
+        << result.err;
+    EXPECT_NE(result.err.find("set POCL_CACHE_DIR to a folder of yours alone with room"), std::string::npos);
+  }
+  EXPECT_TRUE(test::files_with(scratch_.folder(), ".part").empty());
 }
 
 TEST_F(KernelCache, WithFoldersForFilesFailsNoExposure) {

@@ -258,9 +258,6 @@ TEST(EventClip, RefusesWhatItCannotRead) {
   expect("turns.raw", test::raw_header("EVT2", 8, 8) + turns, "turns.raw's clock begins again so often that");
   expect("trigger.dat", "% Version 2\n\x0e\x08", "holds events of the type 14, of 8 bytes");
   expect("short.dat", "% Version 2\n\x0c", "ends within its header");
-  expect("c.adder", "addec...", "is a compressed ADΔER file, which is not read; save it uncompressed");
-  expect("a.hdf5", "\x89HDF\r\n\x1a\n....", "is an HDF5 file, which is not read; if it holds events, convert");
-  expect("a.aedat", "#!AER-DAT4.0\r\n", "is an AEDAT file, which is not read");
 }
 
 // A vector of EVT 3.0 has 12 events in 2 bytes, of which each takes 28 bytes and more.

@@ -140,6 +140,19 @@ TEST_F(InterlacedVideo, IsSaidWhereWhatIsAskedDoesNotFit) {
   }
 }
 
+// Pictures without a header tell nothing, and the clip that has their camera's header beside it says so, too.
+TEST_F(InterlacedVideo, IsSaidOfPicturesWithoutAHeader) {
+  NEEDS_FFMPEG();
+  test::make(scratch_, "-f lavfi -i testsrc2=size=64x48:rate=25 -frames:v 2 -pix_fmt gray -f rawvideo whole.bytes");
+  ClipOptions options;
+  options.raw = RawVideo{64, 48, "gray"};
+  options.interlaced = Interlaced::frames;
+  const auto clip = open_test_clip(scratch_ / "whole.bytes", options);
+  read_all(*clip);
+  ASSERT_EQ(clip->remarks().size(), 1u);
+  EXPECT_TRUE(clip->remarks()[0].starts_with("nothing in the clip says that it is interlaced")) << clip->remarks()[0];
+}
+
 TEST_F(InterlacedVideo, OfFieldsRunsTwiceAsFast) {
   NEEDS_FFMPEG();
   make_interlaced(scratch_, 't', "-c:v ffv1", "t.mkv");

@@ -185,6 +185,13 @@ TEST(PhotronClip, IsTakenAsFarAsItGoes) {
   EXPECT_EQ(test::difference(rasters[1], stills[1]), "");
   ASSERT_TRUE(clip->ended_early());
   EXPECT_NE(clip->ended_early()->find("is taken as far as it goes, 2 of 3 pictures: "), std::string::npos);
+
+  // Pictures that are passed over end where those do that are read.
+  const auto passed = open_test_clip(scratch / "ball.mraw", options);
+  std::vector<std::byte> room(passed->info().format.sample_bytes());
+  for (int picture = 0; picture < 2; ++picture) EXPECT_TRUE(passed->skip(room));
+  EXPECT_FALSE(passed->skip(room));
+  EXPECT_TRUE(passed->ended_early());
 }
 
 TEST(PhotronClip, OfAColourSensorIsRefusedWhereItIsAMosaic) {

@@ -42,11 +42,35 @@ class StillSequence : public testing::Test {
 };
 
 TEST_F(StillSequence, AFolderHoldsItsPicturesAsAPersonCounts) {
-  touch({"a/f10.png", "a/f9.PNG", "a/f1.png", "a/f009b.png", "a/notes.txt", "a/Thumbs.db", "a/._f1.png"});
-  EXPECT_EQ(listed("a"), "f1.png f9.PNG f009b.png f10.png");
+  touch({"a/f10.png", "a/f9.PNG", "a/f1.png", "a/f009.png", "a/notes.txt", "a/Thumbs.db", "a/._f1.png"});
+  EXPECT_EQ(listed("a"), "f1.png f009.png f9.PNG f10.png");
   EXPECT_EQ(listed("a/"), listed("a"));
   std::filesystem::create_directory(scratch_ / "a/f2.png");  // a folder in spite of its name
-  EXPECT_EQ(listed("a"), "f1.png f9.PNG f009b.png f10.png");
+  EXPECT_EQ(listed("a"), "f1.png f009.png f9.PNG f10.png");
+}
+
+TEST_F(StillSequence, WhatIsNotNumberedAlikeIsNotTakenAlong) {
+  const auto note = [&](const std::string& folder) {
+    return left_out_note(scratch_ / folder, *list_stills(scratch_ / folder)).value_or("nothing");
+  };
+  touch({"a/1.png", "a/2.png", "a/3.png", "a/1 (copy).png", "a/3.bak.png"});
+  EXPECT_EQ(listed("a"), "1.png 2.png 3.png");
+  EXPECT_NE(note("a").find("not taken along, because their names are of another kind than 1.png: 1 (copy).png, 3.bak.png;"),
+            std::string::npos)
+      << note("a");
+  EXPECT_EQ(listed("a/*.png").size(), std::string("1.png 2.png 3.png 1 (copy).png 3.bak.png").size());
+  touch({"words/dawn.png", "words/noon.png", "words/dusk1.png", "words/dusk2.png"});
+  EXPECT_EQ(listed("words"), "dawn.png dusk1.png dusk2.png noon.png");
+  EXPECT_EQ(note("words"), "nothing");
+  touch({"times/2026-01-01 10.00.58.png", "times/2026-01-01 10.01.00.png"});
+  EXPECT_EQ(note("times"), "nothing");
+}
+
+TEST_F(StillSequence, TwoSequencesInAFolderAreNotRunTogether) {
+  touch({"a/left_000.png", "a/left_001.png", "a/right_000.png", "a/right_001.png"});
+  expect_refused("a", {"a: the folder holds two sequences, of left_000.png (2 pictures) and of right_000.png (2)",
+                       "a/left_*.png' or '", "a/*.png' takes all"});
+  EXPECT_EQ(listed("a/left_*.png"), "left_000.png left_001.png");
 }
 
 TEST_F(StillSequence, TwoKindsInAFolderAreNotMixed) {

@@ -99,7 +99,7 @@ TEST(StillsTable, NamesFileAndBothValuesOfWhatIsWrong) {
       {"a.pgm,0,0\n", {"stills.csv:1: exposure_ns '0' is no whole number of nanoseconds from 1 to"}},
       {"a.pgm,0.5,1\n", {"stills.csv:1: start_ns '0.5' is no whole number"}},
       {"file,start,exposure\na.pgm,0,1\n", {"stills.csv:1: start_ns 'start' is no whole number"}},
-      {"c, 2.pgm,0,1\n", {"stills.csv:1: 4 columns, and there are three", "stands in quotes"}},
+      {"c, 2.pgm,0,1\n", {"stills.csv:1: 4 columns, and a table of stills has three", "stands in quotes"}},
       {"a.pgm,-4000000000000000000,1\nb.pgm,4000000000000000000,4000000000000000000\n",
        {"stills.csv:2: ",
         "b.pgm starts 8000000000000000000 ns after the first picture and is exposed for "

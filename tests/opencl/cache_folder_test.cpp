@@ -3,10 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <optional>
 #include <string>
+
+#include "capture/format.hpp"
+#include "support/scratch.hpp"
 
 namespace nutik {
 namespace {
@@ -63,6 +71,75 @@ TEST_F(DefaultCacheFolder, IsNeverBelowTheCurrentFolder) {
   }
   set("HOME", "someone");
   EXPECT_EQ(default_cache_folder(), "");
+}
+
+// PoCL would take /tmp/pocl/kcache, where anybody may have put code of theirs.
+TEST_F(DefaultCacheFolder, IsForPoclOneOfThisUsersAlone) {
+  const test::Scratch scratch;
+  const std::filesystem::path own = scratch / format("nutik-pocl-{}", geteuid()), home = scratch / "home";
+  std::filesystem::create_directory(home);
+  set("TMPDIR", scratch.folder().string());
+  set("XDG_CACHE_HOME", std::nullopt);
+  const auto chosen = [&](const std::optional<std::string>& in_home) {
+    set("HOME", in_home);
+    set("POCL_CACHE_DIR", std::nullopt);
+    choose_cache_of_pocl();
+    const char* folder = std::getenv("POCL_CACHE_DIR");
+    return std::string(folder == nullptr ? "its usual one" : folder);
+  };
+  EXPECT_EQ(chosen(home), "its usual one");
+  EXPECT_EQ(chosen(std::nullopt), own / "kcache");
+  EXPECT_EQ(chosen("relative"), own / "kcache");
+  EXPECT_EQ(flaw_of_pocl_cache(), "");
+  EXPECT_EQ(std::filesystem::status(own / "kcache").permissions(), std::filesystem::perms::owner_all);
+  set("XDG_CACHE_HOME", "relative");
+  EXPECT_EQ(chosen(home), own / "kcache") << "PoCL would take the relative one";
+  set("XDG_CACHE_HOME", std::nullopt);
+  std::filesystem::create_directories(home / ".cache/pocl");
+  std::filesystem::permissions(home / ".cache/pocl", std::filesystem::perms::all);
+  EXPECT_EQ(chosen(home), own / "kcache");
+  set("POCL_CACHE_DIR", "/somewhere");
+  choose_cache_of_pocl();
+  EXPECT_STREQ(std::getenv("POCL_CACHE_DIR"), "/somewhere");
+}
+
+// What somebody else planted there is not used.
+TEST_F(DefaultCacheFolder, IsNotForPoclWhatOthersMayWriteTo) {
+  const test::Scratch scratch;
+  const std::filesystem::path own = scratch / format("nutik-pocl-{}", geteuid());
+  set("TMPDIR", scratch.folder().string());
+  set("XDG_CACHE_HOME", std::nullopt);
+  set("HOME", std::nullopt);
+  set("POCL_CACHE_DIR", std::nullopt);
+  choose_cache_of_pocl();
+  std::filesystem::create_directories(own / "kcache");
+  for (const std::filesystem::path& folder : {own, own / "kcache"}) {
+    std::filesystem::permissions(folder, std::filesystem::perms::all);
+    EXPECT_EQ(flaw_of_pocl_cache(),
+              format("other users may write to {} and put code of their own there", folder.string()));
+    std::filesystem::permissions(folder, std::filesystem::perms::owner_all);
+  }
+  EXPECT_EQ(flaw_of_pocl_cache(), "");
+  std::filesystem::remove_all(own);
+  std::ofstream(own) << "a file";
+  EXPECT_EQ(flaw_of_pocl_cache(), format("{} cannot be made", (own / "kcache").string()));
+  std::filesystem::remove(own);
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can give a folder away";
+  std::filesystem::create_directories(scratch / "theirs/kcache");
+  ASSERT_EQ(::chown((scratch / "theirs").c_str(), 12'345, 12'345), 0);
+  std::filesystem::create_symlink(scratch / "theirs", own);
+  EXPECT_NE(flaw_of_pocl_cache().find("belongs to another user"), std::string::npos);
+  ASSERT_EQ(::chown((scratch / "theirs").c_str(), 0, 0), 0);
+  ASSERT_EQ(::lchown(own.c_str(), 12'345, 12'345), 0);
+  EXPECT_NE(flaw_of_pocl_cache().find("belongs to another user"), std::string::npos) << "a link of theirs";
+}
+
+TEST(KernelCacheFile, ThatIsTooLargeToBeOursIsNotRead) {
+  const test::Scratch scratch;
+  write_to_cache(scratch / "cache/kernel.bin", "a kernel");
+  EXPECT_EQ(read_from_cache(scratch / "cache/kernel.bin"), "a kernel");
+  std::filesystem::resize_file(scratch / "cache/kernel.bin", 3ull << 30);
+  EXPECT_EQ(read_from_cache(scratch / "cache/kernel.bin").size(), 0u);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "opencl/build_options.hpp"
 #include "opencl/opencl_renderer.hpp"
 #include "render/reference_renderer.hpp"
+#include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
@@ -18,6 +19,11 @@ namespace nutik {
 namespace {
 
 constexpr OutputFormat kCodes{ValueType::code8, 255};
+const RenderControl kMeasuring = [] {
+  RenderControl control;
+  control.takes_wrong = true;
+  return control;
+}();
 
 // Light as if codes were linear: what a compiler may make of an sRGB curve.
 constexpr const char* kWrongLight = "-DNUTIK_LIGHT=NUTIK_LIGHT_LINEAR";
@@ -44,8 +50,8 @@ class SelfTest : public testing::Test {
     return options;
   }
 
-  Rendered render(const OpenClOptions& options) {
-    return OpenClRenderer(options).render(plan_, capture_, kCodes);
+  Rendered render(const OpenClOptions& options, const RenderControl& control = {}) {
+    return OpenClRenderer(options).render(plan_, capture_, kCodes, control);
   }
 
   [[nodiscard]] std::vector<std::filesystem::path> cached(const std::string& extension) const {
@@ -100,16 +106,17 @@ TEST_F(SelfTest, AutoTakesAnotherArithmetic) {
   EXPECT_EQ(rendered.picture.bytes, expected.bytes);
 }
 
-TEST_F(SelfTest, AskingForAWrongOneWarns) {
+TEST_F(SelfTest, AskingForAWrongOneIsRefusedUnlessItIsMeasured) {
   OpenClOptions asking = options({Precision::fixed});
   asking.precision = Precision::fixed;
-  const Rendered rendered = render(asking);
-  EXPECT_EQ(rendered.precision, Precision::fixed);
-  EXPECT_FALSE(rendered.passed_self_test);
-  ASSERT_EQ(rendered.warnings.size(), 1u);
-  EXPECT_NE(rendered.warnings[0].find("this driver computes `fixed` wrongly (self-test: light is wrong by "),
-            std::string::npos)
-      << rendered.warnings[0];
+  const std::string message = test::message_of<DeviceError>([&] { static_cast<void>(render(asking)); });
+  for (const char* part : {"this driver computes `fixed` wrongly (self-test: light is wrong by ",
+                           "use auto or another arithmetic, another device or the reference"}) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+  const Rendered measured = render(asking, kMeasuring);
+  EXPECT_EQ(measured.precision, Precision::fixed);
+  EXPECT_FALSE(measured.passed_self_test);
   asking.tests_itself = false;
   EXPECT_TRUE(render(asking).warnings.empty());
 }
@@ -184,7 +191,7 @@ TEST_F(SelfTest, SeesWrongBlending) {
   EXPECT_EQ(cached(".txt").size(), 2u);
   blending.cache_folder.clear();
   blending.faults[Precision::single_] = "-DNUTIK_SHARE_UNIT=1.53e-5f";  // 1/65359
-  EXPECT_FALSE(render(blending).passed_self_test);
+  EXPECT_FALSE(render(blending, kMeasuring).passed_self_test);
   plan_ = plan(capture_);
   EXPECT_TRUE(render(blending).passed_self_test) << "nothing is blended";
 }
@@ -243,7 +250,7 @@ TEST_F(SelfTest, SeesLoopsThatEndEarly) {
   EXPECT_TRUE(render(heeding).passed_self_test);
   heeding.cache_folder.clear();
   heeding.heeds_loop_limit = false;
-  EXPECT_FALSE(render(heeding).passed_self_test);
+  EXPECT_FALSE(render(heeding, kMeasuring).passed_self_test);
 }
 
 }  // namespace

@@ -241,8 +241,43 @@ except nutik.InputError as error:
     print(error)
 """
 
+# A capture that was written to, what has nothing to do with it, and the capture as it is now.
+WRITTEN_TO = """
+import numpy as np, nutik, os, sys
+pictures = np.random.default_rng(1).integers(0, 256, (8, 16, 16, 3), np.uint8)
+one, other = (nutik.encode(pictures, name, rate=960, codec="none") for name in sys.argv[1:])
+os.utime(sys.argv[1], (1, 1))
+for again in range(2):
+    other.render(exposure="8f")
+    try:
+        one.render(exposure="8f")
+    except nutik.InputError as error:
+        print(error)
+    nutik.encode(pictures, sys.argv[2].replace(".tik", f"-{again}.tik"), rate=960)
+nutik.open(sys.argv[1]).render(exposure="8f")
+"""
+
+# Who asked for the signal before this package came.
+OF_OTHERS = """
+import os, signal
+signal.signal(signal.SIGBUS, lambda number, frame: print("asked"))
+import nutik
+os.kill(os.getpid(), signal.SIGBUS)
+"""
+
 
 class Files(support.TestCase):
+    def test_a_capture_that_somebody_writes_to(self):
+        """Is an error of that capture alone, until it is opened again."""
+        done = subprocess.run([sys.executable, "-c", WRITTEN_TO, self.path("one.tik"), self.path("other.tik")],
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.count("one.tik changed or could not be read any more"), 2, done.stdout)
+
+    def test_the_signal_of_others(self):
+        done = subprocess.run([sys.executable, "-c", OF_OTHERS], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (0, "asked\n"), done.stderr)
+
     def test_a_capture_that_somebody_cuts_off(self):
         """Is an error, and not the interpreter's end."""
         done = subprocess.run([sys.executable, "-c", CUT_OFF, self.path("clip.tik")], capture_output=True, text=True)

@@ -1,7 +1,10 @@
 // What is said of a clip whose pictures are not those that it announces.
 #include "session/clips/encoding.hpp"
+#include "session/clips/evened_times.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "session/made_clip.hpp"
 #include "support/scratch.hpp"
@@ -18,6 +21,26 @@ std::vector<std::string> warnings_of(std::uint64_t pictures, std::uint64_t annou
       MemoryBudget::of_machine());
   EXPECT_EQ(encoded.timeline.sample_count(), pictures);
   return encoded.warnings;
+}
+
+// 12 steps of 1/240 s, 24 of 1/30, 12 of 1/240; dropped pictures leave single long steps.
+TEST(Encoding, NamesTheRateOfAFilmThatPlaysSlowerInAPart) {
+  const auto said = [](const std::vector<std::int64_t>& steps_ns) {
+    std::vector<std::int64_t> starts{0};
+    for (const std::int64_t step : steps_ns) starts.push_back(starts.back() + step);
+    const auto note = gap_note(Timeline::irregular(starts, {360, 1}));
+    return note ? note->text : std::string();
+  };
+  constexpr std::int64_t kShort = 4'166'667, kLong = 33'333'333;
+  std::vector<std::int64_t> ramp(48, kShort), dropped(48, kShort);
+  std::fill_n(ramp.begin() + 12, 24, kLong);
+  for (const std::size_t k : {7u, 19u, 31u}) dropped[k] = 2 * kShort;
+  EXPECT_EQ(said(ramp).find("24 of the clip's 48 steps from one picture to the next last 4.167 ms and 24 last 33.33 ms, "
+                            "8 times as long"),
+            0u)
+      << said(ramp);
+  EXPECT_NE(said(ramp).find("state the rate, 240"), std::string::npos) << said(ramp);
+  EXPECT_NE(said(dropped).find("longer than the usual"), std::string::npos) << said(dropped);
 }
 
 TEST(Encoding, SaysThatPicturesAreMissing) {

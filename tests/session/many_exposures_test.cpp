@@ -6,6 +6,7 @@
 
 #include "session/below/activity.hpp"
 #include "session/below/pictures.hpp"
+#include "session/making/picture_queue.hpp"
 #include "session/making/series_making.hpp"
 #include "session/making/sheet_making.hpp"
 #include "session/making/video_making.hpp"
@@ -32,6 +33,19 @@ TEST(SharedWarnings, AreSaidOnceWhoeverAddsThem) {
   warnings.add("last", std::vector<std::string>{"too bright"});
   EXPECT_EQ(warnings.lines(),
             (std::vector<std::string>{"last: too bright", "first and 1000 more: too dark"}));
+}
+
+// Pictures that nobody will write are exposed no further.
+TEST(PictureQueue, ThrowsWhatEndedItsThread) {
+  const test::Scratch scratch;
+  PictureQueue queue([](std::size_t, const Error&) { throw InputError("the capture changed"); });
+  const auto push = [&] {
+    queue.push(0, scratch / "no/such/folder/p.png", Picture({8, 8, 1}, ValueType::code8, 255), {}, {});
+  };
+  EXPECT_EQ(test::message_of<InputError>([&] {
+              for (int picture = 0; picture < 100; ++picture) push();
+            }),
+            "the capture changed");
 }
 
 TEST(VideoOutput, RefusesACodecForStillsAndHoldsTheSetting) {

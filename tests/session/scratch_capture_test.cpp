@@ -1,12 +1,12 @@
-// Temporary captures, and what becomes of those that killed processes left.
+// Temporary captures: nothing is left of them, and nothing of anybody else is touched.
 #include "session/clips/scratch_capture.hpp"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/file.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 
 #include "session/made_clip.hpp"
@@ -40,7 +40,7 @@ class ScratchCaptures : public testing::Test {
         source, [] { return std::make_unique<test::MadeClip>(7, 7); }, MemoryBudget::of_machine(),
         [](const CaptureFormat&) { return MemoryNeeds(); });
   }
-  // With a file, as a process leaves it; `age` ago.
+  // With a file, as programs of earlier versions left one that were killed; `age` ago.
   fs::path leave(const std::string& name, std::chrono::seconds age) const {
     fs::create_directory(scratch_ / name);
     scratch_.write(name + "/capture.tik", "half of one");
@@ -54,46 +54,40 @@ class ScratchCaptures : public testing::Test {
   std::optional<std::string> before_;
 };
 
-TEST_F(ScratchCaptures, HaveNoNameAnyMoreWhenTheyAreRead) {
+TEST_F(ScratchCaptures, HaveNoName) {
   const ScratchCapture made = make();
   EXPECT_EQ(made.reader->timeline().sample_count(), 7u);
   EXPECT_TRUE(fs::is_empty(scratch_.folder()));
 }
 
-TEST_F(ScratchCaptures, RemoveWhatKilledProcessesLeft) {
-  const auto left = leave("nutik-Ab3xYz", 2min), other = leave("nutik-000000", 24h);
-  make();
-  EXPECT_FALSE(fs::exists(left));
-  EXPECT_FALSE(fs::exists(other));
+TEST_F(ScratchCaptures, LeaveNothingWhereAProcessIsKilledWhileItReads) {
+  const pid_t child = fork();
+  if (child == 0) {
+    SourceRequest source;
+    source.path = "clip";
+    const auto killed = [](std::uint64_t samples, std::uint64_t) {
+      if (samples > 0) kill(getpid(), SIGKILL);
+    };
+    const ScratchCapture made = encode_to_scratch(
+        source, [] { return std::make_unique<test::MadeClip>(70, 7); }, MemoryBudget::of_machine(),
+        [](const CaptureFormat&) { return MemoryNeeds(); }, killed);
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_TRUE(fs::is_empty(scratch_.folder()));
 }
 
-// A folder is made first and locked then.
-TEST_F(ScratchCaptures, LeaveNewFoldersAlone) {
-  const auto left = leave("nutik-Ab3xYz", 30s);
-  make();
-  EXPECT_TRUE(fs::exists(left / "capture.tik"));
-}
-
-TEST_F(ScratchCaptures, LeaveFoldersOfProcessesThatLiveAlone) {
-  const auto left = leave("nutik-Ab3xYz", 2min);
-  const int lock = ::open(left.c_str(), O_RDONLY | O_DIRECTORY);
-  ASSERT_EQ(::flock(lock, LOCK_EX | LOCK_NB), 0);
-  make();
-  EXPECT_TRUE(fs::exists(left / "capture.tik"));
-  ::close(lock);
-  make();
-  EXPECT_FALSE(fs::exists(left));
-}
-
-TEST_F(ScratchCaptures, LeaveAllElseAlone) {
-  const auto longer = leave("nutik-Ab3xYzw", 2min), others = leave("other-Ab3xYz", 2min),
-             kept = leave("kept", 2min);
+// A name proves nothing, however old a folder is.
+TEST_F(ScratchCaptures, LeaveFoldersAloneThatHaveANameOfThisProgram) {
+  const auto left = leave("nutik-Ab3xYz", 2min), old = leave("nutik-abcdef", 24h),
+             other = leave("kept", 2min);
   scratch_.write("nutik-a_file", "precious");
-  fs::create_directory_symlink(kept, scratch_ / "nutik-a_link");
+  fs::create_directory_symlink(other, scratch_ / "nutik-a_link");
   make();
-  EXPECT_TRUE(fs::exists(longer / "capture.tik"));
-  EXPECT_TRUE(fs::exists(others / "capture.tik"));
-  EXPECT_TRUE(fs::exists(kept / "capture.tik"));
+  for (const fs::path& folder : {left, old, other})
+    EXPECT_EQ(test::read_file(folder / "capture.tik"), "half of one");
   EXPECT_TRUE(fs::is_symlink(scratch_ / "nutik-a_link"));
   EXPECT_EQ(test::read_file(scratch_ / "nutik-a_file"), "precious");
 }

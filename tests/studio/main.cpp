@@ -4,10 +4,16 @@
 
 #include <QApplication>
 #include <QTemporaryDir>
+#include <string_view>
 
 #include "opencl/device.hpp"
 
+namespace nutik::studio {
+int save_changed(const char* project);  // project_file_test.cpp
+}
+
 int main(int count, char** words) {
+  if (count == 3 && std::string_view(words[1]) == "--save") return nutik::studio::save_changed(words[2]);
   nutik::prepare_for_pocl();
   ::testing::InitGoogleTest(&count, words);
   qputenv("QT_QPA_PLATFORM", "offscreen");

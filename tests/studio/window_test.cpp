@@ -1,8 +1,10 @@
 // The window: opening, saving, exporting.
+#include <QDir>
 #include <QFile>
 #include <QMimeData>
 #include <QToolButton>
 #include <QTreeWidget>
+#include <csignal>
 
 #include "studio/regions/region_edits.hpp"
 #include "studio/window/project_file.hpp"
@@ -13,6 +15,39 @@ namespace {
 
 class WindowTest : public StudioTest {
  protected:
+  static QDir kept_folder() { return {QStandardPaths::writableLocation(QStandardPaths::AppDataLocation)}; }
+  static void remove_all_kept() {
+    for (const Autosave::Found& each : Autosave::found()) KeptProject(each.path).remove();
+  }
+  void open_in(MainWindow& window) {
+    window.open(path("frames/%02d.pgm"), "100");
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
+    ASSERT_NE(window.document().facts(), nullptr);
+  }
+  // As a crash leaves it: the window goes, and nothing is asked.
+  DocumentState leave_unsaved(int width) {
+    MainWindow window;
+    open_in(window);
+    add_region(window.document());
+    paint_region(window.document(), rectangle(96, 48, {10, 10}, width, 20), window.document().selected_tag(),
+                 "Rectangle");
+    window.autosave().keep();
+    return window.document().state();
+  }
+  // Of a window whose changes are given up.
+  void open_again_without_asking(MainWindow& window) {
+    window.document().undo_stack().setClean();
+    open_in(window);
+  }
+  static QMenu& unsaved_menu(MainWindow& window) {
+    for (QAction* action : window.menuBar()->actions().front()->menu()->actions()) {
+      if (!action->text().contains("unsaved")) continue;
+      Q_EMIT action->menu()->aboutToShow();
+      return *action->menu();
+    }
+    throw std::logic_error("no menu of unsaved work");
+  }
+
   // The exported picture, and that of the line, are the same file.
   void expect_same_picture_by_command() {
     window_.export_picture(path("window.png"));
@@ -69,22 +104,92 @@ TEST_F(WindowTest, OpensAProjectAsItWasSaved) {
 }
 
 TEST_F(WindowTest, KeepsWhatIsNotSaved) {
-  Autosave::forget();
-  open_clip();
-  window_.autosave().keep();
-  EXPECT_EQ(Autosave::found(), "") << "nothing was changed";
-  add_region(document());
-  const DocumentState changed = document().state();
-  window_.autosave().keep();
-  ASSERT_NE(Autosave::found(), "");
-
-  MainWindow next;
-  next.recover();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return next.is_settled(); }, kMaxWaitMs));
-  EXPECT_TRUE(next.document().state() == changed);
-  EXPECT_TRUE(next.isWindowModified()) << "it is to be saved where a person says";
+  remove_all_kept();
+  {
+    MainWindow unchanged;
+    open_in(unchanged);
+    unchanged.autosave().keep();
+  }
+  EXPECT_TRUE(Autosave::found().empty()) << "nothing was changed";
+  const DocumentState changed = leave_unsaved(10);
+  ASSERT_EQ(Autosave::found().size(), 1u);
+  EXPECT_EQ(Autosave::found().front().capture, "%02d.pgm");
+  const QString kept = Autosave::found().front().path;
+  EXPECT_EQ(kept_folder().entryList({"unsaved*"}).size(), 2) << "one file, and its lock";
+  {
+    MainWindow next;
+    next.recover(kept);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return next.is_settled(); }, kMaxWaitMs));
+    EXPECT_TRUE(next.document().state() == changed) << next.notice().text().toStdString();
+    EXPECT_TRUE(next.isWindowModified()) << "it is to be saved where a person says";
+    EXPECT_TRUE(Autosave::found().empty()) << "it has it";
+    window_.recover(kept);
+    EXPECT_TRUE(window_.notice().text().contains("nother window")) << window_.notice().text().toStdString();
+    EXPECT_EQ(document().facts(), nullptr);
+  }
+  ASSERT_EQ(Autosave::found().size(), 1u) << "that one did not end well either";
+  window_.recover(kept);
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(document().state() == changed);
   ASSERT_TRUE(window_.save_project(path("saved.nutik")));
-  EXPECT_EQ(Autosave::found(), "");
+  EXPECT_TRUE(Autosave::found().empty());
+  EXPECT_FALSE(QFile::exists(kept));
+}
+
+// Whatever is done, short of taking it over or removing it.
+TEST_F(WindowTest, OffersWhatIsNotSavedAtEveryStartUntilAPersonDecides) {
+  remove_all_kept();
+  EXPECT_FALSE(MainWindow().offer().text().contains("unsaved work"));
+  leave_unsaved(10);
+  leave_unsaved(20);
+  const auto still_there = [] { return Autosave::found().size() == 2; };
+  ASSERT_TRUE(still_there()) << "one for each window";
+  open_clip();
+  add_region(document());
+  window_.autosave().keep();  // beside theirs
+  ASSERT_TRUE(window_.save_project(path("saved.nutik")));
+  EXPECT_TRUE(still_there()) << "another window's saving";
+  for (const QMessageBox::StandardButton button : {QMessageBox::Discard, QMessageBox::Cancel}) {
+    MainWindow next;
+    EXPECT_TRUE(next.offer().text().contains("unsaved work"));
+    open_in(next);
+    EXPECT_TRUE(next.offer().text().contains("unsaved work")) << "opening a clip does not hide it";
+    add_region(next.document());
+    next.autosave().keep();
+    answer_next(button);
+    EXPECT_EQ(next.close(), button == QMessageBox::Discard);
+    EXPECT_TRUE(is_asked_);
+    EXPECT_TRUE(still_there()) << "another window's closing";
+    open_again_without_asking(next);
+    EXPECT_TRUE(still_there()) << "another clip";
+  }
+  MainWindow next;
+  answer_next(QMessageBox::No);
+  unsaved_menu(next).actions().back()->trigger();
+  EXPECT_TRUE(still_there());
+  EXPECT_EQ(unsaved_menu(next).actions().size(), 4) << "two, a line, and their removal";
+  answer_next(QMessageBox::Yes);
+  unsaved_menu(next).actions().back()->trigger();
+  EXPECT_TRUE(Autosave::found().empty());
+  EXPECT_TRUE(kept_folder().entryList({"unsaved*"}).isEmpty());
+}
+
+TEST_F(WindowTest, KeepsWhatIsNotSavedWhereItIsAskedToEnd) {
+  remove_all_kept();
+  DocumentState changed;
+  {
+    MainWindow ended;
+    open_in(ended);
+    add_region(ended.document());
+    changed = ended.document().state();
+    ended.autosave().keep_at_signals();
+    raise(SIGTERM);
+    EXPECT_EQ(QApplication::exec(), 128 + SIGTERM);
+  }
+  ASSERT_EQ(Autosave::found().size(), 1u);
+  window_.recover(Autosave::found().front().path);
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(document().state() == changed);
 }
 
 TEST_F(WindowTest, SaysWhyAFileIsRefused) {
@@ -213,6 +318,79 @@ TEST_F(WindowTest, AsksBeforeItReplacesWhatChangedOutside) {
   QTest::keyClick(&window_, Qt::Key_S, Qt::ControlModifier);
   EXPECT_TRUE(is_asked_);
   EXPECT_NE(test::read_file(scratch_ / "saved.fn"), "M0 [0:1]\n") << window_.notice().text().toStdString();
+}
+
+TEST_F(WindowTest, AsksBeforeItReplacesWhatAProjectMerelyNames) {
+  open_clip();
+  add_region(document());
+  paint_region(document(), rectangle(96, 48, {10, 10}, 20, 20), document().selected_tag(), "Rectangle");
+  save_mask(path("theirs.pgm"), (*document().state().mask)->mask);
+  save_functions(path("theirs.fn"), document().functions());
+  const std::string mask = test::read_file(scratch_ / "theirs.pgm");
+  const std::string functions = test::read_file(scratch_ / "theirs.fn");
+  ASSERT_TRUE(window_.save_project(path("mine.nutik")));
+  std::string project = test::read_file(scratch_ / "mine.nutik");
+  for (const char* name : {"mine.fn", "mine.pgm"}) project.replace(project.find(name), 4, "theirs");
+  scratch_.write("mine.nutik", project);
+  window_.open(path("mine.nutik"));
+  ASSERT_TRUE(settles());
+  document().set_points(0, {{0, 0.25}}, "Move point");
+  const auto save_answering = [&](QMessageBox::StandardButton button) {
+    window_.activateWindow();  // which a desktop does once a question is gone
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+    QString said;
+    answer_next<QMessageBox>([&](QMessageBox& question) {
+      said = question.text();
+      QTest::mouseClick(question.button(button), Qt::LeftButton);
+    });
+    QTest::keyClick(&window_, Qt::Key_S, Qt::ControlModifier);
+    ASSERT_TRUE(is_asked_);
+    EXPECT_TRUE(said.contains("theirs.pgm was not written for this project")) << said.toStdString();
+    EXPECT_TRUE(said.contains("theirs.fn was not written for this project")) << said.toStdString();
+  };
+  ASSERT_NO_FATAL_FAILURE(save_answering(QMessageBox::No));
+  EXPECT_EQ(test::read_file(scratch_ / "theirs.pgm"), mask);
+  EXPECT_EQ(test::read_file(scratch_ / "theirs.fn"), functions);
+  EXPECT_TRUE(window_.isWindowModified());
+  ASSERT_NO_FATAL_FAILURE(save_answering(QMessageBox::Yes));
+  EXPECT_NE(test::read_file(scratch_ / "theirs.fn"), functions);
+  document().set_points(0, {{0, 0.75}}, "Move point");
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  QTest::keyClick(&window_, Qt::Key_S, Qt::ControlModifier);
+  EXPECT_FALSE(window_.isWindowModified()) << "nothing is asked: they are its own now";
+  EXPECT_EQ(load_functions(path("theirs.fn")), document().functions());
+}
+
+TEST_F(WindowTest, ShowsAProjectWhoseSaveWasEndedAsItWasToBe) {
+  open_clip();
+  add_region(document());
+  ASSERT_TRUE(window_.save_project(path("saved.nutik")));
+  document().set_points(0, {{0, 0.25}}, "Move point");
+  const std::string functions = test::read_file(scratch_ / "saved.fn");
+  // As long as the functions cannot be written.
+  std::filesystem::rename(scratch_ / "saved.fn", scratch_ / "away");
+  std::filesystem::create_directory(scratch_ / "saved.fn");
+  EXPECT_FALSE(window_.save_project(path("saved.nutik")));
+  EXPECT_TRUE(window_.notice().text().contains("saved.fn")) << window_.notice().text().toStdString();
+  EXPECT_TRUE(window_.isWindowModified());
+  std::filesystem::remove(scratch_ / "saved.fn");
+  std::filesystem::rename(scratch_ / "away", scratch_ / "saved.fn");
+
+  MainWindow other;
+  other.show();
+  other.open(path("saved.nutik"));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return other.is_settled(); }, kMaxWaitMs));
+  EXPECT_TRUE(other.document().state() == document().state());
+  EXPECT_TRUE(other.notice().text().contains("did not come to its end"))
+      << other.notice().text().toStdString();
+  EXPECT_FALSE(other.has_files());
+  EXPECT_EQ(test::read_file(scratch_ / "saved.fn"), functions) << "opening writes nothing";
+  other.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&other));
+  QTest::keyClick(&other, Qt::Key_S, Qt::ControlModifier);
+  EXPECT_TRUE(other.has_files()) << other.notice().text().toStdString();
+  EXPECT_EQ(load_functions(path("saved.fn")), document().functions());
 }
 
 TEST_F(WindowTest, SaysOnceWhatHappenedToItsFilesOutside) {

@@ -27,7 +27,7 @@ std::uint64_t sum_of(std::span<const std::byte> bytes) {
   });
 }
 
-// What is lost stays so for the rest of a process: each case has one of its own.
+// Losses are counted by process: each case has one of its own.
 class LostFile : public testing::Test {
  protected:
   LostFile() : path_(scratch_.write("c.tik", std::string(kBytes, '\1'))) {}
@@ -98,6 +98,36 @@ TEST_F(LostFile, GivesNothingAName) {
   EXPECT_EXIT(run(), testing::ExitedWithCode(3), "");
 }
 
+// A program that goes on for days: what a file was touched for is that file's alone, until it is opened again.
+TEST_F(LostFile, ConcernsOnlyWhatWasMadeOfIt) {
+  const auto run = [&] {
+    const MappedFile file(path_);
+    const MappedFile other(scratch_.write("other.tik", "as it was"));
+    OutputFile begun(scratch_ / "begun.png");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::fstream(path_, std::ios::in | std::ios::out).write("other", 5);
+    const auto throws = [](const auto& call) {
+      try {
+        call();
+      } catch (const InputError& error) {
+        return std::string_view(error.what()).find("c.tik changed") != std::string_view::npos;
+      }
+      return false;
+    };
+    if (!throws([&] { begun.commit(); })) std::exit(1);
+    for (int again = 0; again < 2; ++again) {
+      if (!throws([&] { file.check(); })) std::exit(2);
+      other.check();
+      write_text(scratch_ / "notes.txt", "made of nothing");
+      MappedFile(path_).check();
+    }
+    if (!fs::exists(scratch_ / "notes.txt") || fs::exists(scratch_ / "begun.png")) std::exit(3);
+    do_one_work();  // of which all is
+    std::exit(throws([&] { write_text(scratch_ / "late.txt", "made of it, perhaps"); }) ? 0 : 4);
+  };
+  EXPECT_EXIT(run(), testing::ExitedWithCode(0), "");
+}
+
 TEST_F(LostFile, MayBeReplacedByAnother) {
   const auto run = [&] {
     watch_mapped_files();
@@ -117,6 +147,20 @@ TEST_F(LostFile, OfAnotherLibraryEndsTheProcessAsBefore) {
     std::exit(0);
   };
   EXPECT_EXIT(run(), testing::KilledBySignal(SIGBUS), "");
+}
+
+TEST_F(LostFile, OfAnotherLibraryIsThatLibrarys) {
+  const auto run = [&] {
+    std::signal(SIGBUS, [](int) { std::_Exit(7); });
+    watch_mapped_files();
+    watch_mapped_files();
+    const MappedFile file(path_);
+    fs::resize_file(path_, 0);
+    if (sum_of(file.bytes()) != 0) std::exit(1);
+    raise(SIGBUS);
+    std::exit(0);
+  };
+  EXPECT_EXIT(run(), testing::ExitedWithCode(7), "");
 }
 
 }  // namespace

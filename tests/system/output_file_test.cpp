@@ -1,6 +1,7 @@
 #include "system/output_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -8,7 +9,9 @@
 
 #include "capture/error.hpp"
 
+#include "support/running_program.hpp"
 #include "support/scratch.hpp"
+#include "system/temporary_folder.hpp"
 
 namespace nutik {
 namespace {
@@ -16,19 +19,22 @@ namespace {
 using test::Scratch;
 namespace fs = std::filesystem;
 
-// The temporary name can be foreseen: in a folder that all may write to, somebody may have put a link there.
-TEST(OutputFile, WritesThroughNoLink) {
+// Of earlier versions and of this one: what stands under such a name is somebody else's, or can still be recovered.
+TEST(OutputFile, LeavesFilesAloneThatAreCalledAsTemporaryFilesAre) {
   const Scratch scratch;
   scratch.write("victim", "precious");
-  const std::string name = ".a.nutik.part";
-  fs::create_symlink("victim", scratch / name);
+  std::vector<std::string> names{".a.nutik.part", ".a.nutik-0123456789abcdef.part"};
+  for (int tried = 1; tried < 120; ++tried) names.push_back(".a.nutik-" + std::to_string(tried) + ".part");
+  for (const std::string& name : names) scratch.write(name, "half of one");
+  fs::create_symlink("victim", scratch / ".a.nutik-120.part");
+  fs::create_hard_link(scratch / "victim", scratch / ".a.nutik-121.part");
   OutputFile file(scratch / "a");
   file.write("new");
   file.commit();
-  EXPECT_EQ(test::read_file(scratch / "victim"), "precious");
   EXPECT_EQ(test::read_file(scratch / "a"), "new");
-  EXPECT_FALSE(fs::is_symlink(scratch / "a"));
-  EXPECT_TRUE(fs::is_symlink(scratch / name));
+  EXPECT_EQ(test::read_file(scratch / "victim"), "precious");
+  for (const std::string& name : names) EXPECT_EQ(test::read_file(scratch / name), "half of one");
+  EXPECT_TRUE(fs::is_symlink(scratch / ".a.nutik-120.part"));
 }
 
 // Of whoever is writing the same file at the same time: both are whole, and the later one stays.
@@ -48,37 +54,92 @@ TEST(OutputFile, LeavesAnothersTemporaryFileAlone) {
   EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator()), 1);
 }
 
-TEST(OutputFile, TakesOverWhatAKilledProcessLeft) {
+TEST(OutputFile, LeavesAKilledProcesssFileToBeRecovered) {
   const Scratch scratch;
   const pid_t child = fork();
   if (child == 0) {
     OutputFile file(scratch / "a");
-    file.write("a long text of which nothing may be left");
+    file.write("a long text");
     kill(getpid(), SIGKILL);
   }
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFSIGNALED(status));
-  ASSERT_TRUE(fs::exists(scratch / ".a.nutik.part"));
+  const auto left = test::files_with(scratch.folder(), ".a.nutik-");
+  ASSERT_EQ(left.size(), 1u);
   {
     OutputFile file(scratch / "a");
     file.write("new");
     file.commit();
   }
   EXPECT_EQ(test::read_file(scratch / "a"), "new");
-  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator()), 1);
+  EXPECT_EQ(test::read_file(left.front()), "a long text");
 }
 
-// A second name of a file that is none of ours to empty.
-TEST(OutputFile, TakesOverNoHardLink) {
+// While it is written nobody may read more of it than of what it replaces. A program that runs as its owner would be
+// another one afterwards.
+TEST(OutputFile, HasTheModeOfWhatItReplacesWithoutSetIdBits) {
+  const auto mode_of = [](const fs::path& path) {
+    return static_cast<unsigned>(fs::status(path).permissions());
+  };
   const Scratch scratch;
+  const mode_t before = umask(022);
+  {
+    OutputFile file(scratch / "new");
+    EXPECT_EQ(mode_of(file.temporary_path()), 0644u);
+    file.commit();
+    EXPECT_EQ(mode_of(scratch / "new"), 0644u);
+  }
+  struct Tested {
+    unsigned mode, kept;
+  };
+  for (const Tested& tested : {Tested{0600, 0600}, {0640, 0640}, {0444, 0444}, {0666, 0666}, {06755, 0755}}) {
+    scratch.write("a", "old");
+    fs::permissions(scratch / "a", fs::perms(tested.mode));
+    OutputFile file(scratch / "a");
+    EXPECT_EQ(mode_of(file.temporary_path()), 0600u);
+    file.commit();
+    EXPECT_EQ(mode_of(scratch / "a"), tested.kept);
+  }
+  umask(before);
+}
+
+// As Linux does it. Only an administrator can put a file there as another.
+TEST(OutputFile, FollowsNoLinkOfAnotherInASharedFolder) {
+  if (geteuid() != 0) GTEST_SKIP() << "only an administrator can give a link away";
+  const Scratch scratch;
+  fs::create_directory(scratch / "shared");
   scratch.write("victim", "precious");
-  fs::create_hard_link(scratch / "victim", scratch / ".a.nutik.part");
-  OutputFile file(scratch / "a");
-  file.write("new");
-  file.commit();
+  ASSERT_EQ(chmod((scratch / "shared").c_str(), 01777), 0);
+  for (const char* target : {"../victim", "../absent"}) {
+    const fs::path link = scratch / "shared" / fs::path(target).filename();
+    fs::create_symlink(target, link);
+    ASSERT_EQ(lchown(link.c_str(), 12345, 12345), 0);
+    EXPECT_THROW(OutputFile{link}, OutputError);
+    ASSERT_EQ(lchown(link.c_str(), geteuid(), getegid()), 0);
+    OutputFile(link).write("what is not kept");
+    ASSERT_EQ(chmod((scratch / "shared").c_str(), 0777), 0);
+    ASSERT_EQ(lchown(link.c_str(), 12345, 12345), 0);
+    OutputFile(link).write("what is not kept");
+    ASSERT_EQ(chmod((scratch / "shared").c_str(), 01777), 0);
+  }
   EXPECT_EQ(test::read_file(scratch / "victim"), "precious");
-  EXPECT_EQ(test::read_file(scratch / "a"), "new");
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator()), 2);
+}
+
+TEST(OutputFile, WithoutANameIsWrittenWhereItLies) {
+  const NamelessFile nameless;
+  {
+    OutputFile file(nameless.path(), OutputFile::Lasting::no);
+    file.write("some text");
+    file.replace(5, std::as_bytes(std::span(std::string_view("more"))));
+    file.commit();
+  }
+  EXPECT_EQ(test::read_file(nameless.path()), "some more");
+  struct stat status {};
+  ASSERT_EQ(fstat(nameless.descriptor(), &status), 0);
+  EXPECT_EQ(status.st_nlink, 0u);
+  EXPECT_EQ(status.st_mode & 07777u, 0600u);
 }
 
 // A file system that takes a name takes no longer one for the time until it is whole.
@@ -92,24 +153,15 @@ TEST(OutputFile, MayHaveTheLongestName) {
     EXPECT_EQ(test::read_file(scratch / name), "new");
     return temporary;
   };
-  constexpr std::size_t kLongest = 255, kUnshortened = kLongest - std::string_view("..nutik.part").size();
+  constexpr std::size_t kLongest = 255,
+                        kUnshortened = kLongest - std::string_view("..nutik-0123456789abcdef.part").size();
   for (const std::size_t length : {kUnshortened - 1, kUnshortened, kUnshortened + 1, kLongest}) {
     const std::string name = std::string(length - 4, 'n') + ".tik";
     const std::string temporary = temporary_of(name);
-    EXPECT_EQ(temporary == "." + name + ".nutik.part", length <= kUnshortened) << temporary;
+    EXPECT_EQ(temporary.starts_with("." + name + ".nutik-"), length <= kUnshortened) << temporary;
     EXPECT_LE(temporary.size(), kLongest);
-    EXPECT_TRUE(temporary.ends_with(".nutik.part")) << temporary;
-    EXPECT_EQ(temporary_of(name), temporary) << "the next run knows it again";
+    EXPECT_TRUE(temporary.ends_with(".part")) << temporary;
   }
-  const std::string alike(kLongest - 5, 'n');
-  OutputFile first(scratch / (alike + "1.tik"));
-  OutputFile other(scratch / (alike + "2.tik"));
-  OutputFile another(scratch / (alike + "1.tik"));  // beside the first
-  const std::string first_name = first.temporary_path().filename(),
-                    other_name = other.temporary_path().filename();
-  EXPECT_NE(first_name, other_name);
-  EXPECT_TRUE(other_name.ends_with(".nutik.part")) << other_name;
-  EXPECT_TRUE(another.temporary_path().string().ends_with(".nutik-1.part")) << another.temporary_path();
 }
 
 // Letters of several bytes are left out whole.
@@ -125,7 +177,7 @@ TEST(OutputFile, CutsNoLetterOfALongName) {
     ASSERT_TRUE(left.starts_with(expected_start));
     left.remove_prefix(expected_start.size());
     while (left.starts_with("\u20ac")) left.remove_prefix(3);
-    EXPECT_TRUE(left.starts_with("-")) << temporary;
+    EXPECT_TRUE(left.starts_with(".nutik-")) << temporary;
   }
 }
 

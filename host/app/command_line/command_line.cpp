@@ -11,15 +11,15 @@
 #include "session/below/format.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/input_bytes.hpp"
+#include "system/is_absent.hpp"
 
 namespace nutik::app {
 namespace {
 
 // A first word that names no file and looks like no file's name was meant as a command.
 void fail_misspelt_command(const std::string& word) {
-  std::error_code error;
   const bool is_word = word.find_first_of("./*?%[") == std::string::npos && word != "-";
-  if (!is_word || std::filesystem::exists(word, error)) return;
+  if (!is_word || !is_absent(word)) return;
   std::vector<std::string> known;
   for (const Command& command : commands()) known.push_back(std::string(command.name));
   throw UsageError(

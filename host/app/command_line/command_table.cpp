@@ -130,8 +130,8 @@ constexpr Command kCommands[] = {
     {Id::solve, "solve", "CAPTURE.tik|CLIP [FUNCTIONS.fn]",
      "Find the gains and times of a function file that make a picture as it is wished. What is to be found has a name in "
      "place of its number, as in M0 [0:1], [1000000000:1], [1000000001:rest], [1010000000:rest], [1010000001:0].",
-     "nutik-cl solve -k named.fn --wish '300,150,60,60 gone at 0s' clip.tik solved.fn\n"
-     "nutik-cl solve -m regions.pgm -k named-regions.fn --free rest=-100..0 --wish 'M0 = plate' clip.tik\n"
+     "nutik-cl solve -k named.fn --free rest=-50..0 --wish '300,150,60,60 gone at 0s' clip.tik solved.fn\n"
+     "nutik-cl solve -m regions.pgm -k named-regions.fn --free rest=-50..0 --wish 'M0 = plate' clip.tik\n"
      "nutik-cl solve -k moved.fn --free when=0.2s..0.8s/1f --wish '300,150,60,60 >= 1.2 * plate' clip.tik",
      run_solve, kUnderstanding},
     {Id::plate, "plate", "CAPTURE.tik|CLIP [PLATE.png]",

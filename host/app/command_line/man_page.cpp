@@ -126,7 +126,7 @@ std::string man_page() {
       {"3", "an input cannot be read, is damaged or does not fit the others; mistakes that check found"},
       {"4", "the OpenCL device is absent or fails"},
       {"5", "an output cannot be written, or one of a batch"},
-      {"6", "out of memory"},
+      {"6", "out of memory, or of threads"},
       {"128+n", "ended by signal n"}};
   for (const auto& [status, meaning] : kStatuses) text += item(bold(status), meaning);
   text += section("ENVIRONMENT");

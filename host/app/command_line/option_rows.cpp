@@ -377,7 +377,7 @@ constexpr Option kRows[] = {
      "float for .exr and .pfm)",
      "8 16 half float"},
     {0, "quality", "N", exposure, kExposesFreely | set_of(Id::plate, Id::study), &Options::quality,
-     "of a .jpg, 1 … 100 (default: 90)"},
+     "of .jpg pictures, 1 … 100 (default: 90)"},
     {0, "negative", "HOW", exposure, kExposesFreely, &Options::negative,
      "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
      "darker), abs (as bright as light above it) (default: saturate)",

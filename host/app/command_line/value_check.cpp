@@ -9,6 +9,7 @@
 #include "app/text/text_table.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
+#include "system/is_absent.hpp"
 
 namespace nutik::app {
 namespace {
@@ -62,8 +63,7 @@ void check_value(const Option& option, const std::string& name, const std::strin
                option.value, value));
   }
   if (!option.takes_file() || value.find_first_of("./") == std::string::npos) {
-    std::error_code error;
-    if (option.takes_file() && fs::exists(value, error)) return;
+    if (option.takes_file() && !is_absent(value)) return;
     check_choice(name, value, option);
   }
 }

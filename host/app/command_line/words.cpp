@@ -12,18 +12,20 @@
 namespace nutik::app {
 namespace {
 
-// Suggests options of the command that is named, if any, before those of others.
+// Suggests options of the command that is named; where none is, of those that need not be.
 [[noreturn]] void fail_unknown(const std::string& name, std::span<const std::string> words) {
   const auto named =
       std::ranges::find_if(words, [](const std::string& each) { return find_command(each) != nullptr; });
   std::vector<std::string> known{"--help", "--version"};
+  std::vector<const Command*> meant;
   if (named != words.end()) {
-    for (const Option* option : options_of(*find_command(*named))) known.push_back(option->name());
-    if (const std::string suggestion = did_you_mean(name, known); !suggestion.empty())
-      throw UsageError(
-          format("there is no option {}{}; see nutik-cl {} --help", shown(name), suggestion, *named));
+    meant = {find_command(*named)};
+  } else {
+    meant = {&command(CommandId::expose), &command(CommandId::encode), &command(CommandId::info)};
   }
-  for (const Option& option : options()) known.push_back(option.name());
+  for (const Command* each : meant) {
+    for (const Option* option : options_of(*each)) known.push_back(option->name());
+  }
   throw UsageError(format("there is no option {}{}; see nutik-cl {}--help", shown(name),
                           did_you_mean(name, known), named != words.end() ? *named + " " : ""));
 }
@@ -79,7 +81,8 @@ class Reader {
     for (std::size_t letter = 1; letter < word.size(); ++letter) {
       const std::string name{'-', word[letter]};
       const Option* option = find_option(word[letter]);
-      if (option == nullptr) fail_unknown(name, words_);
+      // One dash and several letters: a whole word was meant.
+      if (option == nullptr) fail_unknown(letter == 1 ? word : name, words_);
       if (!option->is_flag() && letter + 1 < word.size()) return take(*option, name, word.substr(letter + 1));
       take(*option, name);
     }

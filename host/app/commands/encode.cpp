@@ -12,6 +12,7 @@
 #include "session/clips/encoding.hpp"
 #include "session/text/shell_text.hpp"
 #include "session/text/size_text.hpp"
+#include "system/is_absent.hpp"
 
 namespace nutik::app {
 
@@ -21,7 +22,7 @@ int run_encode(const Options& options) {
   const std::string& input = options.operands.front();
   const SourceRequest source = clip_request(options, input);
   const tik::Codec codec = tik::Codec::parse(options.codec.value_or("rice"));
-  if (is_tik(input) && std::filesystem::exists(input)) {
+  if (!is_absent(input) && is_tik(input)) {
     throw UsageError(
         format("{} is a capture already; to expose a picture from it: nutik-cl --start 0s "
                "--exposure 10ms {} picture.png",

@@ -17,6 +17,7 @@
 #include "session/making/plate_request.hpp"
 #include "session/requests/stated_time.hpp"
 #include "session/text/size_text.hpp"
+#include "system/is_absent.hpp"
 
 namespace nutik::app {
 namespace {
@@ -41,7 +42,7 @@ MaskJob job_of(const Options& options) {
   if (!options.operands.empty()) {
     job.capture = options.operands.front();
     const bool is_output = !options.output && options.operands.size() == 1 && is_mask_name(*job.capture) &&
-                           !std::filesystem::exists(*job.capture);
+                           is_absent(*job.capture);
     if (is_output) {
       throw UsageError(format("'{}' stands where a capture or clip is read; to write it: -o {}", *job.capture,
                               *job.capture));

@@ -134,7 +134,7 @@ int run_study(const Options& stated) {
   Options options = stated;
   ExposureTally tally;
   const StudyRequest request = study_request(options);
-  const StudyFiles files(output_name(options, "study", "-study.png"));
+  StudyFiles files(output_name(options, "study", "-study.png"));
   files.check(input_files(options), replacing(options));
 
   const std::string capture_name = options.operands.front();
@@ -153,7 +153,7 @@ int run_study(const Options& stated) {
     answer.line = format("{}: {}, the scene without moving things", files.picture.string(),
                          shape_text(plate.picture.shape));
     if (!files.is_alone()) {
-      files.write_commands(commands_text(options, files, study, request.style), false);
+      files.write_commands(commands_text(options, files, study, request.style));
       answer.json["commands"] = files.commands.string();
       answer.line += format("; {}: the command", files.commands.string());
     }
@@ -168,15 +168,14 @@ int run_study(const Options& stated) {
   print_warnings(exposure_warnings(exposed));
   std::string recipe;  // names the files, where there are some
   if (!files.is_alone()) {
-    write_picture(files.mask, made.mask.to_picture());
-    files.write_functions(functions_text(study.functions));
-    files.write_commands(commands_text(options, files, study, request.style), true);
+    files.write_regions(made.mask.to_picture(), functions_text(study.functions));
     recipe = PictureRecipe(recipe_sources(exposing(options, files, request.style))).text(tally.precision());
   }
   write_picture(files.picture, exposed.picture, recipe, file_wishes(output_request(options)));
 
   Answer answer{{{"picture", files.picture.string()}}};
   if (!files.is_alone()) {
+    files.write_commands(commands_text(options, files, study, request.style));
     answer.json["mask"] = files.mask.string();
     answer.json["functions"] = files.functions.string();
     answer.json["commands"] = files.commands.string();

@@ -1,6 +1,7 @@
 #include "app/commands/study_files.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "session/below/error.hpp"
@@ -9,6 +10,7 @@
 #include "session/text/shell_text.hpp"
 #include "system/checksum.hpp"
 #include "system/input_bytes.hpp"
+#include "system/is_absent.hpp"
 #include "system/mapped_file.hpp"
 #include "system/output_file.hpp"
 
@@ -20,6 +22,7 @@ constexpr std::string_view kAboutFunctions =
     "# The light of each part of the picture: M0, M1 and so on are values of the mask.\n";
 constexpr std::string_view kAboutSums =
     "# As the study left them. Another one replaces none of these that was changed.\n";
+constexpr std::string_view kUnfinished = "# This study was not finished: run it again.\n";
 constexpr std::string_view kBeforeName = "# ";
 constexpr std::string_view kPicture = "# the picture ";
 
@@ -32,21 +35,25 @@ std::string sum_of(std::string_view content) { return format("{:016x}", checksum
 
 std::string name_of(const std::filesystem::path& file) { return shell_word(file.filename().string()); }
 
+// Files' names, and what they may hold: of a study that was ended, as before or as after it.
+using Sums = std::set<std::pair<std::string, std::string>>;
+
 // What the commands' text of an earlier study notes.
 struct Noted {
-  std::string picture;                      // its name
-  std::map<std::string, std::string> sums;  // of files, by their names
+  std::string text;     // of the commands
+  std::string picture;  // its name
+  Sums sums;
 
   // Of nothing where there is no such text.
   explicit Noted(const std::filesystem::path& commands) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(commands, error)) return;
-    const std::string text(InputBytes(commands.string()).text());
-    const std::size_t notes = text.find(kAboutSums);
-    if (!text.starts_with(kAboutCommands) || notes == std::string::npos) return;
-    for (std::size_t begin = notes + kAboutSums.size(); begin < text.size();) {
-      const std::size_t end = std::min(text.find('\n', begin), text.size());
-      const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    const std::string all(InputBytes(commands.string()).text());
+    const std::size_t notes = all.find(kAboutSums);
+    if (!all.starts_with(kAboutCommands) || notes == std::string::npos) return;
+    for (std::size_t begin = notes + kAboutSums.size(); begin < all.size();) {
+      const std::size_t end = std::min(all.find('\n', begin), all.size());
+      const std::string_view line = std::string_view(all).substr(begin, end - begin);
       begin = end + 1;
       const std::size_t space = line.rfind(' ');
       if (line.starts_with(kPicture)) {
@@ -55,18 +62,27 @@ struct Noted {
         sums.emplace(line.substr(kBeforeName.size(), space - kBeforeName.size()), line.substr(space + 1));
       }
     }
-    is_whole_ = sums.contains(name_of(commands)) &&
-                sums.at(name_of(commands)) == sum_of(std::string_view(text).substr(0, notes));
+    text = all.substr(0, notes);
+    is_whole_ = sums.contains({name_of(commands), sum_of(text)});
   }
 
-  [[nodiscard]] bool knows(const std::filesystem::path& file) const { return sums.contains(name_of(file)); }
+  [[nodiscard]] bool knows(const std::filesystem::path& file) const {
+    const auto found = sums.lower_bound({name_of(file), ""});
+    return found != sums.end() && found->first == name_of(file);
+  }
   [[nodiscard]] bool is_as_it_was(const std::filesystem::path& file, bool is_commands) const {
-    return is_commands ? is_whole_ : sums.at(name_of(file)) == sum_of(content_of(file));
+    return is_commands ? is_whole_ : sums.contains({name_of(file), sum_of(content_of(file))});
   }
 
  private:
   bool is_whole_ = false;  // the text itself
 };
+
+std::string notes_text(const Sums& sums, const std::filesystem::path& picture) {
+  std::string text = format("{}{}{}\n", kAboutSums, kPicture, name_of(picture));
+  for (const auto& [name, sum] : sums) text += format("{}{} {}\n", kBeforeName, name, sum);
+  return text;
+}
 
 }  // namespace
 
@@ -96,7 +112,7 @@ void StudyFiles::check(std::span<const std::string> inputs, Replacing replacing)
       throw UsageError(
           format("{} is also an input; it is not replaced. Choose another name for the picture", name));
     }
-    if (replacing == Replacing::all || !std::filesystem::exists(*file, error)) continue;
+    if (replacing == Replacing::all || is_absent(*file)) continue;
     if (!std::filesystem::is_regular_file(*file, error) || !noted.knows(*file)) {
       throw UsageError(format(
           "{} exists and is of no study; it is not replaced. Choose another name for the picture", name));
@@ -110,29 +126,38 @@ void StudyFiles::check(std::span<const std::string> inputs, Replacing replacing)
   }
   const std::filesystem::path other = picture.parent_path() / noted.picture;
   if (replacing != Replacing::all && !noted.picture.empty() && noted.picture != name_of(picture) &&
-      std::filesystem::exists(other, error)) {
+      !is_absent(other)) {
     throw UsageError(
         format("{}, {} and {} are those of {}; they are not replaced. Choose another name for the picture",
                mask.string(), functions.string(), commands.string(), other.string()));
   }
 }
 
-void StudyFiles::write_functions(std::string_view text) const {
-  write_text(functions, format("{}{}", kAboutFunctions, text));
+void StudyFiles::write_regions(const Picture& regions, std::string_view light) {
+  const Noted noted(commands);
+  const std::string mask_bytes = netpbm_text(regions);
+  const std::string function_text = format("{}{}", kAboutFunctions, light);
+  sums_ = {{name_of(mask), sum_of(mask_bytes)}, {name_of(functions), sum_of(function_text)}};
+  // Known before they are there: whoever ends this in the middle leaves files of the old study or of this one.
+  Sums both(sums_.begin(), sums_.end());
+  both.insert(noted.sums.begin(), noted.sums.end());
+  std::string text = noted.text.empty() ? std::string(kAboutCommands) : noted.text;
+  if (!text.ends_with(kUnfinished)) text += kUnfinished;
+  both.emplace(name_of(commands), sum_of(text));
+  write_text(commands, text + notes_text(both, picture));
+  write_text(mask, mask_bytes);
+  write_text(functions, function_text);
 }
 
-void StudyFiles::write_commands(std::string_view text, bool has_regions) const {
-  std::string all = format("{}{}", kAboutCommands, text);
-  std::map<std::string, std::string> sums;
-  // Those of an earlier study stay known when this one has none.
-  if (!has_regions) sums = Noted(commands).sums;
-  for (const std::filesystem::path* file : {&mask, &functions}) {
-    if (has_regions) sums[name_of(*file)] = sum_of(content_of(*file));
+void StudyFiles::write_commands(std::string_view text) const {
+  const std::string all = format("{}{}", kAboutCommands, text);
+  Sums sums(sums_.begin(), sums_.end());
+  if (sums.empty()) {  // no regions: those of an earlier study stay known
+    sums = Noted(commands).sums;
+    std::erase_if(sums, [&](const auto& sum) { return sum.first == name_of(commands); });
   }
-  sums[name_of(commands)] = sum_of(all);
-  all += format("{}{}{}\n", kAboutSums, kPicture, name_of(picture));
-  for (const auto& [name, sum] : sums) all += format("{}{} {}\n", kBeforeName, name, sum);
-  write_text(commands, all);
+  sums.emplace(name_of(commands), sum_of(all));
+  write_text(commands, all + notes_text(sums, picture));
 }
 
 }  // namespace nutik::app

@@ -1,15 +1,18 @@
 // The files of a study: its picture, and beside it what that was made with, to be changed by hand.
 //
 //   always:  what was changed by hand since, or is of no study, is not replaced unless asked. The commands' text knows
-//            the others by their checksums
+//            the others by their checksums, while a study is being written those of the study before as well: what a
+//            process that was ended has left is replaced by the next
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include "session/below/pictures.hpp"
 #include "session/output_check.hpp"
 
 namespace nutik::app {
@@ -24,9 +27,10 @@ class StudyFiles {
   // Throws UsageError where a file is an input too, or may not be replaced.
   void check(std::span<const std::string> inputs, Replacing replacing) const;
 
-  void write_functions(std::string_view text) const;
-  // The last: it notes what the others hold.
-  void write_commands(std::string_view text, bool has_regions) const;
+  // Mask and functions, which the commands' text knows before they are there.
+  void write_regions(const Picture& regions, std::string_view light);
+  // The last, once the picture is there.
+  void write_commands(std::string_view text) const;
 
   std::filesystem::path picture, mask, functions, commands;
 
@@ -34,6 +38,7 @@ class StudyFiles {
   [[nodiscard]] std::filesystem::path beside(const char* extension) const;
 
   bool is_alone_;
+  std::vector<std::pair<std::string, std::string>> sums_;  // of mask and functions, by name
 };
 
 }  // namespace nutik::app

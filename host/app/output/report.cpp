@@ -57,7 +57,15 @@ void Answer::tell_source(const std::vector<Fact>& facts, const std::vector<Note>
   source = fact_lines(facts);
   for (const Fact& fact : facts)
     json["facts"].push_back({{"fact", fact.line()}, {"option", option_of(fact.setting)}});
-  std::ranges::move(note_texts(more), std::back_inserter(notes));
+  for (const Note& note : more) {
+    std::string text = note_texts({note}).front();
+    if (note.is_warning) {
+      print_warning(text);
+      json["warnings"].push_back(text);
+    } else {
+      notes.push_back(std::move(text));
+    }
+  }
 }
 
 void Answer::tell_source(const Session& session) {
@@ -124,6 +132,11 @@ void ExposureTally::end(Answer& answer, Session& session, bool verbose, const st
 
 std::vector<std::string> exposure_warnings(const ExposedPicture& exposed) {
   std::vector<std::string> warnings = exposed.warnings;
+  const std::uint64_t pixels = exposed.picture.shape.pixel_count();
+  if (holds_codes(exposed.output.type) && exposed.saturation.above == pixels) {
+    warnings.push_back("every pixel comes out white: all light is above 1; --normalize integral, --gain or --ev makes it "
+                       "less, an .exr or a .tif with --depth float keeps it");
+  }
   if (!holds_codes(exposed.output.type) || exposed.output.negative != NegativeLight::saturate)
     return warnings;
   // Light below 0 is black in a picture of codes: a still scene under a negative still gain disappears.
@@ -135,6 +148,8 @@ std::vector<std::string> exposure_warnings(const ExposedPicture& exposed) {
                "offset shows light below 0, an .exr or a .tif with --depth float keeps it",
                function.tag, still_gain));
   }
+  if (exposed.saturation.below == pixels && warnings.size() == exposed.warnings.size())
+    warnings.push_back("every pixel comes out black: all light is below 0");
   return warnings;
 }
 

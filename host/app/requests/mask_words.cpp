@@ -201,6 +201,11 @@ std::vector<MaskStep> steps_of(const Options& options) {
       step.by_codes = parse_whole_number(said.words.front(), "--by", 1, 65'535);
     }
   }
+  if (tag && !has_region) {
+    throw UsageError(format("--tag {0} is of the regions behind it, and there is none: write --tag {0} before --moving, "
+                            "--rectangle, …",
+                            *tag));
+  }
   return steps;
 }
 

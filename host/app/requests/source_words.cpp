@@ -58,7 +58,8 @@ void read_noise(SourceRequest& request, const Options& options) {
 }  // namespace
 
 SourceRequest source_request(const Options& options, const std::string& name) {
-  if (!is_tik(name)) return clip_request(options, name);
+  // Standard input is looked at by the session, once all else that may be wrong is known.
+  if (is_standard_input(name) || !is_tik(name)) return clip_request(options, name);
   refuse_source_options(options, name);
   SourceRequest request;
   request.path = name;

@@ -61,6 +61,17 @@ std::int64_t fraction_ns(const std::string& digits) {
 
 }  // namespace
 
+unsigned exif_orientation(std::string_view exif) {
+  std::string named("Exif\0\0", 6);
+  named += exif;
+  const std::unique_ptr<ExifData, FreeExif> data(exif_data_new_from_data(
+      reinterpret_cast<const unsigned char*>(named.data()), static_cast<unsigned>(named.size())));
+  const ExifEntry* entry = data ? exif_content_get_entry(data->ifd[EXIF_IFD_0], EXIF_TAG_ORIENTATION) : nullptr;
+  if (entry == nullptr || entry->format != EXIF_FORMAT_SHORT || entry->size < 2) return 1;
+  const unsigned orientation = exif_get_short(entry->data, exif_data_get_byte_order(data.get()));
+  return orientation <= 8 ? orientation : 1;
+}
+
 StillTimes read_exif_times(const std::filesystem::path& file) {
   if (extension_of(file) == ".dng") {
     const RawTags tags = read_raw_tags(file);

@@ -6,6 +6,7 @@
 
 #include "capture/format.hpp"
 #include "media/coding_points.hpp"
+#include "media/stills/stills.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::stills {
@@ -31,7 +32,8 @@ PngTags read_png_tags(const std::filesystem::path& file) {
   for (std::size_t at = kSignature; at + kFrame <= bytes.size();) {
     const std::uint32_t length = big_endian(bytes.substr(at));
     const std::string_view name = bytes.substr(at + 4, 4), data = bytes.substr(at + kData, length);
-    if (name == "IDAT" || data.size() < length) break;
+    if (data.size() < length) break;
+    if (name == "eXIf") tags.orientation = exif_orientation(data);
     if (name == "cICP" && length == 4) {
       has_coding_points = true;
       tags.primaries = primaries_of_coding_point(static_cast<unsigned char>(data[0]));

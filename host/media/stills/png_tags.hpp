@@ -16,6 +16,7 @@ struct PngTags {
   std::optional<Transfer> transfer;                  // of cICP, else of sRGB
   std::optional<Primaries> primaries;                // likewise
   bool has_profile = false;                          // iCCP, which goes before sRGB and not before cICP
+  unsigned orientation = 1;                          // of eXIf, as EXIF numbers them
   std::string unread_transfer;                       // gAMA alone, which programs write without being asked
   std::optional<std::pair<double, double>> density;  // pixels on a length, across and down
 };

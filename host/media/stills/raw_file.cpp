@@ -101,6 +101,27 @@ bool lacks_a_jpeg(LibRaw& raw, const std::filesystem::path& file) {
   return false;
 }
 
+// Whether its first picture is a JPEG of the kind that loses something, which DNG has two numbers for.
+bool is_lossy(LibRaw& raw, const std::filesystem::path& file) {
+  constexpr unsigned kJpeg = 7, kLossyJpeg = 34'892, kBigEnd = 0x4D4D;
+  const auto& unpacker = raw.get_internal_data_pointer()->unpacker_data;
+  if (unpacker.tiff_compress == kLossyJpeg) return true;
+  if (unpacker.tiff_compress != kJpeg) return false;
+  const MappedFile mapped(file);
+  auto at = static_cast<std::uint64_t>(unpacker.data_offset);
+  const auto number = [&](std::uint64_t from, std::size_t count) { return number_at(mapped.bytes(), from, count, true); };
+  if (unpacker.tile_length < std::numeric_limits<int>::max()) {
+    at = number_at(mapped.bytes(), at, 4, static_cast<unsigned short>(unpacker.order) == kBigEnd);
+  }
+  if (number(at, 2) != 0xFFD8) return false;
+  for (at += 2; number(at, 1) == 0xFF; at += 2 + number(at + 2, 2)) {
+    const std::uint64_t marker = number(at, 2);
+    if (marker >= 0xFFC0 && marker <= 0xFFC2) return true;
+    if (marker == 0xFFC3 || marker == 0xFFDA) return false;
+  }
+  return false;
+}
+
 // A number of four bytes; 0 where the file ends before.
 std::int32_t read_word(LibRaw_abstract_datastream& stream, unsigned order) {
   constexpr unsigned kLittleEndian = 0x4949;
@@ -198,6 +219,17 @@ Picture RawDeveloper::develop(const std::filesystem::path& file) {
       &damage);
   open_dng(*raw, file);
   const int unpacked = raw->unpack();
+  if (raw->is_floating_point() != 0) {
+    throw InputError(format("{} holds floating-point values, and DNGs of whole numbers are read; save it as a DNG of 16 bits, "
+                            "or develop it to a TIFF",
+                            file.string()));
+  }
+  const bool is_failed = damage.is_found || unpacked != LIBRAW_SUCCESS || lacks_a_jpeg(*raw, file);
+  if (is_failed && is_lossy(*raw, file)) {
+    throw InputError(format("{} is a DNG that was packed with loss (JPEG of 8 or 12 bits), which is not read; convert it without "
+                            "loss, with Adobe's DNG Converter for one, or develop it to a TIFF",
+                            file.string()));
+  }
   if (damage.is_found || lacks_a_jpeg(*raw, file))
     throw InputError(format("{} cannot be read: it is damaged or was cut off", file.string()));
   check(unpacked, file);

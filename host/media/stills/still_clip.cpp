@@ -10,6 +10,7 @@
 #include "capture/format.hpp"
 #include "media/colour_profile.hpp"
 #include "media/extension.hpp"
+#include "media/file_kinds.hpp"
 #include "media/jpeg_file.hpp"
 #include "media/netpbm.hpp"
 #include "media/png_file.hpp"
@@ -28,6 +29,7 @@ struct Page {
   std::filesystem::path file;
   std::uint64_t number = 1;
   std::uint64_t count = 1;  // of the file's pages
+  std::size_t begin = 0;    // of a Netpbm file's, in bytes
 
   [[nodiscard]] std::string name() const {
     return count == 1 ? file.string() : format("{}, page {},", file.string(), number);
@@ -70,9 +72,9 @@ Still still_of(Picture&& picture, std::optional<std::uint32_t> maximum) {
           std::move(picture.bytes)};
 }
 
-Still read_netpbm_still(const std::filesystem::path& file) {
-  const MappedFile mapped(file);
-  Picture picture = read_netpbm(mapped.bytes(), file.string());
+Still read_netpbm_still(const Page& page) {
+  const MappedFile mapped(page.file);
+  Picture picture = read_netpbm(mapped.bytes().subspan(std::min(page.begin, mapped.bytes().size())), page.name());
   const std::uint32_t maximum = picture.white_code;
   return still_of(std::move(picture), maximum);
 }
@@ -128,13 +130,36 @@ void follow_profile(Still& still, std::span<const std::byte> profile) {
   if (!colours.primaries) still.unread_primaries = colours.name;
 }
 
+// Orientations of EXIF above that have rows where a picture shows columns.
+constexpr unsigned kLastUnturned = 4;
+
+// What OpenCV does to JPEGs alone: it leaves a PNG as it lies.
+void turn_upright(cv::Mat& picture, unsigned orientation) {
+  switch (orientation) {
+    case 2: return cv::flip(picture, picture, 1);
+    case 3: return cv::rotate(picture, picture, cv::ROTATE_180);
+    case 4: return cv::flip(picture, picture, 0);
+    case 5: return cv::transpose(picture, picture);
+    case 6: return cv::rotate(picture, picture, cv::ROTATE_90_CLOCKWISE);
+    case 7: {
+      cv::transpose(picture, picture);
+      return cv::rotate(picture, picture, cv::ROTATE_180);
+    }
+    case 8: return cv::rotate(picture, picture, cv::ROTATE_90_COUNTERCLOCKWISE);
+    default: return;
+  }
+}
+
 // What a PNG or JPEG says of its codes and pixels.
-void add_tags(const std::filesystem::path& file, Still& still) {
-  const PngTags tags = read_png_tags(file);
+void add_tags(const std::filesystem::path& file, const PngTags& tags, Still& still) {
   still.transfer = tags.transfer;
   still.primaries = tags.primaries;
   if (!tags.transfer) still.unread_transfer = tags.unread_transfer;
-  if (tags.density) still.pixel_aspect = aspect_of(tags.density->first, tags.density->second);
+  if (tags.density) {
+    const bool is_turned = tags.orientation > kLastUnturned;
+    still.pixel_aspect = is_turned ? aspect_of(tags.density->second, tags.density->first)
+                                   : aspect_of(tags.density->first, tags.density->second);
+  }
   const MappedFile mapped(file);
   const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
   if (tags.has_profile) follow_profile(still, read_png_profile(mapped.bytes(), file.string()));
@@ -187,6 +212,10 @@ cv::Mat decoded_by_opencv(const std::filesystem::path& file) {
 Still read_with_opencv(const std::filesystem::path& file) {
   cv::Mat picture = decoded_by_opencv(file);
   const std::string name = file.string();
+  const PngTags tags = read_png_tags(file);
+  if (is_animated_png(file)) {
+    throw InputError(format("{} is an animated PNG, of several pictures: name it alone, as a video is", name));
+  }
   if (picture.empty() || is_cut_off_jpeg(file)) {
     throw InputError(format("{} cannot be read: it is damaged or no picture", name));
   }
@@ -198,6 +227,7 @@ Still read_with_opencv(const std::filesystem::path& file) {
     throw InputError(format("{} has {} channels; grey (1) and colour (3) are read, transparency is not", name,
                             picture.channels()));
   }
+  turn_upright(picture, tags.orientation);
   if (picture.channels() == 3) cv::cvtColor(picture, picture, cv::COLOR_BGR2RGB);
   if (!picture.isContinuous()) picture = picture.clone();
   Still still;
@@ -206,7 +236,7 @@ Still read_with_opencv(const std::filesystem::path& file) {
   still.code_bytes = picture.depth() == CV_8U ? 1 : 2;
   const auto* bytes = reinterpret_cast<const std::byte*>(picture.data);
   still.codes.assign(bytes, bytes + picture.total() * picture.elemSize());
-  add_tags(file, still);
+  add_tags(file, tags, still);
   return still;
 }
 
@@ -216,12 +246,24 @@ class StillClip final : public Clip {
             const ClipOptions& options) {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     for (const std::filesystem::path& file : files) {
-      const std::uint64_t count = is_tiff(file) ? TiffReader(file).page_count() : 1;
+      refuse_unread_kind(file);
+      std::uint64_t count = 1;
+      std::vector<std::size_t> starts{0};  // of the pictures of a Netpbm file
+      if (is_tiff(file)) {
+        const TiffReader tiff(file);
+        count = tiff.page_count();
+        if (pages_.empty()) story_ = tiff.story();
+      } else if (is_netpbm(file)) {
+        starts = netpbm_starts(MappedFile(file).bytes(), file.string());
+        count = starts.size();
+      }
       if (count > 1 && timing.is_known()) {
         throw InputError(format("{} has {} pages; in a table with times each picture is a file of its own",
                                 file.string(), count));
       }
-      for (std::uint64_t number = 1; number <= count; ++number) pages_.push_back({file, number, count});
+      for (std::uint64_t number = 1; number <= count; ++number) {
+        pages_.push_back({file, number, count, starts[is_netpbm(file) ? number - 1 : 0]});
+      }
     }
     first_ = read_page(pages_.front());
     first_maximum_ = first_.maximum;
@@ -246,6 +288,7 @@ class StillClip final : public Clip {
     }
     info_.timing = timing;
     info_.sample_count = pages_.size();
+    if (!timing.is_known()) add_story(files.size());
     if (is_developed && !timing.is_known()) add_raw_times();
   }
 
@@ -271,8 +314,11 @@ class StillClip final : public Clip {
   }
 
  private:
+  static bool is_netpbm(const std::filesystem::path& file) { return has_extension(file, {".pgm", ".ppm", ".pnm"}); }
   static bool is_raw(const std::filesystem::path& file) { return has_extension(file, {".dng"}); }
-  static bool is_tiff(const std::filesystem::path& file) { return has_extension(file, {".tif", ".tiff"}); }
+  static bool is_tiff(const std::filesystem::path& file) {
+    return has_extension(file, {".tif", ".tiff"}) || (!is_raw(file) && begins_as_tiff(file));
+  }
 
   // A profile was made for these codes: what it says and is not known here would be right.
   void add_unread_colours(const ClipOptions& options) {
@@ -291,6 +337,17 @@ class StillClip final : public Clip {
                : is_transfer ? "curves are none that are"
                              : "primaries are none that are"),
         std::move(open));
+  }
+
+  // What the description of the first TIFF says of times, and of pictures that are not there.
+  void add_story(std::size_t files) {
+    if (story_.rate) {
+      info_.timing.rate = story_.rate;
+      info_.timing.rate_from = format("{}'s description in the file", story_.who);
+    }
+    if (files > 1 || story_.pictures <= pages_.size()) return;
+    info_.notes.emplace_back(format("{}'s description says that there are {} pictures, and the file holds {}", story_.who,
+                                    story_.pictures, pages_.size()));
   }
 
   // The rate that the first picture states, and the exposure, where it was the same for all.
@@ -322,7 +379,7 @@ class StillClip final : public Clip {
       still.primaries = Primaries::bt709;
       return still;
     }
-    if (has_extension(page.file, {".pgm", ".ppm", ".pnm"})) return read_netpbm_still(page.file);
+    if (is_netpbm(page.file)) return read_netpbm_still(page);
     if (!is_tiff(page.file)) return read_with_opencv(page.file);
     if (page.number == 1) tiff_.emplace(page.file);
     std::optional<TiffPage> read = tiff_->next();
@@ -383,6 +440,7 @@ class StillClip final : public Clip {
   std::vector<Page> pages_;
   RawDeveloper raws_;
   std::optional<TiffReader> tiff_;  // of the page read last
+  TiffStory story_;                 // of the first file
   Still first_;
   std::optional<std::uint32_t> first_maximum_;
   ClipOptions stated_;

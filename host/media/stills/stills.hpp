@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "media/clip.hpp"
 #include "media/stills_table.hpp"
@@ -17,6 +18,9 @@ namespace nutik::stills {
                                                      const ClipTiming& timing, const ClipOptions& options);
 
 [[nodiscard]] StillTimes read_exif_times(const std::filesystem::path& file);
+
+// How a picture lies, by EXIF data without the name in front of it: 1 … 8, and 1 where it does not say.
+[[nodiscard]] unsigned exif_orientation(std::string_view exif);
 
 void write_exr(OutputFile& file, const Picture& picture, const std::string& text, bool as_half);
 [[nodiscard]] std::optional<std::string> read_exr_text(const std::filesystem::path& file,

@@ -163,6 +163,32 @@ std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std
   return std::nullopt;
 }
 
+bool has_edits(const std::filesystem::path& path) {
+  const MappedFile mapped(path);
+  if (mapped.bytes().size() < 8) return false;
+  Bytes boxes = box_at(mapped.bytes(), {"moov"});
+  while (!boxes.empty()) {
+    const Bytes track = box_at(boxes, {"trak"});
+    if (track.empty()) return false;
+    boxes = boxes.subspan(static_cast<std::size_t>(track.data() + track.size() - boxes.data()));
+    // hdlr: u32 version and flags, u32 0, then what the track holds.
+    const Bytes handler = box_at(track, {"mdia", "hdlr"});
+    if (handler.size() < 12 || std::memcmp(handler.data() + 8, "vide", 4) != 0) continue;
+    // elst: u8 version, three bytes of flags, u32 count, then for each part its length and its start (-1: nothing is
+    // shown), of 4 bytes, or of 8 in version 1, and its speed as 16.16 bits.
+    const Bytes list = box_at(track, {"edts", "elst"});
+    if (list.size() < 8) continue;
+    const std::size_t number = list[0] == std::byte{1} ? 8 : 4, part_bytes = 2 * number + 4;
+    int parts = 0;
+    for (std::size_t at = 8; at + part_bytes <= list.size(); at += part_bytes) {
+      const std::uint64_t start = big_endian(list, at + number, number);
+      if (start == (number == 8 ? UINT64_MAX : UINT32_MAX)) continue;
+      if (++parts > 1 || big_endian(list, at + 2 * number, 4) != 1u << 16) return true;
+    }
+  }
+  return false;
+}
+
 bool has_slow_parts(const std::filesystem::path& path) {
   // The trailer ends with its length and four letters.
   constexpr std::string_view kEnd = "SEFT", kName = "SlowMotion_Data";

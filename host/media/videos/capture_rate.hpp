@@ -22,6 +22,9 @@ struct CaptureRate {
                                                       const std::filesystem::path& path,
                                                       std::vector<Note>& notes);
 
+// Whether a video's edit list plays other than one part of it at its own speed: parts again, in another order, slower.
+[[nodiscard]] bool has_edits(const std::filesystem::path& path);
+
 // Whether Samsung's trailer names parts that were filmed faster than others.
 [[nodiscard]] bool has_slow_parts(const std::filesystem::path& path);
 

@@ -21,7 +21,6 @@ extern "C" {
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <new>
 #include <optional>
@@ -31,12 +30,17 @@ extern "C" {
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/clip.hpp"
+#include "media/videos/damage_log.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::videos {
 
 struct FreeFormat {
-  void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
+  void operator()(AVFormatContext* context) const {
+    AVIOContext* bytes = context->pb;  // which was opened here
+    avformat_close_input(&context);
+    avio_closep(&bytes);
+  }
 };
 struct FreeCodec {
   void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
@@ -102,72 +106,21 @@ inline std::optional<std::int64_t> most_pixels(const AVCodecParameters& told) {
   return (2 * std::int64_t{told.width} + 256) * (std::int64_t{told.height} + 320);
 }
 
-// What a file of this size is believed to hold: 7680 x 4320 in any case. Larger pictures need 4 kB and more, which those
-// of any camera have.
-inline std::int64_t most_pixels(const AVFormatContext& context) {
-  constexpr std::int64_t kPixelsAByte = 8256, kSmall = std::int64_t{1} << 25;
-  const std::int64_t bytes = avio_size(context.pb);
-  return bytes < 0 ? std::numeric_limits<std::int32_t>::max() : std::max(kSmall, bytes * kPixelsAByte);
-}
-
-// Of each stream what is not known before some of its pictures are decoded, which comes before memory is counted.
-// Returns FFmpeg's error code. Throws InputError where a stream states too many pixels.
-inline int find_stream_info(AVFormatContext& context, const std::string& name) {
-  const std::int64_t most = most_pixels(context);
-  for (unsigned i = 0; i < context.nb_streams; ++i) {
-    const AVCodecParameters& told = *context.streams[i]->codecpar;
-    if (std::int64_t{told.width} * told.height <= most) continue;
-    const std::int64_t bytes = avio_size(context.pb);
-    throw InputError(
-        format("{} cannot be read: {} x {} pixels are more than {} can hold; it is damaged, or described wrongly",
-               name, told.width, told.height, bytes < 0 ? "a picture" : format("its {} bytes", bytes)));
-  }
-  std::vector<AVDictionary*> settings(context.nb_streams);
-  for (std::size_t i = 0; i < settings.size(); ++i) {
-    const auto told = most_pixels(*context.streams[i]->codecpar);
-    av_dict_set_int(&settings[i], "max_pixels", std::min(most, told.value_or(most)), 0);
-  }
-  const int code = avformat_find_stream_info(&context, settings.empty() ? nullptr : settings.data());
-  for (AVDictionary*& each : settings) av_dict_free(&each);
-  return code;
-}
-
 // An opened file and the index of its picture stream.
 struct OpenedVideo {
-  FormatPointer format;
+  std::unique_ptr<DamageLog> log = std::make_unique<DamageLog>();  // of its reader; outlives it
+  FormatPointer format = nullptr;
   int stream = 0;
 };
 
-inline OpenedVideo open_video(const std::filesystem::path& path, const std::optional<RawVideo>& raw) {
-  AVFormatContext* context = nullptr;
-  AVDictionary* settings = nullptr;
-  const AVInputFormat* kind = nullptr;
-  av_dict_set(&settings, "protocol_whitelist", "file", 0);  // a playlist may name what it likes
-  if (raw) {
-    if (av_get_pix_fmt(raw->pixel_format.c_str()) == AV_PIX_FMT_NONE) {
-      throw UsageError(
-          format("raw video: '{}' is no pixel format that FFmpeg knows; examples are "
-                 "yuv420p10le and gray16le",
-                 raw->pixel_format));
-    }
-    kind = av_find_input_format("rawvideo");
-    av_dict_set(&settings, "video_size", format("{}x{}", raw->width, raw->height).c_str(), 0);
-    av_dict_set(&settings, "pixel_format", raw->pixel_format.c_str(), 0);
-  }
-  int code = avformat_open_input(&context, path.c_str(), kind, &settings);
-  av_dict_free(&settings);
-  if (code < 0) {
-    throw InputError(
-        format("{} is no video that can be read: {}; a video without a header has to be described",
-               input_title(path.string()), error_text(code)),
-        {Setting::raw_layout});
-  }
-  OpenedVideo opened{FormatPointer(context), 0};
-  code = find_stream_info(*context, input_title(path.string()));
-  if (code >= 0) code = av_find_best_stream(context, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  if (code < 0) throw InputError(format("{} has no video stream", input_title(path.string())));
-  opened.stream = code;
-  return opened;
-}
+// What FFmpeg is told to take where a stream does not say how fast its pictures follow each other: nobody films so.
+inline constexpr AVRational kUnstatedRate{104'729, 3571};
+inline constexpr int kUnstatedDelay = 997;  // hundredths of a second, of a GIF
+
+// The name's own file, whatever the name looks like: FFmpeg takes what stands before a colon for a protocol.
+inline std::string url_of(const std::filesystem::path& path) { return "file:" + path.string(); }
+
+// Opens that file and nothing else. Throws InputError where it is none that is read (media/videos/containers.hpp).
+[[nodiscard]] OpenedVideo open_video(const std::filesystem::path& path, const std::optional<RawVideo>& raw);
 
 }  // namespace nutik::videos

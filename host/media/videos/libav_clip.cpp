@@ -9,6 +9,7 @@
 #include "media/videos/picture_decoder.hpp"
 #include "media/videos/pixels.hpp"
 #include "media/videos/videos.hpp"
+#include "system/mapped_file.hpp"
 
 namespace nutik::videos {
 namespace {
@@ -47,6 +48,7 @@ class LibavClip final : public Clip {
   LibavClip(OpenedVideo opened, int threads, const std::filesystem::path& path, const Probe& probe,
             const ClipOptions& options)
       : name_(input_title(path.string())),
+        watched_(path),
         coded_(probe.shape),
         converter_(probe.pixels, probe.upright, yuv_coding(probe, options, name_)),
         decoder_(std::move(opened), name_, PictureDecoder::Wanted::pictures, probe.skipped_packets, threads),
@@ -216,6 +218,7 @@ class LibavClip final : public Clip {
   }
 
   std::string name_;
+  MappedFile watched_;  // what was made of a file that changes meanwhile gets no name
   ClipInfo info_;
   Shape coded_;  // before the pictures are turned upright
   PixelConverter converter_;

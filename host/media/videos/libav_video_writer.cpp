@@ -87,7 +87,7 @@ class LibavVideoWriter final : public VideoWriter {
       open_scaler();
     }
     note_rounded_pixels();
-    check(avio_open(&muxer_->pb, file_.temporary_path().c_str(), AVIO_FLAG_WRITE));
+    check(avio_open(&muxer_->pb, url_of(file_.temporary_path()).c_str(), AVIO_FLAG_WRITE));
     check(avformat_write_header(muxer_.get(), nullptr));
   }
 

@@ -22,7 +22,6 @@ PictureDecoder::PictureDecoder(OpenedVideo opened, std::string name, Wanted want
   if (wanted == Wanted::times) codec_->skip_loop_filter = codec_->skip_idct = AVDISCARD_ALL;
   codec_->pkt_timebase = stream().time_base;
   damage_->listen_to(*codec_);
-  holes_->listen_to(*opened_.format);
   const int code = avcodec_parameters_to_context(codec_.get(), &parameters);
   codec_->max_pixels = most_pixels(parameters).value_or(codec_->max_pixels);
   // Some files give the depth of what the table makes of them.
@@ -52,8 +51,8 @@ bool PictureDecoder::skip() {
   for (bool is_picture = false; !is_picture; av_packet_unref(packet_.get())) {
     if (av_read_frame(opened_.format.get(), packet_.get()) < 0) return false;
     const bool is_of_stream = packet_->stream_index == opened_.stream;
-    if (!has_begun_) holes_->forget();
-    if (holes_->said()) fail_at_hole();  // and what comes next is another picture than it is counted as
+    if (!has_begun_) opened_.log->forget();
+    if (opened_.log->said()) fail_at_hole();  // and what comes next is another picture than it is counted as
     // What an edit list leaves out is no picture, nor is an empty slot.
     is_picture =
         is_of_stream && skipped_ == 0 && packet_->size > 0 && (packet_->flags & AV_PKT_FLAG_DISCARD) == 0;
@@ -72,8 +71,8 @@ void PictureDecoder::feed() {
     }
     // What the container's reader did not understand lies before this packet: it went on behind that. If nothing comes
     // any more the clip was cut off, which its length tells; if nothing came before, its start was.
-    if (!has_begun_) holes_->forget();
-    has_hole_ = holes_->said() && wanted_ == Wanted::pictures;
+    if (!has_begun_) opened_.log->forget();
+    has_hole_ = opened_.log->said() && wanted_ == Wanted::pictures;
     if (has_hole_) {
       av_packet_unref(packet_.get());
       avcodec_send_packet(codec_.get(), nullptr);
@@ -97,7 +96,7 @@ void PictureDecoder::fail_at_hole() const {
   throw InputError(
       format("{}: pictures are missing behind the first {}, for the file is damaged there "
              "(FFmpeg says: {})",
-             name_, pictures_, *holes_->said()));
+             name_, pictures_, *opened_.log->said()));
 }
 
 void PictureDecoder::fail(int code) const {

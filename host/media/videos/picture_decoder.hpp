@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "media/videos/damage_log.hpp"
 #include "media/videos/libav.hpp"
 
 namespace nutik::videos {
@@ -43,7 +42,6 @@ class PictureDecoder {
   [[noreturn]] void fail_at_hole() const;
 
   std::string name_;
-  std::unique_ptr<DamageLog> holes_ = std::make_unique<DamageLog>();  // outlives the opened file
   OpenedVideo opened_;
   std::unique_ptr<DamageLog> damage_ = std::make_unique<DamageLog>();  // outlives the decoder
   CodecPointer codec_;

@@ -1,7 +1,10 @@
 #include "media/videos/picture_times.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <string_view>
+
+#include "media/videos/containers.hpp"
 
 namespace nutik::videos {
 namespace {
@@ -40,6 +43,27 @@ ClipTiming of_rate(Rational rate) {
   ClipTiming timing;
   timing.rate = rate;
   return timing;
+}
+
+// Whether the first line of a .y4m has a rate: F25:1; F0:0 is an unknown one.
+bool y4m_states_rate(std::string_view file) {
+  const std::string line(file.substr(0, file.find('\n')));
+  const auto rate = line.find(" F");
+  int pictures = 0, seconds = 0;
+  return rate != line.npos && std::sscanf(line.c_str() + rate, " F%d:%d", &pictures, &seconds) == 2 &&
+         pictures > 0 && seconds > 0;
+}
+
+// Whether an AVI states a rate: as scale and rate of its stream, else as microseconds a picture.
+bool avi_states_rate(std::string_view file) {
+  const auto is_zero = [&](std::size_t at) {
+    return at > file.size() || file.substr(at, 4) == std::string_view("\0\0\0\0", 4);
+  };
+  std::size_t stream = file.find("strh");
+  while (stream != file.npos && file.substr(stream + 8, 4) != "vids") stream = file.find("strh", stream + 1);
+  if (stream == file.npos || (!is_zero(stream + 28) && !is_zero(stream + 32))) return true;
+  const std::size_t header = file.find("avih");
+  return header != file.npos && !is_zero(header + 8);
 }
 
 bool is_timed(const std::vector<PacketTimes>& packets, std::int64_t PacketTimes::*time) {
@@ -103,6 +127,24 @@ ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base,
         (static_cast<int128>(time) - times[0]) * time_base.numerator * kSecondNs, time_base.denominator));
   }
   return timing;
+}
+
+std::optional<std::string> doubt_about_rate(const AVFormatContext& file, const AVStream& stream,
+                                            std::span<const std::byte> bytes) {
+  constexpr double kMost = 10'000;  // that is meant; a clock's ticks are more
+  constexpr std::size_t kHeaderBytes = 1u << 16;
+  const std::string_view kind = file.iformat->name;
+  const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
+                               std::min(bytes.size(), kHeaderBytes));
+  const AVRational rate = stream.r_frame_rate;
+  const bool is_made_up =
+      std::ranges::find(kUntimed, kind) != std::end(kUntimed) || av_cmp_q(rate, kUnstatedRate) == 0 ||
+      (kind == "gif" && av_cmp_q(stream.avg_frame_rate, {100, kUnstatedDelay}) == 0) ||
+      (kind == "yuv4mpegpipe" && !y4m_states_rate(start)) || (kind == "avi" && !avi_states_rate(start));
+  if (is_made_up) return "";
+  if (std::ranges::find(kStreams, kind) == std::end(kStreams) || av_q2d(rate) <= kMost) return {};
+  return format("its header states {:.10g} a second, which are a clock's ticks and no pictures",
+                av_q2d(rate));
 }
 
 std::vector<KnownRate> announced_rates(const AVFormatContext& file, const AVStream& stream) {

@@ -6,7 +6,10 @@
 //   always:  a rate is taken only where no picture is half a period from its place
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,6 +54,10 @@ struct KnownRate {
 // Of the pictures of a stream, which are shown at `times`: none where nothing tells.
 [[nodiscard]] ClipTiming timing_of(const AVFormatContext& file, const AVStream& stream,
                                    const std::vector<std::int64_t>& times, const std::string& name);
+
+// Why no rate of a stream is taken, although FFmpeg tells one: empty where that is its own. None where the file states it.
+[[nodiscard]] std::optional<std::string> doubt_about_rate(const AVFormatContext& file, const AVStream& stream,
+                                                          std::span<const std::byte> bytes);
 
 // The rates that a stream announces, the surest first.
 [[nodiscard]] std::vector<KnownRate> announced_rates(const AVFormatContext& file, const AVStream& stream);

@@ -114,6 +114,14 @@ std::uint32_t PixelKind::white_code() const {
 PixelKind pixel_kind(const AVCodecParameters& codec, const std::string& name) {
   const AVPixFmtDescriptor* pixels = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(codec.format));
   if (pixels == nullptr || codec.width <= 0 || codec.height <= 0) {
+    if (codec.codec_id == AV_CODEC_ID_NONE && codec.codec_tag != 0) {
+      char tag[AV_FOURCC_MAX_STRING_SIZE];
+      throw InputError(
+          format("{}: no decoder here knows its pictures, which the file calls '{}': save them from the camera's "
+                 "program as 16-bit TIFFs, or uncompressed under a name that FFmpeg knows (Y800 for grey of 8 bits)",
+                 name, av_fourcc_make_string(tag, codec.codec_tag)),
+          {Setting::raw_layout});
+    }
     throw InputError(
         format("{}: no decoder here knows its pictures; a video without a header has to be described", name),
         {Setting::raw_layout});
@@ -126,14 +134,13 @@ PixelKind pixel_kind(const AVCodecParameters& codec, const std::string& name) {
         name, pixels->name, pixels->nb_components < 3 ? "gray16" : "rgb48"));
   }
   PixelKind kind;
-  const bool is_mosaic = (pixels->flags & AV_PIX_FMT_FLAG_BAYER) != 0;
   kind.is_grey =
       pixels->nb_components <= 2 && (pixels->flags & (AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BAYER)) == 0;
   for (int component = 0; component < pixels->nb_components; ++component) {
     kind.bits = std::max(kind.bits, static_cast<std::uint32_t>(pixels->comp[component].depth));
   }
   // A mosaic's depths are shares of a pixel.
-  if (is_mosaic) kind.bits = av_get_bits_per_pixel(pixels) > 8 ? 16 : 8;
+  if (is_mosaic(static_cast<AVPixelFormat>(codec.format))) kind.bits = av_get_bits_per_pixel(pixels) > 8 ? 16 : 8;
   // FFmpeg's decoder of plain pictures moves codes of 9 to 15 bits up to fill 16 (Phantom cameras'
   // files).
   const int stored = is_phantom_packed(codec) ? static_cast<int>(kPhantomBits) : codec.bits_per_coded_sample;
@@ -143,6 +150,10 @@ PixelKind pixel_kind(const AVCodecParameters& codec, const std::string& name) {
     kind.padding_bits = 16 - kind.bits;
   }
   return kind;
+}
+
+bool is_mosaic(AVPixelFormat format) {
+  return (av_pix_fmt_desc_get(format)->flags & AV_PIX_FMT_FLAG_BAYER) != 0;
 }
 
 bool is_yuv(AVPixelFormat format) {

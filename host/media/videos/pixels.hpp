@@ -56,6 +56,9 @@ struct ChromaWeights {
 [[nodiscard]] ChromaWeights chroma_weights(YuvMatrix matrix);
 // Whether the pixels of a stream are YUV of three components.
 [[nodiscard]] bool is_yuv(AVPixelFormat format);
+
+// Whether each pixel has one of the colours.
+[[nodiscard]] bool is_mosaic(AVPixelFormat format);
 // What a stream says of its YUV; none where it does not, or names what is not known here.
 [[nodiscard]] std::optional<YuvMatrix> named_matrix(unsigned space, unsigned primaries);
 [[nodiscard]] std::optional<CodeRange> named_range(const AVCodecParameters& codec);

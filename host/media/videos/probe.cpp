@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "media/coding_points.hpp"
@@ -11,6 +12,7 @@
 #include "media/videos/phantom_packing.hpp"
 #include "media/videos/picture_decoder.hpp"
 #include "media/videos/picture_times.hpp"
+#include "system/mapped_file.hpp"
 
 namespace nutik::videos {
 namespace {
@@ -149,13 +151,22 @@ std::optional<std::string> missing_part_note(const AVFormatContext& file, const 
       *announced, found);
 }
 
-// A video without an index is read as far as there are whole pictures.
-std::optional<std::string> cut_picture_note(const AVFormatContext& file, std::int64_t pictures_end,
-                                            std::size_t pictures) {
-  const std::int64_t bytes = avio_size(file.pb);
-  if (std::string_view(file.iformat->name) != "yuv4mpegpipe" || bytes <= pictures_end) return {};
-  return format("it was cut off within picture {}: {} bytes behind the last whole one are left out", pictures,
-                bytes - pictures_end);
+// A video without an index is read as far as there are whole pictures: what it lacks is told by its last bytes.
+std::optional<std::string> cut_picture_note(const AVFormatContext& file, std::span<const std::byte> bytes,
+                                            std::int64_t pictures_end, std::size_t pictures) {
+  const std::string_view kind = file.iformat->name;
+  const auto size = static_cast<std::int64_t>(bytes.size());
+  if (kind == "yuv4mpegpipe" && size > pictures_end) {
+    return format("it was cut off within picture {}: {} bytes behind the last whole one are left out", pictures,
+                  size - pictures_end);
+  }
+  if (kind == "gif" && !bytes.empty() && bytes.back() != std::byte{0x3B})
+    return "the file was cut off: a GIF's last byte is missing, and pictures may be";
+  // Of discs, with a clock before each, and with a checksum behind each.
+  const bool is_whole = size % 188 == 0 || size % 192 == 0 || size % 204 == 0;
+  if (kind == "mpegts" && !is_whole)
+    return "the file was cut off within one of its packets, and pictures may be missing";
+  return {};
 }
 
 // How many pictures the file holds. A size or format that is wrong would cut them at the wrong places.
@@ -229,6 +240,12 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.stream = opened.stream;
   result.shape = {static_cast<std::uint32_t>(codec.width), static_cast<std::uint32_t>(codec.height), 3};
   result.pixels = pixel_kind(codec, input_title(path.string()));
+  if (!raw && is_mosaic(static_cast<AVPixelFormat>(codec.format))) {
+    throw InputError(
+        format("{} holds the mosaic of a colour sensor, whose black, white and colours are not known here: save what "
+               "the camera's program makes of it, 16-bit TIFFs for example, or DNGs, which are developed",
+               input_title(path.string())));
+  }
   result.pixel_format = static_cast<AVPixelFormat>(codec.format);
   result.upright = upright(stream);
   const unsigned curve = number_of(codec.color_trc), matrix = number_of(codec.color_space),
@@ -241,6 +258,22 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.primaries = primaries_of_coding_point(primaries);
   if (result.primaries == Primaries::bt709 && primaries != AVCOL_PRI_BT709)
     result.near_primaries = primaries_name(primaries);
+  if (!raw && has_edits(path)) {
+    result.notes.emplace_back(
+        "the file's edit list plays parts of it again, in another order, or at another speed: its pictures are taken once "
+        "each, in the order and at the times in which they were filmed");
+  }
+  unsigned films = 0;
+  for (unsigned i = 0; i < opened.format->nb_streams; ++i) {
+    const AVStream& each = *opened.format->streams[i];
+    films += each.codecpar->codec_type == AVMEDIA_TYPE_VIDEO && (each.disposition & AV_DISPOSITION_ATTACHED_PIC) == 0;
+  }
+  if (films > 1) {
+    result.notes.emplace_back(
+        format("the file has {} streams of pictures, and stream {} is taken: ffmpeg -i CLIP -map 0:N -c copy film.mkv "
+               "makes a clip of another",
+               films, opened.stream));
+  }
   result.pixel_aspect = pixel_aspect(opened.format.get(), stream, result.upright);
   if (!result.upright.left_out.empty()) {
     result.notes.emplace_back(
@@ -281,6 +314,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   int code = 0;
   while ((code = av_read_frame(opened.format.get(), packet.get())) >= 0) {
     const bool counts = packet->stream_index == opened.stream && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
+    if (packets.empty()) opened.log->forget();  // of what lies before the first picture
     if (counts) {
       packets.push_back({packet->pts, packet->dts, packet->duration, (packet->flags & AV_PKT_FLAG_KEY) != 0});
       last_byte = packet->pos + packet->size;
@@ -292,18 +326,23 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
     av_packet_unref(packet.get());
   }
   if (code != AVERROR_EOF) {
-    result.notes.emplace_back(
-        format("the file is damaged or was cut off behind picture {}: {}", packets.size(), error_text(code)));
+    result.notes.push_back(warning_of(
+        format("the file is damaged or was cut off behind picture {}: {}", packets.size(), error_text(code))));
   }
   result.sample_count = packets.size();
-  if (auto note = missing_part_note(*opened.format, stream, last_end, packets.size())) {
-    result.notes.emplace_back(std::move(*note));
+  auto lost = missing_part_note(*opened.format, stream, last_end, packets.size());
+  if (!lost) lost = cut_picture_note(*opened.format, MappedFile(path).bytes(), last_byte, packets.size());
+  if (!lost && opened.log->said()) {
+    lost = format("the file was cut off, or is damaged so that pictures may be missing (FFmpeg says: {})",
+                  *opened.log->said());
   }
-  if (auto note = cut_picture_note(*opened.format, last_byte, packets.size())) {
-    result.notes.emplace_back(std::move(*note));
+  if (lost) result.notes.push_back(warning_of(std::move(*lost)));
+  const std::vector<std::int64_t> times = picture_times(path, opened, packets, result);
+  if (auto doubt = doubt_about_rate(*opened.format, stream, MappedFile(path).bytes())) {
+    result.timing.rate_doubt = std::move(*doubt);
+  } else {
+    result.timing = timing_of(*opened.format, stream, times, input_title(path.string()));
   }
-  result.timing = timing_of(*opened.format, stream, picture_times(path, opened, packets, result),
-                            input_title(path.string()));
   if (cine) add_cine_header(*cine, opened, input_title(path.string()), result);
   if (const auto filmed = capture_rate(*opened.format, path, result.notes)) {
     apply_capture_rate(*filmed, result.timing, result.notes);

@@ -149,12 +149,12 @@ ExposuresAreListed::ExposuresAreListed(const std::string& name)
     : UsageError(format("{} says how long each picture was exposed", name)) {}
 
 bool is_tik(const std::filesystem::path& path) {
-  const std::string start = first_bytes(path);
+  const std::string start = first_bytes(is_standard_input(path.string()) ? standard_input_file() : path);
   return tik::looks_like_tik(std::as_bytes(std::span(start))) || path.extension() == ".tik";
 }
 
 std::optional<Shape> known_shape(const std::filesystem::path& path) {
-  if (!is_tik(path)) return std::nullopt;
+  if (is_standard_input(path.string()) || !is_tik(path)) return std::nullopt;
   try {
     const MappedFile file(path);
     return tik::parse_header(file.bytes(), path.string()).header.capture.shape;

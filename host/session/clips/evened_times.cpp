@@ -17,6 +17,34 @@ std::int64_t default_step(std::vector<std::int64_t>& steps) {
   return *middle;
 }
 
+// Players show a part of a clip slower: steps of two lengths, the longer a whole number of times the shorter, many of them
+// one after another where dropped pictures leave single ones.
+std::optional<Note> ramp_note(const std::vector<std::int64_t>& steps) {
+  const std::int64_t least = *std::ranges::min_element(steps), most = *std::ranges::max_element(steps);
+  if (least <= 0) return std::nullopt;
+  const std::int64_t times = (most + least / 2) / least;
+  const auto is_near = [](std::int64_t step, std::int64_t length) { return std::abs(step - length) <= length / 20 + 1; };
+  std::ptrdiff_t slow = 0, changes = 0;
+  double seconds = 0;  // that the quick ones last
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const bool is_slow = is_near(steps[k], most);
+    if (!is_slow && !is_near(steps[k], least)) return std::nullopt;
+    slow += is_slow ? 1 : 0;
+    if (!is_slow) seconds += static_cast<double>(steps[k]) / kSecondNs;
+    if (k > 0 && is_slow != is_near(steps[k - 1], most)) ++changes;
+  }
+  const auto quick = static_cast<std::ptrdiff_t>(steps.size()) - slow;
+  constexpr std::ptrdiff_t kLeastInARow = 3;
+  if (times < 2 || !is_near(most, times * least) || std::min(slow, quick) < kLeastInARow * (changes + 1) / 2)
+    return std::nullopt;
+  return Note(
+      format("{} of the clip's {} steps from one picture to the next last {} and {} last {}, {} times as long, as in a "
+             "film that was taken at one rate and plays slower in a part: if so, state the rate, {:.0f}",
+             quick, steps.size(), duration_text(least), slow, duration_text(most), times,
+             static_cast<double>(quick) / seconds),
+      {Setting::frame_rate});
+}
+
 }  // namespace
 
 std::optional<Note> evened_note(const std::vector<std::int64_t>& starts_ns) {
@@ -50,6 +78,7 @@ std::optional<Note> gap_note(const Timeline& timeline) {
   std::vector<std::int64_t> steps;
   for (std::size_t k = 1; k < exposures.size(); ++k)
     steps.push_back(exposures[k].start_ns - exposures[k - 1].start_ns);
+  if (auto ramp = ramp_note(steps)) return ramp;
   const std::int64_t usual = default_step(steps);
   const auto gaps =
       std::ranges::count_if(steps, [usual](std::int64_t step) { return step - usual >= usual / 2; });

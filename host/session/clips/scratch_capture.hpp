@@ -14,9 +14,8 @@ struct ScratchCapture {
   EncodedCapture encoded;
 };
 
-// Encodes into a temporary file, in TMPDIR, else /tmp. It has no name any more when this returns, and takes no space
-// once the reader is gone; what a killed process left behind is removed by the next that makes one. Throws as encode()
-// does, OutputError where there is no space.
+// Encodes into a temporary file without a name, in TMPDIR, else /tmp: it takes no space once the reader is gone,
+// however the process ends. Throws as encode() does, OutputError where there is no space.
 // `rendering` tells what will be held while the capture is used, beside a block of it.
 // `open` makes the clip in place of the one at the source's path; it may be empty.
 [[nodiscard]] ScratchCapture encode_to_scratch(const SourceRequest& source, const OpenClip& open,

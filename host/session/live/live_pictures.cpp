@@ -15,6 +15,7 @@ ExposedPicture expose(const LivePart& part, const Rectangle& rectangle, std::opt
   control.stop = stop;
   control.rectangle = rectangle;
   control.precision = precision;
+  control.takes_wrong = precision.has_value();  // the caller looks
   return part.session->render(part.exposure, part.output, control);
 }
 

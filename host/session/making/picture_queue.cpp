@@ -24,7 +24,7 @@ PictureQueue::~PictureQueue() { jobs_.close(); }
 
 void PictureQueue::push(std::size_t number, std::filesystem::path path, Picture picture, std::string text,
                         const FileWishes& wishes) {
-  jobs_.push({number, std::move(path), std::move(picture), std::move(text), wishes});
+  if (!jobs_.push({number, std::move(path), std::move(picture), std::move(text), wishes})) finish();
 }
 
 void PictureQueue::finish() {

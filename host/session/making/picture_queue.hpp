@@ -35,7 +35,7 @@ class PictureQueue {
     };
   }
 
-  // Waits while too many pictures wait already. `number` tells the caller which one failed; `text` goes into
+  // Waits while too many pictures wait already. Throws what ended the writing thread, as finish() does. `number` tells the caller which one failed; `text` goes into
   // the picture (media/picture_writer.hpp).
   void push(std::size_t number, std::filesystem::path path, Picture picture, std::string text,
             const FileWishes& wishes);

@@ -16,6 +16,7 @@
 #include "session/clips/evened_times.hpp"
 #include "session/text/time_text.hpp"
 #include "system/interruption.hpp"
+#include "system/is_absent.hpp"
 #include "tik/reader.hpp"
 #include "tik/writer.hpp"
 
@@ -128,8 +129,7 @@ void check_stated_transfer(const tik::Header& header, const std::string& name,
 }
 
 Retimed retime(const RetimeRequest& request) {
-  std::error_code error;
-  if (std::filesystem::exists(request.capture, error) && !is_tik(request.capture)) {
+  if (!is_absent(request.capture) && !is_tik(request.capture)) {
     throw InputError(
         format("{} is no .tik capture, and only those are corrected: state a clip's rate, angle and "
                "transfer function when it is encoded",

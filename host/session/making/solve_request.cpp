@@ -57,7 +57,7 @@ class Solver {
     solved.at_ends = names_at_ends(solved.numbers, candidates);
     expose(search, solved);
     warn_of_white(white, solved);
-    warn_of_black(solved);
+    warn_of_nothing(solved);
     return solved;
   }
 
@@ -333,13 +333,14 @@ class Solver {
   }
 
   // A wish for nothing is kept best by a picture of nothing.
-  void warn_of_black(SolvedExposure& solved) const {
+  void warn_of_nothing(SolvedExposure& solved) const {
     const std::uint64_t pixels = session_.format().shape.pixel_count();
-    if (2 * solved.saturation.below <= pixels) return;
+    const auto [below, above] = solved.saturation;
+    if (2 * below <= pixels && 2 * above <= pixels) return;
+    const bool is_black = below >= above;
     solved.warnings.push_back(
-        format("{} of the picture's {} pixels come out below 0, which is black: bound the gains, or wish for what is to "
-               "stay, too (all = plate)",
-               solved.saturation.below, pixels));
+        format("{} of the picture's {} pixels come out {}: bound the gains, or wish for what is to stay, too (all = plate)",
+               is_black ? below : above, pixels, is_black ? "below 0, which is black" : "above 1, which is white"));
   }
 
   [[nodiscard]] const Mask* marks() const { return request_.marks ? &**request_.marks : nullptr; }

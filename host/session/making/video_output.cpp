@@ -4,6 +4,7 @@
 
 #include "capture/format.hpp"
 #include "media/numbered_name.hpp"
+#include "system/is_absent.hpp"
 
 namespace nutik {
 
@@ -50,11 +51,9 @@ void VideoOutput::check(std::span<const std::uint64_t> frames, std::span<const s
     check_output(path_, OutputKind::video, inputs, replacing);
     return;
   }
-  std::error_code error;
   for (const std::uint64_t frame : frames) {
     // What is not there yet can be no input.
-    if (std::filesystem::exists(still(frame), error))
-      check_output(still(frame), OutputKind::picture, inputs, replacing);
+    if (!is_absent(still(frame))) check_output(still(frame), OutputKind::picture, inputs, replacing);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "session/clips/clip_source.hpp"
 #include "session/requests/picture_input.hpp"
 #include "system/input_bytes.hpp"
+#include "system/is_absent.hpp"
 
 namespace nutik {
 namespace {
@@ -48,8 +49,7 @@ Mask read_mask_input(const std::string& name, const std::optional<std::string>& 
 namespace {
 
 std::optional<NumberedName> layers_name(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::exists(path, error)) return std::nullopt;  // a file of that very name
+  if (!is_absent(path)) return std::nullopt;  // a file of that very name
   return NumberedName::parse(path.filename().string());
 }
 
@@ -62,8 +62,7 @@ std::map<std::uint8_t, std::filesystem::path> layer_files(const std::string& nam
   if (!numbered) return files;
   for (std::uint32_t tag = 0; tag < kMaskValues; ++tag) {
     const std::filesystem::path file = path.parent_path() / numbered->with(tag);
-    std::error_code error;
-    if (std::filesystem::exists(file, error)) files.emplace(static_cast<std::uint8_t>(tag), file);
+    if (!is_absent(file)) files.emplace(static_cast<std::uint8_t>(tag), file);
   }
   return files;
 }

@@ -49,7 +49,7 @@ FileWishes file_wishes(const OutputRequest& request) {
 void check_quality(const OutputRequest& request, const std::filesystem::path& output) {
   if (!request.quality || is_lossy_name(output)) return;
   throw UsageError(
-      format("{} keeps every value: a quality is one of .jpg files; leave it out", output.string()),
+      format("a quality is one of .jpg pictures, and {} is none; leave it out", output.string()),
       {Setting::quality});
 }
 

@@ -5,11 +5,12 @@
 #include "capture/format.hpp"
 #include "media/clip.hpp"
 #include "media/still_sequence.hpp"
+#include "system/is_absent.hpp"
 
 namespace nutik {
 
 Picture read_picture(const std::string& name) {
-  if (std::error_code error; !std::filesystem::exists(name, error)) {
+  if (is_absent(name)) {
     throw InputError(format("{} cannot be read: no such file", name));
   }
   const auto stills = list_stills(name);

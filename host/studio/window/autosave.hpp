@@ -1,15 +1,41 @@
 // Keeps what is not saved, so that a crash loses little.
 //
-//   always:  a change is kept within kDelay, beside nothing of the user's; what was saved or given up is kept no longer
+//   always:  a change is kept within kDelay, beside nothing of the user's, in a file of this window and this capture. Only
+//            the window that has it locked removes it, once that was saved or given up. What a window leaves that did not
+//            end well is found at every start, until it is taken over by another or removed
 #pragma once
 
+#include <QDateTime>
 #include <QObject>
 #include <QTimer>
 #include <chrono>
+#include <memory>
+#include <optional>
+#include <vector>
 
 #include "studio/document/document.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik::studio {
+
+// A project that is kept. Its lock lives as long as this does, and ends with the process, however that ends.
+class KeptProject {
+ public:
+  // A new one.
+  KeptProject();
+  // Of a window that is gone. Throws InputError where there is none any more, or another window has it.
+  explicit KeptProject(QString path);
+  ~KeptProject();
+  KeptProject(const KeptProject&) = delete;
+  KeptProject& operator=(const KeptProject&) = delete;
+
+  [[nodiscard]] const QString& path() const { return path_; }
+  void remove() const;
+
+ private:
+  QString path_;
+  int lock_;  // a descriptor
+};
 
 class Autosave : public QObject {
   Q_OBJECT
@@ -17,16 +43,26 @@ class Autosave : public QObject {
  public:
   static constexpr std::chrono::seconds kDelay{10};
 
+  struct Found {
+    QString path, capture;
+    QDateTime time;
+  };
+
   explicit Autosave(Document& document, QObject* parent = nullptr);
 
-  // The project that is kept; empty: none.
-  [[nodiscard]] static QString found();
+  // What is kept of windows that are gone, the newest first.
+  [[nodiscard]] static std::vector<Found> found();
   void keep();
-  static void forget();
+  // From now on whoever asks the program to end (SIGTERM, at a shutdown for example) gets no question for an answer.
+  void keep_at_signals();
+  // What this window kept was saved or given up. From now on this is kept: nothing yet, or what it has taken over.
+  void begin(std::shared_ptr<const KeptProject> kept = {});
 
  private:
   Document& document_;
   QTimer timer_;
+  std::shared_ptr<const KeptProject> kept_;
+  std::optional<TimeToEnd> time_to_keep_;
 };
 
 }  // namespace nutik::studio

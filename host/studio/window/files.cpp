@@ -4,6 +4,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QGuiApplication>
+#include <QLocale>
 #include <QMenu>
 #include <QMessageBox>
 #include <QSettings>
@@ -52,13 +53,17 @@ void MainWindow::choose_capture() {
 
 bool MainWindow::save_project(const QString& path) {
   if (document_.facts() == nullptr) return false;
-  const CommandFiles files = path == project_ && !files_.functions.isEmpty() ? files_ : files_beside(path);
-  if (!try_to([&] { nutik::studio::save_project(path, document_, files); })) return false;
+  const CommandFiles files =
+      path == project_ && !files_.functions.isEmpty() ? files_ : free_files_beside(path);
+  const bool is_saved = try_to([&] { nutik::studio::save_project(path, document_, files); });
+  if (is_saved || path == project_) {  // what a save that failed has written is ours as well
+    known_ = times_of({path, files.functions, files.mask});
+    note_capture();
+  }
+  if (!is_saved) return false;
   project_ = path;
   files_ = files;
-  known_ = times_of({path, files.functions, files.mask});
-  note_capture();
-  Autosave::forget();
+  autosave_.begin();
   document_.undo_stack().setClean();
   remember(path);
   follow_title();
@@ -68,11 +73,16 @@ bool MainWindow::save_project(const QString& path) {
 bool MainWindow::save() {
   if (project_.isEmpty()) return save_as();
   const QStringList changed = changed_outside();
-  if (!changed.isEmpty() &&
-      QMessageBox::question(
-          this, tr("Changed outside"),
-          tr("These files were changed by another program since they were read:\n%1\nReplace them?")
-              .arg(changed.join('\n'))) != QMessageBox::Yes)
+  QStringList lines;
+  for (const QString& file : changed)
+    lines += tr("%1 was changed by another program since it was read.").arg(file);
+  CommandFiles written = files_;
+  if (!document_.state().mask) written.mask.clear();
+  for (const QString& file : foreign_files(project_, written))
+    if (!changed.contains(file)) lines += tr("%1 was not written for this project.").arg(file);
+  lines += tr("Replace what is there? Save project as… writes new files.");
+  if (lines.size() > 1 &&
+      QMessageBox::question(this, tr("Files of others"), lines.join('\n')) != QMessageBox::Yes)
     return false;
   return save_project(project_);
 }
@@ -115,11 +125,32 @@ void MainWindow::tell_changes() {
   if (!text.isEmpty()) notice_->say(Notice::Kind::note, text);
 }
 
-void MainWindow::recover() {
-  const QString kept = Autosave::found();
-  if (kept.isEmpty() || !may_leave()) return;
+void MainWindow::recover(const QString& kept) {
+  if (!may_leave()) return;
   notice_->clear();
-  open_project(kept, Origin::Kind::recovered);  // it is saved where a person says
+  offer_->clear();
+  try_to([&] { open_project(kept, std::make_shared<KeptProject>(kept)); });  // saved where a person says
+}
+
+void MainWindow::remove_unsaved() {
+  const auto found = Autosave::found();
+  if (QMessageBox::question(this, tr("Unsaved work"),
+                            tr("Remove unsaved work of %n window(s) for good?", nullptr,
+                               static_cast<int>(found.size()))) != QMessageBox::Yes)
+    return;
+  offer_->clear();
+  for (const Autosave::Found& each : found) try_to([&] { KeptProject(each.path).remove(); });
+}
+
+void MainWindow::fill_unsaved(QMenu& menu) {
+  menu.clear();
+  for (const Autosave::Found& each : Autosave::found()) {
+    const QString time = QLocale().toString(each.time, QLocale::ShortFormat);
+    const QString name = QString(each.capture).replace('&', "&&");  // no letter to press
+    menu.addAction(tr("%1, %2").arg(name, time), this, [this, path = each.path] { recover(path); });
+  }
+  menu.addSeparator();
+  menu.addAction(tr("&Remove all of these…"), this, &MainWindow::remove_unsaved);
 }
 
 bool MainWindow::save_as() {
@@ -127,8 +158,14 @@ bool MainWindow::save_as() {
   QString path = QFileDialog::getSaveFileName(this, tr("Save the project"), suggested(kProjectExtension),
                                               tr("Projects (*%1)").arg(kProjectExtension));
   if (path.isEmpty()) return false;
-  if (!path.endsWith(QLatin1String(kProjectExtension))) path += QLatin1String(kProjectExtension);
-  return save_project(path);
+  if (!path.endsWith(QLatin1String(kProjectExtension))) {
+    path += QLatin1String(kProjectExtension);  // of which the dialog did not know
+    if (QFileInfo::exists(path) &&
+        QMessageBox::question(this, tr("Save the project"),
+                              tr("%1 is there already. Replace it?").arg(path)) != QMessageBox::Yes)
+      return false;
+  }
+  return path == project_ ? save() : save_project(path);
 }
 
 bool MainWindow::may_leave() {

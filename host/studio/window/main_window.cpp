@@ -46,6 +46,10 @@ void MainWindow::build_window() {
   setAcceptDrops(true);
   resize(1280, 800);
   notice_ = new Notice;
+  offer_ = new Notice;
+  if (!Autosave::found().empty())
+    offer_->say(Notice::Kind::note,
+                tr("There is unsaved work of a window that did not end well: File, Recover unsaved work."));
   canvas_ = new Canvas(document_);
   canvas_->setObjectName("canvas");
   canvas_->set_hint(tr("Open a clip or a capture (Ctrl+O), or drop one here."));
@@ -53,6 +57,7 @@ void MainWindow::build_window() {
   auto* picture_column = new QVBoxLayout(picture);
   picture_column->setContentsMargins(0, 0, 0, 0);
   picture_column->setSpacing(0);
+  picture_column->addWidget(offer_);
   picture_column->addWidget(notice_);
   picture_column->addWidget(canvas_, 1);
 
@@ -114,17 +119,19 @@ void MainWindow::connect_parts() {
 void MainWindow::open(const QString& path, const QString& rate) {
   notice_->clear();
   if (path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive))
-    return open_project(path, Origin::Kind::project);
+    return open_project(path);
   open_capture_file(QFileInfo(path).absoluteFilePath(), rate, {});
 }
 
-void MainWindow::open_project(const QString& path, Origin::Kind kind) {
+void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptProject> kept) {
   try_to([&] {
     Project project = load_project(path);
-    Origin origin{kind, {}, {}, {}, std::move(project.state), {}};
-    if (kind == Origin::Kind::project) {
+    Origin origin{Origin::Kind::recovered, {}, {}, {}, std::move(project.state), {}, std::move(kept)};
+    if (!origin.kept) {
+      origin.kind = Origin::Kind::project;
       origin.project = path;
       origin.files = project.files;
+      origin.is_unwritten = project.is_unwritten;
       origin.known = times_of({path, project.files.functions, project.files.mask});
     }
     open_capture_file(project.capture, project.rate, std::move(origin));
@@ -192,11 +199,17 @@ void MainWindow::take(Opened opened, Origin origin) {
   files_ = origin.files;
   known_ = std::move(origin.known);
   remember(project_.isEmpty() ? opened.facts.path : project_);
+  autosave_.begin(std::move(origin.kept));
   canvas_->clear();
   live_.show(nullptr);
   session_ = opened.session;
   document_.start(std::move(opened.facts), std::move(state));
-  if (origin.kind == Origin::Kind::recovered) document_.undo_stack().resetClean();
+  if (origin.kind == Origin::Kind::recovered || origin.is_unwritten) document_.undo_stack().resetClean();
+  if (origin.is_unwritten && notice_->text().isEmpty())
+    notice_->say(
+        Notice::Kind::note,
+        tr("The project's last save did not come to its end. It is shown as it was to be; its functions "
+           "and mask may be as they were before. Saving it writes them."));
   axis_.set_duration(document_.duration_ns());
   note_capture();
   live_.show(session_);
@@ -341,7 +354,7 @@ bool MainWindow::event(QEvent* event) {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (may_leave()) {
-    Autosave::forget();
+    autosave_.begin();
     event->accept();
   } else {
     event->ignore();

@@ -43,6 +43,8 @@ struct Origin {
   FileTimes known;
   std::optional<DocumentState> state;  // none: the document starts anew
   std::optional<DocumentState> left;   // what the document was when it was left for this
+  std::shared_ptr<const KeptProject> kept = {};  // of Kind::recovered
+  bool is_unwritten = false;                     // of Kind::project: its last save was ended in the middle
 };
 
 class MainWindow : public QMainWindow {
@@ -74,13 +76,14 @@ class MainWindow : public QMainWindow {
   // Whether the picture shown is that of the document, and no job runs.
   [[nodiscard]] bool is_settled() const;
 
-  // What was kept of a window that did not end well.
-  void recover();
+  // What was kept of a window that did not end well: from now on this window keeps it.
+  void recover(const QString& kept);
   [[nodiscard]] Autosave& autosave() { return autosave_; }
 
   [[nodiscard]] Document& document() { return document_; }
   [[nodiscard]] Canvas& canvas() { return *canvas_; }
   [[nodiscard]] Notice& notice() { return *notice_; }
+  [[nodiscard]] Notice& offer() { return *offer_; }  // of what was kept; stays whatever else is said
   [[nodiscard]] ToolSettings& tool_settings() { return tool_settings_; }
 
  protected:
@@ -93,7 +96,7 @@ class MainWindow : public QMainWindow {
   // main_window.cpp
   void build_window();
   void connect_parts();
-  void open_project(const QString& path, Origin::Kind kind);
+  void open_project(const QString& path, std::shared_ptr<const KeptProject> kept = {});
   void open_capture_file(const QString& path, const QString& rate, Origin origin);
   void take(Opened opened, Origin origin);
   void ask_rate(const QString& path, const QString& why, const Origin& origin);
@@ -136,6 +139,8 @@ class MainWindow : public QMainWindow {
   void choose_plate();
   void remember(const QString& path);
   void fill_recent(QMenu& menu);
+  void fill_unsaved(QMenu& menu);
+  void remove_unsaved();
   [[nodiscard]] QString suggested(const QString& ending) const;
   bool try_to(const std::function<void()>& what);
 
@@ -156,7 +161,7 @@ class MainWindow : public QMainWindow {
   ToolSettings tool_settings_;
   std::unique_ptr<CanvasTool> tool_;
 
-  Notice* notice_ = nullptr;
+  Notice *notice_ = nullptr, *offer_ = nullptr;
   Canvas* canvas_ = nullptr;
   StatusLine* status_ = nullptr;
   QActionGroup* tools_ = nullptr;

@@ -80,8 +80,10 @@ void MainWindow::build_file_menu() {
   add_action(menu, tr("&Open…"), QKeySequence::Open, [this] { choose_capture(); });
   QMenu& recent = *menu.addMenu(tr("Open &recent"));
   connect(&recent, &QMenu::aboutToShow, this, [this, &recent] { fill_recent(recent); });
-  QAction* kept = add_action(menu, tr("Reco&ver unsaved work"), {}, [this] { recover(); });
-  connect(&menu, &QMenu::aboutToShow, kept, [kept] { kept->setEnabled(!Autosave::found().isEmpty()); });
+  QMenu& unsaved = *menu.addMenu(tr("Reco&ver unsaved work"));
+  connect(&unsaved, &QMenu::aboutToShow, this, [this, &unsaved] { fill_unsaved(unsaved); });
+  connect(&menu, &QMenu::aboutToShow, &unsaved,
+          [&unsaved] { unsaved.setEnabled(!Autosave::found().empty()); });
   needs_capture_ += add_action(menu, tr("Open a&gain"), QKeySequence::Refresh, [this] {
     const QString rate = document_.facts()->rate;
     if (may_leave()) project_.isEmpty() ? open(document_.facts()->path, rate) : open(project_);

@@ -6,6 +6,7 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QUuid>
 #include <QtEndian>
 #include <algorithm>
 
@@ -16,6 +17,7 @@
 #include "studio/document/texts.hpp"
 #include "studio/regions/covering.hpp"
 #include "studio/regions/region_edits.hpp"
+#include "system/checksum.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::studio {
@@ -23,6 +25,9 @@ namespace {
 
 constexpr const char* kVersionKey = "nutik-studio";
 constexpr int kVersion = 1;
+// Functions and mask of a project whose files do not hold them.
+constexpr const char* kUnwrittenKey = "unwritten";
+constexpr const char* kIdKey = "id";
 
 void write_text(const QString& path, std::string_view text) {
   OutputFile file(path.toStdString());
@@ -42,22 +47,42 @@ std::int64_t time_in(const QJsonObject& object, const char* name, const QString&
   return time_ns;
 }
 
-QString text_of(const Region& region) {
-  const auto* bytes = reinterpret_cast<const char*>(region.inside.data());
-  const auto size = static_cast<qsizetype>(region.inside.size());
+QString packed_text(const std::vector<std::uint8_t>& pixels) {
+  const auto* bytes = reinterpret_cast<const char*>(pixels.data());
+  const auto size = static_cast<qsizetype>(pixels.size());
   return QString::fromLatin1(qCompress(QByteArray::fromRawData(bytes, size)).toBase64());
+}
+
+// Nothing where the text is damaged, or of another number of pixels.
+QByteArray unpacked(const QString& text, std::size_t pixels) {
+  const QByteArray packed = QByteArray::fromBase64(text.toLatin1());
+  // What is packed begins with its size: nothing is unpacked that has another one.
+  const bool is_as_large = packed.size() > 4 && qFromBigEndian<quint32>(packed.constData()) == pixels;
+  const QByteArray bytes = is_as_large ? qUncompress(packed) : QByteArray();
+  return bytes.size() == static_cast<qsizetype>(pixels) ? bytes : QByteArray();
+}
+
+Mask mask_in(const QJsonObject& object, const QString& path) {
+  constexpr int kMaxSide = 32767;
+  const auto side = [&](const char* name) {
+    const int pixels = object[name].toInt();
+    if (pixels < 1 || pixels > kMaxSide)
+      refuse(path, format("its mask's {} is not from 1 to {}", name, kMaxSide));
+    return static_cast<std::uint32_t>(pixels);
+  };
+  Mask mask = Mask::uniform(side("width"), side("height"), 0);
+  const QByteArray bytes = unpacked(object["tags"].toString(), mask.tags.size());
+  if (bytes.isEmpty()) refuse(path, "the mask in it is damaged");
+  std::ranges::copy(bytes, mask.tags.begin());
+  return mask;
 }
 
 // As large as the mask.
 Region region_in(const QString& text, const Mask& mask, const QString& path) {
-  const QByteArray packed = QByteArray::fromBase64(text.toLatin1());
   Region region = Region::none(mask.width, mask.height);
-  // What is packed begins with its size: nothing is unpacked that has another one.
-  const bool is_as_large =
-      packed.size() > 4 && qFromBigEndian<quint32>(packed.constData()) == region.inside.size();
-  const QByteArray bytes = is_as_large ? qUncompress(packed) : QByteArray();
+  const QByteArray bytes = unpacked(text, region.inside.size());
   const auto is_flag = [](char byte) { return byte == 0 || byte == 1; };
-  if (bytes.size() != static_cast<qsizetype>(region.inside.size()) || !std::ranges::all_of(bytes, is_flag))
+  if (bytes.isEmpty() || !std::ranges::all_of(bytes, is_flag))
     refuse(path, format("what is covered of a region is damaged, or not {} x {} pixels large as the mask is",
                         mask.width, mask.height));
   std::ranges::copy(bytes, region.inside.begin());
@@ -84,36 +109,12 @@ void read_looks(const QJsonArray& regions, DocumentState& state, const QString& 
   tidy_covered(state);
 }
 
-}  // namespace
-
-CommandFiles files_beside(const QString& project) {
-  const QFileInfo info(project);
-  const QString stem = info.dir().filePath(info.completeBaseName());
-  return {stem + ".pgm", stem + ".fn"};
-}
-
-void save_functions(const QString& path, const FunctionSet& functions) {
-  write_text(path, functions_text(functions));
-}
-
-void save_mask(const QString& path, const Mask& mask) {
-  write_picture(path.toStdString(), mask.to_picture());
-}
-
-FunctionSet load_functions(const QString& path) { return *read_function_input(path.toStdString()).functions; }
-
-Shared<MaskWithRegions> load_mask(const QString& path) {
-  return Shared(MaskWithRegions(read_mask_input(path.toStdString())));
-}
-
-void save_project(const QString& path, const Document& document, const CommandFiles& files) {
+QJsonObject object_of(const QString& path, const Document& document, const CommandFiles& files) {
   const DocumentState& state = document.state();
   const QDir folder = QFileInfo(path).absoluteDir();
   const auto named = [&](const QString& file) {
     return folder.relativeFilePath(QFileInfo(file).absoluteFilePath());
   };
-  save_functions(files.functions, state.functions);
-  if (state.mask) save_mask(files.mask, (*state.mask)->mask);
   QJsonArray regions;
   std::vector<std::uint8_t> tags = state.order;
   if (state.looks.contains(kBackground)) tags.push_back(kBackground);
@@ -122,7 +123,7 @@ void save_project(const QString& path, const Document& document, const CommandFi
     QJsonObject region{
         {"tag", tag}, {"name", look.name}, {"colour", look.colour.name()}, {"visible", look.is_visible}};
     if (const auto found = state.covered.find(tag); found != state.covered.end())
-      region["covered"] = text_of(*found->second);
+      region["covered"] = packed_text(found->second->inside);
     regions += region;
   }
   QJsonObject object{{kVersionKey, kVersion},
@@ -137,7 +138,106 @@ void save_project(const QString& path, const Document& document, const CommandFi
                      {"regions", regions}};
   if (state.mask) object["mask"] = named(files.mask);
   if (!document.facts()->rate.isEmpty()) object["fps"] = document.facts()->rate;
+  return object;
+}
+
+// What the files are to hold.
+QJsonObject unwritten_object_of(const DocumentState& state) {
+  QJsonObject unwritten{{"functions", QString::fromStdString(functions_text(state.functions))}};
+  if (state.mask) {
+    const Mask& mask = (*state.mask)->mask;
+    unwritten["mask"] = QJsonObject{{"width", static_cast<int>(mask.width)},
+                                    {"height", static_cast<int>(mask.height)},
+                                    {"tags", packed_text(mask.tags)}};
+  }
+  return unwritten;
+}
+
+QJsonObject object_in(const QString& path) {
+  QFile file(path);
+  if (!file.open(QIODevice::ReadOnly)) return {};
+  return QJsonDocument::fromJson(file.readAll()).object();
+}
+
+// A random number that was made for the project; empty: it has none.
+QString id_in(const QString& path) { return object_in(path)[kIdKey].toString(); }
+
+// What the project's files carry. A copy under another name has another mark: it does not replace them unasked.
+QString mark_of(const QString& path, const QString& id) {
+  if (id.isEmpty()) return {};
+  const std::string both = format("{} {}", id.toStdString(), QFileInfo(path).fileName().toStdString());
+  return QString::fromStdString(
+      format("of the nutik-studio project {:016x}", checksum(std::string_view(both))));
+}
+
+void write_object(const QString& path, const QJsonObject& object) {
   write_text(path, QJsonDocument(object).toJson().toStdString());
+}
+
+}  // namespace
+
+CommandFiles free_files_beside(const QString& project) {
+  const QFileInfo info(project);
+  const QString stem = info.dir().filePath(info.completeBaseName());
+  for (int tried = 1;; ++tried) {
+    const QString name = tried == 1 ? stem : QString("%1-%2").arg(stem).arg(tried);
+    CommandFiles files{name + ".pgm", name + ".fn"};
+    if (foreign_files(project, files).isEmpty()) return files;
+  }
+}
+
+QStringList foreign_files(const QString& project, const CommandFiles& files) {
+  const QByteArray mark = mark_of(project, id_in(project)).toUtf8();
+  QStringList foreign;
+  for (const QString& path : {files.functions, files.mask}) {
+    if (path.isEmpty() || (!QFileInfo::exists(path) && !QFileInfo(path).isSymLink())) continue;
+    constexpr qint64 kMostBefore = 4096;  // a mark is at the beginning
+    QFile file(path);
+    const bool is_ours =
+        !mark.isEmpty() && file.open(QIODevice::ReadOnly) && file.read(kMostBefore).contains(mark);
+    if (!is_ours) foreign += path;
+  }
+  return foreign;
+}
+
+void save_functions(const QString& path, const FunctionSet& functions, const QString& mark) {
+  const std::string comment = mark.isEmpty() ? "" : format("# {}\n", mark.toStdString());
+  write_text(path, comment + functions_text(functions));
+}
+
+void save_mask(const QString& path, const Mask& mask, const QString& mark) {
+  write_picture(path.toStdString(), mask.to_picture(), mark.toStdString());
+}
+
+FunctionSet load_functions(const QString& path) { return *read_function_input(path.toStdString()).functions; }
+
+Shared<MaskWithRegions> load_mask(const QString& path) {
+  return Shared(MaskWithRegions(read_mask_input(path.toStdString())));
+}
+
+void save_project(const QString& path, const Document& document, const CommandFiles& files) {
+  const QString found = id_in(path);
+  const QString id = found.isEmpty() ? QUuid::createUuid().toString(QUuid::WithoutBraces) : found;
+  const QString mark = mark_of(path, id);
+  QJsonObject object = object_of(path, document, files);
+  object[kIdKey] = id;
+  // All is in one file, and so saved at once. Those beside it follow, and until they have followed they are not asked.
+  QJsonObject whole = object;
+  whole[kUnwrittenKey] = unwritten_object_of(document.state());
+  write_object(path, whole);
+  save_functions(files.functions, document.state().functions, mark);
+  if (document.state().mask) save_mask(files.mask, (*document.state().mask)->mask, mark);
+  write_object(path, object);
+}
+
+void keep_project(const QString& path, const Document& document) {
+  QJsonObject whole = object_of(path, document, {path, path});  // no files
+  whole[kUnwrittenKey] = unwritten_object_of(document.state());
+  write_object(path, whole);
+}
+
+QString capture_name_in(const QString& path) {
+  return QFileInfo(object_in(path)["capture"].toString()).fileName();
 }
 
 Project load_project(const QString& path) {
@@ -161,13 +261,24 @@ Project load_project(const QString& path) {
   Project project;
   project.capture = resolved("capture");
   project.rate = object["fps"].toString();
-  project.files = files_beside(path);
+  const CommandFiles free_files = free_files_beside(path);
+  project.files = free_files;
   project.files.functions = resolved("functions");
   DocumentState& state = project.state;
-  state.functions = load_functions(project.files.functions);
-  if (object.contains("mask")) {
-    project.files.mask = resolved("mask");
-    state.mask = load_mask(project.files.mask);
+  if (object.contains("mask")) project.files.mask = resolved("mask");
+  if (object.contains(kUnwrittenKey)) {
+    project.is_unwritten = true;
+    // Those that nobody has read are not written wherever a project says.
+    if (!QFileInfo::exists(project.files.functions)) project.files.functions = free_files.functions;
+    if (!QFileInfo::exists(project.files.mask)) project.files.mask = free_files.mask;
+    const QJsonObject unwritten = object[kUnwrittenKey].toObject();
+    state.functions =
+        *read_functions(unwritten["functions"].toString().toStdString(), path.toStdString()).functions;
+    if (unwritten.contains("mask"))
+      state.mask = Shared(MaskWithRegions(mask_in(unwritten["mask"].toObject(), path)));
+  } else {
+    state.functions = load_functions(project.files.functions);
+    if (object.contains("mask")) state.mask = load_mask(project.files.mask);
   }
   state.mode = object["exposes"].toString() == "interval" ? ExposureMode::boxcar : ExposureMode::functions;
   state.boxcar = {time_in(object, "start_ns", path), time_in(object, "length_ns", path)};

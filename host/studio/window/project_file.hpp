@@ -3,10 +3,11 @@
 //   {"nutik-studio": 1, "capture": "clip.mp4", "functions": "throw.fn", "mask": "throw.pgm", …}
 //
 //   always:  mask and functions are the files that the command line reads. Paths are relative to the project's folder
-//            where they can be; each file is written whole or not at all
+//            where they can be. A save that was ended in the middle leaves the project as it was or as it was to be
 #pragma once
 
 #include <QString>
+#include <QStringList>
 #include <optional>
 
 #include "studio/document/document.hpp"
@@ -19,18 +20,28 @@ struct Project {
   QString rate;  // stated; empty: what the clip says
   CommandFiles files;
   DocumentState state;
+  bool is_unwritten = false;  // functions and mask are not what its files hold
 };
 
 inline constexpr const char* kProjectExtension = ".nutik";
 
-// A project's mask and functions where it names none: beside it.
-[[nodiscard]] CommandFiles files_beside(const QString& project);
+// Where a project that has none yet gets its mask and functions: beside it, under names that are free or its own.
+[[nodiscard]] CommandFiles free_files_beside(const QString& project);
+// Those of them that are there and were not written for this project, under the name it has: they do not carry its mark,
+// which is made of a random number in the project and of that name.
+[[nodiscard]] QStringList foreign_files(const QString& project, const CommandFiles& files);
+// Replaces what `files` names.
 void save_project(const QString& path, const Document& document, const CommandFiles& files);
+// The same in one file, which has functions and mask in it.
+void keep_project(const QString& path, const Document& document);
+// The name of the clip or capture that a project says it is of; empty: none.
+[[nodiscard]] QString capture_name_in(const QString& path);
 // Throws InputError that says what is wrong with which of its files.
 [[nodiscard]] Project load_project(const QString& path);
 
-void save_functions(const QString& path, const FunctionSet& functions);
-void save_mask(const QString& path, const Mask& mask);
+// `mark` is a comment in the file.
+void save_functions(const QString& path, const FunctionSet& functions, const QString& mark = {});
+void save_mask(const QString& path, const Mask& mask, const QString& mark = {});
 // Throw InputError as the command line's do.
 [[nodiscard]] FunctionSet load_functions(const QString& path);
 [[nodiscard]] Shared<MaskWithRegions> load_mask(const QString& path);

@@ -1,0 +1,27 @@
+// What files are by how they begin, where nothing here reads them: so that no other reader takes them for something
+// else or calls them damaged, whichever way they come in.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace nutik {
+
+// What a file is and what can be done about it, as a sentence that begins with its name. Empty where readers may look at
+// it.
+[[nodiscard]] std::optional<std::string> unread_kind_text(const std::filesystem::path& file);
+
+// Throws InputError with that.
+void refuse_unread_kind(const std::filesystem::path& file);
+
+// Throws InputError where a file holds nothing but text, which some video readers would draw as a screen of letters.
+void refuse_text(const std::filesystem::path& file);
+
+// Whether it begins as a TIFF, of either order of bytes and size of offsets.
+[[nodiscard]] bool begins_as_tiff(const std::filesystem::path& file);
+
+// Whether it is a PNG of several pictures, whatever its name ends with: a video.
+[[nodiscard]] bool is_animated_png(const std::filesystem::path& file);
+
+}  // namespace nutik
