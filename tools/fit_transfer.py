@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""Fits the polynomials that turn codes into light in single precision (host/opencl/light_curve.cpp).
+"""Fits the polynomials that turn codes into light in single precision (host/opencl/light_source.cpp).
 
 Above its straight toe a transfer function is a power of a straight line, ((x + a) / (1 + a))^p. Of all
 polynomials of degree 10 in x = code / white code, the one printed has the least largest error in light,
 which is what pictures are made of: the error is absolute, not relative. It is found by Remez' algorithm
 with 60 digits.
 
-    fit_transfer.py                 the coefficients as they stand in light_curve.cpp
-    fit_transfer.py --check         exits with 1 where light_curve.cpp holds others
+    fit_transfer.py                 the coefficients as they stand in light_source.cpp
+    fit_transfer.py --check         exits with 1 where light_source.cpp holds others
     fit_transfer.py --single        largest error of the kernel's arithmetic, over every code
 """
 
@@ -20,7 +20,7 @@ import mpmath as mp
 
 DEGREE = 10
 DIGITS = 20  # as written; a double holds 17
-CURVE_FILE = pathlib.Path(__file__).parent.parent / "host/opencl/light_curve.cpp"
+CURVE_FILE = pathlib.Path(__file__).parent.parent / "host/opencl/light_source.cpp"
 WHITE_CODES = (255, 1023, 4095, 16383, 65535)
 
 mp.mp.dps = 60
@@ -28,7 +28,7 @@ mp.mp.dps = 60
 
 class TransferFunction:
     def __init__(self, constant, offset, exponent, toe_end, toe_slope):
-        self.constant = constant  # its name in light_curve.cpp
+        self.constant = constant  # its name in light_source.cpp
         self.offset, self.exponent = mp.mpf(offset), exponent
         self.toe_end, self.toe_slope = toe_end, toe_slope
 
@@ -97,7 +97,7 @@ def single_errors(transfer, coefficients, fit_error, white, is_fused):
     single, double = np.float32, np.float64
     roundoff = 2.0**-24
 
-    # As light_curve() in light_curve.cpp.
+    # As light_curve() in light_source.cpp.
     centre = (white + 1) // 2
     step = mp.mpf(2) ** -white.bit_length()
     moved = mp.taylor(lambda x: mp.polyval(coefficients[::-1], x), mp.mpf(centre) / white, DEGREE)
@@ -128,7 +128,7 @@ def single_errors(transfer, coefficients, fit_error, white, is_fused):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--check", action="store_true", help="compare with light_curve.cpp")
+    parser.add_argument("--check", action="store_true", help="compare with light_source.cpp")
     parser.add_argument("--single", nargs="*", type=int, metavar="WHITE",
                         help="measure the kernel's arithmetic at these white codes "
                              f"({', '.join(map(str, WHITE_CODES))})")

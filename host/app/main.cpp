@@ -1,4 +1,6 @@
 // nutik-cl: the one place that turns errors into messages and exit statuses.
+#include <sys/resource.h>
+
 #include <exception>
 #include <new>
 #include <string>
@@ -34,9 +36,20 @@ int fail_input(const nutik::InputError& error) {
   return fail(error, kInput);
 }
 
+// Drivers and decoders take more than 64 kB; without it they crash.
+bool has_stack() {
+  constexpr rlim_t kLeastStack = 256 << 10;
+  rlimit stack{};
+  return getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= kLeastStack;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (!has_stack()) {
+    nutik::app::print_error("the stack may have less than 256 kB; raise its limit: ulimit -s 8192");
+    return kMemory;
+  }
   nutik::catch_interruptions();
   nutik::catch_limits();
   nutik::watch_mapped_files();

@@ -8,7 +8,7 @@
 //   strobe:N         N flashes, and between them N − 1 pauses of the same length
 //   strobe:N,R       flashes that last a share R of the time from one to the next (0 < R < 1)
 //   spline:X=G,…     smooth through gain G at share X of the exposure, from 0 to 1, without going beyond
-//                    neighbouring gains (monotone_spline.hpp)
+//                    neighbouring gains (MonotoneSpline)
 //
 //   in:      a shape, an exposure in whole nanoseconds, an error
 //   out:     a gain function that is 0 outside the exposure and whose control points lie at whole nanoseconds

@@ -3,9 +3,50 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <numeric>
 #include <stdexcept>
 
 namespace nutik {
+namespace {
+
+constexpr std::uint64_t kStretchesInACapture = 20;
+
+}  // namespace
+
+std::vector<std::uint64_t> redrawn_samples(const Activity& activity) {
+  const std::vector<std::uint64_t>& changed = activity.any_changed_pixels();
+  const std::vector<std::uint64_t>& much = activity.much_changed_pixels();
+  const std::uint64_t pixels = activity.changes().size();
+  std::vector<std::uint64_t> redrawn;
+  for (std::uint64_t k = 1; k < changed.size(); ++k) {
+    // The first sample cannot change.
+    const std::uint64_t before = k > 1 ? changed[k - 1] : 0;
+    const std::uint64_t after = k + 1 < changed.size() ? changed[k + 1] : 0;
+    const bool has_beside = k > 1 || k + 1 < changed.size();
+    if (has_beside && 4 * changed[k] >= pixels && 2 * changed[k] >= 3 * std::max(before, after) &&
+        4 * much[k] < changed[k])
+      redrawn.push_back(k);
+  }
+  return redrawn;
+}
+
+std::optional<ActivityMoments> activity_moments(std::span<const std::uint64_t> changed_pixels) {
+  const std::uint64_t count = changed_pixels.size();
+  if (count < 3) return std::nullopt;
+  const auto busiest = std::max_element(changed_pixels.begin() + 1, changed_pixels.end());
+  if (*busiest == 0) return std::nullopt;
+  const std::uint64_t length = std::max<std::uint64_t>(1, count / kStretchesInACapture);
+  const auto front = changed_pixels.subspan(1, length);
+  ActivityStretch stretch{{1, 1 + length}, std::accumulate(front.begin(), front.end(), std::uint64_t{0})};
+  ActivityMoments moments{static_cast<std::uint64_t>(busiest - changed_pixels.begin()), stretch, stretch};
+  while (stretch.samples.last < count) {
+    stretch.changes += changed_pixels[stretch.samples.last++];
+    stretch.changes -= changed_pixels[stretch.samples.first++];
+    if (stretch.changes > moments.busiest.changes) moments.busiest = stretch;
+    if (stretch.changes < moments.quietest.changes) moments.quietest = stretch;
+  }
+  return moments;
+}
 
 Activity::Activity(const CaptureFormat& capture, ActivityOptions options)
     : shape_(capture.shape),

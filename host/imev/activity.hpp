@@ -3,13 +3,40 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "capture/memory_needs.hpp"
 #include "capture/picture.hpp"
+#include "capture/timeline.hpp"
 #include "imev/block.hpp"
 
 namespace nutik {
+
+// Where a capture is busy and where it is quiet: the moments to look at first.
+
+// A run of samples, and how many changes of pixels it has.
+struct ActivityStretch {
+  SampleRange samples;
+  std::uint64_t changes = 0;
+
+  // Of so many pixels, those that change at a sample, on average.
+  [[nodiscard]] double mean_share(std::uint64_t pixels) const {
+    return static_cast<double>(changes) / static_cast<double>(pixels) / static_cast<double>(samples.size());
+  }
+};
+
+struct ActivityMoments {
+  std::uint64_t busiest_sample = 0;  // at which most pixels change; the first of several
+  ActivityStretch busiest;
+  ActivityStretch quietest;
+};
+
+// Stretches are a twentieth of the capture long, one sample at least; of several alike the first is taken. The
+// first sample, which can have no change, lies in none. Empty where there are fewer than three samples or
+// nothing ever changes. `changed_pixels` has the number of pixels for each sample.
+[[nodiscard]] std::optional<ActivityMoments> activity_moments(std::span<const std::uint64_t> changed_pixels);
 
 // What counts as a change.
 struct ActivityOptions {
@@ -17,7 +44,7 @@ struct ActivityOptions {
   std::uint32_t ignored_codes = 0;
   std::vector<std::uint8_t> counted;  // a 1 for each pixel that counts, row-major; empty: all of them
   std::vector<std::uint8_t> tags;     // of each pixel, to be counted by tag too; empty: they are not
-  // Changes at these samples, in increasing order, are none (redrawn_samples.hpp).
+  // Changes at these samples, in increasing order, are none (redrawn_samples()).
   std::vector<std::uint64_t> left_out = {};
 };
 
@@ -69,5 +96,14 @@ class Activity {
   std::map<std::uint8_t, std::vector<std::uint64_t>> changed_by_tag_;
   std::vector<ChangeRecord> last_;  // what each pixel held at the end of the block before; empty at first
 };
+
+// Samples at which a codec drew its picture anew, as it does with its key frames: pixels that are still change there,
+// all at once and a little. So they do where a camera changes its exposure by a step, which counts as the same.
+
+// In increasing order. At such a sample at least a quarter of all pixels change, half as many again as at either sample
+// beside it, and less than a quarter of those by more than a sixteenth of white: what moves does not come and go within
+// one sample, and a cut or a flash changes more. Files need not say which pictures these are: a clip
+// that was edited shows the key frames of its source, too.
+[[nodiscard]] std::vector<std::uint64_t> redrawn_samples(const Activity& activity);
 
 }  // namespace nutik

@@ -264,14 +264,16 @@ EventLight read_adder_file(Bytes file, const std::string& name, const ClipOption
   note(events.outside, "events lie outside the picture: they are left out");
   note(events.backward, "events end before the one before them at the same pixel: they are left out");
   note(events.untold(), "values have no event: they are black");
-  note(events.left_over, "bytes at the end are no whole event: the file was cut off");
   if (events.above_white > 0) {
     info.notes.emplace_back(
         format("{} events are brighter than white, which holds them; state a higher white", events.above_white),
         std::vector{Setting::white_code});
   }
-  if (!events.has_end && events.left_over == 0) {
-    info.notes.emplace_back("the file has no end mark: what was filmed last may be missing");
+  if (events.left_over > 0) {
+    info.notes.push_back(warning_of(
+        format("{} bytes at the end are no whole event: the file was cut off", events.left_over)));
+  } else if (!events.has_end) {
+    info.notes.push_back(warning_of("the file has no end mark: what was filmed last may be missing"));
   }
   return result;
 }

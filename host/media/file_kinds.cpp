@@ -47,7 +47,7 @@ constexpr Kind kKinds[] = {
     {"XPDS", {}, "a DPX picture", "make PNGs of them: ffmpeg -i frame%04d.dpx -pix_fmt rgb48 frame%04d.png"},
     {"\x80\x2A\x5F\xD7", {}, "a Cineon picture", kToPng},
     {"\x76\x2F\x31\x01", {}, "an OpenEXR picture of floating-point light",
-     "make whole numbers of its light from black to white: ffmpeg -i PICTURE -vf scale=in_range=full -pix_fmt rgb48 PICTURE.png"},
+     "make whole numbers of its light from black to white: ffmpeg -i PICTURE -vf scale=in_range=full PICTURE.png"},
     {"PF\n", {}, "a PFM picture of floating-point light", kToPng},
     {"Pf\n", {}, "a PFM picture of floating-point light", kToPng},
     {"II*\0\x10\0\0\0CR"sv, {}, "a Canon CR2 picture of a sensor", kToDng},
@@ -92,6 +92,42 @@ bool begins_with(std::string_view bytes, std::string_view start) {
          std::equal(start.begin(), start.end(), bytes.begin(), [](char want, char got) { return want == '?' || want == got; });
 }
 
+constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n", kJpeg = "\xFF\xD8\xFF";
+
+// Most significant byte first.
+std::size_t number_at(std::string_view bytes, std::size_t at, std::size_t count) {
+  std::size_t number = 0;
+  for (std::size_t i = at; i < at + count; ++i) number = number << 8 | static_cast<unsigned char>(bytes[i]);
+  return number;
+}
+
+// Chunks: their length, four letters, so many bytes, a checksum. acTL stands before the first picture of an animation.
+bool is_png_of_several(std::string_view bytes) {
+  for (std::size_t at = kPng.size(); at + 12 <= bytes.size(); at += 12 + number_at(bytes, at, 4)) {
+    const std::string_view name = bytes.substr(at + 4, 4);
+    if (name == "acTL" && at + 16 <= bytes.size() && number_at(bytes, at + 8, 4) > 1) return true;
+    if (name == "IEND") return bytes.substr(at + 12).starts_with(kPng);
+  }
+  return false;
+}
+
+// Segments: FF, a marker, and where this has data, their length; behind those of a scan comes its code, in which FF is
+// followed by 0 or a marker of restarts. A camera's further pictures (MPF) are others of the same moment.
+bool is_jpeg_of_several(std::string_view bytes) {
+  for (std::size_t at = 2; at + 4 <= bytes.size();) {
+    const auto marker = static_cast<unsigned char>(bytes[at + 1]);
+    const bool is_code = bytes[at] != '\xFF' || marker == 0 || marker == 0xFF || (marker >= 0xD0 && marker <= 0xD7);
+    if (is_code) {
+      ++at;
+      continue;
+    }
+    if (marker == 0xD9) return bytes.substr(at + 2).starts_with(kJpeg);
+    if (marker == 0xE2 && bytes.substr(at + 4).starts_with("MPF\0"sv)) return false;
+    at += 2 + number_at(bytes, at + 2, 2);
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<std::string> unread_kind_text(const std::filesystem::path& file) {
@@ -134,23 +170,18 @@ bool begins_as_tiff(const std::filesystem::path& file) {
                              [&](auto magic) { return start.starts_with(magic); });
 }
 
-// Chunks: u32 length, four letters, so many bytes, a checksum. acTL stands before the first picture.
-bool is_animated_png(const std::filesystem::path& file) {
-  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
-  if (!first_bytes(file).starts_with(kSignature)) return false;
+bool begins_as_still(const std::filesystem::path& file) {
+  const std::string start = first_bytes(file);
+  return start.starts_with(kPng) || start.starts_with(kJpeg) || begins_as_tiff(file);
+}
+
+bool holds_several_pictures(const std::filesystem::path& file) {
+  const std::string start = first_bytes(file);
+  const bool is_png = start.starts_with(kPng);
+  if (!is_png && !start.starts_with(kJpeg)) return false;
   const MappedFile mapped(file);
   const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
-  const auto number_at = [&](std::size_t at) {
-    std::uint32_t number = 0;
-    for (std::size_t i = at; i < at + 4; ++i) number = number << 8 | static_cast<unsigned char>(bytes[i]);
-    return number;
-  };
-  for (std::size_t at = kSignature.size(); at + 12 <= bytes.size(); at += 12 + std::size_t{number_at(at)}) {
-    const std::string_view name = bytes.substr(at + 4, 4);
-    if (name == "acTL") return number_at(at + 8) > 1;
-    if (name == "IDAT") return false;
-  }
-  return false;
+  return is_png ? is_png_of_several(bytes) : is_jpeg_of_several(bytes);
 }
 
 }  // namespace nutik

@@ -21,7 +21,10 @@ void refuse_text(const std::filesystem::path& file);
 // Whether it begins as a TIFF, of either order of bytes and size of offsets.
 [[nodiscard]] bool begins_as_tiff(const std::filesystem::path& file);
 
-// Whether it is a PNG of several pictures, whatever its name ends with: a video.
-[[nodiscard]] bool is_animated_png(const std::filesystem::path& file);
+// Whether it begins as a TIFF, PNG or JPEG, whatever its name ends with.
+[[nodiscard]] bool begins_as_still(const std::filesystem::path& file);
+
+// Whether PNGs or JPEGs stand in it one behind the other, or an animated PNG: a video, whatever its name ends with.
+[[nodiscard]] bool holds_several_pictures(const std::filesystem::path& file);
 
 }  // namespace nutik

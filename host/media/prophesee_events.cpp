@@ -356,8 +356,8 @@ CameraEvents read_prophesee_events(Bytes file, const std::string& name, const Cl
   Decoder decoder = decode(file, header, name, recording.kind, tally.events);
   recording.events = std::move(decoder.events);
   if (decoder.left_over > 0) {
-    recording.notes.emplace_back(
-        format("{} was cut off within an event: its last {} bytes are left out", name, decoder.left_over));
+    recording.notes.push_back(warning_of(
+        format("{} was cut off within an event: its last {} bytes are left out", name, decoder.left_over)));
   }
   if (decoder.untimed > 0) {
     recording.notes.emplace_back(format(

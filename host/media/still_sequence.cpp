@@ -245,8 +245,8 @@ std::optional<std::vector<fs::path>> list_stills(const fs::path& path) {
     return files;
   }
   if (!is_absent(path)) {
-    if (is_animated_png(path)) return std::nullopt;
-    if (!still_kind_of(path).empty() || begins_as_tiff(path)) return std::vector<fs::path>{path};
+    if (holds_several_pictures(path)) return std::nullopt;
+    if (!still_kind_of(path).empty() || begins_as_still(path)) return std::vector<fs::path>{path};
     return std::nullopt;
   }
   if (const auto numbered = NumberedName::parse(path.filename().string())) {

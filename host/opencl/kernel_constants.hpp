@@ -67,7 +67,7 @@ class KernelConstants {
   // is asked for.
   const DeviceLight& light(const RenderPlan& plan, Precision precision, bool permutes_pieces,
                            DeviceMemory& memory);
-  // Null where the codes lie too close together (code_search.hpp).
+  // Null where the codes lie too close together (code_search() in kernel_tables.cpp).
   const DeviceCodes* codes(const CodeKey& key, DeviceMemory& memory);
   // Adds to `written_bytes` what had to be written.
   const DeviceMap& map(const std::shared_ptr<const MaskMap>& map, const Band& band, DeviceMemory& memory,

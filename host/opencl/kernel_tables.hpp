@@ -65,7 +65,7 @@ struct CodeTables {
       thresholds;  // Threshold: what white is, the least light of code 1 … white code, then more than any light
   std::vector<std::uint32_t> guesses;
 };
-// None where the codes lie too close together (code_search.hpp).
+// None where the codes lie too close together (code_search() in kernel_tables.cpp).
 [[nodiscard]] std::optional<CodeTables> code_tables(const CodeKey& key);
 
 // The two limits of light between which it has a code, on the scale on which kernels blend: Threshold [2].

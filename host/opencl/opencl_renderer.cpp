@@ -18,7 +18,7 @@
 #include "opencl/incremental_exposer.hpp"
 #include "opencl/kernel_constants.hpp"
 #include "opencl/kernel_sources.hpp"
-#include "opencl/light_pieces.hpp"
+#include "opencl/light_source.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
 #include "opencl/render_memory.hpp"

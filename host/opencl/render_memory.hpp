@@ -14,7 +14,7 @@ namespace nutik {
 struct RenderMemory {
   FeedLimits feed;
   std::uint64_t kept_bytes = 0;   // of sums of blocks that stay (kept_sums.hpp), in each arithmetic,
-  std::uint64_t held_bytes = 0;   // and of the last exposure's (last_exposure.hpp)
+  std::uint64_t held_bytes = 0;   // and of the last exposure's (LastExposure)
   std::uint64_t slice_bytes = 0;  // of weights and as many of boundaries (allocation_cuts.hpp)
 };
 

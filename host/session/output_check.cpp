@@ -114,11 +114,21 @@ const char* name_of(OutputKind kind) {
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;
   if (a.empty() || b.empty()) return a.empty() && b.empty();
-  if (std::filesystem::equivalent(a, b, error)) return true;
-  return std::filesystem::absolute(a).lexically_normal() == std::filesystem::absolute(b).lexically_normal();
+  return std::filesystem::equivalent(a, b, error) || led_to(a) == led_to(b);
 }
 
 }  // namespace
+
+std::filesystem::path led_to(std::filesystem::path name) {
+  namespace fs = std::filesystem;
+  constexpr int kMaxLinks = 40;  // as many as the system follows
+  std::error_code unknown;
+  for (int links = 0; links < kMaxLinks && fs::is_symlink(name, unknown); ++links) {
+    name = name.parent_path() / fs::read_symlink(name, unknown);
+  }
+  const fs::path folder = fs::canonical(name.has_parent_path() ? name.parent_path() : ".", unknown);
+  return unknown ? fs::absolute(name).lexically_normal() : folder / name.filename();
+}
 
 void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs,
                   Replacing replacing) {
@@ -164,6 +174,17 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   if (replacing == Replacing::all || !std::filesystem::is_regular_file(output, error)) return;
   if (std::filesystem::file_size(output, error) == 0 || carries_recipe(output)) return;
   throw OutputIsThere(format("{} is there already and is not replaced", name));
+}
+
+void note_later(std::vector<std::string>& notes, const std::function<std::filesystem::path(std::uint64_t)>& picture,
+                std::uint64_t count) {
+  std::error_code unknown;
+  std::uint64_t end = count;
+  while (std::filesystem::exists(picture(end), unknown)) ++end;
+  if (end == count) return;
+  notes.push_back(format("{} … {} were there before and are no part of this series; delete them, or whoever reads its "
+                         "numbers on takes them for it",
+                         picture(count).string(), picture(end - 1).filename().string()));
 }
 
 bool is_mask_name(const std::filesystem::path& path) {

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "capture/error.hpp"
 
@@ -26,6 +28,8 @@ struct OutputIsThere : UsageError {
 // What an output may take the place of: nothing but an empty file and a picture that carries its recipe, and so can be
 // made again, or all of its kind.
 enum class Replacing { made_by_recipe, all };
+// What a name leads to, by links or none, and where nothing is there yet, too: two names of one file have the same.
+[[nodiscard]] std::filesystem::path led_to(std::filesystem::path name);
 
 // Throws UsageError where `output` names one of the inputs, has a name of another kind, would replace a file of
 // another kind (a mask replaces no exposure, which carries a recipe, nor a picture in colour) or one that it
@@ -36,6 +40,11 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
 void check_mask_output(const std::filesystem::path& output, std::span<const std::string> inputs,
                        Replacing replacing = Replacing::all);
 [[nodiscard]] bool is_mask_name(const std::filesystem::path& path);
+
+// Notes the pictures that are there under the numbers from `count` on: a series of so many does not replace them.
+void note_later(std::vector<std::string>& notes, const std::function<std::filesystem::path(std::uint64_t)>& picture,
+                std::uint64_t count);
+
 // The same of a picture of 8-bit codes, where its file cannot hold so many channels, too.
 void check_picture_output(const std::filesystem::path& output, std::uint32_t channels,
                           std::span<const std::string> inputs, Replacing replacing = Replacing::all);

@@ -1,8 +1,10 @@
 #include "sheet/activity_chart.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
+#include "capture/transfer.hpp"
 #include "plot/graph.hpp"
 
 namespace nutik::sheet {
@@ -42,6 +44,17 @@ std::vector<plot::Point> steps_of(const Timeline& timeline, std::span<const std:
 }
 
 }  // namespace
+
+Picture activity_map(const Shape& shape, std::span<const std::uint64_t> changes) {
+  Picture map({shape.width, shape.height, 1}, ValueType::code8, 255);
+  const double most = static_cast<double>(std::max<std::uint64_t>(*std::ranges::max_element(changes), 1));
+  const Transfer srgb = Transfer::srgb();
+  map.transfer = srgb;
+  std::ranges::transform(changes, map.values<std::uint8_t>().begin(), [&](std::uint64_t count) {
+    return static_cast<std::uint8_t>(std::lround(255 * srgb.fraction_of(static_cast<double>(count) / most)));
+  });
+  return map;
+}
 
 Picture activity_chart(const std::string& heading, const Timeline& timeline,
                        std::span<const std::uint64_t> changed_pixels, std::uint64_t pixel_count,

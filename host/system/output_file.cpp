@@ -15,6 +15,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/source_text.hpp"
 #include "system/reused_entries.hpp"
 #include "system/shared_state.hpp"
 
@@ -145,11 +146,19 @@ OutputFile::OutputFile(std::filesystem::path path, Lasting lasting)
     fail("cannot be created");
   }
   path_ = followed(std::move(path_));
-  temporary_path_ = temporary_beside(path_);
-  // Nobody sees more of it than of what it replaces. What stands under this name already is somebody else's.
+  // Nobody sees more of it than of what it replaces.
   constexpr mode_t kOurs = 0600, kAsTheUserWants = 0666;
-  descriptor_ = open(temporary_path_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC,
-                     replaced_mode_ ? kOurs : kAsTheUserWants);
+  const mode_t mode = replaced_mode_ ? kOurs : kAsTheUserWants;
+  if (lasting_ == Lasting::yes) {
+    const std::filesystem::path folder = path_.parent_path();
+    descriptor_ = open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
+    temporary_path_ = path_without_name();
+    if (descriptor_ >= 0 && access(temporary_path_.c_str(), W_OK) == 0) return;
+    if (descriptor_ >= 0) close(descriptor_);  // no /proc here
+  }
+  temporary_path_ = temporary_beside(path_);
+  // What stands under this name already is somebody else's.
+  descriptor_ = open(temporary_path_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode);
   if (descriptor_ < 0) fail("cannot be created");
   known_ = make_known(temporary_path_.string());
 }
@@ -234,11 +243,24 @@ void OutputFile::commit() {
   if (fsync(descriptor_) != 0 && errno != EINVAL) fail("cannot be written");
   // All of it has been read and written by now. It is right, whatever becomes of what it was made of after this.
   check_mapped_files(losses_before_);
+  if (known_ == nullptr) take_name();
   if (rename(temporary_path_.c_str(), path_.c_str()) != 0) fail("cannot be written");
   shared_state().has_kept_output = true;
   make_unknown(known_);
   close(std::exchange(descriptor_, -1));
   keep_name();
+}
+
+std::string OutputFile::path_without_name() const { return format("/proc/self/fd/{}", descriptor_); }
+
+// No call lets a file without a name replace another: it gets one beside it first.
+void OutputFile::take_name() {
+  temporary_path_ = temporary_beside(path_);
+  known_ = make_known(temporary_path_.string());
+  if (linkat(AT_FDCWD, path_without_name().c_str(), AT_FDCWD, temporary_path_.c_str(), AT_SYMLINK_FOLLOW) !=
+      0) {
+    fail("cannot be written");
+  }
 }
 
 // The name is the folder's, and reaches the disk with it. A folder that may be written to but not read cannot be asked.
@@ -268,6 +290,29 @@ void write_text(const std::filesystem::path& path, std::string_view text) {
   OutputFile file(path);
   file.write(text);
   file.commit();
+}
+
+void write_new_text(const std::filesystem::path& folder, const std::string& name, std::string_view text) {
+  if (mkdir(folder.c_str(), S_IRWXU | S_IRWXG | S_IRWXO) != 0 && errno != EEXIST) refuse(folder, errno);
+  const Opened ours{open(folder.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)};
+  struct stat status {};
+  if (ours.descriptor < 0 || fstat(ours.descriptor, &status) != 0 || status.st_uid != geteuid()) {
+    throw OutputError(format("{} is a link, or no folder of yours; nothing is written there. Move it away",
+                             folder.string()));
+  }
+  const std::filesystem::path path = folder / printable(name);
+  // In that very folder, whatever is put in its place meanwhile.
+  const std::filesystem::path inside = format("/proc/self/fd/{}/{}", ours.descriptor, name);
+  std::error_code unknown;
+  if (std::filesystem::symlink_status(inside, unknown).type() != std::filesystem::file_type::not_found) {
+    throw OutputError(
+        format("{} exists and is another file; it is not replaced. Move it away", path.string()));
+  }
+  try {
+    write_text(inside, text);
+  } catch (const OutputError& error) {
+    throw OutputError(format("{} is not written: {}", path.string(), error.what()));
+  }
 }
 
 }  // namespace nutik

@@ -1,4 +1,4 @@
-// An output file that appears whole or not at all: written under a temporary name beside its own, which
+// An output file that appears whole or not at all: written without a name, or under a temporary one beside its own, it
 // replaces what was there once everything has been written.
 #pragma once
 
@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "system/mapped_file.hpp"
@@ -25,10 +26,13 @@ void remove_temporary_files();
 class OutputFile {
  public:
   // Whether a file gets a name, or is one without (system/temporary_folder.hpp), to which `path` leads and which is
-  // written where it lies.
-  enum class Lasting { yes, no };
+  // written where it lies. `recoverable`, of captures and videos: it has a temporary name while it is written, under which
+  // a process that is killed leaves it.
+  enum class Lasting { yes, recoverable, no };
 
-  // Creates the temporary file, `.<name>.nutik-<16 random digits>.part`; of a name that has no room for this, only the
+  // Creates the temporary file. It has no name until it is whole (O_TMPFILE) unless it is to be recoverable or the file
+  // system has no such files; then, or for the moment of commit(), it is `.<name>.nutik-<16 random digits>.part`; of a
+  // name that has no room for this, only the
   // beginning. No file that is there is opened, so none can be lost, whatever it is called. A link's target is
   // written, whether there is one or not, unless the link is another user's in a folder that all may write to. Throws
   // OutputError where the folder is absent or not writable, or where it cannot be told what stands under `path`.
@@ -61,6 +65,8 @@ class OutputFile {
 
  private:
   [[noreturn]] void fail(const char* what) const;
+  [[nodiscard]] std::string path_without_name() const;
+  void take_name();
   void keep_name() const;
 
   std::filesystem::path path_;
@@ -75,5 +81,10 @@ class OutputFile {
 
 // A file of this text.
 void write_text(const std::filesystem::path& path, std::string_view text);
+
+// The same under a name without folders that somebody else chose, in a folder that is made if need be. Throws OutputError
+// where something of that name is there, also a link, and where the folder is a link or not this user's: files that came
+// from others may lead elsewhere.
+void write_new_text(const std::filesystem::path& folder, const std::string& name, std::string_view text);
 
 }  // namespace nutik

@@ -72,7 +72,7 @@ Recovery recover(const std::filesystem::path& damaged, const std::filesystem::pa
   recovery.lost_bytes = file.size() - kept;
 
   const Timeline timeline = timeline_of(parsed.header, recovery.sample_count, exposures, {}, name);
-  OutputFile out(whole);
+  OutputFile out(whole, OutputFile::Lasting::recoverable);
   out.write(file.first(kept));
   finish_file(out, index, headers.value(), timeline);
   return recovery;

@@ -55,7 +55,7 @@ Writer Writer::from_raster(const std::filesystem::path& path, const Header& head
           Codec{CodecId::none, 0},
           NetpbmRaster{{raster.begin(), raster.end()}},
           1,
-          OutputFile::Lasting::yes};
+          OutputFile::Lasting::recoverable};
 }
 
 Writer::Writer(const std::filesystem::path& path, Header header, const Codec& codec,

@@ -28,7 +28,7 @@ class Writer {
   // stands under `path` before finish(). Throws OutputError where it cannot be written.
   Writer(const std::filesystem::path& path, const Header& header, const Codec& codec,
          std::span<const std::byte> first_sample, std::uint32_t max_threads = ~std::uint32_t{0},
-         OutputFile::Lasting lasting = OutputFile::Lasting::yes);
+         OutputFile::Lasting lasting = OutputFile::Lasting::recoverable);
 
   // The same of a picture that lay at the front of another .tik: a Netpbm raster.
   static Writer from_raster(const std::filesystem::path& path, const Header& header,

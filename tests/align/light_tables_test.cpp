@@ -1,4 +1,4 @@
-#include "align/light_tables.hpp"
+#include "align/light_warp.hpp"
 
 #include <gtest/gtest.h>
 

@@ -105,7 +105,8 @@ TEST_F(Again, MakesOnePictureOfASweep) {
             "");
   sweep({"-k", "it's f.fn", "-m", "mask.pgm", "--start", "20ms", "--shift", "-60ms..0.1s/80ms", "--stretch",
          "0.7..2/1", "--each", "file-%d.pgm"});
-  EXPECT_NE(run({"again", "file-5.pgm"}).err.find("file-5.fn is not there; the functions"), std::string::npos);
+  EXPECT_NE(run({"again", "file-5.pgm"}).err.find("file-5.fn is not there; the functions"),
+            std::string::npos);
   EXPECT_EQ(
       sweep({"--exposure", "0.1s", "--shutter", "hann", "--stretch", "0.5..2/0.5", "--each", "hann-%d.png"}),
       "");
@@ -282,6 +283,51 @@ TEST_F(Again, TakesNoOrdersFromAPicture) {
   scratch_.write("sly.pgm", "P5\n# " + recipe("\\u001b[2Jclip.tik", "f.fn", "") + "\n1 1\n255\nx");
   const auto result = test::run_program({"again", "sly.pgm"}, scratch_.folder());
   EXPECT_EQ(result.err.find('\x1b'), std::string::npos) << result.err;
+}
+
+// Who sends a picture may send a folder of links with it, and any text as its functions.
+TEST_F(Again, WritesOnlyWhatItReadsAndOnlyIntoItsOwnFolder) {
+  const auto again = [&](const std::string& name, const std::string& text) {
+    scratch_.write("sent.pgm",
+                   R"(P5
+# {"nutik-cl":"0","capture":{"name":"clip.tik","checksum":"x"},"functions":{"name":")" +
+                       name + R"(","text":")" + text +
+                       R"("},"options":{},"renderer":"opencl","precision":"double"}
+1 1
+255
+x)");
+    return test::run_program({"again", "sent.pgm"}, scratch_.folder());
+  };
+  const std::filesystem::path elsewhere = scratch_ / "elsewhere", folder = scratch_ / "sent-again";
+  std::filesystem::create_directory(elsewhere);
+
+  auto result = again("cron", "* * * * * touch pwned");
+  EXPECT_EQ(result.status, 3) << result.err;
+  EXPECT_NE(result.err.find("cron in the recipe of sent.pgm has mistakes"), std::string::npos) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_FALSE(std::filesystem::exists(folder));
+
+  std::filesystem::create_directory_symlink("elsewhere", folder);
+  result = again("f.fn", "M0 [0:1]");
+  EXPECT_EQ(result.status, 5) << result.err;
+  EXPECT_NE(result.err.find("sent-again is a link, or no folder of yours"), std::string::npos) << result.err;
+  EXPECT_TRUE(std::filesystem::is_empty(elsewhere));
+
+  std::filesystem::remove(folder);
+  std::filesystem::create_directory(folder);
+  for (const char* target : {"../elsewhere/f.fn", "../it's f.fn"}) {
+    std::filesystem::create_symlink(target, folder / "f.fn");
+    result = again("f.fn", "M0 [0:1]");
+    EXPECT_EQ(result.status, 5) << result.err;
+    EXPECT_NE(result.err.find("sent-again/f.fn exists and is another file"), std::string::npos) << result.err;
+    std::filesystem::remove(folder / "f.fn");
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(elsewhere));
+
+  result = again(".profile", "M0 [0:1]");
+  EXPECT_NE(result.out.find(" -k sent-again/.profile.fn "), std::string::npos) << result.out << result.err;
+  EXPECT_EQ(file("sent-again/.profile.fn"), "M0 [0:1]");
+  EXPECT_FALSE(std::filesystem::exists(folder / ".profile"));
 }
 
 TEST_F(Again, KeepsTheNoiseOfAClip) {

@@ -186,6 +186,34 @@ TEST_F(Batch, ReportsBadLinesAndGoesOn) {
   EXPECT_FALSE(picture("g.png").empty());
 }
 
+// Also where another line reads it, and where its name is one of several.
+TEST_F(Batch, ReplacesNoInputAndNoPictureOfAnotherLine) {
+  const std::string mask = "P5\n9 7\n255\n" + std::string(9 * 7, '\0');
+  for (const char* name : {"early.pgm", "late.pgm"}) scratch_.write(name, mask);
+  for (const char* folder : {"d1", "d2"}) std::filesystem::create_directory(scratch_ / folder);
+  std::filesystem::create_directory_symlink("d1", scratch_ / "d3");
+  std::filesystem::create_symlink("../d1/x.png", scratch_ / "d2/x.png");
+  scratch_.write("list.txt",
+                 "-k trail.fn -m early.pgm a.png\n"
+                 "--start 1f --exposure 1f d1/../late.pgm\n"
+                 "--start 1f --exposure 1f early.pgm\n"
+                 "--start 0f --exposure 1f d1/x.png\n"
+                 "--start 1f --exposure 1f d2/x.png\n"
+                 "--start 2f --exposure 1f d3/x.png\n"
+                 "-k trail.fn -m d3/../late.pgm b.png\n");
+  const ProgramResult batch = run({"batch", "list.txt", "scene.tik"});
+  EXPECT_EQ(batch.status, 1);
+  for (const char* message : {"list.txt:2: d1/../late.pgm is an input of line 7; choose another name",
+                              "list.txt:3: early.pgm is an input of line 1;",
+                              "list.txt:5: d2/x.png is the picture of line 4 already",
+                              "list.txt:6: d3/x.png is the picture of line 4 already"}) {
+    EXPECT_NE(batch.err.find(message), std::string::npos) << message << "\n" << batch.err;
+  }
+  EXPECT_TRUE(batch.out.starts_with("3 of 7 pictures, ")) << batch.out;
+  for (const char* name : {"early.pgm", "late.pgm"}) EXPECT_EQ(picture(name), mask) << name;
+  EXPECT_TRUE(std::filesystem::is_symlink(scratch_ / "d2/x.png"));
+}
+
 TEST_F(Batch, RefusesListsThatListNothing) {
   EXPECT_EQ(run({"batch"}).status, 2);
   EXPECT_EQ(run({"batch", "absent.txt"}).status, 3);

@@ -101,7 +101,7 @@ def make_scene(folder, program):
 
 
 def flaw_of_picture(path):
-    """What is wrong with a picture; empty where something is to be seen. Masks are black where they say 0."""
+    """What is wrong with a picture; empty where something is to be seen."""
     picture = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
     if picture is None:
         return f"{path.name} cannot be read"
@@ -110,6 +110,8 @@ def flaw_of_picture(path):
     white = numpy.iinfo(picture.dtype).max if picture.dtype.kind == "u" else 1
     values = picture.reshape(picture.shape[0] * picture.shape[1], -1)
     shares = {"white": (values >= white).all(axis=1).mean(), "black": (values <= 0).all(axis=1).mean()}
+    if path.suffix == ".pgm":  # a mask of one tag, or of nothing that is uncertain
+        del shares["black"]
     return "".join(f"{path.name} is {name} in {100 * share:.0f} % of its pixels" for name, share in shares.items()
                    if share > 0.99)
 

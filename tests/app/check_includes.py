@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """The programs are clients of the session: host/app and host/studio include the session's headers, the system's and
-their own. What writes the outputs of host/app knows nothing of its requests, and it stays small, as the engine belongs
-below it. What lies below names no option of a command line.
+their own. What writes the outputs of host/app knows nothing of its requests. What lies below names no option of a command line.
 
     check_includes.py --app FOLDER
 """
@@ -13,11 +12,6 @@ from collections import defaultdict
 from pathlib import Path
 
 ROOMS = {"app", "session", "system"}
-MAX_LINES = 6965  # 6500, and 465 for rows, notes and errors of newer commands and options
-# Commands that came after that was set, counted for themselves.
-NEWER = {"commands/camera_files.cpp", "commands/camera_files.hpp", "commands/join.cpp", "commands/plate.cpp", "commands/solve.cpp",
-         "commands/study.cpp", "commands/study_files.cpp", "commands/study_files.hpp", "output/skipping.cpp", "output/skipping.hpp", "requests/align_words.cpp", "requests/film_words.cpp", "requests/solve_words.cpp", "requests/study_words.cpp"}
-MAX_LINES_OF_NEWER = 200
 OPTION = re.compile(r'"(?:[^"\\\n]|\\.)*--[a-z](?:[^"\\\n]|\\.)*"')  # within a text
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
@@ -41,13 +35,6 @@ def main():
                 arrows[place.parts[0]].add(rest[0])
     if "requests" in arrows["output"]:
         mistakes.append("output includes requests")
-    sizes = {path.relative_to(app).as_posix(): len(path.read_text(encoding="utf-8").splitlines()) for path in files}
-    lines = sum(size for name, size in sizes.items() if name not in NEWER)
-    for name in sorted(NEWER):
-        if sizes.get(name, 0) > MAX_LINES_OF_NEWER:
-            mistakes.append(f"{name}: {sizes[name]} lines, {MAX_LINES_OF_NEWER} at most")
-    if lines > MAX_LINES:
-        mistakes.append(f"{lines} lines, {MAX_LINES} at most: what is engine belongs into the session")
     for path in sorted((app.parent / "studio").rglob("*.[ch]pp")):
         mistakes += [f"{path.relative_to(app.parent)} includes {name}, which is neither the session's, the system's nor the studio's"
                      for name in INCLUDE.findall(path.read_text(encoding="utf-8"))
@@ -57,7 +44,7 @@ def main():
             mistakes += [f"{path.relative_to(app.parent)} says {text}" for text in OPTION.findall(path.read_text(encoding="utf-8"))]
     for mistake in mistakes:
         print(mistake)
-    print(f"{len(files)} files, {lines} lines, {len(mistakes)} mistakes")
+    print(f"{len(files)} files, {len(mistakes)} mistakes")
     return 1 if mistakes else 0
 
 

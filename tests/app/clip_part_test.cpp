@@ -144,7 +144,7 @@ TEST_F(PartOfAClip, ComesThroughAPipe) {
   EXPECT_NE(empty.err.find("standard input is empty"), std::string::npos) << empty.err;
   const auto senseless = shell("echo nonsense | " + program + " expose --exposure 1f - -o x.png");
   EXPECT_EQ(senseless.status, 3);
-  EXPECT_NE(senseless.err.find("nutik-cl: standard input is no video"), std::string::npos) << senseless.err;
+  EXPECT_NE(senseless.err.find("nutik-cl: standard input is a text, and no clip"), std::string::npos) << senseless.err;
   const auto behind = shell("cat a.y4m | " + program + " encode --from 9s - x.tik");
   EXPECT_NE(behind.err.find("no picture begins there in standard input, which has 12"), std::string::npos)
       << behind.err;

@@ -124,6 +124,30 @@ TEST_F(Series, HasAsManyAsFit) {
             "not count\n");
 }
 
+// Who reads a folder's numbers on would take them for this series.
+TEST_F(Series, TellsOfOlderPicturesBehindItsLast) {
+  EXPECT_EQ(run({"--every", "4f", "--count", "6", "--exposure", "1f", "clip.tik", "s-%d.pfm"}).err, "");
+  const auto shorter = [&](std::vector<std::string> words) {
+    words.insert(words.end(), {"clip.tik", "s-%d.pfm"});
+    return run(words).err;
+  };
+  const std::string older = "s-3.pfm … s-5.pfm were there before and are no part of this series";
+  EXPECT_NE(shorter({"--every", "8f", "--count", "3", "--exposure", "1f"}).find(older), std::string::npos);
+  EXPECT_NE(shorter({"video", "--out-fps", "20", "--to", "0.15s"}).find(older), std::string::npos);
+  // A part of a series leaves the others to whoever makes them.
+  EXPECT_EQ(shorter({"--every", "4f", "--count", "6", "--frames", "0-2", "--exposure", "1f"}), "");
+  EXPECT_EQ(written("s"), 6);
+}
+
+TEST_F(Series, RefusesNamesThatAreTooLong) {
+  for (const char* name : {"s-%300d.pfm", "s-%0300d.pfm", "s-%99999999999999999999d.pfm"}) {
+    const auto result =
+        test::run_program({"--every", "4f", "--exposure", "1f", "clip.tik", name}, scratch_.folder());
+    EXPECT_EQ(result.status, 5) << result.err;
+    EXPECT_NE(result.err.find("File name too long"), std::string::npos) << result.err;
+  }
+}
+
 TEST_F(Series, TellsItsWarningsAlsoWhereItEndsInAnError) {
   run({"-f", "40", "--block-samples", "10", "--codec", "none", "frames", "blocks.tik"});
   std::string capture = file("blocks.tik");

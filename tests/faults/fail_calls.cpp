@@ -1,6 +1,6 @@
 // Preloaded before the program: lets one call of the system fail, so that it can be seen what becomes of the output
-// (faults/fault.hpp: kinds are open, read, write, fsync, rename, mmap, malloc and thread; mremap is a mapping, and
-// calloc, realloc and aligned memory are malloc's).
+// (faults/fault.hpp: kinds are open, read, write, fsync, rename, mmap, malloc and thread; mremap is a mapping, linkat a
+// renaming, and calloc, realloc and aligned memory are malloc's).
 //
 //   NUTIK_FAIL_FOLDER   calls count whose file lies in it; of memory those of a mebibyte and more
 //   NUTIK_CUT_FILE      a file that somebody else makes shorter at the same time ...
@@ -90,6 +90,7 @@ constinit Next<ssize_t(int, const void*, std::size_t, off64_t)> next_pwrite{"pwr
 constinit Next<int(int)> next_fsync{"fsync"};
 constinit Next<int(int, int)> next_flock{"flock"};
 constinit Next<int(const char*, const char*)> next_rename{"rename"};
+constinit Next<int(int, const char*, int, const char*, int)> next_linkat{"linkat"};
 constinit Next<void*(void*, std::size_t, int, int, int, off64_t)> next_mmap64{"mmap64"};
 constinit Next<void*(void*, std::size_t, std::size_t, int, ...)> next_mremap{"mremap"};
 constinit Next<int(void**, std::size_t, std::size_t)> next_posix_memalign{"posix_memalign"};
@@ -99,7 +100,7 @@ constinit Next<int(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*)> 
 [[gnu::constructor]] void find_all() {
   const auto find = [](auto&... each) { (each.get(), ...); };
   find(next_open, next_open64, next_fopen, next_fopen64, next_read, next_pread64, next_write, next_writev,
-       next_pwrite64, next_pread, next_pwrite, next_fsync, next_flock, next_rename, next_mmap64, next_mremap,
+       next_pwrite64, next_pread, next_pwrite, next_fsync, next_flock, next_rename, next_linkat, next_mmap64, next_mremap,
        next_posix_memalign, next_pthread_create);
 }
 
@@ -199,6 +200,10 @@ int rename(const char* from, const char* to) noexcept {
   const int result = fails("rename") ? -1 : next_rename.get()(from, to);
   cut_at("rename");
   return result;
+}
+
+int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
+  return fails("rename") ? -1 : next_linkat.get()(from_folder, from, to_folder, to, flags);
 }
 
 void* mmap64(void* address, std::size_t bytes, int protection, int flags, int descriptor, off64_t offset) {

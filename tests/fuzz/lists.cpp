@@ -33,9 +33,9 @@ void read_batch(Bytes input) {
     std::vector<std::string> words = shell_words(line);
     std::string again;
     for (const std::string& word : words) again += shell_word(word) + ' ';
-    // What a terminal would obey is shown as shells beyond POSIX have it, which lists do not read.
-    const bool is_posix = again.find("$'") == std::string::npos;
-    demand(!is_posix || shell_words(again) == words, "words are read from what they are printed as");
+    // What a terminal would obey is shown as a shell's command makes it, which lists do not run.
+    const bool is_plain = again.find("$(printf '") == std::string::npos;
+    demand(!is_plain || shell_words(again) == words, "words are read from what they are printed as");
     const auto prints = [](const std::string& word) {
       return word == "--help" || word == "-h" || word == "--version";
     };

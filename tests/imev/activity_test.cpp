@@ -3,9 +3,7 @@
 #include <functional>
 
 #include "imev/activity.hpp"
-#include "imev/activity_moments.hpp"
 #include "imev/capture_source.hpp"
-#include "imev/redrawn_samples.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik {

@@ -212,11 +212,16 @@ TEST(ClipTimes, OfAStreamCutInItsMiddleAreThoseOfTheDecodedPictures) {
         continue;
       }
       ++compared;
-      ASSERT_EQ(opened->info().notes.size(), 1u);
-      EXPECT_NE(
-          opened->info().notes[0].text.find("packets give no picture, as where it was cut in its middle"),
-          std::string::npos)
-          << opened->info().notes[0].text;
+      const auto says = [&](const std::string& words) {
+        return std::ranges::any_of(opened->info().notes, [&](const Note& note) {
+          return note.text.find(words) != std::string::npos;
+        });
+      };
+      EXPECT_TRUE(says("packets give no picture, as where it was cut in its middle"));
+      // Those of a broadcast have 188 bytes, and are not held together by anything else.
+      const bool is_within_packet = name.ends_with(".ts") && std::filesystem::file_size(scratch / name) % 188 != 0;
+      EXPECT_EQ(says("cut off within one of its packets"), is_within_packet);
+      EXPECT_EQ(opened->info().notes.size(), is_within_packet ? 2u : 1u);
       const Timeline timeline = timeline_of(name, opened->info(), {}, {360, 1}, want.pictures);
       const double tick_ns = want.tick_s.value() * 1e9;
       for (std::size_t k = 0; k < want.ticks.size(); ++k) {

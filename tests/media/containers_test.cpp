@@ -88,7 +88,7 @@ TEST(Containers, ThatNameOtherFilesAreRefused) {
   for (const auto& [name, kind, text] : std::vector<std::tuple<std::string, std::string, std::string>>{
            {"l.m3u8", "hls", hls},
            {"self.m3u8", "hls", "#EXTM3U\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\nself.m3u8\n"},
-           {"l.mpd", "dash",
+           {"l.mpd", "",
             "<?xml version=\"1.0\"?>\n<MPD xmlns=\"urn:mpeg:dash:schema:mpd:2011\" type=\"static\" "
             "profiles=\"urn:mpeg:dash:profile:isoff-on-demand:2011\" "
             "mediaPresentationDuration=\"PT1S\"><Period><AdaptationSet "
@@ -96,9 +96,13 @@ TEST(Containers, ThatNameOtherFilesAreRefused) {
             "bandwidth=\"1\"><BaseURL>a.ts</BaseURL></Representation></AdaptationSet></Period></MPD>"},
            {"l.txt", "concat", "ffconcat version 1.0\nfile a.ts\n"},
            {"holiday.mp4", "concat", "ffconcat version 1.0\nfile a.ts\n"},
-           {"l.sdp", "sdp",
+           {"l.sdp", "",
             "v=0\no=- 0 0 IN IP4 127.0.0.1\ns=x\nc=IN IP4 127.0.0.1\nt=0 0\nm=video 5004 RTP/AVP 96\n"}}) {
     const std::string said = said_of(name, text);
+    if (kind.empty()) {
+      EXPECT_NE(said.find("is a text, and no clip"), std::string::npos) << name << ": " << said;
+      continue;
+    }
     EXPECT_NE(said.find("it is taken for " + kind + " ("), std::string::npos) << name << ": " << said;
     EXPECT_NE(said.find("names other files"), std::string::npos) << name << ": " << said;
   }
@@ -114,20 +118,25 @@ TEST(Containers, OfWhichTooLittleIsKnownAreRefusedByName) {
   make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 1 a.fits");
   make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 1 a.dpx");
   make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 1 a.webp");
+  make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 1 a.bmp");
   make(scratch, "-f lavfi -i sine=duration=1 a.wav");
   std::string ser = "LUCAM-RECORDER";
   for (const std::uint32_t number : {0u, 0u, 0u, 8u, 4u, 16u, 1u})
     ser.append(reinterpret_cast<const char*>(&number), sizeof number);
   scratch.write("a.ser", ser.append(136 + 64, '\0'));
   for (const auto& [name, said] : std::vector<std::pair<std::string, std::string>>{
-           {"n.txt", "it is taken for tty (Tele-typewriter), which is text"},
-           {"a.fits", "it is taken for fits (Flexible Image Transport System), which would be stretched"},
-           {"a.dpx", "which is a still picture of a kind that is not read. ffmpeg -i"},
-           {"a.webp", "which is a still picture of a kind that is not read. ffmpeg -i"},
-           {"a.wav", "it is taken for wav (WAV / WAVE (Waveform Audio)), which is not read"},
+           {"n.txt", " is a text, and no clip: "},
+           {"a.fits",
+            " is no video that can be read: it is taken for fits (Flexible Image Transport System), which would be "
+            "stretched"},
+           {"a.dpx", " is a DPX picture, which is not read; make PNGs of them: ffmpeg -i"},
+           {"a.webp", " is a WebP picture, which is not read; make PNGs of such files: "},
+           {"a.bmp", " is a BMP picture, which is not read; make PNGs of such files: "},
+           {"a.wav",
+            " is no video that can be read: it is taken for wav (WAV / WAVE (Waveform Audio)), which is not read"},
+           {"a.ser", " is no video that can be read: it is taken for ser ("},
            {"a.ser", "which would be read with bytes, depth and times as few of its writers mean them"}}) {
-    test::expect_clip_refused(scratch / name, {}, name + " is no video that can be read: ");
-    test::expect_clip_refused(scratch / name, {}, said);
+    test::expect_clip_refused(scratch / name, {}, (said.starts_with(' ') ? name : "") + said);
   }
 }
 
@@ -172,7 +181,6 @@ TEST(Containers, WhoseRateNobodyStatesNeedOne) {
   scratch.write("b.y4m", y4m);
   scratch.write("c.y4m", y4m.insert(y4m.find(" Ip"), " F0:0"));
   make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p a.mjpeg");
-  make(scratch, film + "-frames:v 1 a.bmp");
   make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p -f mpjpeg a.mpjpeg");
   make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p told.avi");
   std::string avi = test::read_file(scratch / "told.avi");
@@ -185,7 +193,7 @@ TEST(Containers, WhoseRateNobodyStatesNeedOne) {
   for (auto at = gif.find(control); at != gif.npos; at = gif.find(control, at + 1))
     gif.replace(at + 4, 2, 2, '\0');
   scratch.write("a.gif", gif);
-  for (const char* name : {"b.y4m", "c.y4m", "a.mjpeg", "a.bmp", "a.mpjpeg", "a.avi", "a.gif"})
+  for (const char* name : {"b.y4m", "c.y4m", "a.mjpeg", "a.mpjpeg", "a.avi", "a.gif"})
     expect_untold(name, untold);
   for (const char* ticks : {"2000000", "180000"}) {
     const std::string name = std::string(ticks) + ".h264";
@@ -266,11 +274,10 @@ TEST(Containers, ThatWereCutOffWarn) {
                                                         {"live.mkv", "-c:v mjpeg -live 1"}}) {
     SCOPED_TRACE(name);
     make(scratch, film + codec + " " + name);
-    EXPECT_TRUE(open_test_clip(scratch / name)->info().notes.empty());
+    EXPECT_TRUE(std::ranges::none_of(open_test_clip(scratch / name)->info().notes, &Note::is_warning));
     const std::string whole = test::read_file(scratch / name);
     const auto cut = open_test_clip(scratch.write("cut-" + name, whole.substr(0, whole.size() * 2 / 3)));
-    ASSERT_FALSE(cut->info().notes.empty());
-    EXPECT_TRUE(cut->info().notes[0].is_warning) << cut->info().notes[0].text;
+    EXPECT_TRUE(std::ranges::any_of(cut->info().notes, &Note::is_warning));
   }
 }
 

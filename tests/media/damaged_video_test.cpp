@@ -196,12 +196,12 @@ TEST_F(DamagedVideo, ThatWasCutOffSaysSo) {
   const std::string lasts = "the file says that it lasts 1.2 s, and its pictures end after ",
                     within = "it was cut off within picture ";
   struct Cut {
-    std::string codec, name, note;  // no note: refused
+    std::string codec, name, note;
   };
   for (const auto& [codec, name, note] :
        std::vector<Cut>{{"-c:v ffv1", "c.mkv", lasts},
                         {"-c:v libx264 -qp 0 -pix_fmt gray", "h.mkv", lasts},
-                        {"-c:v mjpeg -pix_fmt yuvj420p", "m.avi", ""},
+                        {"-c:v mjpeg -pix_fmt yuvj420p", "m.avi", "the file " + within.substr(3)},
                         {"-f yuv4mpegpipe -pix_fmt gray", "p.y4m", within}}) {
     SCOPED_TRACE(name);
     make_clip(codec, name);
@@ -211,11 +211,6 @@ TEST_F(DamagedVideo, ThatWasCutOffSaysSo) {
       const auto path = scratch_.write(
           "cut-" + name,
           whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
-      if (note.empty()) {
-        const std::string said = test::message_of<InputError>([&] { read_all(*open_test_clip(path)); });
-        EXPECT_NE(said.find("is damaged"), std::string::npos) << share << ": " << said;
-        continue;
-      }
       const auto clip = open_test_clip(path);
       EXPECT_LT(read_all(*clip).size(), std::size_t{kPictures}) << share;
       ASSERT_EQ(clip->info().notes.size(), 1u) << share;

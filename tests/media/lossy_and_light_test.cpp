@@ -196,11 +196,10 @@ TEST(OpenExr, IsRefusedAsAClipWithAWayOut) {
       picture.values<float>()[i] = static_cast<float>(i) / static_cast<float>(shape.value_count());
     write_picture(scratch / "a.exr", picture);
     const std::string refusal = message_of<InputError>([&] { test::open_test_clip(scratch / "a.exr"); });
-    const auto from = refusal.find("ffmpeg "), to = refusal.find(" makes these of its light");
+    const auto from = refusal.find("ffmpeg ");
     ASSERT_NE(from, std::string::npos) << refusal;
-    ASSERT_NE(to, std::string::npos) << refusal;
     const std::string file = "-i PICTURE ";
-    std::string words = refusal.substr(from + 7, to - from - 7);
+    std::string words = refusal.substr(from + 7);
     ASSERT_EQ(words.find(file), 0u) << refusal;
     test::make(scratch, "-i a.exr " + words.substr(file.size()));
     const auto clip = test::open_test_clip(scratch / "PICTURE.png");

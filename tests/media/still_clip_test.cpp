@@ -181,6 +181,20 @@ TEST(StillClip, TurnsJpegUpright) {
   }
 }
 
+TEST(StillClip, ThatACameraWroteWithOthersOfItsMomentIsOne) {
+  const Scratch scratch;
+  const auto stills = test::random_stills(kColourShape, 255, 1, 3);
+  write_with_opencv(scratch / "one.jpg", stills[0]);
+  const std::string one = test::read_file(scratch / "one.jpg");
+  const std::string more_follow("\xFF\xE2\0\x06MPF\0", 8);
+  const auto samples_of = [&](const std::string& bytes) {
+    return open_test_clip(scratch.write("a.jpg", bytes), {})->info().sample_count;
+  };
+  EXPECT_EQ(samples_of(one), 1u);
+  EXPECT_EQ(samples_of(one.substr(0, 2) + more_follow + one.substr(2) + one), 1u);
+  EXPECT_EQ(samples_of(one + one), 2u);
+}
+
 TEST(StillClip, AStatedWhiteCodeGoesBeforeTheFiles) {
   const Scratch scratch;
   const auto stills = test::random_stills(kGreyShape, 4095, 1, 3);

@@ -43,10 +43,10 @@ class StillSequence : public testing::Test {
 
 TEST_F(StillSequence, AFolderHoldsItsPicturesAsAPersonCounts) {
   touch({"a/f10.png", "a/f9.PNG", "a/f1.png", "a/f009.png", "a/notes.txt", "a/Thumbs.db", "a/._f1.png"});
-  EXPECT_EQ(listed("a"), "f1.png f009.png f9.PNG f10.png");
+  EXPECT_EQ(listed("a"), "f1.png f9.PNG f009.png f10.png");
   EXPECT_EQ(listed("a/"), listed("a"));
   std::filesystem::create_directory(scratch_ / "a/f2.png");  // a folder in spite of its name
-  EXPECT_EQ(listed("a"), "f1.png f009.png f9.PNG f10.png");
+  EXPECT_EQ(listed("a"), "f1.png f9.PNG f009.png f10.png");
 }
 
 TEST_F(StillSequence, WhatIsNotNumberedAlikeIsNotTakenAlong) {

@@ -1,4 +1,4 @@
-#include "sheet/activity_map.hpp"
+#include "sheet/activity_chart.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,8 @@
 
 #include <random>
 
-#include "studio/curves/boxcars.hpp"
 #include "studio/curves/drags.hpp"
-#include "studio/curves/gain_axis.hpp"
+#include "studio/curves/handles.hpp"
 #include "studio/curves/points.hpp"
 #include "studio/curves/snapping.hpp"
 #include "studio/time/sample_times.hpp"

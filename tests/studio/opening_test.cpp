@@ -5,7 +5,7 @@
 #include <QToolButton>
 
 #include "session/below/error.hpp"
-#include "studio/live/room_watch.hpp"
+#include "studio/live/opening.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio_test.hpp"

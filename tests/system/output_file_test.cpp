@@ -1,5 +1,6 @@
 #include "system/output_file.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -54,17 +55,32 @@ TEST(OutputFile, LeavesAnothersTemporaryFileAlone) {
   EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator()), 1);
 }
 
-TEST(OutputFile, LeavesAKilledProcesssFileToBeRecovered) {
-  const Scratch scratch;
+void write_and_be_killed(const fs::path& path, OutputFile::Lasting lasting) {
   const pid_t child = fork();
   if (child == 0) {
-    OutputFile file(scratch / "a");
+    OutputFile file(path, lasting);
     file.write("a long text");
     kill(getpid(), SIGKILL);
   }
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFSIGNALED(status));
+}
+
+TEST(OutputFile, LeavesNothingOfAKilledProcess) {
+  const Scratch scratch;
+  const int without_name = open(scratch.folder().c_str(), O_TMPFILE | O_WRONLY, 0600);
+  if (without_name < 0) GTEST_SKIP() << "this file system has no files without names";
+  close(without_name);
+  scratch.write("a", "old");
+  write_and_be_killed(scratch / "a", OutputFile::Lasting::yes);
+  EXPECT_EQ(test::read_file(scratch / "a"), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator()), 1);
+}
+
+TEST(OutputFile, LeavesAKilledProcesssFileToBeRecovered) {
+  const Scratch scratch;
+  write_and_be_killed(scratch / "a", OutputFile::Lasting::recoverable);
   const auto left = test::files_with(scratch.folder(), ".a.nutik-");
   ASSERT_EQ(left.size(), 1u);
   {
@@ -146,7 +162,8 @@ TEST(OutputFile, WithoutANameIsWrittenWhereItLies) {
 TEST(OutputFile, MayHaveTheLongestName) {
   const Scratch scratch;
   const auto temporary_of = [&](const std::string& name) {
-    OutputFile file(scratch / name);
+    write_text(scratch / name, "old");
+    OutputFile file(scratch / name, OutputFile::Lasting::recoverable);
     file.write("new");
     std::string temporary = file.temporary_path().filename();
     file.commit();
@@ -170,7 +187,7 @@ TEST(OutputFile, CutsNoLetterOfALongName) {
   for (const char* const start : {"", "n", "nn"}) {
     std::string name = start;
     while (name.size() + 3 <= 255) name += "\u20ac";
-    const OutputFile file(scratch / name);
+    const OutputFile file(scratch / name, OutputFile::Lasting::recoverable);
     const std::string temporary = file.temporary_path().filename();
     std::string_view left = temporary;
     const std::string expected_start = std::string(".") + start;

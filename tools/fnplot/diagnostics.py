@@ -30,7 +30,7 @@ class Diagnostic:
         """`motion.fn:3:14: time 5 is not after 9; …`, the line, and a mark under the place."""
         kind = "warning: " if self.is_warning else ""
         first = f"{file_name}:{self.line}:{self.column}: {kind}{self.message}"
-        if not self.excerpt.text:
+        if not self.excerpt.text or "\\x00" in self.excerpt.text:
             return first  # an empty line shows nothing
         return f"{first}\n    {self.excerpt.text}\n    {self.excerpt.indent}^"
 

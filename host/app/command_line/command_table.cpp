@@ -107,7 +107,7 @@ constexpr Command kCommands[] = {
      "sheet.",
      "nutik-cl sweep -k file.fn -m mask.pgm --shift 0..1s/0.1s clip.tik\n"
      "nutik-cl sweep -k trail.fn --scale-gain 0.5..2/0.25 --stretch 0.5..2/0.5 clip.tik sheet.png\n"
-     "nutik-cl sweep --start 0.4s --exposure 10ms --shift 0..50f/5f --each moment-%02d.png clip.tik",
+     "nutik-cl sweep --start 0.4s --exposure 10ms --shift 0..40f/5f --each moment-%02d.png clip.tik",
      run_sweep, kUnderstanding},
     {Id::video, "video", "CAPTURE.tik|CLIP [VIDEO]",
      "Film the scene again: a video of any frame rate and shutter angle, each frame an exposure of its own "

@@ -6,6 +6,7 @@
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/message_text.hpp"
+#include "session/below/capture.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/functions.hpp"
@@ -51,9 +52,10 @@ class RecipeFiles {
     return other_folder.value_or(fs::path()) / input.name;
   }
 
-  // A file of that name with that text; otherwise it is written into `folder`, and a warning says so. `what` is
-  // in the plural.
-  fs::path find(const Recipe::Text& text, std::string_view what, const fs::path& folder) const {
+  // A file of that name with that text; otherwise it is written into `folder` under a name with that extension, and a
+  // warning says so. `what` is in the plural.
+  fs::path find(const Recipe::Text& text, std::string_view what, const fs::path& folder,
+                const char* extension) const {
     bool is_changed = false;
     for (const fs::path& place : folders_) {
       const fs::path path = place / text.name;
@@ -61,24 +63,21 @@ class RecipeFiles {
       if (holds(path, text)) return path;
       is_changed = true;
     }
-    write(text, what, folder / text.name, is_changed);
-    return folder / text.name;
+    const std::string name = text.name + (text.name.ends_with(extension) ? "" : extension);
+    write(text, what, folder, name, is_changed);
+    return folder / name;
   }
 
   [[nodiscard]] bool is_complete() const { return is_complete_; }
 
  private:
-  static void write(const Recipe::Text& text, std::string_view what, const fs::path& path, bool is_changed) {
-    if (fs::exists(path)) {
-      if (holds(path, text)) return;
-      throw OutputError(format("{} exists and is another file; it is not replaced. Move it away",
-                               (path.parent_path() / shown(text.name)).string()));
-    }
-    fs::create_directories(path.parent_path());
-    write_text(path, text.bytes);
+  static void write(const Recipe::Text& text, std::string_view what, const fs::path& folder,
+                    const std::string& name, bool is_changed) {
+    if (!fs::is_symlink(folder) && !fs::is_symlink(folder / name) && holds(folder / name, text)) return;
+    write_new_text(folder, name, text.bytes);
     print_warning(format("{} {}; the {} that the picture was made with were written to {}", shown(text.name),
                          is_changed ? "was changed since" : "is not there", what,
-                         (path.parent_path() / shown(text.name)).string()));
+                         (folder / shown(name)).string()));
   }
 
   static bool is_there(const fs::path& path) {
@@ -136,6 +135,10 @@ void check_options(const Recipe& recipe, const std::string& picture) {
   }
 }
 
+std::string text_title(const Recipe::Text& text, const fs::path& picture) {
+  return format("{} in the recipe of {}", shown(text.name), picture.string());
+}
+
 std::string operand(const fs::path& path) { return shell_word(not_an_option(path.string())); }
 
 }  // namespace
@@ -158,10 +161,14 @@ int run_again(const Options& options) {
   check_options(*recipe, picture.string());
   const fs::path folder = picture.stem().string() + "-again";
   std::string command = format("{} {}", shell_word(options.program), to_text(recipe->of));
-  if (recipe->functions) command += " -k " + operand(files.find(*recipe->functions, "functions", folder));
+  if (recipe->functions) {
+    static_cast<void>(read_functions(recipe->functions->bytes, text_title(*recipe->functions, picture)));
+    command += " -k " + operand(files.find(*recipe->functions, "functions", folder, ".fn"));
+  }
   if (recipe->noise) {
+    static_cast<void>(parse_noise(recipe->noise->bytes, text_title(*recipe->noise, picture)));
     const fs::path here = ".";  // so that a file of the name `auto` is not taken for that word
-    command += " --noise " + operand(here / files.find(*recipe->noise, "noise values", folder));
+    command += " --noise " + operand(here / files.find(*recipe->noise, "noise values", folder, ".noise"));
   }
   if (recipe->mask) command += " -m " + operand(files.find(*recipe->mask, "mask", mask_checksum));
   if (recipe->mask_to)

@@ -96,6 +96,17 @@ class Batch {
     devices_->start();
   }
 
+  // Of all lines, before the first of them is exposed: no picture replaces what another line reads.
+  void know_inputs(const ListedExposure& listed, const std::optional<std::string>& capture_name) {
+    try {
+      Options line = line_options(listed.text, options_, capture_name);
+      const std::string capture = line.operands.empty() ? std::string() : line.operands.front();
+      if (std::exchange(last_capture_, capture) == capture) line.operands.clear();  // it may be a folder of many stills
+      for (const std::string& input : input_files(line)) line_of_input_.try_emplace(led_to(input), listed.line);
+    } catch (const Error&) {  // reported when the line is exposed
+    }
+  }
+
   void expose(const ListedExposure& listed, const std::optional<std::string>& capture_name) {
     reported(listed.line, [&] {
       Options line = line_options(listed.text, options_, capture_name);
@@ -108,8 +119,10 @@ class Batch {
         throw UsageError("standard output takes one picture, and a batch makes many; name a file");
       }
       check_output(output, OutputKind::picture, input_files(line), replacing(line));
-      const auto [earlier, is_new] =
-          line_of_output_.try_emplace(std::filesystem::absolute(output).lexically_normal(), listed.line);
+      if (const auto reader = line_of_input_.find(led_to(output)); reader != line_of_input_.end()) {
+        throw UsageError(format("{} is an input of line {}; choose another name", output.string(), reader->second));
+      }
+      const auto [earlier, is_new] = line_of_output_.try_emplace(led_to(output), listed.line);
       if (!is_new) throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
       if (line.skip_existing) {
         require_recipes(line, output);
@@ -205,7 +218,8 @@ class Batch {
   std::optional<Session> session_;
   std::optional<ListedPictures> listed_;
   Json clips_ = Json::array();
-  std::map<std::filesystem::path, std::size_t> line_of_output_;
+  std::map<std::filesystem::path, std::size_t> line_of_input_, line_of_output_;
+  std::string last_capture_;
   std::mutex reporting_;
   std::set<std::size_t> failed_lines_;
   PictureQueue pictures_;
@@ -231,6 +245,7 @@ int run_batch(const Options& options) {
   }
 
   Batch batch(options, list, exposures.size());
+  for (const ListedExposure& each : exposures) batch.know_inputs(each, capture);
   Progress progress("exposing", exposures.size(), options.quiet, progress_lines(options));
   for (std::size_t i = 0; i < exposures.size(); ++i) {
     progress.show(i);

@@ -79,6 +79,7 @@ int run_series(const Options& options) {
   tally.end(answer, session, options.verbose,
             format(", {:.1f} exposures a second", static_cast<double>(pictures.size()) / tally.seconds()));
   answer.tell_source(session);
+  note_later(answer.notes, [&](std::uint64_t k) { return names[k]; }, starts.size());
   return tell(options, names[0], answer);
 }
 

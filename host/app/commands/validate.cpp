@@ -1,3 +1,6 @@
+#include <cmath>
+#include <string>
+
 #include "app/command_line/option_table.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
@@ -5,7 +8,7 @@
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/number_text.hpp"
-#include "app/text/validation_text.hpp"
+#include "app/text/text_table.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/clips/clip_source.hpp"
@@ -15,6 +18,124 @@
 
 namespace nutik::app {
 namespace {
+
+// What a validation came to, for people and for scripts.
+
+// A figure of kernels' times; null if the driver does not time them.
+Json timed(const ValidatedVariant& variant, double figure) {
+  return variant.is_timed ? Json(figure) : Json(nullptr);
+}
+
+// `8-bit codes`, `floats`
+std::string format_name(ValueType type) {
+  switch (type) {
+    case ValueType::code8: return "8-bit codes";
+    case ValueType::code16: return "16-bit codes";
+    case ValueType::light32: return "floats";
+    case ValueType::light64: break;
+  }
+  return "doubles";
+}
+
+// A row for each arithmetic, and one for the reference; what `auto` takes has a star.
+std::string variants_text(const Validation& validation) {
+  const bool codes = holds_codes(validation.output.type);
+  std::vector<std::vector<std::string>> rows{
+      {"", "", "kernel ms", "GB/s", "render ms", "worst light", "RMS light", "8-bit", "16-bit",
+       codes ? "codes differ" : "floats differ", codes ? "at an edge" : "within bound", "bound", "used"}};
+  for (std::size_t i = 0; i < validation.variants.size(); ++i) {
+    const ValidatedVariant& variant = validation.variants[i];
+    const LightErrors& light = variant.light;
+    const StoredErrors& stored = variant.stored;
+    const double share = 100.0 * static_cast<double>(stored.differing) / static_cast<double>(stored.values);
+    rows.push_back({i == validation.chosen ? "*" : "", to_text(variant.precision()),
+                    variant.is_timed ? format("{:.2f}", variant.expose_ms) : "not timed",
+                    variant.is_timed ? format("{:.1f}", variant.gigabytes_per_second()) : "-",
+                    format("{:.2f}", variant.render_ms), format("{:.2g}", light.worst),
+                    format("{:.2g}", light.rms), format("{:.2g}", light.worst_8_bit_codes),
+                    format("{:.2g}", light.worst_16_bit_codes), format("{:.3g} %", share),
+                    format("{} of {}", stored.explained, stored.differing),
+                    format("{:.2g}", variant.bound.worst.light),
+                    format("{:.2g}{}", light.share_of_bound, variant.is_within_bound() ? "" : "  EXCEEDED")});
+  }
+  std::vector<std::string> reference(rows.front().size());
+  reference[1] = "reference";
+  reference[4] = format("{:.2f}", validation.reference_ms);
+  rows.push_back(std::move(reference));
+  return table_text(rows, "llrrrrrrrrrrl");
+}
+
+// What `auto` takes, and how right that is sure to be.
+std::string choice_text(const Validation& validation) {
+  const ErrorBound& bound = validation.variants[validation.chosen].bound;
+  return format("* what --precision auto takes: {}{}", error_text(bound.worst, validation.output),
+                bound.worst.steps <= kMaxSteps ? "" : "; nothing is sure to be right to half of one");
+}
+
+Json variants_json(const Validation& validation, const Shape& shape) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < validation.variants.size(); ++i) {
+    const ValidatedVariant& variant = validation.variants[i];
+    const LightErrors& light = variant.light;
+    const std::uint64_t pixel = light.worst_value / shape.channels;
+    json.push_back({{"precision", to_text(variant.precision())},
+                    {"is_chosen", i == validation.chosen},
+                    {"expose_ms", timed(variant, variant.expose_ms)},
+                    {"develop_ms", timed(variant, variant.develop_ms)},
+                    {"render_ms", variant.render_ms},
+                    {"payload_bytes", variant.payload_bytes},
+                    {"gigabytes_per_second", timed(variant, variant.gigabytes_per_second())},
+                    {"worst_light", light.worst},
+                    {"worst_x", pixel % shape.width},
+                    {"worst_y", pixel / shape.width},
+                    {"worst_channel", light.worst_value % shape.channels},
+                    {"rms_light", light.rms},
+                    {"worst_8_bit_codes", light.worst_8_bit_codes},
+                    {"worst_16_bit_codes", light.worst_16_bit_codes},
+                    {"values", variant.stored.values},
+                    {"values_differing", variant.stored.differing},
+                    {"values_differing_within_bound", variant.stored.explained},
+                    {"bound_light", variant.bound.worst.light},
+                    {"bound_steps", variant.bound.worst.steps},
+                    {"share_of_bound", light.share_of_bound},
+                    {"is_within_bound", variant.is_within_bound()}});
+  }
+  return json;
+}
+
+std::string source_text(const SourceCheck& check, const Shape& shape, const std::string& clip) {
+  const SourceComparison& comparison = check.comparison;
+  const auto& worst = comparison.worst();
+  std::string text =
+      std::isinf(comparison.psnr())
+          ? format("{}: held exactly", clip)
+          : format(
+                "{}: PSNR {:.2f} dB, worst error {:.4g} codes at sample {}, pixel {},{}; {} of {} values "
+                "further off than the capture permits",
+                clip, comparison.psnr(), worst.error, worst.sample, worst.pixel % shape.width,
+                worst.pixel / shape.width, comparison.values_beyond(), comparison.value_count());
+  text += format("; {:.2f} change records a pixel, {} of {}",
+                 static_cast<double>(check.record_count) / static_cast<double>(shape.pixel_count()),
+                 bytes_text(check.file_bytes), bytes_text(check.source_bytes));
+  return text;
+}
+
+Json source_json(const SourceCheck& check, const Shape& shape, const std::string& clip) {
+  const SourceComparison& comparison = check.comparison;
+  const auto& worst = comparison.worst();
+  Json json{{"clip", clip}, {"psnr_db", nullptr}};
+  if (std::isfinite(comparison.psnr())) json["psnr_db"] = comparison.psnr();
+  json.update({{"worst_codes", worst.error},
+               {"worst_sample", worst.sample},
+               {"worst_x", worst.pixel % shape.width},
+               {"worst_y", worst.pixel / shape.width},
+               {"values", comparison.value_count()},
+               {"values_beyond", comparison.values_beyond()},
+               {"records", check.record_count},
+               {"file_bytes", check.file_bytes},
+               {"source_bytes", check.source_bytes}});
+  return json;
+}
 
 constexpr std::uint32_t kDefaultRuns = 5;
 constexpr std::uint32_t kMaxRuns = 10'000;

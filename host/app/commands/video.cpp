@@ -82,6 +82,7 @@ int run_video(const Options& options) {
   tally.end(answer, session, options.verbose);
   answer.tell_source(session);
   std::ranges::copy(made.notes, std::back_inserter(answer.notes));
+  if (output.writes_stills()) note_later(answer.notes, [&](std::uint64_t k) { return output.still(k); }, frames.count);
   return tell(options, output.path(), answer);
 }
 

@@ -213,8 +213,8 @@ Still read_with_opencv(const std::filesystem::path& file) {
   cv::Mat picture = decoded_by_opencv(file);
   const std::string name = file.string();
   const PngTags tags = read_png_tags(file);
-  if (is_animated_png(file)) {
-    throw InputError(format("{} is an animated PNG, of several pictures: name it alone, as a video is", name));
+  if (holds_several_pictures(file)) {
+    throw InputError(format("{} holds several pictures, as an animated PNG does: name it alone, as a video is", name));
   }
   if (picture.empty() || is_cut_off_jpeg(file)) {
     throw InputError(format("{} cannot be read: it is damaged or no picture", name));
@@ -262,7 +262,7 @@ class StillClip final : public Clip {
                                 file.string(), count));
       }
       for (std::uint64_t number = 1; number <= count; ++number) {
-        pages_.push_back({file, number, count, starts[is_netpbm(file) ? number - 1 : 0]});
+        pages_.push_back({file, number, count, starts[starts.size() > 1 ? number - 1 : 0]});
       }
     }
     first_ = read_page(pages_.front());

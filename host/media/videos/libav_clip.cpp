@@ -51,7 +51,7 @@ class LibavClip final : public Clip {
         watched_(path),
         coded_(probe.shape),
         converter_(probe.pixels, probe.upright, yuv_coding(probe, options, name_)),
-        decoder_(std::move(opened), name_, PictureDecoder::Wanted::pictures, probe.skipped_packets, threads),
+        decoder_(std::move(opened), name_, PictureDecoder::Wanted::pictures, probe.packets, threads),
         frame_(allocated(av_frame_alloc())) {
     const PixelKind& pixels = probe.pixels;
     CaptureFormat& capture = info_.format;

@@ -66,7 +66,10 @@ class Settings {
 class LibavVideoWriter final : public VideoWriter {
  public:
   LibavVideoWriter(const std::filesystem::path& path, const VideoFormat& video, const VideoCodec& codec)
-      : name_(path.string()), video_(video), file_(path), packet_(allocated(av_packet_alloc())) {
+      : name_(path.string()),
+        video_(video),
+        file_(path, OutputFile::Lasting::recoverable),
+        packet_(allocated(av_packet_alloc())) {
     const auto padded = [&](std::uint32_t side) {
       return static_cast<int>(codec.pairs_pixels ? side + side % 2 : side);
     };

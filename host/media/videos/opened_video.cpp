@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "media/file_kinds.hpp"
 #include "media/videos/capture_rate.hpp"
 #include "media/videos/containers.hpp"
 #include "media/videos/libav.hpp"
@@ -45,7 +46,9 @@ int open_nothing(AVFormatContext*, AVIOContext**, const char*, int, AVDictionary
 const AVInputFormat& kind_of(AVIOContext& bytes, const std::filesystem::path& path) {
   const std::string title = input_title(path.string());
   const AVInputFormat* kind = nullptr;
-  const int code = av_probe_input_buffer2(&bytes, &kind, path.c_str(), nullptr, 0, 0);
+  // A name of stills would have the next ones read as well.
+  const char* const name = holds_several_pictures(path) ? "" : path.c_str();
+  const int code = av_probe_input_buffer2(&bytes, &kind, name, nullptr, 0, 0);
   const std::string taken_for =
       code < 0 ? error_text(code) : format("it is taken for {} ({})", kind->name, kind->long_name);
   const Containers* known = code < 0 ? nullptr : containers_with(kind->name);

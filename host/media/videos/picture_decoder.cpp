@@ -6,13 +6,13 @@
 
 namespace nutik::videos {
 
-PictureDecoder::PictureDecoder(OpenedVideo opened, std::string name, Wanted wanted, std::uint64_t skipped,
+PictureDecoder::PictureDecoder(OpenedVideo opened, std::string name, Wanted wanted, const Packets& packets,
                                int threads)
     : name_(std::move(name)),
       opened_(std::move(opened)),
       packet_(allocated(av_packet_alloc())),
       wanted_(wanted),
-      skipped_(skipped) {
+      packets_(packets) {
   const AVCodecParameters& parameters = *stream().codecpar;
   const AVCodec* decoder = avcodec_find_decoder(parameters.codec_id);
   if (decoder == nullptr) throw InputError(format("{}: no decoder here knows its pictures", name_));
@@ -50,17 +50,20 @@ bool PictureDecoder::next(AVFrame& picture) {
 bool PictureDecoder::skip() {
   for (bool is_picture = false; !is_picture; av_packet_unref(packet_.get())) {
     if (av_read_frame(opened_.format.get(), packet_.get()) < 0) return false;
-    const bool is_of_stream = packet_->stream_index == opened_.stream;
     if (!has_begun_) opened_.log->forget();
     if (opened_.log->said()) fail_at_hole();  // and what comes next is another picture than it is counted as
     // What an edit list leaves out is no picture, nor is an empty slot.
-    is_picture =
-        is_of_stream && skipped_ == 0 && packet_->size > 0 && (packet_->flags & AV_PKT_FLAG_DISCARD) == 0;
-    if (is_of_stream && skipped_ > 0) --skipped_;
+    is_picture = takes_packet() && packet_->size > 0 && (packet_->flags & AV_PKT_FLAG_DISCARD) == 0;
   }
   has_begun_ = true;
   ++pictures_;
   return true;
+}
+
+bool PictureDecoder::takes_packet() {
+  if (packet_->stream_index != opened_.stream) return false;
+  const std::uint64_t number = packets_read_++;
+  return number >= packets_.first && number < packets_.end;
 }
 
 void PictureDecoder::feed() {
@@ -78,9 +81,7 @@ void PictureDecoder::feed() {
       avcodec_send_packet(codec_.get(), nullptr);
       return;
     }
-    const bool is_of_stream = packet_->stream_index == opened_.stream;
-    const bool is_wanted = is_of_stream && skipped_ == 0;
-    if (is_of_stream && skipped_ > 0) --skipped_;
+    const bool is_wanted = takes_packet();
     const int code = is_wanted ? avcodec_send_packet(codec_.get(), packet_.get()) : 0;
     has_begun_ |= is_wanted && code >= 0;
     av_packet_unref(packet_.get());

@@ -17,9 +17,14 @@ class PictureDecoder {
   // be decoded.
   enum class Wanted { pictures, times };
 
-  // Throws InputError naming the file where no decoder knows its pictures. The first `skipped` packets of its stream
-  // refer to pictures that it lacks.
-  PictureDecoder(OpenedVideo opened, std::string name, Wanted wanted, std::uint64_t skipped, int threads);
+  // Of the stream's packets those that are decoded: where a file was cut, its first ones may refer to pictures that it
+  // lacks, and its last may not be whole.
+  struct Packets {
+    std::uint64_t first = 0, end = UINT64_MAX;
+  };
+
+  // Throws InputError naming the file where no decoder knows its pictures.
+  PictureDecoder(OpenedVideo opened, std::string name, Wanted wanted, const Packets& packets, int threads);
 
   [[nodiscard]] const AVStream& stream() const { return *opened_.format->streams[opened_.stream]; }
 
@@ -38,6 +43,8 @@ class PictureDecoder {
 
  private:
   void feed();
+  // Whether the packet that was read last is to be decoded; counts it.
+  bool takes_packet();
   [[noreturn]] void fail(int code) const;
   [[noreturn]] void fail_at_hole() const;
 
@@ -47,7 +54,8 @@ class PictureDecoder {
   CodecPointer codec_;
   PacketPointer packet_;
   Wanted wanted_;
-  std::uint64_t skipped_;
+  Packets packets_;
+  std::uint64_t packets_read_ = 0;
   std::uint64_t pictures_ = 0;
   bool has_begun_ = false;  // a packet was taken
   bool has_hole_ = false;   // and is decoded up to there

@@ -1,6 +1,7 @@
 #include "media/videos/probe.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -151,6 +152,24 @@ std::optional<std::string> missing_part_note(const AVFormatContext& file, const 
       *announced, found);
 }
 
+// How long a Matroska file says that it is: a header and the segment with all the rest, each after its name of four bytes
+// a length whose leading zero bits tell how many bytes it has. 0 where it does not say it, as one that was streamed.
+std::uint64_t matroska_bytes(std::span<const std::byte> bytes) {
+  std::uint64_t at = 0;
+  for (int element = 0; element < 2; ++element) {
+    at += 4;
+    if (at >= bytes.size()) return 0;
+    const auto first = std::to_integer<unsigned char>(bytes[at]);
+    const auto count = static_cast<std::uint64_t>(std::countl_zero(first)) + 1;
+    if (count > 8 || at + count > bytes.size()) return 0;
+    std::uint64_t length = first & (0xFFu >> count);
+    for (std::uint64_t i = 1; i < count; ++i) length = length << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
+    if (length == (std::uint64_t{1} << (7 * count)) - 1) return 0;
+    at += count + length;
+  }
+  return at;
+}
+
 // A video without an index is read as far as there are whole pictures: what it lacks is told by its last bytes.
 std::optional<std::string> cut_picture_note(const AVFormatContext& file, std::span<const std::byte> bytes,
                                             std::int64_t pictures_end, std::size_t pictures) {
@@ -162,11 +181,27 @@ std::optional<std::string> cut_picture_note(const AVFormatContext& file, std::sp
   }
   if (kind == "gif" && !bytes.empty() && bytes.back() != std::byte{0x3B})
     return "the file was cut off: a GIF's last byte is missing, and pictures may be";
+  if (kind == "matroska,webm") {
+    const std::uint64_t announced = matroska_bytes(bytes);
+    if (announced > bytes.size())
+      return format("the file was cut off: {} of its {} bytes are there", size, announced);
+  }
   // Of discs, with a clock before each, and with a checksum behind each.
   const bool is_whole = size % 188 == 0 || size % 192 == 0 || size % 204 == 0;
   if (kind == "mpegts" && !is_whole)
     return "the file was cut off within one of its packets, and pictures may be missing";
   return {};
+}
+
+// Of a packet that was the last to be read: whether the file has all of it. Broadcasts and discs say it in their own way.
+bool is_whole(const AVFormatContext& file, const AVPacket& packet, std::int64_t file_bytes) {
+  if ((file.iformat->flags & AVFMT_TS_DISCONT) != 0) return true;
+  const std::string_view kind = file.iformat->name;
+  // Each of a tape's pictures has as many bytes, and what is missing of the last would be the one before it.
+  if (kind == "dv") return packet.pos + packet.size <= file_bytes;
+  // An index ends it.
+  if (kind == "nut") return packet.pos + packet.size < file_bytes;
+  return (packet.flags & AV_PKT_FLAG_CORRUPT) == 0;
 }
 
 // How many pictures the file holds. A size or format that is wrong would cut them at the wrong places.
@@ -186,9 +221,10 @@ std::uint64_t count_raw_pictures(const std::filesystem::path& path, const RawVid
 
 // When pictures are shown that a decoder hands out: those that it holds at the end, and for which no packet comes that
 // tells, as long after each other as they are said to last.
-std::vector<std::int64_t> decoded_times(const std::filesystem::path& path, std::uint64_t skipped_packets) {
+std::vector<std::int64_t> decoded_times(const std::filesystem::path& path,
+                                        const PictureDecoder::Packets& packets) {
   PictureDecoder decoder(open_video(path, std::nullopt), input_title(path.string()),
-                         PictureDecoder::Wanted::times, skipped_packets, 1);
+                         PictureDecoder::Wanted::times, packets, 1);
   const FramePointer picture(allocated(av_frame_alloc()));
   std::vector<std::int64_t> times;
   while (decoder.next(*picture)) {
@@ -207,11 +243,11 @@ std::vector<std::int64_t> decoded_times(const std::filesystem::path& path, std::
 std::vector<std::int64_t> picture_times(const std::filesystem::path& path, const OpenedVideo& opened,
                                         const std::vector<PacketTimes>& packets, Probe& result) {
   const bool can_be_cut = (opened.format->iformat->flags & AVFMT_TS_DISCONT) != 0;
-  if (can_be_cut) result.skipped_packets = packets_before_key(packets);
-  if (result.skipped_packets == 0 && !must_be_decoded(packets)) {
+  if (can_be_cut) result.packets.first = packets_before_key(packets);
+  if (result.packets.first == 0 && !must_be_decoded(packets)) {
     return shown_times(packets, opened.format->streams[opened.stream]->codecpar->video_delay);
   }
-  std::vector<std::int64_t> times = decoded_times(path, result.skipped_packets);
+  std::vector<std::int64_t> times = decoded_times(path, result.packets);
   result.sample_count = times.size();
   if (times.size() < packets.size()) {
     result.notes.emplace_back(
@@ -310,11 +346,18 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
 
   std::vector<PacketTimes> packets;
   std::int64_t last_end = INT64_MIN, last_byte = 0;
+  std::uint64_t packets_read = 0;
+  bool is_last_whole = true;
+  const auto file_bytes = static_cast<std::int64_t>(std::filesystem::file_size(path));
   const PacketPointer packet(allocated(av_packet_alloc()));
   int code = 0;
   while ((code = av_read_frame(opened.format.get(), packet.get())) >= 0) {
     const bool counts = packet->stream_index == opened.stream && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
     if (packets.empty()) opened.log->forget();  // of what lies before the first picture
+    if (packet->stream_index == opened.stream) {
+      ++packets_read;
+      is_last_whole = is_whole(*opened.format, *packet, file_bytes);
+    }
     if (counts) {
       packets.push_back({packet->pts, packet->dts, packet->duration, (packet->flags & AV_PKT_FLAG_KEY) != 0});
       last_byte = packet->pos + packet->size;
@@ -328,6 +371,14 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   if (code != AVERROR_EOF) {
     result.notes.push_back(warning_of(
         format("the file is damaged or was cut off behind picture {}: {}", packets.size(), error_text(code))));
+  }
+  if (!is_last_whole && packets.size() == 1)
+    throw InputError(format("{} was cut off within its first picture", input_title(path.string())));
+  if (!is_last_whole && !packets.empty()) {
+    result.packets.end = packets_read - 1;
+    packets.pop_back();
+    result.notes.push_back(warning_of(format(
+        "the file was cut off within picture {}, which is left out", packets.size())));
   }
   result.sample_count = packets.size();
   auto lost = missing_part_note(*opened.format, stream, last_end, packets.size());

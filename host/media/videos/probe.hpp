@@ -11,6 +11,7 @@
 #include "capture/picture.hpp"
 #include "capture/rational.hpp"
 #include "media/clip.hpp"
+#include "media/videos/picture_decoder.hpp"
 #include "media/videos/pixels.hpp"
 
 namespace nutik::videos {
@@ -31,7 +32,7 @@ struct Probe {
   std::string transfer_name;  // that the file has for its function, known here or not; empty: it has none
   ClipTiming timing;
   std::uint64_t sample_count = 0;
-  std::uint64_t skipped_packets = 0;  // of the stream's first ones: PictureDecoder
+  PictureDecoder::Packets packets;
   std::optional<Transfer> transfer;   // where the file names one that is known here
   std::vector<Note> notes;            // what a person should know, whole sentences
 };

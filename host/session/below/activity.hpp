@@ -3,4 +3,3 @@
 
 #include "session/making/activity_request.hpp"
 #include "sheet/activity_chart.hpp"
-#include "sheet/activity_map.hpp"

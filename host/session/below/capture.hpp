@@ -1,6 +1,7 @@
 // Captures: their format, times and blocks, and the files that hold them.
 #pragma once
 
+#include "capture/noise_file.hpp"
 #include "capture/picture.hpp"
 #include "capture/timeline.hpp"
 #include "imev/capture_source.hpp"

@@ -17,7 +17,7 @@ namespace nutik {
 struct EncodeRequest {
   std::filesystem::path output;  // .tik; gets its name when it is complete
   tik::Codec codec{tik::CodecId::rice, 0};
-  OutputFile::Lasting lasting = OutputFile::Lasting::yes;
+  OutputFile::Lasting lasting = OutputFile::Lasting::recoverable;
   friend bool operator==(const EncodeRequest&, const EncodeRequest&) = default;
 };
 

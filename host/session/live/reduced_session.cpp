@@ -1,11 +1,68 @@
 #include "session/live/reduced_session.hpp"
 
+#include <optional>
 #include <utility>
 
+#include "imev/capture_source.hpp"
+#include "imev/each_block.hpp"
+#include "imev/sample_cursor.hpp"
+#include "media/clip.hpp"
 #include "media/clip_part.hpp"
-#include "session/clips/capture_clip.hpp"
 
 namespace nutik {
+namespace {
+
+// A capture as a clip again: its samples, one after another, with their times.
+class CaptureClip final : public Clip {
+ public:
+  explicit CaptureClip(CaptureSource& capture) : capture_(capture), blocks_(capture) {
+    info_.format = capture.format();
+    info_.format.noise = {};
+    const Timeline& timeline = capture.timeline();
+    if (timeline.is_constant()) {
+      info_.timing.rate = timeline.rate();
+    } else {
+      const auto exposures = timeline.table();
+      info_.timing.exposures.assign(exposures.begin(), exposures.end());
+    }
+    info_.timing.rate_from = "the capture";
+    info_.sample_count = timeline.sample_count();
+    info_.decoder_bytes = largest_block(capture);
+  }
+
+  [[nodiscard]] const ClipInfo& info() const override { return info_; }
+
+  bool read(std::span<std::byte> raster) override {
+    if (next_ == end_) {
+      if (next_block_ == capture_.block_count()) return false;
+      const SampleRange samples = capture_.block_extent(next_block_).range();
+      cursor_.reset();
+      block_.emplace(blocks_.at(next_block_++));
+      cursor_.emplace(capture_.format().shape, *block_);
+      first_ = next_ = samples.first;
+      end_ = samples.last;
+    }
+    cursor_->go_to(static_cast<std::uint32_t>(next_++ - first_));
+    cursor_->read(raster);
+    return true;
+  }
+
+ private:
+  CaptureSource& capture_;
+  ClipInfo info_;
+  BlockCursor blocks_;
+  std::optional<BlockView> block_;
+  std::optional<SampleCursor> cursor_;
+  std::uint64_t next_block_ = 0, first_ = 0, next_ = 0, end_ = 0;
+};
+
+// The capture outlives the clip. Where exposures follow each other evenly the clip tells their rate; how long each
+// lasts is the capture's shutter angle, which no clip tells.
+std::unique_ptr<Clip> open_capture_clip(CaptureSource& capture) {
+  return std::make_unique<CaptureClip>(capture);
+}
+
+}  // namespace
 
 std::shared_ptr<Session> reduced_session(Session& whole, std::uint32_t divisor,
                                          const ReportedProgress& progress, std::stop_token stop) {

@@ -8,8 +8,8 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "imev/activity.hpp"
 #include "imev/each_block.hpp"
-#include "imev/redrawn_samples.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/text/size_text.hpp"
 #include "system/input_bytes.hpp"

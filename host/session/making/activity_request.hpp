@@ -9,7 +9,6 @@
 
 #include "capture/timeline.hpp"
 #include "imev/activity.hpp"
-#include "imev/activity_moments.hpp"
 #include "imev/capture_source.hpp"
 #include "session/reported_progress.hpp"
 #include "session/session.hpp"

@@ -11,7 +11,6 @@
 #include "scene/telling_places.hpp"
 #include "session/making/mask_making.hpp"
 #include "session/making/plate_request.hpp"
-#include "session/making/study_slit.hpp"
 #include "session/making/study_trail.hpp"
 #include "session/text/time_text.hpp"
 

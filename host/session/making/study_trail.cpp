@@ -5,10 +5,35 @@
 #include <set>
 #include <utility>
 
-#include "session/making/gain_pieces.hpp"
+#include "capture/format.hpp"
+#include "exposure/function_text.hpp"
+#include "exposure/gain_function.hpp"
 
 namespace nutik {
 namespace {
+
+// A gain function that is put together from pieces.
+
+// Gains of pieces of a function, each of its own interval. In time order.
+class GainPieces {
+ public:
+  void add(Interval interval, double begin_gain, double end_gain) {
+    if (!points_.empty() && points_.back().time_ns == interval.begin_ns) {
+      points_.pop_back();  // it goes on from the piece before it
+      if (points_.back().gain == begin_gain) points_.pop_back();
+    } else {
+      points_.push_back({interval.begin_ns, 0.0});
+    }
+    if (points_.empty() || points_.back().gain != begin_gain)
+      points_.push_back({interval.begin_ns, begin_gain});
+    points_.push_back({interval.end_ns, end_gain});
+    points_.push_back({interval.end_ns, 0.0});
+  }
+  [[nodiscard]] GainFunction function() const { return with_steps(GainFunction(points_)); }
+
+ private:
+  std::vector<ControlPoint> points_;
+};
 
 // Of a subject that covers a place of its way for a share of the time, the trail shows so much there.
 constexpr double kTrailOpacity = 0.5;
@@ -135,6 +160,35 @@ class StudyFunctions {
 };
 
 }  // namespace
+
+Study slit_study(CaptureSource& capture, const std::string& name, std::uint32_t wanted, SlitFrom from) {
+  const std::uint64_t samples = capture.timeline().sample_count();
+  const Shape& shape = capture.format().shape;
+  const bool are_columns = from == SlitFrom::left || from == SlitFrom::right;
+  const bool are_reversed = from == SlitFrom::right || from == SlitFrom::bottom;
+  const auto strips = static_cast<std::uint32_t>(
+      std::min<std::uint64_t>({wanted, samples, are_columns ? shape.width : shape.height}));
+  const char* const strip = are_columns ? "column" : "row";
+  if (strips < 2) throw InputError(format("{}: a single {} shows nothing of the time", name, strip));
+  Study study;
+  for (std::uint32_t i = 0; i < strips; ++i) {
+    const std::uint64_t moment = are_reversed ? strips - 1 - i : i;
+    const std::uint64_t sample = moment * (samples - 1) / (strips - 1);
+    GainPieces pieces;
+    pieces.add({capture.timeline().start_ns(sample), capture.timeline().end_ns(sample)}, 1, 1);
+    study.moments.push_back(sample);
+    study.functions.emplace(static_cast<std::uint8_t>(i), pieces.function());
+  }
+  const select::Grid grid{are_columns ? strips : 1, are_columns ? 1 : strips};
+  study.mask.steps.push_back({{"slits"}, 0, grid, std::nullopt, {}});
+  if (strips < wanted) {
+    study.notes.push_back(format("{} {}s, not {}: there are no more {}", strips, strip, wanted,
+                                 strips == samples ? "pictures"
+                                 : are_columns     ? "pixels in a row"
+                                                   : "pixels in a column"));
+  }
+  return study;
+}
 
 void add_functions(Study& study, const StudyRequest& request, const Timeline& timeline,
                    const std::vector<SubjectTrack>& tracks) {

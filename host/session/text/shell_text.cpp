@@ -11,13 +11,18 @@ std::string shell_word(std::string_view word) {
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,=+@%";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos) return std::string(word);
   if (printable(word) != word) {
-    // Seen before it is run: what a terminal would obey, or not show, as $'…' of bash, zsh and ksh has it.
-    std::string escaped = "$'";
-    for (const char c : word) {
-      const bool is_plain = c >= ' ' && c <= '~' && c != '\'' && c != '\\';
+    // Seen before it is run: what a terminal would obey, or not show, stands there in numbers. POSIX has no quotes for
+    // that; line ends at the end, which $() drops, are in quotes.
+    const std::string_view text = word.substr(0, word.find_last_not_of('\n') + 1);
+    std::string escaped;
+    for (const char c : text) {
+      const bool is_plain = c >= ' ' && c <= '~' &&
+                            std::string_view("'\"\\%!$`").find(c) == std::string_view::npos &&
+                            (c != '-' || !escaped.empty());
       escaped += is_plain ? std::string(1, c) : format("\\{:03o}", static_cast<unsigned char>(c));
     }
-    return escaped + "'";
+    const std::string line_ends(word.substr(text.size()));
+    return "\"$(printf '" + escaped + "')\"" + (line_ends.empty() ? "" : "'" + line_ends + "'");
   }
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);

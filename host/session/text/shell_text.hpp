@@ -7,7 +7,7 @@
 
 namespace nutik {
 
-// The word as it is where a shell takes it literally, else in single quotes.
+// The word as it is where a shell takes it literally, else in single quotes; what cannot be seen, in octal numbers.
 [[nodiscard]] std::string shell_word(std::string_view word);
 
 // A file's name such that no command takes it for an option: `./-clip.mp4`. `-` stays what it is.

@@ -181,7 +181,7 @@ Picture trace_picture(const Trace& trace, const PlannedFunction& function, const
     return graph;
   };
 
-  const std::span<const std::vector<Point>> light(lines.light.data(), trace.channels);
+  const std::span<const std::vector<plot::Point>> light(lines.light.data(), trace.channels);
   plot::Graph light_graph =
       open_graph(extent_of(light), trace.pixel_count == 1 ? "light of the pixel" : "mean light of the region",
                  "light (white = 1)", false);
@@ -199,7 +199,7 @@ Picture trace_picture(const Trace& trace, const PlannedFunction& function, const
       format("D {}, ∫g {}, still gain {:.6g}", integral_text(static_cast<double>(summary.support_ns)),
              integral_text(std::scalbn(summary.integral_ns, summary.exponent)), summary.still_gain()));
 
-  const std::span<const std::vector<Point>> product(lines.product.data(), trace.channels);
+  const std::span<const std::vector<plot::Point>> product(lines.product.data(), trace.channels);
   plot::Graph product_graph = open_graph(
       extent_of(product), trace.channels == 1 ? "light × gain" : "light × gain, shaded: mean of channels",
       "light × gain", true);

@@ -2,17 +2,125 @@
 
 #include <QPaintEvent>
 #include <QPainter>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <utility>
+#include <vector>
 
 #include "studio/live/changed_pixels.hpp"
 
 namespace nutik::studio {
 namespace {
 
+constexpr int kNone = -1;
+
+// Whose outline lies between two pixels.
+int tag_between(std::uint8_t a, std::uint8_t b) { return a == b ? kNone : std::max(a, b); }
+
+// A line that grows while neighbours go on with the same tag.
+struct Run {
+  int tag = kNone, from = 0;
+
+  // Where another one begins, or none: the line up to there.
+  template <typename Line>
+  void go_on(Outlines& outlines, int next, int at, const Line& line) {
+    if (next == tag) return;
+    if (tag != kNone) outlines[static_cast<std::uint8_t>(tag)] += line(from, at);
+    tag = next;
+    from = at;
+  }
+};
+
+constexpr double kInSight = 40;  // widget pixels of the picture that stay visible
+
 const QColor kSurround(36, 36, 36);  // neutral, so that it does not tint what is seen
 const QColor kDarkened(0, 0, 0, 170);
 
 }  // namespace
+
+// Row by row, as the mask lies in memory: this is done anew at each move of a brush.
+Outlines outlines_of(const Mask& mask) {
+  Outlines outlines;
+  const int width = static_cast<int>(mask.width), height = static_cast<int>(mask.height);
+  const auto row_at = [&](int y) { return mask.tags.data() + static_cast<std::size_t>(y) * mask.width; };
+  const auto are_same = [&](const std::uint8_t* a, const std::uint8_t* b) {
+    return std::memcmp(a, b, mask.width) == 0;
+  };
+  std::vector<Run> downwards(mask.width);  // left of each pixel
+  for (int y = 0; y <= height; ++y) {
+    const std::uint8_t *row = y < height ? row_at(y) : nullptr, *above = y > 0 ? row_at(y - 1) : nullptr;
+    if (row != nullptr && above != nullptr && are_same(above, row)) continue;
+    for (int x = 1; x < width; ++x)
+      downwards[static_cast<std::size_t>(x)].go_on(
+          outlines, row == nullptr ? kNone : tag_between(row[x - 1], row[x]), y,
+          [x](int from, int to) { return QLine(x, from, x, to); });
+    if (row == nullptr || above == nullptr) continue;
+    Run along;
+    const auto line = [y](int from, int to) { return QLine(from, y, to, y); };
+    for (int x = 0; x < width; ++x) along.go_on(outlines, tag_between(above[x], row[x]), x, line);
+    along.go_on(outlines, kNone, width, line);
+  }
+  return outlines;
+}
+
+void View::set_sizes(QSize picture, QSize widget) {
+  const bool is_new = picture != picture_;
+  picture_ = picture;
+  widget_ = widget;
+  if (is_new || is_fitted_) {
+    fit();
+  } else {
+    keep_in_sight();
+  }
+}
+
+void View::fit() {
+  is_fitted_ = true;
+  if (picture_.isEmpty() || widget_.isEmpty()) return;
+  const double wide = static_cast<double>(widget_.width()) / picture_.width();
+  const double high = static_cast<double>(widget_.height()) / picture_.height();
+  zoom_ = std::clamp(std::min(wide, high), kMinZoom, kMaxZoom);
+  origin_ =
+      QPointF(widget_.width() - zoom_ * picture_.width(), widget_.height() - zoom_ * picture_.height()) / 2;
+}
+
+void View::set_zoom(double zoom, QPointF at) {
+  const QPointF fixed = to_picture(at);
+  zoom_ = std::clamp(zoom, kMinZoom, kMaxZoom);
+  origin_ = at - fixed * zoom_;
+  is_fitted_ = false;
+  keep_in_sight();
+}
+
+void View::pan(QPointF by) {
+  origin_ += by;
+  is_fitted_ = false;
+  keep_in_sight();
+}
+
+void View::keep_in_sight() {
+  const double width = zoom_ * picture_.width(), height = zoom_ * picture_.height();
+  const double x_margin = std::min(kInSight, width), y_margin = std::min(kInSight, height);
+  origin_.setX(
+      std::clamp(origin_.x(), x_margin - width, std::max(widget_.width() - x_margin, x_margin - width)));
+  origin_.setY(
+      std::clamp(origin_.y(), y_margin - height, std::max(widget_.height() - y_margin, y_margin - height)));
+}
+
+QPointF View::to_picture(QPointF widget) const { return (widget - origin_) / zoom_; }
+
+QPointF View::to_widget(QPointF picture) const { return picture * zoom_ + origin_; }
+
+QRectF View::place() const { return {origin_, QSizeF(picture_) * zoom_}; }
+
+QRect View::visible() const {
+  const QPointF first = to_picture({0, 0}),
+                last = to_picture({1.0 * widget_.width(), 1.0 * widget_.height()});
+  const QPoint from(static_cast<int>(std::floor(first.x())), static_cast<int>(std::floor(first.y())));
+  const QPoint to(static_cast<int>(std::ceil(last.x())) - 1, static_cast<int>(std::ceil(last.y())) - 1);
+  return QRect(from, to) & QRect({0, 0}, picture_);
+}
 
 Canvas::Canvas(Document& document, QWidget* parent) : QWidget(parent), document_(document) {
   setMouseTracking(true);

@@ -7,16 +7,64 @@
 #pragma once
 
 #include <QImage>
+#include <QLine>
+#include <QPointF>
+#include <QRect>
+#include <QRectF>
+#include <QSize>
+#include <QVector>
 #include <QWidget>
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 
-#include "studio/canvas/outlines.hpp"
-#include "studio/canvas/view.hpp"
+#include "session/below/functions.hpp"
 #include "studio/document/document.hpp"
 #include "studio/live/live_view.hpp"
 
 namespace nutik::studio {
+
+// The borders between a mask's regions.
+
+// By tag: straight lines between pixels of the tag and pixels of smaller tags, as long as they go; in the picture's
+// pixels. Each border is drawn once, by the larger tag, so that the background needs no colour.
+using Outlines = std::map<std::uint8_t, QVector<QLine>>;
+[[nodiscard]] Outlines outlines_of(const Mask& mask);
+
+// Which part of a picture a widget shows, and how large.
+//
+//   units:   picture: pixels from its top left; widget: device-independent pixels from the widget's
+//   always:  some of the picture is visible
+
+class View {
+ public:
+  static constexpr double kMinZoom = 1.0 / 32, kMaxZoom = 64;
+
+  void set_sizes(QSize picture, QSize widget);  // fits anew where it did
+  [[nodiscard]] QSize picture() const { return picture_; }
+
+  [[nodiscard]] double zoom() const { return zoom_; }
+  [[nodiscard]] bool is_fitted() const { return is_fitted_; }
+
+  void fit();
+  // The picture's point under `at` stays there.
+  void set_zoom(double zoom, QPointF at);
+  void pan(QPointF by);
+
+  [[nodiscard]] QPointF to_picture(QPointF widget) const;
+  [[nodiscard]] QPointF to_widget(QPointF picture) const;
+  [[nodiscard]] QRectF place() const;   // of the whole picture, on the widget
+  [[nodiscard]] QRect visible() const;  // pixels of the picture
+
+ private:
+  void keep_in_sight();
+
+  QSize picture_, widget_;
+  double zoom_ = 1;
+  QPointF origin_;  // of the picture, on the widget
+  bool is_fitted_ = true;
+};
 
 // What the left button does, in the picture's coordinates.
 class CanvasTool {

@@ -7,6 +7,15 @@
 namespace nutik::studio {
 namespace {
 
+bool is_gain_step(const Points& points, std::size_t first) {
+  return points[first + 1].time_ns - points[first].time_ns == 1 &&
+         points[first + 1].gain != points[first].gain;
+}
+
+constexpr double kRoom = 0.12;       // of what is shown, above and below
+constexpr double kSmallest = 1e-12;  // gains that can be told apart in pictures are far larger
+constexpr double kLargest = 1e15;
+
 constexpr double kBoxRoom = 10;  // between points and the box round them
 
 // Points [first, second) whose times lie in a range.
@@ -33,6 +42,66 @@ QRectF square_at(double x, double y) {
 QRectF seizable(const QRectF& area, double more) { return area.adjusted(-more, -more, more, more); }
 
 }  // namespace
+
+std::vector<GainBoxcar> boxcars_of(const Points& points) {
+  std::vector<GainBoxcar> boxcars;
+  for (std::size_t i = 0; i + 2 < points.size(); ++i) {
+    const ControlPoint &begin = points[i], &end = points[i + 1];
+    if (begin.gain != end.gain || begin.gain == 0.0 || !is_gain_step(points, i + 1)) continue;
+    const bool has_first_step = i > 0 && is_gain_step(points, i - 1);
+    if (!has_first_step && (i > 0 || begin.time_ns > 0)) continue;
+    boxcars.push_back({i, i + 1, begin.time_ns, end.time_ns, begin.gain, has_first_step});
+  }
+  return boxcars;
+}
+
+Points with_boxcar_moved(const Points& points, const GainBoxcar& boxcar, BoxcarPart part,
+                         std::int64_t by_ns) {
+  Points result = points;
+  std::size_t first = boxcar.first, last = boxcar.last;
+  if (!boxcar.has_first_step && part != BoxcarPart::end) {
+    result.insert(result.begin(), {boxcar.begin_ns - 1, 0.0});
+    ++first;
+    ++last;
+  }
+  if (part == BoxcarPart::begin) return moved(result, {first}, {by_ns, 0.0});
+  if (part == BoxcarPart::end) return moved(result, {last}, {by_ns, 0.0});
+  return moved(result, {first, last}, {by_ns, 0.0});
+}
+
+GainRange range_with_room(std::span<const ControlPoint> points) {
+  double low = 0.0, high = 0.0;
+  for (const ControlPoint& point : points) {
+    low = std::min(low, point.gain);
+    high = std::max(high, point.gain);
+  }
+  // A gain of 1, which plain exposures have, is shown unless all gains are far from it.
+  constexpr double kNear = 0.2;
+  if (high > kNear || low == high) high = std::max(high, 1.0);
+  low = std::max(low, -kLargest);
+  high = std::min(high, kLargest);
+  const double length = std::max(high - low, kSmallest);
+  return {low - kRoom * length, high + kRoom * length};
+}
+
+void GainAxis::follow(std::span<const ControlPoint> points) {
+  if (is_automatic_) range_ = range_with_room(points);
+}
+
+void GainAxis::zoom(double factor, double fixed) {
+  const GainRange next{fixed + (range_.low - fixed) * factor, fixed + (range_.high - fixed) * factor};
+  const double length = next.high - next.low;
+  // So near to a large gain that doubles no longer tell the ends apart, nothing could be drawn.
+  const double finest = std::max(kSmallest, 1e-9 * std::max(std::fabs(next.low), std::fabs(next.high)));
+  if (!(length > finest) || length > kLargest) return;
+  range_ = next;
+  is_automatic_ = false;
+}
+
+void GainAxis::make_automatic(std::span<const ControlPoint> points) {
+  is_automatic_ = true;
+  follow(points);
+}
 
 std::optional<std::size_t> point_under(const PlotFrame& frame, const Points& points,
                                        const PointIndices& selected, QPointF at) {

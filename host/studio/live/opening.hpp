@@ -3,6 +3,8 @@
 
 #include <QImage>
 #include <QStringList>
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 
@@ -11,6 +13,28 @@
 #include "studio/live/jobs.hpp"
 
 namespace nutik::studio {
+
+// Whether a temporary capture will fit, looked at while it is written: what its first samples took says what the rest
+// will take.
+//
+//   in:   progress in samples; the bytes that are left where it lies
+//   out:  OutputError once the rest is sure not to fit, while there still is room
+//   kept: a quarter more than is left is let pass, since what follows may pack better
+
+class RoomWatch {
+ public:
+  using Left = std::function<std::uint64_t()>;
+
+  explicit RoomWatch(std::filesystem::path folder);
+  RoomWatch(std::filesystem::path folder, Left left);
+
+  void look(std::uint64_t done, std::uint64_t total) const;
+
+ private:
+  std::filesystem::path folder_;
+  Left left_;
+  std::uint64_t at_first_;
+};
 
 struct Opened {
   std::shared_ptr<Session> session;

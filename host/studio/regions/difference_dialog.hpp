@@ -6,9 +6,16 @@
 #pragma once
 
 #include <QDialog>
+#include <QString>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
 
 #include "session/below/capture.hpp"
-#include "studio/regions/selections.hpp"
+#include "session/session.hpp"
+#include "studio/document/document.hpp"
+#include "studio/live/jobs.hpp"
 
 class QCheckBox;
 class QLabel;
@@ -16,6 +23,24 @@ class QLineEdit;
 class QSpinBox;
 
 namespace nutik::studio {
+
+// Pixels that are found in the capture, for the selected region: as jobs, since they read it.
+
+// Between the capture's pictures at two times.
+struct Difference {
+  std::int64_t from_ns = 0, to_ns = 0;
+  std::optional<std::uint32_t> by_codes;  // only larger ones count; none: told from the pictures
+  bool is_largest_part = false;           // without the others
+};
+
+// What was found, and how many pixels: nothing is painted where there are none.
+using ToldSelection = std::function<void(const QString&)>;
+
+// Each is one step: paints the region that is selected at the start, which is not the background.
+[[nodiscard]] Jobs::Work selecting_motion(Document& document, std::shared_ptr<Session> session,
+                                          ToldSelection told);
+[[nodiscard]] Jobs::Work selecting_difference(Document& document, std::shared_ptr<Session> session,
+                                              const Difference& difference, ToldSelection told);
 
 class DifferenceDialog : public QDialog {
   Q_OBJECT

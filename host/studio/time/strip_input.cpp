@@ -15,7 +15,7 @@ namespace nutik::studio {
 namespace {
 
 constexpr double kReach = 6;
-constexpr double kFine = 0.1;
+constexpr double kFineSpeed = 0.1;
 
 bool is_key_of_strip(const QKeyEvent& event) {
   constexpr std::array kKeys{Qt::Key_Left, Qt::Key_Right, Qt::Key_Up,    Qt::Key_Down, Qt::Key_Home,
@@ -90,7 +90,7 @@ void TimeStrip::mousePressEvent(QMouseEvent* event) {
 }
 
 void TimeStrip::drag_to(QPointF at, Qt::KeyboardModifiers modifiers) {
-  const double speed = modifiers & Qt::ShiftModifier ? kFine : 1.0;
+  const double speed = modifiers & Qt::ShiftModifier ? kFineSpeed : 1.0;
   press_->hand_ns += (at.x() - press_->last.x()) * axis_.ns_per_pixel(width()) * speed;
   press_->last = at;
   const std::int64_t by_ns = std::llround(press_->hand_ns);

@@ -17,7 +17,6 @@
 #include "studio/regions/difference_dialog.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "studio/regions/region_list.hpp"
-#include "studio/regions/selections.hpp"
 #include "studio/time/time_fields.hpp"
 #include "studio/time/time_strip.hpp"
 #include "studio/window/picture_export.hpp"

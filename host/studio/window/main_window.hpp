@@ -20,7 +20,6 @@
 #include "studio/time/time_axis.hpp"
 #include "studio/window/autosave.hpp"
 #include "studio/window/command_line.hpp"
-#include "studio/window/notice.hpp"
 #include "studio/window/status_line.hpp"
 
 class QActionGroup;

@@ -1,9 +1,11 @@
 // What stands under the window: the pixel under the pointer, how the picture was computed, what is at work.
 #pragma once
 
+#include <QFrame>
 #include <QImage>
 #include <QPoint>
 #include <QStatusBar>
+#include <QString>
 #include <optional>
 
 #include "studio/live/jobs.hpp"
@@ -14,6 +16,23 @@ class QProgressBar;
 class QToolButton;
 
 namespace nutik::studio {
+
+// A line above the picture that says what went wrong, or what to know, until it is closed. It stops nobody.
+
+class Notice : public QFrame {
+  Q_OBJECT
+
+ public:
+  enum class Kind { error, note };
+
+  explicit Notice(QWidget* parent = nullptr);
+  void say(Kind kind, const QString& text);  // in place of what it said
+  void clear();
+  [[nodiscard]] QString text() const;
+
+ private:
+  QLabel* text_;
+};
 
 class StatusLine : public QStatusBar {
   Q_OBJECT
