@@ -24,7 +24,7 @@ class Facts : public test::ProgramTest {
   };
 
   Told told(const fs::path& clip, const std::vector<std::string>& options) const {
-    std::vector<std::string> words{"encode", "--to", "3f", clip.string(), "part.tik"};
+    std::vector<std::string> words{"encode", "--overwrite", "--to", "3f", clip.string(), "part.tik"};
     words.insert(words.end(), options.begin(), options.end());
     const auto encoded = run(words);
     EXPECT_EQ(encoded.status, 0) << clip << encoded.err;

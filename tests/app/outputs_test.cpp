@@ -52,7 +52,7 @@ TEST_F(Outputs, GoToStandardOutput) {
     return test::run_shell("( " + command + " )", scratch_.folder());
   };
   const std::string expose =
-      " expose -f 100 --start 1f --exposure 2f frames --no-recipe --renderer reference";
+      " expose --overwrite -f 100 --start 1f --exposure 2f frames --no-recipe --renderer reference";
   const std::vector<std::pair<std::string, std::string>> kinds{{"-", "a.png"},     {"png:-", "a.png"},
                                                                {"TIF:-", "a.tif"}, {"jpg:-", "a.jpg"},
                                                                {"exr:-", "a.exr"}, {"pfm:-", "a.pfm"}};

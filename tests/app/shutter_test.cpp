@@ -16,7 +16,9 @@ using test::Scratch;
 class ShutterCommand : public testing::Test {
  protected:
   std::string out(const std::vector<std::string>& words) const {
-    const test::ProgramResult result = test::run_program(words, scratch_.folder());
+    const bool writes = words.front() != "shutter";
+    const test::ProgramResult result =
+        test::run_program(writes ? test::over(words) : words, scratch_.folder());
     EXPECT_EQ(result.status, 0) << result.err;
     return result.out;
   }
