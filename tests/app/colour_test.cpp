@@ -281,9 +281,9 @@ TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
   expect_refused({"retime", "clip.tik", "--in-place"}, 2, "what is to be corrected?");
   expect_refused({"retime", "clip.tik", "-f", "9"}, 2, "say where to write: nutik-cl retime … clip.tik NEW.tik");
   expect_refused({"retime", "clip.tik", "-f", "9", "new.tik", "--in-place"}, 2, "two outputs: new.tik and the capture itself");
-  expect_refused({"retime", "clip.mkv", "-f", "9"}, 3,
+  expect_refused({"retime", "clip.mkv", "-f", "9", "--in-place"}, 3,
                  "clip.mkv is no .tik capture, and only those are corrected: state a clip's rate");
-  expect_refused({"retime", "clip.mkv"}, 3, "(--fps, --shutter-angle, --transfer)");
+  expect_refused({"retime", "clip.mkv", "--in-place"}, 3, "(--fps, --shutter-angle, --transfer)");
   expect_refused({"info", "clip.mkv"}, 3,
                  "clip.mkv is no .tik capture; a clip becomes one when it is encoded");
 }

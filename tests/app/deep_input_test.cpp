@@ -139,7 +139,7 @@ TEST_F(DeepInput, SaysWhatItTookForWhite) {
               "white is taken to be 65535");
   expect_said(run({"-f", "10", "--white", "4095", "--overwrite", "stack.tif", "x.tik"}), "2 samples");
   expect_said(run({"info", "x.tik"}), "white code 4095, transfer linear");
-  expect_refused({"-f", "10", "--white", "1000", "stack.tif", "x.tik"}, 3,
+  expect_refused({"-f", "10", "--white", "1000", "stack.tif", "y.tik"}, 3,
                  {"sample 0 has a code of 4095, above the white code 1000"});
 }
 

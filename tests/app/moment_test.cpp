@@ -315,7 +315,7 @@ TEST_F(Moment, SweepExposesEachShift) {
   const auto pictures = json_of({"sweep", "--start", "9f", "--exposure", "1f", "--shift", "-5f..5f/5f",
                                  "--each", "p%d.png", "--no-recipe", "clip.tik"});
   EXPECT_EQ(pictures["pictures"][0]["shift_samples"], -5);
-  ASSERT_EQ(run({"--start", "4f", "--exposure", "1f", "--no-recipe", "clip.tik", "alone.png"}).status, 0);
+  ASSERT_EQ(run({"--start", "4f", "--exposure", "1f", "--no-recipe", "--overwrite", "clip.tik", "alone.png"}).status, 0);
   EXPECT_EQ(file("p0.png"), file("alone.png"));
 }
 
