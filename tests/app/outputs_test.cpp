@@ -52,6 +52,10 @@ TEST_F(Outputs, ReplaceWhatIsThereOnlyIfAsked) {
   ASSERT_EQ(run({"-f", "100", "--block-samples", "2", "frames", "clip.tik"}).status, 0);
   const std::string capture = test::read_file(scratch_ / "clip.tik");
   scratch_.write("cut.tik", capture.substr(0, capture.size() - 10));
+  for (const std::string part : {"0", "2"}) {
+    const std::string end = part == "0" ? "2f" : "4f";
+    ASSERT_EQ(run({"encode", "-f", "100", "--block-samples", "2", "--from", part + "f", "--to", end, "frames", part + ".tik"}).status, 0);
+  }
   scratch_.write("named.fn", "M0 [0:a], [20000000:a], [20000001:0]");
   struct Case {
     std::vector<std::string> words;
@@ -61,11 +65,11 @@ TEST_F(Outputs, ReplaceWhatIsThereOnlyIfAsked) {
   const std::vector<Case> cases{
       {{"encode", "-f", "100", "frames", "o.tik"}, "o.tik"},
       {{"recover", "cut.tik", "o.tik"}, "o.tik"},
-      {{"join", "clip.tik", "-o", "o.tik"}, "o.tik"},
+      {{"join", "0.tik", "2.tik", "-o", "o.tik"}, "o.tik"},
       {{"retime", "-f", "50", "clip.tik", "o.tik"}, "o.tik"},
       {{"expose", "--exposure", "1f", "clip.tik", "a.png"}, "a.png", true},
       {{"expose", "--exposure", "1f", "--no-recipe", "clip.tik", "b.png"}, "b.png"},
-      {{"expose", "--exposure", "1f", "--every", "2f", "--no-recipe", "clip.tik", "s-%d.pfm"}, "s-1.pfm"},
+      {{"expose", "--exposure", "1f", "--every", "2f", "--no-recipe", "clip.tik", "s-%d.pfm"}, "s-0.pfm"},
       {{"contact", "clip.tik", "c.png"}, "c.png", true},
       {{"sweep", "--start", "0s", "--exposure", "1f", "--shift", "0f..2f/1f", "clip.tik", "w.png"}, "w.png", true},
       {{"video", "--out-fps", "50", "clip.tik", "v.mkv"}, "v.mkv"},
@@ -97,7 +101,7 @@ TEST_F(Outputs, ReplaceWhatIsThereOnlyIfAsked) {
     EXPECT_EQ(test::read_file(scratch_ / file).size(), made.size());
     // An empty file, as mktemp makes, holds nothing.
     scratch_.write(file, "");
-    EXPECT_EQ(run(words).status, std::string("s-1.pfm v-0.png").find(file) == std::string::npos ? 0 : 2);
+    EXPECT_EQ(run(words).status, std::string("s-0.pfm v-0.png").find(file) == std::string::npos ? 0 : 2);
   }
 }
 
