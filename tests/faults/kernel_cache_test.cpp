@@ -97,7 +97,7 @@ TEST_F(KernelCache, OnAFullDiskIsNotPocls) {
   fs::create_directories(scratch_ / "temporary");
   const auto expose_on_full_disk = [&](const std::string& settings) {
     return test::run_shell(format("unshare -rm sh -c 'mount -t tmpfs -o size=1M none disk || exit 77; {} \"{}\" --start "
-                                  "0s --exposure 1s --no-recipe c.tik p.png'",
+                                  "0s --exposure 1s --no-recipe --overwrite c.tik p.png'",
                                   settings, NUTIK_TEST_PROGRAM),
                            scratch_.folder());
   };

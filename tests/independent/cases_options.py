@@ -127,5 +127,5 @@ def irregular_times(checks, samples):
         name = f"irregular times, {angle} degrees"
         checks.expose_float(f"{name}: clip", folder, ["-a", angle, "-kgains.fn", "irregular.mkv"],
                             expected)
-        checks.run(folder, "-q", "-a", angle, "--overwrite", "irregular.mkv", "irregular.tik")
+        checks.run(folder, "-q", "-a", angle, "irregular.mkv", "irregular.tik")
         checks.expose_float(f"{name}: .tik", folder, ["-kgains.fn", "irregular.tik"], expected)

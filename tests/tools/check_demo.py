@@ -51,7 +51,7 @@ class Demo:
         self.background = np.load(folder / "background.npy").astype(np.float64)
         self.regions = cv2.imread(str(folder / "regions.pgm"), cv2.IMREAD_UNCHANGED)
         self.capture = folder / "clip.tik"
-        run(program, "encode", "-q", "--codec", "zstd:1", folder / "clip.mkv", self.capture)
+        run(program, "encode", "-q", "--overwrite", "--codec", "zstd:1", folder / "clip.mkv", self.capture)
         self.along, self.above = self.track_coordinates()
 
     def track_coordinates(self):
