@@ -291,7 +291,7 @@ def memory(program, work):
 
 def little_memory(program, work):
     """With the least memory that the program asks for, samples in which little changes are still not written whole."""
-    words = ["encode", "wide.dat", "little.tik", "--codec", "none", "--memory", "1MB"]
+    words = ["encode", "--overwrite", "wide.dat", "little.tik", "--codec", "none", "--memory", "1MB"]
     for _ in range(2):  # what reading the recording takes is known before what its blocks do
         told = run(program, *words, folder=work, fails=True)
         words[-1] = re.search(r"allow more: --memory ([0-9]+MB)", told)[1]
