@@ -70,7 +70,7 @@ def make(recipe, program, work, size, plots=True):
     folder.mkdir(parents=True, exist_ok=True)
     film(recipe, folder, size)
     # What the recipe made the last time goes: the program replaces nothing unasked.
-    filmed = (folder / "truth.json").stat().st_mtime
+    filmed = max((folder / name).stat().st_mtime for name in ("clip.mkv", "truth.json"))
     for made in folder.iterdir():
         if made.is_file() and made.stat().st_mtime > filmed:
             made.unlink()
