@@ -69,6 +69,11 @@ def make(recipe, program, work, size, plots=True):
     folder = work / recipe
     folder.mkdir(parents=True, exist_ok=True)
     film(recipe, folder, size)
+    # What the recipe made the last time goes: the program replaces nothing unasked.
+    filmed = max((folder / name).stat().st_mtime for name in ("clip.mkv", "truth.json"))
+    for made in folder.iterdir():
+        if made.is_file() and made.stat().st_mtime > filmed:
+            made.unlink()
     environment = os.environ | {"PATH": commands_in_path(program, work / "bin", plots)}
     environment.setdefault("MPLCONFIGDIR", str(work / "matplotlib"))
     run(["bash", "-euo", "pipefail", TOOLS / "gallery" / f"{recipe}.sh"], cwd=folder, env=environment)
@@ -86,6 +91,9 @@ def make_real(recipe, program, work, recordings):
     link = folder / recording.name
     link.unlink(missing_ok=True)
     link.symlink_to(recording)
+    for made in folder.iterdir():
+        if not made.is_symlink():
+            made.unlink()
     environment = os.environ | {"PATH": commands_in_path(program, work / "bin", plots=False)}
     run(["bash", "-euo", "pipefail", TOOLS / "gallery" / "real" / f"{recipe}.sh"], cwd=folder, env=environment)
     return folder

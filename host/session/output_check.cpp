@@ -29,6 +29,15 @@ bool is_picture_content(std::string_view bytes) {
          !is_tik_content(std::string(bytes));
 }
 
+// Tells it of any file. What is damaged carries none.
+bool carries_recipe(const std::filesystem::path& file) {
+  try {
+    return is_picture_name(file) && read_recipe(file).has_value();
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 // A grey PGM or PNG that does not carry how it was exposed.
 bool is_mask_content(const std::filesystem::path& file) {
   constexpr std::size_t kPngColourType = 25;
@@ -37,12 +46,7 @@ bool is_mask_content(const std::filesystem::path& file) {
   const bool is_pgm = bytes.starts_with("P2") || bytes.starts_with("P5");
   const bool is_grey_png =
       bytes.starts_with("\x89PNG") && bytes.size() > kPngColourType && bytes[kPngColourType] == 0;
-  if (!is_pgm && !is_grey_png) return false;
-  try {
-    return !read_recipe(file);
-  } catch (const InputError&) {  // damaged, and so no exposure that is missed
-    return true;
-  }
+  return (is_pgm || is_grey_png) && !carries_recipe(file);
 }
 
 // Text with a comma in its first line, or a camera's path.
@@ -126,7 +130,8 @@ std::filesystem::path led_to(std::filesystem::path name) {
   return unknown ? fs::absolute(name).lexically_normal() : folder / name.filename();
 }
 
-void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs) {
+void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs,
+                  Replacing replacing) {
   const std::string name = output.string();
   const bool is_picture = kind == OutputKind::picture || kind == OutputKind::mask;
   if (is_picture && names_standard_output(output)) {
@@ -166,6 +171,9 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
     throw UsageError(
         format("{} exists and is no {}; it is not replaced. Choose another name", name, name_of(kind)));
   }
+  if (replacing == Replacing::all || !std::filesystem::is_regular_file(output, error)) return;
+  if (std::filesystem::file_size(output, error) == 0 || carries_recipe(output)) return;
+  throw OutputIsThere(format("{} is there already and is not replaced", name));
 }
 
 void note_later(std::vector<std::string>& notes, const std::function<std::filesystem::path(std::uint64_t)>& picture,
@@ -184,16 +192,17 @@ bool is_mask_name(const std::filesystem::path& path) {
   return extension == ".pgm" || extension == ".png";
 }
 
-void check_mask_output(const std::filesystem::path& output, std::span<const std::string> inputs) {
+void check_mask_output(const std::filesystem::path& output, std::span<const std::string> inputs,
+                       Replacing replacing) {
   if (!is_mask_name(output)) {
     throw UsageError(format("{}: masks are written as .pgm or .png, which keep every tag", output.string()));
   }
-  check_output(output, OutputKind::mask, inputs);
+  check_output(output, OutputKind::mask, inputs, replacing);
 }
 
 void check_picture_output(const std::filesystem::path& output, std::uint32_t channels,
-                          std::span<const std::string> inputs) {
-  check_output(output, OutputKind::picture, inputs);
+                          std::span<const std::string> inputs, Replacing replacing) {
+  check_output(output, OutputKind::picture, inputs, replacing);
   static_cast<void>(value_type_for(output, Depth::bits8, ValueType::code8, channels));
 }
 

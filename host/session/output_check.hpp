@@ -20,15 +20,25 @@ struct WrongOutputName : UsageError {
   OutputKind kind;
 };
 
+// What is there is not replaced unless asked.
+struct OutputIsThere : UsageError {
+  using UsageError::UsageError;
+};
+
+// What an output may take the place of: nothing but an empty file and a picture that carries its recipe, and so can be
+// made again, or all of its kind.
+enum class Replacing { made_by_recipe, all };
 // What a name leads to, by links or none, and where nothing is there yet, too: two names of one file have the same.
 [[nodiscard]] std::filesystem::path led_to(std::filesystem::path name);
 
 // Throws UsageError where `output` names one of the inputs, has a name of another kind, would replace a file of
-// another kind (a mask replaces no exposure, which carries a recipe, nor a picture in colour), or is standard output
-// and that a terminal.
-void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs);
+// another kind (a mask replaces no exposure, which carries a recipe, nor a picture in colour) or one that it
+// may not, or is standard output and that a terminal.
+void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs,
+                  Replacing replacing = Replacing::all);
 // The same of a mask, whose file keeps every tag.
-void check_mask_output(const std::filesystem::path& output, std::span<const std::string> inputs);
+void check_mask_output(const std::filesystem::path& output, std::span<const std::string> inputs,
+                       Replacing replacing = Replacing::all);
 [[nodiscard]] bool is_mask_name(const std::filesystem::path& path);
 
 // Notes the pictures that are there under the numbers from `count` on: a series of so many does not replace them.
@@ -37,6 +47,6 @@ void note_later(std::vector<std::string>& notes, const std::function<std::filesy
 
 // The same of a picture of 8-bit codes, where its file cannot hold so many channels, too.
 void check_picture_output(const std::filesystem::path& output, std::uint32_t channels,
-                          std::span<const std::string> inputs);
+                          std::span<const std::string> inputs, Replacing replacing = Replacing::all);
 
 }  // namespace nutik

@@ -68,7 +68,9 @@ TEST_F(Batch, GivesThePicturesOfSingleCommandsWhereSumsAreKept) {
   for (int k = 0; k < 6; ++k) {
     for (const std::string type : {".png", ".pfm"}) {
       const std::string one = "one" + type, many = "many" + std::to_string(k) + type;
-      ASSERT_EQ(run({"--start", std::to_string(30 * k) + "ms", "--exposure", "1.6s", "long.tik", one}).status,
+      ASSERT_EQ(run({"--start", std::to_string(30 * k) + "ms", "--exposure", "1.6s", "long.tik", one,
+                     "--overwrite"})
+                    .status,
                 0);
       EXPECT_EQ(picture(many), picture(one)) << many;
     }
@@ -121,7 +123,7 @@ TEST_F(Batch, KeepsNoRecipesWhereNoneAreWanted) {
   ASSERT_EQ(run({"batch", "list", "scene.tik"}).status, 0);
   EXPECT_EQ(run({"again", "a.png"}).status, 0);
   EXPECT_EQ(run({"again", "b.png"}).status, 3);
-  ASSERT_EQ(run({"batch", "--no-recipe", "list", "scene.tik"}).status, 0);
+  ASSERT_EQ(run({"batch", "--no-recipe", "--overwrite", "list", "scene.tik"}).status, 0);
   EXPECT_EQ(run({"again", "a.png"}).status, 3);
 }
 
@@ -201,7 +203,7 @@ TEST_F(Batch, ReplacesNoInputAndNoPictureOfAnotherLine) {
                  "--start 1f --exposure 1f d2/x.png\n"
                  "--start 2f --exposure 1f d3/x.png\n"
                  "-k trail.fn -m d3/../late.pgm b.png\n");
-  const ProgramResult batch = run({"batch", "list.txt", "scene.tik"});
+  const ProgramResult batch = run({"batch", "--overwrite", "list.txt", "scene.tik"});
   EXPECT_EQ(batch.status, 1);
   for (const char* message : {"list.txt:2: d1/../late.pgm is an input of line 7; choose another name",
                               "list.txt:3: early.pgm is an input of line 1;",

@@ -122,6 +122,17 @@ def pictures_in(folder):
             if path.suffix in (".png", ".jpg", ".tif", ".pgm", ".pfm")}
 
 
+def run_alone(line, folder, environment):
+    """As if it were the first that is run there: of the files that it makes none stays from one before it."""
+    while True:
+        result = subprocess.run(["bash", "-o", "pipefail", "-c", line], cwd=folder, env=environment, text=True,
+                                capture_output=True, stdin=subprocess.DEVNULL)
+        taken = re.search(r"^nutik-cl: (.*) is there already and is not replaced;", result.stderr, re.M)
+        if not taken:
+            return result
+        (folder / taken[1]).unlink()
+
+
 def examples_of(page):
     """The lines below `Examples:`, some over several lines, as a shell takes them."""
     text = page.split("\nExamples:\n", 1)[1]
@@ -159,8 +170,7 @@ def main():
         failures = []
 
         def run(line):
-            result = subprocess.run(["bash", "-o", "pipefail", "-c", line], cwd=folder, env=environment,
-                                    text=True, capture_output=True, stdin=subprocess.DEVNULL)
+            result = run_alone(line, folder, environment)
             if result.returncode != 0:
                 failures.append(f"{line}\n  {result.returncode}: {result.stderr.strip()}")
             return result

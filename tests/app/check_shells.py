@@ -75,7 +75,7 @@ def check_bash(program, work):
     offers("nutik-cl shutter --gain 2 h", {"hann"})
     offers("nutik-cl shutter hann c", {"clip.tik", "clip.mp4"})
     offers("nutik-cl completion ", {"bash", "zsh", "fish"})
-    offers("nutik-cl info --", {"--help", "--activity", "--json", "--quiet"})
+    offers("nutik-cl info --", {"--help", "--activity", "--json", "--overwrite", "--quiet"})
     offers("nutik-cl devices --json ", set())
     # What the table has, completion has: all options of all commands.
     for command in re.findall(r"^  ([a-z]+) {2,}[A-Z]", output(program, "--help"), re.M):

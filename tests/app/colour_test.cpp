@@ -21,7 +21,7 @@ using Json = nlohmann::json;
 class Colour : public test::ProgramTest {
  protected:
   void succeed(const std::vector<std::string>& words) const {
-    const auto result = run(words);
+    const auto result = run(test::over(words));
     ASSERT_EQ(result.status, 0) << result.err;
   }
 
@@ -269,7 +269,7 @@ TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
   NEEDS_FFMPEG();
   test::make(scratch_, "-f lavfi -i testsrc2=s=64x48:d=1:r=30 -c:v ffv1 -pix_fmt yuv420p clip.mkv");
   succeed({"-q", "clip.mkv", "clip.tik"});
-  const auto told = run({"retime", "clip.tik", "-f", "960", "-a", "180", "--transfer", "linear"});
+  const auto told = run({"retime", "clip.tik", "-f", "960", "-a", "180", "--transfer", "linear", "--in-place"});
   EXPECT_EQ(told.status, 0) << told.err;
   EXPECT_NE(told.out.find("960 pictures a second, shutter 180 degrees, transfer linear"), std::string::npos)
       << told.out;
@@ -278,10 +278,12 @@ TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
     succeed({"--start", "3f", "--exposure", "20ms", std::string(name) + ".tik", std::string(name) + ".pfm"});
   }
   EXPECT_EQ(test::read_file(scratch_ / "clip.pfm"), test::read_file(scratch_ / "anew.pfm"));
-  expect_refused({"retime", "clip.tik"}, 2, "what is to be corrected?");
-  expect_refused({"retime", "clip.mkv", "-f", "9"}, 3,
+  expect_refused({"retime", "clip.tik", "--in-place"}, 2, "what is to be corrected?");
+  expect_refused({"retime", "clip.tik", "-f", "9"}, 2, "say where to write: nutik-cl retime … clip.tik NEW.tik");
+  expect_refused({"retime", "clip.tik", "-f", "9", "new.tik", "--in-place"}, 2, "two outputs: new.tik and the capture itself");
+  expect_refused({"retime", "clip.mkv", "-f", "9", "--in-place"}, 3,
                  "clip.mkv is no .tik capture, and only those are corrected: state a clip's rate");
-  expect_refused({"retime", "clip.mkv"}, 3, "(--fps, --shutter-angle, --transfer)");
+  expect_refused({"retime", "clip.mkv", "--in-place"}, 3, "(--fps, --shutter-angle, --transfer)");
   expect_refused({"info", "clip.mkv"}, 3,
                  "clip.mkv is no .tik capture; a clip becomes one when it is encoded");
 }

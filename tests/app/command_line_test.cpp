@@ -58,7 +58,7 @@ TEST_F(CommandLine, NamesWhatWasMeant) {
 TEST_F(CommandLine, SaysTheNameThatNobodyGave) {
   EXPECT_EQ(run({"-q", "-k", "one.fn", "clip.tik"}).out, "clip-one.png\n");
   EXPECT_EQ(run({"-q", "-k", "one.fn", "clip.tik", "named.png"}).out, "");
-  EXPECT_EQ(run({"encode", "-q", "clip.avi"}).out, "clip.tik\n");
+  EXPECT_EQ(run({"encode", "-q", "--overwrite", "clip.avi"}).out, "clip.tik\n");
 }
 
 TEST_F(CommandLine, ReportsHowAnExposureWasComputed) {
@@ -203,10 +203,12 @@ TEST_F(CommandLine, ReplacesOnlyItsOwnKind) {
   std::filesystem::create_directory(scratch_ / "folder.tik");
   expect_refused({"clip.avi", "folder.tik"}, 2, "is a folder");
   expect_refused({"-k", "one.fn", "clip.tik", "-o", "absent/x.png"}, 5, "cannot be created: No such file");
-  // Its own kind is replaced.
+  // Of its own kind what carries a recipe is replaced, the rest only if asked.
   EXPECT_EQ(run({"-k", "one.fn", "clip.tik", "a.png"}).status, 0);
   EXPECT_EQ(run({"-k", "one.fn", "clip.tik", "a.png"}).status, 0);
-  EXPECT_EQ(run({"clip.avi", "clip.tik"}).status, 0);
+  expect_refused({"clip.avi", "clip.tik"}, 2,
+                 "clip.tik is there already and is not replaced; choose another name, or replace it with --overwrite");
+  EXPECT_EQ(run({"--overwrite", "clip.avi", "clip.tik"}).status, 0);
 }
 
 TEST_F(CommandLine, IsQuietWhereAsked) {
@@ -221,7 +223,7 @@ TEST_F(CommandLine, SaysWhereRateAndAngleComeFrom) {
             std::string::npos)
       << from_file.out;
   EXPECT_NE(from_file.err.find("if it was filmed faster, say so (--fps)"), std::string::npos);
-  const ProgramResult stated = run({"-f", "30000/1001", "-a", "172.8", "clip.avi", "a.tik"});
+  const ProgramResult stated = run({"-f", "30000/1001", "-a", "172.8", "--overwrite", "clip.avi", "a.tik"});
   EXPECT_NE(stated.out.find("30000/1001 pictures a second (--fps), shutter 172.8 degrees (--shutter-angle)"),
             std::string::npos)
       << stated.out;

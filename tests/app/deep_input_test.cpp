@@ -24,7 +24,7 @@ class DeepInput : public testing::Test {
     return test::run_program(words, scratch_.folder());
   }
   void succeed(const std::vector<std::string>& words) const {
-    const ProgramResult result = run(words);
+    const ProgramResult result = run(test::over(words));
     EXPECT_EQ(result.status, 0) << result.err;
   }
   void expect_refused(const std::vector<std::string>& words, int status,
@@ -137,9 +137,9 @@ TEST_F(DeepInput, SaysWhatItTookForWhite) {
               "white is taken to be 65535; state another, 4095 for 12 bits (--white)");
   expect_said(run({"-f", "10", "--start", "0f", "--exposure", "1f", "stack.tif", "x.png"}),
               "white is taken to be 65535");
-  expect_said(run({"-f", "10", "--white", "4095", "stack.tif", "x.tik"}), "2 samples");
+  expect_said(run({"-f", "10", "--white", "4095", "--overwrite", "stack.tif", "x.tik"}), "2 samples");
   expect_said(run({"info", "x.tik"}), "white code 4095, transfer linear");
-  expect_refused({"-f", "10", "--white", "1000", "stack.tif", "x.tik"}, 3,
+  expect_refused({"-f", "10", "--white", "1000", "stack.tif", "y.tik"}, 3,
                  {"sample 0 has a code of 4095, above the white code 1000"});
 }
 
@@ -180,7 +180,7 @@ TEST_F(DeepInput, NeverReplacesAStillOfItsSource) {
 TEST_F(DeepInput, NamesOutputsAfterTheSequence) {
   write_netpbm("frames", test::random_stills({17, 9, 1}, 255, 3, 1));
   for (const std::string source : {"frames/", "frames/*.pgm"}) {
-    expect_said(run({"encode", "-f", "10", source}), "frames.tik: ");
+    expect_said(run({"encode", "-f", "10", "--overwrite", source}), "frames.tik: ");
     std::filesystem::remove(scratch_ / "frames.tik");
   }
   expect_said(run({"-f", "10", "--start", "0f", "--exposure", "1f", "frames/f%03d.pgm"}), "f-0f-1f.png: ");

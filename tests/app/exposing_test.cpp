@@ -51,7 +51,7 @@ struct Size {
 class Exposing : public testing::TestWithParam<Size> {
  protected:
   test::ProgramResult run(const std::vector<std::string>& words) const {
-    const test::ProgramResult result = test::run_program(words, scratch_.folder());
+    const test::ProgramResult result = test::run_program(test::over(words), scratch_.folder());
     EXPECT_EQ(result.status, 0) << result.err;
     return result;
   }

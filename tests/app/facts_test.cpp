@@ -24,7 +24,7 @@ class Facts : public test::ProgramTest {
   };
 
   Told told(const fs::path& clip, const std::vector<std::string>& options) const {
-    std::vector<std::string> words{"encode", "--to", "3f", clip.string(), "part.tik"};
+    std::vector<std::string> words{"encode", "--overwrite", "--to", "3f", clip.string(), "part.tik"};
     words.insert(words.end(), options.begin(), options.end());
     const auto encoded = run(words);
     EXPECT_EQ(encoded.status, 0) << clip << encoded.err;
@@ -254,11 +254,11 @@ TEST_F(Facts, OfACaptureAreToldToScriptsWithWhatCorrectsThem) {
   EXPECT_EQ(info[rate], "--fps");
   EXPECT_EQ(info["transfer srgb, assumed"], "--transfer");
   EXPECT_EQ(info["matrix bt601, assumed"], "none");
-  auto retimed = options_of({"retime", "--json", "-a", "180", "clip.tik"});
+  auto retimed = options_of({"retime", "--json", "--in-place", "-a", "180", "clip.tik"});
   EXPECT_EQ(retimed.size(), 7u);
   EXPECT_EQ(retimed[rate], "--fps");
   EXPECT_EQ(retimed["shutter 180 degrees, as stated"], "--shutter-angle");
-  const auto told = run({"retime", "-a", "90", "clip.tik"});
+  const auto told = run({"retime", "--in-place", "-a", "90", "clip.tik"});
   EXPECT_NE(told.out.find("samples, irregular times, 27.94 pictures a second on average, shutter 90 degrees"),
             std::string::npos)
       << told.out;

@@ -16,7 +16,7 @@ class Join : public test::ProgramTest {
   void SetUp() override { test::write_still_clip(scratch_.folder(), 12, kStills); }
 
   void done(const std::vector<std::string>& words) const {
-    const auto result = run(words);
+    const auto result = run(test::over(words));
     ASSERT_EQ(result.status, 0) << result.err;
   }
   void encode(const std::string& from, const std::string& to, const std::string& output,
@@ -78,8 +78,8 @@ TEST_F(Join, TellsWhatWasJoined) {
   EXPECT_EQ(part["first_picture"], 64);
   EXPECT_EQ(part["start_ns"], 640'000'000);
   EXPECT_EQ(part["pictures"], 101);
-  EXPECT_EQ(run({"join", "-q", "a.tik", "b.tik", "-o", "w.tik"}).out, "");
-  const auto lines = run({"join", "--progress", "a.tik", "b.tik", "-o", "w.tik"});
+  EXPECT_EQ(run({"join", "-q", "--overwrite", "a.tik", "b.tik", "-o", "w.tik"}).out, "");
+  const auto lines = run({"join", "--progress", "--overwrite", "a.tik", "b.tik", "-o", "w.tik"});
   EXPECT_TRUE(lines.err.starts_with("Progress: ")) << lines.err;
 }
 

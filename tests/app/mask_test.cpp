@@ -18,7 +18,7 @@ class MaskCommand : public test::MovingSquareTest {
  protected:
   // The tags that `nutik-cl mask` with these words gives, for a mask of the capture's size.
   std::vector<std::uint8_t> tags(std::vector<std::string> words) const {
-    words.insert(words.begin(), {"mask", "-q"});
+    words.insert(words.begin(), {"mask", "-q", "--overwrite"});
     words.insert(words.end(), {"-o", "made.pgm"});
     const ProgramResult result = run(words);
     EXPECT_EQ(result.status, 0) << result.err;
@@ -157,7 +157,7 @@ TEST_F(MaskCommand, ReportsAndShows) {
   EXPECT_NE(text.out.find("clip-mask.pgm: 96 x 48, 2 tags"), std::string::npos) << text.out;
   EXPECT_NE(text.out.find("256 pixels   5.56 %, by more than 15 codes"), std::string::npos) << text.out;
   EXPECT_TRUE(test::read_file(scratch_ / "seen.png").starts_with("\x89PNG"));
-  EXPECT_EQ(run({"mask", "-q", "--moving", "clip.tik"}).out, "clip-mask.pgm\n");
+  EXPECT_EQ(run({"mask", "-q", "--overwrite", "--moving", "clip.tik"}).out, "clip-mask.pgm\n");
   const auto json =
       nlohmann::json::parse(run({"mask", "--json", "--moving", "--grow", "0", "clip.tik", "m.png"}).out);
   EXPECT_EQ(json["mask"], "m.png");
@@ -166,7 +166,7 @@ TEST_F(MaskCommand, ReportsAndShows) {
             nlohmann::json::parse(R"([{"tag":0,"pixel_count":4352},{"tag":255,"pixel_count":256}])"));
   for (const std::vector<std::string>& when :
        {std::vector<std::string>{"--start", "3f"}, {"--start", "30ms", "--exposure", "10ms"}}) {
-    std::vector<std::string> words{"mask", "--moving", "clip.tik", "m.png", "--preview", when[1] + ".png"};
+    std::vector<std::string> words{"mask", "--overwrite", "--moving", "clip.tik", "m.png", "--preview", when[1] + ".png"};
     words.insert(words.end(), when.begin(), when.end());
     EXPECT_EQ(run(words).status, 0);
   }
@@ -178,7 +178,7 @@ TEST_F(MaskCommand, ReportsAndShows) {
 
 TEST_F(MaskCommand, WarnsOfAPreviewBeyondTheCapture) {
   const auto said = [&](const std::string& length) {
-    return run({"mask", "--moving", "clip.tik", "m.png", "--preview", "p.png", "--start", "0.15s",
+    return run({"mask", "--overwrite", "--moving", "clip.tik", "m.png", "--preview", "p.png", "--start", "0.15s",
                 "--exposure", length})
         .err;
   };
@@ -201,14 +201,15 @@ TEST_F(MaskCommand, ReplacesMasksAndNoExposures) {
   expect_refused({"mask", "--moving", "clip.tik", "colour.png"}, 2, "colour.png exists and is no mask");
   for (const char* name : {"again.png", "again.pgm"}) {
     EXPECT_EQ(run({"mask", "--moving", "clip.tik", name}).status, 0);
-    EXPECT_EQ(run({"mask", "--still", "clip.tik", name}).status, 0);
+    expect_refused({"mask", "--still", "clip.tik", name}, 2, "is there already and is not replaced");
+    EXPECT_EQ(run({"mask", "--still", "--overwrite", "clip.tik", name}).status, 0);
   }
 }
 
 // A tag that was asked for and that no pixel has in the end.
 TEST_F(MaskCommand, WarnsOfTagsThatLaterStepsCover) {
   const auto warned = [&](std::vector<std::string> words) {
-    words.insert(words.begin(), "mask");
+    words.insert(words.begin(), {"mask", "--overwrite"});
     words.insert(words.end(), {"clip.tik", "covered.pgm"});
     return run(words).err;
   };

@@ -156,6 +156,7 @@ class MemoryOfCommands : public testing::TestWithParam<Command> {
                                           : word);
     }
     words.emplace_back("-q");
+    if (words.front() != "validate" && words.front() != "check") words.emplace_back("--overwrite");
     if (reads_clip) {
       const bool is_timed = command.words.front() != "noise";
       if (is_timed) words.insert(words.end(), {"-f", "240"});
@@ -222,7 +223,7 @@ TEST(Memory, OfDelaysAndMaskValuesIsAskedForFirst) {
   scratch.write("f.fn", functions);
   const auto exposing = [](const std::string& delay) {
     return std::vector<std::string>{"-f",   "100", "--raw",    "256x256:gray", "--memory",  "8MB",  "-k", "f.fn",
-                                    "-m",   "mask.pgm", "--delay", delay,  "clip.gray", "o.pfm", "-q"};
+                                    "-m",   "mask.pgm", "--delay", delay,  "clip.gray", "o.pfm", "-q", "--overwrite"};
   };
   ASSERT_EQ(run(scratch, exposing("rows:1ms")).status, 0);  // builds kernels
   const Measured few = run(scratch, exposing("rows:1ms")), many = run(scratch, exposing("delays.pgm:0s..30ms"));
@@ -238,7 +239,7 @@ TEST(Memory, SaysWhatIsTooLittle) {
   const Scratch scratch;
   write_raw_video(scratch, "clip.gray", 640 * 360, 40);
   const auto run = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> words{"-f", "240", "--raw", "640x360:gray", "clip.gray", "clip.tik"};
+    std::vector<std::string> words{"-f", "240", "--raw", "640x360:gray", "--overwrite", "clip.gray", "clip.tik"};
     words.insert(words.end(), more.begin(), more.end());
     return test::run_program(words, scratch.folder());
   };

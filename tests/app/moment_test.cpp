@@ -289,7 +289,7 @@ TEST_F(Moment, ActivityWritesTableChartAndMap) {
   EXPECT_EQ(picture("chart.png").cols, 1200);
   ASSERT_EQ(run({"info", "--activity", "same.png", "clip.tik"}).status, 0);
   EXPECT_EQ(file("map.png"), file("same.png"));
-  EXPECT_EQ(run({"activity", "--csv", "a.csv", "clip.tik"}).status, 0);  // replaces its own kind
+  EXPECT_EQ(run({"activity", "--csv", "a.csv", "--overwrite", "clip.tik"}).status, 0);  // its own kind
   scratch_.write("notes.csv", "my notes");
   expect_refused({"activity", "--csv", "notes.csv", "clip.tik"}, 2, "notes.csv exists and is no table");
   expect_refused({"activity", "--csv", "a.txt", "clip.tik"}, 2, "tables are written as .csv");
@@ -304,8 +304,8 @@ TEST_F(Moment, SweepExposesEachShift) {
   ASSERT_EQ(json["pictures"].size(), 6u);
   EXPECT_EQ(json["pictures"][3], nlohmann::json::parse(R"({"shift_ns":30000000,"file":"s3.png"})"));
   for (const int k : {0, 3, 5}) {
-    ASSERT_EQ(run({"--start", std::to_string(10 * k) + "ms", "--exposure", "10ms", "--no-recipe", "clip.tik",
-                   "alone.png"})
+    ASSERT_EQ(run({"--start", std::to_string(10 * k) + "ms", "--exposure", "10ms", "--no-recipe",
+                   "--overwrite", "clip.tik", "alone.png"})
                   .status,
               0);
     EXPECT_EQ(file("s" + std::to_string(k) + ".png"), file("alone.png")) << k;
@@ -315,7 +315,7 @@ TEST_F(Moment, SweepExposesEachShift) {
   const auto pictures = json_of({"sweep", "--start", "9f", "--exposure", "1f", "--shift", "-5f..5f/5f",
                                  "--each", "p%d.png", "--no-recipe", "clip.tik"});
   EXPECT_EQ(pictures["pictures"][0]["shift_samples"], -5);
-  ASSERT_EQ(run({"--start", "4f", "--exposure", "1f", "--no-recipe", "clip.tik", "alone.png"}).status, 0);
+  ASSERT_EQ(run({"--start", "4f", "--exposure", "1f", "--no-recipe", "--overwrite", "clip.tik", "alone.png"}).status, 0);
   EXPECT_EQ(file("p0.png"), file("alone.png"));
 }
 
@@ -332,7 +332,7 @@ TEST_F(Moment, SweepVariesGainAndLength) {
   scratch_.write("last.fn", "M0 [-20000000:0], [20000000:0], [60000000:1.5], [60000002:0]\n");
   ASSERT_EQ(run({"-k", "last.fn", "--no-recipe", "clip.tik", "alone.png"}).status, 0);
   EXPECT_EQ(file("v05.png"), file("alone.png"));
-  ASSERT_EQ(run({"-k", "f.fn", "--no-recipe", "clip.tik", "alone.png"}).status, 0);
+  ASSERT_EQ(run({"-k", "f.fn", "--no-recipe", "--overwrite", "clip.tik", "alone.png"}).status, 0);
   EXPECT_EQ(file("v01.png"), file("alone.png"));
 }
 

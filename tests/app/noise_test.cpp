@@ -36,7 +36,9 @@ class Noise : public testing::Test {
   }
 
   test::ProgramResult run(const std::vector<std::string>& words) const {
-    const test::ProgramResult result = test::run_program(words, scratch_.folder());
+    const bool writes = words.front() != "info";
+    const test::ProgramResult result =
+        test::run_program(writes ? test::over(words) : words, scratch_.folder());
     EXPECT_EQ(result.status, 0) << result.err;
     return result;
   }

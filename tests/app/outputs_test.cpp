@@ -44,6 +44,67 @@ TEST_F(Outputs, ReplaceNoStillOfTheClip) {
   }
 }
 
+// Of what was there before a command only a picture with a recipe is replaced, unless it is asked to.
+TEST_F(Outputs, ReplaceWhatIsThereOnlyIfAsked) {
+  const auto run = [&](const std::vector<std::string>& words) {
+    return test::run_program(words, scratch_.folder());
+  };
+  ASSERT_EQ(run({"-f", "100", "--block-samples", "2", "frames", "clip.tik"}).status, 0);
+  const std::string capture = test::read_file(scratch_ / "clip.tik");
+  scratch_.write("cut.tik", capture.substr(0, capture.size() - 10));
+  for (const std::string part : {"0", "2"}) {
+    const std::string end = part == "0" ? "2f" : "4f";
+    ASSERT_EQ(run({"encode", "-f", "100", "--block-samples", "2", "--from", part + "f", "--to", end, "frames", part + ".tik"}).status, 0);
+  }
+  scratch_.write("named.fn", "M0 [0:a], [20000000:a], [20000001:0]");
+  struct Case {
+    std::vector<std::string> words;
+    std::string file;  // that it writes, of its own kind
+    bool has_recipe = false;
+  };
+  const std::vector<Case> cases{
+      {{"encode", "-f", "100", "frames", "o.tik"}, "o.tik"},
+      {{"recover", "cut.tik", "o.tik"}, "o.tik"},
+      {{"join", "0.tik", "2.tik", "-o", "o.tik"}, "o.tik"},
+      {{"retime", "-f", "50", "clip.tik", "o.tik"}, "o.tik"},
+      {{"expose", "--exposure", "1f", "clip.tik", "a.png"}, "a.png", true},
+      {{"expose", "--exposure", "1f", "--no-recipe", "clip.tik", "b.png"}, "b.png"},
+      {{"expose", "--exposure", "1f", "--every", "2f", "--no-recipe", "clip.tik", "s-%d.pfm"}, "s-0.pfm"},
+      {{"contact", "clip.tik", "c.png"}, "c.png", true},
+      {{"sweep", "--start", "0s", "--exposure", "1f", "--shift", "0f..2f/1f", "clip.tik", "w.png"}, "w.png", true},
+      {{"video", "--out-fps", "50", "clip.tik", "v.mkv"}, "v.mkv"},
+      {{"video", "--out-fps", "50", "--no-recipe", "clip.tik", "v-%d.png"}, "v-0.png"},
+      {{"mask", "--fill", "clip.tik", "m.pgm"}, "m.pgm"},
+      {{"plate", "clip.tik", "p.png"}, "p.png"},
+      {{"activity", "--csv", "t.csv", "clip.tik"}, "t.csv"},
+      {{"activity", "clip.tik", "g.png"}, "g.png"},
+      {{"info", "--activity", "i.png", "clip.tik"}, "i.png"},
+      {{"thumbnail", "clip.tik", "n.png"}, "n.png"},
+      {{"trace", "--pixel", "1,1", "--exposure", "2f", "clip.tik", "x.png"}, "x.png"},
+      {{"solve", "-k", "named.fn", "--wish", "all = 0.1", "clip.tik", "o.fn"}, "o.fn"}};
+  for (const auto& [words, file, has_recipe] : cases) {
+    SCOPED_TRACE(words.front() + " " + file);
+    const auto first = run(test::over(words));
+    ASSERT_EQ(first.status, 0) << first.err;
+    const std::string made = test::read_file(scratch_ / file);
+    std::filesystem::last_write_time(scratch_ / file, std::filesystem::file_time_type());
+    const auto time = [&] { return std::filesystem::last_write_time(scratch_ / file); };
+    const auto second = run(words);
+    EXPECT_EQ(second.status, has_recipe ? 0 : 2) << second.err;
+    EXPECT_EQ(time() == std::filesystem::file_time_type(), !has_recipe);
+    if (!has_recipe) {
+      EXPECT_EQ(second.err, "nutik-cl: " + file + " is there already and is not replaced; choose another name, or "
+                                                  "replace it with --overwrite\n");
+    }
+    ASSERT_EQ(run(test::over(words)).status, 0);
+    EXPECT_NE(time(), std::filesystem::file_time_type());
+    EXPECT_EQ(test::read_file(scratch_ / file).size(), made.size());
+    // An empty file, as mktemp makes, holds nothing.
+    scratch_.write(file, "");
+    EXPECT_EQ(run(words).status, std::string("s-0.pfm v-0.png").find(file) == std::string::npos ? 0 : 2);
+  }
+}
+
 // What a second program gets through a pipe is the file, byte for byte, and nothing else.
 TEST_F(Outputs, GoToStandardOutput) {
   const std::string program = NUTIK_TEST_PROGRAM;
@@ -52,7 +113,7 @@ TEST_F(Outputs, GoToStandardOutput) {
     return test::run_shell("( " + command + " )", scratch_.folder());
   };
   const std::string expose =
-      " expose -f 100 --start 1f --exposure 2f frames --no-recipe --renderer reference";
+      " expose --overwrite -f 100 --start 1f --exposure 2f frames --no-recipe --renderer reference";
   const std::vector<std::pair<std::string, std::string>> kinds{{"-", "a.png"},     {"png:-", "a.png"},
                                                                {"TIF:-", "a.tif"}, {"jpg:-", "a.jpg"},
                                                                {"exr:-", "a.exr"}, {"pfm:-", "a.pfm"}};

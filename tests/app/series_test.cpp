@@ -17,7 +17,7 @@ class Series : public testing::Test {
     run({"-f", "40", "-a", "180", "frames", "clip.tik"});
   }
   test::ProgramResult run(const std::vector<std::string>& words) const {
-    test::ProgramResult result = test::run_program(words, scratch_.folder());
+    test::ProgramResult result = test::run_program(test::over(words), scratch_.folder());
     EXPECT_EQ(result.status, 0) << result.err;
     return result;
   }

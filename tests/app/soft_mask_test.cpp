@@ -113,7 +113,7 @@ TEST_F(SoftMaskCommand, MakesLayersThatGiveTheSamePicture) {
   done(exposing({"clip.tik", "layered.pgm"}, "soft-%d.png", ""));
   EXPECT_EQ(codes("layered.pgm"), codes("feathered.pgm"));
 
-  expect_refused({"mask", "--size", "6x1", "--tag", "7", "--rectangle", "3,0,3,1", "--feather", "2px", "-o",
+  expect_refused({"mask", "--overwrite", "--size", "6x1", "--tag", "7", "--rectangle", "3,0,3,1", "--feather", "2px", "-o",
                   "soft-%d.png"},
                  5, "soft-9.png is there, and M9 has no pixel in this mask");
   expect_refused({"mask", "--size", "6x1", "--fill", "--feather", "2px", "-o", "soft.png"}, 2,

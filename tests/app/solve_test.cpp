@@ -41,7 +41,7 @@ class Solve : public test::ProgramTest {
   }
 
   [[nodiscard]] json solved(std::vector<std::string> words) const {
-    words.insert(words.begin(), {"solve", "--json"});
+    words.insert(words.begin(), {"solve", "--json", "--overwrite"});
     const auto result = run(words);
     EXPECT_EQ(result.status, 0) << result.err;
     return result.status == 0 ? json::parse(result.out) : json();
@@ -116,7 +116,7 @@ TEST_F(Solve, ExposesRegionsAsTheyAreWished) {
 
 TEST_F(Solve, SaysWhatIsSaturated) {
   const auto said = [&](const std::string& light) {
-    return run({"solve", "-k", "figure14.fn", "--wish", "70,20,10,10 = " + light, "clip.tik", "-o",
+    return run({"solve", "--overwrite", "-k", "figure14.fn", "--wish", "70,20,10,10 = " + light, "clip.tik", "-o",
                 "solved.fn"})
         .out;
   };
@@ -124,7 +124,7 @@ TEST_F(Solve, SaysWhatIsSaturated) {
   EXPECT_NE(said("1.5").find("\nthe picture: 100 pixels saturated above 1\n"), std::string::npos)
       << said("1.5");
   const auto black =
-      run({"solve", "-k", "figure14.fn", "--wish", "72,22,6,6 = -1", "clip.tik", "-o", "solved.fn"});
+      run({"solve", "--overwrite", "-k", "figure14.fn", "--wish", "72,22,6,6 = -1", "clip.tik", "-o", "solved.fn"});
   EXPECT_NE(black.err.find("pixels come out below 0, which is black: bound the gains"), std::string::npos)
       << black.err;
 }

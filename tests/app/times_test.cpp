@@ -17,7 +17,7 @@ class Times : public test::ProgramTest {
 
   // What is said on standard error of a clip that is encoded.
   [[nodiscard]] std::string said(std::vector<std::string> words) const {
-    words.insert(words.begin(), "encode");
+    words.insert(words.begin(), {"encode", "--overwrite"});
     words.insert(words.end(), {"-o", "clip.tik"});
     const auto encoded = run(words);
     EXPECT_EQ(encoded.status, 0) << encoded.err;
@@ -36,9 +36,9 @@ TEST_F(Times, ThatAStatedRateMakesEvenAreSaid) {
             "4.167 ms: at the stated rate all last alike (--fps)\n")
       << "what the file says of its rate is settled";
   EXPECT_EQ(said({"clip.mp4"}).find(evened), std::string::npos);
-  const auto retimed = run({"retime", "clip.tik", "-f", "240"});
+  const auto retimed = run({"retime", "--in-place", "clip.tik", "-f", "240"});
   EXPECT_NE(retimed.err.find("note: 2 of the clip's 56 steps"), std::string::npos) << retimed.err;
-  EXPECT_EQ(run({"retime", "clip.tik", "-f", "120"}).err, "") << "they are even now";
+  EXPECT_EQ(run({"retime", "--in-place", "clip.tik", "-f", "120"}).err, "") << "they are even now";
 }
 
 // A file that says how fast it was filmed, rightly or not, is not told to be one that does not.

@@ -32,6 +32,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent / "tools"), str(HERE.parent / "fuzz")]
 from make_seeds import cine, dng  # noqa: E402
 from report import Report  # noqa: E402
+from words import over  # noqa: E402
 
 WIDTH, HEIGHT, PICTURES = 48, 32, 6
 EXPOSE = ["--renderer", "reference", "--start", "0s", "--exposure", "1s", "--no-recipe"]
@@ -364,7 +365,7 @@ def check_captures(report, bench, flips, seed):
     (bench.folder / "table.csv").write_text("file,start_ns,exposure_ns\n" + table)
     path = bench.folder / "c.tik"
     for name, line in CAPTURES.items():
-        status, _, said = bench.run(line.format(path.name).split())
+        status, _, said = bench.run(over(line.format(path.name).split()))
         if status != 0:
             sys.exit(f"{line} fails: {said}")
         data, right, draw = path.read_bytes(), bench.right([path.name]), random.Random(seed)

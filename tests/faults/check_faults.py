@@ -32,6 +32,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tools"))
 from report import Report  # noqa: E402
+from words import over  # noqa: E402
 
 WIDTH, HEIGHT, PICTURES = 160, 120, 24
 ERRORS = {"open": [errno.EMFILE, errno.EACCES], "read": [errno.EIO], "write": [errno.ENOSPC, errno.EIO],
@@ -116,7 +117,7 @@ class Bench:
     def command(self, line):
         """Words of a command line, and what it writes."""
         text, outputs = line
-        return text.format(outputs).split(), [self.folder / output for output in outputs.split()]
+        return over(text.format(outputs).split()), [self.folder / output for output in outputs.split()]
 
     def start(self, words, settings):
         environment = os.environ | {"NUTIK_SELF_TEST": "off", "XDG_CACHE_HOME": str(self.folder / "cache")} | settings

@@ -22,6 +22,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tools"))
 from report import Report  # noqa: E402
+from words import over  # noqa: E402
 
 WIDTH, HEIGHT, PICTURES = 64, 48, 24
 WRITER_ROUNDS = 20
@@ -121,7 +122,7 @@ class Bench:
                                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
 
     def end_of(self, line):
-        process = self.start(line.split())
+        process = self.start(over(line.split()))
         _, said = process.communicate(timeout=120)
         if process.returncode != 0:
             sys.exit(f"{line}: status {process.returncode}: {said.decode(errors='replace')}")
@@ -153,7 +154,7 @@ def check_writers(report, bench, library):
         whole.append(output.read_bytes())
     for _ in range(WRITER_ROUNDS):
         output.unlink(missing_ok=True)
-        processes = [bench.start(line.split(), {"LD_PRELOAD": str(library), "NUTIK_NO_LOCKS": "1"}) for line in lines]
+        processes = [bench.start(over(line.split()), {"LD_PRELOAD": str(library), "NUTIK_NO_LOCKS": "1"}) for line in lines]
         for process in processes:
             _, said = process.communicate(timeout=120)
             if process.returncode != 0:

@@ -24,6 +24,7 @@ from typing import NamedTuple
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "tools"))
 from report import Report  # noqa: E402
+from words import over  # noqa: E402
 
 MB = 1 << 20
 # Of the program with its libraries and of small pictures, which may be up to 64 MB; and of OpenCL's compiler.
@@ -166,7 +167,7 @@ class Bench:
     def start(self, words):
         with (self.folder / "log").open("wb") as log:
             environment = os.environ | {"XDG_CACHE_HOME": str(self.folder / "cache")}
-            return subprocess.Popen([self.program, *words.split(), "-q"], cwd=self.folder, env=environment,
+            return subprocess.Popen([self.program, *over(words.split()), "-q"], cwd=self.folder, env=environment,
                                     stdin=subprocess.DEVNULL, stdout=log, stderr=log)
 
     def said(self):

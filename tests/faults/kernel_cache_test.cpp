@@ -24,7 +24,7 @@ struct KernelCache : test::ProgramTest {
   [[nodiscard]] test::ProgramResult expose(const std::string& picture = "p.png",
                                            std::vector<std::string> settings = {}) const {
     settings.push_back("XDG_CACHE_HOME=" + (scratch_ / "home").string());
-    return test::run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "c.tik", picture},
+    return test::run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "--overwrite", "c.tik", picture},
                              scratch_.folder(), settings);
   }
   [[nodiscard]] std::vector<fs::path> kept() const {
@@ -34,7 +34,7 @@ struct KernelCache : test::ProgramTest {
 
   [[nodiscard]] std::string right_picture() const {
     const auto result = test::run_program(
-        {"--start", "0s", "--exposure", "1s", "--no-recipe", "--renderer", "reference", "c.tik", "right.png"},
+        {"--start", "0s", "--exposure", "1s", "--no-recipe", "--overwrite", "--renderer", "reference", "c.tik", "right.png"},
         scratch_.folder());
     EXPECT_EQ(result.status, 0) << result.err;
     return test::read_file(scratch_ / "right.png");
@@ -65,7 +65,7 @@ TEST_F(KernelCache, ThatIsNowhereIsNotPromised) {
                     kept = "; they are kept for the next time";
   for (const char* const stated : {"", "relative"}) {
     const auto result =
-        test::run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "c.tik", "p.png"},
+        test::run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "--overwrite", "c.tik", "p.png"},
                           scratch_.folder(), {"HOME=", format("XDG_CACHE_HOME={}", stated)});
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_NE(result.err.find(building), std::string::npos) << result.err;
@@ -97,7 +97,7 @@ TEST_F(KernelCache, OnAFullDiskIsNotPocls) {
   fs::create_directories(scratch_ / "temporary");
   const auto expose_on_full_disk = [&](const std::string& settings) {
     return test::run_shell(format("unshare -rm sh -c 'mount -t tmpfs -o size=1M none disk || exit 77; {} \"{}\" --start "
-                                  "0s --exposure 1s --no-recipe c.tik p.png'",
+                                  "0s --exposure 1s --no-recipe --overwrite c.tik p.png'",
                                   settings, NUTIK_TEST_PROGRAM),
                            scratch_.folder());
   };

@@ -22,11 +22,11 @@ struct LostFiles : test::ProgramTest, testing::WithParamInterface<const char*> {
         noise.put(static_cast<char>((state = state * 1664525 + 1013904223) >> 24));
     }
     const auto made = run(
-        {"--raw", "64x64:gray", "-f", "64", "--codec", "none", "--block-samples", "8", "clip.raw", "c.tik"});
+        {"--raw", "64x64:gray", "-f", "64", "--codec", "none", "--block-samples", "8", "--overwrite", "clip.raw", "c.tik"});
     ASSERT_EQ(made.status, 0) << made.err;
   }
   [[nodiscard]] std::vector<std::string> long_video() const {
-    return {"video", "--renderer", GetParam(), "--out-fps", "1000", "--speed", "0.02", "c.tik", "v.mkv"};
+    return {"video", "--renderer", GetParam(), "--out-fps", "1000", "--speed", "0.02", "--overwrite", "c.tik", "v.mkv"};
   }
   void expect_refused(RunningProgram& running) const {
     EXPECT_EQ(running.end(), 3);

@@ -112,7 +112,7 @@ def main():
     wrong = 0
     for name, operands, samples in clips(arguments.media):
         path = arguments.work / f"{name}.noise"
-        subprocess.run([arguments.program, "noise", "-q", *operands, "-o", path], check=True)
+        subprocess.run([arguments.program, "noise", "-q", "--overwrite", *operands, "-o", path], check=True)
         (points,) = read_points(path)
         wrong += compare(name, samples[..., 0] if samples.ndim == 4 else samples, points)
     return 1 if wrong else 0

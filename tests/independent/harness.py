@@ -47,6 +47,8 @@ class Checks:
         """Run the program in a folder: a Run. An exit status other than `wanted` is a failure; None
         wants any."""
         arguments = [str(argument) for argument in arguments]
+        if arguments[0] not in ("check", "validate"):
+            arguments.append("--overwrite")
         command = f"cd {shlex.quote(str(folder))} && {shlex.join([self.program] + arguments)}"
         try:
             done = subprocess.run([self.program] + arguments, cwd=folder, capture_output=True,

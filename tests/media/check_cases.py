@@ -109,7 +109,7 @@ class Cases:
 
     def check(self, case):
         title = f"{case.clip} {case.options}".strip()
-        ran = self.run("encode", *case.options.split(), self.cases / case.clip, "clip.tik")
+        ran = self.run("encode", "--overwrite", *case.options.split(), self.cases / case.clip, "clip.tik")
         printed = ran.stdout + ran.stderr
         self.report.hold(ran.returncode == case.status, f"{title}: status {ran.returncode}")
         missing = [part for part in case.said if part not in printed]

@@ -22,7 +22,7 @@ import numpy
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "app"), str(ROOT / "tools")]
 import gallery  # noqa: E402
-from check_examples import COUNT, HEIGHT, WIDTH, frame, make_scene, write_clip  # noqa: E402
+from check_examples import COUNT, HEIGHT, WIDTH, frame, make_scene, run_alone, write_clip  # noqa: E402
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs" / "how-to").glob("*.md")),
          *sorted((ROOT / "docs" / "reference").glob("*.md"))]
@@ -87,8 +87,7 @@ def main():
             if count == 0:
                 shutil.copytree(scene, folder)
             count += 1
-            done = subprocess.run(["bash", "-o", "pipefail", "-c", command], cwd=folder, env=environment, text=True,
-                                  capture_output=True, stdin=subprocess.DEVNULL)
+            done = run_alone(command, folder, environment)
             if done.returncode != 0:
                 failures.append(f"{page.name}: {command}\n  {done.returncode}: {done.stderr.strip()}")
         shutil.rmtree(folder, ignore_errors=True)

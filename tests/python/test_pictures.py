@@ -21,7 +21,7 @@ class Pictures(support.TestCase):
 
     def check(self, words, name="picture.ppm", **asked):
         """Both of the same exposure. Returns ours."""
-        self.run_program("-q", *words, "clip.tik", name)
+        self.run_program("-q", "--overwrite", *words, "clip.tik", name)
         theirs = (support.read_pfm if name.endswith(".pfm") else support.read_netpbm)(self.path(name))
         picture = self.capture.render(**asked)
         self.assert_same(picture.array, theirs)

@@ -18,6 +18,12 @@ struct ProgramResult {
                                         const std::filesystem::path& folder,
                                         const std::vector<std::string>& environment = {});
 
+// A command's words where the files of an earlier one may be replaced.
+[[nodiscard]] inline std::vector<std::string> over(std::vector<std::string> words) {
+  words.emplace_back("--overwrite");
+  return words;
+}
+
 // Any command line of a shell, for second programs that read what ours wrote.
 [[nodiscard]] ProgramResult run_shell(const std::string& command, const std::filesystem::path& folder);
 

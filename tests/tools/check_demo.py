@@ -51,7 +51,7 @@ class Demo:
         self.background = np.load(folder / "background.npy").astype(np.float64)
         self.regions = cv2.imread(str(folder / "regions.pgm"), cv2.IMREAD_UNCHANGED)
         self.capture = folder / "clip.tik"
-        run(program, "encode", "-q", "--codec", "zstd:1", folder / "clip.mkv", self.capture)
+        run(program, "encode", "-q", "--overwrite", "--codec", "zstd:1", folder / "clip.mkv", self.capture)
         self.along, self.above = self.track_coordinates()
 
     def track_coordinates(self):
@@ -78,7 +78,7 @@ class Demo:
     def expose(self, name, *options):
         """[height, width, 3], RGB: codes of a .png, light of a .pfm."""
         path = self.folder / name
-        run(self.program, "expose", "-q", *options, self.capture, "-o", path)
+        run(self.program, "expose", "--overwrite", "-q", *options, self.capture, "-o", path)
         picture = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
         if picture is None or picture.shape != self.background.shape:
             sys.exit(f"{path} cannot be read, or is not of the clip's size")

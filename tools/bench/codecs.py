@@ -42,11 +42,11 @@ def measure(clip, build, folder, runs):
         times["decode"].append(run(build / "bench_decode", clip))
         for codec in CODECS:
             times.setdefault(("encode", codec), []).append(
-                run(program, "encode", "-q", "--codec", codec, clip, sources[codec], makes=sources[codec]))
+                run(program, "encode", "--overwrite", "-q", "--codec", codec, clip, sources[codec], makes=sources[codec]))
         times.setdefault(("encode", "FFV1"), []).append(encode_ffv1(clip, sources["FFV1"]))
     for _ in range(runs):
         for codec, source in sources.items():
-            render = (program, "expose", "-q", "--start", "0s", "--exposure", "24h", "--live", "all", source, picture)
+            render = (program, "expose", "--overwrite", "-q", "--start", "0s", "--exposure", "24h", "--live", "all", source, picture)
             drop_from_cache(source)
             times.setdefault(("cold", codec), []).append(run_once(*render))
             times.setdefault(("warm", codec), []).append(run(*render))

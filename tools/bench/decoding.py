@@ -22,7 +22,7 @@ def measure(clip, build, folder, runs):
     program, capture, picture = build / "nutik-cl", folder / "capture.tik", folder / "picture.png"
 
     def encode(codec):
-        return run(program, "encode", "-q", "--codec", codec, clip, capture, makes=capture)
+        return run(program, "encode", "--overwrite", "-q", "--codec", codec, clip, capture, makes=capture)
 
     timed = {
         "decode": lambda: run(build / "bench_decode", clip),
@@ -31,7 +31,7 @@ def measure(clip, build, folder, runs):
         "opencv": lambda: float(output_of(PYTHON, LOOPS, "decode", clip)),
         "encode, none": lambda: encode("none"),
         "encode, rice": lambda: encode("rice"),
-        "expose": lambda: run(program, "expose", "-q", "--start", "0s", "--exposure", "24h", clip, picture),
+        "expose": lambda: run(program, "expose", "--overwrite", "-q", "--start", "0s", "--exposure", "24h", clip, picture),
     }
     seconds = {name: [] for name in timed}
     for _ in range(runs + 1):

@@ -52,13 +52,13 @@ def programs(build, clip, folder, frames, values, slow):
     masked = ("-m", folder / "regions.pgm", "-k", folder / "regions.fn")
     picture = folder / "picture.png"
     for codec in ("none", "rice"):
-        run_once(program, "encode", "-q", "--codec", codec, clip, folder / f"{codec}.tik")
-    yield "nutik-cl, from the clip", (program, "expose", "-q", *plain, clip, picture), 1
-    yield "nutik-cl, from a capture (rice)", (program, "expose", "-q", *plain, folder / "rice.tik", picture), 1
-    yield "nutik-cl, from a capture (none)", (program, "expose", "-q", *plain, folder / "none.tik", picture), 1
-    yield "nutik-cl, 16 regions, from a capture (none)", (program, "expose", "-q", *masked, folder / "none.tik",
+        run_once(program, "encode", "--overwrite", "-q", "--codec", codec, clip, folder / f"{codec}.tik")
+    yield "nutik-cl, from the clip", (program, "expose", "--overwrite", "-q", *plain, clip, picture), 1
+    yield "nutik-cl, from a capture (rice)", (program, "expose", "--overwrite", "-q", *plain, folder / "rice.tik", picture), 1
+    yield "nutik-cl, from a capture (none)", (program, "expose", "--overwrite", "-q", *plain, folder / "none.tik", picture), 1
+    yield "nutik-cl, 16 regions, from a capture (none)", (program, "expose", "--overwrite", "-q", *masked, folder / "none.tik",
                                                           picture), 1
-    yield "scalar reference, from a capture (none)", (program, "expose", "-q", "--renderer", "reference", *plain,
+    yield "scalar reference, from a capture (none)", (program, "expose", "--overwrite", "-q", "--renderer", "reference", *plain,
                                                       folder / "none.tik", picture), 1
     yield "Python and OpenCV, a loop", (PYTHON, LOOPS, "loop", clip, picture), 1
     yield "Python and NumPy, 16 regions", (PYTHON, LOOPS, "regions", clip, picture), 1
@@ -76,7 +76,7 @@ def arithmetic(build, clip, folder):
     """Seconds of the arithmetic alone, by name: once each call."""
     program = build / "nutik-cl"
     for precision in ("single", "double"):
-        report = output_of(program, "expose", "-v", "--precision", precision, "--start", "0s", "--exposure", "24h",
+        report = output_of(program, "expose", "--overwrite", "-v", "--precision", precision, "--start", "0s", "--exposure", "24h",
                            folder / "none.tik", folder / "picture.png")
         yield f"kernel, {precision}", float(KERNEL.search(report)[1]) / 1e3
     yield "Python and OpenCV, a loop", float(output_of(PYTHON, LOOPS, "loop", "--memory", clip))

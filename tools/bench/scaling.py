@@ -41,7 +41,7 @@ def make_capture(program, folder, samples, pixels):
         run_once("ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i",
             f"testsrc2=size={width}x{height}:rate={RATE},noise=alls=6:allf=t", "-frames:v", str(samples), "-c:v",
             "libx264", "-preset", "ultrafast", clip)
-        run_once(program, "encode", "-q", "--codec", "none", clip, capture)
+        run_once(program, "encode", "--overwrite", "-q", "--codec", "none", clip, capture)
     return capture
 
 
@@ -62,7 +62,7 @@ def measure(program, folder, setting, runs):
     capture = make_capture(program, folder, setting["samples"], setting["pixels"])
     mask, functions = make_functions(folder, setting["pixels"], setting["functions"], setting["control points"],
                                      setting["samples"])
-    command = [program, "expose", "-v", "-m", mask, "-k", functions, capture, folder / "picture.png"]
+    command = [program, "expose", "--overwrite", "-v", "-m", mask, "-k", functions, capture, folder / "picture.png"]
     if setting["cores"]:
         command = ["taskset", "-c", ",".join(map(str, sorted(os.sched_getaffinity(0))[:setting["cores"]])), *command]
     kernel, process = [], []

@@ -75,7 +75,7 @@ def read_pfm(path):
 
 def light_of(program, folder, capture, *how):
     """A picture of the whole capture, in light."""
-    run_once(program, "expose", "-q", *how, *WHOLE, capture, folder / "light.pfm")
+    run_once(program, "expose", "--overwrite", "-q", *how, *WHOLE, capture, folder / "light.pfm")
     return read_pfm(folder / "light.pfm")
 
 
@@ -98,7 +98,7 @@ def measure_loop(clip, folder, runs, lossless):
 def measure_tolerance(program, clip, folder, tolerance, runs, lossless):
     """Rows of one capture: a variant each, and the reference."""
     capture = folder / "capture.tik"
-    run_once(program, "encode", "-q", "--codec", "none", "--tolerance", str(tolerance), clip, capture)
+    run_once(program, "encode", "--overwrite", "-q", "--codec", "none", "--tolerance", str(tolerance), clip, capture)
     report = json.loads(output_of(program, "validate", "-q", "--json", "--runs", str(runs), *WHOLE, capture))
     held = light_of(program, folder, capture, "--precision", "double")
     own_worst, own_rms = errors_between(held, lossless)
@@ -121,7 +121,7 @@ def measure_tolerance(program, clip, folder, tolerance, runs, lossless):
 def measure(program, clip, folder, runs):
     """Rows of one clip."""
     exact = folder / "exact.tik"
-    run_once(program, "encode", "-q", "--codec", "none", clip, exact)
+    run_once(program, "encode", "--overwrite", "-q", "--codec", "none", clip, exact)
     lossless = light_of(program, folder, exact, "--renderer", "reference")
     exact.unlink()
     for tolerance in TOLERANCES:

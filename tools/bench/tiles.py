@@ -27,13 +27,13 @@ REPORT = re.compile(r"(\w+) precision; \d+ blocks? of ([\d.]+) MB made ready in 
 def measure(clip, tolerance, build, folder, runs, precision):
     captures = {kind: folder / f"{kind}.tik" for kind in KINDS}
     for kind, capture in captures.items():
-        subprocess.run([build / "nutik-cl", "encode", "-q", "--codec", "none", "--tiles", kind, "--tolerance",
+        subprocess.run([build / "nutik-cl", "encode", "--overwrite", "-q", "--codec", "none", "--tiles", kind, "--tolerance",
                         tolerance, clip, capture], check=True)
     values = {kind: {"kernel_ms": [], "process_s": []} for kind in KINDS}
     for run in range(runs + 1):  # the first one warms up
         for kind in KINDS:
             start = time.perf_counter()
-            out = subprocess.run([build / "nutik-cl", "expose", "-v", "--precision", precision, "--start", "0s",
+            out = subprocess.run([build / "nutik-cl", "expose", "--overwrite", "-v", "--precision", precision, "--start", "0s",
                                   "--exposure", "24h", captures[kind], folder / "picture.png"],
                                  check=True, capture_output=True, text=True).stdout
             seconds = time.perf_counter() - start

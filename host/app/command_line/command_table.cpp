@@ -50,8 +50,8 @@ constexpr Command kCommands[] = {
      run_thumbnail, kCaptures},
     {Id::retime, "retime", "CAPTURE.tik [CORRECTED.tik]",
      "Correct what a capture says of itself, without encoding its clip again: rate, shutter angle, transfer "
-     "function, primaries, pixel aspect. Without a second name the capture itself is replaced.",
-     "nutik-cl retime clip.tik -f 960 -a 180\n"
+     "function, primaries, pixel aspect. With --in-place the capture itself is replaced.",
+     "nutik-cl retime clip.tik -f 960 -a 180 --in-place\n"
      "nutik-cl retime clip.tik --transfer linear -o corrected.tik",
      run_retime, kCaptures},
     {Id::noise, "noise", "CLIP... [-o CAMERA.noise]",

@@ -32,6 +32,10 @@ constexpr CommandSet kExposes =
 constexpr CommandSet kExposesFreely = set_of(Id::expose, Id::contact, Id::sweep, Id::video);
 // Those that make many pictures, each in a file of its own.
 constexpr CommandSet kMakesMany = set_of(Id::expose, Id::batch, Id::video);
+// Those that write files.
+constexpr CommandSet kWrites =
+    (kReadsClips & ~set_of(Id::check, Id::validate)) |
+    set_of(Id::recover, Id::noise, Id::retime, Id::join, Id::info, Id::thumbnail);
 // Those that lay pictures out on a sheet.
 constexpr CommandSet kMakesSheets = set_of(Id::contact, Id::sweep);
 // Those that have nothing to tell a script, or tell what is a file itself.
@@ -364,8 +368,7 @@ constexpr Option kRows[] = {
 
     heading("Output"),
     {'o', "output", "FILE", output,
-     (kReadsClips & ~set_of(Id::batch, Id::check, Id::validate)) | set_of(Id::recover, Id::noise, Id::retime, Id::join),
-     &Options::output,
+     kWrites & ~set_of(Id::batch, Id::info, Id::thumbnail), &Options::output,
      "where to write; without it the last operand, or a name made from the inputs. A picture goes to "
      "standard output as -, a PNG, or as exr:-, tif:-, …"},
     {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate, Id::plate, Id::study),
@@ -404,6 +407,9 @@ constexpr Option kRows[] = {
      "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},
     {0, "skip-existing", "", output, kMakesMany, &Options::skip_existing,
      "leave out pictures that are there already with the recipe that they would get"},
+    {0, "overwrite", "", output, kWrites, &Options::overwrite,
+     "replace files that are there already; without it only pictures that carry a recipe are replaced"},
+    {0, "in-place", "", output, bit(Id::retime), &Options::in_place, "change the capture itself"},
     {0, "progress", "", output, kMakesMany | set_of(Id::encode, Id::join), &Options::progress,
      "print a line a second on stderr if that is no terminal: Progress: 45% …"},
     {'q', "quiet", "", output, kAll, &Options::quiet, "no progress bar and no summary"},

@@ -52,7 +52,7 @@ struct Options {
   // What is written.
   Value output, depth, quality, negative, out_transfer, activity;
   bool json = false, no_recipe = false, quiet = false, verbose = false;
-  bool progress = false, skip_existing = false;
+  bool progress = false, skip_existing = false, overwrite = false, in_place = false;
 
   // A recording of events.
   Value contrast, start_picture, tick;

@@ -30,18 +30,18 @@ ActivityOutputs outputs_of(const Options& options) {
   std::vector<std::string> inputs = input_files(options);
   if (outputs.chart) {
     constexpr std::uint32_t kColour = 3;
-    check_picture_output(*outputs.chart, kColour, inputs);
+    check_picture_output(*outputs.chart, kColour, inputs, replacing(options));
     inputs.push_back(outputs.chart->string());  // no two outputs of one name either
   }
   if (options.map) {
     outputs.map = *options.map;
-    check_picture_output(*outputs.map, 1, inputs);
+    check_picture_output(*outputs.map, 1, inputs, replacing(options));
     inputs.push_back(*options.map);
   }
   outputs.prints_table = options.csv == "-";
   if (options.csv && !outputs.prints_table) {
     outputs.table = *options.csv;
-    check_output(*outputs.table, OutputKind::table, inputs);
+    check_output(*outputs.table, OutputKind::table, inputs, replacing(options));
   }
   if (outputs.prints_table && options.json)
     throw UsageError("--csv - and --json both go to standard output; use one");

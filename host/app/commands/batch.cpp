@@ -118,7 +118,7 @@ class Batch {
       if (names_standard_output(output)) {
         throw UsageError("standard output takes one picture, and a batch makes many; name a file");
       }
-      check_output(output, OutputKind::picture, input_files(line));
+      check_output(output, OutputKind::picture, input_files(line), replacing(line));
       if (const auto reader = line_of_input_.find(led_to(output)); reader != line_of_input_.end()) {
         throw UsageError(format("{} is an input of line {}; choose another name", output.string(), reader->second));
       }

@@ -1,8 +1,8 @@
 #include "app/commands/camera_files.hpp"
 
+#include "app/output/output_name.hpp"
 #include "session/below/pictures.hpp"
 #include "session/clips/camera_record.hpp"
-#include "session/output_check.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {
@@ -12,10 +12,10 @@ CameraFiles::CameraFiles(const Options& options, const std::filesystem::path& ca
     : table_(options.camera_path), plot_(options.camera_plot), coverage_(options.coverage) {
   constexpr std::uint32_t kColour = 3;
   inputs.push_back(capture.string());  // no two outputs of one name either
-  if (table_) check_output(*table_, OutputKind::table, inputs);
-  if (plot_) check_picture_output(*plot_, kColour, inputs);
+  if (table_) check_output(*table_, OutputKind::table, inputs, replacing(options));
+  if (plot_) check_picture_output(*plot_, kColour, inputs, replacing(options));
   if (plot_) inputs.push_back(*plot_);
-  if (coverage_) check_picture_output(*coverage_, 1, inputs);
+  if (coverage_) check_picture_output(*coverage_, 1, inputs, replacing(options));
 }
 
 void CameraFiles::write(const CameraPath& path, const Timeline& timeline, const std::string& heading,

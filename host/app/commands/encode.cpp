@@ -28,7 +28,7 @@ int run_encode(const Options& options) {
                "--exposure 10ms {} picture.png",
                input, shell_word(input)));
   }
-  check_output(output, OutputKind::tik, input_files(options));
+  check_output(output, OutputKind::tik, input_files(options), replacing(options));
   const CameraFiles camera_files(options, output, input_files(options));
 
   const EncodedCapture encoded =

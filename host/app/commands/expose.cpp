@@ -23,7 +23,7 @@ int run_expose(const Options& options) {
   ExposureTally tally;
   const std::filesystem::path output = output_name(options, "expose", "-" + exposure_label(options) + ".png");
   const ExposureRequest request = exposure_request(options);
-  check_output(output, OutputKind::picture, input_files(options));
+  check_output(output, OutputKind::picture, input_files(options), replacing(options));
 
   PictureRecipe recipe(recipe_sources(options));
   if (options.skip_existing) {

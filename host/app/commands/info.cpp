@@ -2,6 +2,7 @@
 #include <array>
 
 #include "app/commands/commands.hpp"
+#include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "app/text/message_text.hpp"
 #include "session/below/activity.hpp"
@@ -11,7 +12,6 @@
 #include "session/below/pictures.hpp"
 #include "session/clips/alignment.hpp"
 #include "session/making/capture_figures.hpp"
-#include "session/output_check.hpp"
 #include "session/text/shell_text.hpp"
 #include "session/text/size_text.hpp"
 #include "session/text/time_text.hpp"
@@ -67,7 +67,9 @@ int run_info(const Options& options) {
   const CaptureFormat& capture = reader.format();
   const Timeline& timeline = reader.timeline();
 
-  if (options.activity) check_picture_output(*options.activity, 1, std::array{name});
+  if (options.activity) {
+    check_picture_output(*options.activity, 1, std::array{name}, replacing(options));
+  }
 
   const CaptureFigures figures = figures_of(reader);
   for (const InputError& damage : figures.damage) print_warning(message_text(damage));

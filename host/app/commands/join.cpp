@@ -1,4 +1,5 @@
 #include "app/commands/commands.hpp"
+#include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "session/below/error.hpp"
@@ -16,6 +17,7 @@ int run_join(const Options& options) {
     throw UsageError("join takes two captures or more and an output: nutik-cl join a.tik b.tik -o whole.tik");
   const JoinRequest request{{captures.begin(), captures.end()}, *options.output};
 
+  check_output(request.output, OutputKind::tik, captures, replacing(options));
   const Stopwatch stopwatch;
   const Joined joined = join(request, progress_bar("joining", options.quiet, progress_lines(options)));
   const Timeline& timeline = joined.timeline;

@@ -15,7 +15,6 @@
 #include "session/making/mask_making.hpp"
 #include "session/making/mask_preview.hpp"
 #include "session/making/plate_request.hpp"
-#include "session/output_check.hpp"
 #include "session/requests/stated_time.hpp"
 #include "session/text/size_text.hpp"
 #include "system/is_absent.hpp"
@@ -68,14 +67,14 @@ MaskJob job_of(const Options& options) {
   }
   if (options.feather) {
     job.feather = Feather::parse(*options.feather);
-    job.layers.emplace(job.output).check(inputs);
+    job.layers.emplace(job.output).check(inputs, replacing(options));
   } else {
-    check_mask_output(job.output, inputs);
+    check_mask_output(job.output, inputs, replacing(options));
   }
   if (options.preview) {
     constexpr std::uint32_t kColour = 3;
     inputs.push_back(job.output.string());
-    check_picture_output(*options.preview, kColour, inputs);
+    check_picture_output(*options.preview, kColour, inputs, replacing(options));
   } else if (options.start || options.exposure) {
     throw UsageError("--start and --exposure say what --preview shows; add --preview picture.png");
   }

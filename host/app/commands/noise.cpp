@@ -1,4 +1,5 @@
 #include "app/commands/commands.hpp"
+#include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "session/below/error.hpp"
@@ -6,7 +7,6 @@
 #include "session/below/pictures.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/clips/measured_noise.hpp"
-#include "session/output_check.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {
@@ -40,7 +40,7 @@ int run_noise(const Options& options) {
   }
   const std::filesystem::path output =
       options.output ? *options.output : sequence_name(options.operands.front()) + ".noise";
-  check_output(output, OutputKind::noise, options.operands);
+  check_output(output, OutputKind::noise, options.operands, replacing(options));
 
   ClipTold told;
   const NoiseEstimate estimate =

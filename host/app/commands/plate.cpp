@@ -10,7 +10,6 @@
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/pictures.hpp"
-#include "session/output_check.hpp"
 #include "session/text/size_text.hpp"
 
 namespace nutik::app {
@@ -28,10 +27,10 @@ int run_plate(const Options& options) {
   const Stopwatch stopwatch;
   const std::filesystem::path output = output_name(options, "plate", "-plate.png");
   std::vector<std::string> inputs = input_files(options);
-  check_output(output, OutputKind::picture, inputs);
+  check_output(output, OutputKind::picture, inputs, replacing(options));
   if (options.uncertain) {
     inputs.push_back(output.string());
-    check_mask_output(*options.uncertain, inputs);
+    check_mask_output(*options.uncertain, inputs, replacing(options));
   }
   PlateRequest request;
   if (options.by) request.by_codes = parse_whole_number(*options.by, "--by", 0, 65'535);

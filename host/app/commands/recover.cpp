@@ -16,7 +16,7 @@ int run_recover(const Options& options) {
   const std::string& damaged = options.operands.front();
   if (!output)
     throw UsageError(format("the output is missing: nutik-cl recover {} -o whole.tik", shell_word(damaged)));
-  check_output(*output, OutputKind::tik, std::array{damaged});
+  check_output(*output, OutputKind::tik, std::array{damaged}, replacing(options));
   const tik::Recovery recovery = tik::recover(damaged, *output);
   Answer answer{{{"capture", output->string()},
                  {"samples", recovery.sample_count},

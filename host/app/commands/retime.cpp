@@ -6,6 +6,7 @@
 #include "session/below/format.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/making/retiming.hpp"
+#include "session/text/shell_text.hpp"
 #include "session/text/size_text.hpp"
 #include "session/text/time_text.hpp"
 
@@ -13,6 +14,14 @@ namespace nutik::app {
 
 int run_retime(const Options& options) {
   const auto output = stated_output(options, "retime");
+  if (output.has_value() == options.in_place) {
+    throw UsageError(
+        options.in_place
+            ? format("two outputs: {} and the capture itself (--in-place); leave one out", output->string())
+            : format("say where to write: nutik-cl retime … {} NEW.tik, or that the capture itself changes: "
+                     "--in-place",
+                     shell_word(options.operands.front())));
+  }
   RetimeRequest request;
   request.capture = options.operands.front();
   request.output = output.value_or(request.capture);
@@ -21,7 +30,8 @@ int run_retime(const Options& options) {
   if (options.transfer) request.transfer = Transfer::parse(*options.transfer);
   if (options.primaries) request.primaries = parse_primaries(*options.primaries);
   if (options.pixel_aspect) request.pixel_aspect = parse_pixel_aspect(*options.pixel_aspect);
-  if (output) check_output(*output, OutputKind::tik, std::array{request.capture.string()});
+  if (output)
+    check_output(*output, OutputKind::tik, std::array{request.capture.string()}, replacing(options));
 
   const auto [capture, timeline, file_bytes, facts, notes] = retime(request);
   Answer answer{{{"capture", request.output.string()}}};

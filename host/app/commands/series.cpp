@@ -22,7 +22,7 @@ int run_series(const Options& options) {
   const ExposureRequest request = exposure_request(options);
   const SeriesRequest series = series_request(options);
   const std::vector<std::string> inputs = input_files(options);
-  check_output(names[0], OutputKind::picture, inputs);  // before a clip is read
+  check_output(names[0], OutputKind::picture, inputs, replacing(options));  // before a clip is read
   if (options.skip_existing) require_recipes(options, names[0]);
   PictureRecipe recipe(recipe_sources(options));
   const OutputRequest wishes = output_request(options);
@@ -36,7 +36,7 @@ int run_series(const Options& options) {
   const std::vector<StatedTime> starts = starts_of(series, request, session.timeline());
   for (const std::uint64_t k : chosen_numbers(series.numbers, starts.size(), "exposures", "series")) {
     pictures.push_back({starts[k], names[k]});
-    check_output(pictures.back().path, OutputKind::picture, inputs);
+    check_output(pictures.back().path, OutputKind::picture, inputs, replacing(options));
   }
   const std::size_t wanted = pictures.size();
   if (options.skip_existing) {

@@ -36,7 +36,7 @@ class SheetJob {
         output_(output_name(options, to_text(of), behind)),
         inputs_(input_files(options)),
         codes_(output_request(options)) {
-    check_picture_output(output_, /*channels=*/3, inputs_);
+    check_picture_output(output_, /*channels=*/3, inputs_, replacing(options));
     check_quality(codes_, output_);
   }
 
@@ -94,7 +94,7 @@ std::vector<std::filesystem::path> single_names(const Options& options, std::siz
   const PictureNames numbered(*options.each, "--each");
   for (std::size_t i = 0; i < count; ++i) {
     names.push_back(numbered[i]);
-    check_output(names.back(), OutputKind::picture, inputs);
+    check_output(names.back(), OutputKind::picture, inputs, replacing(options));
     if (std::filesystem::absolute(names.back()).lexically_normal() ==
         std::filesystem::absolute(sheet).lexically_normal()) {
       throw UsageError(
@@ -160,7 +160,7 @@ int run_sweep(const Options& options) {
   const Timeline& timeline = session.timeline();
   const Shape& shape = session.format().shape;
   for (const std::filesystem::path& single : singles)
-    check_picture_output(single, shape.channels, job.inputs());
+    check_picture_output(single, shape.channels, job.inputs(), replacing(options));
   const std::string what = counted(points.size(), "picture");
   sheet.heading = job.heading(format("{}, {}", label, what));
   sheet.mask = mask_of(request, shape);

@@ -11,7 +11,6 @@
 #include "app/requests/requests.hpp"
 #include "app/text/text_table.hpp"
 #include "session/below/format.hpp"
-#include "session/output_check.hpp"
 #include "session/text/shell_text.hpp"
 #include "session/text/size_text.hpp"
 #include "session/text/time_text.hpp"
@@ -131,7 +130,7 @@ int run_solve(const Options& options) {
   const Stopwatch stopwatch;
   const std::filesystem::path output =
       stated_output(options, "solve").value_or(exposure_label(options) + "-solved.fn");
-  check_output(output, OutputKind::functions, input_files(options));
+  check_output(output, OutputKind::functions, input_files(options), replacing(options));
   const SolveRequest request = solve_request(options);
 
   Session session = open_session(options, {.besides = solve_needs(request)});

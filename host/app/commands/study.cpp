@@ -49,8 +49,8 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
   };
   const std::string capture = shell_word(not_an_option(options.operands.front()));
   if (style == StudyStyle::clean) {
-    return format("nutik-cl plate{} \\\n  {} {}\n", stated_words(options, CommandId::plate), capture,
-                  name(files.picture));
+    return format("nutik-cl plate{} --overwrite \\\n  {} {}\n", stated_words(options, CommandId::plate),
+                  capture, name(files.picture));
   }
   std::string regions;
   for (const MaskStep& step : study.mask.steps) {
@@ -62,7 +62,7 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
     }
     for (const RegionChange& change : step.changes) regions += " " + change_words(change);
   }
-  return format("nutik-cl mask{}{} \\\n  {} {}\nnutik-cl{} \\\n  {} {}\n",
+  return format("nutik-cl mask{}{} --overwrite \\\n  {} {}\nnutik-cl{} --overwrite \\\n  {} {}\n",
                 stated_words(options, CommandId::mask), regions, capture, name(files.mask),
                 stated_words(exposing(options, files, style), CommandId::expose), capture,
                 name(files.picture));
@@ -135,7 +135,7 @@ int run_study(const Options& stated) {
   ExposureTally tally;
   const StudyRequest request = study_request(options);
   StudyFiles files(output_name(options, "study", "-study.png"));
-  files.check(input_files(options));
+  files.check(input_files(options), replacing(options));
 
   const std::string capture_name = options.operands.front();
   // A camera that corrects its exposure changes the whole scene, and nothing of it rests.

@@ -7,7 +7,6 @@
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/pictures.hpp"
-#include "session/output_check.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/checksum.hpp"
 #include "system/input_bytes.hpp"
@@ -101,12 +100,14 @@ std::filesystem::path StudyFiles::beside(const char* extension) const {
   return path;
 }
 
-void StudyFiles::check(std::span<const std::string> inputs) const {
-  check_output(picture, OutputKind::picture, inputs);
+void StudyFiles::check(std::span<const std::string> inputs, Replacing replacing) const {
+  const Noted noted(is_alone_ ? std::filesystem::path() : commands);
+  std::error_code error;
+  const bool is_own = std::filesystem::is_regular_file(picture, error) && noted.is_as_it_was(picture, false);
+  check_output(picture, OutputKind::picture, inputs, is_own ? Replacing::all : replacing);
   if (is_alone_) return;
   check_output(mask, OutputKind::mask, inputs);
-  const Noted noted(commands);
-  std::error_code error;
+  if (replacing == Replacing::all) check_output(functions, OutputKind::functions, {});
   for (const std::filesystem::path* file : {&mask, &functions, &commands}) {
     const std::string name = file->string();
     if (std::ranges::find(inputs, name) != inputs.end()) {
@@ -114,21 +115,25 @@ void StudyFiles::check(std::span<const std::string> inputs) const {
           format("{} is also an input; it is not replaced. Choose another name for the picture", name));
     }
     if (is_absent(*file)) continue;
+    if (replacing == Replacing::all && (file != &commands || !noted.text.empty())) continue;
     if (!std::filesystem::is_regular_file(*file, error) || !noted.knows(*file)) {
       throw UsageError(format(
-          "{} exists and is of no study; it is not replaced. Choose another name for the picture", name));
+          "{} exists and is of no study; it is not replaced. Choose another name for the picture, or {}", name,
+          file == &commands ? "move it away" : "replace all with --overwrite"));
     }
     if (!noted.is_as_it_was(*file, file == &commands)) {
       throw UsageError(
           format("{} was changed since its study was made; it is not replaced. Choose another name for "
-                 "the picture, or remove that file",
+                 "the picture, or replace all with --overwrite",
                  name));
     }
   }
   const std::filesystem::path other = picture.parent_path() / noted.picture;
-  if (!noted.picture.empty() && noted.picture != name_of(picture) && !is_absent(other)) {
+  if (replacing != Replacing::all && !noted.picture.empty() && noted.picture != name_of(picture) &&
+      !is_absent(other)) {
     throw UsageError(
-        format("{}, {} and {} are those of {}; they are not replaced. Choose another name for the picture",
+        format("{}, {} and {} are those of {}; they are not replaced. Choose another name for the picture, or "
+               "replace them with --overwrite",
                mask.string(), functions.string(), commands.string(), other.string()));
   }
 }
@@ -154,8 +159,11 @@ void StudyFiles::write_commands(std::string_view text) const {
   Sums sums(sums_.begin(), sums_.end());
   if (sums.empty()) {  // no regions: those of an earlier study stay known
     sums = Noted(commands).sums;
-    std::erase_if(sums, [&](const auto& sum) { return sum.first == name_of(commands); });
+    std::erase_if(sums, [&](const auto& sum) {
+      return sum.first == name_of(commands) || sum.first == name_of(picture);
+    });
   }
+  sums.emplace(name_of(picture), sum_of(content_of(picture)));
   sums.emplace(name_of(commands), sum_of(all));
   write_text(commands, all + notes_text(sums, picture));
 }

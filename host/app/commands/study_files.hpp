@@ -1,8 +1,8 @@
 // The files of a study: its picture, and beside it what that was made with, to be changed by hand.
 //
-//   always:  what was changed by hand since, or is of no study, is not replaced. The commands' text knows the others by
-//            their checksums, while a study is being written those of the study before as well: what a process that was
-//            ended has left is replaced by the next
+//   always:  what was changed by hand since, or is of no study, is not replaced unless asked. The commands' text knows
+//            the others by their checksums, while a study is being written those of the study before as well: what a
+//            process that was ended has left is replaced by the next
 #pragma once
 
 #include <filesystem>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "session/below/pictures.hpp"
+#include "session/output_check.hpp"
 
 namespace nutik::app {
 
@@ -23,8 +24,8 @@ class StudyFiles {
   // A picture on standard output has nothing beside it.
   [[nodiscard]] bool is_alone() const { return is_alone_; }
 
-  // Throws UsageError where a file is an input too, or must not be replaced.
-  void check(std::span<const std::string> inputs) const;
+  // Throws UsageError where a file is an input too, or may not be replaced.
+  void check(std::span<const std::string> inputs, Replacing replacing) const;
 
   // Mask and functions, which the commands' text knows before they are there.
   void write_regions(const Picture& regions, std::string_view light);

@@ -9,7 +9,6 @@
 #include "session/below/format.hpp"
 #include "session/below/pictures.hpp"
 #include "session/below/sheets.hpp"
-#include "session/output_check.hpp"
 #include "session/session.hpp"
 #include "session/text/size_text.hpp"
 
@@ -19,7 +18,7 @@ int run_thumbnail(const Options& options) {
   const std::filesystem::path output = output_name(options, "thumbnail", "-thumbnail.png");
   const std::uint32_t side = options.width ? parse_whole_number(*options.width, "--width", 1, 4096) : 256;
   const std::string& name = options.operands.front();
-  check_picture_output(output, /*channels=*/3, std::array{name});
+  check_picture_output(output, /*channels=*/3, std::array{name}, replacing(options));
   const CaptureFormat capture = tik::Reader(name).format();  // refuses a clip, which would be read to its end
 
   // Without a device: file managers ask for one picture at a time, and shut programs off from caches and drivers.

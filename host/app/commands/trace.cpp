@@ -272,10 +272,10 @@ int run_trace(const Options& options) {
                  output->string()));
     }
     if (is_table_name(*output)) {
-      check_output(*output, OutputKind::table, input_files(options));
+      check_output(*output, OutputKind::table, input_files(options), replacing(options));
     } else {
       constexpr std::uint32_t kColour = 3;
-      check_picture_output(*output, kColour, input_files(options));
+      check_picture_output(*output, kColour, input_files(options), replacing(options));
     }
   }
 

@@ -25,7 +25,7 @@ int run_video(const Options& options) {
                            options.video_codec, output_request(options));
   const std::vector<std::string> inputs = input_files(options);
   if (options.skip_existing) require_recipes(options, output.writes_stills() ? output.still(0) : output.path());
-  output.check({}, inputs);  // a container's name, before the clip is read
+  output.check({}, inputs, replacing(options));  // a container's name, before the clip is read
 
   Session session = open_session(
       options, {.besides = video_needs(output.encoder_frames(), [&](const CaptureFormat& format) {
@@ -34,7 +34,7 @@ int run_video(const Options& options) {
   const Shape shape = session.format().shape;
   Frames frames = frames_of(request, session.timeline());
   if (!frames.warning.empty()) print_warning(frames.warning);
-  output.check(frames.numbers, inputs);
+  output.check(frames.numbers, inputs, replacing(options));
   PictureRecipe recipe(output.writes_stills() ? recipe_sources(options) : std::nullopt);
   const auto own_recipe_of = [&](std::uint64_t frame) {
     return frame_recipe(request, frames, frame, output.still(frame).stem().string() + ".fn");

@@ -22,6 +22,11 @@ namespace nutik::app {
 [[nodiscard]] std::filesystem::path output_name(const Options& options, std::string_view command,
                                                 std::string_view behind);
 
+// What the outputs may take the place of.
+[[nodiscard]] inline Replacing replacing(const Options& options) {
+  return options.overwrite ? Replacing::all : Replacing::made_by_recipe;
+}
+
 // Whether standard output takes a picture, so that nothing else may go there. Throws UsageError where something must.
 [[nodiscard]] bool writes_to_standard_output(const Options& options);
 

@@ -30,7 +30,7 @@ void refuse_source_options(const Options& options, const std::string& capture) {
     throw UsageError(format("{} describes a clip that is encoded; {} was encoded already. {}", option.name(),
                             capture,
                             option.is_of(CommandId::retime)
-                                ? format("To correct it: nutik-cl retime {} … {}", option.name(), capture)
+                                ? format("To correct it: nutik-cl retime {} … {} NEW.tik", option.name(), capture)
                                 : "Encode the clip again with it"));
   }
 }

@@ -134,6 +134,8 @@ std::string message_text(const std::exception& error) {
     return message + (name->kind == OutputKind::tik ? ": encode writes .tik files (nutik-cl CLIP CAPTURE.tik)"
                                                     : ", or as - to standard output");
   }
+  if (dynamic_cast<const OutputIsThere*>(&error) != nullptr)
+    return message + "; choose another name, or replace it with --overwrite";
   if (dynamic_cast<const RecipeTooLong*>(&error) != nullptr) return message + "; leave it out: --no-recipe";
   if (const auto* light = dynamic_cast<const LightIsKept*>(&error)) {
     return format(

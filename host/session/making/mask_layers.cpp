@@ -4,7 +4,6 @@
 #include "capture/format.hpp"
 #include "mask/layers.hpp"
 #include "media/picture_writer.hpp"
-#include "session/output_check.hpp"
 #include "session/requests/function_input.hpp"
 
 namespace nutik {
@@ -22,8 +21,8 @@ NumberedName numbered(const std::filesystem::path& name) {
 MaskLayers::MaskLayers(const std::filesystem::path& name)
     : name_(name), folder_(name.parent_path()), numbered_(numbered(name)) {}
 
-void MaskLayers::check(std::span<const std::string> inputs) const {
-  for (std::uint32_t tag = 0; tag < kMaskValues; ++tag) check_mask_output(file(tag), inputs);
+void MaskLayers::check(std::span<const std::string> inputs, Replacing replacing) const {
+  for (std::uint32_t tag = 0; tag < kMaskValues; ++tag) check_mask_output(file(tag), inputs, replacing);
 }
 
 void MaskLayers::write(const Mask& mask) const {

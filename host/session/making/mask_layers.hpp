@@ -8,6 +8,7 @@
 
 #include "exposure/mask.hpp"
 #include "media/numbered_name.hpp"
+#include "session/output_check.hpp"
 
 namespace nutik {
 
@@ -19,7 +20,7 @@ class MaskLayers {
   [[nodiscard]] std::filesystem::path file(std::uint64_t tag) const { return folder_ / numbered_.with(tag); }
 
   // Throws what check_output() does.
-  void check(std::span<const std::string> inputs) const;
+  void check(std::span<const std::string> inputs, Replacing replacing) const;
 
   // Writes those of the tags that have a share, in 16 bits. Throws OutputError, also where a layer of another mask is
   // there, which would be read along with them.

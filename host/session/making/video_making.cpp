@@ -6,6 +6,7 @@
 #include "media/frame_queue.hpp"
 #include "media/input_checksum.hpp"
 #include "session/making/picture_line.hpp"
+#include "system/is_absent.hpp"
 
 namespace nutik {
 
@@ -74,7 +75,8 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
       if (!queue.push(std::move(exposed.picture), std::move(text), frame)) break;
     }
   } catch (const Interrupted& caught) {
-    if (made.frames == 0) throw;
+    // Of a film that is there a part is no better one.
+    if (made.frames == 0 || (!output.writes_stills() && !is_absent(output.path()))) throw;
     made.interruption = caught;
     clear_interruption();  // what was exposed is still to be written
   }

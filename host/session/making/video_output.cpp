@@ -4,7 +4,6 @@
 
 #include "capture/format.hpp"
 #include "media/numbered_name.hpp"
-#include "session/output_check.hpp"
 #include "system/is_absent.hpp"
 
 namespace nutik {
@@ -46,14 +45,15 @@ OutputFormat VideoOutput::frame_format(const CaptureFormat& capture) const {
   return output;
 }
 
-void VideoOutput::check(std::span<const std::uint64_t> frames, std::span<const std::string> inputs) const {
+void VideoOutput::check(std::span<const std::uint64_t> frames, std::span<const std::string> inputs,
+                        Replacing replacing) const {
   if (codec_ != nullptr) {
-    check_output(path_, OutputKind::video, inputs);
+    check_output(path_, OutputKind::video, inputs, replacing);
     return;
   }
   for (const std::uint64_t frame : frames) {
     // What is not there yet can be no input.
-    if (!is_absent(still(frame))) check_output(still(frame), OutputKind::picture, inputs);
+    if (!is_absent(still(frame))) check_output(still(frame), OutputKind::picture, inputs, replacing);
   }
 }
 

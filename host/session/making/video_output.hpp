@@ -9,6 +9,7 @@
 #include <string>
 
 #include "media/video_writer.hpp"
+#include "session/output_check.hpp"
 #include "session/requests/output_request.hpp"
 
 namespace nutik {
@@ -23,8 +24,9 @@ class VideoOutput {
   // What values the frames have. Throws UsageError where the depth that was asked for and the file do not fit.
   [[nodiscard]] OutputFormat frame_format(const CaptureFormat& capture) const;
 
-  // Throws UsageError where one of the files to write is an input or of another kind.
-  void check(std::span<const std::uint64_t> frames, std::span<const std::string> inputs) const;
+  // Throws UsageError where one of the files to write is an input, of another kind, or may not be replaced.
+  void check(std::span<const std::uint64_t> frames, std::span<const std::string> inputs,
+             Replacing replacing) const;
   // The still of a frame. Of stills alone.
   [[nodiscard]] std::filesystem::path still(std::uint64_t frame) const;
 

@@ -135,7 +135,7 @@ class TheProgram(unittest.TestCase):
                 pixels[pixel] += 20
             (folder / f"{number}.pgm").write_bytes(b"P5 8 8 255\n" + pixels)
         clip = paths.work / "stills.tik"
-        command = [paths.program, "encode", "-q", "-f", "10", "-a", "180", folder, clip]
+        command = [paths.program, "encode", "-q", "-f", "10", "-a", "180", "--overwrite", folder, clip]
         subprocess.run(command, check=True)
         return clip
 
