@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "opencl/allocation_cuts.hpp"
-#include "opencl/kernel_constants.hpp"
+#include "opencl/function_map.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "opencl/light_source.hpp"
 #include "render/code_scale.hpp"
