@@ -9,8 +9,7 @@
 
 namespace nutik::videos {
 
-// Of pictures of 720 lines and more that name no matrix it is BT.709's, as most programs have it, else BT.601's;
-// where no range is named it is the limited one. Throws InputError naming the file where the matrix that it names is none
+// Where no matrix is named it is the usual one; where no range is named it is the limited one. Throws InputError naming the file where the matrix that it names is none
 // that is known here.
 [[nodiscard]] YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::string& name);
 
