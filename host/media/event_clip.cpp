@@ -3,21 +3,18 @@
 #include <array>
 #include <cstring>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/event_light.hpp"
 #include "media/prophesee_events.hpp"
+#include "media/readers.hpp"
 #include "system/input_bytes.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
 namespace {
-
-// How recordings begin.
-constexpr std::string_view kProphesee = "% ", kAdder = "adder";
 
 // A recording of light, ready to be read.
 class EventClip final : public Clip {
@@ -61,7 +58,7 @@ class EventClip final : public Clip {
 
 bool is_event_recording(const std::filesystem::path& path) {
   const std::string start = first_bytes(is_standard_input(path.string()) ? standard_input_file() : path);
-  return start.starts_with(kProphesee) || start.starts_with(kAdder);
+  return readers::kProphesee.begins(start) || readers::kAdder.begins(start);
 }
 
 std::unique_ptr<Clip> open_event_clip(const std::filesystem::path& path, const ClipOptions& options) {
@@ -73,7 +70,7 @@ std::unique_ptr<Clip> open_event_clip(const std::filesystem::path& path, const C
   const MappedFile file(path);
   ClipInfo info;
   info.timing.rate_from = "the times of its events";
-  if (first_bytes(path).starts_with(kAdder)) {
+  if (readers::kAdder.begins(first_bytes(path))) {
     EventLight light = read_adder_file(file.bytes(), name, options, info);
     return std::make_unique<EventClip>(std::move(info), std::move(light));
   }

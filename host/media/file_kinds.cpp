@@ -10,6 +10,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/extension.hpp"
+#include "media/readers.hpp"
 #include "system/input_bytes.hpp"
 #include "system/mapped_file.hpp"
 
@@ -17,6 +18,8 @@ namespace nutik {
 namespace {
 
 using namespace std::string_view_literals;
+using readers::kJpeg;
+using readers::kPng;
 
 constexpr std::string_view kToPng = "make PNGs of such files: magick mogrify -format png FILES";
 constexpr std::string_view kToDng = "make DNGs of them, with Adobe's DNG Converter or dnglab";
@@ -92,8 +95,6 @@ bool begins_with(std::string_view bytes, std::string_view start) {
          std::equal(start.begin(), start.end(), bytes.begin(), [](char want, char got) { return want == '?' || want == got; });
 }
 
-constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n", kJpeg = "\xFF\xD8\xFF";
-
 // Most significant byte first.
 std::size_t number_at(std::string_view bytes, std::size_t at, std::size_t count) {
   std::size_t number = 0;
@@ -103,10 +104,10 @@ std::size_t number_at(std::string_view bytes, std::size_t at, std::size_t count)
 
 // Chunks: their length, four letters, so many bytes, a checksum. acTL stands before the first picture of an animation.
 bool is_png_of_several(std::string_view bytes) {
-  for (std::size_t at = kPng.size(); at + 12 <= bytes.size(); at += 12 + number_at(bytes, at, 4)) {
+  for (std::size_t at = kPng.starts[0].size(); at + 12 <= bytes.size(); at += 12 + number_at(bytes, at, 4)) {
     const std::string_view name = bytes.substr(at + 4, 4);
     if (name == "acTL" && at + 16 <= bytes.size() && number_at(bytes, at + 8, 4) > 1) return true;
-    if (name == "IEND") return bytes.substr(at + 12).starts_with(kPng);
+    if (name == "IEND") return kPng.begins(bytes.substr(at + 12));
   }
   return false;
 }
@@ -121,7 +122,7 @@ bool is_jpeg_of_several(std::string_view bytes) {
       ++at;
       continue;
     }
-    if (marker == 0xD9) return bytes.substr(at + 2).starts_with(kJpeg);
+    if (marker == 0xD9) return kJpeg.begins(bytes.substr(at + 2));
     if (marker == 0xE2 && bytes.substr(at + 4).starts_with("MPF\0"sv)) return false;
     at += 2 + number_at(bytes, at + 2, 2);
   }
@@ -165,20 +166,18 @@ void refuse_text(const std::filesystem::path& file) {
 }
 
 bool begins_as_tiff(const std::filesystem::path& file) {
-  const std::string start = first_bytes(file);
-  return std::ranges::any_of(std::array{"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv},
-                             [&](auto magic) { return start.starts_with(magic); });
+  return readers::kTiff.begins(first_bytes(file));
 }
 
 bool begins_as_still(const std::filesystem::path& file) {
   const std::string start = first_bytes(file);
-  return start.starts_with(kPng) || start.starts_with(kJpeg) || begins_as_tiff(file);
+  return std::ranges::any_of(readers::kStills, [&](const readers::Reader* reader) { return reader->begins(start); });
 }
 
 bool holds_several_pictures(const std::filesystem::path& file) {
   const std::string start = first_bytes(file);
-  const bool is_png = start.starts_with(kPng);
-  if (!is_png && !start.starts_with(kJpeg)) return false;
+  const bool is_png = kPng.begins(start);
+  if (!is_png && !kJpeg.begins(start)) return false;
   const MappedFile mapped(file);
   const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
   return is_png ? is_png_of_several(bytes) : is_jpeg_of_several(bytes);

@@ -7,8 +7,8 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/extension.hpp"
 #include "media/photron_header.hpp"
+#include "media/readers.hpp"
 #include "media/settled_fact.hpp"
 #include "system/is_absent.hpp"
 #include "system/mapped_file.hpp"
@@ -285,7 +285,7 @@ class PhotronClip final : public Clip {
 }  // namespace
 
 bool is_photron_clip(const fs::path& path) {
-  return extension_of(path) == ".mraw" || is_photron_header(path);
+  return readers::kPhotron.is_named(path);
 }
 
 std::vector<fs::path> photron_files(const fs::path& path) {

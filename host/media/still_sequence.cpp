@@ -3,7 +3,6 @@
 #include <glob.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <map>
 #include <string>
@@ -11,9 +10,9 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/extension.hpp"
 #include "media/file_kinds.hpp"
 #include "media/numbered_name.hpp"
+#include "media/readers.hpp"
 #include "media/stills_table.hpp"
 #include "system/input_bytes.hpp"
 #include "system/is_absent.hpp"
@@ -23,25 +22,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Extensions and the kind of file that they stand for.
-constexpr std::array<std::array<std::string_view, 2>, 9> kStillKinds{{{".png", "PNG"},
-                                                                 {".tif", "TIFF"},
-                                                                 {".tiff", "TIFF"},
-                                                                 {".pgm", "Netpbm"},
-                                                                 {".ppm", "Netpbm"},
-                                                                 {".pnm", "Netpbm"},
-                                                                 {".jpg", "JPEG"},
-                                                                 {".jpeg", "JPEG"},
-                                                                 {".dng", "DNG"}}};
-
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 // The kind of picture that a name promises; empty where it promises none.
 std::string_view still_kind_of(const fs::path& path) {
-  const std::string extension = extension_of(path);
-  const auto found =
-      std::find_if(kStillKinds.begin(), kStillKinds.end(), [&](const auto& kind) { return kind[0] == extension; });
-  return found == kStillKinds.end() ? std::string_view() : (*found)[1];
+  for (const readers::Reader* reader : readers::kStills) {
+    if (reader->is_named(path)) return reader->name;
+  }
+  return {};
 }
 
 // Whether a comes before b as a person counts: runs of digits compare as numbers.

@@ -8,7 +8,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/rational.hpp"
-#include "media/extension.hpp"
+#include "media/readers.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik {
@@ -82,7 +82,7 @@ std::optional<std::int64_t> nanoseconds(const std::filesystem::path& table, std:
 
 bool is_stills_table(const std::filesystem::path& path) {
   std::error_code error;
-  return extension_of(path) == ".csv" && std::filesystem::is_regular_file(path, error);
+  return readers::kTable.is_named(path) && std::filesystem::is_regular_file(path, error);
 }
 
 std::vector<ListedStill> read_stills_table(const std::filesystem::path& path) {

@@ -51,10 +51,14 @@ TEST_F(Limits, OfAFilesSizeAreErrorsOfItsWriting) {
 
 // Drivers and decoders would crash.
 TEST_F(Limits, OfAStackAreTold) {
-  const auto result = run_below("ulimit -s 64;", format("--start 0f --exposure 1f {} out.png", kClip));
-  EXPECT_EQ(result.status, 6) << result.err;
-  EXPECT_NE(result.err.find("raise its limit: ulimit -s"), std::string::npos) << result.err;
-  EXPECT_EQ(run_below("ulimit -s 256;", format("--start 0f --exposure 1f {} out.png", kClip)).status, 0);
+  for (const std::string& words : {std::string("--help"), format("encode {} -o out.tik", kClip),
+                                   format("--start 0f --exposure 1f {} out.png", kClip)}) {
+    SCOPED_TRACE(words);
+    const auto result = run_below("ulimit -s 64;", words);
+    EXPECT_EQ(result.status, 6) << result.err;
+    EXPECT_NE(result.err.find("raise its limit: ulimit -s"), std::string::npos) << result.err;
+    EXPECT_EQ(run_below("ulimit -s 256;", words).status, 0);
+  }
 }
 
 // Nobody reads the lines of progress any more: the end that other programs have then, 128 + 13 to a shell.

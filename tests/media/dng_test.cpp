@@ -91,6 +91,7 @@ struct Dng {
   Matrix camera_of_rgb{{{0.8, 0.15, 0.05}, {0.2, 0.7, 0.1}, {0.05, 0.25, 0.7}}};
   std::array<std::int64_t, 2> exposure{}, rate{};  // fractions; 0/0: not stated
   std::string fraction;                            // of the second in which it was taken, or empty
+  int orientation = 1;
 
   // Little-endian TIFF: the tags, what does not fit into them, those of EXIF likewise, then the mosaic R G / G B.
   [[nodiscard]] std::string file() const {
@@ -114,7 +115,7 @@ struct Dng {
                           {271, 2, 8, model},
                           {272, 2, 8, model},
                           {273, 4, 1, longs({0})},
-                          {274, 3, 1, shorts({1})},
+                          {274, 3, 1, shorts({orientation})},
                           {277, 3, 1, shorts({1})},
                           {278, 3, 1, shorts({height})},
                           {279, 4, 1, longs({bytes})},
@@ -281,6 +282,17 @@ TEST(Dng, GivesATableItsTimes) {
   EXPECT_EQ(timeline.end_ns(0), 10'000'000);
   EXPECT_EQ(timeline.start_ns(1), 500'000'000);
   EXPECT_EQ(timeline.end_ns(1), 520'000'000);
+}
+
+TEST(Dng, IsTurnedUpright) {
+  const Scratch scratch;
+  for (const int orientation : {3, 6, 8}) {
+    Dng dng;
+    dng.orientation = orientation;
+    const auto clip = open_test_clip(scratch.write("a.dng", dng.file()));
+    const Shape upright = orientation == 3 ? Shape{64, 48, 3} : Shape{48, 64, 3};
+    EXPECT_EQ(clip->info().format.shape, upright) << orientation;
+  }
 }
 
 TEST(Dng, ThatIsDamagedIsRefused) {

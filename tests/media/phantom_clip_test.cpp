@@ -39,6 +39,7 @@ struct Recording {
   std::uint32_t depth = 10;
   std::uint32_t black = 0;
   std::uint32_t mosaic = 0;  // 4: red and green first
+  bool is_flipped = false;   // shown bottom row first
   std::vector<std::int64_t> times_us = {};
 };
 
@@ -66,6 +67,7 @@ std::string phantom_file(const std::vector<std::vector<std::uint16_t>>& pictures
   const std::size_t setup = kHeader + kBitmap;
   bytes.replace(setup + 140, 2, "ST");
   put(bytes, setup + 142, kSetup, 2);
+  put(bytes, setup + 760, of.is_flipped ? 1 : 0, 4);
   put(bytes, setup + 768, 1000, 4);
   put(bytes, setup + 772, 250, 4);
   put(bytes, setup + 808, of.mosaic, 4);
@@ -112,6 +114,18 @@ class PhantomClip : public testing::Test {
 
   Scratch scratch_;
 };
+
+TEST_F(PhantomClip, IsTurnedOverWhereItSaysSo) {
+  std::vector<std::uint16_t> rows(64, 100);
+  std::fill_n(rows.begin(), 32, std::uint16_t{900});
+  Recording of;
+  const auto upright = values_of(read_all(*open({rows}, of)).at(0));
+  of.is_flipped = true;
+  const auto flipped = values_of(read_all(*open({rows}, of)).at(0));
+  EXPECT_NE(upright.front(), upright.back());
+  EXPECT_EQ(flipped.front(), upright.back());
+  EXPECT_EQ(flipped.back(), upright.front());
+}
 
 // The camera's own times go before the rate that it states, and where they tell another that is said.
 TEST_F(PhantomClip, SaysWhereItsTimesAreNotOfTheRateThatItStates) {

@@ -170,14 +170,16 @@ TEST(StillClip, TurnsJpegUpright) {
                              static_cast<char>(orientation) + "\0\0\0\0\0\0"s;
     const std::string exif = "Exif\0\0"s + tiff;
     const std::string segment = "\xff\xe1\0"s + static_cast<char>(exif.size() + 2) + exif;
-    const auto path = scratch.write("turned.jpg", flat.substr(0, 2) + segment + flat.substr(2));
     cv::Mat expected;
     cv::rotate(lying, expected, turned);
-    const auto clip = open_test_clip(path, {});
-    const Shape& shape = clip->info().format.shape;
-    ASSERT_EQ(cv::Size(static_cast<int>(shape.width), static_cast<int>(shape.height)), expected.size());
-    const auto rasters = read_all(*clip);
-    EXPECT_EQ(std::memcmp(rasters.at(0).data(), expected.data, rasters[0].size()), 0) << orientation;
+    for (const char* name : {"turned.jpg", "turned.mp4"}) {
+      const auto clip =
+          open_test_clip(scratch.write(name, flat.substr(0, 2) + segment + flat.substr(2)), {});
+      const Shape& shape = clip->info().format.shape;
+      ASSERT_EQ(cv::Size(static_cast<int>(shape.width), static_cast<int>(shape.height)), expected.size());
+      const auto rasters = read_all(*clip);
+      EXPECT_EQ(std::memcmp(rasters.at(0).data(), expected.data, rasters[0].size()), 0) << orientation;
+    }
   }
 }
 

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
@@ -38,20 +40,40 @@ std::size_t file_count(const Scratch& scratch) {
   return static_cast<std::size_t>(std::distance(begin(files), end(files)));
 }
 
-// From 720 lines on readers take another matrix than the writer's where a file names none.
-TEST(VideoWriter, NamesTheMatrixOfItsYuv) {
-  for (const auto& [name, codec] : {std::pair{"v.mov", "prores"},
-                                    {"v.mkv", "prores"},
-                                    {"v.mp4", "h264"},
-                                    {"v.mov", "mjpeg"},
-                                    {"v.avi", "mjpeg"}}) {
-    SCOPED_TRACE(std::string(name) + ", " + codec);
+// The one that readers take for so many lines, those too that ignore what a file names; a JPEG always has BT.601's. By
+// another the red of these frames would be 13 codes off.
+TEST(VideoWriter, NamesAndUsesTheMatrixThatIsUsualForItsLines) {
+  for (const auto& [name, codec, lines, said] : {std::tuple("v.mov", "prores", 720u, "matrix bt709, from the file"),
+                                                 {"v.mkv", "prores", 720u, "matrix bt709, from the file"},
+                                                 {"v.mp4", "h264", 720u, "matrix bt709, from the file"},
+                                                 {"v.mp4", "h264", 719u, "matrix bt709, from the file"},  // written as 720
+                                                 {"v.mp4", "h264", 718u, "matrix bt601, from the file"},
+                                                 {"v.mp4", "h265", 720u, "matrix bt709, from the file"},
+                                                 {"v.webm", "vp9", 720u, "matrix bt709, from the file"},
+                                                 {"v.webm", "vp9", 480u, "matrix bt601, from the file"},
+                                                 {"v.mov", "prores", 480u, "matrix bt601, from the file"},
+                                                 {"v.mov", "mjpeg", 720u, "matrix bt601, from the file"},
+                                                 {"v.avi", "mjpeg", 720u, "matrix bt601, from the file"}}) {
+    SCOPED_TRACE(format("{}, {}, {} lines", name, codec, lines));
     const Scratch scratch;
-    write_video(scratch / name, test::random_stills({32, 720, 3}, 255, 2, 5), {25, 1}, codec);
-    const auto facts = test::open_test_clip(scratch / name)->info().facts;
-    const auto matrix = std::ranges::find(facts, Setting::matrix, &Fact::setting);
-    ASSERT_NE(matrix, facts.end());
-    EXPECT_EQ(matrix->line(), "matrix bt601, from the file");
+    const bool is_deep = !video_codec_for(name, codec).holds_8_bits;
+    Picture picture({32, lines, 3}, is_deep ? ValueType::code16 : ValueType::code8, is_deep ? 65'535 : 255);
+    constexpr int kRed[] = {200, 40, 60};
+    for (std::uint64_t i = 0; i < picture.shape.value_count(); ++i) {
+      if (is_deep) picture.values<std::uint16_t>()[i] = static_cast<std::uint16_t>(kRed[i % 3] * 257);
+      if (!is_deep) picture.values<std::uint8_t>()[i] = static_cast<std::uint8_t>(kRed[i % 3]);
+    }
+    write_video(scratch / name, {picture, picture}, {25, 1}, codec);
+    const auto clip = test::open_test_clip(scratch / name);
+    const auto matrix = std::ranges::find(clip->info().facts, Setting::matrix, &Fact::setting);
+    ASSERT_NE(matrix, clip->info().facts.end());
+    EXPECT_EQ(matrix->line(), said);
+    const auto raster = test::read_all(*clip).front();
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::uint16_t deep = 0;
+      if (is_deep) std::memcpy(&deep, &raster[2 * i], 2);
+      EXPECT_NEAR(is_deep ? deep / 257.0 : std::to_integer<int>(raster[i]), kRed[i], 4) << i;
+    }
   }
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "capture/rational.hpp"
-#include "media/extension.hpp"
+#include "media/readers.hpp"
 #include "media/stills/raw_file.hpp"
 #include "media/stills/stills.hpp"
 
@@ -73,7 +73,7 @@ unsigned exif_orientation(std::string_view exif) {
 }
 
 StillTimes read_exif_times(const std::filesystem::path& file) {
-  if (extension_of(file) == ".dng") {
+  if (readers::kDng.is_named(file)) {
     const RawTags tags = read_raw_tags(file);
     StillTimes times{date_ns(tags.date), tags.exposure_ns};
     if (times.start_ns) *times.start_ns += fraction_ns(tags.fraction);

@@ -9,11 +9,11 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/colour_profile.hpp"
-#include "media/extension.hpp"
 #include "media/file_kinds.hpp"
 #include "media/jpeg_file.hpp"
 #include "media/netpbm.hpp"
 #include "media/png_file.hpp"
+#include "media/readers.hpp"
 #include "media/settled_fact.hpp"
 #include "media/stills/raw_file.hpp"
 #include "media/stills/stills.hpp"
@@ -46,10 +46,6 @@ struct Still {
   std::string colours_from = "the file";                    // what of it names these
   std::string unread_transfer = {}, unread_primaries = {};  // that it names and that are not believed
 };
-
-bool has_extension(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions) {
-  return std::find(extensions.begin(), extensions.end(), extension_of(file)) != extensions.end();
-}
 
 // How much wider than high a pixel is of which so many are as long as one and the same length. Pictures state pixels an
 // inch, rounded as they like: what lies within a thousandth of a square is one. None that no pixel has.
@@ -179,7 +175,7 @@ void check_front(const std::filesystem::path& file) {
   constexpr std::uint64_t kMaxPixelsAByte = 1032 * 8, kSmallPixels = 16 << 20;
   const MappedFile mapped(file);
   const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
-  if (!bytes.starts_with("\x89PNG\r\n\x1A\n") && !bytes.starts_with("\xFF\xD8\xFF")) {
+  if (!readers::kPng.begins(bytes) && !readers::kJpeg.begins(bytes)) {
     throw InputError(
         format("{} cannot be read: it is damaged or no picture: neither a PNG nor a JPEG begins like that",
                file.string()));
@@ -200,7 +196,7 @@ cv::Mat decoded_by_opencv(const std::filesystem::path& file) {
   check_front(file);
   try {
     // A JPEG is turned upright as its EXIF says; OpenCV does not do that to pictures that it leaves as they are.
-    return cv::imread(file.string(), has_extension(file, {".jpg", ".jpeg"})
+    return cv::imread(file.string(), readers::kJpeg.begins(first_bytes(file))
                                          ? cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH
                                          : cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& error) {  // larger than it takes, or than there is memory for
@@ -313,10 +309,10 @@ class StillClip final : public Clip {
   }
 
  private:
-  static bool is_netpbm(const std::filesystem::path& file) { return has_extension(file, {".pgm", ".ppm", ".pnm"}); }
-  static bool is_raw(const std::filesystem::path& file) { return has_extension(file, {".dng"}); }
+  static bool is_netpbm(const std::filesystem::path& file) { return readers::kNetpbm.is_named(file); }
+  static bool is_raw(const std::filesystem::path& file) { return readers::kDng.is_named(file); }
   static bool is_tiff(const std::filesystem::path& file) {
-    return has_extension(file, {".tif", ".tiff"}) || (!is_raw(file) && begins_as_tiff(file));
+    return readers::kTiff.is_named(file) || (!is_raw(file) && begins_as_tiff(file));
   }
 
   // A profile was made for these codes: what it says and is not known here would be right.

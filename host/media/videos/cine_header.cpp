@@ -15,8 +15,10 @@
 #include <algorithm>
 #include <cstring>
 #include <span>
+#include <string_view>
 
 #include "capture/rational.hpp"
+#include "media/readers.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::videos {
@@ -46,7 +48,8 @@ std::int64_t nanoseconds(std::uint64_t fixed_point) {
 std::optional<CineHeader> read_cine_header(const std::filesystem::path& path) {
   const MappedFile mapped(path);
   const auto file = mapped.bytes();
-  if (file.size() < kFileHeaderBytes || std::memcmp(file.data(), "CI", 2) != 0) return std::nullopt;
+  const std::string_view start(reinterpret_cast<const char*>(file.data()), file.size());
+  if (file.size() < kFileHeaderBytes || !readers::kPhantom.begins(start)) return std::nullopt;
   const std::uint64_t count = number<std::uint32_t>(file, 20);
   const std::uint64_t setup = number<std::uint32_t>(file, 28);
   const std::uint64_t tags_end = std::min<std::uint64_t>(number<std::uint32_t>(file, 32), file.size());

@@ -18,17 +18,10 @@ namespace nutik::videos {
 namespace {
 
 // What a video's codes are taken for: as stated, else as the file says, else as most such files are.
-constexpr std::uint32_t kLinesOfHighDefinition = 720;
-
-YuvMatrix default_matrix(const Probe& probe) {
-  return probe.shape.height >= kLinesOfHighDefinition ? YuvMatrix::bt709 : YuvMatrix::bt601;
-}
-
 bool is_colour_yuv(const Probe& probe) { return is_yuv(probe.pixel_format) && !probe.pixels.is_grey; }
 
-// Of pictures of 720 lines and more that name no matrix it is BT.709's, as most programs have it, else BT.601's;
-// where no range is named it is the limited one. Throws InputError naming the file where the matrix that it names is none
-// that is known here.
+// Where no matrix is named it is the usual one; where no range is named it is the limited one. Throws InputError naming
+// the file where the matrix that it names is none that is known here.
 YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::string& name) {
   if (!is_colour_yuv(probe)) refuse_yuv_options(options);
   if (options.chroma_at && !interpolates_chroma(probe.pixel_format, probe.pixels)) {
@@ -45,7 +38,7 @@ YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::
                name, probe.unread_matrix),
         {Setting::matrix});
   }
-  return {options.matrix.value_or(probe.matrix.value_or(default_matrix(probe))),
+  return {options.matrix.value_or(probe.matrix.value_or(usual_matrix(probe.shape.height))),
           options.range.value_or(probe.range.value_or(CodeRange::limited)), options.chroma_at};
 }
 
@@ -73,7 +66,7 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
     facts.back().remark = format("the file names {}", probe.transfer_name);
   }
   if (is_colour_yuv(probe)) {
-    settle(facts, options.matrix, probe.matrix, default_matrix(probe), Setting::matrix,
+    settle(facts, options.matrix, probe.matrix, usual_matrix(probe.shape.height), Setting::matrix,
            [](YuvMatrix matrix) { return format("matrix {}", to_text(matrix)); });
     settle(facts, options.range, probe.range, CodeRange::limited, Setting::range,
            [](CodeRange range) { return format("{} range", to_text(range)); });
@@ -84,7 +77,7 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
   }
   if (!pixels.is_grey) {
     const bool is_wide =
-        options.matrix.value_or(probe.matrix.value_or(default_matrix(probe))) == YuvMatrix::bt2020;
+        options.matrix.value_or(probe.matrix.value_or(usual_matrix(probe.shape.height))) == YuvMatrix::bt2020;
     capture.primaries = settle(
         facts, options.primaries, probe.primaries, is_wide ? Primaries::bt2020 : Primaries::bt709,
         Setting::primaries, [](Primaries primaries) { return format("primaries {}", to_text(primaries)); });

@@ -2,13 +2,14 @@
 // the rate to thousandths, in which 30000/1001 drifts, and takes 8 bits of BGR only.
 //
 //   codes in   8 or 16 bits, grey or RGB, over the full range
-//   pixels     ffv1: as they are; prores: YUV 4:2:2 of 10 bits; the others: YUV 4:2:0 of 8 bits, by BT.601's
-//              matrix, which readers take where a file names none (OpenCV: even where it names another)
+//   pixels     ffv1: as they are; prores: YUV 4:2:2 of 10 bits; the others: YUV 4:2:0 of 8 bits, by the matrix that
+//              is usual for so many lines and that the file names; mjpeg: BT.601's, which a JPEG always has
 #include <algorithm>
 #include <cstring>
 
 #include "media/coding_points.hpp"
 #include "media/videos/libav.hpp"
+#include "media/videos/pixels.hpp"
 #include "media/videos/videos.hpp"
 #include "system/output_file.hpp"
 
@@ -161,12 +162,13 @@ class LibavVideoWriter final : public VideoWriter {
     context.time_base = av_inv_q(context.framerate);
     context.thread_count = 0;  // as many as there are cores
     const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(context.pix_fmt);
-    const bool is_yuv = pixels.nb_components == 3 && (pixels.flags & AV_PIX_FMT_FLAG_RGB) == 0;
-    context.colorspace = is_yuv                      ? AVCOL_SPC_SMPTE170M
+    const bool is_coded_yuv = is_yuv(context.pix_fmt);
+    const bool is_bt709 = codec.name != "mjpeg" && usual_matrix(static_cast<std::uint32_t>(height_)) == YuvMatrix::bt709;
+    context.colorspace = is_coded_yuv                ? is_bt709 ? AVCOL_SPC_BT709 : AVCOL_SPC_SMPTE170M
                          : pixels.nb_components == 1 ? AVCOL_SPC_UNSPECIFIED
                                                      : AVCOL_SPC_RGB;
     context.color_range =
-        is_yuv && context.pix_fmt != AV_PIX_FMT_YUVJ420P ? AVCOL_RANGE_MPEG : AVCOL_RANGE_JPEG;
+        is_coded_yuv && context.pix_fmt != AV_PIX_FMT_YUVJ420P ? AVCOL_RANGE_MPEG : AVCOL_RANGE_JPEG;
     context.color_primaries = static_cast<AVColorPrimaries>(coding_point(video_.primaries));
     context.color_trc = static_cast<AVColorTransferCharacteristic>(
         coding_point(video_.transfer).value_or(AVCOL_TRC_UNSPECIFIED));
@@ -224,8 +226,8 @@ class LibavVideoWriter final : public VideoWriter {
                                            SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr,
                                            nullptr, nullptr)));
     constexpr int kOne = 1 << 16;  // contrast and saturation
-    check(sws_setColorspaceDetails(scaler_.get(), sws_getCoefficients(SWS_CS_SMPTE170M), 1,
-                                   sws_getCoefficients(SWS_CS_SMPTE170M),
+    const int* const matrix = sws_getCoefficients(encoder_->colorspace);  // SWS_CS_ has H.273's numbers, too
+    check(sws_setColorspaceDetails(scaler_.get(), matrix, 1, matrix,
                                    encoder_->color_range == AVCOL_RANGE_JPEG ? 1 : 0, 0, kOne, kOne));
   }
 

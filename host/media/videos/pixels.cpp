@@ -183,6 +183,11 @@ ChromaWeights chroma_weights(YuvMatrix matrix) {
   return {};
 }
 
+YuvMatrix usual_matrix(std::uint32_t lines) {
+  constexpr std::uint32_t kLinesOfHighDefinition = 720;
+  return lines >= kLinesOfHighDefinition ? YuvMatrix::bt709 : YuvMatrix::bt601;
+}
+
 std::optional<YuvMatrix> named_matrix(unsigned space, unsigned primaries) {
   // What these primaries' light weighs in luma.
   if (space == AVCOL_SPC_CHROMA_DERIVED_NCL) {

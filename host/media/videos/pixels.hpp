@@ -54,6 +54,9 @@ struct ChromaWeights {
   double limited_span;
 };
 [[nodiscard]] ChromaWeights chroma_weights(YuvMatrix matrix);
+// Of pictures of so many lines, where nothing names another, and in films that are written: BT.709's from 720 on, as most
+// programs have it, else BT.601's.
+[[nodiscard]] YuvMatrix usual_matrix(std::uint32_t lines);
 // Whether the pixels of a stream are YUV of three components.
 [[nodiscard]] bool is_yuv(AVPixelFormat format);
 

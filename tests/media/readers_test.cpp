@@ -1,0 +1,99 @@
+// The table of readers, and the page that shows it.
+#include "media/readers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "media/file_kinds.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+// The cells of the rows below that head.
+Rows rows_of_page(const std::string& head) {
+  std::istringstream page(test::read_file(NUTIK_INPUT_PAGE));
+  Rows rows;
+  bool is_within = false;
+  for (std::string line; std::getline(page, line);) {
+    if (is_within && !line.starts_with("|")) break;
+    if (is_within && !line.starts_with("| ---")) {
+      rows.emplace_back();
+      for (std::size_t from = 2; from < line.size();) {
+        const std::size_t to = line.find(" |", from);
+        rows.back().push_back(line.substr(from, to - from));
+        from = to + 3;
+      }
+    }
+    is_within |= line == head;
+  }
+  return rows;
+}
+
+// How files are recognized, in words.
+std::string recognized(const readers::Reader& reader) {
+  std::vector<std::string> ways;
+  if (!reader.starts[0].empty()) ways.emplace_back("first bytes");
+  std::istringstream extensions{std::string(reader.extensions)};
+  for (std::string extension; extensions >> extension;) ways.push_back("`" + extension + "`");
+  if (!reader.otherwise.empty()) ways.emplace_back(reader.otherwise);
+  std::string text;
+  for (const std::string& way : ways) text += (text.empty() ? "" : ", ") + way;
+  return text;
+}
+
+TEST(Readers, AreThoseOfThePageCellByCell) {
+  const Rows page =
+      rows_of_page("| reader | recognized by | rate and times | shutter | codes, black and white | orientation | alpha | order |");
+  std::vector<std::string> names, said;
+  for (const readers::Reader* reader : readers::kAll) names.emplace_back(reader->name);
+  for (const auto& row : page) said.push_back(row.front());
+  ASSERT_EQ(said, names);
+  for (std::size_t i = 0; i < page.size(); ++i) {
+    const readers::Reader& reader = *readers::kAll[i];
+    const std::vector<std::string> cells{std::string(reader.name),  recognized(reader),
+                                         std::string(reader.times), std::string(reader.shutter),
+                                         std::string(reader.codes), std::string(reader.orientation),
+                                         std::string(reader.alpha), std::string(reader.order)};
+    ASSERT_EQ(page[i].size(), cells.size()) << reader.name;
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+      EXPECT_NE(cells[cell], "") << reader.name << ", cell " << cell;
+      EXPECT_EQ(page[i][cell], cells[cell]) << reader.name << ", cell " << cell;
+    }
+  }
+}
+
+// No two claim the same file, and none claims what is refused by name.
+TEST(Readers, RecognizeDifferentFiles) {
+  const test::Scratch scratch;
+  std::set<std::string> extensions;
+  for (const readers::Reader* reader : readers::kAll) {
+    std::istringstream all{std::string(reader->extensions)};
+    for (std::string extension; all >> extension;) {
+      EXPECT_TRUE(extensions.insert(extension).second) << extension;
+      EXPECT_TRUE(reader->is_named("a" + extension)) << extension;
+      EXPECT_TRUE(reader->is_named("B.C" + extension)) << extension;
+      EXPECT_FALSE(reader->is_named(extension.substr(1))) << extension;
+      EXPECT_FALSE(reader->is_named("a" + extension + "0")) << extension;
+    }
+    for (const std::string_view start : reader->starts) {
+      if (start.empty()) continue;
+      const auto claims = [&](const readers::Reader* other) { return other->begins(start); };
+      EXPECT_EQ(std::ranges::count_if(readers::kAll, claims), 1) << reader->name;
+      EXPECT_FALSE(reader->begins(start.substr(0, start.size() - 1))) << reader->name;
+      const auto file = scratch.write("file", std::string(start) + std::string(64, '\0'));
+      EXPECT_EQ(unread_kind_text(file), std::nullopt) << reader->name;
+    }
+  }
+  EXPECT_FALSE(readers::kPng.is_named("png"));
+  EXPECT_FALSE(readers::kPng.is_named(""));
+}
+
+}  // namespace
+}  // namespace nutik
